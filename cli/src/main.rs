@@ -1,0 +1,2 @@
+//! The rungc command line.
+fn main() {}

@@ -1,0 +1,326 @@
+//! The catalogue of instructions: one row each. Parser, checks, step counting, documentation, lowering, the interpreter and both
+//! backends read the row; nothing about an instruction's operands or forms is written anywhere else.
+//!
+//! To add an instruction: a row in the file of its family, its runtime function (or IR operator), conformance cases.
+
+use crate::model::ModelSet;
+use rungc_rt::RtFn;
+
+/// What an operand may be: a set of classes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Classes(pub u32);
+
+#[allow(missing_docs, reason = "each constant is the class of the same name")]
+impl Classes {
+    pub const X: Classes = Classes(1);
+    pub const Y: Classes = Classes(1 << 1);
+    pub const M: Classes = Classes(1 << 2);
+    pub const S: Classes = Classes(1 << 3);
+    /// Timer: contact or current value as the parameter's [`Shape`] says.
+    pub const T: Classes = Classes(1 << 4);
+    /// Counter: contact or current value as the parameter's [`Shape`] says.
+    pub const C: Classes = Classes(1 << 5);
+    pub const D: Classes = Classes(1 << 6);
+    pub const R: Classes = Classes(1 << 7);
+    pub const ER: Classes = Classes(1 << 8);
+    pub const V: Classes = Classes(1 << 9);
+    pub const Z: Classes = Classes(1 << 10);
+    pub const KNX: Classes = Classes(1 << 11);
+    pub const KNY: Classes = Classes(1 << 12);
+    pub const KNM: Classes = Classes(1 << 13);
+    pub const KNS: Classes = Classes(1 << 14);
+    /// Decimal constant.
+    pub const K: Classes = Classes(1 << 15);
+    /// Hexadecimal constant.
+    pub const H: Classes = Classes(1 << 16);
+    /// Floating constant.
+    pub const E: Classes = Classes(1 << 17);
+    /// Characters.
+    pub const TEXT: Classes = Classes(1 << 18);
+    /// Bit of a word, `D0.F`.
+    pub const WORD_BIT: Classes = Classes(1 << 19);
+    /// Buffer memory, `U0\G5`.
+    pub const BUFFER: Classes = Classes(1 << 20);
+    pub const P: Classes = Classes(1 << 21);
+    pub const I: Classes = Classes(1 << 22);
+    pub const N: Classes = Classes(1 << 23);
+
+    /// Both sets.
+    #[must_use]
+    pub const fn or(self, other: Classes) -> Classes {
+        Classes(self.0 | other.0)
+    }
+
+    /// This set without the other.
+    #[must_use]
+    pub const fn without(self, other: Classes) -> Classes {
+        Classes(self.0 & !other.0)
+    }
+
+    /// Whether the sets share a class.
+    pub const fn meets(self, other: Classes) -> bool {
+        self.0 & other.0 != 0
+    }
+}
+
+/// What kind of thing an operand denotes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Shape {
+    /// A bit.
+    Bit,
+    /// A 16-bit word in the 16-bit form, 32 bits in the 32-bit form.
+    Value,
+    /// A 16-bit word in either form (counts, first words of tables).
+    Word,
+    /// 32 bits in either form.
+    Pair,
+    /// A single-precision float (a pair).
+    Float,
+    /// Characters, or the first word that holds them.
+    Text,
+    /// A pointer, interrupt pointer or nesting level.
+    Pointer,
+}
+
+/// What an instruction does with an operand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Role {
+    /// Only reads it.
+    Read,
+    /// Only writes it.
+    Write,
+    /// Both.
+    ReadWrite,
+}
+
+/// How many devices an operand occupies from the named one on, in units of its [`Shape`] (a `Value` of the 32-bit form counts 2 words).
+#[derive(Clone, Copy, Debug)]
+pub enum Extent {
+    /// One.
+    One,
+    /// This many.
+    Count(u32),
+    /// As many as operand `i` says, plus `extra`. If that operand is no constant, up to the end of the class.
+    Operand {
+        /// Position of the operand that holds the count.
+        i: usize,
+        /// How many more.
+        extra: i32,
+    },
+    /// As many as this function of the operands' constants says (`None` for an operand that is none); `None`: to the class's end.
+    Of(fn(&[Option<i64>]) -> Option<u32>),
+}
+
+/// One operand of an instruction.
+#[derive(Clone, Copy, Debug)]
+pub struct Param {
+    /// Name in the manual: `S1`, `D`, `n`.
+    pub name: &'static str,
+    /// What it may be.
+    pub classes: Classes,
+    /// What it denotes.
+    pub shape: Shape,
+    /// What is done with it.
+    pub role: Role,
+    /// How much it occupies.
+    pub extent: Extent,
+    /// Limits of a constant.
+    pub limits: Option<(i64, i64)>,
+    /// Whether it may carry an index register.
+    pub indexable: bool,
+    /// Whether it may be left out (only last ones).
+    pub optional: bool,
+}
+
+/// The forms an instruction has.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Forms(pub u8);
+
+impl Forms {
+    /// 16-bit, continuous.
+    pub const W16: Forms = Forms(1);
+    /// 32-bit (prefix D).
+    pub const W32: Forms = Forms(2);
+    /// Pulse (suffix P) of each width it has.
+    pub const PULSE: Forms = Forms(4);
+
+    /// Both sets.
+    #[must_use]
+    pub const fn or(self, other: Forms) -> Forms {
+        Forms(self.0 | other.0)
+    }
+
+    /// Whether `form` is one of them.
+    pub const fn has(self, form: Forms) -> bool {
+        self.0 & form.0 == form.0
+    }
+}
+
+/// How an instruction is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Spelling {
+    /// `D` in front of the 32-bit form, `P` behind the pulse form: `DADDP`.
+    Prefix,
+    /// A contact comparison: `LD` + `D` + operator: `LDD>=`.
+    Compare,
+    /// The 32-bit form has a name of its own, e.g. `WAND` / `DAND`.
+    Wide(&'static str),
+}
+
+/// Whether it stands behind contacts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Drive {
+    /// It begins or continues the contact logic (LD, AND, ANB, MPS, INV, …).
+    Logic,
+    /// It needs a contact before it (or an STL sub-bus).
+    Contact,
+    /// It stands alone, no contact before it.
+    Alone,
+}
+
+/// What compares or arithmetic do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs, reason = "the names are the operators")]
+pub enum CmpOp {
+    Eq,
+    Ne,
+    Lt,
+    Le,
+    Gt,
+    Ge,
+}
+
+/// Integer arithmetic of FNC 20–29.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs, reason = "the names are the instructions")]
+pub enum ArithOp {
+    Add,
+    Sub,
+    Mul,
+    Div,
+    Inc,
+    Dec,
+    And,
+    Or,
+    Xor,
+    Neg,
+}
+
+/// Basic instructions and program flow, which lowering handles one by one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs, reason = "the names are the instructions")]
+pub enum Basic {
+    Ld,
+    Ldi,
+    Ldp,
+    Ldf,
+    And,
+    Ani,
+    Andp,
+    Andf,
+    Or,
+    Ori,
+    Orp,
+    Orf,
+    Anb,
+    Orb,
+    Mps,
+    Mrd,
+    Mpp,
+    Inv,
+    Mep,
+    Mef,
+    Out,
+    Set,
+    Rst,
+    Pls,
+    Plf,
+    Mc,
+    Mcr,
+    Nop,
+    End,
+    Label,
+    Stl,
+    Ret,
+    Cj,
+    Call,
+    Sret,
+    Iret,
+    Ei,
+    Di,
+    Fend,
+    Wdt,
+    For,
+    Next,
+}
+
+/// Where a contact comparison joins the logic.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs, reason = "the names are the instructions")]
+pub enum Join {
+    Ld,
+    And,
+    Or,
+}
+
+/// What implements a row.
+#[derive(Clone, Copy, Debug)]
+pub enum Lower {
+    /// Lowering knows it by name.
+    Basic(Basic),
+    /// Contact comparison.
+    Compare(Join, CmpOp),
+    /// MOV: copies S to D.
+    Move,
+    /// CML: complements S to D.
+    MoveNot,
+    /// CMP: three bits.
+    Cmp,
+    /// ZCP: three bits.
+    Zcp,
+    /// Arithmetic with the FX family's flags: wraps.
+    Arith(ArithOp),
+    /// Arithmetic that saturates (HM).
+    ArithSaturating(ArithOp),
+    /// A runtime function.
+    Call(RtFn),
+    /// Not there yet: a compile error names the instruction and this reason.
+    Todo(&'static str),
+}
+
+/// One instruction.
+#[derive(Clone, Copy, Debug)]
+pub struct Inst {
+    /// Mnemonic of the 16-bit continuous form (or of the only form).
+    pub name: &'static str,
+    /// Other spellings of `name`.
+    pub aliases: &'static [&'static str],
+    /// How its forms are written.
+    pub spelling: Spelling,
+    /// FNC number, where it has one.
+    pub fnc: Option<u16>,
+    /// One line: what it does.
+    pub title: &'static str,
+    /// A paragraph for `rungc explain`, in our own words.
+    pub text: &'static str,
+    /// Where the manual tells it: `h1u-h2u-programming §4.3.2`.
+    pub source: &'static str,
+    /// Its forms.
+    pub forms: Forms,
+    /// Steps of the 16-bit and of the 32-bit form; see `steps` for those that depend on the operands.
+    pub steps: (u8, u8),
+    /// Its operands.
+    pub params: &'static [Param],
+    /// Whether contacts stand before it.
+    pub drive: Drive,
+    /// Special relays and registers that it reads or writes.
+    pub flags: &'static [&'static str],
+    /// The PLC's error codes that it can raise in a run.
+    pub errors: &'static [u16],
+    /// Models that have it.
+    pub models: ModelSet,
+    /// What implements it.
+    pub lower: Lower,
+    /// Models on which something else implements it.
+    pub lower_on: &'static [(ModelSet, Lower)],
+}

@@ -1,0 +1,13 @@
+//! The catalogue of instructions and devices per model, the typed IR, structure checks, lowering and passes.
+//!
+//! The way through: [`resolve`] finds each instruction's catalogue row and step number, [`check`] looks at the program as a
+//! whole, [`lower`] makes a [`Module`](node::Module), [`passes`] simplify it, [`validate`] holds it to the rules of [`node`].
+//! No output language and no file format is known here.
+
+pub mod catalogue;
+pub mod layout;
+pub mod model;
+pub mod node;
+
+pub use model::{Model, ModelId, ModelSet};
+pub use node::Module;

@@ -1,0 +1,462 @@
+//! The typed IR. The docs of this module are the specification that the interpreter and both backends are held to.
+//!
+//! A [`Module`] holds an arena of [`Expr`]s and [`Body`]s of [`Stmt`]s. Expressions are pure but read devices and temporaries; a
+//! statement evaluates all of its expressions when it is executed, before it writes anything. Statements are executed in order, so
+//! a write between two reads is never reordered. An expression that several statements use is a temporary ([`Stmt::Let`]).
+//!
+//! Integers are two's complement and wrap. `I16` values are signed 16-bit, `I32` signed 32-bit, `F32` IEEE single, `Bit` true or false.
+
+use crate::layout::Layout;
+use crate::model::Model;
+use rungc_rt::{RtFn, TimerKind};
+use rungc_syntax::{DeviceClass, Span};
+
+/// Type of an expression or temporary.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum Ty {
+    /// Contact state.
+    Bit,
+    /// Signed 16-bit.
+    I16,
+    /// Signed 32-bit.
+    I32,
+    /// Single-precision float.
+    F32,
+}
+
+/// Handle of an expression in [`Module::exprs`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct ExprId(pub u32);
+
+/// Handle of a temporary; its type is in [`Module::temps`]. Assigned by [`Stmt::Let`] (or [`Stmt::Edge`], …) before any use on
+/// every path, in the same [`Function`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct TempId(pub u32);
+
+/// Handle of an edge memory: one bit, off at power-on and when RUN begins.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct EdgeId(pub u32);
+
+/// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub struct Place {
+    /// Class.
+    pub class: DeviceClass,
+    /// Number without the index.
+    pub number: u32,
+    /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold.
+    pub index: Option<ExprId>,
+}
+
+/// Two-operand integer operators. Both operands and the result have the same type, `I16` or `I32`, and wrap.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum BinOp {
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient, truncated towards zero; MIN / -1 wraps. The divisor must be known not to be 0.
+    Div,
+    /// Remainder with the sign of the dividend. The divisor must be known not to be 0.
+    Rem,
+    /// Bitwise and.
+    And,
+    /// Bitwise or.
+    Or,
+    /// Bitwise exclusive or.
+    Xor,
+    /// Sum, held at the ends of the type's range.
+    SatAdd,
+    /// Difference, held at the ends of the type's range.
+    SatSub,
+}
+
+/// Comparison operators; signed for integers.
+pub use crate::catalogue::CmpOp;
+
+/// What the scan driver knows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum SysValue {
+    /// `Bit`: in RUN (M8000).
+    Running,
+    /// `Bit`: first scan since RUN began (M8002).
+    FirstScan,
+    /// `I32`: milliseconds since power-on, wrapping, constant in a scan.
+    NowMs,
+    /// `I32`: duration of the last scan in units of 0.1 ms (D8010).
+    Scan100us,
+}
+
+/// An expression.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Expr {
+    /// `Bit` constant.
+    Bit(bool),
+    /// `I16` constant.
+    I16(i16),
+    /// `I32` constant.
+    I32(i32),
+    /// `F32` constant.
+    F32(f32),
+    /// A temporary's value.
+    Temp(TempId),
+    /// State of a bit device; for T and C the contact.
+    ReadBit(Place),
+    /// Bit 0–15 of a word device.
+    ReadWordBit(Place, u8),
+    /// `I16`: word device; for T and C0–C199 the current value.
+    ReadWord(Place),
+    /// `I32`: the pair (n+1, n); for C200 and up the current value; for Z on models where `z_pairs_with_v` the pair (Vn, Zn).
+    ReadPair(Place),
+    /// `F32`: the pair's bits as a float.
+    ReadFloat(Place),
+    /// `4 * digits` bits from a bit device as an integer, zero-extended: `I16` if `digits` ≤ 4 and not `wide`, else `I32`.
+    ReadNibbles {
+        /// First bit.
+        place: Place,
+        /// 1 to 8.
+        digits: u8,
+        /// As `I32`.
+        wide: bool,
+    },
+    /// A value of the scan driver.
+    Sys(SysValue),
+    /// Not, of a `Bit`.
+    Not(ExprId),
+    /// And, of two `Bit`s; both are evaluated (they have no effects).
+    And(ExprId, ExprId),
+    /// Or, of two `Bit`s.
+    Or(ExprId, ExprId),
+    /// Comparison of two `I16`, two `I32` or two `F32`; `Bit`.
+    Cmp(CmpOp, ExprId, ExprId),
+    /// Integer operator.
+    Bin(BinOp, ExprId, ExprId),
+    /// Bitwise complement of an integer.
+    Complement(ExprId),
+    /// Two's complement negation of an integer; MIN stays MIN.
+    Neg(ExprId),
+    /// `I16` to `I32`, sign-extended.
+    Widen(ExprId),
+    /// `I32` to `I16`, low word.
+    Narrow(ExprId),
+    /// `I32` to `I16`, high word.
+    HighWord(ExprId),
+    /// `Bit` to `I16`: 0 or 1.
+    BitToInt(ExprId),
+    /// `Bit`: whether `count` devices from `place` on all exist on the model and lie in one range of it.
+    InRange {
+        /// First device.
+        place: Place,
+        /// How many.
+        count: u32,
+    },
+}
+
+/// A rising or a falling edge.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum EdgeKind {
+    /// Off to on.
+    Rising,
+    /// On to off.
+    Falling,
+}
+
+/// Operand of a call of the runtime.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Arg {
+    /// Constant, with an index to add (wrapping at 16 bits unless `wide`).
+    Const {
+        /// The constant.
+        value: i32,
+        /// What to add.
+        index: Option<ExprId>,
+        /// Wraps at 32 bits.
+        wide: bool,
+    },
+    /// Float constant.
+    Float(f32),
+    /// Device; the runtime checks its range. `extent` devices from it on may be accessed (for the layout): `None` = to the
+    /// end of its class.
+    Device {
+        /// Device.
+        place: Place,
+        /// How many (in devices of its class).
+        extent: Option<u32>,
+    },
+    /// Group of bits.
+    Nibbles {
+        /// First bit.
+        place: Place,
+        /// Digits.
+        digits: u8,
+        /// How many bits may be accessed.
+        extent: Option<u32>,
+    },
+    /// Bit of a word.
+    WordBit {
+        /// Word.
+        place: Place,
+        /// Bit 0 to 15.
+        bit: u8,
+    },
+    /// Text number in [`Module::texts`].
+    Text(u32),
+}
+
+/// A statement.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Stmt {
+    /// Here begins the code of a network (rung); no effect.
+    Network(u32),
+    /// Gives a temporary its value.
+    Let(TempId, ExprId),
+    /// Sets `out` to whether `input` changed as `kind` says since this statement was last executed, and stores `input` in the memory.
+    Edge {
+        /// Memory.
+        edge: EdgeId,
+        /// Which change.
+        kind: EdgeKind,
+        /// What is watched.
+        input: ExprId,
+        /// Receives the result.
+        out: TempId,
+    },
+    /// Writes a bit device (Y, M, S, or X by force only).
+    WriteBit(Place, ExprId),
+    /// Writes bit 0–15 of a word device.
+    WriteWordBit(Place, u8, ExprId),
+    /// Writes a word (`I16`).
+    WriteWord(Place, ExprId),
+    /// Writes a pair or a 32-bit counter (`I32`).
+    WritePair(Place, ExprId),
+    /// Writes a float pair.
+    WriteFloat(Place, ExprId),
+    /// Writes the low `4 * digits` bits of an integer to bit devices.
+    WriteNibbles {
+        /// First bit.
+        place: Place,
+        /// 1 to 8.
+        digits: u8,
+        /// `I16` or `I32`.
+        value: ExprId,
+    },
+    /// OUT T: [`rungc_rt::Timer::run`].
+    Timer {
+        /// Number.
+        number: u32,
+        /// Behaviour.
+        kind: TimerKind,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
+    /// OUT C0–C199: [`rungc_rt::Counter16::run`].
+    Counter16 {
+        /// Number.
+        number: u32,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
+    /// OUT C200–C234: [`rungc_rt::Counter32::run`].
+    Counter32 {
+        /// Number.
+        number: u32,
+        /// `Bit`.
+        drive: ExprId,
+        /// `Bit`: counts down.
+        down: ExprId,
+        /// `I32`.
+        preset: ExprId,
+    },
+    /// RST of a timer or counter: value 0, contact off; a counter's and timer's coil memory stays as it is.
+    Reset(Place),
+    /// Executes one branch.
+    If {
+        /// `Bit`.
+        cond: ExprId,
+        /// If on.
+        then: Body,
+        /// If off.
+        otherwise: Body,
+    },
+    /// Executes the body `count` times (`I16`; at most 0 means once), the count being evaluated once.
+    For {
+        /// How often.
+        count: ExprId,
+        /// What.
+        body: Body,
+    },
+    /// Calls [`Module::functions`]`[n]`.
+    CallSub(u32),
+    /// Leaves the function (SRET reached by a jump, CJ to P63 in a subroutine, …).
+    Return,
+    /// Runs `parts` from part 0 on: at the end of a part the next one follows; [`Stmt::Goto`] inside a part (however deep in
+    /// `If` and `For`, not across calls) goes on with the part that has that label. Made only where jumps do not nest.
+    Parts(Vec<Part>),
+    /// Ends the current part and goes on with the part labelled so, in the innermost enclosing [`Stmt::Parts`] that has it.
+    Goto(LabelId),
+    /// Calls the runtime. A fault is reported with `step` ([`rungc_rt::report`]).
+    Call {
+        /// Function.
+        function: RtFn,
+        /// 32-bit form.
+        wide: bool,
+        /// Operands.
+        args: Vec<Arg>,
+        /// Drive contact, for functions that are called always; others stand inside an `If`.
+        drive: Option<ExprId>,
+        /// Private memory, for functions that need one; from 1.
+        slot: u16,
+        /// Step number.
+        step: u32,
+    },
+    /// Reports an operation error found inline.
+    Fault {
+        /// PLC's code.
+        code: u16,
+        /// Step number.
+        step: u32,
+    },
+    /// Clears devices: the general ones (false) or the latched ones (true): M8031, M8032.
+    Clear {
+        /// Which.
+        latched: bool,
+    },
+}
+
+/// Label of a part, unique in its function.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct LabelId(pub u32);
+
+/// A part of a body that jumps do not nest in.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Part {
+    /// Its label; `None` if only fallen into.
+    pub label: Option<LabelId>,
+    /// The PLC's label, for a comment: `P12`.
+    pub name: Option<String>,
+    /// What it does.
+    pub body: Body,
+}
+
+/// A sequence of statements.
+pub type Body = Vec<Stmt>;
+
+/// A network: a run of rungs that a comment in the emitted code introduces.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Network {
+    /// Step number of its first instruction.
+    pub step: u32,
+    /// Its place in the source.
+    pub span: Span,
+    /// Line statement above it.
+    pub statement: Option<String>,
+    /// Note beside its coil.
+    pub note: Option<String>,
+}
+
+/// What a function is called by.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum FunctionKind {
+    /// The main program.
+    Main,
+    /// Before each scan's main program: special relays and registers.
+    Begin,
+    /// After it: END processing.
+    End,
+    /// A subroutine, by its pointer number.
+    Subroutine(u32),
+    /// An interrupt routine, by its pointer number.
+    Interrupt(u32),
+}
+
+/// A function: no parameters, no result, no recursion.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Function {
+    /// What it is.
+    pub kind: FunctionKind,
+    /// What it does.
+    pub body: Body,
+}
+
+/// A compiled program.
+#[derive(Clone, Debug)]
+pub struct Module {
+    /// Name for files and types, an identifier in lower case: `motor`.
+    pub name: String,
+    /// Name of the source for the header comment: `MAIN.csv`.
+    pub source_name: String,
+    /// Steps of the program.
+    pub steps: u32,
+    /// The model.
+    pub model: &'static Model,
+    /// Expressions; an expression's operands have lower handles.
+    pub exprs: Vec<Expr>,
+    /// Types of the temporaries.
+    pub temps: Vec<Ty>,
+    /// How many edge memories there are.
+    pub edges: u32,
+    /// How many private memories there are; slots 1..=states are used.
+    pub states: u16,
+    /// Texts.
+    pub texts: Vec<String>,
+    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines.
+    pub functions: Vec<Function>,
+    /// Networks that [`Stmt::Network`] names.
+    pub networks: Vec<Network>,
+    /// Comments on devices.
+    pub comments: Vec<(DeviceClass, u32, String)>,
+    /// Stored devices.
+    pub layout: Layout,
+    /// Special registers' values at power-on, of those stored.
+    pub initial_words: Vec<(u32, i16)>,
+}
+
+impl Module {
+    /// The expression behind a handle.
+    pub fn expr(&self, id: ExprId) -> &Expr {
+        &self.exprs[id.0 as usize]
+    }
+
+    /// Adds an expression.
+    pub fn add(&mut self, expr: Expr) -> ExprId {
+        self.exprs.push(expr);
+        ExprId(self.exprs.len() as u32 - 1)
+    }
+
+    /// Type of an expression.
+    pub fn ty(&self, id: ExprId) -> Ty {
+        match *self.expr(id) {
+            Expr::Bit(_)
+            | Expr::ReadBit(_)
+            | Expr::ReadWordBit(..)
+            | Expr::Not(_)
+            | Expr::And(..)
+            | Expr::Or(..) => Ty::Bit,
+            Expr::Cmp(..) | Expr::InRange { .. } => Ty::Bit,
+            Expr::I16(_)
+            | Expr::ReadWord(_)
+            | Expr::Narrow(_)
+            | Expr::HighWord(_)
+            | Expr::BitToInt(_) => Ty::I16,
+            Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) => Ty::I32,
+            Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
+            Expr::Temp(temp) => self.temps[temp.0 as usize],
+            Expr::ReadNibbles { wide, .. } => {
+                if wide {
+                    Ty::I32
+                } else {
+                    Ty::I16
+                }
+            }
+            Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
+            Expr::Sys(SysValue::NowMs | SysValue::Scan100us) => Ty::I32,
+            Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => self.ty(a),
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! The call context: operands, devices and hardware in the terms in which manuals describe instructions.
+
+use crate::fault::Fault;
+use crate::hal::Hal;
+use crate::operand::{Operand, OperandKind};
+use crate::plc::{Class, Plc, Site, State};
+
+/// First 32-bit counter.
+const COUNTER32_FIRST: u32 = 200;
+
+/// What an instruction works on. Operands are named by position, from 0; offsets count devices from the named one.
+pub struct Cx<'a> {
+    /// The devices.
+    pub plc: &'a mut dyn Plc,
+    /// The hardware.
+    pub hal: &'a mut dyn Hal,
+    /// The operands in order.
+    pub ops: &'a [Operand],
+    /// Where the call stands, and its form.
+    pub site: Site,
+}
+
+/// Device number `offset` places after `operand`.
+fn at(operand: Operand, offset: i32) -> Result<u32, Fault> {
+    operand
+        .value
+        .checked_add(offset)
+        .and_then(|n| u32::try_from(n).ok())
+        .ok_or(Fault::DEVICE)
+}
+
+impl Cx<'_> {
+    fn op(&self, i: usize) -> Result<Operand, Fault> {
+        self.ops.get(i).copied().ok_or(Fault::DEVICE)
+    }
+
+    /// Whether this is the 32-bit form.
+    pub fn wide(&self) -> bool {
+        self.site.wide
+    }
+
+    /// Whether the drive contact is on.
+    pub fn drive(&self) -> bool {
+        self.site.drive
+    }
+
+    /// The instruction's private memory.
+    pub fn state(&mut self) -> &mut State {
+        self.plc.state(self.site.slot)
+    }
+
+    /// Operand `i` as a signed value: 16 bits, or 32 in the 32-bit form. Groups are zero-extended; a group of full width is signed.
+    pub fn read(&self, i: usize) -> Result<i32, Fault> {
+        if self.site.wide {
+            self.dword(i, 0)
+        } else {
+            self.word(i, 0).map(i32::from)
+        }
+    }
+
+    /// Writes operand `i`: the low 16 bits, or all 32 in the 32-bit form. A group takes as many low bits as it has.
+    pub fn write(&mut self, i: usize, value: i32) -> Result<(), Fault> {
+        if self.site.wide {
+            self.set_dword(i, 0, value)
+        } else {
+            self.set_word(i, 0, value as i16)
+        }
+    }
+
+    /// Word number `offset` from operand `i`. For a group, element `offset` begins `4 * digits * offset` bits further on.
+    pub fn word(&self, i: usize, offset: i32) -> Result<i16, Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::Const | OperandKind::Float => Ok(op.value as i16),
+            OperandKind::Device => {
+                let n = at(op, offset)?;
+                if op.class == Class::C && n >= COUNTER32_FIRST {
+                    return self.plc.counter32(n).map(|v| v as i16).ok_or(Fault::DEVICE);
+                }
+                self.plc.word(op.class, n).ok_or(Fault::DEVICE)
+            }
+            OperandKind::Nibbles => self.group(op, offset, 4).map(|v| v as i16),
+            OperandKind::WordBit | OperandKind::Text => Err(Fault::DEVICE),
+        }
+    }
+
+    /// Writes word number `offset` from operand `i`.
+    pub fn set_word(&mut self, i: usize, offset: i32, value: i16) -> Result<(), Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::Device => {
+                let n = at(op, offset)?;
+                if op.class == Class::C && n >= COUNTER32_FIRST {
+                    return self
+                        .plc
+                        .set_counter32(n, i32::from(value))
+                        .ok_or(Fault::DEVICE);
+                }
+                self.plc.set_word(op.class, n, value).ok_or(Fault::DEVICE)
+            }
+            OperandKind::Nibbles => self.set_group(op, offset, 4, i32::from(value)),
+            _ => Err(Fault::DEVICE),
+        }
+    }
+
+    /// The 32-bit value whose low word is word number `offset` from operand `i`: the pair (n+1, n), a 32-bit counter, the pair
+    /// (Vn, Zn), or a group of up to 32 bits.
+    pub fn dword(&self, i: usize, offset: i32) -> Result<i32, Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::Const | OperandKind::Float => Ok(op.value),
+            OperandKind::Nibbles => self.group(op, offset, 8),
+            OperandKind::Device => {
+                let n = at(op, offset)?;
+                if op.class == Class::C && n >= COUNTER32_FIRST {
+                    return self.plc.counter32(n).ok_or(Fault::DEVICE);
+                }
+                let (class, high) = self.high_word(op.class, n);
+                let low = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
+                let high = self.plc.word(class, high).ok_or(Fault::DEVICE)?;
+                Ok(i32::from(high) << 16 | i32::from(low as u16))
+            }
+            OperandKind::WordBit | OperandKind::Text => Err(Fault::DEVICE),
+        }
+    }
+
+    /// Writes the 32-bit value whose low word is word number `offset` from operand `i`. Writes nothing if it does not fit whole.
+    pub fn set_dword(&mut self, i: usize, offset: i32, value: i32) -> Result<(), Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::Nibbles => self.set_group(op, offset, 8, value),
+            OperandKind::Device => {
+                let n = at(op, offset)?;
+                if op.class == Class::C && n >= COUNTER32_FIRST {
+                    return self.plc.set_counter32(n, value).ok_or(Fault::DEVICE);
+                }
+                let (class, high) = self.high_word(op.class, n);
+                self.plc.word(class, high).ok_or(Fault::DEVICE)?;
+                self.plc
+                    .set_word(op.class, n, value as i16)
+                    .ok_or(Fault::DEVICE)?;
+                self.plc
+                    .set_word(class, high, (value >> 16) as i16)
+                    .ok_or(Fault::DEVICE)
+            }
+            _ => Err(Fault::DEVICE),
+        }
+    }
+
+    /// Where the high word of a pair is.
+    fn high_word(&self, class: Class, n: u32) -> (Class, u32) {
+        if class == Class::Z && self.plc.z_pairs_with_v() {
+            (Class::V, n)
+        } else {
+            (class, n.saturating_add(1))
+        }
+    }
+
+    /// Float whose pair begins `offset` words from operand `i`. An integer constant is converted.
+    pub fn float(&self, i: usize, offset: i32) -> Result<f32, Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::Const => Ok(op.value as f32),
+            _ => self
+                .dword(i, offset)
+                .map(|bits| f32::from_bits(bits as u32)),
+        }
+    }
+
+    /// Writes a float.
+    pub fn set_float(&mut self, i: usize, offset: i32, value: f32) -> Result<(), Fault> {
+        self.set_dword(i, offset, value.to_bits() as i32)
+    }
+
+    /// Bit number `offset` from operand `i`.
+    pub fn bit(&self, i: usize, offset: i32) -> Result<bool, Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::WordBit => {
+                let n = at(op, 0)?;
+                let word = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
+                Ok(u8::try_from(offset)
+                    .is_ok_and(|o| (word as u16) >> (op.digits + o).min(15) & 1 == 1))
+            }
+            _ => self.plc.bit(op.class, at(op, offset)?).ok_or(Fault::DEVICE),
+        }
+    }
+
+    /// Sets bit number `offset` from operand `i`.
+    pub fn set_bit(&mut self, i: usize, offset: i32, value: bool) -> Result<(), Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::WordBit => {
+                let n = at(op, 0)?;
+                let word = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
+                let mask = 1u16 << (op.digits.saturating_add(offset as u8)).min(15);
+                let word = if value {
+                    word as u16 | mask
+                } else {
+                    word as u16 & !mask
+                };
+                self.plc
+                    .set_word(op.class, n, word as i16)
+                    .ok_or(Fault::DEVICE)
+            }
+            _ => self
+                .plc
+                .set_bit(op.class, at(op, offset)?, value)
+                .ok_or(Fault::DEVICE),
+        }
+    }
+
+    /// State of special relay `number`.
+    pub fn special(&self, number: u32) -> bool {
+        self.plc.bit(Class::M, number).unwrap_or(false)
+    }
+
+    /// Sets special relay `number`, if the program looks at it.
+    pub fn set_special(&mut self, number: u32, value: bool) {
+        let _ = self.plc.set_bit(Class::M, number, value);
+    }
+
+    /// Value of special register `number`.
+    pub fn special_word(&self, number: u32) -> i16 {
+        self.plc.word(Class::D, number).unwrap_or(0)
+    }
+
+    /// Sets special register `number`, if the program looks at it.
+    pub fn set_special_word(&mut self, number: u32, value: i16) {
+        let _ = self.plc.set_word(Class::D, number, value);
+    }
+
+    /// Element `offset` of a group, at most `max` digits of it.
+    fn group(&self, op: Operand, offset: i32, max: u8) -> Result<i32, Fault> {
+        let first = at(op, offset.saturating_mul(4 * i32::from(op.digits)))?;
+        let mut value = 0u32;
+        for bit in 0..4 * u32::from(op.digits.min(max)) {
+            let on = self.plc.bit(op.class, first + bit).ok_or(Fault::DEVICE)?;
+            value |= u32::from(on) << bit;
+        }
+        Ok(value as i32)
+    }
+
+    /// Writes element `offset` of a group; all of its bits must exist.
+    fn set_group(&mut self, op: Operand, offset: i32, max: u8, value: i32) -> Result<(), Fault> {
+        let first = at(op, offset.saturating_mul(4 * i32::from(op.digits)))?;
+        let bits = 4 * u32::from(op.digits.min(max));
+        self.plc
+            .bit(op.class, first + bits.saturating_sub(1))
+            .ok_or(Fault::DEVICE)?;
+        for bit in 0..bits {
+            self.plc
+                .set_bit(op.class, first + bit, value >> bit & 1 == 1)
+                .ok_or(Fault::DEVICE)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,28 @@
+//! What PLC instructions do at run time.
+//!
+//! `no_std`, no allocation, no panics. The interpreter, emitted Rust and (through the C ABI, feature `capi`) emitted C all call
+//! the same functions here, so an instruction has one meaning. An instruction sees the PLC through [`Plc`] (its devices) and
+//! [`Hal`] (its hardware), and its operands through [`Cx`].
+#![no_std]
+#![deny(missing_docs)]
+#![deny(unsafe_code)]
+
+mod cx;
+mod fault;
+pub mod fnc;
+mod hal;
+mod operand;
+mod plc;
+mod program;
+mod registry;
+pub mod special;
+mod timing;
+
+pub use cx::Cx;
+pub use fault::{Done, Fault, report};
+pub use hal::{Clock, Hal, NoHal};
+pub use operand::{Operand, OperandKind, d, h, k, kn};
+pub use plc::{Class, Plc, Site, State, Sys};
+pub use program::Program;
+pub use registry::{Needs, RtFn};
+pub use timing::{Counter16, Counter32, Timer, TimerKind};

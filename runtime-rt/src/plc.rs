@@ -1,0 +1,131 @@
+//! The devices of a PLC as instructions see them.
+
+/// Device class. The numbers are part of the C ABI.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum Class {
+    /// Input relay.
+    X = 0,
+    /// Output relay.
+    Y = 1,
+    /// Auxiliary relay; from 8000 special.
+    M = 2,
+    /// Step relay.
+    S = 3,
+    /// Timer: contact as a bit, current value as a word.
+    T = 4,
+    /// Counter: contact as a bit, current value as a word, or 32 bits from C200.
+    C = 5,
+    /// Data register; from 8000 special.
+    D = 6,
+    /// Extension register.
+    R = 7,
+    /// Index register V.
+    V = 8,
+    /// Index register Z.
+    Z = 9,
+    /// Extension file register.
+    ER = 10,
+}
+
+/// Private memory of one instruction in the program (RAMP's progress, HKY's scan position, …), zero at power-on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct State(pub [i32; 8]);
+
+/// What the scan driver tells instructions about time and mode.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Sys {
+    /// Time since power-on in milliseconds, wrapping; constant within a scan.
+    pub now_ms: u32,
+    /// Milliseconds from the start of the previous scan to the start of this one; 0 in the first.
+    pub dt_ms: u32,
+    /// Duration of the last scan in microseconds (D8010 shows it in 0.1 ms).
+    pub scan_us: u32,
+    /// Whether this is the first scan after RUN began (M8002).
+    pub first_scan: bool,
+    /// Whether the PLC is in RUN.
+    pub running: bool,
+}
+
+/// Where a call stands in the program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Site {
+    /// Step number, reported in D8069 if the instruction faults.
+    pub step: u32,
+    /// Which [`State`] belongs to it; 0 for instructions without.
+    pub slot: u16,
+    /// 32-bit form.
+    pub wide: bool,
+    /// Whether the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
+    pub drive: bool,
+}
+
+impl Site {
+    /// A driven 16-bit call at this step.
+    pub const fn at(step: u32) -> Self {
+        Site {
+            step,
+            slot: 0,
+            wide: false,
+            drive: true,
+        }
+    }
+
+    /// The same in the 32-bit form.
+    #[must_use]
+    pub const fn wide(mut self) -> Self {
+        self.wide = true;
+        self
+    }
+
+    /// The same with private memory number `slot`.
+    #[must_use]
+    pub const fn slot(mut self, slot: u16) -> Self {
+        self.slot = slot;
+        self
+    }
+
+    /// The same with the drive contact's state.
+    #[must_use]
+    pub const fn driven(mut self, drive: bool) -> Self {
+        self.drive = drive;
+        self
+    }
+}
+
+/// The devices of a PLC.
+///
+/// `None` means that the model has no such device: the instruction faults with 6706. A special M or D that the model has but the
+/// program never looks at may be left out by an implementation: it reads as 0 and swallows writes.
+pub trait Plc {
+    /// State of a bit device; for T and C the contact.
+    fn bit(&self, class: Class, number: u32) -> Option<bool>;
+    /// Sets a bit device.
+    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()>;
+    /// Value of a 16-bit word device; for T and C0–C199 the current value.
+    fn word(&self, class: Class, number: u32) -> Option<i16>;
+    /// Sets a word device.
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()>;
+    /// Current value of a 32-bit counter (C200 and up).
+    fn counter32(&self, number: u32) -> Option<i32>;
+    /// Sets the current value of a 32-bit counter.
+    fn set_counter32(&mut self, number: u32, value: i32) -> Option<()>;
+    /// Private memory of an instruction.
+    fn state(&mut self, slot: u16) -> &mut State;
+    /// Time and mode.
+    fn sys(&self) -> &Sys;
+    /// Characters of a text operand.
+    fn text(&self, index: u32) -> &[u8] {
+        let _ = index;
+        &[]
+    }
+    /// Whether a 32-bit access to Zn takes Vn as its high word (FX, H1U/H2U) rather than Zn+1 (HM).
+    fn z_pairs_with_v(&self) -> bool {
+        true
+    }
+    /// Resets a timer or counter: value 0, contact off (what RST and ZRST do).
+    fn reset(&mut self, class: Class, number: u32) -> Option<()>;
+}

@@ -1,0 +1,22 @@
+//! A compiled program as its host sees it: what emitted Rust and the interpreter implement.
+
+use crate::hal::Hal;
+use crate::plc::Plc;
+
+/// A program and its devices. The host copies the input terminals to X ([`Plc::set_bit`]), calls [`Program::scan`], and copies
+/// [`Program::output`] to the output terminals.
+pub trait Program: Plc {
+    /// One scan. `now_ms` is the time since power-on (wrapping), `scan_us` how long the last scan took. In STOP only the
+    /// special relays that run from power-on (the clocks) are brought up to date.
+    fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
+
+    /// The RUN/STOP switch. Going to STOP clears what is not latched, unless M8033 is on; going to RUN makes the next scan the
+    /// first one (M8002) and forgets all edges. A program is in RUN at power-on.
+    fn set_running(&mut self, running: bool);
+
+    /// Power off and on: everything but latched devices takes its power-on value; then RUN.
+    fn power_cycle(&mut self);
+
+    /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP.
+    fn output(&self, number: u32) -> bool;
+}

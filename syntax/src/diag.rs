@@ -1,0 +1,157 @@
+//! Diagnostics: what is wrong with a program, where, and what to do about it. Rendering is the command line's business.
+
+use crate::Span;
+use std::borrow::Cow;
+
+/// How bad it is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
+pub enum Severity {
+    /// Legal, but it hurts in practice.
+    Warning,
+    /// The program cannot be compiled.
+    Error,
+}
+
+/// A second place that a diagnostic points to.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Label {
+    /// Where.
+    pub span: Span,
+    /// What is there.
+    pub text: Cow<'static, str>,
+}
+
+/// One finding.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Diagnostic {
+    /// Stable code, a row of the table of codes: `E0106`, `W0203`.
+    pub code: &'static str,
+    /// Error or warning.
+    pub severity: Severity,
+    /// One sentence, lower case, no full stop; devices and mnemonics in back quotes.
+    pub message: String,
+    /// The place it is about.
+    pub span: Span,
+    /// What to write at that place; may be empty.
+    pub label: Cow<'static, str>,
+    /// Other places involved.
+    pub others: Vec<Label>,
+    /// What to do about it.
+    pub help: Option<Cow<'static, str>>,
+    /// The PLC's own error code, where the manual gives one.
+    pub plc_error: Option<u16>,
+}
+
+impl Diagnostic {
+    /// An error with this code at this place.
+    pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, code, span, message.into())
+    }
+
+    /// A warning with this code at this place.
+    pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, code, span, message.into())
+    }
+
+    fn new(severity: Severity, code: &'static str, span: Span, message: String) -> Self {
+        Diagnostic {
+            code,
+            severity,
+            message,
+            span,
+            label: Cow::Borrowed(""),
+            others: Vec::new(),
+            help: None,
+            plc_error: None,
+        }
+    }
+
+    /// Sets the text at the main place.
+    #[must_use]
+    pub fn label(mut self, text: impl Into<Cow<'static, str>>) -> Self {
+        self.label = text.into();
+        self
+    }
+
+    /// Adds another place.
+    #[must_use]
+    pub fn other(mut self, span: Span, text: impl Into<Cow<'static, str>>) -> Self {
+        self.others.push(Label {
+            span,
+            text: text.into(),
+        });
+        self
+    }
+
+    /// Sets the help line.
+    #[must_use]
+    pub fn help(mut self, text: impl Into<Cow<'static, str>>) -> Self {
+        self.help = Some(text.into());
+        self
+    }
+
+    /// Sets the PLC's own error code.
+    #[must_use]
+    pub fn plc_error(mut self, code: u16) -> Self {
+        self.plc_error = Some(code);
+        self
+    }
+}
+
+/// All findings about one source.
+#[derive(Clone, Debug, Default)]
+pub struct Diagnostics(Vec<Diagnostic>);
+
+impl Diagnostics {
+    /// None yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds one.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.0.push(diagnostic);
+    }
+
+    /// Adds many.
+    pub fn extend(&mut self, more: impl IntoIterator<Item = Diagnostic>) {
+        self.0.extend(more);
+    }
+
+    /// Whether any of them is an error.
+    pub fn has_errors(&self) -> bool {
+        self.0.iter().any(|d| d.severity == Severity::Error)
+    }
+
+    /// How many have this severity.
+    pub fn count(&self, severity: Severity) -> usize {
+        self.0.iter().filter(|d| d.severity == severity).count()
+    }
+
+    /// Ordered by place, then by code.
+    pub fn sorted(mut self) -> Vec<Diagnostic> {
+        self.0
+            .sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
+        self.0
+    }
+
+    /// In the order they were found.
+    pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
+        self.0.iter()
+    }
+}
+
+/// The closest of `candidates` to a misspelt `word`, if any is close enough to suggest.
+pub fn did_you_mean<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let near = |candidate: &str| strsim::osa_distance(word, candidate);
+    let limit = if word.chars().count() <= 3 { 1 } else { 2 };
+    candidates
+        .into_iter()
+        .map(|c| (near(c), c))
+        .filter(|&(d, _)| d <= limit)
+        .min()
+        .map(|(_, c)| c)
+}

@@ -1,0 +1,14 @@
+//! Source text, the program as its author wrote it, and diagnostics.
+//!
+//! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper (`rungc-ir`) share. It knows
+//! neither file formats nor what an instruction computes.
+
+mod device;
+pub mod diag;
+mod program;
+mod source;
+
+pub use device::{DeviceClass, Number};
+pub use diag::{Diagnostic, Diagnostics, Label, Severity};
+pub use program::{Device, Index, Instr, Operand, OperandKind, Program, SourceKind};
+pub use source::{Source, Span};

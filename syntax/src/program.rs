@@ -1,0 +1,170 @@
+//! The program as its author wrote it: instructions, operands, comments. No instruction is understood yet.
+
+use crate::{DeviceClass, Source, Span};
+use smol_str::SmolStr;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// A whole program from one source.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// What diagnostics quote.
+    pub source: Source,
+    /// What kind of file it came from.
+    pub kind: SourceKind,
+    /// Title of the project, where the source has one.
+    pub title: Option<String>,
+    /// CPU type named in the source, as written there, e.g. `FX2N/FX2NC`.
+    pub cpu: Option<String>,
+    /// The instructions in order. Lines that could not be read are not here: the reader reported them.
+    pub instrs: Vec<Instr>,
+    /// Comments on devices, where the source has them.
+    pub comments: BTreeMap<Device, String>,
+}
+
+/// The kind of file a program was read from.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum SourceKind {
+    /// Instruction list as text.
+    #[default]
+    Il,
+    /// The editors' list export.
+    Csv,
+    /// GX Developer project (`MAIN.wpg`).
+    GxDeveloper,
+    /// GX Works2 project (`.gxw`).
+    GxWorks2,
+}
+
+/// One instruction, or a label (`P0`, `I001`), whose mnemonic is then the pointer itself without operands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instr {
+    /// Mnemonic in upper case as written, with `D` prefix and `P` suffix, e.g. `DADDP`, `LD>=`, `P12`.
+    pub mnemonic: SmolStr,
+    /// Where the mnemonic stands.
+    pub mnemonic_span: Span,
+    /// The operands in order.
+    pub operands: Vec<Operand>,
+    /// The whole instruction, from mnemonic to last operand.
+    pub span: Span,
+    /// The step number that the source states.
+    pub step: Option<u32>,
+    /// Line statement (heading) that stands above the instruction.
+    pub statement: Option<SmolStr>,
+    /// Comment or note that stands beside the instruction.
+    pub note: Option<SmolStr>,
+}
+
+/// One operand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Operand {
+    /// Where it stands.
+    pub span: Span,
+    /// What it is.
+    pub kind: OperandKind,
+}
+
+/// A device by class and number; the number is a value (X010 is 8).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Device {
+    /// Its class.
+    pub class: DeviceClass,
+    /// Its number.
+    pub number: u32,
+}
+
+impl fmt::Display for Device {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.class.number(self.number).fmt(f)
+    }
+}
+
+/// An index register behind an operand: `D0Z3`, `K4M0V` (a bare letter is number 0).
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Index {
+    /// `V` or `Z`.
+    pub class: DeviceClass,
+    /// Number of the register.
+    pub number: u32,
+}
+
+impl fmt::Display for Index {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.class.number(self.number).fmt(f)
+    }
+}
+
+/// What an operand is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OperandKind {
+    /// `X000`, `D10`, `D0Z3`, `P4`, `I001`, `N0`.
+    Device(Device, Option<Index>),
+    /// Bit of a word: `D0.F`.
+    WordBit(Device, u8, Option<Index>),
+    /// Group of `4 * digits` bits from a bit device: `K4M0`, `K2X010Z1`. The digit count is as written, 0 to 255.
+    Nibbles(u8, Device, Option<Index>),
+    /// Decimal constant `K100`, with index `K100Z0`.
+    Decimal(i64, Option<Index>),
+    /// Hexadecimal constant `H1F`, with index.
+    Hex(u64, Option<Index>),
+    /// Floating constant `E1.5`.
+    Float(f32),
+    /// Characters: `"ABC"`, or the bare characters of ASC.
+    Text(SmolStr),
+    /// Buffer memory of a module: `U0\G5`.
+    Buffer {
+        /// Module number.
+        module: u32,
+        /// Address in its buffer memory.
+        address: u32,
+        /// Index of the address.
+        index: Option<Index>,
+    },
+}
+
+impl fmt::Display for OperandKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let index = match self {
+            OperandKind::Device(device, index) => {
+                write!(f, "{device}")?;
+                index
+            }
+            OperandKind::WordBit(device, bit, index) => {
+                write!(f, "{device}.{bit:X}")?;
+                index
+            }
+            OperandKind::Nibbles(digits, device, index) => {
+                write!(f, "K{digits}{device}")?;
+                index
+            }
+            OperandKind::Decimal(value, index) => {
+                write!(f, "K{value}")?;
+                index
+            }
+            OperandKind::Hex(value, index) => {
+                write!(f, "H{value:X}")?;
+                index
+            }
+            OperandKind::Float(value) => return write!(f, "E{value:?}"),
+            OperandKind::Text(text) => return write!(f, "\"{text}\""),
+            OperandKind::Buffer {
+                module,
+                address,
+                index,
+            } => {
+                write!(f, "U{module}\\G{address}")?;
+                index
+            }
+        };
+        index.map_or(Ok(()), |index| write!(f, "{index}"))
+    }
+}
+
+impl fmt::Display for Instr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.mnemonic)?;
+        self.operands
+            .iter()
+            .try_for_each(|operand| write!(f, " {}", operand.kind))
+    }
+}
