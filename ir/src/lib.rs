@@ -8,6 +8,7 @@ pub mod catalogue;
 pub mod layout;
 pub mod model;
 pub mod node;
+pub mod resolve;
 
 pub use model::{Model, ModelId, ModelSet};
 pub use node::Module;
