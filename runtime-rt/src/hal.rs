@@ -20,6 +20,110 @@ pub struct Clock {
     pub weekday: u8,
 }
 
+/// Days before each month of a common year.
+const DAYS_BEFORE: [u16; 13] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334, 365];
+
+/// Milliseconds of a day.
+const DAY_MS: u64 = 86_400_000;
+
+/// Whether `year` of the Gregorian calendar has 366 days.
+fn is_leap(year: u32) -> bool {
+    year % 4 == 0 && (year % 100 != 0 || year % 400 == 0)
+}
+
+/// Days from 1 January of year 0 to 1 January of `year`.
+fn days_before_year(year: u32) -> u64 {
+    let past = u64::from(year).saturating_sub(1);
+    if year == 0 {
+        0
+    } else {
+        u64::from(year) * 365 + past / 4 - past / 100 + past / 400 + 1
+    }
+}
+
+/// Days of `month` (1 to 12) of `year`; 0 for any other month.
+fn days_in_month(year: u32, month: u8) -> u16 {
+    let i = usize::from(month);
+    match (
+        i.checked_sub(1).and_then(|i| DAYS_BEFORE.get(i)),
+        DAYS_BEFORE.get(i),
+    ) {
+        (Some(before), Some(end)) => end - before + u16::from(month == 2 && is_leap(year)),
+        _ => 0,
+    }
+}
+
+impl Clock {
+    /// A moment with the weekday that the calendar gives; `None` if there is no such date or time.
+    pub fn new(year: u16, month: u8, day: u8, hour: u8, minute: u8, second: u8) -> Option<Clock> {
+        let mut clock = Clock {
+            year,
+            month,
+            day,
+            hour,
+            minute,
+            second,
+            weekday: 0,
+        };
+        clock.is_valid().then(|| {
+            // 1 January of year 0 was a Saturday.
+            clock.weekday = ((clock.days() + 6) % 7) as u8;
+            clock
+        })
+    }
+
+    /// Whether every field is in its range and the month has such a day. The weekday need not agree with the date.
+    pub fn is_valid(&self) -> bool {
+        (1..=days_in_month(self.year.into(), self.month)).contains(&self.day.into())
+            && self.hour < 24
+            && self.minute < 60
+            && self.second < 60
+            && self.weekday < 7
+    }
+
+    /// Days since 1 January of year 0.
+    fn days(&self) -> u64 {
+        let year = u32::from(self.year);
+        let before = usize::from(self.month)
+            .checked_sub(1)
+            .and_then(|i| DAYS_BEFORE.get(i))
+            .map_or(0, |&days| u64::from(days));
+        let leap_day = u64::from(self.month > 2 && is_leap(year));
+        days_before_year(year) + before + leap_day + u64::from(self.day.max(1)) - 1
+    }
+
+    /// This moment, `ms` milliseconds later; the weekday goes on from this one's. Fractions of a second are dropped.
+    #[must_use]
+    pub fn after(&self, ms: u64) -> Clock {
+        let of_day =
+            (u64::from(self.hour) * 60 + u64::from(self.minute)) * 60 + u64::from(self.second);
+        let total = (of_day * 1000).saturating_add(ms);
+        let days_passed = total / DAY_MS;
+        let seconds = (total % DAY_MS) / 1000;
+        let days = self.days() + days_passed;
+        // 366 days a year never overshoots, and the loop makes up for the difference.
+        let mut year = (days / 366) as u32;
+        while days_before_year(year + 1) <= days {
+            year += 1;
+        }
+        let mut day = (days - days_before_year(year)) as u16;
+        let mut month = 1;
+        while day >= days_in_month(year, month) && month < 12 {
+            day -= days_in_month(year, month);
+            month += 1;
+        }
+        Clock {
+            year: year as u16,
+            month,
+            day: day as u8 + 1,
+            hour: (seconds / 3600) as u8,
+            minute: (seconds / 60 % 60) as u8,
+            second: (seconds % 60) as u8,
+            weekday: ((u64::from(self.weekday) + days_passed) % 7) as u8,
+        }
+    }
+}
+
 /// What an instruction may ask of the hardware. Every method has a default that means "not fitted".
 pub trait Hal {
     /// Reads the real-time clock.

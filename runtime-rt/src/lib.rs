@@ -7,6 +7,9 @@
 #![deny(missing_docs)]
 #![deny(unsafe_code)]
 
+#[cfg(test)]
+extern crate std;
+
 mod cx;
 mod fault;
 pub mod fnc;
@@ -17,6 +20,7 @@ mod program;
 mod registry;
 pub mod special;
 mod timing;
+mod virtual_hal;
 
 pub use cx::Cx;
 pub use fault::{Done, Fault, report};
@@ -26,3 +30,4 @@ pub use plc::{Class, Plc, Site, State, Sys};
 pub use program::Program;
 pub use registry::{Needs, RtFn};
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
+pub use virtual_hal::VirtualHal;

@@ -1,0 +1,202 @@
+//! Hardware for tests, simulation and `rungc run`: everything is memory, and time is virtual.
+
+use crate::hal::{Clock, Hal};
+
+/// Words of buffer memory that all modules together may hold.
+const BFM_WORDS: usize = 1024;
+
+/// Built-in analog inputs.
+const ANALOG_CHANNELS: usize = 16;
+
+/// A word of buffer memory.
+#[derive(Clone, Copy, Debug, Default)]
+struct BfmWord {
+    unit: u16,
+    address: u16,
+    value: i16,
+}
+
+/// Virtual hardware without allocation.
+///
+/// A module exists as soon as one of its words has been set ([`VirtualHal::set_bfm`]); its other words are then 0. The clock starts
+/// at 2000-01-01 (a Saturday) and follows the virtual time that [`VirtualHal::advance_to`] tells. Input and output terminals are
+/// the images of the program, so immediate refreshes change nothing.
+#[derive(Clone, Debug)]
+pub struct VirtualHal {
+    bfm: [BfmWord; BFM_WORDS],
+    bfm_len: usize,
+    analog: [Option<i16>; ANALOG_CHANNELS],
+    /// The clock was `base` when it was set, `since_base_ms` ago.
+    base: Clock,
+    since_base_ms: u64,
+    now_ms: u32,
+}
+
+impl Default for VirtualHal {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl VirtualHal {
+    /// Hardware without modules, at virtual time 0.
+    pub const fn new() -> Self {
+        VirtualHal {
+            bfm: [BfmWord {
+                unit: 0,
+                address: 0,
+                value: 0,
+            }; BFM_WORDS],
+            bfm_len: 0,
+            analog: [None; ANALOG_CHANNELS],
+            base: Clock {
+                year: 2000,
+                month: 1,
+                day: 1,
+                hour: 0,
+                minute: 0,
+                second: 0,
+                weekday: 6,
+            },
+            since_base_ms: 0,
+            now_ms: 0,
+        }
+    }
+
+    /// Virtual time is now `now_ms` milliseconds after power-on (wrapping); call it before each scan.
+    pub fn advance_to(&mut self, now_ms: u32) {
+        let passed = now_ms.wrapping_sub(self.now_ms);
+        self.since_base_ms = self.since_base_ms.saturating_add(passed.into());
+        self.now_ms = now_ms;
+    }
+
+    /// Virtual time begins at 0 again, as after power off and on; the clock goes on where it is.
+    pub fn restart(&mut self) {
+        self.now_ms = 0;
+    }
+
+    fn find(&self, unit: u16, address: u16) -> Option<usize> {
+        let words = self.bfm.get(..self.bfm_len)?;
+        words
+            .iter()
+            .position(|w| w.unit == unit && w.address == address)
+    }
+
+    fn has_unit(&self, unit: u16) -> bool {
+        self.bfm.iter().take(self.bfm_len).any(|w| w.unit == unit)
+    }
+
+    /// Sets a word of buffer memory, fitting the module if need be; `None` if the table is full.
+    pub fn set_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+        let at = self.find(unit, address).unwrap_or(self.bfm_len);
+        *self.bfm.get_mut(at)? = BfmWord {
+            unit,
+            address,
+            value,
+        };
+        self.bfm_len = self.bfm_len.max(at + 1);
+        Some(())
+    }
+
+    /// A word of buffer memory; `None` if there is no such module.
+    pub fn bfm(&self, unit: u16, address: u16) -> Option<i16> {
+        match self.find(unit, address) {
+            Some(at) => self.bfm.get(at).map(|w| w.value),
+            None => self.has_unit(unit).then_some(0),
+        }
+    }
+
+    /// Sets the raw value of a built-in analog input; `None` if the channel is above 15.
+    pub fn set_analog(&mut self, channel: u8, value: i16) -> Option<()> {
+        *self.analog.get_mut(usize::from(channel))? = Some(value);
+        Some(())
+    }
+}
+
+impl Hal for VirtualHal {
+    fn clock(&mut self) -> Option<Clock> {
+        Some(self.base.after(self.since_base_ms))
+    }
+
+    fn set_clock(&mut self, clock: Clock) -> Option<()> {
+        clock.is_valid().then(|| {
+            self.base = clock;
+            self.since_base_ms = 0;
+        })
+    }
+
+    fn read_bfm(&mut self, unit: u16, address: u16) -> Option<i16> {
+        self.bfm(unit, address)
+    }
+
+    fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+        if self.has_unit(unit) {
+            self.set_bfm(unit, address, value)
+        } else {
+            None
+        }
+    }
+
+    fn analog(&mut self, channel: u8) -> Option<i16> {
+        self.analog.get(usize::from(channel)).copied().flatten()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clock_follows_virtual_time() {
+        let mut hal = VirtualHal::new();
+        let eve = Clock::new(2028, 2, 28, 23, 59, 59).unwrap();
+        assert_eq!(eve.weekday, 1, "28 February 2028 is a Monday");
+        hal.advance_to(500);
+        hal.set_clock(eve).unwrap();
+        hal.advance_to(1499);
+        assert_eq!(hal.clock(), Some(eve));
+        hal.advance_to(1500);
+        assert_eq!(hal.clock(), Clock::new(2028, 2, 29, 0, 0, 0));
+        hal.advance_to(1500 + 86_400_000);
+        assert_eq!(hal.clock(), Clock::new(2028, 3, 1, 0, 0, 0));
+        assert_eq!(hal.set_clock(Clock { month: 13, ..eve }), None);
+    }
+
+    #[test]
+    fn every_day_of_four_centuries_follows_its_neighbour() {
+        let mut day = Clock::new(1999, 12, 31, 12, 0, 0).unwrap();
+        for _ in 0..146_097 {
+            let next = day.after(DAY);
+            assert_eq!(
+                Clock::new(next.year, next.month, next.day, 12, 0, 0),
+                Some(next)
+            );
+            day = next;
+        }
+        assert_eq!((day.year, day.month, day.day), (2399, 12, 31));
+    }
+
+    const DAY: u64 = 86_400_000;
+
+    #[test]
+    fn modules_exist_once_a_word_is_set() {
+        let mut hal = VirtualHal::new();
+        assert_eq!(hal.write_bfm(1, 5, 7), None);
+        hal.set_bfm(1, 0, 3).unwrap();
+        hal.write_bfm(1, 5, 7).unwrap();
+        assert_eq!(
+            (hal.read_bfm(1, 5), hal.read_bfm(1, 6), hal.read_bfm(2, 5)),
+            (Some(7), Some(0), None)
+        );
+    }
+
+    #[test]
+    fn a_full_table_refuses() {
+        let mut hal = VirtualHal::new();
+        for address in 0..1024 {
+            hal.set_bfm(0, address, 1).unwrap();
+        }
+        assert_eq!(hal.set_bfm(0, 1024, 1), None);
+        assert_eq!(hal.set_bfm(0, 7, 2), Some(()));
+    }
+}
