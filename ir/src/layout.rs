@@ -20,6 +20,20 @@ pub struct Area {
     pub latched: bool,
 }
 
+/// First special relay and first special register.
+const FIRST_SPECIAL: u32 = 8000;
+
+impl Area {
+    /// Whether M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Stmt::Clear`]); what M8031 clears, going to STOP
+    /// clears as well. Inputs and special devices are never cleared (h1u-h2u-programming §8.9). Cleared timers and counters
+    /// forget their coil, too.
+    pub fn is_cleared(&self, latched: bool) -> bool {
+        let special =
+            matches!(self.class, DeviceClass::M | DeviceClass::D) && self.first >= FIRST_SPECIAL;
+        self.class != DeviceClass::X && !special && self.latched == latched
+    }
+}
+
 /// All stored devices, sorted by class and number, disjoint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layout {

@@ -1,6 +1,6 @@
 //! The call context: operands, devices and hardware in the terms in which manuals describe instructions.
 
-use crate::fault::Fault;
+use crate::fault::{Done, Fault, report};
 use crate::hal::Hal;
 use crate::operand::{Operand, OperandKind};
 use crate::plc::{Class, Plc, Site, State};
@@ -18,6 +18,25 @@ pub struct Cx<'a> {
     pub ops: &'a [Operand],
     /// Where the call stands, and its form.
     pub site: Site,
+}
+
+/// Runs an instruction as emitted Rust does, and reports its fault. The operands come before the PLC so that they may read it.
+pub fn call(
+    function: fn(&mut Cx) -> Done,
+    site: Site,
+    ops: &[Operand],
+    plc: &mut dyn Plc,
+    hal: &mut dyn Hal,
+) {
+    let done = function(&mut Cx {
+        plc,
+        hal,
+        ops,
+        site,
+    });
+    if let Err(fault) = done {
+        report(plc, fault, site.step);
+    }
 }
 
 /// Device number `offset` places after `operand`.

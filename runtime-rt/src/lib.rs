@@ -10,7 +10,9 @@
 #[cfg(test)]
 extern crate std;
 
+mod access;
 mod cx;
+mod edge;
 mod fault;
 pub mod fnc;
 mod hal;
@@ -21,8 +23,11 @@ mod registry;
 pub mod special;
 mod timing;
 mod virtual_hal;
+pub mod word;
 
-pub use cx::Cx;
+pub use access::Access;
+pub use cx::{Cx, call};
+pub use edge::Edge;
 pub use fault::{Done, Fault, report};
 pub use hal::{Clock, Hal, NoHal};
 pub use operand::{Operand, OperandKind, d, h, k, kn};

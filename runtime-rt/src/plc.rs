@@ -33,6 +33,13 @@ pub enum Class {
 #[repr(C)]
 pub struct State(pub [i32; 8]);
 
+impl State {
+    /// As at power-on.
+    pub const fn new() -> Self {
+        State([0; 8])
+    }
+}
+
 /// What the scan driver tells instructions about time and mode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
@@ -47,6 +54,45 @@ pub struct Sys {
     pub first_scan: bool,
     /// Whether the PLC is in RUN.
     pub running: bool,
+}
+
+impl Sys {
+    /// At power-on: in RUN, before the first scan.
+    pub const fn power_on() -> Self {
+        Sys {
+            now_ms: 0,
+            dt_ms: 0,
+            scan_us: 0,
+            first_scan: true,
+            running: true,
+        }
+    }
+
+    /// A scan begins, in RUN or in STOP.
+    pub fn begin_scan(&mut self, now_ms: u32, scan_us: u32) {
+        self.dt_ms = if self.first_scan {
+            0
+        } else {
+            now_ms.wrapping_sub(self.now_ms)
+        };
+        self.now_ms = now_ms;
+        self.scan_us = scan_us;
+    }
+
+    /// The scan is over.
+    pub fn end_scan(&mut self) {
+        self.first_scan = false;
+    }
+
+    /// Takes the RUN/STOP switch's position; returns whether it was changed.
+    pub fn set_running(&mut self, running: bool) -> bool {
+        let changed = self.running != running;
+        if changed {
+            self.running = running;
+            self.first_scan = running;
+        }
+        changed
+    }
 }
 
 /// Where a call stands in the program.

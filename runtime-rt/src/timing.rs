@@ -35,6 +35,28 @@ pub struct Timer {
 }
 
 impl Timer {
+    /// As at power-on.
+    pub const fn new() -> Self {
+        Timer {
+            part_ms: 0,
+            last_ms: 0,
+            value: 0,
+            preset: 0,
+            coil: false,
+            done: false,
+        }
+    }
+
+    /// RST: value 0, contact off. The memory of the coil stays as it is.
+    pub fn reset(&mut self) {
+        *self = Timer {
+            last_ms: self.last_ms,
+            preset: self.preset,
+            coil: self.coil,
+            ..Self::new()
+        };
+    }
+
     /// Executes the coil; returns the contact.
     ///
     /// In the scan in which the coil comes on the value is left as it is; in each later scan the time since the previous scan is
@@ -101,6 +123,23 @@ pub struct Counter16 {
 }
 
 impl Counter16 {
+    /// As at power-on.
+    pub const fn new() -> Self {
+        Counter16 {
+            value: 0,
+            coil: false,
+            done: false,
+        }
+    }
+
+    /// RST: value 0, contact off. The memory of the coil stays as it is.
+    pub fn reset(&mut self) {
+        *self = Counter16 {
+            coil: self.coil,
+            ..Self::new()
+        };
+    }
+
     /// Executes the coil: counts an off-to-on change; returns the contact. A preset of 0 acts as 1; a value written at or above
     /// the preset closes the contact at the next count and becomes the preset.
     pub fn run(&mut self, drive: bool, preset: i16) -> bool {
@@ -127,6 +166,23 @@ pub struct Counter32 {
 }
 
 impl Counter32 {
+    /// As at power-on.
+    pub const fn new() -> Self {
+        Counter32 {
+            value: 0,
+            coil: false,
+            done: false,
+        }
+    }
+
+    /// RST: value 0, contact off. The memory of the coil stays as it is.
+    pub fn reset(&mut self) {
+        *self = Counter32 {
+            coil: self.coil,
+            ..Self::new()
+        };
+    }
+
     /// Executes the coil: counts an off-to-on change in the direction of its special relay, wrapping; returns the contact, which
     /// closes when the value reaches the preset upwards and opens when it leaves it downwards.
     pub fn run(&mut self, drive: bool, down: bool, preset: i32) -> bool {

@@ -1,0 +1,20 @@
+//! Edges: what LDP, PLS and the P forms detect.
+
+/// Memory of one edge: the state at the last execution, off at power-on and when RUN begins.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(transparent)]
+pub struct Edge(pub bool);
+
+impl Edge {
+    /// Whether `input` came on since the last execution.
+    pub fn rising(&mut self, input: bool) -> bool {
+        let before = core::mem::replace(&mut self.0, input);
+        input & !before
+    }
+
+    /// Whether `input` went off since the last execution.
+    pub fn falling(&mut self, input: bool) -> bool {
+        let before = core::mem::replace(&mut self.0, input);
+        !input & before
+    }
+}
