@@ -3,6 +3,7 @@
 //! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper (`rungc-ir`) share. It knows
 //! neither file formats nor what an instruction computes.
 
+pub mod codes;
 mod device;
 pub mod diag;
 mod program;

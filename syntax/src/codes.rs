@@ -1,0 +1,164 @@
+//! The table of diagnostic codes: what each means, with a program that is wrong and one that is right.
+//!
+//! | codes | about |
+//! |---|---|
+//! | E00xx | reading files and text, instructions that are not known |
+//! | E01xx | devices and operands |
+//! | E03xx | operand counts |
+//! | E04xx | contact logic, structure and flow |
+//! | W02xx | legal, but it hurts in practice |
+//! | W05xx | what the source says of itself does not fit |
+//!
+//! A code never changes its meaning and is never given away again.
+
+use crate::Span;
+use crate::diag::{Diagnostic, Severity};
+
+mod labels;
+mod logic;
+mod operands;
+mod practice;
+mod reading;
+mod structure;
+
+pub use labels::*;
+pub use logic::*;
+pub use operands::*;
+pub use practice::*;
+pub use reading::*;
+pub use structure::*;
+
+/// One row of the table.
+#[derive(Debug)]
+pub struct Code {
+    /// Stable identifier, e.g. `E0106`.
+    pub id: &'static str,
+    /// Name for people and options, e.g. `double-coil`.
+    pub name: &'static str,
+    /// How bad it is.
+    pub severity: Severity,
+    /// The FX family's error number for it, where there is one.
+    pub plc_error: Option<u16>,
+    /// What it is, in half a line.
+    pub title: &'static str,
+    /// Explanation for `rungc explain`.
+    pub text: &'static str,
+    /// Model that the examples are for, if it matters.
+    pub model: Option<&'static str>,
+    /// Instruction list that is wrong in this way; empty if a list cannot show it.
+    pub wrong: &'static str,
+    /// The same put right; empty if a list cannot show it.
+    pub right: &'static str,
+}
+
+impl Code {
+    /// A diagnostic with this code, its severity and its PLC error number.
+    pub fn at(&self, span: Span, message: impl Into<String>) -> Diagnostic {
+        let mut diagnostic = match self.severity {
+            Severity::Error => Diagnostic::error(self.id, span, message),
+            Severity::Warning => Diagnostic::warning(self.id, span, message),
+        };
+        diagnostic.plc_error = self.plc_error;
+        diagnostic
+    }
+}
+
+/// All codes, in order of their identifiers.
+pub fn all() -> Vec<&'static Code> {
+    let families = [
+        reading::TABLE,
+        operands::TABLE,
+        logic::TABLE,
+        structure::TABLE,
+        labels::TABLE,
+        practice::TABLE,
+    ];
+    let mut all: Vec<_> = families.into_iter().flatten().copied().collect();
+    all.sort_by_key(|code| code.id);
+    all
+}
+
+/// The code with this identifier (`E0106`, in either case) or name (`double-coil`).
+pub fn find(name: &str) -> Option<&'static Code> {
+    all()
+        .into_iter()
+        .find(|code| code.id.eq_ignore_ascii_case(name) || code.name == name)
+}
+
+/// Rows of the table as constants, and a `TABLE` of them.
+macro_rules! codes {
+    ($(
+        $constant:ident = $id:literal $name:literal $severity:ident $plc:expr,
+        $title:literal,
+        $text:literal,
+        $(model: $model:literal,)?
+        wrong: $wrong:expr,
+        right: $right:expr;
+    )*) => {
+        $(
+            #[doc = concat!($id, ": ", $title, ".")]
+            pub static $constant: $crate::codes::Code = $crate::codes::Code {
+                id: $id,
+                name: $name,
+                severity: $crate::diag::Severity::$severity,
+                plc_error: $plc,
+                title: $title,
+                text: $text,
+                model: $crate::codes::codes!(@model $($model)?),
+                wrong: $wrong,
+                right: $right,
+            };
+        )*
+        pub(super) static TABLE: &[&$crate::codes::Code] = &[$(&$constant),*];
+    };
+    (@model) => { None };
+    (@model $model:literal) => { Some($model) };
+}
+use codes;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers_and_names_are_unique() {
+        let mut ids: Vec<_> = all().iter().map(|code| code.id).collect();
+        let mut names: Vec<_> = all().iter().map(|code| code.name).collect();
+        let count = ids.len();
+        ids.dedup();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!((ids.len(), names.len()), (count, count));
+    }
+
+    #[test]
+    fn the_letter_tells_the_severity() {
+        for code in all() {
+            let letter = if code.severity == Severity::Error {
+                'E'
+            } else {
+                'W'
+            };
+            assert!(code.id.starts_with(letter), "{}", code.id);
+        }
+    }
+
+    #[test]
+    fn every_code_is_explained() {
+        for code in all() {
+            assert!(
+                !code.title.ends_with('.') && code.text.ends_with('.'),
+                "{}",
+                code.id
+            );
+            assert_eq!(code.wrong.is_empty(), code.right.is_empty(), "{}", code.id);
+        }
+    }
+
+    #[test]
+    fn codes_are_found_by_identifier_and_name() {
+        assert_eq!(find("e0106").map(|code| code.id), Some("E0106"));
+        assert_eq!(find("double-coil").map(|code| code.id), Some("W0203"));
+        assert!(find("E9999").is_none());
+    }
+}

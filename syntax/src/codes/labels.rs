@@ -1,0 +1,69 @@
+//! Labels, jumps, calls, interrupts.
+
+super::codes! {
+    NO_LABEL = "E0430" "no-label" Error Some(6701),
+    "jump or call to a label that does not exist",
+    "CJ and CALL name a label P that must stand somewhere in the program.",
+    wrong: "LD X0\nCJ P5\nLD X1\nOUT Y0\nEND\n",
+    right: "LD X0\nCJ P5\nLD X1\nOUT Y0\nP5\nEND\n";
+
+    LABEL_TWICE = "E0431" "label-twice" Error Some(6504),
+    "label defined twice",
+    "A pointer P or I stands at one place only. Labels of jumps and of subroutines share their numbers.",
+    wrong: "LD X0\nCJ P1\nP1\nLD X1\nOUT Y0\nP1\nEND\n",
+    right: "LD X0\nCJ P1\nP1\nLD X1\nOUT Y0\nEND\n";
+
+    JUMPED_AND_CALLED = "E0432" "jumped-and-called" Error None,
+    "label that is both jumped to and called",
+    "CJ goes on at its label, CALL comes back from it with SRET: they cannot share one.",
+    wrong: "LD X0\nCJ P1\nLD X1\nCALL P1\nFEND\nP1\nLD X3\nOUT Y1\nSRET\nEND\n",
+    right: "LD X0\nCJ P2\nLD X1\nCALL P1\nP2\nFEND\nP1\nLD X3\nOUT Y1\nSRET\nEND\n";
+
+    P63 = "E0433" "p63" Error Some(6507),
+    "P63 as a label or a subroutine",
+    "P63 is the end of the program: CJ P63 jumps to END. It must not be defined and cannot be called.",
+    wrong: "LD X0\nCJ P63\nLD X1\nOUT Y0\nP63\nEND\n",
+    right: "LD X0\nCJ P63\nLD X1\nOUT Y0\nEND\n";
+
+    INTO_LOOP = "E0434" "into-loop" Error Some(6607),
+    "jump into a loop",
+    "A jump from outside to a label between FOR and NEXT would run a loop that was never begun.",
+    wrong: "LD X0\nCJ P1\nFOR K2\nP1\nLD X1\nOUT Y0\nNEXT\nEND\n",
+    right: "LD X0\nCJ P1\nFOR K2\nLD X1\nOUT Y0\nNEXT\nP1\nEND\n";
+
+    BETWEEN_ROUTINES = "E0435" "between-routines" Error Some(6701),
+    "jump into or out of a routine",
+    "A jump stays within the main program, or within its subroutine or interrupt routine.",
+    wrong: "LD X0\nCALL P1\nP2\nFEND\nP1\nLD X1\nCJ P2\nSRET\nEND\n",
+    right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nCJ P2\nLD X2\nOUT Y0\nP2\nSRET\nEND\n";
+
+    RECURSION = "E0436" "recursion" Error None,
+    "subroutine that calls itself",
+    "A subroutine must not call itself, neither directly nor through others.",
+    wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nCALL P1\nSRET\nEND\n",
+    right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nOUT Y0\nSRET\nEND\n";
+
+    DEEP_CALL = "E0437" "deep-call" Error Some(6702),
+    "calls nested too deep",
+    "Calls nest five deep on most models (eight on HM).",
+    wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X0\nCALL P2\nSRET\nP2\nLD X0\nCALL P3\nSRET\nP3\nLD X0\nCALL P4\nSRET\nP4\nLD X0\nCALL P5\nSRET\nP5\nLD X0\nCALL P6\nSRET\nP6\nLD X0\nOUT Y0\nSRET\nEND\n",
+    right: "LD X0\nCALL P1\nFEND\nP1\nLD X0\nCALL P2\nSRET\nP2\nLD X0\nOUT Y0\nSRET\nEND\n";
+
+    BOTH_EDGES = "E0440" "both-edges" Error Some(6508),
+    "two interrupts of one source",
+    "An input interrupts at its rising or at its falling edge, not at both; a timer interrupt has one period.",
+    wrong: "EI\nFEND\nI000\nLD X1\nOUT Y0\nIRET\nI001\nLD X2\nOUT Y1\nIRET\nEND\n",
+    right: "EI\nFEND\nI001\nLD X2\nOUT Y1\nIRET\nEND\n";
+
+    INPUT_SHARED = "E0441" "input-shared" Error Some(6511),
+    "fast input used by a counter and an interrupt",
+    "Each fast input serves one purpose: a high-speed counter or an input interrupt.",
+    wrong: "EI\nLD M8000\nOUT C251 K100\nFEND\nI101\nLD X2\nOUT Y0\nIRET\nEND\n",
+    right: "EI\nLD M8000\nOUT C251 K100\nFEND\nI201\nLD X3\nOUT Y0\nIRET\nEND\n";
+
+    COUNTERS_SHARE = "E0442" "counters-share" Error None,
+    "two high-speed counters on one input",
+    "Each fast input serves one high-speed counter.",
+    wrong: "LD M8000\nOUT C235 K100\nLD M8000\nOUT C251 K100\nEND\n",
+    right: "LD M8000\nOUT C237 K100\nLD M8000\nOUT C251 K100\nEND\n";
+}

@@ -1,0 +1,99 @@
+//! Legal, but it hurts in practice; and what the source says of itself.
+
+super::codes! {
+    NEVER_READ = "W0201" "never-read" Warning None,
+    "relays that are driven and never read",
+    "Nothing in the program looks at these relays. That is fine if an operator panel does; otherwise they are left over or misspelt.",
+    wrong: "LD X0\nOUT M10\nLD X1\nOUT Y0\nEND\n",
+    right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
+
+    NEVER_WRITTEN = "W0202" "never-written" Warning None,
+    "contacts of relays that nothing drives",
+    "Nothing in the program drives these relays, timers or counters, so their contacts never change, unless an operator panel writes them.",
+    wrong: "LD M10\nOUT Y0\nEND\n",
+    right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
+
+    DOUBLE_COIL = "W0203" "double-coil" Warning None,
+    "coil driven at two places",
+    "Both rungs write the coil in every scan, so the last one decides what the output does; the result of the first is lost. Join the conditions with OR, or use SET and RST. In different states of a step ladder a coil may be driven again.",
+    wrong: "LD X0\nOUT Y0\nLD X1\nOUT Y0\nEND\n",
+    right: "LD X0\nOR X1\nOUT Y0\nEND\n";
+
+    TIMER_TWICE = "W0204" "timer-twice" Warning None,
+    "timer or counter driven at two places",
+    "A timer driven at two places starts and clears according to whichever runs; a counter counts the changes of both. Use one per place.",
+    wrong: "LD X0\nOUT T0 K10\nLD X1\nOUT T0 K20\nLD T0\nOUT Y0\nEND\n",
+    right: "LD X0\nOUT T0 K10\nLD X1\nOUT T1 K20\nLD T0\nOR T1\nOUT Y0\nEND\n";
+
+    TIMER_IN_NEXT_STATE = "W0205" "timer-in-next-state" Warning None,
+    "timer used in a state and in the one that follows it",
+    "At the transition both states are on for one scan, so the coil of the timer does not drop and the timer is not cleared.",
+    wrong: "LD M8002\nSET S0\nSTL S0\nOUT T0 K10\nLD T0\nSET S20\nSTL S20\nOUT T0 K10\nLD T0\nOUT S0\nRET\nEND\n",
+    right: "LD M8002\nSET S0\nSTL S0\nOUT T0 K10\nLD T0\nSET S20\nSTL S20\nOUT T1 K10\nLD T1\nOUT S0\nRET\nEND\n";
+
+    PAIRS_OVERLAP = "W0206" "pairs-overlap" Warning None,
+    "32-bit values that share a word",
+    "A 32-bit value occupies the named register and the next one. Two values that begin at neighbouring registers overwrite each other.",
+    wrong: "LD X0\nDMOV K1 D0\nDMOV K2 D1\nEND\n",
+    right: "LD X0\nDMOV K1 D0\nDMOV K2 D2\nEND\n";
+
+    WRITES_INPUT = "W0207" "writes-input" Warning None,
+    "instruction that writes inputs",
+    "The next input refresh overwrites what the program writes to X.",
+    wrong: "",
+    right: "";
+
+    WRITES_READ_ONLY = "W0208" "writes-read-only" Warning None,
+    "write to a special device that the system maintains",
+    "The system writes this special relay or register itself; what the program writes has no lasting effect.",
+    wrong: "LD X0\nOUT M8000\nEND\n",
+    right: "LD X0\nOUT M0\nLD M0\nOUT Y0\nEND\n";
+
+    UNUSED_LABEL = "W0209" "unused-label" Warning None,
+    "label that nothing jumps to or calls",
+    "The label can be removed, or a jump or call is missing.",
+    wrong: "LD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n",
+    right: "LD X0\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n";
+
+    UNREACHABLE = "W0210" "unreachable" Warning None,
+    "instructions that never run",
+    "Behind FEND, SRET or IRET only a label can be reached; these instructions stand before the next one.",
+    wrong: "LD X0\nOUT Y0\nFEND\nLD X1\nOUT Y1\nEND\n",
+    right: "LD X0\nOUT Y0\nLD X1\nOUT Y1\nFEND\nEND\n";
+
+    AFTER_END = "W0211" "after-end" Warning None,
+    "instructions after END",
+    "The scan ends at the first END; what is stored behind it is not processed.",
+    wrong: "LD X0\nOUT Y0\nEND\nLD X1\nOUT Y1\nEND\n",
+    right: "LD X0\nOUT Y0\nLD X1\nOUT Y1\nEND\n";
+
+    NEVER_ENABLED = "W0212" "never-enabled" Warning None,
+    "interrupt routines without EI",
+    "Interrupts are disabled at the start of RUN; without EI these routines never run.",
+    wrong: "LD X0\nOUT Y0\nFEND\nI001\nLD M8000\nINC D0\nIRET\nEND\n",
+    right: "EI\nLD X0\nOUT Y0\nFEND\nI001\nLD M8000\nINC D0\nIRET\nEND\n";
+
+    TIMER_IN_ROUTINE = "W0213" "timer-in-routine" Warning None,
+    "ordinary timer in a subroutine or interrupt routine",
+    "An ordinary timer is brought up to date where its coil is run; in a routine that does not run in every scan it measures wrongly. T192 to T199 (and T246 to T249 in subroutines) are made for routines.",
+    wrong: "LD X0\nCALL P1\nLD T0\nOUT Y0\nFEND\nP1\nLD X1\nOUT T0 K10\nSRET\nEND\n",
+    right: "LD X0\nCALL P1\nLD T192\nOUT Y0\nFEND\nP1\nLD X1\nOUT T192 K10\nSRET\nEND\n";
+
+    JUMP_IN_STL = "W0214" "jump-in-stl" Warning None,
+    "jump into, out of or between states",
+    "A jump that leaves its state skips the handling of transitions on the way. The manual discourages it: use a transition.",
+    wrong: "LD M8002\nSET S0\nSTL S0\nLD X0\nCJ P1\nLD X1\nOUT Y0\nRET\nP1\nEND\n",
+    right: "LD M8002\nSET S0\nSTL S0\nLD X1\nOUT Y0\nRET\nEND\n";
+
+    STEPS_DIFFER = "W0501" "steps-differ" Warning None,
+    "step number that does not fit the instructions before it",
+    "The source numbers its steps, and the number differs from what the instructions before it take on this model: the model may be another one, or a row is missing.",
+    wrong: "0 LD X0\n1 OUT Y0\n9 END\n",
+    right: "0 LD X0\n1 OUT Y0\n2 END\n";
+
+    UNKNOWN_CPU = "W0502" "unknown-cpu" Warning None,
+    "CPU type that is not known",
+    "The source names a CPU type that none of the models goes by. Choose one with `--model`.",
+    wrong: "",
+    right: "";
+}

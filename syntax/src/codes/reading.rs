@@ -1,0 +1,88 @@
+//! Reading files and text; instructions that are not known.
+
+super::codes! {
+    BAD_INSTRUCTION = "E0001" "bad-instruction" Error None,
+    "this line cannot be read as an instruction",
+    "A line of an instruction list holds an optional step number, a mnemonic and its operands, separated by spaces. Comments begin with `;` or `//`.",
+    wrong: "LD X0\n= Y0\nEND\n",
+    right: "LD X0\nOUT Y0\nEND\n";
+
+    BAD_OPERAND = "E0002" "bad-operand" Error None,
+    "this cannot be read as an operand",
+    "An operand is a device (`X000`, `D10`), a device with an index register (`D0Z3`), a group of bits (`K4M0`), a bit of a word (`D0.F`), a constant (`K100`, `H1F`, `E1.5`), a text (`\"ABC\"`), buffer memory (`U0\\G5`) or a pointer (`P4`, `I001`, `N0`).",
+    wrong: "LD X0\nMOV Q5 D0\nEND\n",
+    right: "LD X0\nMOV K5 D0\nEND\n";
+
+    BAD_OCTAL = "E0003" "bad-octal" Error None,
+    "number of an X or Y with a digit 8 or 9",
+    "Inputs and outputs are numbered in octal: X007 is followed by X010.",
+    wrong: "LD X008\nOUT Y0\nEND\n",
+    right: "LD X010\nOUT Y0\nEND\n";
+
+    BIG_NUMBER = "E0004" "big-number" Error None,
+    "number that is too large for anything",
+    "No device number or constant of the PLC is as large as this.",
+    wrong: "LD X0\nMOV K99999999999999999999 D0\nEND\n",
+    right: "LD X0\nMOV K99 D0\nEND\n";
+
+    OPEN_TEXT = "E0005" "open-text" Error None,
+    "text without its closing quotation mark",
+    "A text in an operand begins and ends with `\"` on the same line.",
+    wrong: "LD X0\n$MOV \"ABC D0\nEND\n",
+    right: "LD X0\n$MOV \"ABC\" D0\nEND\n";
+
+    UNKNOWN_FORMAT = "E0010" "unknown-format" Error None,
+    "this file is in none of the known formats",
+    "Read are instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg) and GX Works2 projects (.gxw). The format is found by content, not by the file's name.",
+    wrong: "",
+    right: "";
+
+    TRUNCATED = "E0011" "truncated" Error None,
+    "the file ends too early",
+    "The file says that more follows than there is. What could be read before the end was read.",
+    wrong: "",
+    right: "";
+
+    DAMAGED = "E0012" "damaged" Error None,
+    "the file contradicts itself",
+    "A length, an offset or a mark in the file does not fit the rest. The message gives the offset and the bytes.",
+    wrong: "",
+    right: "";
+
+    UNKNOWN_BYTES = "E0013" "unknown-bytes" Error None,
+    "bytes that are no known instruction",
+    "The project holds an instruction code that is not known. The message gives the offset and the bytes; reading goes on behind it.",
+    wrong: "",
+    right: "";
+
+    BAD_ROW = "E0014" "bad-row" Error None,
+    "row of a list export that does not fit its columns",
+    "A row of the export lacks a column, or an operand stands in a row that belongs to no instruction.",
+    wrong: "",
+    right: "";
+
+    UNKNOWN_INSTRUCTION = "E0033" "unknown-instruction" Error Some(6506),
+    "no model has this instruction",
+    "The mnemonic is none that the catalogue knows, in no spelling. If a similar one exists, the help names it.",
+    wrong: "LD X0\nMOVE K1 D0\nEND\n",
+    right: "LD X0\nMOV K1 D0\nEND\n";
+
+    NOT_ON_MODEL = "E0034" "not-on-model" Error Some(6506),
+    "the model does not have this instruction",
+    "The instruction exists, but not on the model that the program is compiled for. The help names the models that have it; another model is chosen with `--model`.",
+    model: "l01s",
+    wrong: "LD X0\nDHCMOV C235 D0 K1\nEND\n",
+    right: "LD X0\nDMOV C235 D0\nEND\n";
+
+    NO_SUCH_FORM = "E0035" "no-such-form" Error Some(6506),
+    "the instruction does not have this form",
+    "A mnemonic may have a 16-bit form, a 32-bit form (prefix D) and pulse forms (suffix P). Not every instruction has all of them.",
+    wrong: "DFOR K2\nLD X0\nOUT Y0\nNEXT\nEND\n",
+    right: "FOR K2\nLD X0\nOUT Y0\nNEXT\nEND\n";
+
+    NOT_IMPLEMENTED = "E0036" "not-implemented" Error None,
+    "the compiler cannot translate this instruction yet",
+    "The instruction is known, checked and counted, but nothing implements it yet. The message names the group of instructions that is missing.",
+    wrong: "",
+    right: "";
+}
