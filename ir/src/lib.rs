@@ -9,6 +9,7 @@ pub mod layout;
 pub mod model;
 pub mod node;
 pub mod resolve;
+mod runs;
 
 pub use model::{Model, ModelId, ModelSet};
 pub use node::Module;

@@ -145,7 +145,7 @@ pub enum Expr {
     HighWord(ExprId),
     /// `Bit` to `I16`: 0 or 1.
     BitToInt(ExprId),
-    /// `Bit`: whether `count` devices from `place` on all exist on the model and lie in one range of it.
+    /// `Bit`: whether `count` devices from `place` on all exist on the model, in one run of it ([`Model::in_range`]).
     InRange {
         /// First device.
         place: Place,

@@ -1,0 +1,38 @@
+//! Runs of devices: where an index or a block may go without leaving the devices it began in.
+
+use crate::model::Model;
+use rungc_syntax::DeviceClass;
+
+/// Whether a run ends before device `number` of `class` although the model goes on: the special devices and the 32-bit counters
+/// are apart from what stands before them.
+fn is_border(class: DeviceClass, number: u32) -> bool {
+    match class {
+        DeviceClass::M | DeviceClass::D => number == 8000,
+        DeviceClass::C => number == 200,
+        _ => false,
+    }
+}
+
+impl Model {
+    /// The runs of a class as (first, last), in order: its ranges, general and latched neighbours joined.
+    pub fn runs(&self, class: DeviceClass) -> Vec<(u32, u32)> {
+        let mut runs: Vec<(u32, u32)> = Vec::new();
+        for range in self.ranges_of(class) {
+            match runs.last_mut() {
+                Some((_, last)) if *last + 1 == range.first && !is_border(class, range.first) => {
+                    *last = range.last;
+                }
+                _ => runs.push((range.first, range.last)),
+            }
+        }
+        runs
+    }
+
+    /// Whether `count` devices from `first` on all exist, in one run: [`crate::node::Expr::InRange`].
+    pub fn in_range(&self, class: DeviceClass, first: i64, count: u32) -> bool {
+        let last = first + i64::from(count.max(1)) - 1;
+        self.runs(class)
+            .iter()
+            .any(|&(from, to)| i64::from(from) <= first && last <= i64::from(to))
+    }
+}
