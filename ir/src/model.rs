@@ -1,5 +1,10 @@
 //! The PLC models: which devices each has, which of them are latched, what its timers and counters are.
 
+mod hm;
+mod inovance;
+mod l01s;
+mod mitsubishi;
+
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 
@@ -21,6 +26,32 @@ pub enum ModelId {
     Fx3g,
     /// Mitsubishi FX3U/FX3UC.
     Fx3u,
+}
+
+impl ModelId {
+    /// All models, in the order of the enum.
+    pub const ALL: [ModelId; 7] = {
+        use ModelId::*;
+        [H1u, H2u, L01s, Hm, Fx2n, Fx3g, Fx3u]
+    };
+
+    /// The model with this name on the command line, e.g. `h2u`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|&id| Model::get(id).name.eq_ignore_ascii_case(name))
+    }
+
+    /// The model that a project's CPU type means, e.g. `FX3U/FX3UC`. Projects for the makers' own models are made for the
+    /// Mitsubishi model they descend from.
+    pub fn from_cpu(cpu: &str) -> Option<Self> {
+        let cpu = cpu.trim().to_ascii_uppercase();
+        let first = cpu.split('/').next().unwrap_or(&cpu);
+        Self::ALL
+            .into_iter()
+            .find(|&id| Model::get(id).cpus.contains(&first))
+            .or_else(|| Self::from_name(first))
+    }
 }
 
 /// A set of models.
@@ -95,10 +126,14 @@ pub struct Model {
     pub name: &'static str,
     /// Name for people: `Inovance H2U`.
     pub title: &'static str,
+    /// CPU types of projects that are for it, in upper case: `FX3U`.
+    pub cpus: &'static [&'static str],
     /// Its devices: general and special ranges of every class, P, I and N included. Sorted by class and first number, disjoint.
     pub ranges: &'static [Range],
     /// Its timers, sorted, disjoint; they cover the ranges of class T.
     pub timers: &'static [Timers],
+    /// Latched devices are kept over power-off only while this special register holds this value (HM); `None`: always.
+    pub latch_key: Option<(u32, i16)>,
     /// Program capacity in steps.
     pub max_steps: u32,
     /// Whether a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
@@ -114,6 +149,19 @@ pub struct Model {
 }
 
 impl Model {
+    /// The data of a model.
+    pub fn get(id: ModelId) -> &'static Model {
+        match id {
+            ModelId::H1u => &inovance::H1U,
+            ModelId::H2u => &inovance::H2U,
+            ModelId::L01s => &l01s::L01S,
+            ModelId::Hm => &hm::HM,
+            ModelId::Fx2n => &mitsubishi::FX2N,
+            ModelId::Fx3g => &mitsubishi::FX3G,
+            ModelId::Fx3u => &mitsubishi::FX3U,
+        }
+    }
+
     /// The range that holds a device.
     pub fn range(&self, class: DeviceClass, number: u32) -> Option<&'static Range> {
         self.ranges
@@ -137,5 +185,142 @@ impl Model {
             .iter()
             .find(|t| (t.first..=t.last).contains(&number))
             .map(|t| t.kind)
+    }
+}
+
+/// A run of devices that go back to 0 at power-off.
+const fn general(class: DeviceClass, first: u32, last: u32) -> Range {
+    Range {
+        class,
+        first,
+        last,
+        latched: false,
+    }
+}
+
+/// A run of devices that keep their values.
+const fn latched(class: DeviceClass, first: u32, last: u32) -> Range {
+    Range {
+        latched: true,
+        ..general(class, first, last)
+    }
+}
+
+/// A run of timers of this unit that start again whenever they are driven.
+const fn timers(first: u32, last: u32, unit_ms: u16) -> Timers {
+    Timers {
+        first,
+        last,
+        kind: TimerKind {
+            unit_ms,
+            accumulating: false,
+            free_running: false,
+            latches_preset: false,
+            overruns: false,
+        },
+    }
+}
+
+impl Timers {
+    const fn accumulating(self) -> Self {
+        self.with(TimerKind {
+            accumulating: true,
+            ..self.kind
+        })
+    }
+
+    const fn free_running(self) -> Self {
+        self.with(TimerKind {
+            free_running: true,
+            ..self.kind
+        })
+    }
+
+    const fn latching_preset(self) -> Self {
+        self.with(TimerKind {
+            latches_preset: true,
+            ..self.kind
+        })
+    }
+
+    const fn overrunning(self) -> Self {
+        self.with(TimerKind {
+            overruns: true,
+            ..self.kind
+        })
+    }
+
+    const fn with(self, kind: TimerKind) -> Self {
+        Timers { kind, ..self }
+    }
+}
+
+/// D8028, D8029 and D8182–D8195: other names of Z0, V0, Z1, V1, … Z7, V7 (h1u-h2u-programming §3.8).
+const INDEX_ALIASES: &[(u32, DeviceClass, u32)] = &{
+    use DeviceClass::{V, Z};
+    [
+        (8028, Z, 0),
+        (8029, V, 0),
+        (8182, Z, 1),
+        (8183, V, 1),
+        (8184, Z, 2),
+        (8185, V, 2),
+        (8186, Z, 3),
+        (8187, V, 3),
+        (8188, Z, 4),
+        (8189, V, 4),
+        (8190, Z, 5),
+        (8191, V, 5),
+        (8192, Z, 6),
+        (8193, V, 6),
+        (8194, Z, 7),
+        (8195, V, 7),
+    ]
+};
+
+#[cfg(test)]
+mod tests {
+    use super::{Model, ModelId};
+    use rungc_syntax::DeviceClass;
+
+    #[test]
+    fn ranges_are_sorted_and_disjoint() {
+        for id in ModelId::ALL {
+            let model = Model::get(id);
+            assert_eq!(model.id, id);
+            for range in model.ranges {
+                assert!(range.first <= range.last, "{} {range:?}", model.name);
+            }
+            for pair in model.ranges.windows(2) {
+                let (a, b) = (pair[0], pair[1]);
+                let sorted = a.class < b.class || a.class == b.class && a.last < b.first;
+                assert!(sorted, "{}: {a:?} before {b:?}", model.name);
+            }
+        }
+    }
+
+    #[test]
+    fn timers_cover_class_t() {
+        for id in ModelId::ALL {
+            let model = Model::get(id);
+            for range in model.ranges_of(DeviceClass::T) {
+                for number in range.first..=range.last {
+                    let timer = model.timer(number);
+                    assert!(timer.is_some(), "{} T{number}", model.name);
+                    let accumulating = timer.is_some_and(|kind| kind.accumulating);
+                    let latched = range.latched && model.latch_key.is_none();
+                    assert!(accumulating || !latched, "{} T{number}", model.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn models_are_found_by_name_and_cpu() {
+        assert_eq!(ModelId::from_name("h2u"), Some(ModelId::H2u));
+        assert_eq!(ModelId::from_cpu("FX3U/FX3UC"), Some(ModelId::Fx3u));
+        assert_eq!(ModelId::from_cpu("FX2N/FX2NC"), Some(ModelId::Fx2n));
+        assert_eq!(ModelId::from_cpu("FX1S"), Some(ModelId::Fx2n));
+        assert_eq!(ModelId::from_cpu("Q02"), None);
     }
 }

@@ -2,9 +2,24 @@
 //! backends read the row; nothing about an instruction's operands or forms is written anywhere else.
 //!
 //! To add an instruction: a row in the file of its family, its runtime function (or IR operator), conformance cases.
+//! [`row`] is the notation that the rows are written in.
 
-use crate::model::ModelSet;
+mod arith;
+mod basic;
+mod compare;
+mod flow;
+mod lookup;
+mod move_;
+mod row;
+#[cfg(test)]
+mod tests;
+
+pub use lookup::{Found, all, find};
+
+use crate::model::{Model, ModelId, ModelSet};
+use crate::resolve::Form;
 use rungc_rt::RtFn;
+use rungc_syntax::{DeviceClass, OperandKind};
 
 /// What an operand may be: a set of classes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -12,6 +27,7 @@ pub struct Classes(pub u32);
 
 #[allow(missing_docs, reason = "each constant is the class of the same name")]
 impl Classes {
+    pub const NONE: Classes = Classes(0);
     pub const X: Classes = Classes(1);
     pub const Y: Classes = Classes(1 << 1);
     pub const M: Classes = Classes(1 << 2);
@@ -57,6 +73,51 @@ impl Classes {
         Classes(self.0 & !other.0)
     }
 
+    /// The class of an operand as it is written; `NONE` for a group of something that has no bits to group.
+    pub fn of(operand: &OperandKind) -> Classes {
+        match operand {
+            OperandKind::Device(device, _) => Classes::of_device(device.class),
+            OperandKind::WordBit(..) => Classes::WORD_BIT,
+            OperandKind::Nibbles(_, device, _) => match device.class {
+                DeviceClass::X => Classes::KNX,
+                DeviceClass::Y => Classes::KNY,
+                DeviceClass::M => Classes::KNM,
+                DeviceClass::S => Classes::KNS,
+                _ => Classes::NONE,
+            },
+            OperandKind::Decimal(..) => Classes::K,
+            OperandKind::Hex(..) => Classes::H,
+            OperandKind::Float(_) => Classes::E,
+            OperandKind::Text(_) => Classes::TEXT,
+            OperandKind::Buffer { .. } => Classes::BUFFER,
+        }
+    }
+
+    /// The set with this one class of devices.
+    pub const fn of_device(class: DeviceClass) -> Classes {
+        match class {
+            DeviceClass::X => Classes::X,
+            DeviceClass::Y => Classes::Y,
+            DeviceClass::M => Classes::M,
+            DeviceClass::S => Classes::S,
+            DeviceClass::T => Classes::T,
+            DeviceClass::C => Classes::C,
+            DeviceClass::D => Classes::D,
+            DeviceClass::R => Classes::R,
+            DeviceClass::ER => Classes::ER,
+            DeviceClass::V => Classes::V,
+            DeviceClass::Z => Classes::Z,
+            DeviceClass::P => Classes::P,
+            DeviceClass::I => Classes::I,
+            DeviceClass::N => Classes::N,
+        }
+    }
+
+    /// Whether no class is in it.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
     /// Whether the sets share a class.
     pub const fn meets(self, other: Classes) -> bool {
         self.0 & other.0 != 0
@@ -80,6 +141,9 @@ pub enum Shape {
     Text,
     /// A pointer, interrupt pointer or nesting level.
     Pointer,
+    /// A bit where the operand is X, Y, M, S or a bit of a word, a 16-bit word elsewhere (DECO, ENCO); RST and ZRST mean with
+    /// T and C both contact and value.
+    Mixed,
 }
 
 /// What an instruction does with an operand.
@@ -107,6 +171,8 @@ pub enum Extent {
         /// How many more.
         extra: i32,
     },
+    /// Up to the device that operand `i` names, inclusive.
+    Through(usize),
     /// As many as this function of the operands' constants says (`None` for an operand that is none); `None`: to the class's end.
     Of(fn(&[Option<i64>]) -> Option<u32>),
 }
@@ -126,6 +192,8 @@ pub struct Param {
     pub extent: Extent,
     /// Limits of a constant.
     pub limits: Option<(i64, i64)>,
+    /// Numbers that devices of these classes must have, first to last; classes that are not listed are free.
+    pub numbers: &'static [(DeviceClass, u32, u32)],
     /// Whether it may carry an index register.
     pub indexable: bool,
     /// Whether it may be left out (only last ones).
@@ -288,6 +356,58 @@ pub enum Lower {
     Todo(&'static str),
 }
 
+/// When a [`Variant`] holds.
+#[derive(Clone, Copy, Debug)]
+pub enum When {
+    /// Always.
+    Always,
+    /// The first operand is one of these classes (and, if a device, has a number from the one to the other).
+    First(Classes, u32, u32),
+    /// An operand carries an index register.
+    Indexed,
+}
+
+impl When {
+    fn holds(self, operands: &[OperandKind]) -> bool {
+        match self {
+            When::Always => true,
+            When::First(classes, first, last) => operands.first().is_some_and(|operand| {
+                let number = match operand {
+                    OperandKind::Device(device, _) => device.number,
+                    _ => first,
+                };
+                classes.meets(Classes::of(operand)) && (first..=last).contains(&number)
+            }),
+            When::Indexed => operands.iter().any(|operand| {
+                matches!(
+                    operand,
+                    OperandKind::Device(_, Some(_))
+                        | OperandKind::WordBit(_, _, Some(_))
+                        | OperandKind::Nibbles(_, _, Some(_))
+                        | OperandKind::Decimal(_, Some(_))
+                        | OperandKind::Hex(_, Some(_))
+                )
+            }),
+        }
+    }
+}
+
+/// What is otherwise than the row says, on some models or with some operands. Of the variants that hold, the first that has
+/// something to say about a thing decides it.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    /// On these models …
+    pub models: ModelSet,
+    /// … and when this holds.
+    pub when: When,
+    /// Its forms; only where `when` is [`When::Always`].
+    pub forms: Option<Forms>,
+    /// Its steps.
+    pub steps: Option<(u8, u8)>,
+    /// Its operands.
+    pub params: Option<&'static [Param]>,
+}
+
 /// One instruction.
 #[derive(Clone, Copy, Debug)]
 pub struct Inst {
@@ -307,10 +427,12 @@ pub struct Inst {
     pub source: &'static str,
     /// Its forms.
     pub forms: Forms,
-    /// Steps of the 16-bit and of the 32-bit form; see `steps` for those that depend on the operands.
+    /// Steps of the 16-bit and of the 32-bit form, where no variant says otherwise; see [`Inst::steps_of`].
     pub steps: (u8, u8),
-    /// Its operands.
+    /// Its operands, where no variant says otherwise; see [`Inst::params_of`].
     pub params: &'static [Param],
+    /// What is otherwise on some models or with some operands.
+    pub variants: &'static [Variant],
     /// Whether contacts stand before it.
     pub drive: Drive,
     /// Special relays and registers that it reads or writes.
@@ -323,4 +445,49 @@ pub struct Inst {
     pub lower: Lower,
     /// Models on which something else implements it.
     pub lower_on: &'static [(ModelSet, Lower)],
+}
+
+impl Inst {
+    /// What implements it on a model.
+    pub fn lower_on_model(&self, model: ModelId) -> Lower {
+        self.lower_on
+            .iter()
+            .find(|(models, _)| models.has(model))
+            .map_or(self.lower, |&(_, lower)| lower)
+    }
+
+    /// The forms it has on a model.
+    pub fn forms_on(&self, model: ModelId) -> Forms {
+        self.variants
+            .iter()
+            .filter(|variant| variant.models.has(model) && matches!(variant.when, When::Always))
+            .find_map(|variant| variant.forms)
+            .unwrap_or(self.forms)
+    }
+
+    /// What its operands are on a model, given those that are written (OUT T0 has one more than OUT Y000).
+    pub fn params_of(&self, operands: &[OperandKind], model: &Model) -> &'static [Param] {
+        self.holding(operands, model)
+            .find_map(|variant| variant.params)
+            .unwrap_or(self.params)
+    }
+
+    /// How many steps it takes in the program memory.
+    pub fn steps_of(&self, form: Form, operands: &[OperandKind], model: &Model) -> u32 {
+        let (narrow, wide) = self
+            .holding(operands, model)
+            .find_map(|variant| variant.steps)
+            .unwrap_or(self.steps);
+        u32::from(if form.wide { wide } else { narrow })
+    }
+
+    fn holding<'a>(
+        &'a self,
+        operands: &'a [OperandKind],
+        model: &'a Model,
+    ) -> impl Iterator<Item = &'a Variant> {
+        self.variants
+            .iter()
+            .filter(|variant| variant.models.has(model.id) && variant.when.holds(operands))
+    }
 }

@@ -1,0 +1,71 @@
+//! Integer arithmetic and logic, FNC 20–29.
+
+use super::row::*;
+use super::{ArithOp, Inst, Lower, Param, Spelling};
+
+const TWO_VALUES: &[Param] = &[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS)];
+const ONE_VALUE: &[Param] = &[both("D", RESULTS)];
+
+const fn arith(name: &'static str, fnc: u16, title: &'static str, op: ArithOp) -> Inst {
+    row(name, title, "h1u-h2u-programming §4.3.4")
+        .fnc(fnc)
+        .forms(ALL_FORMS)
+        .steps(7, 13)
+        .takes(TWO_VALUES)
+        .errors(&[6706])
+        .lower(Lower::Arith(op))
+}
+
+const fn one_value(name: &'static str, fnc: u16, title: &'static str, op: ArithOp) -> Inst {
+    arith(name, fnc, title, op).steps(3, 5).takes(ONE_VALUE)
+}
+
+pub(super) const ROWS: &[Inst] = &[
+    arith("ADD", 20, "Addition", ArithOp::Add)
+        .flags(&["M8020", "M8021", "M8022"])
+        .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Add))])
+        .text(
+            "D = S1 + S2, signed. M8020 is on if the result is 0, M8022 if the sum is too large (carry), M8021 if it is too small \
+             (borrow); the value wraps. On HM the value stays at the end of the range.",
+        ),
+    arith("SUB", 21, "Subtraction", ArithOp::Sub)
+        .flags(&["M8020", "M8021", "M8022"])
+        .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Sub))])
+        .text(
+            "D = S1 - S2, signed. Flags as ADD: M8020 zero, M8021 borrow (too small), M8022 carry (too large); the value wraps. On \
+             HM the value stays at the end of the range.",
+        ),
+    arith("MUL", 22, "Multiplication", ArithOp::Mul)
+        .takes(&[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS).len(2)])
+        .text(
+            "D = S1 × S2, signed, in double width: the 16-bit form writes the pair D (low) and D+1, the 32-bit form the four \
+             registers from D on. A group of bits takes as many low bits as it has.",
+        ),
+    arith("DIV", 23, "Division", ArithOp::Div)
+        .takes(&[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS).len(2)])
+        .errors(&[6706])
+        .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Div))])
+        .text(
+            "Divides S1 by S2, signed, truncating: D is the quotient, the word (32-bit: the pair) behind it the remainder with the \
+             sign of S1. A group of bits takes only the quotient. Division by 0 is an error; on HM it gives the end of the range.",
+        ),
+    one_value("INC", 24, "Increment", ArithOp::Inc)
+        .variants(&[on(HM).steps(3, 4)])
+        .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Inc))])
+        .text("Adds 1 to D at each execution, wrapping; no flags. On HM it stays at the largest value."),
+    one_value("DEC", 25, "Decrement", ArithOp::Dec)
+        .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Dec))])
+        .text("Subtracts 1 from D at each execution, wrapping; no flags. On HM it stays at the smallest value."),
+    arith("WAND", 26, "Word AND", ArithOp::And)
+        .spelling(Spelling::Wide("DAND"))
+        .variants(&[on(HM).steps(7, 10)])
+        .text("D = S1 AND S2, bit by bit. The 32-bit form is written DAND."),
+    arith("WOR", 27, "Word OR", ArithOp::Or)
+        .spelling(Spelling::Wide("DOR"))
+        .text("D = S1 OR S2, bit by bit. The 32-bit form is written DOR."),
+    arith("WXOR", 28, "Word exclusive OR", ArithOp::Xor)
+        .spelling(Spelling::Wide("DXOR"))
+        .text("D = S1 XOR S2, bit by bit. The 32-bit form is written DXOR."),
+    one_value("NEG", 29, "Negation", ArithOp::Neg)
+        .text("D = -D, two's complement, at each execution; the smallest value stays as it is."),
+];

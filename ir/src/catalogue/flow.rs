@@ -1,0 +1,65 @@
+//! Program flow.
+
+use super::row::*;
+use super::{Basic, Classes, Drive, Inst, Lower, Param};
+
+const LABEL: &[Param] = &[pointer("P", Classes::P)];
+
+const fn flow(name: &'static str, fnc: u16, title: &'static str, basic: Basic) -> Inst {
+    row(name, title, "h1u-h2u-programming §4.3.1")
+        .fnc(fnc)
+        .lower(Lower::Basic(basic))
+}
+
+pub(super) const ROWS: &[Inst] = &[
+    flow("CJ", 0, "Conditional jump", Basic::Cj)
+        .forms(W16_P)
+        .steps(3, 3)
+        .takes(LABEL)
+        .errors(&[6701])
+        .text(
+            "Goes on at the label while driven; what lies between is not executed and keeps its state. P63 is the end of the scan.",
+        ),
+    flow("CALL", 1, "Subroutine call", Basic::Call)
+        .forms(W16_P)
+        .steps(3, 3)
+        .takes(LABEL)
+        .errors(&[6701, 6702])
+        .text("Runs the subroutine at the label up to SRET while driven, then goes on behind the CALL."),
+    flow("SRET", 2, "Subroutine return", Basic::Sret)
+        .drive(Drive::Alone)
+        .text("Ends a subroutine."),
+    flow("IRET", 3, "Interrupt return", Basic::Iret)
+        .drive(Drive::Alone)
+        .text("Ends an interrupt routine."),
+    flow("EI", 4, "Enable interrupts", Basic::Ei)
+        .drive(Drive::Alone)
+        .text("Interrupt routines may run from here on. They may not after the start of RUN."),
+    flow("DI", 5, "Disable interrupts", Basic::Di)
+        .drive(Drive::Alone)
+        .text("Interrupt requests are kept from here on until the next EI."),
+    flow("FEND", 6, "End of the main program", Basic::Fend)
+        .drive(Drive::Alone)
+        .text("Ends the main program; subroutines and interrupt routines follow."),
+    flow("WDT", 7, "Watchdog refresh", Basic::Wdt)
+        .forms(W16_P)
+        .flags(&["D8000"])
+        .text("Restarts the watchdog of the running scan."),
+    flow("FOR", 8, "Loop", Basic::For)
+        .steps(3, 3)
+        .takes(&[src("S", VALUES)])
+        .drive(Drive::Alone)
+        .errors(&[6607])
+        .text("Runs the instructions up to the matching NEXT S times in the same scan; S below 1 counts as 1."),
+    flow("NEXT", 9, "End of a loop", Basic::Next)
+        .drive(Drive::Alone)
+        .text("Ends the loop that the last FOR began."),
+    row("P", "Label", "h1u-h2u-programming §4.2")
+        .drive(Drive::Alone)
+        .lower(Lower::Basic(Basic::Label))
+        .text("Where CJ or CALL goes to, written as the pointer itself: P0."),
+    row("I", "Interrupt routine", "h1u-h2u-programming §4.2")
+        .drive(Drive::Alone)
+        .lower(Lower::Basic(Basic::Label))
+        .text("Where an interrupt routine begins, written as the pointer itself: I001. It ends with IRET."),
+];

@@ -1,0 +1,269 @@
+//! The notation that rows are written in: a row reads like the box of the manual.
+//!
+//! ```text
+//! row("ADD", "Addition", "h1u-h2u-programming §4.3.4").fnc(20).forms(ALL_FORMS).steps(7, 13)
+//!     .takes(&[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS)])
+//!     .flags(&["M8020", "M8021", "M8022"])
+//!     .lower(Lower::Arith(ArithOp::Add))
+//! ```
+
+use super::{
+    Classes, Drive, Extent, Forms, Inst, Lower, Param, Role, Shape, Spelling, Variant, When,
+};
+use crate::model::{ModelId, ModelSet};
+use rungc_syntax::DeviceClass;
+
+/// 16- and 32-bit form, each also as pulse.
+pub(super) const ALL_FORMS: Forms = Forms::W16.or(Forms::W32).or(Forms::PULSE);
+/// 16-bit form, also as pulse.
+pub(super) const W16_P: Forms = Forms::W16.or(Forms::PULSE);
+/// 16- and 32-bit form.
+pub(super) const W16_W32: Forms = Forms::W16.or(Forms::W32);
+/// Only the 16-bit form.
+pub(super) const W16: Forms = Forms::W16;
+
+/// Groups of bits that can be read.
+pub(super) const GROUPS: Classes = Classes::KNX.or(RESULT_GROUPS);
+/// Groups of bits that can be written.
+pub(super) const RESULT_GROUPS: Classes = Classes::KNY.or(Classes::KNM).or(Classes::KNS);
+/// Registers without V and Z; R counts on the models that have it.
+pub(super) const REGISTERS: Classes = Classes::T.or(Classes::C).or(Classes::D).or(Classes::R);
+/// D and R.
+pub(super) const DATA: Classes = Classes::D.or(Classes::R);
+/// Integer constants.
+pub(super) const CONSTANTS: Classes = Classes::K.or(Classes::H);
+/// V and Z.
+pub(super) const INDEX: Classes = Classes::V.or(Classes::Z);
+/// Everything that has an integer value: `K, H, KnX … Z`.
+pub(super) const VALUES: Classes = CONSTANTS.or(WORDS).or(Classes::BUFFER);
+/// Everything of it that is no constant: `KnX … Z`.
+pub(super) const WORDS: Classes = GROUPS.or(REGISTERS).or(INDEX);
+/// Everything that a result can go to: `KnY … Z`.
+pub(super) const RESULTS: Classes = RESULT_GROUPS.or(REGISTERS).or(INDEX).or(Classes::BUFFER);
+/// Bits that can be written.
+pub(super) const COILS: Classes = Classes::Y.or(Classes::M).or(Classes::S);
+/// Bits that can be read, but for contacts of timers and counters.
+pub(super) const BITS: Classes = Classes::X.or(COILS);
+/// Everything that has a contact.
+pub(super) const CONTACTS: Classes = BITS.or(Classes::T).or(Classes::C);
+
+/// FX3G and FX3U.
+pub(super) const FX3: ModelSet = ModelSet::of(&[ModelId::Fx3g, ModelId::Fx3u]);
+/// The Mitsubishi models.
+pub(super) const FX: ModelSet = FX3.and(&[ModelId::Fx2n]);
+/// Only FX3U.
+pub(super) const FX3U: ModelSet = ModelSet::of(&[ModelId::Fx3u]);
+/// Only HM.
+pub(super) const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
+/// H1U and H2U.
+pub(super) const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+/// Only L01S.
+pub(super) const L01S: ModelSet = ModelSet::of(&[ModelId::L01s]);
+/// All but HM.
+pub(super) const NOT_HM: ModelSet = ModelSet::ALL.except(&[ModelId::Hm]);
+
+/// A row: 16-bit form of one step, no operands, driven by a contact, on all models.
+pub(super) const fn row(name: &'static str, title: &'static str, source: &'static str) -> Inst {
+    Inst {
+        name,
+        aliases: &[],
+        spelling: Spelling::Prefix,
+        fnc: None,
+        title,
+        text: "",
+        source,
+        forms: W16,
+        steps: (1, 1),
+        params: &[],
+        variants: &[],
+        drive: Drive::Contact,
+        flags: &[],
+        errors: &[],
+        models: ModelSet::ALL,
+        lower: Lower::Todo("instructions without an implementation"),
+        lower_on: &[],
+    }
+}
+
+impl Inst {
+    pub(super) const fn aliases(self, aliases: &'static [&'static str]) -> Self {
+        Inst { aliases, ..self }
+    }
+
+    pub(super) const fn spelling(self, spelling: Spelling) -> Self {
+        Inst { spelling, ..self }
+    }
+
+    pub(super) const fn fnc(self, number: u16) -> Self {
+        let fnc = Some(number);
+        Inst { fnc, ..self }
+    }
+
+    pub(super) const fn text(self, text: &'static str) -> Self {
+        Inst { text, ..self }
+    }
+
+    pub(super) const fn forms(self, forms: Forms) -> Self {
+        Inst { forms, ..self }
+    }
+
+    pub(super) const fn steps(self, narrow: u8, wide: u8) -> Self {
+        let steps = (narrow, wide);
+        Inst { steps, ..self }
+    }
+
+    pub(super) const fn takes(self, params: &'static [Param]) -> Self {
+        Inst { params, ..self }
+    }
+
+    pub(super) const fn variants(self, variants: &'static [Variant]) -> Self {
+        Inst { variants, ..self }
+    }
+
+    pub(super) const fn drive(self, drive: Drive) -> Self {
+        Inst { drive, ..self }
+    }
+
+    pub(super) const fn flags(self, flags: &'static [&'static str]) -> Self {
+        Inst { flags, ..self }
+    }
+
+    pub(super) const fn errors(self, errors: &'static [u16]) -> Self {
+        Inst { errors, ..self }
+    }
+
+    pub(super) const fn on(self, models: ModelSet) -> Self {
+        Inst { models, ..self }
+    }
+
+    pub(super) const fn lower(self, lower: Lower) -> Self {
+        Inst { lower, ..self }
+    }
+
+    pub(super) const fn lower_on(self, lower_on: &'static [(ModelSet, Lower)]) -> Self {
+        Inst { lower_on, ..self }
+    }
+}
+
+const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -> Param {
+    Param {
+        name,
+        classes,
+        shape,
+        role,
+        extent: Extent::One,
+        limits: None,
+        numbers: &[],
+        indexable: true,
+        optional: false,
+    }
+}
+
+/// A value that is read: 16 or 32 bits as the form says.
+pub(super) const fn src(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Value, Role::Read)
+}
+
+/// A value that is written.
+pub(super) const fn dst(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Value, Role::Write)
+}
+
+/// A value that is changed.
+pub(super) const fn both(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Value, Role::ReadWrite)
+}
+
+/// A bit that is read.
+pub(super) const fn bit(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Bit, Role::Read)
+}
+
+/// A bit that is written.
+pub(super) const fn coil(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Bit, Role::Write)
+}
+
+/// A 16-bit constant from `min` to `max`.
+pub(super) const fn count(name: &'static str, min: i64, max: i64) -> Param {
+    param(name, CONSTANTS, Shape::Word, Role::Read).limits(min, max)
+}
+
+/// A pointer or nesting level.
+pub(super) const fn pointer(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Pointer, Role::Read).plain()
+}
+
+impl Param {
+    /// It occupies this many devices from the named one on.
+    pub(super) const fn len(self, count: u32) -> Self {
+        let extent = Extent::Count(count);
+        Param { extent, ..self }
+    }
+
+    /// It is this instead.
+    pub(super) const fn shape(self, shape: Shape) -> Self {
+        Param { shape, ..self }
+    }
+
+    /// Constants lie between these.
+    pub(super) const fn limits(self, min: i64, max: i64) -> Self {
+        let limits = Some((min, max));
+        Param { limits, ..self }
+    }
+
+    /// Devices of these classes have these numbers.
+    pub(super) const fn numbers(self, numbers: &'static [(DeviceClass, u32, u32)]) -> Self {
+        Param { numbers, ..self }
+    }
+
+    /// No index register.
+    pub(super) const fn plain(self) -> Self {
+        let indexable = false;
+        Param { indexable, ..self }
+    }
+}
+
+/// A variant that says nothing yet.
+pub(super) const fn variant(models: ModelSet, when: When) -> Variant {
+    Variant {
+        models,
+        when,
+        forms: None,
+        steps: None,
+        params: None,
+    }
+}
+
+/// A variant for whatever operands.
+pub(super) const fn on(models: ModelSet) -> Variant {
+    variant(models, When::Always)
+}
+
+/// A variant for devices of these classes as the first operand.
+pub(super) const fn first(models: ModelSet, classes: Classes) -> Variant {
+    variant(models, When::First(classes, 0, u32::MAX))
+}
+
+/// A variant for devices of these classes and numbers as the first operand.
+pub(super) const fn first_in(models: ModelSet, classes: Classes, from: u32, to: u32) -> Variant {
+    variant(models, When::First(classes, from, to))
+}
+
+impl Variant {
+    pub(super) const fn steps(self, narrow: u8, wide: u8) -> Self {
+        let steps = Some((narrow, wide));
+        Variant { steps, ..self }
+    }
+
+    pub(super) const fn takes(self, params: &'static [Param]) -> Self {
+        let params = Some(params);
+        Variant { params, ..self }
+    }
+
+    #[allow(dead_code)]
+    pub(super) const fn forms(self, forms: Forms) -> Self {
+        let forms = Some(forms);
+        Variant { forms, ..self }
+    }
+}

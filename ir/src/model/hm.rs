@@ -1,0 +1,64 @@
+//! Kewei HM motion controller (hm-programming §5.1).
+
+use super::{Model, ModelId, Range, Timers, general, latched, timers};
+use rungc_syntax::DeviceClass::{C, D, I, M, N, P, R, S, T, V, X, Y, Z};
+
+/// Kewei HM.
+pub(super) const HM: Model = Model {
+    id: ModelId::Hm,
+    name: "hm",
+    title: "Kewei HM",
+    cpus: &["HM"],
+    ranges: RANGES,
+    timers: TIMERS,
+    latch_key: Some((8020, 2222)),
+    max_steps: 16000,
+    z_pairs_with_v: false,
+    max_for: 5,
+    max_call: 8,
+    special_words: &[(8000, 200)],
+    index_aliases: &[],
+};
+
+/// Devices.
+const RANGES: &[Range] = &[
+    general(X, 0o0, 0o377),
+    general(Y, 0o0, 0o377),
+    latched(M, 0, 3071),
+    general(M, 8000, 8255),
+    latched(S, 0, 1023),
+    latched(T, 0, 255),
+    latched(C, 0, 255),
+    general(D, 0, 999),
+    latched(D, 1000, 1999),
+    general(D, 2000, 7999),
+    general(D, 8000, 8255),
+    latched(R, 0, 99),
+    general(V, 0, 7),
+    general(Z, 0, 7),
+    general(P, 0, 127),
+    general(I, 0, 1),
+    general(I, 10, 10),
+    general(I, 20, 20),
+    general(I, 30, 30),
+    general(I, 40, 40),
+    general(I, 50, 50),
+    general(I, 60, 60),
+    general(I, 100, 101),
+    general(I, 200, 201),
+    general(I, 300, 301),
+    general(I, 500, 500),
+    general(I, 600, 699),
+    general(I, 700, 799),
+    general(I, 800, 899),
+    general(I, 900, 907),
+    general(N, 0, 7),
+];
+
+/// Timers. They go on counting after the preset.
+const TIMERS: &[Timers] = &[
+    timers(0, 199, 100).overrunning(),
+    timers(200, 245, 10).overrunning(),
+    timers(246, 249, 1).accumulating().overrunning(),
+    timers(250, 255, 100).accumulating().overrunning(),
+];

@@ -1,0 +1,125 @@
+//! Inovance H1U and H2U (h1u-h2u-programming §3).
+
+use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
+
+/// Inovance H1U.
+pub(super) const H1U: Model = Model {
+    id: ModelId::H1u,
+    name: "h1u",
+    title: "Inovance H1U",
+    cpus: &["H1U"],
+    ranges: H1U_RANGES,
+    timers: TIMERS,
+    latch_key: None,
+    max_steps: 8000,
+    z_pairs_with_v: true,
+    max_for: 6,
+    max_call: 5,
+    special_words: &[(8000, 200), (8020, 10)],
+    index_aliases: INDEX_ALIASES,
+};
+
+/// Inovance H2U.
+pub(super) const H2U: Model = Model {
+    id: ModelId::H2u,
+    name: "h2u",
+    title: "Inovance H2U",
+    cpus: &["H2U"],
+    ranges: H2U_RANGES,
+    timers: TIMERS,
+    latch_key: None,
+    max_steps: 24000,
+    z_pairs_with_v: true,
+    max_for: 6,
+    max_call: 5,
+    special_words: &[(8000, 200), (8020, 10)],
+    index_aliases: INDEX_ALIASES,
+};
+
+/// Devices of H1U. Its latched ranges are fixed.
+const H1U_RANGES: &[Range] = &[
+    general(X, 0o0, 0o377),
+    general(Y, 0o0, 0o377),
+    general(M, 0, 383),
+    latched(M, 384, 3071),
+    general(M, 8000, 8511),
+    latched(S, 0, 999),
+    general(T, 0, 245),
+    latched(T, 246, 255),
+    general(C, 0, 15),
+    latched(C, 16, 199),
+    general(C, 200, 219),
+    latched(C, 220, 255),
+    general(D, 0, 127),
+    latched(D, 128, 7999),
+    general(D, 8000, 8511),
+    general(V, 0, 7),
+    general(Z, 0, 7),
+    general(P, 0, 131),
+    general(I, 0, 1),
+    general(I, 10, 10),
+    general(I, 20, 20),
+    general(I, 30, 30),
+    general(I, 40, 40),
+    general(I, 50, 50),
+    general(I, 60, 60),
+    general(I, 100, 101),
+    general(I, 200, 201),
+    general(I, 300, 301),
+    general(I, 400, 401),
+    general(I, 500, 501),
+    general(I, 601, 699),
+    general(I, 701, 799),
+    general(I, 801, 899),
+    general(N, 0, 7),
+];
+
+/// Devices of H2U. Which are latched are the factory settings.
+const H2U_RANGES: &[Range] = &[
+    general(X, 0o0, 0o377),
+    general(Y, 0o0, 0o377),
+    general(M, 0, 499),
+    latched(M, 500, 3071),
+    general(M, 8000, 8511),
+    general(S, 0, 499),
+    latched(S, 500, 999),
+    general(T, 0, 245),
+    latched(T, 246, 255),
+    general(C, 0, 99),
+    latched(C, 100, 199),
+    general(C, 200, 219),
+    latched(C, 220, 255),
+    general(D, 0, 199),
+    latched(D, 200, 7999),
+    general(D, 8000, 8511),
+    general(V, 0, 7),
+    general(Z, 0, 7),
+    general(P, 0, 131),
+    general(I, 0, 1),
+    general(I, 10, 10),
+    general(I, 20, 20),
+    general(I, 30, 30),
+    general(I, 40, 40),
+    general(I, 50, 50),
+    general(I, 60, 60),
+    general(I, 100, 101),
+    general(I, 200, 201),
+    general(I, 300, 301),
+    general(I, 400, 401),
+    general(I, 500, 501),
+    general(I, 502, 506),
+    general(I, 601, 699),
+    general(I, 701, 799),
+    general(I, 801, 899),
+    general(N, 0, 7),
+];
+
+/// Timers of both. They take the preset over when timing starts.
+const TIMERS: &[Timers] = &[
+    timers(0, 191, 100).latching_preset(),
+    timers(192, 199, 100).free_running().latching_preset(),
+    timers(200, 245, 10).latching_preset(),
+    timers(246, 249, 1).accumulating().latching_preset(),
+    timers(250, 255, 100).accumulating().latching_preset(),
+];

@@ -1,0 +1,212 @@
+//! The Mitsubishi models that the others descend from, from public knowledge of their programming manuals. Latched ranges are
+//! the factory settings.
+
+use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use rungc_syntax::DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
+
+/// Mitsubishi FX2N.
+pub(super) const FX2N: Model = Model {
+    id: ModelId::Fx2n,
+    name: "fx2n",
+    title: "Mitsubishi FX2N",
+    cpus: &[
+        "FX2N", "FX2NC", "FX0", "FX0S", "FX0N", "FX1", "FX1S", "FX1N", "FX1NC", "FX2", "FX2C",
+        "FXU",
+    ],
+    ranges: FX2N_RANGES,
+    timers: FX2N_TIMERS,
+    latch_key: None,
+    max_steps: 16000,
+    z_pairs_with_v: true,
+    max_for: 5,
+    max_call: 5,
+    special_words: &[(8000, 200), (8020, 10)],
+    index_aliases: INDEX_ALIASES,
+};
+
+/// Mitsubishi FX3G.
+pub(super) const FX3G: Model = Model {
+    id: ModelId::Fx3g,
+    name: "fx3g",
+    title: "Mitsubishi FX3G",
+    cpus: &["FX3G", "FX3GC", "FX3GE", "FX3S"],
+    ranges: FX3G_RANGES,
+    timers: FX3G_TIMERS,
+    latch_key: None,
+    max_steps: 32000,
+    z_pairs_with_v: true,
+    max_for: 5,
+    max_call: 5,
+    special_words: &[(8000, 200), (8020, 10)],
+    index_aliases: INDEX_ALIASES,
+};
+
+/// Mitsubishi FX3U.
+pub(super) const FX3U: Model = Model {
+    id: ModelId::Fx3u,
+    name: "fx3u",
+    title: "Mitsubishi FX3U",
+    cpus: &["FX3U", "FX3UC"],
+    ranges: FX3U_RANGES,
+    timers: FX3U_TIMERS,
+    latch_key: None,
+    max_steps: 64000,
+    z_pairs_with_v: true,
+    max_for: 5,
+    max_call: 5,
+    special_words: &[(8000, 200), (8020, 10)],
+    index_aliases: INDEX_ALIASES,
+};
+
+/// Devices of FX2N.
+const FX2N_RANGES: &[Range] = &[
+    general(X, 0o0, 0o377),
+    general(Y, 0o0, 0o377),
+    general(M, 0, 499),
+    latched(M, 500, 3071),
+    general(M, 8000, 8255),
+    general(S, 0, 499),
+    latched(S, 500, 999),
+    general(T, 0, 245),
+    latched(T, 246, 255),
+    general(C, 0, 99),
+    latched(C, 100, 199),
+    general(C, 200, 219),
+    latched(C, 220, 255),
+    general(D, 0, 199),
+    latched(D, 200, 7999),
+    general(D, 8000, 8255),
+    general(V, 0, 7),
+    general(Z, 0, 7),
+    general(P, 0, 127),
+    general(I, 0, 1),
+    general(I, 10, 10),
+    general(I, 20, 20),
+    general(I, 30, 30),
+    general(I, 40, 40),
+    general(I, 50, 50),
+    general(I, 60, 60),
+    general(I, 100, 101),
+    general(I, 200, 201),
+    general(I, 300, 301),
+    general(I, 400, 401),
+    general(I, 500, 501),
+    general(I, 610, 699),
+    general(I, 710, 799),
+    general(I, 810, 899),
+    general(N, 0, 7),
+];
+
+/// Devices of FX3G without the optional battery.
+const FX3G_RANGES: &[Range] = &[
+    general(X, 0o0, 0o377),
+    general(Y, 0o0, 0o377),
+    general(M, 0, 383),
+    latched(M, 384, 1535),
+    general(M, 1536, 7679),
+    general(M, 8000, 8511),
+    latched(S, 0, 999),
+    general(S, 1000, 4095),
+    general(T, 0, 245),
+    latched(T, 246, 255),
+    general(T, 256, 319),
+    general(C, 0, 15),
+    latched(C, 16, 199),
+    general(C, 200, 219),
+    latched(C, 220, 255),
+    general(D, 0, 127),
+    latched(D, 128, 1099),
+    general(D, 1100, 7999),
+    general(D, 8000, 8511),
+    general(R, 0, 23999),
+    general(V, 0, 7),
+    general(Z, 0, 7),
+    general(P, 0, 2047),
+    general(I, 0, 1),
+    general(I, 10, 10),
+    general(I, 20, 20),
+    general(I, 30, 30),
+    general(I, 40, 40),
+    general(I, 50, 50),
+    general(I, 60, 60),
+    general(I, 100, 101),
+    general(I, 200, 201),
+    general(I, 300, 301),
+    general(I, 400, 401),
+    general(I, 500, 501),
+    general(I, 610, 699),
+    general(I, 710, 799),
+    general(I, 810, 899),
+    general(N, 0, 7),
+];
+
+/// Devices of FX3U.
+const FX3U_RANGES: &[Range] = &[
+    general(X, 0o0, 0o377),
+    general(Y, 0o0, 0o377),
+    general(M, 0, 499),
+    latched(M, 500, 7679),
+    general(M, 8000, 8511),
+    general(S, 0, 499),
+    latched(S, 500, 4095),
+    general(T, 0, 245),
+    latched(T, 246, 255),
+    general(T, 256, 511),
+    general(C, 0, 99),
+    latched(C, 100, 199),
+    general(C, 200, 219),
+    latched(C, 220, 255),
+    general(D, 0, 199),
+    latched(D, 200, 7999),
+    general(D, 8000, 8511),
+    latched(R, 0, 32767),
+    latched(ER, 0, 32767),
+    general(V, 0, 7),
+    general(Z, 0, 7),
+    general(P, 0, 4095),
+    general(I, 0, 1),
+    general(I, 10, 10),
+    general(I, 20, 20),
+    general(I, 30, 30),
+    general(I, 40, 40),
+    general(I, 50, 50),
+    general(I, 60, 60),
+    general(I, 100, 101),
+    general(I, 200, 201),
+    general(I, 300, 301),
+    general(I, 400, 401),
+    general(I, 500, 501),
+    general(I, 610, 699),
+    general(I, 710, 799),
+    general(I, 810, 899),
+    general(N, 0, 7),
+];
+
+/// Timers of FX2N.
+const FX2N_TIMERS: &[Timers] = &[
+    timers(0, 191, 100),
+    timers(192, 199, 100).free_running(),
+    timers(200, 245, 10),
+    timers(246, 249, 1).accumulating(),
+    timers(250, 255, 100).accumulating(),
+];
+
+/// Timers of FX3G.
+const FX3G_TIMERS: &[Timers] = &[
+    timers(0, 191, 100),
+    timers(192, 199, 100).free_running(),
+    timers(200, 245, 10),
+    timers(246, 249, 1).accumulating(),
+    timers(250, 255, 100).accumulating(),
+    timers(256, 319, 1),
+];
+
+/// Timers of FX3U.
+const FX3U_TIMERS: &[Timers] = &[
+    timers(0, 191, 100),
+    timers(192, 199, 100).free_running(),
+    timers(200, 245, 10),
+    timers(246, 249, 1).accumulating(),
+    timers(250, 255, 100).accumulating(),
+    timers(256, 511, 1),
+];
