@@ -1,0 +1,226 @@
+//! What can be wrong with a line, and how it is said.
+
+use chumsky::DefaultExpected;
+use chumsky::error::{Error, LabelError};
+use chumsky::span::SimpleSpan;
+use chumsky::util::MaybeRef;
+use rungc_syntax::diag::did_you_mean;
+use rungc_syntax::{DeviceClass, Diagnostic, Span};
+
+/// A finding of the grammar, at a range of the folded line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fault {
+    /// Where.
+    pub span: SimpleSpan,
+    /// What.
+    pub kind: Kind,
+}
+
+/// What is wrong.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// The text does not begin an instruction, or goes on in a way no instruction does.
+    Line,
+    /// A step number that no program can have.
+    Step,
+    /// Neither device, nor constant, nor text.
+    Operand,
+    /// A device number over 32 bits.
+    DeviceNumber,
+    /// An 8 or 9 in the number of an input or output.
+    Octal(DeviceClass),
+    /// A decimal constant over 32 bits.
+    Decimal,
+    /// A hexadecimal constant over 32 bits.
+    Hex,
+    /// A floating constant that single precision cannot hold.
+    Float,
+    /// A digit count outside 1 to 8.
+    DigitCount,
+    /// A digit group of a device that is not a bit device.
+    DigitClass(DeviceClass),
+    /// Not a bit number 0 to F.
+    BitNumber,
+    /// A string without its closing quote.
+    Unclosed,
+}
+
+impl Fault {
+    /// A fault at this range.
+    pub fn new(span: SimpleSpan, kind: Kind) -> Self {
+        Fault { span, kind }
+    }
+}
+
+impl<'s> Error<'s, &'s str> for Fault {}
+
+impl<'s> LabelError<'s, &'s str, DefaultExpected<'s, char>> for Fault {
+    fn expected_found<E: IntoIterator<Item = DefaultExpected<'s, char>>>(
+        _: E,
+        _: Option<MaybeRef<'s, char>>,
+        span: SimpleSpan,
+    ) -> Self {
+        Fault::new(span, Kind::Line)
+    }
+}
+
+impl Kind {
+    /// The diagnostic for this fault at `span`; `text` is what stands there, folded.
+    pub fn diagnostic(self, span: Span, text: &str) -> Diagnostic {
+        match self {
+            Kind::Line => line(span, text),
+            Kind::Step => {
+                Diagnostic::error("E0002", span, format!("step number `{text}` is too large"))
+                    .label("a program has at most 64000 steps")
+                    .help("step numbers are optional: leave it out")
+            }
+            Kind::Operand => operand(span, text),
+            Kind::DeviceNumber => Diagnostic::error(
+                "E0005",
+                span,
+                format!("the number of `{text}` is too large"),
+            )
+            .label("no model has a device with this number"),
+            Kind::Octal(class) => octal(class, span, text),
+            Kind::Decimal => Diagnostic::error(
+                "E0007",
+                span,
+                format!("constant `{text}` does not fit in 32 bits"),
+            )
+            .label("K is -2147483648 to 2147483647")
+            .help("16-bit instructions take K-32768 to K32767, 32-bit ones the whole range"),
+            Kind::Hex => Diagnostic::error(
+                "E0008",
+                span,
+                format!("constant `{text}` does not fit in 32 bits"),
+            )
+            .label("H is 0 to FFFFFFFF")
+            .help("16-bit instructions take H0 to HFFFF, 32-bit ones the whole range"),
+            Kind::Float => Diagnostic::error(
+                "E0009",
+                span,
+                format!("floating constant `{text}` is out of range"),
+            )
+            .label("the largest magnitude is about 3.4E+38"),
+            Kind::DigitCount => Diagnostic::error(
+                "E0010",
+                span,
+                format!("`{text}` does not group 1 to 8 digits of 4 bits"),
+            )
+            .label("the digit count is 1 to 8")
+            .help("16-bit instructions take K1 to K4, 32-bit ones K1 to K8"),
+            Kind::DigitClass(class) => Diagnostic::error(
+                "E0011",
+                span,
+                format!(
+                    "`{text}` groups {} devices, which cannot be grouped",
+                    class.prefix()
+                ),
+            )
+            .label("only X, Y, M and S can be grouped")
+            .help("to address a word by an index register write e.g. `D0Z0`"),
+            Kind::BitNumber => Diagnostic::error(
+                "E0012",
+                span,
+                format!("`{text}` does not name a bit of a word"),
+            )
+            .label("the bit number is one hexadecimal digit, 0 to F")
+            .help("bit 10 is `.A`, bit 15 is `.F`"),
+            Kind::Unclosed => Diagnostic::error("E0013", span, "this string is never closed")
+                .label("no closing `\"` on this line"),
+        }
+    }
+}
+
+fn line(span: Span, text: &str) -> Diagnostic {
+    let word = text.split_whitespace().next().unwrap_or(text);
+    let digits = word.len() - word.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let error = Diagnostic::error(
+        "E0001",
+        span,
+        format!("expected an instruction, found `{word}`"),
+    );
+    match word.split_at_checked(digits) {
+        Some((step, rest)) if digits > 0 && !rest.is_empty() => error
+            .label("a mnemonic begins with a letter")
+            .help(format!("if `{step}` is the step number, put a space behind it: `{step} {rest}`")),
+        _ => error
+            .label("not an instruction")
+            .help("an instruction is a mnemonic and its operands, e.g. `OUT T0 K30`; comments begin with `;` or `//`"),
+    }
+}
+
+fn octal(class: DeviceClass, span: Span, text: &str) -> Diagnostic {
+    let prefix = class.prefix();
+    let digits = text.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+    let error = Diagnostic::error(
+        "E0006",
+        span,
+        format!("`{text}` is not an octal number: {prefix} devices have no digits 8 and 9"),
+    )
+    .label("8 and 9 are not octal digits");
+    match digits.parse::<u32>() {
+        Ok(n) => error.help(format!(
+            "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010; the device at place {n} is `{}`",
+            class.number(n)
+        )),
+        Err(_) => error,
+    }
+}
+
+/// Says what an unreadable operand lacks, as closely as its text tells.
+fn operand(span: Span, text: &str) -> Diagnostic {
+    let upper = text.to_ascii_uppercase();
+    let letters = upper.len()
+        - upper
+            .trim_start_matches(|c: char| c.is_ascii_alphabetic())
+            .len();
+    let (prefix, rest) = upper.split_at(letters);
+    let known = DeviceClass::from_prefix(prefix).is_some();
+    if rest.is_empty() && (known || matches!(prefix, "K" | "H" | "E")) {
+        return Diagnostic::error("E0004", span, format!("`{text}` lacks its number"))
+            .label(if known {
+                "device without a number"
+            } else {
+                "constant without a value"
+            })
+            .help(format!("write e.g. `{prefix}10`"));
+    }
+    let error = Diagnostic::error("E0003", span, format!("`{text}` is no operand"));
+    if let Ok(number) = upper.parse::<i64>() {
+        return error.label("a number without its kind").help(format!(
+            "write `K{number}` for a decimal constant, `H{upper}` for a hexadecimal one"
+        ));
+    }
+    if let Some(meant) = mistyped_digit(&upper) {
+        return error
+            .label("a letter stands where a digit is expected")
+            .help(format!("did you mean `{meant}`?"));
+    }
+    match prefix {
+        "K" => error.label("not a decimal constant").help("write e.g. `K10`, `K-5`, or `K4M0` for a group of bits"),
+        "H" => error.label("not a hexadecimal constant").help("write e.g. `H1F`: digits 0 to 9 and A to F, no sign"),
+        "E" => error.label("not a floating constant").help("write e.g. `E1.5` or `E-1.5E+3`"),
+        "U" => error.label("not an address in buffer memory").help("write e.g. `U0\\G5`: module 0, address 5"),
+        _ if known => error
+            .label(format!("unexpected text behind the number of this {prefix} device"))
+            .help(format!("an operand is e.g. `{prefix}10`, with an index register `D0Z0`, or a bit of a word `D0.F`")),
+        _ => {
+            let classes = DeviceClass::ALL.map(DeviceClass::prefix);
+            let help = match did_you_mean(prefix, classes.into_iter().filter(|c| c.len() > 1)) {
+                Some(meant) if !rest.is_empty() => format!("did you mean `{meant}{rest}`?"),
+                _ => format!("devices are {}; constants begin with K, H or E; text stands in quotes", classes.join(", ")),
+            };
+            error.label("neither a device nor a constant").help(help)
+        }
+    }
+}
+
+/// What was meant by `XO01` or `Dl0`, where letters that look like digits stand behind a device letter.
+fn mistyped_digit(upper: &str) -> Option<String> {
+    let (head, tail) = upper.split_at_checked(1)?;
+    let digits = tail.replace('O', "0").replace(['I', 'L'], "1");
+    let real = DeviceClass::from_prefix(head).is_some() || head == "K";
+    (real && digits != tail && digits.bytes().all(|b| b.is_ascii_digit()))
+        .then(|| format!("{head}{digits}"))
+}

@@ -1,0 +1,505 @@
+//! The grammar of one line. It reads half-width text; places are byte offsets within the line.
+
+use super::fault::{Fault, Kind};
+use chumsky::container::Container;
+use chumsky::prelude::*;
+use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Span};
+use smol_str::{SmolStr, SmolStrBuilder};
+
+type Extra = extra::Err<Fault>;
+
+/// What stands on one line.
+#[derive(Debug)]
+pub(super) struct Line {
+    /// Step number in front.
+    pub step: Option<u32>,
+    /// Label, which may have an instruction behind it.
+    pub label: Option<(Device, Span)>,
+    /// The instruction.
+    pub instr: Option<Body>,
+    /// Where the comment's text begins, behind `;` or `//`.
+    pub comment: Option<u32>,
+}
+
+/// Mnemonic and operands.
+#[derive(Debug)]
+pub(super) struct Body {
+    /// In upper case, operator joined.
+    pub mnemonic: SmolStr,
+    /// Where it stands.
+    pub mnemonic_span: Span,
+    /// The operands, or nothing if one of them could not be read.
+    pub operands: Option<Vec<Operand>>,
+}
+
+/// Operands of one line. Most instructions have one, so the vector never holds more room than it needs.
+struct Operands(Option<Vec<Operand>>);
+
+impl Default for Operands {
+    fn default() -> Self {
+        Operands(Some(Vec::new()))
+    }
+}
+
+impl Container<Option<Operand>> for Operands {
+    fn push(&mut self, item: Option<Operand>) {
+        match (&mut self.0, item) {
+            (Some(operands), Some(operand)) => {
+                operands.reserve_exact(1);
+                operands.push(operand);
+            }
+            (all, None) => *all = None,
+            (None, Some(_)) => {}
+        }
+    }
+}
+
+fn span(span: SimpleSpan) -> Span {
+    Span::new(span.start as u32, span.end as u32)
+}
+
+fn is_space(c: &char) -> bool {
+    c.is_whitespace() || *c == ',' || *c == '\0'
+}
+
+fn space<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
+    any().filter(is_space).repeated()
+}
+
+/// Succeeds where a word may end, taking nothing.
+fn boundary<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
+    choice((
+        end(),
+        any().filter(|c| is_space(c) || *c == ';').ignored(),
+        just("//").ignored(),
+    ))
+    .rewind()
+}
+
+fn digits<'s>() -> impl Parser<'s, &'s str, &'s str, Extra> + Copy {
+    any()
+        .filter(char::is_ascii_digit)
+        .repeated()
+        .at_least(1)
+        .to_slice()
+}
+
+/// Anything up to the next boundary; a string is one word with all its spaces.
+fn word<'s>() -> impl Parser<'s, &'s str, &'s str, Extra> + Copy {
+    let quoted = just('"')
+        .then(any().filter(|c| *c != '"').repeated())
+        .ignored()
+        .then_ignore(just('"').or_not());
+    let plain = any().and_is(boundary().not()).ignored();
+    choice((quoted, plain)).repeated().at_least(1).to_slice()
+}
+
+fn letter<'s>(upper: char) -> impl Parser<'s, &'s str, char, Extra> + Copy {
+    any().filter(move |c: &char| c.to_ascii_uppercase() == upper)
+}
+
+fn class<'s>() -> impl Parser<'s, &'s str, DeviceClass, Extra> + Copy {
+    let single = select! {
+        'X' | 'x' => DeviceClass::X,
+        'M' | 'm' => DeviceClass::M,
+        'Y' | 'y' => DeviceClass::Y,
+        'S' | 's' => DeviceClass::S,
+        'T' | 't' => DeviceClass::T,
+        'C' | 'c' => DeviceClass::C,
+        'D' | 'd' => DeviceClass::D,
+        'R' | 'r' => DeviceClass::R,
+        'V' | 'v' => DeviceClass::V,
+        'Z' | 'z' => DeviceClass::Z,
+        'P' | 'p' => DeviceClass::P,
+        'I' | 'i' => DeviceClass::I,
+        'N' | 'n' => DeviceClass::N,
+    };
+    choice((single, letter('E').then(letter('R')).to(DeviceClass::ER)))
+}
+
+/// The number of a device of this class, as far as its digits can be read.
+fn number(class: DeviceClass, digits: &str) -> (u32, Option<Kind>) {
+    let radix = if class.is_octal() { 8 } else { 10 };
+    if class.is_octal() && digits.bytes().any(|b| b > b'7') {
+        return (digits.parse().unwrap_or(0), Some(Kind::Octal(class)));
+    }
+    match u32::from_str_radix(digits, radix) {
+        Ok(number) => (number, None),
+        Err(_) => (0, Some(Kind::DeviceNumber)),
+    }
+}
+
+fn device<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
+    let bare = any()
+        .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
+        .then_ignore(boundary());
+    let numbered = class()
+        .then(digits())
+        .validate(|(class, digits), e, emitter| {
+            let (number, fault) = number(class, digits);
+            if let Some(kind) = fault {
+                emitter.emit(Fault::new(e.span(), kind));
+            }
+            Device { class, number }
+        });
+    numbered.or(bare.map(|c| Device {
+        class: index_class(c),
+        number: 0,
+    }))
+}
+
+fn index_class(c: char) -> DeviceClass {
+    if c.eq_ignore_ascii_case(&'V') {
+        DeviceClass::V
+    } else {
+        DeviceClass::Z
+    }
+}
+
+fn index<'s>() -> impl Parser<'s, &'s str, Option<Index>, Extra> + Copy {
+    any()
+        .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
+        .then(digits().or_not())
+        .validate(|(c, digits), e, emitter| {
+            let class = index_class(c);
+            let (number, fault) = digits.map_or((0, None), |digits| number(class, digits));
+            if let Some(kind) = fault {
+                emitter.emit(Fault::new(e.span(), kind));
+            }
+            Index { class, number }
+        })
+        .or_not()
+}
+
+/// `X000`, `D0Z1`, `D0.F`, `D0.FZ1`.
+fn device_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
+    let bit = just('.').ignore_then(
+        any()
+            .filter(char::is_ascii_alphanumeric)
+            .then(digits().or_not())
+            .to_slice(),
+    );
+    device()
+        .then(bit.or_not())
+        .then(index())
+        .validate(|((device, bit), index), e, emitter| {
+            let Some(bit) = bit else {
+                return OperandKind::Device(device, index);
+            };
+            let bit = match u8::from_str_radix(bit, 16) {
+                Ok(bit @ 0..=15) => bit,
+                _ => {
+                    emitter.emit(Fault::new(e.span(), Kind::BitNumber));
+                    0
+                }
+            };
+            OperandKind::WordBit(device, bit, index)
+        })
+}
+
+/// `K10`, `K-5Z0`, `K4M0`, `K2X010Z1`.
+fn k_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
+    let amount = one_of("+-").or_not().then(digits()).to_slice();
+    let group = device().and_is(index().then(boundary()).not());
+    letter('K')
+        .ignore_then(amount)
+        .then(group.or_not())
+        .then(index())
+        .validate(|((amount, group), index), e, emitter| {
+            let mut fault = |kind| emitter.emit(Fault::new(e.span(), kind));
+            let Some(device) = group else {
+                let value = amount.parse::<i32>().unwrap_or_else(|_| {
+                    fault(Kind::Decimal);
+                    0
+                });
+                return OperandKind::Decimal(value.into(), index);
+            };
+            use DeviceClass::{M, S, X, Y};
+            if !matches!(device.class, X | Y | M | S) {
+                fault(Kind::DigitClass(device.class));
+            }
+            let digits = match amount.parse() {
+                Ok(digits @ 1..=8) => digits,
+                _ => {
+                    fault(Kind::DigitCount);
+                    4
+                }
+            };
+            OperandKind::Nibbles(digits, device, index)
+        })
+}
+
+/// `H1F`, `H1FZ0`.
+fn h_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
+    let hex = any()
+        .filter(char::is_ascii_hexdigit)
+        .repeated()
+        .at_least(1)
+        .to_slice();
+    letter('H')
+        .ignore_then(hex)
+        .then(index())
+        .validate(|(hex, index), e, emitter| {
+            let value = u32::from_str_radix(hex, 16).unwrap_or_else(|_| {
+                emitter.emit(Fault::new(e.span(), Kind::Hex));
+                0
+            });
+            OperandKind::Hex(value.into(), index)
+        })
+}
+
+/// `E1.5`, `E-1.5E+3`, and `E1.5+3` as the manuals of FX print it.
+fn e_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
+    let sign = one_of("+-");
+    let mantissa = sign.or_not().then(choice((
+        digits()
+            .then(just('.').then(digits().or_not()).or_not())
+            .ignored(),
+        just('.').then(digits()).ignored(),
+    )));
+    let exponent = choice((
+        letter('E').ignore_then(sign.or_not().then(digits()).to_slice()),
+        sign.then(digits()).to_slice(),
+    ));
+    letter('E')
+        .ignore_then(mantissa.to_slice())
+        .then(exponent.or_not())
+        .validate(|(mantissa, exponent): (&str, Option<&str>), e, emitter| {
+            let value = match exponent {
+                None => mantissa.parse::<f32>(),
+                Some(exponent) => format!("{mantissa}e{exponent}").parse(),
+            };
+            OperandKind::Float(value.ok().filter(|v| v.is_finite()).unwrap_or_else(|| {
+                emitter.emit(Fault::new(e.span(), Kind::Float));
+                0.0
+            }))
+        })
+}
+
+/// `"ABC"`; a quote inside is written twice.
+fn text_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
+    let inside = choice((
+        just("\"\"").ignored(),
+        any().filter(|c| *c != '"').ignored(),
+    ));
+    let closed = inside
+        .repeated()
+        .to_slice()
+        .delimited_by(just('"'), just('"'));
+    closed.map(|text: &str| {
+        let text = if text.contains('"') {
+            text.replace("\"\"", "\"").into()
+        } else {
+            SmolStr::new(text)
+        };
+        OperandKind::Text(text)
+    })
+}
+
+/// `U0\G5`.
+fn buffer_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
+    let part = |c| letter(c).ignore_then(digits());
+    part('U')
+        .then_ignore(just('\\'))
+        .then(part('G'))
+        .then(index())
+        .validate(|((module, address), index), e, emitter| {
+            let mut number = |digits: &str| {
+                digits.parse().unwrap_or_else(|_| {
+                    emitter.emit(Fault::new(e.span(), Kind::DeviceNumber));
+                    0
+                })
+            };
+            OperandKind::Buffer {
+                module: number(module),
+                address: number(address),
+                index,
+            }
+        })
+}
+
+fn placed<'s>(
+    kind: impl Parser<'s, &'s str, OperandKind, Extra> + Copy,
+) -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
+    kind.map_with(|kind, e| {
+        Some(Operand {
+            span: span(e.span()),
+            kind,
+        })
+    })
+    .then_ignore(boundary())
+}
+
+/// One operand. What cannot be read is reported and skipped, so that the next operand is read.
+fn operand<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
+    let readable = choice((
+        device_operand(),
+        k_operand(),
+        h_operand(),
+        e_operand(),
+        text_operand(),
+        buffer_operand(),
+    ));
+    let unreadable = word().validate(|word: &str, e, emitter| {
+        let open = word.starts_with('"') && word.matches('"').count() % 2 == 1;
+        let kind = if open { Kind::Unclosed } else { Kind::Operand };
+        emitter.emit(Fault::new(e.span(), kind));
+        None
+    });
+    choice((placed(readable), unreadable))
+}
+
+fn operands<'s>() -> impl Parser<'s, &'s str, Operands, Extra> + Copy {
+    space().ignore_then(operand()).repeated().collect()
+}
+
+/// The mnemonic's spelling: upper case, without the space or the second `D` of `LD D>=`, operators in the usual order.
+fn spelling(name: &str, wide: bool, operator: &str, pulse: &str) -> SmolStr {
+    let operator = match operator {
+        "=>" => ">=",
+        "=<" => "<=",
+        "><" => "<>",
+        other => other,
+    };
+    let mut all = SmolStrBuilder::new();
+    for part in [name, if wide { "D" } else { "" }, operator, pulse] {
+        for c in part.chars() {
+            all.push(c.to_ascii_uppercase());
+        }
+    }
+    all.finish()
+}
+
+fn mnemonic<'s>() -> impl Parser<'s, &'s str, (SmolStr, Span), Extra> + Copy {
+    let head = any().filter(|c: &char| c.is_ascii_alphabetic() || matches!(c, '$' | '_'));
+    let rest = any()
+        .filter(|c: &char| c.is_ascii_alphanumeric() || *c == '_')
+        .repeated();
+    let name = head.then(rest).to_slice();
+    let compare = any()
+        .filter(|c| matches!(c, '<' | '=' | '>'))
+        .repeated()
+        .at_least(1)
+        .at_most(2)
+        .to_slice();
+    let pulse = letter('P').then_ignore(boundary()).to_slice();
+    let compared = space()
+        .ignore_then(letter('D').or_not())
+        .then(compare)
+        .then(pulse.or_not())
+        .map(|((wide, operator), pulse)| (wide.is_some(), operator, pulse.unwrap_or("")));
+    let added = one_of("+-")
+        .to_slice()
+        .then(pulse.or_not())
+        .then_ignore(boundary())
+        .map(|(operator, pulse)| (false, operator, pulse.unwrap_or("")));
+    let plain = boundary().to((false, "", ""));
+    name.then(choice((added, compared, plain)))
+        .map_with(|(name, (wide, operator, pulse)), e| {
+            (spelling(name, wide, operator, pulse), span(e.span()))
+        })
+}
+
+/// `ASC ABCDEFGH D300`: the characters stand bare, whatever they look like.
+fn asc<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
+    let name = letter('A')
+        .then(letter('S'))
+        .then(letter('C'))
+        .to_span()
+        .then_ignore(boundary());
+    let bare = any()
+        .and_is(boundary().not())
+        .filter(|c| *c != '"')
+        .repeated()
+        .at_least(1)
+        .to_slice();
+    let text = choice((
+        text_operand(),
+        bare.map(|text: &str| OperandKind::Text(text.into())),
+    ));
+    name.then_ignore(space())
+        .then(placed(text))
+        .then(operands())
+        .map(|((name, text), Operands(mut rest))| {
+            if let (Some(rest), Some(text)) = (&mut rest, text) {
+                rest.insert(0, text);
+            }
+            Body {
+                mnemonic: SmolStr::new_static("ASC"),
+                mnemonic_span: span(name),
+                operands: rest,
+            }
+        })
+}
+
+fn body<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
+    let usual =
+        mnemonic()
+            .then(operands())
+            .map(|((mnemonic, mnemonic_span), Operands(operands))| Body {
+                mnemonic,
+                mnemonic_span,
+                operands,
+            });
+    choice((asc(), usual))
+}
+
+fn step<'s>() -> impl Parser<'s, &'s str, Option<u32>, Extra> + Copy {
+    let behind = choice((boundary(), one_of(":.)").ignored()));
+    digits()
+        .validate(|digits: &str, e, emitter| {
+            let step = digits.parse().ok();
+            if step.is_none() {
+                emitter.emit(Fault::new(e.span(), Kind::Step));
+            }
+            step
+        })
+        .then_ignore(behind)
+        .or_not()
+        .map(Option::flatten)
+}
+
+/// `P0`, `P0:`, `I001`.
+fn label<'s>() -> impl Parser<'s, &'s str, (Device, Span), Extra> + Copy {
+    let pointer = device().filter(|d| matches!(d.class, DeviceClass::P | DeviceClass::I));
+    pointer
+        .map_with(|device, e| (device, span(e.span())))
+        .then_ignore(choice((space().then(just(':')).ignored(), boundary())))
+}
+
+/// A whole line. A line that is no instruction is reported and skipped up to its comment.
+pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line, Extra> + Copy {
+    let comment_start = choice((just(';').ignored(), just("//").ignored()));
+    let comment = comment_start
+        .to_span()
+        .then_ignore(any().repeated())
+        .map(|s: SimpleSpan| s.end as u32);
+    let nonsense = any()
+        .and_is(comment_start.not())
+        .repeated()
+        .at_least(1)
+        .to_slice()
+        .validate(|text: &str, e, emitter| {
+            let whole: SimpleSpan = e.span();
+            let end = whole.start + text.trim_end().len();
+            emitter.emit(Fault::new((whole.start..end).into(), Kind::Line));
+            None
+        });
+    let content = choice((body().map(Some), nonsense))
+        .or_not()
+        .map(Option::flatten);
+    space()
+        .ignore_then(step())
+        .then_ignore(space())
+        .then(label().or_not())
+        .then_ignore(space())
+        .then(content)
+        .then_ignore(space())
+        .then(comment.or_not())
+        .map(|(((step, label), instr), comment)| Line {
+            step,
+            label,
+            instr,
+            comment,
+        })
+}
