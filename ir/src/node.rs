@@ -28,12 +28,12 @@ pub enum Ty {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct ExprId(pub u32);
 
-/// Handle of a temporary; its type is in [`Module::temps`]. Assigned by [`Stmt::Let`] (or [`Stmt::Edge`], …) before any use on
-/// every path, in the same [`Function`].
+/// Handle of a temporary; its type is in [`Module::temps`]. Assigned by [`Stmt::Let`] or [`Stmt::Edge`] before any use on every
+/// path, in the same [`Function`], which may be in a body around or before the use; some are assigned in several places.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct TempId(pub u32);
 
-/// Handle of an edge memory: one bit, off at power-on and when RUN begins.
+/// Handle of an edge memory: one bit, off at power-on and when RUN begins. Several statements may share one: each stores its input.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct EdgeId(pub u32);
 
@@ -44,7 +44,9 @@ pub struct Place {
     pub class: DeviceClass,
     /// Number without the index.
     pub number: u32,
-    /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold.
+    /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold. Where such an
+    /// access meets a device that the model has but the layout does not store, it reads 0 and a write goes nowhere. An indexed
+    /// access of a word of C200 and up reads the low word, and writes the sign-extended word.
     pub index: Option<ExprId>,
 }
 
@@ -57,6 +59,8 @@ pub enum BinOp {
     Sub,
     /// Product.
     Mul,
+    /// `I32` only: the high 32 bits of the signed 64-bit product.
+    MulHigh,
     /// Quotient, truncated towards zero; MIN / -1 wraps. The divisor must be known not to be 0.
     Div,
     /// Remainder with the sign of the dividend. The divisor must be known not to be 0.
@@ -365,9 +369,9 @@ pub struct Network {
 pub enum FunctionKind {
     /// The main program.
     Main,
-    /// Before each scan's main program: special relays and registers.
+    /// Before each scan's main program: special relays and registers. Runs in STOP too, where nothing else does.
     Begin,
-    /// After it: END processing.
+    /// After it, before the output refresh: END processing.
     End,
     /// A subroutine, by its pointer number.
     Subroutine(u32),
