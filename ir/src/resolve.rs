@@ -1,8 +1,16 @@
-//! Gives every instruction of a program its catalogue row, form and step number.
+//! Gives every instruction of a program its catalogue row, form and step number, and holds its operands to the row.
+//!
+//! What an instruction is on its own is decided here; how instructions stand to each other is the business of
+//! [`check`](crate::check).
+
+mod mnemonic;
+mod operands;
+mod rules;
+mod steps;
 
 use crate::catalogue::Inst;
-use crate::model::Model;
-use rungc_syntax::{Device, Program};
+use crate::model::{Model, ModelId, ModelSet};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, Program};
 
 /// Which form of an instruction is written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -20,7 +28,7 @@ pub struct Resolution {
     pub inst: Option<&'static Inst>,
     /// Its form.
     pub form: Form,
-    /// Step number of its first word.
+    /// Step number of its first word, as the source counts where it does.
     pub step: u32,
     /// The pointer, if it is a label.
     pub label: Option<Device>,
@@ -37,4 +45,71 @@ pub struct Resolved<'p> {
     pub instrs: Vec<Resolution>,
     /// Length in steps.
     pub steps: u32,
+}
+
+/// Finds the row of each instruction of `program`, checks its form and operands, and counts steps.
+pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>, Diagnostics) {
+    let mut diagnostics = Diagnostics::new();
+    let mut finder = mnemonic::Finder::new(model);
+    let operands = operands::Checker::new(model);
+    let mut steps = steps::Counter::default();
+    let mut kinds: Vec<OperandKind> = Vec::new();
+    let mut instrs = Vec::with_capacity(program.instrs.len());
+    for instr in &program.instrs {
+        let label = label(instr);
+        let found = finder.find(instr, &mut diagnostics);
+        kinds.clear();
+        kinds.extend(instr.operands.iter().map(|operand| operand.kind.clone()));
+        let length = found.map(|found| found.inst.steps_of(found.form, &kinds, model));
+        if let Some(found) = found {
+            match label {
+                Some(label) => operands.label(instr, label, &mut diagnostics),
+                None => operands.instr(instr, found, &kinds, &mut diagnostics),
+            }
+        }
+        instrs.push(Resolution {
+            inst: found.map(|found| found.inst),
+            form: found.map(|found| found.form).unwrap_or_default(),
+            step: steps.next(instr, length),
+            label,
+        });
+    }
+    let length = steps.finish(program, model, &mut diagnostics);
+    let resolved = Resolved {
+        program,
+        model,
+        instrs,
+        steps: length,
+    };
+    (resolved, numbered(diagnostics, model))
+}
+
+/// The pointer that an instruction defines, if it is a label.
+fn label(instr: &Instr) -> Option<Device> {
+    let (class, digits) = match instr.mnemonic.split_at_checked(1)? {
+        ("P", digits) => (DeviceClass::P, digits),
+        ("I", digits) => (DeviceClass::I, digits),
+        _ => return None,
+    };
+    let plain = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let number = digits.parse().ok().filter(|_| plain)?;
+    Some(Device { class, number })
+}
+
+/// Takes the PLC's error numbers away where the model's manual does not have them.
+pub(crate) fn numbered(diagnostics: Diagnostics, model: &Model) -> Diagnostics {
+    /// Models whose manuals number the errors of a program.
+    const NUMBERED: ModelSet = ModelSet::ALL.except(&[ModelId::L01s, ModelId::Hm]);
+    /// Models that reserve the numbers of contact logic (h1u-h2u-programming §8.7).
+    const LOGIC_RESERVED: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+    let known = |code: u16| {
+        let logic = matches!(code, 6601..=6604 | 6609..=6617);
+        NUMBERED.has(model.id) && !(logic && LOGIC_RESERVED.has(model.id))
+    };
+    let mut kept = Diagnostics::new();
+    kept.extend(diagnostics.iter().cloned().map(|diagnostic| Diagnostic {
+        plc_error: diagnostic.plc_error.filter(|&code| known(code)),
+        ..diagnostic
+    }));
+    kept
 }

@@ -1,0 +1,165 @@
+//! From mnemonics to rows and forms.
+
+use super::Form;
+use crate::catalogue::{self, Forms, Found, Inst, Spelling};
+use crate::model::{Model, ModelId, ModelSet};
+use rungc_syntax::{Diagnostic, Diagnostics, Instr, codes, diag};
+use std::sync::OnceLock;
+
+/// Models that write instructions with only a 32-bit form without the D too (HM prints `EADD`, not `DEADD`).
+const BARE_NAMES: ModelSet = ModelSet::of(&[ModelId::Hm]);
+/// How many unknown mnemonics get a suggestion; searching one costs as much as resolving hundreds of good instructions.
+const MAX_SUGGESTIONS: u32 = 200;
+
+/// Finds rows and reports instructions that have none.
+pub(super) struct Finder {
+    model: &'static Model,
+    suggestions: u32,
+}
+
+impl Finder {
+    pub(super) fn new(model: &'static Model) -> Self {
+        let suggestions = MAX_SUGGESTIONS;
+        Finder { model, suggestions }
+    }
+
+    /// The row and form of an instruction, if the model has both.
+    pub(super) fn find(&mut self, instr: &Instr, out: &mut Diagnostics) -> Option<Found> {
+        let mnemonic = instr.mnemonic.as_str();
+        let Some(found) = catalogue::find(mnemonic) else {
+            out.push(self.unknown(instr));
+            return None;
+        };
+        if !found.inst.models.has(self.model.id) {
+            out.push(self.not_on_model(instr, found.inst));
+            return None;
+        }
+        if !self.has_form(found.inst, found.form) || self.is_bare(mnemonic, found) {
+            out.push(self.no_such_form(instr, found.inst, found.form));
+            return None;
+        }
+        Some(found)
+    }
+
+    fn has_form(&self, inst: &Inst, form: Form) -> bool {
+        let forms = inst.forms_on(self.model.id);
+        let width = if form.wide { Forms::W32 } else { Forms::W16 };
+        forms.has(width) && (!form.pulse || forms.has(Forms::PULSE))
+    }
+
+    /// Whether the D of a 32-bit instruction is missing.
+    fn is_bare(&self, mnemonic: &str, found: Found) -> bool {
+        found.form.wide
+            && matches!(found.inst.spelling, Spelling::Prefix)
+            && !mnemonic.starts_with('D')
+            && !BARE_NAMES.has(self.model.id)
+    }
+
+    fn unknown(&mut self, instr: &Instr) -> Diagnostic {
+        let mnemonic = instr.mnemonic.as_str();
+        if let Some((inst, form)) = without_affixes(mnemonic) {
+            return if inst.models.has(self.model.id) {
+                self.no_such_form(instr, inst, form)
+            } else {
+                self.not_on_model(instr, inst)
+            };
+        }
+        let message = format!("unknown instruction `{mnemonic}`");
+        let diagnostic = codes::UNKNOWN_INSTRUCTION
+            .at(instr.mnemonic_span, message)
+            .label("no model has this instruction");
+        match self.similar(mnemonic) {
+            Some(similar) => diagnostic.help(format!("did you mean `{similar}`?")),
+            None => diagnostic,
+        }
+    }
+
+    /// A spelling that the model has and that is close to a misspelt one.
+    fn similar(&mut self, mnemonic: &str) -> Option<&'static str> {
+        static SPELLINGS: OnceLock<Vec<(String, ModelSet)>> = OnceLock::new();
+        /// No mnemonic is longer than this by more than a typing error.
+        const LONGEST: usize = 14;
+        self.suggestions = self.suggestions.checked_sub(1)?;
+        let spellings = SPELLINGS.get_or_init(|| {
+            catalogue::all()
+                .flat_map(|inst| {
+                    inst.spellings()
+                        .into_iter()
+                        .map(|(name, _)| (name, inst.models))
+                })
+                .collect()
+        });
+        let on_model = spellings
+            .iter()
+            .filter(|(_, models)| models.has(self.model.id))
+            .map(|(name, _)| name.as_str());
+        if mnemonic.len() > LONGEST {
+            return None;
+        }
+        diag::did_you_mean(mnemonic, on_model)
+    }
+
+    fn not_on_model(&self, instr: &Instr, inst: &Inst) -> Diagnostic {
+        let having: Vec<_> = ModelId::ALL
+            .into_iter()
+            .filter(|&id| inst.models.has(id))
+            .map(|id| Model::get(id).name)
+            .collect();
+        let message = format!("{} does not have `{}`", self.model.name, instr.mnemonic);
+        codes::NOT_ON_MODEL
+            .at(instr.mnemonic_span, message)
+            .label(inst.title)
+            .help(match having.as_slice() {
+                [] => "no model that is supported has it".to_owned(),
+                names => format!("these models have it: {}", names.join(", ")),
+            })
+    }
+
+    fn no_such_form(&self, instr: &Instr, inst: &'static Inst, form: Form) -> Diagnostic {
+        let forms: Vec<_> = inst
+            .spellings()
+            .into_iter()
+            .filter(|&(ref name, form)| {
+                self.has_form(inst, form) && !self.is_bare(name, Found { inst, form })
+            })
+            .map(|(name, _)| format!("`{name}`"))
+            .collect();
+        let missing = match form {
+            Form { pulse: true, .. } if !inst.forms_on(self.model.id).has(Forms::PULSE) => "pulse",
+            Form { wide: true, .. } if inst.forms_on(self.model.id).has(Forms::W32) => "16-bit",
+            Form { wide: true, .. } => "32-bit",
+            Form { wide: false, .. } => "16-bit",
+        };
+        let message = format!(
+            "`{}` does not exist: `{}` has no {missing} form",
+            instr.mnemonic, inst.name
+        );
+        codes::NO_SUCH_FORM
+            .at(instr.mnemonic_span, message)
+            .label(format!("no {missing} form"))
+            .help(format!("write {}", forms.join(" or ")))
+    }
+}
+
+/// The row that a mnemonic would name if its prefix D or suffix P were taken away, with the form that these mean.
+fn without_affixes(mnemonic: &str) -> Option<(&'static Inst, Form)> {
+    let shorter = [
+        (mnemonic.strip_prefix('D'), true, false),
+        (mnemonic.strip_suffix('P'), false, true),
+        (
+            mnemonic
+                .strip_prefix('D')
+                .and_then(|rest| rest.strip_suffix('P')),
+            true,
+            true,
+        ),
+    ];
+    shorter.into_iter().find_map(|(rest, wide, pulse)| {
+        let found = catalogue::find(rest?)?;
+        let form = Form {
+            wide: wide || found.form.wide,
+            pulse: pulse || found.form.pulse,
+        };
+        Some((found.inst, form))
+    })
+}

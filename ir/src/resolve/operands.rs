@@ -1,0 +1,564 @@
+//! Holds the operands of an instruction to its catalogue row and to the model's devices.
+
+use super::rules::Rules;
+use crate::catalogue::{Classes, Extent, Found, Param, Shape};
+use crate::model::Model;
+use rungc_syntax::{
+    Device, DeviceClass, Diagnostic, Diagnostics, Index, Instr, Operand, OperandKind, Span, codes,
+};
+
+/// Checks operands for one model.
+pub(super) struct Checker {
+    model: &'static Model,
+    /// The model's devices by class, ranges that an access may span joined.
+    runs: Vec<Vec<(u32, u32)>>,
+    rules: Rules,
+}
+
+/// An instruction whose operands are looked at.
+struct Place<'a> {
+    instr: &'a Instr,
+    found: Found,
+    kinds: &'a [OperandKind],
+}
+
+impl Checker {
+    pub(super) fn new(model: &'static Model) -> Self {
+        let runs = DeviceClass::ALL
+            .into_iter()
+            .map(|class| joined(model, class))
+            .collect();
+        let rules = Rules::new(model);
+        Checker { model, runs, rules }
+    }
+
+    /// Checks the number of a label.
+    pub(super) fn label(&self, instr: &Instr, label: Device, out: &mut Diagnostics) {
+        if !self.has(label.class, label.number) {
+            let plc_error = match label.class {
+                DeviceClass::I => 6508,
+                _ => 6507,
+            };
+            out.push(self.no_device(instr.span, label).plc_error(plc_error));
+        }
+        if let Some(operand) = instr.operands.first() {
+            out.push(too_many(instr, operand.span, &instr.mnemonic, &[]));
+        }
+    }
+
+    /// Checks all operands of an instruction; `kinds` are its operands without their places.
+    pub(super) fn instr(
+        &self,
+        instr: &Instr,
+        found: Found,
+        kinds: &[OperandKind],
+        out: &mut Diagnostics,
+    ) {
+        let place = Place {
+            instr,
+            found,
+            kinds,
+        };
+        let params = found.inst.params_of(kinds, self.model);
+        let needed = params.iter().filter(|param| !param.optional).count();
+        if kinds.len() < needed {
+            out.push(too_few(instr, params));
+        }
+        if let Some(extra) = instr.operands.get(params.len()) {
+            let name = &instr.mnemonic;
+            out.push(too_many(instr, extra.span, name, params));
+        }
+        let mut good = true;
+        for (operand, param) in instr.operands.iter().zip(params) {
+            if let Some(diagnostic) = self.operand(&place, operand, param) {
+                out.push(diagnostic);
+                good = false;
+            }
+        }
+        if good && kinds.len() >= needed {
+            out.extend(self.rules.broken(found, instr));
+        }
+    }
+
+    /// What is wrong with one operand, if anything.
+    fn operand(&self, place: &Place, operand: &Operand, param: &Param) -> Option<Diagnostic> {
+        let span = operand.span;
+        let kind = &operand.kind;
+        if !param.classes.meets(Classes::of(kind)) {
+            return Some(wrong_class(place.instr, operand, param));
+        }
+        if let Some(index) = index_of(kind)
+            && let Some(diagnostic) = self.index(place, span, index, param)
+        {
+            return Some(diagnostic);
+        }
+        match kind {
+            OperandKind::Device(device, index) => self
+                .existing(span, *device)
+                .or_else(|| self.counter(place, span, *device, param))
+                .or_else(|| numbers(span, *device, param))
+                .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
+            OperandKind::WordBit(device, ..) => self.existing(span, *device),
+            OperandKind::Nibbles(digits, device, index) => digits_fit(place, span, *digits, param)
+                .or_else(|| self.existing(span, *device))
+                .or_else(|| numbers(span, *device, param))
+                .or_else(|| {
+                    let bits = 4 * u32::from(*digits);
+                    self.reach(place, span, *device, bits, index.is_some(), param)
+                }),
+            OperandKind::Decimal(value, index) => {
+                constant(place, operand, *value, index.is_some(), param)
+            }
+            OperandKind::Hex(value, index) => {
+                hex_constant(place, operand, *value, index.is_some(), param)
+            }
+            OperandKind::Float(_) | OperandKind::Text(_) | OperandKind::Buffer { .. } => None,
+        }
+    }
+
+    /// What is wrong with an index register, if anything.
+    fn index(&self, place: &Place, span: Span, index: Index, param: &Param) -> Option<Diagnostic> {
+        let register = Device {
+            class: index.class,
+            number: index.number,
+        };
+        if !param.indexable {
+            let message = format!(
+                "operand {} of `{}` cannot take an index register on {}",
+                param.name, place.instr.mnemonic, self.model.name
+            );
+            return Some(
+                codes::NOT_INDEXABLE
+                    .at(span, message)
+                    .label(format!("`{index}` is not allowed here"))
+                    .help("name the device directly, or copy the indexed one first: `MOV`, `BMOV`"),
+            );
+        }
+        let pair = place.found.form.wide && self.model.z_pairs_with_v;
+        if pair && index.class == DeviceClass::V {
+            let message = format!(
+                "`{index}` cannot be the index in the 32-bit instruction `{}`",
+                place.instr.mnemonic
+            );
+            return Some(
+                codes::INDEX_WIDTH
+                    .at(span, message)
+                    .label("here the index is a pair, named by its Z")
+                    .help(format!("use `Z{}` and clear `{index}`", index.number)),
+            );
+        }
+        self.existing(span, register)
+    }
+
+    fn has(&self, class: DeviceClass, number: u32) -> bool {
+        self.end_of_run(class, number).is_some()
+    }
+
+    /// The last device of the run that holds this one.
+    fn end_of_run(&self, class: DeviceClass, number: u32) -> Option<u32> {
+        self.runs[class as usize]
+            .iter()
+            .find(|&&(first, last)| (first..=last).contains(&number))
+            .map(|&(_, last)| last)
+    }
+
+    fn existing(&self, span: Span, device: Device) -> Option<Diagnostic> {
+        (!self.has(device.class, device.number)).then(|| self.no_device(span, device))
+    }
+
+    fn no_device(&self, span: Span, device: Device) -> Diagnostic {
+        /// More ranges than this (interrupt pointers) say nothing to a reader.
+        const MAX_RANGES: usize = 6;
+        let class = device.class;
+        let runs = &self.runs[class as usize];
+        let ranges: Vec<_> = runs
+            .iter()
+            .map(|&(first, last)| match first == last {
+                true => class.number(first).to_string(),
+                false => format!("{}–{}", class.number(first), class.number(last)),
+            })
+            .collect();
+        let ranges = match ranges.len() {
+            0 => format!("it has no {}", class.prefix()),
+            1..=MAX_RANGES => ranges.join(", "),
+            n => format!(
+                "{}, … {}",
+                ranges[..MAX_RANGES - 1].join(", "),
+                ranges[n - 1]
+            ),
+        };
+        let message = format!(
+            "`{device}` does not exist on {} ({ranges})",
+            self.model.name
+        );
+        codes::NO_DEVICE
+            .at(span, message)
+            .label(format!("not on {}", self.model.title))
+    }
+
+    /// A 32-bit counter as a 16-bit value.
+    fn counter(
+        &self,
+        place: &Place,
+        span: Span,
+        device: Device,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        if device.class != DeviceClass::C || device.number < FIRST_WIDE_COUNTER {
+            return None;
+        }
+        let narrow = match param.shape {
+            Shape::Value => !place.found.form.wide,
+            Shape::Word => true,
+            Shape::Bit
+            | Shape::Pair
+            | Shape::Float
+            | Shape::Text
+            | Shape::Pointer
+            | Shape::Mixed => false,
+        };
+        narrow.then(|| {
+            let mnemonic = &place.instr.mnemonic;
+            let message = format!("`{device}` is a 32-bit counter, `{mnemonic}` takes 16 bits");
+            let diagnostic = codes::COUNTER_WIDTH
+                .at(span, message)
+                .label("C200 to C255 hold 32 bits");
+            let wide = super::Form {
+                wide: true,
+                ..place.found.form
+            };
+            match place.found.inst.spelling_of(wide) {
+                Some(name) => diagnostic.help(format!("use the 32-bit form `{name}`")),
+                None => diagnostic,
+            }
+        })
+    }
+
+    /// An operand that reaches past the end of its range; `each` is how many devices one value of it takes.
+    fn reach(
+        &self,
+        place: &Place,
+        span: Span,
+        device: Device,
+        each: u32,
+        indexed: bool,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        if indexed || matches!(param.shape, Shape::Pointer) {
+            return None;
+        }
+        let class = device.class;
+        let values = extent(place.kinds, param);
+        let each = match class {
+            _ if each > 1 => each,
+            DeviceClass::V | DeviceClass::Z if self.model.z_pairs_with_v => 1,
+            DeviceClass::C if device.number >= FIRST_WIDE_COUNTER => 1,
+            _ => words(place.found, param),
+        };
+        let count = values.saturating_mul(each);
+        let end = self.end_of_run(class, device.number)?;
+        let last = device.number.saturating_add(count.max(1) - 1);
+        (last > end).then(|| {
+            let message = format!(
+                "operand {} of `{}` takes {count} devices from `{device}` on, but the last is `{}`",
+                param.name,
+                place.instr.mnemonic,
+                class.number(end)
+            );
+            let highest = (end + 1)
+                .checked_sub(count)
+                .and_then(|first| (self.end_of_run(class, first) == Some(end)).then_some(first));
+            let diagnostic = codes::PAST_THE_END
+                .at(span, message)
+                .label(format!("up to `{}`", class.number(last)));
+            match highest {
+                Some(first) => {
+                    diagnostic.help(format!("begin at `{}` at the latest", class.number(first)))
+                }
+                None => diagnostic,
+            }
+        })
+    }
+}
+
+/// From this number on counters hold 32 bits.
+const FIRST_WIDE_COUNTER: u32 = 200;
+
+/// The ranges of a class, adjoining ones joined unless they are of a different nature: special devices from 8000, 32-bit counters.
+fn joined(model: &Model, class: DeviceClass) -> Vec<(u32, u32)> {
+    let border = match class {
+        DeviceClass::M | DeviceClass::D => 8000,
+        DeviceClass::C => FIRST_WIDE_COUNTER,
+        _ => 0,
+    };
+    let mut runs: Vec<(u32, u32)> = Vec::new();
+    for range in model.ranges_of(class) {
+        match runs.last_mut() {
+            Some(run) if run.1 + 1 == range.first && range.first != border => run.1 = range.last,
+            _ => runs.push((range.first, range.last)),
+        }
+    }
+    runs
+}
+
+fn index_of(kind: &OperandKind) -> Option<Index> {
+    match *kind {
+        OperandKind::Device(_, index)
+        | OperandKind::WordBit(_, _, index)
+        | OperandKind::Nibbles(_, _, index)
+        | OperandKind::Decimal(_, index)
+        | OperandKind::Hex(_, index)
+        | OperandKind::Buffer { index, .. } => index,
+        OperandKind::Float(_) | OperandKind::Text(_) => None,
+    }
+}
+
+/// How many words one value of an operand takes.
+fn words(found: Found, param: &Param) -> u32 {
+    match param.shape {
+        Shape::Value if found.form.wide => 2,
+        Shape::Pair | Shape::Float => 2,
+        Shape::Value | Shape::Word | Shape::Bit | Shape::Text | Shape::Pointer | Shape::Mixed => 1,
+    }
+}
+
+/// How many values an operand takes; what is not known counts as one.
+fn extent(kinds: &[OperandKind], param: &Param) -> u32 {
+    match param.extent {
+        Extent::One | Extent::Through(_) => 1,
+        Extent::Count(count) => count,
+        Extent::Operand { i, extra } => kinds
+            .get(i)
+            .and_then(constant_value)
+            .and_then(|count| u32::try_from(count + i64::from(extra)).ok())
+            .unwrap_or(1),
+        Extent::Of(count) => {
+            let constants: Vec<_> = kinds.iter().map(constant_value).collect();
+            count(&constants).unwrap_or(1)
+        }
+    }
+}
+
+/// The value of a constant without an index.
+pub(super) fn constant_value(kind: &OperandKind) -> Option<i64> {
+    match *kind {
+        OperandKind::Decimal(value, None) => Some(value),
+        OperandKind::Hex(value, None) => i64::try_from(value).ok(),
+        _ => None,
+    }
+}
+
+fn too_few(instr: &Instr, params: &[Param]) -> Diagnostic {
+    let found = instr.operands.len();
+    let message = format!(
+        "`{}` needs {}, found {found}",
+        instr.mnemonic,
+        counted(params.iter().filter(|param| !param.optional).count())
+    );
+    let missing: Vec<_> = params.iter().skip(found).map(|param| param.name).collect();
+    let (noun, verb) = match missing.len() {
+        1 => ("operand", "is"),
+        _ => ("operands", "are"),
+    };
+    let end = Span::new(instr.span.end, instr.span.end);
+    codes::TOO_FEW_OPERANDS
+        .at(if found == 0 { instr.span } else { end }, message)
+        .label(format!("{noun} {} {verb} missing", missing.join(", ")))
+        .help(signature(&instr.mnemonic, params))
+}
+
+fn too_many(instr: &Instr, first: Span, name: &str, params: &[Param]) -> Diagnostic {
+    let message = match params.len() {
+        0 => format!("`{name}` takes no operand"),
+        n => format!(
+            "`{name}` takes {}, found {}",
+            counted(n),
+            instr.operands.len()
+        ),
+    };
+    codes::TOO_MANY_OPERANDS
+        .at(first, message)
+        .label("too many from here on")
+        .help(signature(name, params))
+}
+
+fn counted(operands: usize) -> String {
+    match operands {
+        1 => "1 operand".to_owned(),
+        n => format!("{n} operands"),
+    }
+}
+
+fn signature(name: &str, params: &[Param]) -> String {
+    let mut text = format!("write `{name}");
+    for param in params {
+        let (open, close) = if param.optional { ("[", "]") } else { ("", "") };
+        text.push_str(&format!(" {open}{}{close}", param.name));
+    }
+    text.push('`');
+    text
+}
+
+fn wrong_class(instr: &Instr, operand: &Operand, param: &Param) -> Diagnostic {
+    let message = format!(
+        "`{}` cannot be operand {} of `{}`",
+        operand.kind, param.name, instr.mnemonic
+    );
+    codes::OPERAND_CLASS
+        .at(operand.span, message)
+        .label("not accepted here")
+        .help(format!("accepted: {}", class_names(param.classes)))
+}
+
+/// The classes of a set as a manual lists them.
+fn class_names(classes: Classes) -> String {
+    const NAMES: [(Classes, &str); 24] = [
+        (Classes::K, "K"),
+        (Classes::H, "H"),
+        (Classes::E, "E"),
+        (Classes::TEXT, "text"),
+        (Classes::KNX, "KnX"),
+        (Classes::KNY, "KnY"),
+        (Classes::KNM, "KnM"),
+        (Classes::KNS, "KnS"),
+        (Classes::X, "X"),
+        (Classes::Y, "Y"),
+        (Classes::M, "M"),
+        (Classes::S, "S"),
+        (Classes::T, "T"),
+        (Classes::C, "C"),
+        (Classes::D, "D"),
+        (Classes::R, "R"),
+        (Classes::ER, "ER"),
+        (Classes::V, "V"),
+        (Classes::Z, "Z"),
+        (Classes::WORD_BIT, "D.b"),
+        (Classes::BUFFER, "U\\G"),
+        (Classes::P, "P"),
+        (Classes::I, "I"),
+        (Classes::N, "N"),
+    ];
+    let names: Vec<_> = NAMES
+        .iter()
+        .filter(|(class, _)| classes.meets(*class))
+        .map(|&(_, name)| name)
+        .collect();
+    names.join(", ")
+}
+
+/// A device whose number does not serve in this place.
+fn numbers(span: Span, device: Device, param: &Param) -> Option<Diagnostic> {
+    let mut of_class = param
+        .numbers
+        .iter()
+        .filter(|(class, ..)| *class == device.class)
+        .peekable();
+    of_class.peek()?;
+    let allowed: Vec<_> = of_class.collect();
+    let fits = allowed
+        .iter()
+        .any(|&&(_, first, last)| (first..=last).contains(&device.number));
+    (!fits).then(|| not_this_number(span, device, &allowed))
+}
+
+fn not_this_number(span: Span, device: Device, allowed: &[&(DeviceClass, u32, u32)]) -> Diagnostic {
+    let ranges: Vec<_> = allowed
+        .iter()
+        .map(|&&(class, first, last)| match first == last {
+            true => class.number(first).to_string(),
+            false => format!("{}–{}", class.number(first), class.number(last)),
+        })
+        .collect();
+    codes::NOT_THIS_NUMBER
+        .at(span, format!("`{device}` cannot serve here"))
+        .label(format!("here only {}", ranges.join(", ")))
+}
+
+/// How many bits a value of an operand has.
+fn bits(found: Found, param: &Param) -> u32 {
+    16 * words(found, param)
+}
+
+fn digits_fit(place: &Place, span: Span, digits: u8, param: &Param) -> Option<Diagnostic> {
+    let bits = bits(place.found, param);
+    let most = bits / 4;
+    (!(1..=most).contains(&u32::from(digits))).then(|| {
+        let message = format!("K{digits} is no digit count for a {bits}-bit value");
+        codes::DIGITS
+            .at(span, message)
+            .label(format!("K1 to K{most} here"))
+    })
+}
+
+fn constant(
+    place: &Place,
+    operand: &Operand,
+    value: i64,
+    indexed: bool,
+    param: &Param,
+) -> Option<Diagnostic> {
+    let bits = bits(place.found, param);
+    let half = 1i64 << (bits - 1);
+    if !(-half..half).contains(&value) {
+        return Some(wide_constant(place, operand, bits));
+    }
+    outside_limits(operand, &[value], indexed, param)
+}
+
+fn hex_constant(
+    place: &Place,
+    operand: &Operand,
+    value: u64,
+    indexed: bool,
+    param: &Param,
+) -> Option<Diagnostic> {
+    let bits = bits(place.found, param);
+    if value >> bits != 0 {
+        return Some(wide_constant(place, operand, bits));
+    }
+    // Fits in 32 bits, so both readings fit in i64.
+    let unsigned = value as i64;
+    let signed = unsigned - ((unsigned >> (bits - 1)) << bits);
+    outside_limits(operand, &[unsigned, signed], indexed, param)
+}
+
+fn wide_constant(place: &Place, operand: &Operand, bits: u32) -> Diagnostic {
+    let message = format!("`{}` does not fit in {bits} bits", operand.kind);
+    let range = match (bits, matches!(operand.kind, OperandKind::Hex(..))) {
+        (16, true) => "H0 to HFFFF",
+        (16, false) => "K-32768 to K32767",
+        (_, true) => "H0 to HFFFFFFFF",
+        (_, false) => "K-2147483648 to K2147483647",
+    };
+    let diagnostic = codes::CONSTANT_WIDTH
+        .at(operand.span, message)
+        .label(format!("{range} here"));
+    let wide = super::Form {
+        wide: true,
+        ..place.found.form
+    };
+    match place.found.inst.spelling_of(wide) {
+        Some(name) if bits == 16 => diagnostic.help(format!("`{name}` takes 32 bits")),
+        _ => diagnostic,
+    }
+}
+
+/// A constant none of whose readings lies in the operand's limits.
+fn outside_limits(
+    operand: &Operand,
+    readings: &[i64],
+    indexed: bool,
+    param: &Param,
+) -> Option<Diagnostic> {
+    let (min, max) = param.limits?;
+    let fits = readings.iter().any(|value| (min..=max).contains(value));
+    (!fits && !indexed).then(|| {
+        let message = format!(
+            "`{}` is outside the limits of operand {}",
+            operand.kind, param.name
+        );
+        codes::LIMITS
+            .at(operand.span, message)
+            .label(format!("K{min} to K{max} here"))
+    })
+}

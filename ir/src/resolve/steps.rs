@@ -1,0 +1,75 @@
+//! Counts steps, and compares them with the step numbers that the source states.
+
+use crate::model::Model;
+use rungc_syntax::{Diagnostics, Instr, Program, Span, codes};
+
+/// Counts steps from instruction to instruction.
+#[derive(Default)]
+pub(super) struct Counter {
+    /// Steps so far.
+    counted: u32,
+    /// How far the source's numbers run ahead of the count.
+    ahead: i64,
+    /// Whether the last instruction's length is not known, so that the next number is taken as it is.
+    lost: bool,
+    /// The first place where the source's numbers leave the count: span, number stated, number counted.
+    first: Option<(Span, u32, u32)>,
+    /// How many such places there are.
+    places: u32,
+}
+
+impl Counter {
+    /// Takes the next instruction with its length, `None` if it is not known, and gives its step number.
+    pub(super) fn next(&mut self, instr: &Instr, length: Option<u32>) -> u32 {
+        let expected = self.numbered();
+        if let Some(stated) = instr.step
+            && stated != expected
+        {
+            if !self.lost {
+                self.first.get_or_insert((instr.span, stated, expected));
+                self.places += 1;
+            }
+            self.ahead = i64::from(stated) - i64::from(self.counted);
+        }
+        let step = self.numbered();
+        self.lost = length.is_none();
+        self.counted = self.counted.saturating_add(length.unwrap_or(1));
+        step
+    }
+
+    /// The number that the next instruction should have in the source's count.
+    fn numbered(&self) -> u32 {
+        let number = i64::from(self.counted) + self.ahead;
+        u32::try_from(number.max(0)).unwrap_or(u32::MAX)
+    }
+
+    /// Reports what does not fit, and gives the length of the program.
+    pub(super) fn finish(self, program: &Program, model: &Model, out: &mut Diagnostics) -> u32 {
+        if let Some((span, stated, expected)) = self.first {
+            let more = match self.places {
+                1 => String::new(),
+                n => format!(" (and {} more such places behind it)", n - 1),
+            };
+            let message = format!(
+                "the source numbers this step {stated}, but on {} it is step {expected}{more}",
+                model.name
+            );
+            out.push(
+                codes::STEPS_DIFFER
+                    .at(span, message)
+                    .label(format!("step {expected} by the lengths of the instructions before it"))
+                    .help("the program may be for another model (`--model`), or a line may be missing before this one"),
+            );
+        }
+        if self.counted > model.max_steps
+            && let Some(last) = program.instrs.last()
+        {
+            let message = format!(
+                "the program has {} steps, but {} holds {}",
+                self.counted, model.name, model.max_steps
+            );
+            out.push(codes::TOO_LONG.at(last.span, message));
+        }
+        self.counted
+    }
+}
