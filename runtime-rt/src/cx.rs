@@ -186,9 +186,38 @@ impl Cx<'_> {
         }
     }
 
+    /// Bits of the float at operand `i`, every one of them kept. An integer constant is converted.
+    pub fn float_bits(&self, i: usize) -> Result<i32, Fault> {
+        let op = self.op(i)?;
+        match op.kind {
+            OperandKind::Const => Ok((op.value as f32).to_bits() as i32),
+            _ => self.dword(i, 0),
+        }
+    }
+
+    /// Clears word, timer or counter number `offset` from operand `i`.
+    pub fn reset(&mut self, i: usize, offset: i32) -> Done {
+        let op = self.op(i)?;
+        match op.class {
+            Class::T | Class::C if op.kind == OperandKind::Device => self
+                .plc
+                .reset(op.class, at(op, offset)?)
+                .ok_or(Fault::DEVICE),
+            _ => self.set_word(i, offset, 0),
+        }
+    }
+
     /// Writes a float.
     pub fn set_float(&mut self, i: usize, offset: i32, value: f32) -> Result<(), Fault> {
         self.set_dword(i, offset, value.to_bits() as i32)
+    }
+
+    /// Word and mask of bit number `offset` from the bit of a word that `op` names; goes on into the next words.
+    fn word_bit(op: Operand, offset: i32) -> Result<(u32, u16), Fault> {
+        let bit = offset
+            .checked_add(i32::from(op.digits))
+            .ok_or(Fault::DEVICE)?;
+        Ok((at(op, bit.div_euclid(16))?, 1 << bit.rem_euclid(16)))
     }
 
     /// Bit number `offset` from operand `i`.
@@ -196,10 +225,9 @@ impl Cx<'_> {
         let op = self.op(i)?;
         match op.kind {
             OperandKind::WordBit => {
-                let n = at(op, 0)?;
+                let (n, mask) = Self::word_bit(op, offset)?;
                 let word = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
-                Ok(u8::try_from(offset)
-                    .is_ok_and(|o| (word as u16) >> (op.digits + o).min(15) & 1 == 1))
+                Ok(word as u16 & mask != 0)
             }
             _ => self.plc.bit(op.class, at(op, offset)?).ok_or(Fault::DEVICE),
         }
@@ -210,14 +238,9 @@ impl Cx<'_> {
         let op = self.op(i)?;
         match op.kind {
             OperandKind::WordBit => {
-                let n = at(op, 0)?;
-                let word = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
-                let mask = 1u16 << (op.digits.saturating_add(offset as u8)).min(15);
-                let word = if value {
-                    word as u16 | mask
-                } else {
-                    word as u16 & !mask
-                };
+                let (n, mask) = Self::word_bit(op, offset)?;
+                let word = self.plc.word(op.class, n).ok_or(Fault::DEVICE)? as u16;
+                let word = if value { word | mask } else { word & !mask };
                 self.plc
                     .set_word(op.class, n, word as i16)
                     .ok_or(Fault::DEVICE)
@@ -227,6 +250,116 @@ impl Cx<'_> {
                 .set_bit(op.class, at(op, offset)?, value)
                 .ok_or(Fault::DEVICE),
         }
+    }
+
+    /// Low `count` (at most 32) of the bits from operand `i` on, as a number.
+    pub fn bits(&self, i: usize, offset: i32, count: i32) -> Result<u32, Fault> {
+        let mut value = 0;
+        for n in 0..count.min(32) {
+            value |= u32::from(self.bit(i, offset.saturating_add(n))?) << n;
+        }
+        Ok(value)
+    }
+
+    /// Sets `count` bits (at most 32) from operand `i` on to a number.
+    pub fn set_bits(&mut self, i: usize, offset: i32, count: i32, value: u32) -> Result<(), Fault> {
+        for n in 0..count.min(32) {
+            self.set_bit(i, offset.saturating_add(n), value >> n & 1 == 1)?;
+        }
+        Ok(())
+    }
+
+    /// Whether operand `i` names a bit (X, Y, M, S or a bit of a word) rather than a word.
+    pub fn is_bit(&self, i: usize) -> bool {
+        self.op(i).is_ok_and(|op| match op.kind {
+            OperandKind::Device => matches!(op.class, Class::X | Class::Y | Class::M | Class::S),
+            OperandKind::WordBit => true,
+            _ => false,
+        })
+    }
+
+    /// Faults unless the `count` bits from operand `i` on exist.
+    pub fn check_bits(&self, i: usize, count: i32) -> Done {
+        (0..count).try_for_each(|n| self.bit(i, n).map(drop))
+    }
+
+    /// Faults unless the `count` words from operand `i` on exist.
+    pub fn check_words(&self, i: usize, count: i32) -> Done {
+        (0..count).try_for_each(|n| self.word(i, n).map(drop))
+    }
+
+    /// Faults unless the `count` elements from operand `i` on exist: words, or pairs in the 32-bit form.
+    pub fn check_elems(&self, i: usize, count: i32) -> Done {
+        (0..count).try_for_each(|n| self.elem(i, n).map(drop))
+    }
+
+    /// Offset of element `n` of the table at operand `i`: two words an element in the 32-bit form, but for 32-bit counters and
+    /// groups.
+    fn elem_offset(&self, i: usize, n: i32) -> Result<i32, Fault> {
+        let op = self.op(i)?;
+        let pairs = self.site.wide
+            && op.kind == OperandKind::Device
+            && !(op.class == Class::C && op.value >= COUNTER32_FIRST as i32);
+        Ok(if pairs { n.saturating_mul(2) } else { n })
+    }
+
+    /// Element `n` of the table at operand `i`: a word, or a pair in the 32-bit form. Every element of a constant is the constant.
+    pub fn elem(&self, i: usize, n: i32) -> Result<i32, Fault> {
+        let offset = self.elem_offset(i, n)?;
+        if self.site.wide {
+            self.dword(i, offset)
+        } else {
+            self.word(i, offset).map(i32::from)
+        }
+    }
+
+    /// Writes element `n` of the table at operand `i`.
+    pub fn set_elem(&mut self, i: usize, n: i32, value: i32) -> Result<(), Fault> {
+        let offset = self.elem_offset(i, n)?;
+        if self.site.wide {
+            self.set_dword(i, offset, value)
+        } else {
+            self.set_word(i, offset, value as i16)
+        }
+    }
+
+    /// Operand `i` (as wide as the form) as a count or mode; faults unless it lies in `range`.
+    pub fn count(&self, i: usize, range: core::ops::RangeInclusive<i32>) -> Result<i32, Fault> {
+        let n = self.read(i)?;
+        if range.contains(&n) {
+            Ok(n)
+        } else {
+            Err(Fault::VALUE)
+        }
+    }
+
+    /// Width of the form in bits: 16 or 32.
+    pub fn width(&self) -> u32 {
+        if self.site.wide { 32 } else { 16 }
+    }
+
+    /// Operand `i` without its sign: the low 16 bits, or all 32.
+    pub fn read_unsigned(&self, i: usize) -> Result<u32, Fault> {
+        self.read(i).map(|v| self.unsigned(v))
+    }
+
+    /// A value of the form's width without its sign.
+    pub fn unsigned(&self, value: i32) -> u32 {
+        if self.site.wide {
+            value as u32
+        } else {
+            u32::from(value as u16)
+        }
+    }
+
+    /// Whether operands `a` and `b` denote the same devices.
+    pub fn same(&self, a: usize, b: usize) -> bool {
+        matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a == b)
+    }
+
+    /// Whether operand `b` begins behind operand `a` in the same class, so that a block copied from `a` to `b` must be copied from its end.
+    pub fn begins_behind(&self, a: usize, b: usize) -> bool {
+        matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a.class == b.class && b.value > a.value)
     }
 
     /// State of special relay `number`.

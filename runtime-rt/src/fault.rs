@@ -10,6 +10,8 @@ pub struct Fault(pub u16);
 impl Fault {
     /// A device lies outside the model's range (an index or a count led there).
     pub const DEVICE: Fault = Fault(6706);
+    /// An argument lies outside a floating-point function's domain, or its value is no float; the manuals give the code of [`Fault::DEVICE`].
+    pub const DOMAIN: Fault = Fault(6706);
     /// A value lies outside what the instruction takes.
     pub const VALUE: Fault = Fault(6707);
 }

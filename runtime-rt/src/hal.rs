@@ -28,7 +28,7 @@ const DAY_MS: u64 = 86_400_000;
 
 /// Whether `year` of the Gregorian calendar has 366 days.
 fn is_leap(year: u32) -> bool {
-    year % 4 == 0 && (year % 100 != 0 || year % 400 == 0)
+    year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
 }
 
 /// Days from 1 January of year 0 to 1 January of `year`.

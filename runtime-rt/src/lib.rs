@@ -12,6 +12,8 @@ extern crate std;
 
 mod access;
 mod cx;
+#[cfg(test)]
+mod double;
 mod edge;
 mod fault;
 pub mod fnc;

@@ -61,6 +61,138 @@ macro_rules! registry {
 }
 
 registry! {
+    /// SMOV (FNC 13): moves digits; M8168 selects hexadecimal ones.
+    Smov = move_::smov(s, m1, m2, d, n);
+    /// BMOV (FNC 15): copies a block; M8024 turns the direction.
+    Bmov = move_::bmov(s, d, n);
+    /// BMOV of HM: M8024 has no say.
+    BmovForward = move_::bmov_forward(s, d, n);
+    /// FMOV (FNC 16): fills a block.
+    Fmov = move_::fmov(s, d, n);
+    /// XCH (FNC 17): exchanges; M8160 exchanges bytes.
+    Xch = move_::xch(d1, d2);
+    /// XCH of HM: M8160 has no say.
+    XchWords = move_::xch_words(d1, d2);
+    /// SWAP (FNC 147): exchanges the bytes of each word.
+    Swap = move_::swap(s);
+    /// BCD (FNC 18): binary to packed decimal.
+    Bcd = move_::bcd(s, d);
+    /// BCD of HM: clamps.
+    BcdClamped = move_::bcd_clamped(s, d);
+    /// BIN (FNC 19): packed decimal to binary.
+    Bin = move_::bin(s, d);
+    /// BIN of HM: no check of the digits.
+    BinUnchecked = move_::bin_unchecked(s, d);
+    /// ROR (FNC 30): rotates right.
+    Ror = rotate::ror(d, n);
+    /// ROL (FNC 31): rotates left.
+    Rol = rotate::rol(d, n);
+    /// RCR (FNC 32): rotates right through the carry flag.
+    Rcr = rotate::rcr(d, n);
+    /// RCL (FNC 33): rotates left through the carry flag.
+    Rcl = rotate::rcl(d, n);
+    /// SFTR (FNC 34): shifts bits right.
+    Sftr = rotate::sftr(s, d, n1, n2);
+    /// SFTL (FNC 35): shifts bits left.
+    Sftl = rotate::sftl(s, d, n1, n2);
+    /// WSFR (FNC 36): shifts words right.
+    Wsfr = rotate::wsfr(s, d, n1, n2);
+    /// WSFL (FNC 37): shifts words left.
+    Wsfl = rotate::wsfl(s, d, n1, n2);
+    /// SFWR (FNC 38): appends to a queue.
+    Sfwr = rotate::sfwr(s, d, n);
+    /// SFRD (FNC 39): takes from a queue.
+    Sfrd = rotate::sfrd(s, d, n);
+    /// SFWR of HM: enters at the front.
+    SfwrHm = rotate::sfwr_hm(s, d, n);
+    /// SFRD of HM: moves only what the queue holds.
+    SfrdHm = rotate::sfrd_hm(s, d, n);
+    /// POP (FNC 212): takes the newest entry of a queue.
+    Pop = rotate::pop(s, d, n);
+    /// SFR (FNC 213): shifts a word right.
+    Sfr = rotate::sfr(d, n);
+    /// SFL (FNC 214): shifts a word left.
+    Sfl = rotate::sfl(d, n);
+    /// ZRST (FNC 40): clears a run of devices.
+    Zrst = data::zrst(d1, d2);
+    /// DECO (FNC 41): switches the bit of that number on.
+    Deco = data::deco(s, d, n);
+    /// ENCO (FNC 42): number of the highest bit that is on.
+    Enco = data::enco(s, d, n);
     /// SUM (FNC 43): counts the one-bits of S into D.
     Sum = data::sum(s, d);
+    /// BON (FNC 44): tests a bit.
+    Bon = data::bon(s, d, n);
+    /// MEAN (FNC 45): mean of a block.
+    Mean = data::mean(s, d, n);
+    /// MEAN of H1U/H2U: M8490 adds the sum.
+    MeanSum = data::mean_sum(s, d, n);
+    /// ANS (FNC 46): sets an annunciator after a time.
+    Ans = data::ans(s, m, d) [state, always];
+    /// ANR (FNC 47): resets the lowest annunciator.
+    Anr = data::anr();
+    /// M8048 and D8049 from the annunciators, once a scan.
+    AnnunciatorMonitor = data::annunciator_monitor();
+    /// SQR (FNC 48): square root of an integer.
+    Sqr = data::sqr(s, d);
+    /// SQR of HM: 0 for a negative number.
+    SqrClamped = data::sqr_clamped(s, d);
+    /// FLT (FNC 49): integer to float.
+    Flt = float::flt(s, d);
+    /// ECMP (FNC 110): compares floats.
+    Ecmp = float::ecmp(s1, s2, d);
+    /// EZCP (FNC 111): compares a float with a zone.
+    Ezcp = float::ezcp(s1, s2, s, d);
+    /// EMOV (FNC 112): copies a float.
+    Emov = float::emov(s, d);
+    /// EBCD (FNC 118): float to decimal mantissa and exponent.
+    Ebcd = float::ebcd(s, d);
+    /// EBIN (FNC 119): decimal mantissa and exponent to float.
+    Ebin = float::ebin(s, d);
+    /// EADD (FNC 120): sum of floats.
+    Eadd = float::eadd(s1, s2, d);
+    /// ESUB (FNC 121): difference of floats.
+    Esub = float::esub(s1, s2, d);
+    /// EMUL (FNC 122): product of floats.
+    Emul = float::emul(s1, s2, d);
+    /// EDIV (FNC 123): quotient of floats.
+    Ediv = float::ediv(s1, s2, d);
+    /// EDIV of HM: a divisor of 0 is no error.
+    EdivClamped = float::ediv_clamped(s1, s2, d);
+    /// EXP (FNC 124): power of e.
+    Exp = float::exp(s, d);
+    /// LOGE (FNC 125): natural logarithm.
+    Loge = float::loge(s, d);
+    /// LOG10 (FNC 126): common logarithm.
+    Log10 = float::log10(s, d);
+    /// ESQR (FNC 127): square root of a float.
+    Esqr = float::esqr(s, d);
+    /// ENEG (FNC 128): turns a float's sign.
+    Eneg = float::eneg(d);
+    /// INT (FNC 129): integer part of a float.
+    Int = float::int(s, d);
+    /// INT of HM: clamps.
+    IntClamped = float::int_clamped(s, d);
+    /// SIN (FNC 130).
+    Sin = float::sin(s, d);
+    /// COS (FNC 131).
+    Cos = float::cos(s, d);
+    /// TAN (FNC 132).
+    Tan = float::tan(s, d);
+    /// ASIN (FNC 133).
+    Asin = float::asin(s, d);
+    /// ACOS (FNC 134).
+    Acos = float::acos(s, d);
+    /// ATAN (FNC 135).
+    Atan = float::atan(s, d);
+    /// RAD (FNC 136): degrees to radians.
+    Rad = float::rad(s, d);
+    /// DEG (FNC 137): radians to degrees.
+    Deg = float::deg(s, d);
+    /// SINH (FNC 438).
+    Sinh = float::sinh(s, d);
+    /// COSH (FNC 439).
+    Cosh = float::cosh(s, d);
+    /// TANH (FNC 440).
+    Tanh = float::tanh(s, d);
 }
