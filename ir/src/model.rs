@@ -5,6 +5,7 @@ mod inovance;
 mod l01s;
 mod mitsubishi;
 
+use crate::catalogue::Classes;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 
@@ -138,6 +139,13 @@ pub struct Model {
     pub max_steps: u32,
     /// Whether a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
     pub z_pairs_with_v: bool,
+    /// Notations of operands that it knows, of those that are neither devices nor integers: E, TEXT, WORD_BIT, BUFFER.
+    pub notations: Classes,
+    /// Whether its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.
+    pub bare_names: bool,
+    /// Steps of an applied instruction: 1 and so many for each operand of the 16-bit and of the 32-bit form; `None`: as the
+    /// catalogue's rows say.
+    pub steps_per_operand: Option<(u8, u8)>,
     /// How deep FOR may nest.
     pub max_for: u32,
     /// How deep CALL may nest.

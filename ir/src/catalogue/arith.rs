@@ -4,10 +4,20 @@ use super::row::*;
 use super::{ArithOp, Inst, Lower, Param, Spelling};
 
 const TWO_VALUES: &[Param] = &[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS)];
+const DOUBLE_RESULT: &[Param] = &[
+    src("S1", VALUES),
+    src("S2", VALUES),
+    dst("D", RESULTS).len(2),
+];
+const DOUBLE_RESULT_NO_INDEX: &[Param] = &[
+    src("S1", VALUES),
+    src("S2", VALUES),
+    dst("D", RESULTS.without(INDEX)).len(2),
+];
 const ONE_VALUE: &[Param] = &[both("D", RESULTS)];
 
 const fn arith(name: &'static str, fnc: u16, title: &'static str, op: ArithOp) -> Inst {
-    row(name, title, "h1u-h2u-programming §4.3.4")
+    row(name, title, "h1u-h2u-programming §4.3.3")
         .fnc(fnc)
         .forms(ALL_FORMS)
         .steps(7, 13)
@@ -36,13 +46,15 @@ pub(super) const ROWS: &[Inst] = &[
              HM the value stays at the end of the range.",
         ),
     arith("MUL", 22, "Multiplication", ArithOp::Mul)
-        .takes(&[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS).len(2)])
+        .takes(DOUBLE_RESULT)
+        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX)])
         .text(
             "D = S1 × S2, signed, in double width: the 16-bit form writes the pair D (low) and D+1, the 32-bit form the four \
              registers from D on. A group of bits takes as many low bits as it has.",
         ),
     arith("DIV", 23, "Division", ArithOp::Div)
-        .takes(&[src("S1", VALUES), src("S2", VALUES), dst("D", RESULTS).len(2)])
+        .takes(DOUBLE_RESULT)
+        .variants(&[on(INOVANCE).takes(DOUBLE_RESULT_NO_INDEX)])
         .errors(&[6706])
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Div))])
         .text(
@@ -50,7 +62,6 @@ pub(super) const ROWS: &[Inst] = &[
              sign of S1. A group of bits takes only the quotient. Division by 0 is an error; on HM it gives the end of the range.",
         ),
     one_value("INC", 24, "Increment", ArithOp::Inc)
-        .variants(&[on(HM).steps(3, 4)])
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Inc))])
         .text("Adds 1 to D at each execution, wrapping; no flags. On HM it stays at the largest value."),
     one_value("DEC", 25, "Decrement", ArithOp::Dec)
@@ -58,7 +69,6 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Subtracts 1 from D at each execution, wrapping; no flags. On HM it stays at the smallest value."),
     arith("WAND", 26, "Word AND", ArithOp::And)
         .spelling(Spelling::Wide("DAND"))
-        .variants(&[on(HM).steps(7, 10)])
         .text("D = S1 AND S2, bit by bit. The 32-bit form is written DAND."),
     arith("WOR", 27, "Word OR", ArithOp::Or)
         .spelling(Spelling::Wide("DOR"))

@@ -39,7 +39,7 @@ pub(super) const ROWS: &[Inst] = &[
     contact("OR<>", 244, Join::Or, CmpOp::Ne),
     contact("OR<=", 245, Join::Or, CmpOp::Le),
     contact("OR>=", 246, Join::Or, CmpOp::Ge),
-    row("CMP", "Compare", "h1u-h2u-programming §4.3.3")
+    row("CMP", "Compare", "h1u-h2u-programming §4.3.2")
         .fnc(10)
         .forms(ALL_FORMS)
         .steps(7, 13)
@@ -50,7 +50,7 @@ pub(super) const ROWS: &[Inst] = &[
             "Compares S1 with S2, signed, and sets one of three bits: D if S1 > S2, D+1 if they are equal, D+2 if S1 < S2; the \
              other two go off. They keep their state while the instruction is not driven.",
         ),
-    row("ZCP", "Zone compare", "h1u-h2u-programming §4.3.3")
+    row("ZCP", "Zone compare", "h1u-h2u-programming §4.3.2")
         .fnc(11)
         .forms(ALL_FORMS)
         .steps(9, 17)

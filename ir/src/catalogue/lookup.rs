@@ -21,6 +21,10 @@ pub struct Found {
     pub inst: &'static Inst,
     /// The form.
     pub form: Form,
+    /// Written without the D of its only width: `ECMP` for `DECMP`; some models' editors write so ([`Model::bare_names`]).
+    ///
+    /// [`Model::bare_names`]: crate::model::Model::bare_names
+    pub bare: bool,
 }
 
 /// All rows, in the order of the manual's families.
@@ -36,7 +40,9 @@ pub fn find(mnemonic: &str) -> Option<Found> {
         let mut spellings = FxHashMap::default();
         for inst in all() {
             for (spelling, form) in inst.spellings() {
-                spellings.entry(spelling).or_insert(Found { inst, form });
+                let bare = form.wide && inst.is_bare(&spelling);
+                let found = Found { inst, form, bare };
+                spellings.entry(spelling).or_insert(found);
             }
         }
         spellings
@@ -96,12 +102,21 @@ impl Inst {
                     stems.push(format!("{}D{}", &name[..at], &name[at..]));
                 }
                 Spelling::Prefix | Spelling::Wide(_) => stems.push(format!("D{name}")),
+                Spelling::Plain => {}
             }
             if self.has_only_wide_form() {
                 stems.push((*name).to_owned());
             }
         }
         stems
+    }
+
+    /// Whether this spelling of the 32-bit form has no D in front although the instruction's list name would have one.
+    fn is_bare(&self, spelling: &str) -> bool {
+        let with_pulse = |name: &str| spelling == name || spelling.strip_suffix('P') == Some(name);
+        self.has_only_wide_form()
+            && self.spelling != Spelling::Plain
+            && (with_pulse(self.name) || self.aliases.iter().any(|name| with_pulse(name)))
     }
 
     /// Whether it has no 16-bit form, so that its name without D means the 32-bit form too (`ECMP` is `DECMP`).

@@ -142,7 +142,7 @@ pub enum Shape {
     /// A pointer, interrupt pointer or nesting level.
     Pointer,
     /// A bit where the operand is X, Y, M, S or a bit of a word, a 16-bit word elsewhere (DECO, ENCO); RST and ZRST mean with
-    /// T and C both contact and value.
+    /// T and C both contact and value. An extent other than [`Extent::Through`] counts bits; a word is one.
     Mixed,
 }
 
@@ -177,6 +177,33 @@ pub enum Extent {
     Of(fn(&[Option<i64>]) -> Option<u32>),
 }
 
+/// Something more that an operand must obey. A rule about constants says nothing of an operand that is none (or is indexed).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Rule {
+    /// In the 32-bit form a constant lies between these instead of [`Param::limits`].
+    WideLimits(i64, i64),
+    /// A constant does not lie between these, inclusive.
+    Not(i64, i64),
+    /// A constant is a multiple of this.
+    MultipleOf(i64),
+    /// A constant is not larger than the one of operand `i`.
+    AtMost(usize),
+    /// A constant is not smaller than the one of operand `i`.
+    AtLeast(usize),
+    /// A constant is smaller than the one of operand `i`.
+    Below(usize),
+    /// The device's number ends in 0 as it is written: a multiple of 8 for X and Y, of 10 for others.
+    EndsInZero,
+    /// The device's number is a multiple of this.
+    Aligned(u32),
+    /// A group has as many bits as the form: K4, in the 32-bit form K8.
+    WholeGroup,
+    /// A group if operand `i` is one, with as many digits; else none.
+    GroupLike(usize),
+    /// A device of the same class as operand `i`.
+    ClassLike(usize),
+}
+
 /// One operand of an instruction.
 #[derive(Clone, Copy, Debug)]
 pub struct Param {
@@ -194,6 +221,8 @@ pub struct Param {
     pub limits: Option<(i64, i64)>,
     /// Numbers that devices of these classes must have, first to last; classes that are not listed are free.
     pub numbers: &'static [(DeviceClass, u32, u32)],
+    /// What else it must obey.
+    pub rules: &'static [Rule],
     /// Whether it may carry an index register.
     pub indexable: bool,
     /// Whether it may be left out (only last ones).
@@ -231,6 +260,8 @@ pub enum Spelling {
     Prefix,
     /// A contact comparison: `LD` + `D` + operator: `LDD>=`.
     Compare,
+    /// Its only form is 32 bits wide but is written without D (PSOUT).
+    Plain,
     /// The 32-bit form has a name of its own, e.g. `WAND` / `DAND`.
     Wide(&'static str),
 }
@@ -437,6 +468,8 @@ pub struct Inst {
     pub drive: Drive,
     /// Special relays and registers that it reads or writes.
     pub flags: &'static [&'static str],
+    /// How often it may stand in a program; `None`: as often as one likes.
+    pub max_uses: Option<u32>,
     /// The PLC's error codes that it can raise in a run.
     pub errors: &'static [u16],
     /// Models that have it.
@@ -474,10 +507,17 @@ impl Inst {
 
     /// How many steps it takes in the program memory.
     pub fn steps_of(&self, form: Form, operands: &[OperandKind], model: &Model) -> u32 {
-        let (narrow, wide) = self
+        let stated = self
             .holding(operands, model)
-            .find_map(|variant| variant.steps)
-            .unwrap_or(self.steps);
+            .find_map(|variant| variant.steps);
+        let (narrow, wide) = match (stated, model.steps_per_operand) {
+            (Some(steps), _) => steps,
+            (None, Some((narrow, wide))) if !matches!(self.lower, Lower::Basic(_)) => {
+                let count = self.params_of(operands, model).len() as u8;
+                (1 + narrow * count, 1 + wide * count)
+            }
+            _ => self.steps,
+        };
         u32::from(if form.wide { wide } else { narrow })
     }
 

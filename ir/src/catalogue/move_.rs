@@ -9,7 +9,6 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
-        .variants(&[on(HM).steps(5, 7)])
         .errors(&[6706])
         .lower(Lower::Move)
         .text(

@@ -8,9 +8,10 @@
 //! ```
 
 use super::{
-    Classes, Drive, Extent, Forms, Inst, Lower, Param, Role, Shape, Spelling, Variant, When,
+    Classes, Drive, Extent, Forms, Inst, Lower, Param, Role, Rule, Shape, Spelling, Variant, When,
 };
 use crate::model::{ModelId, ModelSet};
+use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
 /// 16- and 32-bit form, each also as pulse.
@@ -19,6 +20,10 @@ pub(super) const ALL_FORMS: Forms = Forms::W16.or(Forms::W32).or(Forms::PULSE);
 pub(super) const W16_P: Forms = Forms::W16.or(Forms::PULSE);
 /// 16- and 32-bit form.
 pub(super) const W16_W32: Forms = Forms::W16.or(Forms::W32);
+/// 32-bit form, also as pulse.
+pub(super) const W32_P: Forms = Forms::W32.or(Forms::PULSE);
+/// Only the 32-bit form.
+pub(super) const W32: Forms = Forms::W32;
 /// Only the 16-bit form.
 pub(super) const W16: Forms = Forms::W16;
 
@@ -59,6 +64,8 @@ pub(super) const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
 pub(super) const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
 /// Only L01S.
 pub(super) const L01S: ModelSet = ModelSet::of(&[ModelId::L01s]);
+/// FX3U and L01S.
+pub(super) const FX3U_L01S: ModelSet = FX3U.and(&[ModelId::L01s]);
 /// All but HM.
 pub(super) const NOT_HM: ModelSet = ModelSet::ALL.except(&[ModelId::Hm]);
 
@@ -78,6 +85,7 @@ pub(super) const fn row(name: &'static str, title: &'static str, source: &'stati
         variants: &[],
         drive: Drive::Contact,
         flags: &[],
+        max_uses: None,
         errors: &[],
         models: ModelSet::ALL,
         lower: Lower::Todo("instructions without an implementation"),
@@ -132,6 +140,22 @@ impl Inst {
         Inst { errors, ..self }
     }
 
+    /// At most this often in a program.
+    pub(super) const fn uses(self, count: u32) -> Self {
+        let max_uses = Some(count);
+        Inst { max_uses, ..self }
+    }
+
+    /// Implemented by this runtime function.
+    pub(super) const fn call(self, function: RtFn) -> Self {
+        self.lower(Lower::Call(function))
+    }
+
+    /// Not implemented yet, for this reason.
+    pub(super) const fn todo(self, reason: &'static str) -> Self {
+        self.lower(Lower::Todo(reason))
+    }
+
     pub(super) const fn on(self, models: ModelSet) -> Self {
         Inst { models, ..self }
     }
@@ -154,6 +178,7 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
         extent: Extent::One,
         limits: None,
         numbers: &[],
+        rules: &[],
         indexable: true,
         optional: false,
     }
@@ -189,6 +214,31 @@ pub(super) const fn count(name: &'static str, min: i64, max: i64) -> Param {
     param(name, CONSTANTS, Shape::Word, Role::Read).limits(min, max)
 }
 
+/// A float that is read.
+pub(super) const fn real(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Float, Role::Read)
+}
+
+/// A float that is written.
+pub(super) const fn real_out(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Float, Role::Write)
+}
+
+/// Characters that are read.
+pub(super) const fn text(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Text, Role::Read)
+}
+
+/// Characters that are written.
+pub(super) const fn text_out(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Text, Role::Write)
+}
+
+/// Constant `i` of the operands, at least 0.
+pub(super) fn constant(constants: &[Option<i64>], i: usize) -> Option<u32> {
+    u32::try_from((*constants.get(i)?)?).ok()
+}
+
 /// A pointer or nesting level.
 pub(super) const fn pointer(name: &'static str, classes: Classes) -> Param {
     param(name, classes, Shape::Pointer, Role::Read).plain()
@@ -199,6 +249,57 @@ impl Param {
     pub(super) const fn len(self, count: u32) -> Self {
         let extent = Extent::Count(count);
         Param { extent, ..self }
+    }
+
+    /// It occupies as many devices as operand `i` says.
+    pub(super) const fn per(self, i: usize) -> Self {
+        let extent = Extent::Operand { i, extra: 0 };
+        Param { extent, ..self }
+    }
+
+    /// It occupies as many devices as this function of the operands' constants says.
+    pub(super) const fn len_of(self, count: fn(&[Option<i64>]) -> Option<u32>) -> Self {
+        let extent = Extent::Of(count);
+        Param { extent, ..self }
+    }
+
+    /// How much it occupies is known only in a run.
+    pub(super) const fn open_ended(self) -> Self {
+        self.len_of(|_| None)
+    }
+
+    /// It reaches up to operand `i`.
+    pub(super) const fn through(self, i: usize) -> Self {
+        let extent = Extent::Through(i);
+        Param { extent, ..self }
+    }
+
+    /// It obeys these rules.
+    pub(super) const fn rules(self, rules: &'static [Rule]) -> Self {
+        Param { rules, ..self }
+    }
+
+    /// It may also be one of these.
+    pub(super) const fn also(self, classes: Classes) -> Self {
+        let classes = self.classes.or(classes);
+        Param { classes, ..self }
+    }
+
+    /// It may be left out.
+    pub(super) const fn optional(self) -> Self {
+        let optional = true;
+        Param { optional, ..self }
+    }
+
+    /// It is both read and written.
+    pub(super) const fn changed(self) -> Self {
+        let role = Role::ReadWrite;
+        Param { role, ..self }
+    }
+
+    /// It is a 16-bit word in either form.
+    pub(super) const fn word(self) -> Self {
+        self.shape(Shape::Word)
     }
 
     /// It is this instead.
@@ -261,7 +362,6 @@ impl Variant {
         Variant { params, ..self }
     }
 
-    #[allow(dead_code)]
     pub(super) const fn forms(self, forms: Forms) -> Self {
         let forms = Some(forms);
         Variant { forms, ..self }

@@ -1,7 +1,8 @@
-//! Kewei HM motion controller (hm-programming §5.1).
+//! Kewei HM motion controller (hm-motion-controller §5.1).
 
 use super::{Model, ModelId, Range, Timers, general, latched, timers};
-use rungc_syntax::DeviceClass::{C, D, I, M, N, P, R, S, T, V, X, Y, Z};
+use crate::catalogue::Classes;
+use rungc_syntax::DeviceClass::{self, C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 
 /// Kewei HM.
 pub(super) const HM: Model = Model {
@@ -12,12 +13,15 @@ pub(super) const HM: Model = Model {
     ranges: RANGES,
     timers: TIMERS,
     latch_key: Some((8020, 2222)),
-    max_steps: 16000,
+    max_steps: 12000,
     z_pairs_with_v: false,
+    notations: Classes::NONE,
+    bare_names: true,
+    steps_per_operand: Some((2, 3)),
     max_for: 5,
     max_call: 8,
     special_words: &[(8000, 200)],
-    index_aliases: &[],
+    index_aliases: INDEX_ALIASES,
 };
 
 /// Devices.
@@ -61,4 +65,24 @@ const TIMERS: &[Timers] = &[
     timers(200, 245, 10).overrunning(),
     timers(246, 249, 1).accumulating().overrunning(),
     timers(250, 255, 100).accumulating().overrunning(),
+];
+
+/// D8100–D8115: other names of V0–V7 and Z0–Z7 (hm-motion-controller §5.7.2).
+const INDEX_ALIASES: &[(u32, DeviceClass, u32)] = &[
+    (8100, V, 0),
+    (8101, V, 1),
+    (8102, V, 2),
+    (8103, V, 3),
+    (8104, V, 4),
+    (8105, V, 5),
+    (8106, V, 6),
+    (8107, V, 7),
+    (8108, Z, 0),
+    (8109, Z, 1),
+    (8110, Z, 2),
+    (8111, Z, 3),
+    (8112, Z, 4),
+    (8113, Z, 5),
+    (8114, Z, 6),
+    (8115, Z, 7),
 ];

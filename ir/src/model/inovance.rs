@@ -1,6 +1,7 @@
 //! Inovance H1U and H2U (h1u-h2u-programming §3).
 
 use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use crate::catalogue::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
 
 /// Inovance H1U.
@@ -14,6 +15,9 @@ pub(super) const H1U: Model = Model {
     latch_key: None,
     max_steps: 8000,
     z_pairs_with_v: true,
+    notations: Classes::E.or(Classes::TEXT),
+    bare_names: false,
+    steps_per_operand: None,
     max_for: 6,
     max_call: 5,
     special_words: &[(8000, 200), (8020, 10)],
@@ -31,6 +35,9 @@ pub(super) const H2U: Model = Model {
     latch_key: None,
     max_steps: 24000,
     z_pairs_with_v: true,
+    notations: Classes::E.or(Classes::TEXT),
+    bare_names: false,
+    steps_per_operand: None,
     max_for: 6,
     max_call: 5,
     special_words: &[(8000, 200), (8020, 10)],

@@ -1,6 +1,7 @@
 //! Coolmay L01S (l01s-programming §3).
 
 use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use crate::catalogue::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 
 /// Coolmay L01S.
@@ -14,6 +15,9 @@ pub(super) const L01S: Model = Model {
     latch_key: None,
     max_steps: 30000,
     z_pairs_with_v: true,
+    notations: Classes::E.or(Classes::TEXT),
+    bare_names: true,
+    steps_per_operand: None,
     max_for: 5,
     max_call: 5,
     special_words: &[(8000, 200), (8020, 10)],

@@ -2,6 +2,7 @@
 //! the factory settings.
 
 use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use crate::catalogue::Classes;
 use rungc_syntax::DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
 
 /// Mitsubishi FX2N.
@@ -18,6 +19,9 @@ pub(super) const FX2N: Model = Model {
     latch_key: None,
     max_steps: 16000,
     z_pairs_with_v: true,
+    notations: Classes::TEXT,
+    bare_names: true,
+    steps_per_operand: None,
     max_for: 5,
     max_call: 5,
     special_words: &[(8000, 200), (8020, 10)],
@@ -35,6 +39,9 @@ pub(super) const FX3G: Model = Model {
     latch_key: None,
     max_steps: 32000,
     z_pairs_with_v: true,
+    notations: Classes::E.or(Classes::TEXT),
+    bare_names: true,
+    steps_per_operand: None,
     max_for: 5,
     max_call: 5,
     special_words: &[(8000, 200), (8020, 10)],
@@ -52,6 +59,12 @@ pub(super) const FX3U: Model = Model {
     latch_key: None,
     max_steps: 64000,
     z_pairs_with_v: true,
+    notations: Classes::E
+        .or(Classes::TEXT)
+        .or(Classes::WORD_BIT)
+        .or(Classes::BUFFER),
+    bare_names: true,
+    steps_per_operand: None,
     max_for: 5,
     max_call: 5,
     special_words: &[(8000, 200), (8020, 10)],
