@@ -120,7 +120,15 @@ impl Finder {
             .spellings()
             .into_iter()
             .filter(|&(ref name, form)| {
-                self.has_form(inst, form) && !self.is_bare(name, Found { inst, form })
+                self.has_form(inst, form)
+                    && !self.is_bare(
+                        name,
+                        Found {
+                            inst,
+                            form,
+                            bare: false,
+                        },
+                    )
             })
             .map(|(name, _)| format!("`{name}`"))
             .collect();
