@@ -1,0 +1,461 @@
+//! What expressions and statements do, as [`rungc_ir::node`] specifies.
+
+use crate::devices::rt_class;
+use crate::machine::Machine;
+use rungc_ir::node::{
+    Arg, BinOp, CmpOp, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue,
+};
+use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, report};
+
+/// Value of an expression or temporary.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Value {
+    Bit(bool),
+    I16(i16),
+    I32(i32),
+    F32(f32),
+}
+
+/// How a body ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Flow {
+    /// At its end.
+    Next,
+    /// By [`Stmt::Return`].
+    Return,
+    /// By a jump that none of its own [`Stmt::Parts`] takes.
+    Goto(LabelId),
+    /// The scan executed too many statements.
+    OutOfTime,
+}
+
+/// Sign-extends to 32 bits; the width of an `I16` is restored when the result is stored.
+fn int(value: Value) -> i32 {
+    match value {
+        Value::I16(v) => v.into(),
+        Value::I32(v) => v,
+        Value::Bit(v) => v.into(),
+        Value::F32(_) => 0,
+    }
+}
+
+fn compare<T: PartialOrd>(op: CmpOp, a: T, b: T) -> bool {
+    match op {
+        CmpOp::Eq => a == b,
+        CmpOp::Ne => a != b,
+        CmpOp::Lt => a < b,
+        CmpOp::Le => a <= b,
+        CmpOp::Gt => a > b,
+        CmpOp::Ge => a >= b,
+    }
+}
+
+macro_rules! binary {
+    ($op:expr, $a:expr, $b:expr) => {
+        match $op {
+            BinOp::Add => $a.wrapping_add($b),
+            BinOp::Sub => $a.wrapping_sub($b),
+            BinOp::Mul => $a.wrapping_mul($b),
+            // A divisor of 0 is excluded by a condition around the statement, so its result is of no consequence.
+            BinOp::Div => $a.checked_div($b).unwrap_or($a.wrapping_neg()),
+            BinOp::Rem => $a.checked_rem($b).unwrap_or(0),
+            BinOp::And => $a & $b,
+            BinOp::Or => $a | $b,
+            BinOp::Xor => $a ^ $b,
+            BinOp::SatAdd => $a.saturating_add($b),
+            BinOp::SatSub => $a.saturating_sub($b),
+        }
+    };
+}
+
+/// Expressions. A device that does not exist reads as 0 and swallows writes; a validated module reaches none.
+impl<'m> Machine<'m> {
+    pub(crate) fn eval(&self, id: ExprId) -> Value {
+        match *self.module.expr(id) {
+            Expr::Bit(v) => Value::Bit(v),
+            Expr::I16(v) => Value::I16(v),
+            Expr::I32(v) => Value::I32(v),
+            Expr::F32(v) => Value::F32(v),
+            Expr::Temp(temp) => self.temps[temp.0 as usize],
+            Expr::ReadBit(place) => Value::Bit(self.read_bit(place)),
+            Expr::ReadWordBit(place, bit) => {
+                Value::Bit(self.read_word(place) as u16 >> (bit & 15) & 1 == 1)
+            }
+            Expr::ReadWord(place) => Value::I16(self.read_word(place)),
+            Expr::ReadPair(place) => Value::I32(self.read_pair(place)),
+            Expr::ReadFloat(place) => Value::F32(f32::from_bits(self.read_pair(place) as u32)),
+            Expr::ReadNibbles {
+                place,
+                digits,
+                wide,
+            } => {
+                let value = self.read_nibbles(place, digits);
+                if wide || digits > 4 {
+                    Value::I32(value)
+                } else {
+                    Value::I16(value as i16)
+                }
+            }
+            Expr::Sys(SysValue::Running) => Value::Bit(self.sys.running),
+            Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
+            Expr::Sys(SysValue::NowMs) => Value::I32(self.sys.now_ms as i32),
+            Expr::Sys(SysValue::Scan100us) => Value::I32((self.sys.scan_us / 100) as i32),
+            Expr::Not(a) => Value::Bit(!self.on(a)),
+            Expr::And(a, b) => Value::Bit(self.on(a) & self.on(b)),
+            Expr::Or(a, b) => Value::Bit(self.on(a) | self.on(b)),
+            Expr::Cmp(op, a, b) => Value::Bit(match (self.eval(a), self.eval(b)) {
+                (Value::F32(a), Value::F32(b)) => compare(op, a, b),
+                (a, b) => compare(op, int(a), int(b)),
+            }),
+            Expr::Bin(op, a, b) => match (self.eval(a), self.eval(b)) {
+                (Value::I16(a), Value::I16(b)) => Value::I16(binary!(op, a, b)),
+                (a, b) => {
+                    let (a, b) = (int(a), int(b));
+                    Value::I32(binary!(op, a, b))
+                }
+            },
+            Expr::Complement(a) => match self.eval(a) {
+                Value::I16(v) => Value::I16(!v),
+                v => Value::I32(!int(v)),
+            },
+            Expr::Neg(a) => match self.eval(a) {
+                Value::I16(v) => Value::I16(v.wrapping_neg()),
+                v => Value::I32(int(v).wrapping_neg()),
+            },
+            Expr::Widen(a) => Value::I32(int(self.eval(a))),
+            Expr::Narrow(a) => Value::I16(int(self.eval(a)) as i16),
+            Expr::HighWord(a) => Value::I16((int(self.eval(a)) >> 16) as i16),
+            Expr::BitToInt(a) => Value::I16(self.on(a).into()),
+            Expr::InRange { place, count } => Value::Bit(self.in_range(place, count)),
+        }
+    }
+
+    /// A `Bit` expression's value.
+    pub(crate) fn on(&self, id: ExprId) -> bool {
+        self.eval(id) == Value::Bit(true)
+    }
+
+    /// The number of the device that a place names now; `None` if the index leads below 0.
+    fn number(&self, place: Place) -> Option<u32> {
+        match place.index {
+            None => Some(place.number),
+            Some(index) => {
+                let number = i64::from(place.number) + i64::from(int(self.eval(index)));
+                u32::try_from(number).ok()
+            }
+        }
+    }
+
+    fn device(&self, place: Place) -> Option<(Class, u32)> {
+        Some((rt_class(place.class)?, self.number(place)?))
+    }
+
+    fn in_range(&self, place: Place, count: u32) -> bool {
+        self.number(place).is_some_and(|first| {
+            let last = u64::from(first) + u64::from(count.max(1)) - 1;
+            self.module
+                .model
+                .range(place.class, first)
+                .is_some_and(|range| last <= u64::from(range.last))
+        })
+    }
+
+    fn read_bit(&self, place: Place) -> bool {
+        self.device(place)
+            .and_then(|(class, n)| self.bit(class, n))
+            .unwrap_or(false)
+    }
+
+    fn read_word(&self, place: Place) -> i16 {
+        self.device(place)
+            .and_then(|(class, n)| self.word(class, n))
+            .unwrap_or(0)
+    }
+
+    /// Where the high word of the pair at (class, number) is.
+    fn high_word(&self, class: Class, number: u32) -> (Class, u32) {
+        if class == Class::Z && self.module.model.z_pairs_with_v {
+            (Class::V, number)
+        } else {
+            (class, number.saturating_add(1))
+        }
+    }
+
+    fn read_pair(&self, place: Place) -> i32 {
+        let Some((class, number)) = self.device(place) else {
+            return 0;
+        };
+        if let (Class::C, Some(value)) = (class, self.counter32(number)) {
+            return value;
+        }
+        let (high_class, high) = self.high_word(class, number);
+        let low = self.word(class, number).unwrap_or(0);
+        let high = self.word(high_class, high).unwrap_or(0);
+        i32::from(high) << 16 | i32::from(low as u16)
+    }
+
+    fn read_nibbles(&self, place: Place, digits: u8) -> i32 {
+        let Some((class, first)) = self.device(place) else {
+            return 0;
+        };
+        (0..4 * u32::from(digits)).fold(0, |value, i| {
+            let on = self.bit(class, first.saturating_add(i)).unwrap_or(false);
+            value | i32::from(on) << i
+        })
+    }
+}
+
+/// Statements.
+impl<'m> Machine<'m> {
+    /// Executes a body.
+    pub(crate) fn run(&mut self, body: &'m [Stmt], hal: &mut dyn Hal) -> Flow {
+        for stmt in body {
+            let Some(budget) = self.budget.checked_sub(1) else {
+                return Flow::OutOfTime;
+            };
+            self.budget = budget;
+            let flow = self.step(stmt, hal);
+            if flow != Flow::Next {
+                return flow;
+            }
+        }
+        Flow::Next
+    }
+
+    fn step(&mut self, stmt: &'m Stmt, hal: &mut dyn Hal) -> Flow {
+        match stmt {
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                let body = if self.on(*cond) { then } else { otherwise };
+                return self.run(body, hal);
+            }
+            Stmt::For { count, body } => {
+                for _ in 0..int(self.eval(*count)).max(1) {
+                    let flow = self.run(body, hal);
+                    if flow != Flow::Next {
+                        return flow;
+                    }
+                }
+            }
+            Stmt::CallSub(n) => {
+                let module = self.module;
+                if let Some(function) = module.functions.get(*n as usize)
+                    && self.run(&function.body, hal) == Flow::OutOfTime
+                {
+                    return Flow::OutOfTime;
+                }
+            }
+            Stmt::Return => return Flow::Return,
+            Stmt::Parts(parts) => return self.run_parts(parts, hal),
+            Stmt::Goto(label) => return Flow::Goto(*label),
+            Stmt::Call {
+                function,
+                wide,
+                args,
+                drive,
+                slot,
+                step,
+            } => {
+                let site = Site {
+                    step: *step,
+                    slot: *slot,
+                    wide: *wide,
+                    drive: drive.is_none_or(|drive| self.on(drive)),
+                };
+                self.call(*function, args, site, hal);
+            }
+            Stmt::Fault { code, step } => report(self, Fault(*code), *step),
+            Stmt::Clear { latched } => self.devices.clear(*latched),
+            _ => self.assign(stmt),
+        }
+        Flow::Next
+    }
+
+    fn run_parts(&mut self, parts: &'m [Part], hal: &mut dyn Hal) -> Flow {
+        let mut next = 0;
+        while let Some(part) = parts.get(next) {
+            next = match self.run(&part.body, hal) {
+                Flow::Next => next + 1,
+                Flow::Goto(label) => match parts.iter().position(|p| p.label == Some(label)) {
+                    // A jump costs as much as a statement, so that an empty loop ends too.
+                    Some(target) if self.budget > 0 => {
+                        self.budget -= 1;
+                        target
+                    }
+                    Some(_) => return Flow::OutOfTime,
+                    None => return Flow::Goto(label),
+                },
+                flow => return flow,
+            };
+        }
+        Flow::Next
+    }
+
+    /// Statements that only evaluate and store.
+    fn assign(&mut self, stmt: &Stmt) {
+        match *stmt {
+            Stmt::Let(temp, value) => self.temps[temp.0 as usize] = self.eval(value),
+            Stmt::Edge {
+                edge,
+                kind,
+                input,
+                out,
+            } => {
+                let now = self.on(input);
+                let before = std::mem::replace(&mut self.edges[edge.0 as usize], now);
+                self.temps[out.0 as usize] = Value::Bit(match kind {
+                    EdgeKind::Rising => now && !before,
+                    EdgeKind::Falling => before && !now,
+                });
+            }
+            Stmt::WriteBit(place, value) => {
+                let on = self.on(value);
+                self.write_bit(place, on);
+            }
+            Stmt::WriteWordBit(place, bit, value) => {
+                let (mask, on) = (1i16 << (bit & 15), self.on(value));
+                let word = self.read_word(place);
+                self.write_word(place, if on { word | mask } else { word & !mask });
+            }
+            Stmt::WriteWord(place, value) => {
+                let value = int(self.eval(value)) as i16;
+                self.write_word(place, value);
+            }
+            Stmt::WritePair(place, value) => {
+                let value = int(self.eval(value));
+                self.write_pair(place, value);
+            }
+            Stmt::WriteFloat(place, value) => {
+                if let Value::F32(value) = self.eval(value) {
+                    self.write_pair(place, value.to_bits() as i32);
+                }
+            }
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => {
+                let value = int(self.eval(value));
+                self.write_nibbles(place, digits, value);
+            }
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => {
+                let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
+                let (now, dt) = (self.sys.now_ms, self.sys.dt_ms);
+                if let Some(timer) = self.devices.timer(number) {
+                    timer.run(kind, drive, preset, now, dt);
+                }
+            }
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => {
+                let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
+                if let Some(counter) = self.devices.counter16(number) {
+                    counter.run(drive, preset);
+                }
+            }
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => {
+                let (drive, down, preset) = (self.on(drive), self.on(down), int(self.eval(preset)));
+                if let Some(counter) = self.devices.counter32_mut(number) {
+                    counter.run(drive, down, preset);
+                }
+            }
+            Stmt::Reset(place) => {
+                if let Some((class, number)) = self.device(place) {
+                    let _ = self.reset(class, number);
+                }
+            }
+            // Stmt::Network marks a place; all others are control flow, which `step` handles.
+            _ => {}
+        }
+    }
+
+    fn write_bit(&mut self, place: Place, on: bool) {
+        if let Some((class, number)) = self.device(place) {
+            let _ = self.set_bit(class, number, on);
+        }
+    }
+
+    fn write_word(&mut self, place: Place, value: i16) {
+        if let Some((class, number)) = self.device(place) {
+            let _ = self.set_word(class, number, value);
+        }
+    }
+
+    fn write_pair(&mut self, place: Place, value: i32) {
+        let Some((class, number)) = self.device(place) else {
+            return;
+        };
+        if class == Class::C && self.set_counter32(number, value).is_some() {
+            return;
+        }
+        let (high_class, high) = self.high_word(class, number);
+        let _ = self.set_word(class, number, value as i16);
+        let _ = self.set_word(high_class, high, (value >> 16) as i16);
+    }
+
+    fn write_nibbles(&mut self, place: Place, digits: u8, value: i32) {
+        if let Some((class, first)) = self.device(place) {
+            for i in 0..4 * u32::from(digits.min(8)) {
+                let _ = self.set_bit(class, first.saturating_add(i), value >> i & 1 == 1);
+            }
+        }
+    }
+
+    fn call(&mut self, function: RtFn, args: &[Arg], site: Site, hal: &mut dyn Hal) {
+        let mut ops = std::mem::take(&mut self.operands);
+        ops.clear();
+        ops.extend(args.iter().map(|arg| self.operand(arg)));
+        let done = function.call(&mut Cx {
+            plc: self,
+            hal,
+            ops: &ops,
+            site,
+        });
+        self.operands = ops;
+        if let Err(fault) = done {
+            report(self, fault, site.step);
+        }
+    }
+
+    /// An operand with its index added.
+    fn operand(&self, arg: &Arg) -> Operand {
+        let indexed = |place: Place| {
+            let index = place.index.map_or(0, |index| int(self.eval(index)));
+            (place.number as i32).saturating_add(index)
+        };
+        // Classes without storage are operands of control flow only, never of a call.
+        let class = |place: Place| rt_class(place.class).unwrap_or(Class::D);
+        match *arg {
+            Arg::Const { value, index, wide } => {
+                let index = index.map_or(0, |index| int(self.eval(index)));
+                let sum = value.wrapping_add(index);
+                Operand::constant(match (wide, index) {
+                    (_, 0) | (true, _) => sum,
+                    (false, _) => (sum as i16).into(),
+                })
+            }
+            Arg::Float(value) => Operand::float(value),
+            Arg::Device { place, .. } => Operand::device(class(place), indexed(place)),
+            Arg::Nibbles { place, digits, .. } => {
+                Operand::nibbles(digits, class(place), indexed(place))
+            }
+            Arg::WordBit { place, bit } => Operand::word_bit(class(place), indexed(place), bit),
+            Arg::Text(index) => Operand::text(index as i32),
+        }
+    }
+}

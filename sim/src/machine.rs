@@ -1,0 +1,259 @@
+//! The reference interpreter: the machine that a [`Module`] runs on, and its scan cycle.
+//!
+//! It has every device of the model, so it answers for devices that compiled code leaves out. What statements and expressions
+//! mean is in [`exec`](crate::exec), word for word as [`rungc_ir::node`] specifies it.
+
+use crate::devices::Devices;
+use crate::exec::{Flow, Value};
+use rungc_ir::Module;
+use rungc_ir::node::{FunctionKind, Ty};
+use rungc_rt::{Class, Hal, Operand, Plc, Program, State, Sys};
+
+/// Special relay that keeps memory and outputs in STOP.
+const M_KEEP_IN_STOP: u32 = 8033;
+/// Special relay that switches all outputs off.
+const M_OUTPUTS_OFF: u32 = 8034;
+/// PLC hardware error: set when the watchdog stops the PLC.
+const M_HARDWARE_ERROR: u32 = 8061;
+/// Its code.
+const D_HARDWARE_ERROR: u32 = 8061;
+/// The watchdog's code (h1u-h2u-programming §8.1, error codes of D8061).
+const WATCHDOG_ERROR: i16 = 6105;
+/// The longest time a scan may take, in milliseconds.
+const D_WATCHDOG_MS: u32 = 8000;
+/// How many statements the machine takes a PLC to execute in a millisecond, when virtual time stands still and only their
+/// number can tell that a scan does not end.
+const STATEMENTS_PER_MS: u64 = 10_000;
+
+/// A program and its devices, executed by reading the IR.
+///
+/// In STOP a scan runs only the function `Begin`, which brings the clocks up to date. A scan that executes more than
+/// 10,000 statements for each millisecond of the watchdog time D8000 counts as one that does not end: the machine sets M8061 and
+/// D8061 = 6105 and goes to STOP with all outputs off.
+pub struct Machine<'m> {
+    pub(crate) module: &'m Module,
+    pub(crate) devices: Devices,
+    pub(crate) temps: Vec<Value>,
+    pub(crate) edges: Vec<bool>,
+    pub(crate) sys: Sys,
+    /// Statements that this scan may still execute.
+    pub(crate) budget: u64,
+    /// Operands of the call being executed; kept to save the allocation.
+    pub(crate) operands: Vec<Operand>,
+    states: Vec<State>,
+    /// When the last scan began; `None` before the first after power-on.
+    last_scan_ms: Option<u32>,
+    /// Whether the next scan in RUN is the first.
+    fresh: bool,
+    watchdog_tripped: bool,
+}
+
+impl<'m> Machine<'m> {
+    /// The machine at power-on, in RUN.
+    pub fn new(module: &'m Module) -> Self {
+        let mut machine = Machine {
+            module,
+            devices: Devices::new(module.model),
+            temps: module.temps.iter().map(|&ty| Value::zero(ty)).collect(),
+            edges: vec![false; module.edges as usize],
+            sys: Sys::default(),
+            budget: 0,
+            operands: Vec::new(),
+            states: vec![State::default(); usize::from(module.states) + 1],
+            last_scan_ms: None,
+            fresh: true,
+            watchdog_tripped: false,
+        };
+        machine.power_on();
+        machine
+    }
+
+    /// The module it runs.
+    pub fn module(&self) -> &'m Module {
+        self.module
+    }
+
+    /// Whether the last scan was cut short by the watchdog.
+    pub fn watchdog_tripped(&self) -> bool {
+        self.watchdog_tripped
+    }
+
+    fn power_on(&mut self) {
+        for &(number, value) in self.module.model.special_words {
+            // A model's table names only devices that it has.
+            let _ = self.set_word(Class::D, number, value);
+        }
+        self.states.fill(State::default());
+        self.sys = Sys {
+            running: true,
+            ..Sys::default()
+        };
+        self.last_scan_ms = None;
+        self.watchdog_tripped = false;
+        self.begin_run();
+    }
+
+    fn begin_run(&mut self) {
+        self.edges.fill(false);
+        self.devices.forget_coils();
+        self.fresh = true;
+    }
+
+    fn special(&self, number: u32) -> bool {
+        self.devices.bit(Class::M, number).unwrap_or(false)
+    }
+
+    /// Runs the function of this kind, if there is one.
+    fn run_function(&mut self, hal: &mut dyn Hal, kind: FunctionKind) -> Flow {
+        match self.module.functions.iter().find(|f| f.kind == kind) {
+            Some(function) => self.run(&function.body, hal),
+            None => Flow::Next,
+        }
+    }
+
+    fn trip_watchdog(&mut self) {
+        self.watchdog_tripped = true;
+        let _ = self.set_bit(Class::M, M_HARDWARE_ERROR, true);
+        let _ = self.set_word(Class::D, D_HARDWARE_ERROR, WATCHDOG_ERROR);
+        self.sys.running = false;
+    }
+}
+
+impl Program for Machine<'_> {
+    fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
+        self.sys.now_ms = now_ms;
+        self.sys.dt_ms = self
+            .last_scan_ms
+            .map_or(0, |last| now_ms.wrapping_sub(last));
+        self.sys.scan_us = scan_us;
+        self.sys.first_scan = self.sys.running && self.fresh;
+        self.last_scan_ms = Some(now_ms);
+        let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS).unwrap_or(0).max(1);
+        self.budget = watchdog_ms as u64 * STATEMENTS_PER_MS;
+
+        let functions: &[FunctionKind] = if self.sys.running {
+            self.fresh = false;
+            &[FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
+        } else {
+            &[FunctionKind::Begin]
+        };
+        for &kind in functions {
+            if self.run_function(hal, kind) == Flow::OutOfTime {
+                self.trip_watchdog();
+                return;
+            }
+        }
+    }
+
+    fn set_running(&mut self, running: bool) {
+        if running == self.sys.running {
+            return;
+        }
+        self.sys.running = running;
+        if running {
+            self.watchdog_tripped = false;
+            self.begin_run();
+        } else if !self.special(M_KEEP_IN_STOP) {
+            self.devices.clear(false);
+        }
+    }
+
+    fn power_cycle(&mut self) {
+        self.devices.power_off();
+        self.power_on();
+    }
+
+    fn output(&self, number: u32) -> bool {
+        let driven = self.sys.running || (self.special(M_KEEP_IN_STOP) && !self.watchdog_tripped);
+        driven
+            && !self.special(M_OUTPUTS_OFF)
+            && self.devices.bit(Class::Y, number).unwrap_or(false)
+    }
+}
+
+impl Plc for Machine<'_> {
+    fn bit(&self, class: Class, number: u32) -> Option<bool> {
+        self.devices.bit(class, number)
+    }
+
+    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
+        *self.devices.bit_mut(class, number)? = value;
+        Some(())
+    }
+
+    fn word(&self, class: Class, number: u32) -> Option<i16> {
+        self.devices.word(class, number)
+    }
+
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
+        *self.devices.word_mut(class, number)? = value;
+        Some(())
+    }
+
+    fn counter32(&self, number: u32) -> Option<i32> {
+        self.devices.counter32(number).map(|c| c.value)
+    }
+
+    fn set_counter32(&mut self, number: u32, value: i32) -> Option<()> {
+        self.devices.counter32_mut(number)?.value = value;
+        Some(())
+    }
+
+    fn state(&mut self, slot: u16) -> &mut State {
+        // Slot 0 belongs to instructions without memory; a slot that the module does not have is taken for it.
+        let i = usize::from(slot);
+        let i = if i < self.states.len() { i } else { 0 };
+        &mut self.states[i]
+    }
+
+    fn sys(&self) -> &Sys {
+        &self.sys
+    }
+
+    fn text(&self, index: u32) -> &[u8] {
+        self.module
+            .texts
+            .get(index as usize)
+            .map_or(&[], |text| text.as_bytes())
+    }
+
+    fn z_pairs_with_v(&self) -> bool {
+        self.module.model.z_pairs_with_v
+    }
+
+    fn reset(&mut self, class: Class, number: u32) -> Option<()> {
+        match class {
+            Class::T => {
+                let timer = self.devices.timer(number)?;
+                timer.value = 0;
+                timer.part_ms = 0;
+                timer.done = false;
+            }
+            Class::C => match self.devices.counter16(number) {
+                Some(counter) => {
+                    counter.value = 0;
+                    counter.done = false;
+                }
+                None => {
+                    let counter = self.devices.counter32_mut(number)?;
+                    counter.value = 0;
+                    counter.done = false;
+                }
+            },
+            _ => return None,
+        }
+        Some(())
+    }
+}
+
+impl Value {
+    /// What a temporary of this type holds before it is first assigned.
+    fn zero(ty: Ty) -> Self {
+        match ty {
+            Ty::Bit => Value::Bit(false),
+            Ty::I16 => Value::I16(0),
+            Ty::I32 => Value::I32(0),
+            Ty::F32 => Value::F32(0.0),
+        }
+    }
+}
