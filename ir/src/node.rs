@@ -326,7 +326,7 @@ pub enum Stmt {
         /// Step number.
         step: u32,
     },
-    /// Clears devices: the general ones (false) or the latched ones (true): M8031, M8032.
+    /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices: M8031, M8032.
     Clear {
         /// Which.
         latched: bool,

@@ -10,13 +10,16 @@ pub trait Program: Plc {
     /// special relays that run from power-on (the clocks) are brought up to date.
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
 
-    /// The RUN/STOP switch. Going to STOP clears what is not latched, unless M8033 is on; going to RUN makes the next scan the
-    /// first one (M8002) and forgets all edges. A program is in RUN at power-on.
+    /// The RUN/STOP switch. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;
+    /// going to RUN makes the next scan the first one (M8002) and forgets all edges, the coils of timers and counters included.
+    /// Setting the mode that it is in changes nothing. A program is in RUN at power-on.
     fn set_running(&mut self, running: bool);
 
-    /// Power off and on: everything but latched devices takes its power-on value; then RUN.
+    /// Power off and on: everything but latched devices takes its power-on value, inputs, special devices, edges, the coils of
+    /// latched timers and counters and private memories included; then RUN. On models with a latch key (HM) latched devices
+    /// are kept only if the key register holds the key.
     fn power_cycle(&mut self);
 
-    /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP.
+    /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP without M8033.
     fn output(&self, number: u32) -> bool;
 }

@@ -225,9 +225,9 @@ impl Devices {
         self.each_clear(pick);
     }
 
-    /// Power off and on: only latched devices keep their value, and no coil remembers that it was on.
-    pub(crate) fn power_off(&mut self) {
-        let pick = |p: Presence| !p.latched;
+    /// Power off and on: only latched devices keep their value, if any do, and no coil remembers that it was on.
+    pub(crate) fn power_off(&mut self, keeps_latched: bool) {
+        let pick = |p: Presence| !(p.latched && keeps_latched);
         self.x.clear(pick);
         self.each_clear(pick);
         self.forget_coils();

@@ -64,6 +64,7 @@ macro_rules! binary {
             BinOp::Xor => $a ^ $b,
             BinOp::SatAdd => $a.saturating_add($b),
             BinOp::SatSub => $a.saturating_sub($b),
+            BinOp::MulHigh => (i64::from($a) * i64::from($b) >> 32) as _,
         }
     };
 }
@@ -151,13 +152,8 @@ impl<'m> Machine<'m> {
     }
 
     fn in_range(&self, place: Place, count: u32) -> bool {
-        self.number(place).is_some_and(|first| {
-            let last = u64::from(first) + u64::from(count.max(1)) - 1;
-            self.module
-                .model
-                .range(place.class, first)
-                .is_some_and(|range| last <= u64::from(range.last))
-        })
+        self.number(place)
+            .is_some_and(|first| self.module.model.in_range(place.class, first.into(), count))
     }
 
     fn read_bit(&self, place: Place) -> bool {
@@ -167,9 +163,13 @@ impl<'m> Machine<'m> {
     }
 
     fn read_word(&self, place: Place) -> i16 {
-        self.device(place)
-            .and_then(|(class, n)| self.word(class, n))
-            .unwrap_or(0)
+        let Some((class, number)) = self.device(place) else {
+            return 0;
+        };
+        if let (Class::C, Some(value)) = (class, self.counter32(number)) {
+            return value as i16;
+        }
+        self.word(class, number).unwrap_or(0)
     }
 
     /// Where the high word of the pair at (class, number) is.
@@ -391,9 +391,13 @@ impl<'m> Machine<'m> {
     }
 
     fn write_word(&mut self, place: Place, value: i16) {
-        if let Some((class, number)) = self.device(place) {
-            let _ = self.set_word(class, number, value);
+        let Some((class, number)) = self.device(place) else {
+            return;
+        };
+        if class == Class::C && self.set_counter32(number, value.into()).is_some() {
+            return;
         }
+        let _ = self.set_word(class, number, value);
     }
 
     fn write_pair(&mut self, place: Place, value: i32) {

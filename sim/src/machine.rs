@@ -41,10 +41,6 @@ pub struct Machine<'m> {
     /// Operands of the call being executed; kept to save the allocation.
     pub(crate) operands: Vec<Operand>,
     states: Vec<State>,
-    /// When the last scan began; `None` before the first after power-on.
-    last_scan_ms: Option<u32>,
-    /// Whether the next scan in RUN is the first.
-    fresh: bool,
     watchdog_tripped: bool,
 }
 
@@ -56,12 +52,10 @@ impl<'m> Machine<'m> {
             devices: Devices::new(module.model),
             temps: module.temps.iter().map(|&ty| Value::zero(ty)).collect(),
             edges: vec![false; module.edges as usize],
-            sys: Sys::default(),
+            sys: Sys::power_on(),
             budget: 0,
             operands: Vec::new(),
             states: vec![State::default(); usize::from(module.states) + 1],
-            last_scan_ms: None,
-            fresh: true,
             watchdog_tripped: false,
         };
         machine.power_on();
@@ -84,11 +78,7 @@ impl<'m> Machine<'m> {
             let _ = self.set_word(Class::D, number, value);
         }
         self.states.fill(State::default());
-        self.sys = Sys {
-            running: true,
-            ..Sys::default()
-        };
-        self.last_scan_ms = None;
+        self.sys = Sys::power_on();
         self.watchdog_tripped = false;
         self.begin_run();
     }
@@ -96,7 +86,6 @@ impl<'m> Machine<'m> {
     fn begin_run(&mut self) {
         self.edges.fill(false);
         self.devices.forget_coils();
-        self.fresh = true;
     }
 
     fn special(&self, number: u32) -> bool {
@@ -104,8 +93,8 @@ impl<'m> Machine<'m> {
     }
 
     /// Runs the function of this kind, if there is one.
-    fn run_function(&mut self, hal: &mut dyn Hal, kind: FunctionKind) -> Flow {
-        match self.module.functions.iter().find(|f| f.kind == kind) {
+    fn run_function(&mut self, hal: &mut dyn Hal, kind: &FunctionKind) -> Flow {
+        match self.module.functions.iter().find(|f| f.kind == *kind) {
             Some(function) => self.run(&function.body, hal),
             None => Flow::Next,
         }
@@ -121,35 +110,28 @@ impl<'m> Machine<'m> {
 
 impl Program for Machine<'_> {
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
-        self.sys.now_ms = now_ms;
-        self.sys.dt_ms = self
-            .last_scan_ms
-            .map_or(0, |last| now_ms.wrapping_sub(last));
-        self.sys.scan_us = scan_us;
-        self.sys.first_scan = self.sys.running && self.fresh;
-        self.last_scan_ms = Some(now_ms);
+        self.sys.begin_scan(now_ms, scan_us);
         let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS).unwrap_or(0).max(1);
         self.budget = watchdog_ms as u64 * STATEMENTS_PER_MS;
 
         let functions: &[FunctionKind] = if self.sys.running {
-            self.fresh = false;
             &[FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
         } else {
             &[FunctionKind::Begin]
         };
-        for &kind in functions {
+        for kind in functions {
             if self.run_function(hal, kind) == Flow::OutOfTime {
                 self.trip_watchdog();
-                return;
+                break;
             }
         }
+        self.sys.end_scan();
     }
 
     fn set_running(&mut self, running: bool) {
-        if running == self.sys.running {
+        if !self.sys.set_running(running) {
             return;
         }
-        self.sys.running = running;
         if running {
             self.watchdog_tripped = false;
             self.begin_run();
@@ -159,7 +141,11 @@ impl Program for Machine<'_> {
     }
 
     fn power_cycle(&mut self) {
-        self.devices.power_off();
+        let keeps_latched = match self.module.model.latch_key {
+            Some((register, key)) => self.word(Class::D, register) == Some(key),
+            None => true,
+        };
+        self.devices.power_off(keeps_latched);
         self.power_on();
     }
 
@@ -223,22 +209,10 @@ impl Plc for Machine<'_> {
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {
         match class {
-            Class::T => {
-                let timer = self.devices.timer(number)?;
-                timer.value = 0;
-                timer.part_ms = 0;
-                timer.done = false;
-            }
+            Class::T => self.devices.timer(number)?.reset(),
             Class::C => match self.devices.counter16(number) {
-                Some(counter) => {
-                    counter.value = 0;
-                    counter.done = false;
-                }
-                None => {
-                    let counter = self.devices.counter32_mut(number)?;
-                    counter.value = 0;
-                    counter.done = false;
-                }
+                Some(counter) => counter.reset(),
+                None => self.devices.counter32_mut(number)?.reset(),
             },
             _ => return None,
         }
