@@ -207,6 +207,39 @@ impl Cx<'_> {
         }
     }
 
+    /// Whether operand `i` is a constant.
+    pub fn is_constant(&self, i: usize) -> bool {
+        self.op(i).is_ok_and(|op| op.kind == OperandKind::Const)
+    }
+
+    /// Byte number `n` from operand `i`: two a word, the low one first, or one a word in its low byte.
+    pub fn byte(&self, i: usize, n: i32, one_a_word: bool) -> Result<u8, Fault> {
+        if one_a_word {
+            return self.word(i, n).map(|w| w as u8);
+        }
+        let [low, high] = self.word(i, n / 2)?.to_le_bytes();
+        Ok(if n % 2 == 0 { low } else { high })
+    }
+
+    /// Writes byte number `n` from operand `i`; one a word clears the high byte.
+    pub fn set_byte(&mut self, i: usize, n: i32, one_a_word: bool, byte: u8) -> Done {
+        if one_a_word {
+            return self.set_word(i, n, byte.into());
+        }
+        let [low, high] = self.word(i, n / 2)?.to_le_bytes();
+        let word = if n % 2 == 0 {
+            [byte, high]
+        } else {
+            [low, byte]
+        };
+        self.set_word(i, n / 2, i16::from_le_bytes(word))
+    }
+
+    /// Faults unless the words of the `count` bytes from operand `i` on exist.
+    pub fn check_bytes(&self, i: usize, count: i32, one_a_word: bool) -> Done {
+        self.check_words(i, if one_a_word { count } else { (count + 1) / 2 })
+    }
+
     /// Writes a float.
     pub fn set_float(&mut self, i: usize, offset: i32, value: f32) -> Result<(), Fault> {
         self.set_dword(i, offset, value.to_bits() as i32)

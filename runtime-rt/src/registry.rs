@@ -195,4 +195,48 @@ registry! {
     Cosh = float::cosh(s, d);
     /// TANH (FNC 440).
     Tanh = float::tanh(s, d);
+    /// PRUN (FNC 81): copies bits in octal rows.
+    Prun = serial::prun(s, d);
+    /// ASCI (FNC 82): hexadecimal digits to characters; M8161 selects one a word.
+    Asci = serial::asci(s, d, n);
+    /// ASCI of HM: one character a word.
+    AsciBytes = serial::asci_bytes(s, d, n);
+    /// HEX (FNC 83): characters to hexadecimal digits; M8161 selects one a word.
+    Hex = serial::hex(s, d, n);
+    /// HEX of HM: one character a word, unchecked.
+    HexBytes = serial::hex_bytes(s, d, n);
+    /// CCD (FNC 84): sum and parity of bytes.
+    Ccd = serial::ccd(s, d, n);
+    /// CRC (FNC 188): CRC-16 of bytes.
+    Crc = serial::crc(s, d, n);
+    /// TCMP (FNC 160): compares times of day.
+    Tcmp = clock::tcmp(s1, s2, s3, s, d);
+    /// TZCP (FNC 161): compares a time of day with a zone.
+    Tzcp = clock::tzcp(s1, s2, s, d);
+    /// TADD (FNC 162): sum of times of day.
+    Tadd = clock::tadd(s1, s2, d);
+    /// TSUB (FNC 163): difference of times of day.
+    Tsub = clock::tsub(s1, s2, d);
+    /// HTOS (FNC 164): hours, minutes, seconds to seconds.
+    Htos = clock::htos(s, d);
+    /// STOH (FNC 165): seconds to hours, minutes, seconds.
+    Stoh = clock::stoh(s, d);
+    /// TRD (FNC 166): reads the clock.
+    Trd = clock::trd(d) [hal];
+    /// TRD with two digits of the year (L01S, FX).
+    TrdShort = clock::trd_short(d) [hal];
+    /// TWR (FNC 167): sets the clock.
+    Twr = clock::twr(s) [hal];
+    /// TWR with two or four digits of the year (L01S, FX).
+    TwrShort = clock::twr_short(s) [hal];
+    /// D8013–D8019 from the clock and M8015–M8017, once before each scan's program.
+    ClockRefresh = clock::clock_refresh() [state, always, hal];
+    /// The same with two digits of the year (L01S, FX).
+    ClockRefreshShort = clock::clock_refresh_short() [state, always, hal];
+    /// HOUR (FNC 169): hour meter.
+    Hour = clock::hour(s, d1, d2) [state, always];
+    /// GRY (FNC 170): to Gray code.
+    Gry = gray::gry(s, d);
+    /// GBIN (FNC 171): from Gray code.
+    Gbin = gray::gbin(s, d);
 }

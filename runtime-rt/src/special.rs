@@ -22,3 +22,17 @@ pub const M_ANNUNCIATOR_MONITOR: u32 = 8049;
 pub const D_ANNUNCIATOR: u32 = 8049;
 /// MEAN of H1U/H2U also stores the sum.
 pub const M_MEAN_SUM: u32 = 8490;
+/// Stops the real-time clock; its fall sets the clock from D8013–D8019.
+pub const M_CLOCK_STOP: u32 = 8015;
+/// Holds D8013–D8019 while the clock goes on.
+pub const M_CLOCK_HOLD: u32 = 8016;
+/// Its rise rounds the clock to a minute.
+pub const M_CLOCK_ADJUST: u32 = 8017;
+/// The clock was to be set to no moment.
+pub const M_CLOCK_ERROR: u32 = 8019;
+/// Seconds of the clock; D8014–D8018 are minutes, hours, day, month, year.
+pub const D_SECOND: u32 = 8013;
+/// Weekday of the clock, Sunday = 0.
+pub const D_WEEKDAY: u32 = 8019;
+/// One character a word (ASC, ASCI, HEX, CCD, CRC).
+pub const M_BYTE_MODE: u32 = 8161;

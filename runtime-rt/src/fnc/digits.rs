@@ -25,6 +25,23 @@ pub fn from_bcd(bcd: u32) -> Option<u32> {
         .then(|| from_nibbles(bcd))
 }
 
+/// Character of the hexadecimal digit in the low four bits.
+pub fn hex_digit(digit: u16) -> u8 {
+    match digit as u8 & 15 {
+        digit @ 0..=9 => b'0' + digit,
+        digit => b'A' + digit - 10,
+    }
+}
+
+/// The hexadecimal digit that a character (in capitals) is.
+pub fn hex_value(code: u8) -> Option<u16> {
+    match code {
+        b'0'..=b'9' => Some(u16::from(code - b'0')),
+        b'A'..=b'F' => Some(u16::from(code - b'A') + 10),
+        _ => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,10 @@
 
 mod digits;
 
+pub mod clock;
 pub mod data;
 pub mod float;
+pub mod gray;
 pub mod move_;
 pub mod rotate;
+pub mod serial;
