@@ -1,6 +1,6 @@
 //! Finds the row of a mnemonic.
 
-use super::{Forms, Inst, Spelling, arith, basic, compare, flow, move_};
+use super::{Forms, Inst, Spelling, arith, basic, compare, data, float, flow, move_, rotate};
 use crate::resolve::Form;
 use rustc_hash::FxHashMap;
 use std::sync::OnceLock;
@@ -12,6 +12,9 @@ const FAMILIES: &[&[Inst]] = &[
     compare::ROWS,
     move_::ROWS,
     arith::ROWS,
+    rotate::ROWS,
+    data::ROWS,
+    float::ROWS,
 ];
 
 /// A row and the form that its spelling names.

@@ -7,9 +7,12 @@
 mod arith;
 mod basic;
 mod compare;
+mod data;
+mod float;
 mod flow;
 mod lookup;
 mod move_;
+mod rotate;
 mod row;
 #[cfg(test)]
 mod tests;
@@ -198,7 +201,9 @@ pub enum Rule {
     Aligned(u32),
     /// A group has as many bits as the form: K4, in the 32-bit form K8.
     WholeGroup,
-    /// A group if operand `i` is one, with as many digits; else none.
+    /// If it is a group and operand `i` too, both have as many digits.
+    SameDigits(usize),
+    /// It is a group exactly if operand `i` is one.
     GroupLike(usize),
     /// A device of the same class as operand `i`.
     ClassLike(usize),
