@@ -1,6 +1,9 @@
 //! Finds the row of a mnemonic.
 
-use super::{Forms, Inst, Spelling, arith, basic, compare, data, float, flow, move_, rotate};
+use super::{
+    Forms, Inst, Spelling, arith, basic, block, clock, compare, data, external_io, float, flow,
+    handy, move_, rotate, string,
+};
 use crate::resolve::Form;
 use rustc_hash::FxHashMap;
 use std::sync::OnceLock;
@@ -14,7 +17,12 @@ const FAMILIES: &[&[Inst]] = &[
     arith::ROWS,
     rotate::ROWS,
     data::ROWS,
+    handy::ROWS,
+    external_io::ROWS,
     float::ROWS,
+    clock::ROWS,
+    block::ROWS,
+    string::ROWS,
 ];
 
 /// A row and the form that its spelling names.

@@ -6,14 +6,19 @@
 
 mod arith;
 mod basic;
+mod block;
+mod clock;
 mod compare;
 mod data;
+mod external_io;
 mod float;
 mod flow;
+mod handy;
 mod lookup;
 mod move_;
 mod rotate;
 mod row;
+mod string;
 #[cfg(test)]
 mod tests;
 
