@@ -160,12 +160,24 @@ impl Writer<'_, '_> {
                 });
             }
             Expr::Neg(a) => {
-                let function = if self.module.ty(*a) == Ty::I16 { "plc_sub16(0, " } else { "plc_sub32(0, " };
+                let function = if self.module.ty(*a) == Ty::I16 {
+                    "plc_sub16(0, "
+                } else {
+                    "plc_sub32(0, "
+                };
                 out.push_str(function);
                 self.expr(out, *a, Around::Exact);
                 out.push(')');
             }
-            Expr::Widen(a) => self.expr(out, *a, if around == Around::Exact { Around::Loose } else { around }),
+            Expr::Widen(a) => self.expr(
+                out,
+                *a,
+                if around == Around::Exact {
+                    Around::Loose
+                } else {
+                    around
+                },
+            ),
             Expr::Narrow(a) => self.narrow(out, *a, around),
             Expr::HighWord(a) => self.call(out, "plc_high", *a),
             Expr::BitToInt(a) => self.bit_to_int(out, *a, around),
@@ -181,7 +193,13 @@ impl Writer<'_, '_> {
     }
 
     /// Writes an operation on `int` as what `id` is: with a cast if it is an `I16` and its type is looked at.
-    fn to_int16(&mut self, out: &mut String, id: ExprId, around: Around, write: impl FnOnce(&mut Self, &mut String)) {
+    fn to_int16(
+        &mut self,
+        out: &mut String,
+        id: ExprId,
+        around: Around,
+        write: impl FnOnce(&mut Self, &mut String),
+    ) {
         if around != Around::Exact || self.module.ty(id) != Ty::I16 {
             return write(self, out);
         }
@@ -211,7 +229,12 @@ impl Writer<'_, '_> {
         });
     }
 
-    fn in_parentheses(&mut self, out: &mut String, yes: bool, write: impl FnOnce(&mut Self, &mut String)) {
+    fn in_parentheses(
+        &mut self,
+        out: &mut String,
+        yes: bool,
+        write: impl FnOnce(&mut Self, &mut String),
+    ) {
         if yes {
             out.push('(');
         }
@@ -227,8 +250,12 @@ impl Writer<'_, '_> {
         let mut todo = vec![id];
         while let Some(e) = todo.pop() {
             match *self.module.expr(e) {
-                Expr::And(a, b) if op == "&" && (e == id || !self.named.contains_key(&e)) => todo.extend([b, a]),
-                Expr::Or(a, b) if op == "|" && (e == id || !self.named.contains_key(&e)) => todo.extend([b, a]),
+                Expr::And(a, b) if op == "&" && (e == id || !self.named.contains_key(&e)) => {
+                    todo.extend([b, a])
+                }
+                Expr::Or(a, b) if op == "|" && (e == id || !self.named.contains_key(&e)) => {
+                    todo.extend([b, a])
+                }
                 _ => operands.push(e),
             }
         }
@@ -254,7 +281,14 @@ impl Writer<'_, '_> {
         matches!(self.module.expr(e), Expr::And(..) | Expr::Or(..)) && !self.named.contains_key(&e)
     }
 
-    fn binary(&mut self, out: &mut String, id: ExprId, op: BinOp, (a, b): (ExprId, ExprId), around: Around) {
+    fn binary(
+        &mut self,
+        out: &mut String,
+        id: ExprId,
+        op: BinOp,
+        (a, b): (ExprId, ExprId),
+        around: Around,
+    ) {
         let narrow = self.module.ty(id) == Ty::I16;
         if let Some(op) = bitwise(op) {
             let cast = around == Around::Exact && narrow;
@@ -268,14 +302,15 @@ impl Writer<'_, '_> {
             });
             return;
         }
-        if let (false, Some(op), Some(_)) = (narrow, arithmetic(op), self.exact_bounds(op, a, b)) {
-            // The operands are known to be small enough: plain C arithmetic cannot overflow.
+        // Operands that are known to be small enough cannot overflow in plain C arithmetic.
+        let plain = arithmetic(op).filter(|op| !narrow && self.exact_bounds(op, a, b).is_some());
+        if let Some(op) = plain {
             self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
-                if !matches!(w.module.expr(a), Expr::Bin(..)) {
+                if matches!(w.module.expr(a), Expr::Bin(..)) {
+                    w.expr(out, a, Around::Operand(op));
+                } else {
                     out.push_str("(int32_t)");
                     w.expr(out, a, Around::Unary);
-                } else {
-                    w.expr(out, a, Around::Operand(op));
                 }
                 let _ = write!(out, " {op} ");
                 w.expr(out, b, Around::Operand(op));
@@ -304,7 +339,9 @@ impl Writer<'_, '_> {
             if let Some(inner) = unwiden(a) {
                 return self.expr(out, inner, around);
             }
-            if let Expr::Bin(op @ (BinOp::Add | BinOp::Sub | BinOp::Mul), l, r) = *self.module.expr(a) {
+            if let Expr::Bin(op @ (BinOp::Add | BinOp::Sub | BinOp::Mul), l, r) =
+                *self.module.expr(a)
+            {
                 if let (Some(l), Some(r)) = (self.word_of(l), self.word_of(r)) {
                     return self.arithmetic_call(out, op, "16(", l, r);
                 }
@@ -323,10 +360,20 @@ impl Writer<'_, '_> {
     }
 
     fn bit_to_int(&mut self, out: &mut String, a: ExprId, around: Around) {
-        let plain = matches!(self.module.expr(a), Expr::ReadBit(_) | Expr::Temp(_) | Expr::Bit(_))
-            || self.named.contains_key(&a);
+        let plain = matches!(
+            self.module.expr(a),
+            Expr::ReadBit(_) | Expr::Temp(_) | Expr::Bit(_)
+        ) || self.named.contains_key(&a);
         if plain || around != Around::Exact {
-            return self.expr(out, a, if around == Around::Exact { Around::Loose } else { around });
+            return self.expr(
+                out,
+                a,
+                if around == Around::Exact {
+                    Around::Loose
+                } else {
+                    around
+                },
+            );
         }
         out.push_str("(int16_t)");
         self.expr(out, a, Around::Unary);
@@ -359,7 +406,8 @@ impl Writer<'_, '_> {
             Expr::ReadNibbles { digits, .. } if digits < 4 => (0, (1 << (4 * digits)) - 1),
             Expr::Bin(op, a, b) if depth > 0 && self.module.ty(e) == Ty::I32 => arithmetic(op)
                 .and_then(|op| {
-                    let ((a0, a1), (b0, b1)) = (self.bounds(a, depth - 1), self.bounds(b, depth - 1));
+                    let ((a0, a1), (b0, b1)) =
+                        (self.bounds(a, depth - 1), self.bounds(b, depth - 1));
                     match op {
                         "+" => Some((a0 + b0, a1 + b1)),
                         "-" => Some((a0 - b1, a1 - b0)),
@@ -395,7 +443,10 @@ impl Writer<'_, '_> {
 
     fn in_range(&mut self, out: &mut String, place: &Place, count: u32) {
         if place.index.is_none() {
-            let there = self.module.model.in_range(place.class, place.number.into(), count);
+            let there = self
+                .module
+                .model
+                .in_range(place.class, place.number.into(), count);
             out.push_str(if there { "true" } else { "false" });
             return;
         }
@@ -421,7 +472,11 @@ impl Writer<'_, '_> {
                 self.pair(out, &place);
                 out.push(')');
             }
-            Expr::ReadNibbles { place, digits, wide } => {
+            Expr::ReadNibbles {
+                place,
+                digits,
+                wide,
+            } => {
                 let narrow = !wide && digits <= 4;
                 if narrow && (digits == 4 || around == Around::Exact) {
                     out.push_str("plc_low(");
@@ -462,7 +517,13 @@ impl Writer<'_, '_> {
     /// Where the high word of a pair is.
     pub fn high_word(&self, place: &Place) -> (Place, i32) {
         if place.class == DeviceClass::Z && self.module.model.z_pairs_with_v {
-            (Place { class: DeviceClass::V, ..*place }, 0)
+            (
+                Place {
+                    class: DeviceClass::V,
+                    ..*place
+                },
+                0,
+            )
         } else {
             (*place, 1)
         }
@@ -487,10 +548,19 @@ impl Writer<'_, '_> {
         let count = 4 * u32::from(digits);
         if place.index.is_some() {
             self.helpers.bits(place.class);
-            let _ = write!(out, "{}_bits_{}(plc, ", self.module.name, place.class.prefix());
+            let _ = write!(
+                out,
+                "{}_bits_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
             self.number(out, place, 0);
             let _ = write!(out, ", {count}u)");
-        } else if self.fields.array(place.class, place.number, count).is_some() {
+        } else if self
+            .fields
+            .array(place.class, place.number, count)
+            .is_some()
+        {
             out.push_str("plc_bits(&");
             self.fields.access(out, place.class, place.number);
             let _ = write!(out, ", {count}u)");
@@ -499,7 +569,13 @@ impl Writer<'_, '_> {
             out.push_str("plc_bits((const bool[]){");
             for bit in 0..count {
                 out.push_str(if bit > 0 { ", " } else { "" });
-                self.read_bit(out, &Place { number: place.number + bit, ..*place });
+                self.read_bit(
+                    out,
+                    &Place {
+                        number: place.number + bit,
+                        ..*place
+                    },
+                );
             }
             let _ = write!(out, "}}, {count}u)");
         }
@@ -508,7 +584,12 @@ impl Writer<'_, '_> {
     /// A read through the program's function for indexed access.
     fn indexed_call(&mut self, out: &mut String, what: &'static str, place: &Place, plus: i32) {
         self.helpers.get(what, place.class);
-        let _ = write!(out, "{}_{what}_{}(plc, ", self.module.name, place.class.prefix());
+        let _ = write!(
+            out,
+            "{}_{what}_{}(plc, ",
+            self.module.name,
+            place.class.prefix()
+        );
         self.number(out, place, plus);
         out.push(')');
     }

@@ -186,7 +186,10 @@ impl<'m> Fields<'m> {
             }
             match fields.last_mut() {
                 Some(last)
-                    if last.array && last.class == class && last.kind == kind && last.end() == run.first =>
+                    if last.array
+                        && last.class == class
+                        && last.kind == kind
+                        && last.end() == run.first =>
                 {
                     last.count += run.count;
                     if last.section != section(run.keep) {
@@ -215,7 +218,11 @@ impl<'m> Fields<'m> {
             fields,
             of_class,
             runs: merged,
-            comments: module.comments.iter().map(|(class, n, text)| ((*class, *n), text.as_str())).collect(),
+            comments: module
+                .comments
+                .iter()
+                .map(|(class, n, text)| ((*class, *n), text.as_str()))
+                .collect(),
         }
     }
 
@@ -240,20 +247,28 @@ impl<'m> Fields<'m> {
     /// The field that holds a device.
     pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
         let fields = self.of_class(class);
-        let i = fields.partition_point(|f| f.first <= number).checked_sub(1)?;
+        let i = fields
+            .partition_point(|f| f.first <= number)
+            .checked_sub(1)?;
         fields.get(i).filter(|f| number < f.end())
     }
 
     /// The array that holds `count` devices from `number` on.
     pub fn array(&self, class: DeviceClass, number: u32, count: u32) -> Option<&Field> {
-        self.find(class, number).filter(|f| f.array && f.end() - number >= count)
+        self.find(class, number)
+            .filter(|f| f.array && f.end() - number >= count)
     }
 
     /// The runs of a field that power-off treats alike.
     pub fn runs(&self, field: &Field) -> impl Iterator<Item = Run> + '_ {
         let (class, first, end) = (field.class, field.first, field.end());
-        let from = self.runs.partition_point(|(c, r)| (*c, r.first + r.count) <= (class, first));
-        self.runs[from..].iter().take_while(move |(c, r)| *c == class && r.first < end).map(|(_, r)| *r)
+        let from = self
+            .runs
+            .partition_point(|(c, r)| (*c, r.first + r.count) <= (class, first));
+        self.runs[from..]
+            .iter()
+            .take_while(move |(c, r)| *c == class && r.first < end)
+            .map(|(_, r)| *r)
     }
 
     /// Writes the expression of a stored device; false if it is not stored.
@@ -298,7 +313,8 @@ fn runs(module: &Module) -> Vec<(DeviceClass, Run, bool)> {
             DeviceClass::M | DeviceClass::D => SPECIAL_FIRST,
             _ => end,
         };
-        let special = |n: u32| matches!(area.class, DeviceClass::M | DeviceClass::D) && n >= SPECIAL_FIRST;
+        let special =
+            |n: u32| matches!(area.class, DeviceClass::M | DeviceClass::D) && n >= SPECIAL_FIRST;
         let cut = cut.clamp(first, end);
         for (first, end) in [(first, cut), (cut, end)] {
             if first < end {
@@ -311,7 +327,15 @@ fn runs(module: &Module) -> Vec<(DeviceClass, Run, bool)> {
                 } else {
                     Keep::General
                 };
-                runs.push((area.class, Run { first, count: end - first, keep }, area.array));
+                runs.push((
+                    area.class,
+                    Run {
+                        first,
+                        count: end - first,
+                        keep,
+                    },
+                    area.array,
+                ));
             }
         }
     }

@@ -20,7 +20,10 @@ fn banner(module: &Module, file: &str) -> String {
 }
 
 fn file(path: impl Into<String>, text: String) -> OutFile {
-    OutFile { path: path.into(), text }
+    OutFile {
+        path: path.into(),
+        text,
+    }
 }
 
 /// The files of one program.
@@ -40,7 +43,11 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         files.push(file(format!("{name}_internal.h"), text));
     }
     for (i, group) in unit.groups.iter().enumerate() {
-        let path = if i == 0 { format!("{name}.c") } else { format!("{name}_{}.c", i + 1) };
+        let path = if i == 0 {
+            format!("{name}.c")
+        } else {
+            format!("{name}_{}.c", i + 1)
+        };
         let mut text = format!("/* {} */\n", banner(module, &path));
         if several {
             let _ = write!(text, "#include \"{name}_internal.h\"\n\n");
@@ -57,14 +64,21 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         files.push(file("main.c", crate::host::main_file(module)));
         sources.push("main.c".to_string());
     }
-    files.push(file("Makefile", makefile(name, &sources, options.main, unit.runtime)));
+    files.push(file(
+        "Makefile",
+        makefile(name, &sources, options.main, unit.runtime),
+    ));
     files
 }
 
 fn header_file(module: &Module, unit: &Unit) -> String {
     let name = &module.name;
     let guard = format!("{}_H", name.to_ascii_uppercase());
-    let include = if unit.runtime { "rungc_rt.h" } else { "rungc.h" };
+    let include = if unit.runtime {
+        "rungc_rt.h"
+    } else {
+        "rungc.h"
+    };
     format!(
         "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n#include \"{include}\"\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          {}\n#ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
@@ -77,7 +91,11 @@ fn header_file(module: &Module, unit: &Unit) -> String {
 /// A Makefile that builds an executable, or without a `main.c` a library.
 fn makefile(name: &str, sources: &[String], main: bool, runtime: bool) -> String {
     let objects: Vec<String> = sources.iter().map(|s| s.replace(".c", ".o")).collect();
-    let target = if main { name.to_string() } else { format!("lib{name}.a") };
+    let target = if main {
+        name.to_string()
+    } else {
+        format!("lib{name}.a")
+    };
     let _ = runtime;
     let link = if main {
         "\t$(CC) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS)"

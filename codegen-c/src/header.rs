@@ -70,14 +70,22 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan) -> String {
         size.add(bytes, bytes);
     }
     if module.states > 0 {
-        let _ = writeln!(out, "    rungc_state state[{}]; /* of instructions that work over several scans */", module.states);
+        let _ = writeln!(
+            out,
+            "    rungc_state state[{}]; /* of instructions that work over several scans */",
+            module.states
+        );
         size.add(32 * u32::from(module.states), 4);
     }
     if uses_runtime(module) {
         out.push_str("    const rungc_hal *hal; /* hardware that instructions ask; NULL: nothing fitted */\n");
         size.add(4, 4);
     }
-    let _ = writeln!(out, "}} {name}_plc; /* {} bytes on a 32-bit machine */\n", size.total());
+    let _ = writeln!(
+        out,
+        "}} {name}_plc; /* {} bytes on a 32-bit machine */\n",
+        size.total()
+    );
     prototypes(&mut out, name);
     out
 }
@@ -91,7 +99,10 @@ struct Size {
 
 impl Size {
     fn add(&mut self, bytes: u32, align: u32) {
-        self.bytes = self.bytes.next_multiple_of(align.max(1)).saturating_add(bytes);
+        self.bytes = self
+            .bytes
+            .next_multiple_of(align.max(1))
+            .saturating_add(bytes);
         self.align = self.align.max(align);
     }
 
@@ -110,9 +121,20 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
     line.push(';');
     let mut comment = String::new();
     if field.array {
-        let _ = write!(comment, "{} to {}", class.number(first), class.number(field.end() - 1));
-        for run in fields.runs(field).filter(|run| field.section == Section::Mixed && run.is_latched()) {
-            let (from, to) = (class.number(run.first), class.number(run.first + run.count - 1));
+        let _ = write!(
+            comment,
+            "{} to {}",
+            class.number(first),
+            class.number(field.end() - 1)
+        );
+        for run in fields
+            .runs(field)
+            .filter(|run| field.section == Section::Mixed && run.is_latched())
+        {
+            let (from, to) = (
+                class.number(run.first),
+                class.number(run.first + run.count - 1),
+            );
             let _ = write!(comment, ", latched: {from} to {to}");
         }
     } else {
@@ -128,7 +150,12 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
     if field.array {
         for number in first..field.end() {
             if let Some(text) = fields.comment(class, number) {
-                let comment = format!("  [{}] {}: {}", number - first, class.number(number), text::comment(text));
+                let comment = format!(
+                    "  [{}] {}: {}",
+                    number - first,
+                    class.number(number),
+                    text::comment(text)
+                );
                 push_with_comment(out, "", &comment);
             }
         }
@@ -159,26 +186,55 @@ fn prototypes(out: &mut String, name: &str) {
          /* Power off and on: only latched devices keep their values; then RUN. */\n\
          void {name}_power_cycle({name}_plc *plc);\n"
     );
-    let _ = DeviceClass::X;
 }
 
 /// The comment at the top of the header: how to use it.
 pub fn embedding(module: &Module, fields: &Fields) -> String {
     let name = &module.name;
     let input = first_name(fields, DeviceClass::X).unwrap_or_else(|| "X0".to_string());
-    let output = fields.of_class(DeviceClass::Y).first().map_or(0, |f| f.first);
-    let hal = if uses_runtime(module) {
-        format!(" *     plc.hal = &board;                          hardware that instructions ask (rungc_rt.h), or leave it out\n")
-    } else {
-        String::new()
-    };
-    format!(
-        " * How to embed it:\n *\n *     static {name}_plc plc;\n *     {name}_init(&plc);\n{hal} *     for (;;) {{                                  \
-         every 1 to 10 ms, as you like\n *         plc.{input} = read_pin(0);                copy the input terminals\n *         \
-         {name}_scan(&plc, millis(), scan_us);  one scan\n *         write_pin(0, {name}_output(&plc, {output}));  copy the output terminals\n *     }}\n *\n \
-         * It needs sizeof({name}_plc) bytes of RAM and little stack; no heap, no recursion. Save the whole struct at power-off\n \
-         * and call {name}_power_cycle after loading it to keep latched devices.\n"
-    )
+    let output = fields
+        .of_class(DeviceClass::Y)
+        .first()
+        .map_or(0, |f| f.first);
+    let mut lines = vec![
+        (format!("static {name}_plc plc;"), ""),
+        (format!("{name}_init(&plc);"), ""),
+        ("for (;;) {".to_string(), "every 1 to 10 ms, as you like"),
+        (
+            format!("    plc.{input} = read_pin(0);"),
+            "copy the input terminals",
+        ),
+        (
+            format!("    {name}_scan(&plc, millis(), scan_us);"),
+            "one scan",
+        ),
+        (
+            format!("    write_pin(0, {name}_output(&plc, {output}));"),
+            "copy the output terminals",
+        ),
+        ("}".to_string(), ""),
+    ];
+    if uses_runtime(module) {
+        lines.insert(
+            2,
+            (
+                "plc.hal = &board;".to_string(),
+                "hardware that instructions ask; may stay NULL",
+            ),
+        );
+    }
+    let column = lines.iter().map(|(code, _)| code.len()).max().unwrap_or(0) + 2;
+    let mut out = String::from(" * How to embed it:\n *\n");
+    for (code, text) in lines {
+        let line = format!(" *     {code:column$}{text}");
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    let _ = write!(
+        out,
+        " *\n * It needs sizeof({name}_plc) bytes of RAM and little stack; no heap, no recursion. To keep latched devices, save the\n \
+         * struct at power-off; at power-on load it and call {name}_power_cycle instead of {name}_init.\n"
+    );
+    out
 }
 
 fn first_name(fields: &Fields, class: DeviceClass) -> Option<String> {

@@ -75,7 +75,11 @@ impl Helpers {
 
     /// Writes them.
     pub fn write(&self, out: &mut String, module: &Module, fields: &Fields) {
-        let printer = Printer { name: &module.name, module, fields };
+        let printer = Printer {
+            name: &module.name,
+            module,
+            fields,
+        };
         for &(helper, class) in &self.needed {
             printer.helper(out, helper, class);
         }
@@ -101,7 +105,11 @@ impl Printer<'_> {
                 );
                 for (i, (first, last)) in self.module.model.runs(class).into_iter().enumerate() {
                     let or = if i > 0 { "\n        || " } else { "" };
-                    let _ = write!(out, "{or}(n >= {first} && n <= {} - count)", u64::from(last) + 1);
+                    let _ = write!(
+                        out,
+                        "{or}(n >= {first} && n <= {} - count)",
+                        u64::from(last) + 1
+                    );
                 }
                 writeln!(out, ";\n}}\n")
             }
@@ -114,7 +122,10 @@ impl Printer<'_> {
                 self.each(out, class, Some(Kind::Counter32), |out, device| {
                     let _ = write!(out, "return {device}.value;");
                 });
-                writeln!(out, "    return plc_join({name}_word_{c}(plc, n + 1), {name}_word_{c}(plc, n));\n}}\n")
+                writeln!(
+                    out,
+                    "    return plc_join({name}_word_{c}(plc, n + 1), {name}_word_{c}(plc, n));\n}}\n"
+                )
             }
             Helper::Put("long") => {
                 let _ = write!(
@@ -131,8 +142,14 @@ impl Printer<'_> {
                      {name}_put_word_{c}(plc, n + 1, plc_high(value));\n}}\n"
                 )
             }
-            Helper::Get(what) => self.get(out, class, what == "bit"),
-            Helper::Put(what) => self.put(out, class, what == "bit"),
+            Helper::Get(what) => {
+                self.get(out, class, what == "bit");
+                Ok(())
+            }
+            Helper::Put(what) => {
+                self.put(out, class, what == "bit");
+                Ok(())
+            }
             Helper::Bits => writeln!(
                 out,
                 "/* `count` {c} from n on, which exist, as a number. */\n\
@@ -175,7 +192,11 @@ impl Printer<'_> {
              static inline {ty} {name}_{}_{c}(const {name}_plc *plc, int32_t n)\n{{\n",
             if bit { "bit" } else { "word" },
         );
-        let part = if matches!(class, DeviceClass::T | DeviceClass::C) { part } else { "" };
+        let part = if matches!(class, DeviceClass::T | DeviceClass::C) {
+            part
+        } else {
+            ""
+        };
         self.unused(out, class, false);
         self.each(out, class, None, |out, device| {
             let _ = match (bit, device.kind) {
@@ -216,15 +237,30 @@ impl Printer<'_> {
     }
 
     /// Writes what is to be done with the device for each field that may hold it.
-    fn each(&self, out: &mut String, class: DeviceClass, kind: Option<Kind>, write: impl Fn(&mut String, &Device)) {
-        let fields = self.fields.of_class(class).iter().filter(|f| kind.is_none_or(|kind| f.kind == kind));
+    fn each(
+        &self,
+        out: &mut String,
+        class: DeviceClass,
+        kind: Option<Kind>,
+        write: impl Fn(&mut String, &Device),
+    ) {
+        let fields = self
+            .fields
+            .of_class(class)
+            .iter()
+            .filter(|f| kind.is_none_or(|kind| f.kind == kind));
         let (arrays, single): (Vec<&Field>, Vec<&Field>) = fields.partition(|f| f.array);
         let line = |out: &mut String, device: Device| {
             let mut text = String::new();
             write(&mut text, &device);
             // One statement to a line.
             for (i, statement) in text.split_inclusive(';').enumerate() {
-                let _ = writeln!(out, "{}{}", if i > 0 { "        " } else { "" }, statement.trim_start());
+                let _ = writeln!(
+                    out,
+                    "{}{}",
+                    if i > 0 { "        " } else { "" },
+                    statement.trim_start()
+                );
             }
         };
         for field in arrays {
@@ -232,27 +268,51 @@ impl Printer<'_> {
             field.name(&mut name);
             let _ = match field.first {
                 0 => write!(out, "    if (n < {}) {{\n        ", field.end()),
-                first => write!(out, "    if (n >= {first} && n < {}) {{\n        ", field.end()),
+                first => write!(
+                    out,
+                    "    if (n >= {first} && n < {}) {{\n        ",
+                    field.end()
+                ),
             };
             let _ = match field.first {
                 0 => write!(name, "[n]"),
                 first => write!(name, "[n - {first}]"),
             };
-            line(out, Device { name, kind: field.kind });
+            line(
+                out,
+                Device {
+                    name,
+                    kind: field.kind,
+                },
+            );
             out.push_str("    }\n");
         }
         let mut cases: Vec<(u32, Device)> = Vec::new();
         for field in single {
             let mut name = String::from("plc->");
             field.name(&mut name);
-            cases.push((field.first, Device { name, kind: field.kind }));
+            cases.push((
+                field.first,
+                Device {
+                    name,
+                    kind: field.kind,
+                },
+            ));
         }
         if class == DeviceClass::D {
             // Index registers have numbers among the special registers, too.
             for &(number, class, index) in self.module.model.index_aliases {
                 let mut name = String::new();
-                if self.fields.find(DeviceClass::D, number).is_none() && self.fields.access(&mut name, class, index) {
-                    cases.push((number, Device { name, kind: Kind::Word }));
+                if self.fields.find(DeviceClass::D, number).is_none()
+                    && self.fields.access(&mut name, class, index)
+                {
+                    cases.push((
+                        number,
+                        Device {
+                            name,
+                            kind: Kind::Word,
+                        },
+                    ));
                 }
             }
         }

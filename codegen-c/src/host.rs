@@ -15,13 +15,23 @@ pub fn main_file(module: &Module) -> String {
     let name = &module.name;
     let mut inputs = String::new();
     for (number, access) in terminals(&fields, DeviceClass::X) {
-        let _ = writeln!(inputs, "    case {number}:\n        {access} = on;\n        return true;");
+        let _ = writeln!(
+            inputs,
+            "    case {number}:\n        {access} = on;\n        return true;"
+        );
     }
     let mut outputs = String::new();
     for (number, _) in terminals(&fields, DeviceClass::Y) {
         let label = DeviceClass::Y.number(number).to_string();
-        let text = fields.comment(DeviceClass::Y, number).map(text::comment).unwrap_or_default();
-        let _ = writeln!(outputs, "    {{{number}, \"{label}\", {}}},", text::string_literal(&text));
+        let text = fields
+            .comment(DeviceClass::Y, number)
+            .map(text::comment)
+            .unwrap_or_default();
+        let _ = writeln!(
+            outputs,
+            "    {{{number}, \"{label}\", {}}},",
+            text::string_literal(&text)
+        );
     }
     MAIN_C
         .replace("    /* INPUTS */\n", &inputs)

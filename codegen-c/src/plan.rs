@@ -2,8 +2,8 @@
 
 use crate::scopes::{self, Temp};
 use crate::walk::{self, Sizes};
-use rungc_ir::node::{Body, ExprId, LabelId, Part, Stmt};
 use rungc_ir::Module;
+use rungc_ir::node::{Body, ExprId, LabelId, Part, Stmt};
 use std::collections::{BTreeSet, HashMap};
 
 /// About how many operations a C function may hold: what a reader can take in and every compiler optimises in linear time.
@@ -165,12 +165,20 @@ struct Builder<'m> {
 impl<'m> Builder<'m> {
     fn function(&mut self, body: Closed<'m>, root: usize, suffix: String, flow: Flow) -> usize {
         let (body, weight) = (body.nodes, body.weight);
-        self.plan.functions.push(CFunction { root, suffix, body, flow, weight });
+        self.plan.functions.push(CFunction {
+            root,
+            suffix,
+            body,
+            flow,
+            weight,
+        });
         self.plan.functions.len() - 1
     }
 
     fn body(&mut self, body: &'m Body, root: usize, nesting: u32) -> Vec<Item<'m>> {
-        body.iter().map(|stmt| self.stmt(stmt, root, nesting)).collect()
+        body.iter()
+            .map(|stmt| self.stmt(stmt, root, nesting))
+            .collect()
     }
 
     fn stmt(&mut self, stmt: &'m Stmt, root: usize, nesting: u32) -> Item<'m> {
@@ -184,10 +192,19 @@ impl<'m> Builder<'m> {
             closed.nodes
         };
         let node = match stmt {
-            Stmt::If { cond, then, otherwise } => {
-                Node::If { cond: *cond, then: inner(then), otherwise: inner(otherwise) }
-            }
-            Stmt::For { count, body } => Node::For { count: *count, body: inner(body) },
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => Node::If {
+                cond: *cond,
+                then: inner(then),
+                otherwise: inner(otherwise),
+            },
+            Stmt::For { count, body } => Node::For {
+                count: *count,
+                body: inner(body),
+            },
             Stmt::Parts(parts) => {
                 weight += 2 * parts.len() as u64;
                 self.parts(parts, root, &mut leaves)
@@ -202,7 +219,11 @@ impl<'m> Builder<'m> {
             }
             _ => Node::Stmt(stmt),
         };
-        Item { node, weight, leaves }
+        Item {
+            node,
+            weight,
+            leaves,
+        }
     }
 
     /// A branch or a loop's body: bounded, and in a C function of its own if it nests too deep.
@@ -235,12 +256,18 @@ impl<'m> Builder<'m> {
             leaves.add(&body.leaves);
             let suffix = format!("_{}", self.plan.state_names[root][state as usize - 1]);
             let next = (own.len() + 1 < parts.len()).then_some(state + 1);
-            own.push((state, self.function(body, root, suffix, Flow::Part { next })));
+            own.push((
+                state,
+                self.function(body, root, suffix, Flow::Part { next }),
+            ));
         }
         for label in parts.iter().filter_map(|p| p.label) {
             leaves.labels.remove(&label);
         }
-        Node::Parts { parts: own, leaves: leaves.any() }
+        Node::Parts {
+            parts: own,
+            leaves: leaves.any(),
+        }
     }
 
     /// Moves stretches of a body that is too large into C functions of their own.
@@ -289,9 +316,17 @@ impl<'m> Builder<'m> {
     fn stretch(&mut self, items: Vec<Item<'m>>, root: usize) -> Item<'m> {
         let body = close(items);
         let leaves = body.leaves.clone();
-        let flow = if leaves.any() { Flow::Stretch } else { Flow::Void };
+        let flow = if leaves.any() {
+            Flow::Stretch
+        } else {
+            Flow::Void
+        };
         self.stretches[root] += 1;
         let suffix = format!("_{}", self.stretches[root]);
-        Item { node: Node::Stretch(self.function(body, root, suffix, flow)), weight: 1, leaves }
+        Item {
+            node: Node::Stretch(self.function(body, root, suffix, flow)),
+            weight: 1,
+            leaves,
+        }
     }
 }

@@ -14,7 +14,15 @@ pub fn class_name(class: DeviceClass) -> String {
 impl Writer<'_, '_> {
     /// Writes a [`Stmt::Call`].
     pub fn runtime_call(&mut self, code: &mut String, stmt: &Stmt) {
-        let Stmt::Call { function, wide, args, drive, slot, step } = stmt else {
+        let Stmt::Call {
+            function,
+            wide,
+            args,
+            drive,
+            slot,
+            step,
+        } = stmt
+        else {
             return;
         };
         let _ = write!(code, "rungc_{}(&map, ", function.name());

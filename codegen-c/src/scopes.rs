@@ -94,7 +94,11 @@ impl Scopes<'_, '_> {
         for node in nodes {
             match node {
                 Node::Stmt(stmt) => self.stmt(stmt),
-                Node::If { cond, then, otherwise } => {
+                Node::If {
+                    cond,
+                    then,
+                    otherwise,
+                } => {
                     self.uses(*cond);
                     self.block(then);
                     self.block(otherwise);

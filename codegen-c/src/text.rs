@@ -12,7 +12,12 @@ pub fn comment(text: &str) -> String {
     for c in text.chars() {
         let c = match c {
             c if c.is_control() => ' ',
-            '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{2028}' | '\u{2029}' => ' ',
+            '\u{200e}'
+            | '\u{200f}'
+            | '\u{202a}'..='\u{202e}'
+            | '\u{2066}'..='\u{2069}'
+            | '\u{2028}'
+            | '\u{2029}' => ' ',
             c => c,
         };
         match (last, c) {
@@ -52,7 +57,10 @@ pub fn line(out: &mut String, indent: usize, code: &str, beside: Option<&str>) {
         if !text.is_empty() {
             let last = out[start..].rfind('\n').map_or(start, |i| start + i + 1);
             let column = out.len() - last;
-            out.extend(std::iter::repeat_n(' ', COMMENT_COLUMN.saturating_sub(column).max(1)));
+            out.extend(std::iter::repeat_n(
+                ' ',
+                COMMENT_COLUMN.saturating_sub(column).max(1),
+            ));
             out.push_str("/* ");
             out.push_str(&text);
             out.push_str(" */");
@@ -130,7 +138,11 @@ mod tests {
     #[test]
     fn long_lines_break_at_the_outermost_operator() {
         let mut out = String::new();
-        let code = format!("plc->M0 = ({}) & {};", vec!["plc->X0"; 9].join(" | "), vec!["plc->X1"; 9].join(" & "));
+        let code = format!(
+            "plc->M0 = ({}) & {};",
+            vec!["plc->X0"; 9].join(" | "),
+            vec!["plc->X1"; 9].join(" & ")
+        );
         line(&mut out, 4, &code, Some("coil"));
         assert!(out.lines().all(|l| l.len() <= WIDTH), "{out}");
         assert!(out.contains("\n        & plc->X1"), "{out}");

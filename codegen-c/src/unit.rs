@@ -13,6 +13,11 @@ use std::fmt::Write;
 /// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to divide.
 const FILE_WEIGHT: u64 = 60_000;
 
+/// Special relay that keeps memory and outputs in STOP.
+const M_KEEP_IN_STOP: u32 = 8033;
+/// Special relay that switches all outputs off.
+const M_OUTPUTS_OFF: u32 = 8034;
+
 /// A module's C text.
 pub struct Unit {
     /// Struct and prototypes of the API, for the header.
@@ -38,6 +43,9 @@ pub fn unit(module: &Module) -> Unit {
     let mut groups = vec![String::new()];
     let mut weight = 0;
     for (index, function) in plan.functions.iter().enumerate() {
+        if function.suffix.is_empty() && is_empty(module, function.root) {
+            continue;
+        }
         weight += function.weight + 1;
         if weight > FILE_WEIGHT && !single {
             groups.push(String::new());
@@ -55,7 +63,10 @@ pub fn unit(module: &Module) -> Unit {
     states(&mut internal, &writer, &plan);
     prototypes(&mut internal, &writer, &plan, single);
     helpers.write(&mut internal, module, &fields);
-    let printer = Printer { module, fields: &fields };
+    let printer = Printer {
+        module,
+        fields: &fields,
+    };
     if runtime {
         printer.device_table(&mut internal);
     }
@@ -64,7 +75,19 @@ pub fn unit(module: &Module) -> Unit {
     }
     printer.clear_functions(&mut internal, clears_latched);
     printer.api_functions(&mut groups[0]);
-    Unit { api: header::api(module, &fields, &plan), runtime, internal, groups }
+    Unit {
+        api: header::api(module, &fields, &plan),
+        runtime,
+        internal,
+        groups,
+    }
+}
+
+/// Whether a function of the scan cycle has nothing to do, and is left out.
+fn is_empty(module: &Module, root: usize) -> bool {
+    module.functions.get(root).is_none_or(|f| {
+        f.body.is_empty() && matches!(f.kind, FunctionKind::Begin | FunctionKind::End)
+    })
 }
 
 /// Whether a module calls the runtime.
@@ -72,7 +95,9 @@ pub fn uses_runtime(module: &Module) -> bool {
     fn body(stmts: &[Stmt]) -> bool {
         stmts.iter().any(|stmt| match stmt {
             Stmt::Call { .. } => true,
-            Stmt::If { then, otherwise, .. } => body(then) || body(otherwise),
+            Stmt::If {
+                then, otherwise, ..
+            } => body(then) || body(otherwise),
             Stmt::For { body: inner, .. } => body(inner),
             Stmt::Parts(parts) => parts.iter().any(|p| body(&p.body)),
             _ => false,
@@ -83,11 +108,20 @@ pub fn uses_runtime(module: &Module) -> bool {
 
 /// The states of parts.
 fn states(out: &mut String, writer: &Writer, plan: &Plan) {
-    for (root, names) in plan.state_names.iter().enumerate().filter(|(_, names)| !names.is_empty()) {
+    for (root, names) in plan
+        .state_names
+        .iter()
+        .enumerate()
+        .filter(|(_, names)| !names.is_empty())
+    {
         out.push_str("/* Where the program goes on after a jump. */\nenum {\n");
         for state in 1..=names.len() {
             let comma = if state < names.len() { "," } else { "" };
-            let _ = writeln!(out, "    {} = {state}{comma}", writer.state_name(root, state as u32));
+            let _ = writeln!(
+                out,
+                "    {} = {state}{comma}",
+                writer.state_name(root, state as u32)
+            );
         }
         out.push_str("};\n\n");
     }
@@ -138,7 +172,10 @@ impl Printer<'_> {
         let latch = d(8068).map(|d| format!("{d} = step;"));
         match (m(8068), latch) {
             (Some(m), latch) => {
-                let _ = writeln!(lines, "    if (!{m}) {{ /* only the first one */\n        {m} = true;");
+                let _ = writeln!(
+                    lines,
+                    "    if (!{m}) {{ /* only the first one */\n        {m} = true;"
+                );
                 if let Some(latch) = latch {
                     let _ = writeln!(lines, "        {latch}");
                 }
@@ -197,7 +234,12 @@ impl Printer<'_> {
     }
 
     /// Writes the clearing of a section and of what mixed arrays hold of its kind.
-    fn clear(&self, out: &mut String, section: Section, wanted: impl Fn(&crate::fields::Run) -> bool) {
+    fn clear(
+        &self,
+        out: &mut String,
+        section: Section,
+        wanted: impl Fn(&crate::fields::Run) -> bool,
+    ) {
         let order = self.fields.in_struct_order();
         if let Some(first) = order.iter().position(|f| f.section == section) {
             let behind = order[first..].iter().find(|f| f.section != section);
@@ -208,7 +250,10 @@ impl Printer<'_> {
                 None => to.push_str("sys"),
             }
             let name = self.name();
-            let _ = writeln!(out, "    plc_clear(plc, offsetof({name}_plc, {from}), offsetof({name}_plc, {to}));");
+            let _ = writeln!(
+                out,
+                "    plc_clear(plc, offsetof({name}_plc, {from}), offsetof({name}_plc, {to}));"
+            );
         }
         for field in order.iter().filter(|f| f.section == Section::Mixed) {
             for run in self.fields.runs(field).filter(|run| wanted(run)) {
@@ -227,49 +272,95 @@ impl Printer<'_> {
     /// The functions that a host calls.
     fn api_functions(&self, out: &mut String) {
         let (name, module) = (self.name(), self.module);
+        let mut inputs = String::new();
+        self.clear(&mut inputs, Section::Inputs, |_| false);
         let mut special = String::new();
         self.clear(&mut special, Section::Special, |run| run.is_special());
-        let mut initial = String::new();
         for &(number, value) in &module.initial_words {
             if let Some(device) = self.stored(DeviceClass::D, number) {
-                let _ = writeln!(initial, "    {device} = {value};");
+                let _ = writeln!(special, "    {device} = {value};");
             }
         }
-        let mut function = [String::new(), String::new(), String::new()];
-        for (text, index) in function.iter_mut().zip(0..) {
-            function_name(text, module, index);
-        }
-        let [begin, main, end] = function;
-        let edges = if module.edges > 0 { "    memset(plc->edge, 0, sizeof plc->edge);\n" } else { "" };
-        let states = if module.states > 0 { "    memset(plc->state, 0, sizeof plc->state);\n" } else { "" };
+        let forget = self.forget(out);
+        let states = if module.states > 0 {
+            "    memset(plc->state, 0, sizeof plc->state);\n"
+        } else {
+            ""
+        };
         let _ = write!(
             out,
             "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n    {name}_power_cycle(plc);\n}}\n\n\
-             void {name}_power_cycle({name}_plc *plc)\n{{\n{}    {name}_clear_general(plc);\n{special}{initial}{edges}{states}    \
-             plc_power_on(&plc->sys);\n}}\n\n",
-            self.lost_latches()
+             void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}    \
+             plc_power_on(&plc->sys);\n{}}}\n\n",
+            self.lost_latches(),
+            if forget {
+                format!("    {name}_forget(plc);\n")
+            } else {
+                String::new()
+            },
         );
-        let hold = match self.stored(DeviceClass::M, 8033) {
-            Some(hold) => format!(" && !{hold}"),
+        let hold = match self.stored(DeviceClass::M, M_KEEP_IN_STOP) {
+            Some(hold) => format!(" if (!{hold})"),
             None => String::new(),
         };
-        let forget = if edges.is_empty() { String::new() } else { format!("    {}", edges) };
+        let begin_run = if forget {
+            format!("    if (running) {{\n        {name}_forget(plc);\n    }} else")
+        } else {
+            "    if (!running)".to_string()
+        };
         let _ = write!(
             out,
             "void {name}_set_running({name}_plc *plc, bool running)\n{{\n    if (running == plc->sys.running) {{\n        return;\n    }}\n    \
-             plc->sys.running = running;\n    plc->sys.first_scan = running;\n    if (!running{hold}) {{\n        {name}_clear_general(plc);\n    }}\n"
+             plc->sys.running = running;\n    plc->sys.first_scan = running;\n{begin_run}{hold} {{\n        {name}_clear_general(plc);\n    }}\n}}\n\n"
         );
-        if !forget.is_empty() {
-            let _ = write!(out, "    if (running) {{\n{forget}    }}\n");
-        }
-        out.push_str("}\n\n");
+        let call = |index: usize, indent: &str| {
+            let mut function = String::new();
+            function_name(&mut function, module, index);
+            if is_empty(module, index) {
+                String::new()
+            } else {
+                format!("{indent}{function}(plc);\n")
+            }
+        };
+        let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
         let _ = write!(
             out,
             "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n    \
-             plc_begin_scan(&plc->sys, now_ms, scan_us);\n    {begin}(plc);\n    if (plc->sys.running) {{\n        {main}(plc);\n        \
-             {end}(plc);\n        plc->sys.first_scan = false;\n    }}\n}}\n\n"
+             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
+             plc->sys.first_scan = false;\n}}\n\n"
         );
         self.output(out);
+    }
+
+    /// The function that forgets edges and the coils of timers and counters when RUN begins; false if there are none.
+    fn forget(&self, out: &mut String) -> bool {
+        let name = self.name();
+        let mut body = String::new();
+        if self.module.edges > 0 {
+            body.push_str("    memset(plc->edge, 0, sizeof plc->edge);\n");
+        }
+        for class in [DeviceClass::T, DeviceClass::C] {
+            for field in self.fields.of_class(class) {
+                let mut device = String::from("plc->");
+                field.name(&mut device);
+                let _ = match field.array {
+                    true => write!(
+                        body,
+                        "    for (int i = 0; i < {}; i++) {{\n        {device}[i].coil = false;\n    }}\n",
+                        field.count
+                    ),
+                    false => writeln!(body, "    {device}.coil = false;"),
+                };
+            }
+        }
+        if !body.is_empty() {
+            let _ = write!(
+                out,
+                "/* RUN begins: edges, and the coils of timers and counters, are seen anew. */\n\
+                 static void {name}_forget({name}_plc *plc)\n{{\n{body}}}\n\n"
+            );
+        }
+        !body.is_empty()
     }
 
     /// Latched devices that a model keeps only while a special register holds a key.
@@ -279,27 +370,39 @@ impl Printer<'_> {
         };
         let name = self.name();
         match self.stored(DeviceClass::D, register) {
-            Some(device) => format!("    if ({device} != {key}) {{\n        {name}_clear_latched(plc);\n    }}\n"),
-            None => format!("    {name}_clear_latched(plc); /* they are kept only if D{register} is {key} */\n"),
+            Some(device) => format!(
+                "    if ({device} != {key}) {{\n        {name}_clear_latched(plc);\n    }}\n"
+            ),
+            None => format!(
+                "    {name}_clear_latched(plc); /* they are kept only if D{register} is {key} */\n"
+            ),
         }
     }
 
     fn output(&self, out: &mut String) {
         let name = self.name();
-        let off = match self.stored(DeviceClass::M, 8034) {
-            Some(off) => format!(" || {off}"),
-            None => String::new(),
+        let stop = match self.stored(DeviceClass::M, M_KEEP_IN_STOP) {
+            Some(keep) => format!("(!plc->sys.running && !{keep})"),
+            None => "!plc->sys.running".to_string(),
+        };
+        let off = match self.stored(DeviceClass::M, M_OUTPUTS_OFF) {
+            Some(off) => format!("{stop} || {off}"),
+            None => stop.trim_matches(['(', ')']).to_string(),
         };
         let _ = write!(
             out,
-            "bool {name}_output(const {name}_plc *plc, unsigned terminal)\n{{\n    if (!plc->sys.running{off}) {{\n        return false;\n    }}\n"
+            "bool {name}_output(const {name}_plc *plc, unsigned terminal)\n{{\n    if ({off}) {{\n        return false;\n    }}\n"
         );
         let fields = self.fields.of_class(DeviceClass::Y);
         for field in fields.iter().filter(|f| f.array) {
             let mut array = String::from("plc->");
             field.name(&mut array);
             let _ = match field.first {
-                0 => write!(out, "    if (terminal < {}u) {{\n        return {array}[terminal];\n    }}\n", field.end()),
+                0 => write!(
+                    out,
+                    "    if (terminal < {}u) {{\n        return {array}[terminal];\n    }}\n",
+                    field.end()
+                ),
                 first => write!(
                     out,
                     "    if (terminal >= {first}u && terminal < {}u) {{\n        return {array}[terminal - {first}u];\n    }}\n",
@@ -331,5 +434,9 @@ impl Printer<'_> {
 }
 
 fn or_unused(body: &str) -> &str {
-    if body.is_empty() { "    (void)plc;\n" } else { body }
+    if body.is_empty() {
+        "    (void)plc;\n"
+    } else {
+        body
+    }
 }

@@ -7,7 +7,12 @@ use rungc_ir::node::{Arg, Expr, ExprId, Place, Stmt, TempId};
 pub fn operands(expr: &Expr, mut f: impl FnMut(ExprId)) {
     let mut place = |p: &Place| p.index.into_iter().for_each(&mut f);
     match expr {
-        Expr::Bit(_) | Expr::I16(_) | Expr::I32(_) | Expr::F32(_) | Expr::Temp(_) | Expr::Sys(_) => {}
+        Expr::Bit(_)
+        | Expr::I16(_)
+        | Expr::I32(_)
+        | Expr::F32(_)
+        | Expr::Temp(_)
+        | Expr::Sys(_) => {}
         Expr::ReadBit(p)
         | Expr::ReadWordBit(p, _)
         | Expr::ReadWord(p)
@@ -47,7 +52,9 @@ pub fn stmt_exprs(stmt: &Stmt, mut f: impl FnMut(ExprId)) {
         | Stmt::WriteWord(p, e)
         | Stmt::WritePair(p, e)
         | Stmt::WriteFloat(p, e)
-        | Stmt::WriteNibbles { place: p, value: e, .. } => {
+        | Stmt::WriteNibbles {
+            place: p, value: e, ..
+        } => {
             p.index.into_iter().for_each(&mut f);
             f(*e);
         }
@@ -56,7 +63,12 @@ pub fn stmt_exprs(stmt: &Stmt, mut f: impl FnMut(ExprId)) {
             f(*drive);
             f(*preset);
         }
-        Stmt::Counter32 { drive, down, preset, .. } => {
+        Stmt::Counter32 {
+            drive,
+            down,
+            preset,
+            ..
+        } => {
             f(*drive);
             f(*down);
             f(*preset);
@@ -65,7 +77,9 @@ pub fn stmt_exprs(stmt: &Stmt, mut f: impl FnMut(ExprId)) {
             for arg in args {
                 match arg {
                     Arg::Const { index, .. } => index.into_iter().for_each(|&i| f(i)),
-                    Arg::Device { place, .. } | Arg::Nibbles { place, .. } | Arg::WordBit { place, .. } => {
+                    Arg::Device { place, .. }
+                    | Arg::Nibbles { place, .. }
+                    | Arg::WordBit { place, .. } => {
                         place.index.into_iter().for_each(&mut f);
                     }
                     Arg::Float(_) | Arg::Text(_) => {}
@@ -138,7 +152,13 @@ pub fn below(module: &Module, expr: ExprId, found: &mut Vec<ExprId>) {
 }
 
 /// Calls `f` with each temporary that an expression uses: once for each use, but in a large expression once for each node.
-pub fn temps(module: &Module, sizes: &Sizes, expr: ExprId, buffer: &mut Vec<ExprId>, mut f: impl FnMut(TempId)) {
+pub fn temps(
+    module: &Module,
+    sizes: &Sizes,
+    expr: ExprId,
+    buffer: &mut Vec<ExprId>,
+    mut f: impl FnMut(TempId),
+) {
     if sizes.is_large(expr) {
         below(module, expr, buffer);
         for &e in buffer.iter() {

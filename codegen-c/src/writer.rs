@@ -68,7 +68,9 @@ impl<'a, 'm> Writer<'a, 'm> {
                     let constant = matches!(self.module.expr(*preset), Expr::I16(_));
                     *self.plain_timers.entry(*number).or_default() += if constant { 1 } else { 2 };
                 }
-                Node::If { then, otherwise, .. } => {
+                Node::If {
+                    then, otherwise, ..
+                } => {
                     self.count_timers(then);
                     self.count_timers(otherwise);
                 }
@@ -86,7 +88,11 @@ impl<'a, 'm> Writer<'a, 'm> {
 
     /// The head of a C function, without storage class and body.
     pub fn signature(&self, function: &CFunction) -> String {
-        let mut out = String::from(if function.flow == Flow::Void { "void " } else { "int " });
+        let mut out = String::from(if function.flow == Flow::Void {
+            "void "
+        } else {
+            "int "
+        });
         self.function_name(&mut out, function);
         let _ = write!(out, "({}_plc *plc)", self.module.name);
         out
@@ -100,13 +106,22 @@ impl<'a, 'm> Writer<'a, 'm> {
         self.loops = 0;
         self.names = 0;
         let _ = write!(out, "{storage}{}\n{{\n", self.signature(function));
-        if function.body.iter().all(|node| matches!(node, Node::Stmt(Stmt::Network(_)))) {
+        if function
+            .body
+            .iter()
+            .all(|node| matches!(node, Node::Stmt(Stmt::Network(_))))
+        {
             out.push_str("    (void)plc;\n");
         }
         if calls_runtime(&function.body) {
             let _ = writeln!(out, "    rungc_map map = {}_map(plc);", self.module.name);
         }
-        for (temp, _) in plan.temps.iter().enumerate().filter(|(_, t)| t.at_top == Some(index) && !t.field && t.used > 0) {
+        for (temp, _) in plan
+            .temps
+            .iter()
+            .enumerate()
+            .filter(|(_, t)| t.at_top == Some(index) && !t.field && t.used > 0)
+        {
             let mut code = String::from(c_type(self.module.temps[temp]));
             code.push(' ');
             plan.temps[temp].name(&mut code);
@@ -114,7 +129,10 @@ impl<'a, 'm> Writer<'a, 'm> {
             text::line(out, 4, &code, None);
         }
         self.nodes(out, &function.body, 4);
-        let ends = matches!(function.body.last(), Some(Node::Stmt(Stmt::Goto(_) | Stmt::Return)));
+        let ends = matches!(
+            function.body.last(),
+            Some(Node::Stmt(Stmt::Goto(_) | Stmt::Return))
+        );
         match function.flow {
             Flow::Part { next: Some(next) } if !ends => {
                 let code = format!("return {};", self.state_name(function.root, next));
@@ -140,7 +158,16 @@ impl<'a, 'm> Writer<'a, 'm> {
         while let Some(node) = nodes.get(i) {
             i += 1;
             // An edge that only the next statement asks for is asked for there.
-            if let (Node::Stmt(Stmt::Edge { edge, kind, input, out: temp }), Some(next)) = (node, nodes.get(i)) {
+            if let (
+                Node::Stmt(Stmt::Edge {
+                    edge,
+                    kind,
+                    input,
+                    out: temp,
+                }),
+                Some(next),
+            ) = (node, nodes.get(i))
+            {
                 if self.inline_edge(out, (*edge, *kind, *input), *temp, next, indent) {
                     i += 1;
                     continue;
@@ -220,7 +247,8 @@ impl<'a, 'm> Writer<'a, 'm> {
                 let expr = self.module.expr(e);
                 let mut own = 0;
                 walk::operands(expr, |o| {
-                    let same = std::mem::discriminant(expr) == std::mem::discriminant(self.module.expr(o));
+                    let same =
+                        std::mem::discriminant(expr) == std::mem::discriminant(self.module.expr(o));
                     own = own.max(depth.get(&o).copied().unwrap_or(0) + u32::from(!same));
                 });
                 let shared = parents.get(&e).is_some_and(|&n| n > 1) && plan.sizes.size(e) > 8;
@@ -246,14 +274,24 @@ impl<'a, 'm> Writer<'a, 'm> {
     fn node_with_names(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
         match node {
             Node::Stmt(stmt) => self.stmt(out, stmt, indent),
-            Node::If { cond, then, otherwise } => self.branch(out, *cond, (then, otherwise), indent),
+            Node::If {
+                cond,
+                then,
+                otherwise,
+            } => self.branch(out, *cond, (then, otherwise), indent),
             Node::For { count, body } => self.repeat(out, *count, body, indent),
             Node::Parts { parts, leaves } => self.parts(out, parts, *leaves, indent),
             Node::Stretch(function) => self.stretch(out, *function, indent),
         }
     }
 
-    fn branch(&mut self, out: &mut String, cond: ExprId, bodies: (&[Node<'m>], &[Node<'m>]), indent: usize) {
+    fn branch(
+        &mut self,
+        out: &mut String,
+        cond: ExprId,
+        bodies: (&[Node<'m>], &[Node<'m>]),
+        indent: usize,
+    ) {
         let (then, otherwise) = bodies;
         let mut code = String::from("if (");
         let inverted = then.is_empty() && !otherwise.is_empty();
@@ -280,7 +318,11 @@ impl<'a, 'm> Writer<'a, 'm> {
         };
         let mut code = String::new();
         if let Expr::I16(times) = *self.module.expr(count) {
-            let _ = write!(code, "for (int {variable} = 0; {variable} < {}; {variable}++) {{", times.max(1));
+            let _ = write!(
+                code,
+                "for (int {variable} = 0; {variable} < {}; {variable}++) {{",
+                times.max(1)
+            );
         } else {
             let _ = write!(code, "for (int16_t {variable} = plc_times(");
             self.expr(&mut code, count, Around::Exact);
@@ -309,20 +351,31 @@ impl<'a, 'm> Writer<'a, 'm> {
             "{pad}/* The jumps here do not nest, so the stretches between labels are functions: each answers which one is next. */"
         );
         let _ = writeln!(out, "{pad}int next = {first};");
-        let _ = writeln!(out, "{pad}while (next != PLC_GO_ON) {{\n{pad}    switch (next) {{");
+        let _ = writeln!(
+            out,
+            "{pad}while (next != PLC_GO_ON) {{\n{pad}    switch (next) {{"
+        );
         for &(state, function) in parts {
             let mut name = String::new();
             self.function_name(&mut name, &self.plan.functions[function]);
             let state = self.state_name(root, state);
-            let _ = writeln!(out, "{pad}    case {state}:\n{pad}        next = {name}(plc);\n{pad}        break;");
+            let _ = writeln!(
+                out,
+                "{pad}    case {state}:\n{pad}        next = {name}(plc);\n{pad}        break;"
+            );
         }
         let outside = match (leaves, self.is_void()) {
             (true, true) => "return;",
             (true, false) => "return next;",
             (false, _) => "next = PLC_GO_ON;\n            break;",
         };
-        let outside = outside.replace('\n', &format!("\n{pad}")).replace("            break", "        break");
-        let _ = writeln!(out, "{pad}    default:\n{pad}        {outside}\n{pad}    }}\n{pad}}}");
+        let outside = outside
+            .replace('\n', &format!("\n{pad}"))
+            .replace("            break", "        break");
+        let _ = writeln!(
+            out,
+            "{pad}    default:\n{pad}        {outside}\n{pad}    }}\n{pad}}}"
+        );
     }
 
     fn stretch(&mut self, out: &mut String, function: usize, indent: usize) {
@@ -332,7 +385,10 @@ impl<'a, 'm> Writer<'a, 'm> {
         let pad = " ".repeat(indent);
         let _ = match (plan.functions[function].flow == Flow::Void, self.is_void()) {
             (true, _) => writeln!(out, "{pad}{name}(plc);"),
-            (false, true) => writeln!(out, "{pad}if ({name}(plc) != PLC_GO_ON) {{\n{pad}    return;\n{pad}}}"),
+            (false, true) => writeln!(
+                out,
+                "{pad}if ({name}(plc) != PLC_GO_ON) {{\n{pad}    return;\n{pad}}}"
+            ),
             (false, false) => writeln!(
                 out,
                 "{pad}{{\n{pad}    const int next = {name}(plc);\n{pad}    if (next != PLC_GO_ON) {{\n\
@@ -355,7 +411,11 @@ impl<'a, 'm> Writer<'a, 'm> {
         let known = &self.plan.temps[temp.0 as usize];
         let mut code = String::new();
         if known.is_constant() {
-            let _ = write!(code, "const {} ", c_type(self.module.temps[temp.0 as usize]));
+            let _ = write!(
+                code,
+                "const {} ",
+                c_type(self.module.temps[temp.0 as usize])
+            );
         }
         self.temp(&mut code, temp);
         code.push_str(" = ");
@@ -375,7 +435,12 @@ impl<'a, 'm> Writer<'a, 'm> {
                 self.expr(&mut code, *value, Around::Exact);
                 code.push(';');
             }
-            Stmt::Edge { edge, kind, input, out: temp } => {
+            Stmt::Edge {
+                edge,
+                kind,
+                input,
+                out: temp,
+            } => {
                 if self.plan.temps[temp.0 as usize].used == 0 {
                     let _ = write!(code, "plc->edge[{}] = ", edge.0);
                     self.expr(&mut code, *input, Around::Exact);
@@ -385,15 +450,29 @@ impl<'a, 'm> Writer<'a, 'm> {
                 }
                 code.push(';');
             }
-            Stmt::Timer { number, kind, drive, preset } => {
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => {
                 written = Some((DeviceClass::T, *number));
                 self.timer(&mut code, (*number, *kind), *drive, *preset);
             }
-            Stmt::Counter16 { number, drive, preset } => {
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => {
                 written = Some((DeviceClass::C, *number));
                 self.counter(&mut code, "plc_count16", *number, &[*drive, *preset]);
             }
-            Stmt::Counter32 { number, drive, down, preset } => {
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => {
                 written = Some((DeviceClass::C, *number));
                 self.counter(&mut code, "plc_count32", *number, &[*drive, *down, *preset]);
             }
@@ -401,7 +480,11 @@ impl<'a, 'm> Writer<'a, 'm> {
                 function_name(&mut code, self.module, *function as usize);
                 code.push_str("(plc);");
             }
-            Stmt::Return => code.push_str(if self.is_void() { "return;" } else { "return PLC_LEAVE;" }),
+            Stmt::Return => code.push_str(if self.is_void() {
+                "return;"
+            } else {
+                "return PLC_LEAVE;"
+            }),
             Stmt::Goto(label) => {
                 let root = self.plan.functions[self.function].root;
                 if let Some(&state) = self.plan.states.get(&(root, *label)) {
@@ -411,7 +494,10 @@ impl<'a, 'm> Writer<'a, 'm> {
             Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
             Stmt::Fault { code: fault, step } => {
                 self.faults = true;
-                code = format!("{}_fault(plc, {fault}, {});", self.module.name, *step as u16 as i16);
+                code = format!(
+                    "{}_fault(plc, {fault}, {});",
+                    self.module.name, *step as u16 as i16
+                );
             }
             Stmt::Clear { latched } => {
                 self.clears_latched |= *latched;
@@ -445,7 +531,12 @@ impl<'a, 'm> Writer<'a, 'm> {
         }
         let mut line = format!("/* step {}", network.step);
         let texts = [&network.statement, &network.note];
-        for text in texts.into_iter().flatten().map(|t| text::comment(t)).filter(|t| !t.is_empty()) {
+        for text in texts
+            .into_iter()
+            .flatten()
+            .map(|t| text::comment(t))
+            .filter(|t| !t.is_empty())
+        {
             line.push_str(": ");
             line.push_str(&text);
         }
@@ -454,11 +545,19 @@ impl<'a, 'm> Writer<'a, 'm> {
         out.push_str(&line);
     }
 
-    fn timer(&mut self, code: &mut String, (number, kind): (u32, TimerKind), drive: ExprId, preset: ExprId) {
+    fn timer(
+        &mut self,
+        code: &mut String,
+        (number, kind): (u32, TimerKind),
+        drive: ExprId,
+        preset: ExprId,
+    ) {
         let latches = kind.latches_preset && self.plain_timers.get(&number) != Some(&1);
         let plain = !latches && !kind.free_running && !kind.overruns;
         let family = match (plain, kind.unit_ms) {
-            (true, 1 | 10 | 100) if kind.accumulating => format!("plc_retentive_{}ms", kind.unit_ms),
+            (true, 1 | 10 | 100) if kind.accumulating => {
+                format!("plc_retentive_{}ms", kind.unit_ms)
+            }
             (true, 1 | 10 | 100) => format!("plc_timer_{}ms", kind.unit_ms),
             _ => "plc_timer_run".to_string(),
         };
@@ -477,7 +576,11 @@ impl<'a, 'm> Writer<'a, 'm> {
                 (kind.overruns, "PLC_OVERRUNS"),
             ];
             let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
-            let set = if set.is_empty() { "0u".to_string() } else { set.join(" | ") };
+            let set = if set.is_empty() {
+                "0u".to_string()
+            } else {
+                set.join(" | ")
+            };
             let _ = write!(code, ", {}u, {set}", kind.unit_ms.max(1));
         }
         code.push_str(");");
@@ -501,7 +604,11 @@ impl<'a, 'm> Writer<'a, 'm> {
             Stmt::WriteWordBit(place, bit, value) => self.put_word_bit(code, &place, bit, value),
             Stmt::WritePair(place, value) => self.put_pair(code, &place, value, false),
             Stmt::WriteFloat(place, value) => self.put_pair(code, &place, value, true),
-            Stmt::WriteNibbles { place, digits, value } => self.put_nibbles(code, &place, digits, value),
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => self.put_nibbles(code, &place, digits, value),
             Stmt::Reset(place) => self.reset(code, &place),
             _ => {}
         }
@@ -510,7 +617,12 @@ impl<'a, 'm> Writer<'a, 'm> {
     fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
         if place.index.is_some() {
             self.helpers.put(what, place.class);
-            let _ = write!(code, "{}_put_{what}_{}(plc, ", self.module.name, place.class.prefix());
+            let _ = write!(
+                code,
+                "{}_put_{what}_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
             self.number(code, place, 0);
             code.push_str(", ");
             self.expr(code, value, Around::Exact);
@@ -572,12 +684,23 @@ impl<'a, 'm> Writer<'a, 'm> {
             return;
         }
         let (high, plus) = self.high_word(place);
-        let part = if matches!(place.class, DeviceClass::T | DeviceClass::C) { ".value" } else { "" };
+        let part = if matches!(place.class, DeviceClass::T | DeviceClass::C) {
+            ".value"
+        } else {
+            ""
+        };
         let (mut low_name, mut high_name) = (String::new(), String::new());
         let low = self.fields.access(&mut low_name, place.class, place.number);
-        let high = self.fields.access(&mut high_name, high.class, high.number.saturating_add_signed(plus));
+        let high = self.fields.access(
+            &mut high_name,
+            high.class,
+            high.number.saturating_add_signed(plus),
+        );
         let _ = match (low, high) {
-            (true, true) => write!(code, "plc_split(&{high_name}{part}, &{low_name}{part}, {text});"),
+            (true, true) => write!(
+                code,
+                "plc_split(&{high_name}{part}, &{low_name}{part}, {text});"
+            ),
             (true, false) => write!(code, "{low_name}{part} = plc_low({text});"),
             (false, true) => write!(code, "{high_name}{part} = plc_high({text});"),
             (false, false) => Ok(()),
@@ -586,7 +709,12 @@ impl<'a, 'm> Writer<'a, 'm> {
 
     fn put_indexed_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
         self.helpers.put("long", place.class);
-        let _ = write!(code, "{}_put_long_{}(plc, ", self.module.name, place.class.prefix());
+        let _ = write!(
+            code,
+            "{}_put_long_{}(plc, ",
+            self.module.name,
+            place.class.prefix()
+        );
         self.number(code, place, 0);
         code.push_str(if float { ", plc_float_bits(" } else { ", " });
         self.expr(code, value, Around::Exact);
@@ -597,12 +725,21 @@ impl<'a, 'm> Writer<'a, 'm> {
         let count = 4 * u32::from(digits);
         if place.index.is_some() {
             self.helpers.put_bits(place.class);
-            let _ = write!(code, "{}_put_bits_{}(plc, ", self.module.name, place.class.prefix());
+            let _ = write!(
+                code,
+                "{}_put_bits_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
             self.number(code, place, 0);
             let _ = write!(code, ", {count}u, ");
             self.expr(code, value, Around::Exact);
             code.push_str(");");
-        } else if self.fields.array(place.class, place.number, count).is_some() {
+        } else if self
+            .fields
+            .array(place.class, place.number, count)
+            .is_some()
+        {
             code.push_str("plc_put_bits(&");
             self.fields.access(code, place.class, place.number);
             let _ = write!(code, ", {count}u, ");
@@ -619,7 +756,10 @@ impl<'a, 'm> Writer<'a, 'm> {
         for bit in 0..count {
             code.push_str(if bit > 0 { ", " } else { "" });
             let mut name = String::new();
-            if self.fields.access(&mut name, place.class, place.number + bit) {
+            if self
+                .fields
+                .access(&mut name, place.class, place.number + bit)
+            {
                 let _ = write!(code, "&{name}");
             } else {
                 code.push_str("NULL");
@@ -633,7 +773,12 @@ impl<'a, 'm> Writer<'a, 'm> {
     fn reset(&mut self, code: &mut String, place: &Place) {
         if place.index.is_some() {
             self.helpers.reset(place.class);
-            let _ = write!(code, "{}_reset_{}(plc, ", self.module.name, place.class.prefix());
+            let _ = write!(
+                code,
+                "{}_reset_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
             self.number(code, place, 0);
             code.push_str(");");
             return;
@@ -680,7 +825,9 @@ fn zero(ty: Ty) -> &'static str {
 fn calls_runtime(nodes: &[Node]) -> bool {
     nodes.iter().any(|node| match node {
         Node::Stmt(stmt) => matches!(stmt, Stmt::Call { .. }),
-        Node::If { then, otherwise, .. } => calls_runtime(then) || calls_runtime(otherwise),
+        Node::If {
+            then, otherwise, ..
+        } => calls_runtime(then) || calls_runtime(otherwise),
         Node::For { body, .. } => calls_runtime(body),
         Node::Parts { .. } | Node::Stretch(_) => false,
     })
