@@ -2,7 +2,7 @@
 
 use super::{
     Forms, Inst, Spelling, arith, basic, block, clock, compare, data, external_io, float, flow,
-    handy, move_, rotate, string,
+    handy, high_speed, motion_hm, move_, position, rotate, serial, string,
 };
 use crate::resolve::Form;
 use rustc_hash::FxHashMap;
@@ -17,12 +17,16 @@ const FAMILIES: &[&[Inst]] = &[
     arith::ROWS,
     rotate::ROWS,
     data::ROWS,
+    high_speed::ROWS,
     handy::ROWS,
     external_io::ROWS,
+    serial::ROWS,
     float::ROWS,
+    position::ROWS,
     clock::ROWS,
     block::ROWS,
     string::ROWS,
+    motion_hm::ROWS,
 ];
 
 /// A row and the form that its spelling names.

@@ -14,10 +14,14 @@ mod external_io;
 mod float;
 mod flow;
 mod handy;
+mod high_speed;
 mod lookup;
+mod motion_hm;
 mod move_;
+mod position;
 mod rotate;
 mod row;
+mod serial;
 mod string;
 #[cfg(test)]
 mod tests;

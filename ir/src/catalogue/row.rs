@@ -288,12 +288,6 @@ impl Param {
         Param { classes, ..self }
     }
 
-    /// It may be left out.
-    pub(super) const fn optional(self) -> Self {
-        let optional = true;
-        Param { optional, ..self }
-    }
-
     /// It is both read and written.
     pub(super) const fn changed(self) -> Self {
         let role = Role::ReadWrite;
