@@ -6,6 +6,7 @@
 
 pub mod catalogue;
 pub mod layout;
+pub mod lower;
 pub mod model;
 pub mod node;
 pub mod resolve;
