@@ -146,7 +146,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)),
         ])
         .errors(&[6706, 6707])
-        .todo(SOON)
+        .call(RtFn::Wsum)
         .text("D = the sum of n words (32-bit: pairs) from S on, in double width."),
     data("WTOB", 141, "Words to bytes")
         .forms(W16_P)
@@ -158,7 +158,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)),
         ])
         .errors(&[6706, 6707])
-        .todo(SOON)
+        .call(RtFn::Wtob)
         .text("Writes the n bytes from S on, low byte first, one to each word from D on."),
     data("BTOW", 142, "Bytes to words")
         .forms(W16_P)
@@ -170,7 +170,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)),
         ])
         .errors(&[6706, 6707])
-        .todo(SOON)
+        .call(RtFn::Btow)
         .text("Packs the low bytes of n words from S on two to a word from D on, low byte first."),
     data("UNI", 143, "Unite nibbles")
         .forms(W16_P)
@@ -178,7 +178,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U_L01S)
         .takes(&[src("S", REGISTERS).per(2), dst("D", REGISTERS), count("n", 0, 4).also(DATA)])
         .errors(&[6706, 6707])
-        .todo(SOON)
+        .call(RtFn::Uni)
         .text("Packs the low four bits of n words from S on into D, the first lowest; the other bits of D are 0."),
     data("DIS", 144, "Separate nibbles")
         .forms(W16_P)
@@ -186,6 +186,6 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U_L01S)
         .takes(&[src("S", REGISTERS), dst("D", REGISTERS).per(2), count("n", 0, 4).also(DATA)])
         .errors(&[6706, 6707])
-        .todo(SOON)
+        .call(RtFn::Dis)
         .text("Writes the lowest n groups of four bits of S one to each word from D on."),
 ];

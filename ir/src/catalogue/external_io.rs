@@ -28,7 +28,7 @@ const MODULE: Param = count("m1", 0, 162).rules(&[Rule::Not(8, 99)]);
 const ADDRESS: Param = count("m2", 0, 32767);
 const NUMBER: Param = count("n", 1, 32767);
 const FROM: &[Param] = &[MODULE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
-const TO: &[Param] = &[MODULE, ADDRESS, src("S", RESULTS).per(3), NUMBER];
+const TO: &[Param] = &[MODULE, ADDRESS, src("S", VALUES).per(3), NUMBER];
 const MODULE_FX: Param = count("m1", 0, 7).also(DATA);
 const FROM_FX: &[Param] = &[
     MODULE_FX,

@@ -63,7 +63,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM.except(&[ModelId::Fx2n]))
         .takes(ONE)
         .text("Copies the float S to D."),
-    float("ESTR", 116, "Float to text", RtFn::Emov)
+    float("ESTR", 116, "Float to text", RtFn::Estr)
         .steps(13, 13)
         .on(FX3U)
         .takes(&[
@@ -72,16 +72,14 @@ pub(super) const ROWS: &[Inst] = &[
             text_out("D", GROUPS.or(REGISTERS)).len(13),
         ])
         .errors(&[6705, 6706])
-        .todo(SOON)
         .text(
             "Writes the float S1 as text to D. S2 says how: 0 with a decimal point, 1 with an exponent; S2+1 is the number of \
              characters, S2+2 that of decimals.",
         ),
-    float("EVAL", 117, "Text to float", RtFn::Emov)
+    float("EVAL", 117, "Text to float", RtFn::Eval)
         .on(FX3U_L01S)
         .takes(&[text("S", GROUPS.or(REGISTERS)).len(13), real_out("D", DATA)])
         .errors(&[6705, 6706])
-        .todo(SOON)
         .text("Reads the text at S, with a decimal point or an exponent, as a float."),
     float("EBCD", 118, "Float to decimal", RtFn::Ebcd)
         .takes(&[real("S", DATA), DECIMAL])

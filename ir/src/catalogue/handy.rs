@@ -3,6 +3,7 @@
 use super::row::*;
 use super::{Classes, Inst, Param, Rule};
 use crate::model::{ModelId, ModelSet};
+use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
 const H1U_H2U_FX: ModelSet = INOVANCE.and(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
@@ -63,7 +64,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(H1U_H2U_FX)
         .takes(&[
             src("S1", GROUPS.or(REGISTERS)).len_of(pairs_of_n).rules(&[Rule::WholeGroup]),
-            src("S2", Classes::C),
+            src("S2", Classes::C).rules(&[Rule::WideCounter]),
             coil("D", COILS).per(3),
             count("n", 1, 64),
         ])
@@ -160,6 +161,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)).limits(1, 6).rules(&[Rule::AtMost(2)]),
         ])
         .flags(&["M8029", "M8165"])
+        .call(RtFn::Sort2)
         .text(
             "Sorts the m1 rows of the table at S, which stand one behind the other with m2 columns each, by column n and writes it to D; \
              descending with M8165 on. It takes m1 scans; M8029 is on at the end.",
@@ -169,12 +171,14 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(3, 3)
         .on(FX3U_L01S)
         .takes(&[both("D", DATA).open_ended()])
+        .call(RtFn::Zpush)
         .text("Saves V0–V7 and Z0–Z7 in the stack at D: D counts its levels, 16 words each."),
     handy("ZPOP", 103, "Restore the index registers")
         .forms(W16_P)
         .steps(3, 3)
         .on(FX3U_L01S)
         .takes(&[both("D", DATA).open_ended()])
+        .call(RtFn::Zpop)
         .text("Takes V0–V7 and Z0–Z7 back from the stack at D that ZPUSH filled."),
     handy("RND", 184, "Random number")
         .forms(W16_P)
@@ -182,6 +186,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U_L01S)
         .takes(&[dst("D", RESULT_GROUPS.or(REGISTERS))])
         .flags(&["D8310", "D8311"])
+        .call(RtFn::Rnd)
         .text("D = a pseudo-random number from 0 to 32767, from the state in D8311 and D8310."),
     handy("DUTY", 186, "Timing pulse")
         .steps(7, 7)
@@ -192,5 +197,6 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D", Classes::M).plain().numbers(&[(DeviceClass::M, 8330, 8334)]),
         ])
         .flags(&["M8330", "M8331", "M8332", "M8333", "M8334"])
+        .call(RtFn::Duty)
         .text("D, one of M8330–M8334, is on for n1 scans and off for n2 scans, in turn."),
 ];

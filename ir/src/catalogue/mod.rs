@@ -214,6 +214,8 @@ pub enum Rule {
     SameDigits(usize),
     /// It is a group exactly if operand `i` is one.
     GroupLike(usize),
+    /// In the 32-bit form a counter is a 32-bit one.
+    WideCounter,
     /// A device of the same class as operand `i`.
     ClassLike(usize),
 }

@@ -146,7 +146,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("S", Classes::KNX.or(Classes::KNM)).rules(&[Rule::EndsInZero]),
             dst("D", Classes::KNY.or(Classes::KNM)).rules(&[Rule::EndsInZero]),
         ])
-        .todo(SOON)
+        .call(RtFn::Prun)
         .text(
             "Copies a group of bits counting both in rows of eight: with K4X000 and K4M0, X000–X007 go to M0–M7 and X010–X017 to \
              M10–M17.",
@@ -158,7 +158,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
         .errors(&[6706])
-        .todo(SOON)
+        .call(RtFn::Gry)
         .text("D = S in Gray code. A negative S is an error."),
     row("GBIN", "Gray code to binary", "h1u-h2u-programming §4.3.13")
         .fnc(171)
@@ -167,6 +167,6 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
         .errors(&[6706])
-        .todo(SOON)
+        .call(RtFn::Gbin)
         .text("D = the number whose Gray code is S. A negative S is an error."),
 ];

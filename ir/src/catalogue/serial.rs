@@ -1,8 +1,9 @@
 //! Serial instructions, FNC 80–93, inverters, FNC 270–276, and the memory cassette, FNC 290–305.
 
 use super::row::*;
-use super::{Classes, Inst, Param};
+use super::{Classes, Inst, Lower, Param};
 use crate::model::{ModelId, ModelSet};
+use rungc_rt::RtFn;
 
 const SERIAL: &str = "serial communication";
 const CAN: &str = "CAN communication";
@@ -144,7 +145,8 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(ASCI_HM)])
         .flags(&["M8161"])
         .errors(&[6706])
-        .todo(SOON)
+        .call(RtFn::Asci)
+        .lower_on(&[(HM, Lower::Call(RtFn::AsciBytes))])
         .text(
             "Writes the lowest n hexadecimal digits of the number at S as characters to D, the highest first, two to a word, low byte \
              first. With M8161 on, and on HM, one to a word.",
@@ -156,7 +158,8 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(HEX_HM)])
         .flags(&["M8161"])
         .errors(&[6706])
-        .todo(SOON)
+        .call(RtFn::Hex)
+        .lower_on(&[(HM, Lower::Call(RtFn::HexBytes))])
         .text(
             "Reads n characters at S as hexadecimal digits, four to a word of D, the last the lowest. They stand two to a word; with \
              M8161 on, and on HM, one to a word.",
@@ -172,7 +175,7 @@ pub(super) const ROWS: &[Inst] = &[
         ])
         .flags(&["M8161"])
         .errors(&[6706])
-        .todo(SOON)
+        .call(RtFn::Ccd)
         .text("D = the sum, D+1 = the exclusive or of n bytes from S on, two to a word; with M8161 on one to a word."),
     serial("RS2", 87, "Serial transfer on a port")
         .steps(11, 11)
