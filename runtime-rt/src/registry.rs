@@ -317,4 +317,24 @@ registry! {
     Dabin = text::dabin(s, d);
     /// BINDA (FNC 261): integer to decimal text.
     Binda = text::binda(s, d);
+    /// IST (FNC 60): modes of a step sequence.
+    Ist = handy::ist(s, d1, d2) [state];
+    /// SER (FNC 61): searches a table.
+    Ser = handy::ser(s1, s2, d, n);
+    /// ABSD (FNC 62): drum by a counter's value.
+    Absd = handy::absd(s1, s2, d, n);
+    /// INCD (FNC 63): drum step by step.
+    Incd = handy::incd(s1, s2, d, n) [state, always];
+    /// TTMR (FNC 64): measures the drive.
+    Ttmr = handy::ttmr(d, n) [state, always];
+    /// STMR (FNC 65): delayed bits.
+    Stmr = handy::stmr(s, m, d) [state, always];
+    /// ALT (FNC 66): inverts a bit.
+    Alt = handy::alt(d);
+    /// RAMP (FNC 67): from one value to another in n scans.
+    Ramp = handy::ramp(s1, s2, d, n) [state, always];
+    /// ROTC (FNC 68): rotary table.
+    Rotc = handy::rotc(s, m1, m2, d) [state, always];
+    /// SORT (FNC 69): sorts a table kept by columns.
+    Sort = handy::sort(s, m1, m2, d, n) [state, always];
 }

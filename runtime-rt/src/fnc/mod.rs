@@ -7,6 +7,7 @@ pub mod clock;
 pub mod data;
 pub mod float;
 pub mod gray;
+pub mod handy;
 pub mod move_;
 pub mod rotate;
 pub mod scale;
