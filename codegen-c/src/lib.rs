@@ -1,1 +1,47 @@
-//! Placeholder.
+//! C99 from rungc's IR.
+//!
+//! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all programs share, and,
+//! only if the program calls the runtime, the runtime's sources. [`batch`] makes one executable of many programs, for tests.
+//!
+//! How a program becomes C: [`fields`] decides on the struct, [`plan`] divides the program into functions of bounded size,
+//! [`scopes`] finds where temporaries live, [`writer`] and [`expr`] write statements and expressions, [`unit`] puts it all together.
+
+mod expr;
+mod fields;
+mod files;
+mod header;
+mod helpers;
+mod host;
+mod plan;
+mod runtime;
+mod scopes;
+mod text;
+mod unit;
+mod walk;
+mod writer;
+
+use rungc_ir::Module;
+
+/// What to emit.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// Also a `main.c` for a Linux host that scans in real time.
+    pub main: bool,
+}
+
+/// A file of the output.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct OutFile {
+    /// Path relative to the output folder.
+    pub path: String,
+    /// What stands in it.
+    pub text: String,
+}
+
+/// The header that all programs share.
+const RUNGC_H: &str = include_str!("../include/rungc.h");
+
+/// Emits a program. The same module gives the same bytes.
+pub fn emit(module: &Module, options: &Options) -> Vec<OutFile> {
+    files::program(module, options)
+}

@@ -3,6 +3,9 @@
 //! A device that is only ever named directly becomes a field of its own; devices that are indexed, moved in blocks or handed to a
 //! runtime function as a run become arrays. Special devices that the program never looks at are not stored.
 
+use crate::lower::LowerOptions;
+use crate::model::Model;
+use crate::node::{Arg, Body, Expr, Module, Place, Stmt};
 use rungc_syntax::DeviceClass;
 
 /// A run of stored devices.
@@ -51,5 +54,209 @@ impl Layout {
         self.areas
             .get(i)
             .filter(|a| a.class == class && number - a.first < a.count)
+    }
+}
+
+/// What is known of one device while the layout is built.
+const STORED: u8 = 1;
+const IN_ARRAY: u8 = 2;
+
+/// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the functions
+/// it calls use (`flags`).
+pub(crate) fn build(module: &mut Module, options: &LowerOptions, flags: &[(DeviceClass, u32)]) {
+    let mut builder = Builder::new(module);
+    for function in &module.functions {
+        builder.body(&function.body);
+    }
+    for expr in &module.exprs {
+        builder.expr(expr);
+    }
+    for &(class, number) in options.observe.iter().chain(flags) {
+        let place = canonical(module.model, class, number);
+        builder.mark(place.0, place.1, 1, false);
+    }
+    if options.observe_all {
+        for range in module.model.ranges {
+            builder.mark(range.class, range.first, range.last - range.first + 1, true);
+        }
+    }
+    module.layout = builder.finish();
+}
+
+/// A device's own name, where it is a special register that is an index register.
+fn canonical(model: &Model, class: DeviceClass, number: u32) -> (DeviceClass, u32) {
+    model
+        .index_aliases
+        .iter()
+        .find(|alias| class == DeviceClass::D && alias.0 == number)
+        .map_or((class, number), |alias| (alias.1, alias.2))
+}
+
+struct Builder<'m> {
+    module: &'m Module,
+    /// Marks of each class, by number; empty for P, I, N.
+    marks: Vec<Vec<u8>>,
+    runs: Vec<Vec<(u32, u32)>>,
+}
+
+impl<'m> Builder<'m> {
+    fn new(module: &'m Module) -> Self {
+        let model = module.model;
+        let marks = DeviceClass::ALL
+            .iter()
+            .map(|&class| {
+                let pointer = matches!(class, DeviceClass::P | DeviceClass::I | DeviceClass::N);
+                let end = model.ranges_of(class).map(|r| r.last + 1).max();
+                vec![0; end.filter(|_| !pointer).unwrap_or(0) as usize]
+            })
+            .collect();
+        Builder {
+            module,
+            marks,
+            runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),
+        }
+    }
+
+    /// `count` devices from `number` on are stored, in an array if they are accessed as a run.
+    fn mark(&mut self, class: DeviceClass, number: u32, count: u32, array: bool) {
+        let marks = &mut self.marks[class as usize];
+        let end = (number as usize)
+            .saturating_add(count as usize)
+            .min(marks.len());
+        for mark in marks.iter_mut().take(end).skip(number as usize) {
+            *mark |= STORED | if array { IN_ARRAY } else { 0 };
+        }
+    }
+
+    /// The run that a device lies in is an array: an index or a runtime function may lead anywhere in it.
+    fn mark_run(&mut self, class: DeviceClass, number: u32, from_here: bool) {
+        let run = self.runs[class as usize]
+            .iter()
+            .find(|&&(first, last)| (first..=last).contains(&number));
+        if let Some(&(first, last)) = run {
+            let first = if from_here { number } else { first };
+            self.mark(class, first, last - first + 1, true);
+        }
+    }
+
+    /// `count` devices from a place on are accessed.
+    fn place(&mut self, place: Place, count: u32) {
+        if place.index.is_some() {
+            self.mark_run(place.class, place.number, false);
+        } else {
+            self.mark(place.class, place.number, count, count > 1);
+        }
+    }
+
+    /// A pair is two words that stand for themselves; that of Z is V and Z on some models.
+    fn pair(&mut self, place: Place) {
+        let counter32 = place.class == DeviceClass::C && place.number >= 200;
+        let with_v = place.class == DeviceClass::Z && self.module.model.z_pairs_with_v;
+        self.place(place, 1);
+        if place.index.is_some() {
+            if with_v {
+                self.mark_run(DeviceClass::V, place.number, false);
+            }
+        } else if with_v {
+            self.mark(DeviceClass::V, place.number, 1, false);
+        } else if !counter32 {
+            self.mark(place.class, place.number + 1, 1, false);
+        }
+    }
+
+    fn extent(&mut self, place: Place, extent: Option<u32>) {
+        match (place.index, extent) {
+            (None, Some(count)) => self.mark(place.class, place.number, count, count > 1),
+            (None, None) => self.mark_run(place.class, place.number, true),
+            (Some(_), _) => self.mark_run(place.class, place.number, false),
+        }
+    }
+
+    fn expr(&mut self, expr: &Expr) {
+        match *expr {
+            Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
+                self.place(place, 1)
+            }
+            Expr::ReadPair(place) | Expr::ReadFloat(place) => self.pair(place),
+            Expr::ReadNibbles { place, digits, .. } => self.place(place, 4 * u32::from(digits)),
+            _ => {}
+        }
+    }
+
+    fn body(&mut self, body: &Body) {
+        for stmt in body {
+            self.stmt(stmt);
+        }
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) {
+        match stmt {
+            Stmt::WriteBit(place, _)
+            | Stmt::WriteWordBit(place, ..)
+            | Stmt::WriteWord(place, _)
+            | Stmt::Reset(place) => self.place(*place, 1),
+            Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.pair(*place),
+            Stmt::WriteNibbles { place, digits, .. } => self.place(*place, 4 * u32::from(*digits)),
+            Stmt::Timer { number, .. } => self.mark(DeviceClass::T, *number, 1, false),
+            Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
+                self.mark(DeviceClass::C, *number, 1, false)
+            }
+            Stmt::If {
+                then, otherwise, ..
+            } => {
+                self.body(then);
+                self.body(otherwise);
+            }
+            Stmt::For { body, .. } => self.body(body),
+            Stmt::Parts(parts) => parts.iter().for_each(|part| self.body(&part.body)),
+            Stmt::Call { args, .. } => args.iter().for_each(|arg| self.arg(arg)),
+            Stmt::Network(_)
+            | Stmt::Let(..)
+            | Stmt::Edge { .. }
+            | Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Goto(_)
+            | Stmt::Fault { .. }
+            | Stmt::Clear { .. } => {}
+        }
+    }
+
+    fn arg(&mut self, arg: &Arg) {
+        match *arg {
+            Arg::Device { place, extent } | Arg::Nibbles { place, extent, .. } => {
+                self.extent(place, extent)
+            }
+            Arg::WordBit { place, .. } => self.place(place, 1),
+            Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) => {}
+        }
+    }
+
+    fn finish(&self) -> Layout {
+        let mut areas: Vec<Area> = Vec::new();
+        for range in self.module.model.ranges {
+            let marks = &self.marks[range.class as usize];
+            if marks.is_empty() {
+                continue;
+            }
+            let mut open = false;
+            for number in range.first..=range.last {
+                let mark = marks[number as usize];
+                let array = mark & IN_ARRAY != 0;
+                match areas.last_mut() {
+                    Some(area) if open && array => area.count += 1,
+                    _ if mark & STORED != 0 => areas.push(Area {
+                        class: range.class,
+                        first: number,
+                        count: 1,
+                        array,
+                        latched: range.latched,
+                    }),
+                    _ => {}
+                }
+                open = array;
+            }
+        }
+        areas.sort_by_key(|area| (area.class, area.first));
+        Layout { areas }
     }
 }

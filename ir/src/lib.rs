@@ -5,7 +5,10 @@
 //! No output language and no file format is known here.
 
 pub mod catalogue;
+pub mod compile;
+pub mod dump;
 pub mod layout;
+pub mod lower;
 pub mod model;
 pub mod node;
 pub mod resolve;

@@ -63,6 +63,21 @@ impl Cx<'_> {
         self.site.drive
     }
 
+    /// Keeps the drive in word `word` of the private memory, and returns what was kept there: whether the last scan drove the
+    /// instruction.
+    pub fn was_driven(&mut self, word: usize) -> bool {
+        let drive = self.drive();
+        match self.state().0.get_mut(word) {
+            Some(kept) => core::mem::replace(kept, drive.into()) != 0,
+            None => false,
+        }
+    }
+
+    /// Milliseconds since the previous scan began.
+    pub fn dt_ms(&self) -> i32 {
+        i32::try_from(self.plc.sys().dt_ms).unwrap_or(i32::MAX)
+    }
+
     /// The instruction's private memory.
     pub fn state(&mut self) -> &mut State {
         self.plc.state(self.site.slot)

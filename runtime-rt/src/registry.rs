@@ -239,4 +239,102 @@ registry! {
     Gry = gray::gry(s, d);
     /// GBIN (FNC 171): from Gray code.
     Gbin = gray::gbin(s, d);
+    /// WSUM (FNC 140): sum of a block.
+    Wsum = block::wsum(s, d, n);
+    /// WTOB (FNC 141): words to bytes.
+    Wtob = block::wtob(s, d, n);
+    /// BTOW (FNC 142): bytes to words.
+    Btow = block::btow(s, d, n);
+    /// UNI (FNC 143): joins nibbles.
+    Uni = block::uni(s, d, n);
+    /// DIS (FNC 144): parts nibbles.
+    Dis = block::dis(s, d, n);
+    /// SORT2 (FNC 149): sorts rows.
+    Sort2 = block::sort2(s, m1, m2, d, n) [state, always];
+    /// RND (FNC 184): random number.
+    Rnd = block::rnd(d);
+    /// DUTY (FNC 186): timing by scans.
+    Duty = block::duty(n1, n2, d) [state, always];
+    /// BK+ (FNC 192): sums of blocks.
+    BkAdd = block::bk_add(s1, s2, d, n);
+    /// BK- (FNC 193): differences of blocks.
+    BkSub = block::bk_sub(s1, s2, d, n);
+    /// BKCMP= (FNC 194).
+    BkcmpEq = block::bkcmp_eq(s1, s2, d, n);
+    /// BKCMP> (FNC 195).
+    BkcmpGt = block::bkcmp_gt(s1, s2, d, n);
+    /// BKCMP< (FNC 196).
+    BkcmpLt = block::bkcmp_lt(s1, s2, d, n);
+    /// BKCMP<> (FNC 197).
+    BkcmpNe = block::bkcmp_ne(s1, s2, d, n);
+    /// BKCMP<= (FNC 198).
+    BkcmpLe = block::bkcmp_le(s1, s2, d, n);
+    /// BKCMP>= (FNC 199).
+    BkcmpGe = block::bkcmp_ge(s1, s2, d, n);
+    /// FDEL (FNC 210): deletes from a table.
+    Fdel = block::fdel(s, d, n);
+    /// FINS (FNC 211): inserts into a table.
+    Fins = block::fins(s, d, n);
+    /// ZPUSH (FNC 102): saves the index registers.
+    Zpush = block::zpush(d);
+    /// ZPOP (FNC 103): restores the index registers.
+    Zpop = block::zpop(d);
+    /// LIMIT (FNC 256): holds a value between bounds.
+    Limit = scale::limit(s1, s2, s3, d);
+    /// BAND (FNC 257): dead band.
+    Band = scale::band(s1, s2, s3, d);
+    /// ZONE (FNC 258): adds a bias by sign.
+    Zone = scale::zone(s1, s2, s3, d);
+    /// SCL (FNC 259): scales by a table of points.
+    Scl = scale::scl(s1, s2, d);
+    /// SCL2 (FNC 269): scales by a table of coordinates.
+    Scl2 = scale::scl2(s1, s2, d);
+    /// ESTR (FNC 116): float to text.
+    Estr = text::estr(s1, s2, d);
+    /// EVAL (FNC 117): text to float.
+    Eval = text::eval(s, d);
+    /// STR (FNC 200): integer to text.
+    Str = text::str(s1, s2, d);
+    /// VAL (FNC 201): text to integer.
+    Val = text::val(s, d1, d2);
+    /// $+ (FNC 202): joins texts.
+    StrAdd = text::str_add(s1, s2, d);
+    /// LEN (FNC 203): length of a text.
+    Len = text::len(s, d);
+    /// RIGHT (FNC 204): end of a text.
+    Right = text::right(s, d, n);
+    /// LEFT (FNC 205): beginning of a text.
+    Left = text::left(s, d, n);
+    /// MIDR (FNC 206): middle of a text.
+    Midr = text::midr(s1, d, s2);
+    /// MIDW (FNC 207): replaces the middle of a text.
+    Midw = text::midw(s1, d, s2);
+    /// INSTR (FNC 208): seeks a text.
+    Instr = text::instr(s1, s2, d, n);
+    /// $MOV (FNC 209): copies a text.
+    StrMov = text::str_mov(s, d);
+    /// DABIN (FNC 260): decimal text to integer.
+    Dabin = text::dabin(s, d);
+    /// BINDA (FNC 261): integer to decimal text.
+    Binda = text::binda(s, d);
+    /// IST (FNC 60): modes of a step sequence.
+    Ist = handy::ist(s, d1, d2) [state];
+    /// SER (FNC 61): searches a table.
+    Ser = handy::ser(s1, s2, d, n);
+    /// ABSD (FNC 62): drum by a counter's value.
+    Absd = handy::absd(s1, s2, d, n);
+    /// INCD (FNC 63): drum step by step.
+    Incd = handy::incd(s1, s2, d, n) [state, always];
+    /// TTMR (FNC 64): measures the drive.
+    Ttmr = handy::ttmr(d, n) [state, always];
+    /// STMR (FNC 65): delayed bits.
+    Stmr = handy::stmr(s, m, d) [state, always];
+    /// ALT (FNC 66): inverts a bit.
+    Alt = handy::alt(d);
+    /// RAMP (FNC 67): from one value to another in n scans.
+    Ramp = handy::ramp(s1, s2, d, n) [state, always];
+    /// ROTC (FNC 68): rotary table.
+    Rotc = handy::rotc(s, m1, m2, d) [state, always];
+    /// SORT (FNC 69): sorts a table kept by columns.
+    Sort = handy::sort(s, m1, m2, d, n) [state, always];
 }

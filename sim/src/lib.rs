@@ -1,9 +1,13 @@
 //! Executing compiled programs: the reference interpreter of the IR, and the runner of PLC test files.
 //!
-//! [`Machine`] is the executable specification of [`rungc_ir::node`]; it knows no output language.
+//! [`Machine`] is the executable specification of [`rungc_ir::node`]. [`plctest`] runs test files on any [`engines::Engine`]: the
+//! interpreter, or the executables that the emitted C and Rust of a batch of programs are built to.
 
 mod devices;
+pub mod engines;
 mod exec;
 pub mod machine;
+pub mod plctest;
+pub mod protocol;
 
 pub use machine::Machine;

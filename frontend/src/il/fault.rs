@@ -5,7 +5,7 @@ use chumsky::error::{Error, LabelError};
 use chumsky::span::SimpleSpan;
 use chumsky::util::MaybeRef;
 use rungc_syntax::diag::did_you_mean;
-use rungc_syntax::{DeviceClass, Diagnostic, Span};
+use rungc_syntax::{DeviceClass, Diagnostic, Span, codes};
 
 /// A finding of the grammar, at a range of the folded line.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +23,8 @@ pub(super) enum Kind {
     Line,
     /// A step number that no program can have.
     Step,
+    /// A step number and nothing behind it.
+    Bare,
     /// Neither device, nor constant, nor text.
     Operand,
     /// A device number over 32 bits.
@@ -50,6 +52,13 @@ impl Fault {
     pub fn new(span: SimpleSpan, kind: Kind) -> Self {
         Fault { span, kind }
     }
+
+    /// What to say about it. `folded` is the text that was read, `place` leads from it to the source.
+    pub fn diagnostic(self, folded: &str, place: impl Fn(Span) -> Span) -> Diagnostic {
+        let range = self.span.start..self.span.end;
+        let span = place(Span::new(range.start as u32, range.end as u32));
+        self.kind.diagnostic(span, folded.get(range).unwrap_or(""))
+    }
 }
 
 impl<'s> Error<'s, &'s str> for Fault {}
@@ -66,80 +75,85 @@ impl<'s> LabelError<'s, &'s str, DefaultExpected<'s, char>> for Fault {
 
 impl Kind {
     /// The diagnostic for this fault at `span`; `text` is what stands there, folded.
-    pub fn diagnostic(self, span: Span, text: &str) -> Diagnostic {
+    fn diagnostic(self, span: Span, text: &str) -> Diagnostic {
         match self {
             Kind::Line => line(span, text),
-            Kind::Step => {
-                Diagnostic::error("E0002", span, format!("step number `{text}` is too large"))
-                    .label("a program has at most 64000 steps")
-                    .help("step numbers are optional: leave it out")
-            }
+            Kind::Bare => codes::BAD_INSTRUCTION
+                .at(span, format!("step number `{text}` has no instruction"))
+                .label("nothing stands behind it")
+                .help("an instruction and all its operands stand on one line"),
             Kind::Operand => operand(span, text),
-            Kind::DeviceNumber => Diagnostic::error(
-                "E0005",
-                span,
-                format!("the number of `{text}` is too large"),
-            )
-            .label("no model has a device with this number"),
             Kind::Octal(class) => octal(class, span, text),
-            Kind::Decimal => Diagnostic::error(
-                "E0007",
-                span,
-                format!("constant `{text}` does not fit in 32 bits"),
-            )
-            .label("K is -2147483648 to 2147483647")
-            .help("16-bit instructions take K-32768 to K32767, 32-bit ones the whole range"),
-            Kind::Hex => Diagnostic::error(
-                "E0008",
-                span,
-                format!("constant `{text}` does not fit in 32 bits"),
-            )
-            .label("H is 0 to FFFFFFFF")
-            .help("16-bit instructions take H0 to HFFFF, 32-bit ones the whole range"),
-            Kind::Float => Diagnostic::error(
-                "E0009",
-                span,
-                format!("floating constant `{text}` is out of range"),
-            )
-            .label("the largest magnitude is about 3.4E+38"),
-            Kind::DigitCount => Diagnostic::error(
-                "E0010",
-                span,
-                format!("`{text}` does not group 1 to 8 digits of 4 bits"),
-            )
-            .label("the digit count is 1 to 8")
-            .help("16-bit instructions take K1 to K4, 32-bit ones K1 to K8"),
-            Kind::DigitClass(class) => Diagnostic::error(
-                "E0011",
-                span,
-                format!(
-                    "`{text}` groups {} devices, which cannot be grouped",
-                    class.prefix()
-                ),
-            )
-            .label("only X, Y, M and S can be grouped")
-            .help("to address a word by an index register write e.g. `D0Z0`"),
-            Kind::BitNumber => Diagnostic::error(
-                "E0012",
-                span,
-                format!("`{text}` does not name a bit of a word"),
-            )
-            .label("the bit number is one hexadecimal digit, 0 to F")
-            .help("bit 10 is `.A`, bit 15 is `.F`"),
-            Kind::Unclosed => Diagnostic::error("E0013", span, "this string is never closed")
-                .label("no closing `\"` on this line"),
+            Kind::DigitCount => codes::DIGITS
+                .at(
+                    span,
+                    format!("`{text}` does not group 1 to 8 digits of 4 bits"),
+                )
+                .label("the digit count is 1 to 8")
+                .help("16-bit instructions take K1 to K4, 32-bit ones K1 to K8"),
+            Kind::DigitClass(class) => codes::OPERAND_CLASS
+                .at(
+                    span,
+                    format!(
+                        "`{text}` groups {} devices, which cannot be grouped",
+                        class.prefix()
+                    ),
+                )
+                .label("only X, Y, M and S can be grouped")
+                .help("words are named without a digit count, e.g. `D0`"),
+            Kind::BitNumber => codes::BAD_OPERAND
+                .at(span, format!("`{text}` does not name a bit of a word"))
+                .label("the bit number is one hexadecimal digit, 0 to F")
+                .help("bit 10 is `.A`, bit 15 is `.F`"),
+            Kind::Unclosed => codes::OPEN_TEXT
+                .at(span, "this text is never closed")
+                .label("no closing `\"` on this line")
+                .help("put `\"` behind the last character"),
+            Kind::Step | Kind::DeviceNumber | Kind::Decimal | Kind::Hex | Kind::Float => {
+                self.too_large(span, text)
+            }
         }
+    }
+
+    fn too_large(self, span: Span, text: &str) -> Diagnostic {
+        let (what, label, help) = match self {
+            Kind::Step => (
+                "step number",
+                "a program has at most 64000 steps",
+                "step numbers are optional: leave it out",
+            ),
+            Kind::DeviceNumber => (
+                "the number of",
+                "no model has a device with this number",
+                "check the number for surplus digits",
+            ),
+            Kind::Hex => (
+                "constant",
+                "H is H0 to HFFFFFFFF",
+                "16-bit instructions take H0 to HFFFF, 32-bit ones the whole range",
+            ),
+            Kind::Float => (
+                "floating constant",
+                "single precision ends at about 3.4E+38",
+                "check the exponent",
+            ),
+            _ => (
+                "constant",
+                "K is K-2147483648 to K2147483647",
+                "16-bit instructions take K-32768 to K32767, 32-bit ones the whole range",
+            ),
+        };
+        codes::BIG_NUMBER
+            .at(span, format!("{what} `{text}` is too large"))
+            .label(label)
+            .help(help)
     }
 }
 
 fn line(span: Span, text: &str) -> Diagnostic {
     let word = text.split_whitespace().next().unwrap_or(text);
     let digits = word.len() - word.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    let error = Diagnostic::error(
-        "E0001",
-        span,
-        format!("expected an instruction, found `{word}`"),
-    );
+    let error = codes::BAD_INSTRUCTION.at(span, format!("expected an instruction, found `{word}`"));
     match word.split_at_checked(digits) {
         Some((step, rest)) if digits > 0 && !rest.is_empty() => error
             .label("a mnemonic begins with a letter")
@@ -153,12 +167,12 @@ fn line(span: Span, text: &str) -> Diagnostic {
 fn octal(class: DeviceClass, span: Span, text: &str) -> Diagnostic {
     let prefix = class.prefix();
     let digits = text.trim_start_matches(|c: char| c.is_ascii_alphabetic());
-    let error = Diagnostic::error(
-        "E0006",
-        span,
-        format!("`{text}` is not an octal number: {prefix} devices have no digits 8 and 9"),
-    )
-    .label("8 and 9 are not octal digits");
+    let error = codes::BAD_OCTAL
+        .at(
+            span,
+            format!("`{text}` is not an octal number: {prefix} devices have no digits 8 and 9"),
+        )
+        .label("8 and 9 are not octal digits");
     match digits.parse::<u32>() {
         Ok(n) => error.help(format!(
             "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010; the device at place {n} is `{}`",
@@ -178,7 +192,8 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     let (prefix, rest) = upper.split_at(letters);
     let known = DeviceClass::from_prefix(prefix).is_some();
     if rest.is_empty() && (known || matches!(prefix, "K" | "H" | "E")) {
-        return Diagnostic::error("E0004", span, format!("`{text}` lacks its number"))
+        return codes::BAD_OPERAND
+            .at(span, format!("`{text}` lacks its number"))
             .label(if known {
                 "device without a number"
             } else {
@@ -186,7 +201,7 @@ fn operand(span: Span, text: &str) -> Diagnostic {
             })
             .help(format!("write e.g. `{prefix}10`"));
     }
-    let error = Diagnostic::error("E0003", span, format!("`{text}` is no operand"));
+    let error = codes::BAD_OPERAND.at(span, format!("`{text}` is no operand"));
     if let Ok(number) = upper.parse::<i64>() {
         return error.label("a number without its kind").help(format!(
             "write `K{number}` for a decimal constant, `H{upper}` for a hexadecimal one"

@@ -4,7 +4,7 @@ use super::fault::{Fault, Kind};
 use chumsky::container::Container;
 use chumsky::prelude::*;
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Span};
-use smol_str::{SmolStr, SmolStrBuilder};
+use smol_str::{SmolStr, SmolStrBuilder, ToSmolStr};
 
 type Extra = extra::Err<Fault>;
 
@@ -444,19 +444,19 @@ fn body<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
     choice((asc(), usual))
 }
 
-fn step<'s>() -> impl Parser<'s, &'s str, Option<u32>, Extra> + Copy {
+fn step<'s>() -> impl Parser<'s, &'s str, (Option<u32>, Span), Extra> + Copy {
     let behind = choice((boundary(), one_of(":.)").ignored()));
-    digits()
-        .validate(|digits: &str, e, emitter| {
-            let step = digits.parse().ok();
-            if step.is_none() {
-                emitter.emit(Fault::new(e.span(), Kind::Step));
-            }
-            step
-        })
+    let number = digits().validate(|digits: &str, e, emitter| {
+        let step = digits.parse().unwrap_or_else(|_| {
+            emitter.emit(Fault::new(e.span(), Kind::Step));
+            0
+        });
+        (Some(step), span(e.span()))
+    });
+    number
         .then_ignore(behind)
         .or_not()
-        .map(Option::flatten)
+        .map(Option::unwrap_or_default)
 }
 
 /// `P0`, `P0:`, `I001`.
@@ -485,9 +485,7 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line, Extra> + Copy {
             emitter.emit(Fault::new((whole.start..end).into(), Kind::Line));
             None
         });
-    let content = choice((body().map(Some), nonsense))
-        .or_not()
-        .map(Option::flatten);
+    let content = choice((body().map(Some), nonsense)).or_not();
     space()
         .ignore_then(step())
         .then_ignore(space())
@@ -496,10 +494,58 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line, Extra> + Copy {
         .then(content)
         .then_ignore(space())
         .then(comment.or_not())
-        .map(|(((step, label), instr), comment)| Line {
-            step,
-            label,
-            instr,
-            comment,
+        .validate(|((((step, place), label), content), comment), _, emitter| {
+            if step.is_some() && label.is_none() && content.is_none() {
+                let place = place.start as usize..place.end as usize;
+                emitter.emit(Fault::new(place.into(), Kind::Bare));
+            }
+            Line {
+                step,
+                label,
+                instr: content.flatten(),
+                comment,
+            }
         })
+}
+
+/// An operand that fills a whole field of a table.
+pub(super) fn operand_field<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
+    space().ignore_then(operand()).then_ignore(space())
+}
+
+/// The characters that ASC takes, filling a whole field of a table.
+pub(super) fn text_field<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
+    let bare = any()
+        .repeated()
+        .to_slice()
+        .map(|text: &str| OperandKind::Text(text.trim().into()));
+    choice((
+        placed(text_operand()).then_ignore(end()),
+        bare.map_with(|kind, e| {
+            Some(Operand {
+                span: span(e.span()),
+                kind,
+            })
+        }),
+    ))
+}
+
+/// A mnemonic or label that fills a whole field of a table.
+pub(super) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, Extra> + Copy {
+    let pointer = label().map(|(device, _)| device.to_smolstr());
+    let readable = choice((pointer, mnemonic().map(|(mnemonic, _)| mnemonic))).map(Some);
+    let unreadable = any()
+        .repeated()
+        .at_least(1)
+        .to_slice()
+        .validate(|_, e, emitter| {
+            emitter.emit(Fault::new(e.span(), Kind::Line));
+            None
+        });
+    choice((readable.then_ignore(space()).then_ignore(end()), unreadable))
+}
+
+/// A device by itself.
+pub(super) fn device_field<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
+    device().padded().then_ignore(end())
 }

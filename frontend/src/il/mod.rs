@@ -2,12 +2,20 @@
 //!
 //! A list is read line by line with a [chumsky](https://docs.rs/chumsky) grammar. Each line is a start anew, and within a line
 //! each operand is: one mistake never hides the next. Full-width text is read as half-width; places always refer to the original.
+//!
+//! An instruction of which one operand cannot be read at all is left out; one whose numbers are merely impossible (`X008`) stays
+//! with a stand-in, so that the instructions around it are still judged by what the author meant.
+//!
+//! Comment lines above an instruction become its statement, a comment beside it its note. Lines that begin with `;!` state
+//! properties of the program: `;! cpu = FX3U/FX3UC`, `;! title = Press`, `;! X000 = start button`.
 
 mod fault;
+pub(crate) mod field;
 mod fold;
 mod grammar;
 
 use crate::Read;
+use crate::text::{append, clean};
 use chumsky::Parser;
 use fold::Folded;
 use rungc_syntax::{Device, Diagnostics, Instr, Program, Source, SourceKind, Span};
@@ -35,7 +43,7 @@ struct Reader {
     diagnostics: Diagnostics,
     folded: Folded,
     /// Comment lines that wait for the instruction below them.
-    statement: Vec<SmolStr>,
+    statement: Option<SmolStr>,
 }
 
 impl Reader {
@@ -59,78 +67,88 @@ impl Reader {
     fn parse(&mut self, original: &str, folded: &str, place: impl Fn(Span) -> Span) {
         let (line, faults) = grammar::line().parse(folded).into_output_errors();
         for fault in faults {
-            let range = fault.span.start..fault.span.end;
-            let span = place(Span::new(range.start as u32, range.end as u32));
-            let text = folded.get(range).unwrap_or("");
-            self.diagnostics.push(fault.kind.diagnostic(span, text));
+            self.diagnostics.push(fault.diagnostic(folded, &place));
         }
         let Some(line) = line else { return };
         let begin = place(Span::default()).start;
         let comment = line.comment.and_then(|at| {
             let at = place(Span::new(at, at)).start - begin;
-            let text = original.get(at as usize..)?.trim();
-            (!text.is_empty()).then(|| SmolStr::new(text))
+            original.get(at as usize..)
         });
         let mut step = line.step;
-        let before = self.program.instrs.len();
+        let alone = line.label.is_none() && line.instr.is_none();
         if let Some((device, span)) = line.label {
-            self.label(device, place(span), step.take());
+            let span = place(span);
+            self.push(device.to_smolstr(), span, Vec::new(), step.take());
         }
+        let note = comment.and_then(clean);
         if let Some(body) = line.instr {
-            self.instr(body, step, &place);
-        }
-        match (self.program.instrs.len() > before, comment) {
-            (true, note) => {
-                if let Some(last) = self.program.instrs.last_mut() {
-                    last.note = note;
-                }
+            let Some(mut operands) = body.operands else {
+                return;
+            };
+            for operand in &mut operands {
+                operand.span = place(operand.span);
             }
-            (false, Some(text)) => self.statement.push(text),
-            (false, None) => {}
+            self.push(body.mnemonic, place(body.mnemonic_span), operands, step);
+        }
+        if !alone {
+            if let Some(last) = self.program.instrs.last_mut() {
+                last.note = note;
+            }
+        } else if let Some(text) = note {
+            let property = comment.and_then(|c| c.strip_prefix('!'));
+            if !property.is_some_and(|property| self.property(property)) {
+                append(&mut self.statement, text);
+            }
         }
     }
 
-    fn label(&mut self, device: Device, span: Span, step: Option<u32>) {
-        let statement = self.take_statement();
-        self.program.instrs.push(Instr {
-            mnemonic: device.to_smolstr(),
-            mnemonic_span: span,
-            operands: Vec::new(),
-            span,
-            step,
-            statement,
-            note: None,
-        });
-    }
-
-    fn instr(&mut self, body: grammar::Body, step: Option<u32>, place: impl Fn(Span) -> Span) {
-        let Some(mut operands) = body.operands else {
-            return;
-        };
-        let mnemonic_span = place(body.mnemonic_span);
-        for operand in &mut operands {
-            operand.span = place(operand.span);
-        }
+    fn push(
+        &mut self,
+        mnemonic: SmolStr,
+        mnemonic_span: Span,
+        operands: Vec<rungc_syntax::Operand>,
+        step: Option<u32>,
+    ) {
         let span = operands
             .last()
             .map_or(mnemonic_span, |last| mnemonic_span.to(last.span));
-        let statement = self.take_statement();
         self.program.instrs.push(Instr {
-            mnemonic: body.mnemonic,
+            mnemonic,
             mnemonic_span,
             operands,
             span,
             step,
-            statement,
+            statement: self.statement.take(),
             note: None,
         });
     }
 
-    fn take_statement(&mut self) -> Option<SmolStr> {
-        match self.statement.len() {
-            0 => None,
-            1 => self.statement.pop(),
-            _ => Some(std::mem::take(&mut self.statement).join("\n").into()),
+    /// Takes a property of the program; tells whether it is one.
+    fn property(&mut self, text: &str) -> bool {
+        let Some((key, value)) = text.split_once('=') else {
+            return false;
+        };
+        let (key, value) = (key.trim(), clean(value).map(String::from));
+        if key.eq_ignore_ascii_case("cpu") {
+            self.program.cpu = value;
+        } else if key.eq_ignore_ascii_case("title") {
+            self.program.title = value;
+        } else if let (Some(device), Some(value)) = (device(key), value) {
+            self.program.comments.insert(device, value);
+        } else {
+            return false;
         }
+        true
     }
+}
+
+/// The device that a text names by itself, e.g. `X010`.
+pub(crate) fn device(text: &str) -> Option<Device> {
+    let mut folded = Folded::default();
+    folded.fold(text);
+    grammar::device_field()
+        .parse(&folded.text)
+        .into_result()
+        .ok()
 }

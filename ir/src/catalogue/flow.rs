@@ -4,6 +4,11 @@ use super::row::*;
 use super::{Basic, Classes, Drive, Inst, Lower, Param};
 
 const LABEL: &[Param] = &[pointer("P", Classes::P)];
+/// HM's labels may carry an index register.
+const INDEXED_LABEL: &[Param] = &[Param {
+    indexable: true,
+    ..pointer("P", Classes::P)
+}];
 
 const fn flow(name: &'static str, fnc: u16, title: &'static str, basic: Basic) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.1")
@@ -16,6 +21,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .takes(LABEL)
+        .variants(&[on(HM).takes(INDEXED_LABEL)])
         .errors(&[6701])
         .text(
             "Goes on at the label while driven; what lies between is not executed and keeps its state. P63 is the end of the scan.",

@@ -1,6 +1,9 @@
 //! Finds the row of a mnemonic.
 
-use super::{Forms, Inst, Spelling, arith, basic, compare, flow, move_};
+use super::{
+    Forms, Inst, Spelling, arith, basic, block, clock, compare, data, external_io, float, flow,
+    handy, high_speed, motion_hm, move_, position, rotate, serial, string,
+};
 use crate::resolve::Form;
 use rustc_hash::FxHashMap;
 use std::sync::OnceLock;
@@ -12,6 +15,18 @@ const FAMILIES: &[&[Inst]] = &[
     compare::ROWS,
     move_::ROWS,
     arith::ROWS,
+    rotate::ROWS,
+    data::ROWS,
+    high_speed::ROWS,
+    handy::ROWS,
+    external_io::ROWS,
+    serial::ROWS,
+    float::ROWS,
+    position::ROWS,
+    clock::ROWS,
+    block::ROWS,
+    string::ROWS,
+    motion_hm::ROWS,
 ];
 
 /// A row and the form that its spelling names.

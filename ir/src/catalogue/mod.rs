@@ -6,11 +6,23 @@
 
 mod arith;
 mod basic;
+mod block;
+mod clock;
 mod compare;
+mod data;
+mod external_io;
+mod float;
 mod flow;
+mod handy;
+mod high_speed;
 mod lookup;
+mod motion_hm;
 mod move_;
+mod position;
+mod rotate;
 mod row;
+mod serial;
+mod string;
 #[cfg(test)]
 mod tests;
 
@@ -198,8 +210,12 @@ pub enum Rule {
     Aligned(u32),
     /// A group has as many bits as the form: K4, in the 32-bit form K8.
     WholeGroup,
-    /// A group if operand `i` is one, with as many digits; else none.
+    /// If it is a group and operand `i` too, both have as many digits.
+    SameDigits(usize),
+    /// It is a group exactly if operand `i` is one.
     GroupLike(usize),
+    /// In the 32-bit form a counter is a 32-bit one.
+    WideCounter,
     /// A device of the same class as operand `i`.
     ClassLike(usize),
 }

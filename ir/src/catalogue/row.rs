@@ -69,6 +69,9 @@ pub(super) const FX3U_L01S: ModelSet = FX3U.and(&[ModelId::L01s]);
 /// All but HM.
 pub(super) const NOT_HM: ModelSet = ModelSet::ALL.except(&[ModelId::Hm]);
 
+/// Why rows of the complete instruction set have no implementation as long as their runtime function is missing.
+pub(super) const SOON: &str = "its runtime function is not written yet";
+
 /// A row: 16-bit form of one step, no operands, driven by a contact, on all models.
 pub(super) const fn row(name: &'static str, title: &'static str, source: &'static str) -> Inst {
     Inst {
@@ -285,12 +288,6 @@ impl Param {
         Param { classes, ..self }
     }
 
-    /// It may be left out.
-    pub(super) const fn optional(self) -> Self {
-        let optional = true;
-        Param { optional, ..self }
-    }
-
     /// It is both read and written.
     pub(super) const fn changed(self) -> Self {
         let role = Role::ReadWrite;
@@ -366,4 +363,14 @@ impl Variant {
         let forms = Some(forms);
         Variant { forms, ..self }
     }
+}
+
+/// A bit or a word that is read, as the operand is.
+pub(super) const fn mixed(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Mixed, Role::Read)
+}
+
+/// A bit or a word that is written, as the operand is.
+pub(super) const fn mixed_out(name: &'static str, classes: Classes) -> Param {
+    param(name, classes, Shape::Mixed, Role::Write)
 }

@@ -265,7 +265,7 @@ pub fn clock_refresh_short(cx: &mut Cx) -> Done {
 /// HOUR S D1 D2 (FNC 169): counts the time driven in D1 (hours; a pair in the 32-bit form) and the word behind it (seconds of the hour);
 /// D2 is on from S hours on. Stops at the most that D1 holds. Memory: milliseconds of the second; whether the last scan drove it.
 pub fn hour(cx: &mut Cx) -> Done {
-    let dt = cx.plc.sys().dt_ms as i32;
+    let dt = cx.dt_ms();
     if !cx.drive() {
         cx.state().0[1] = 0;
         return Ok(());

@@ -123,7 +123,7 @@ fn lowest_annunciator(cx: &Cx) -> Option<u32> {
 /// ANS S m D (FNC 46): sets annunciator D once the drive has been on for m times 100 ms; timer S shows the time and starts over with
 /// each drive. Memory: time driven in milliseconds; whether the last scan drove it.
 pub fn ans(cx: &mut Cx) -> Done {
-    let dt = cx.plc.sys().dt_ms;
+    let dt = cx.dt_ms();
     if !cx.drive() {
         if cx.state().0[1] != 0 {
             cx.state().0 = [0; 8];
@@ -135,7 +135,7 @@ pub fn ans(cx: &mut Cx) -> Done {
     cx.bit(2, 0)?;
     let state = cx.state();
     if state.0[1] != 0 {
-        state.0[0] = state.0[0].saturating_add_unsigned(dt);
+        state.0[0] = state.0[0].saturating_add(dt);
     }
     state.0[1] = 1;
     let value = (state.0[0] / 100).min(limit);

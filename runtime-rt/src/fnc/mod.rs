@@ -2,10 +2,14 @@
 
 mod digits;
 
+pub mod block;
 pub mod clock;
 pub mod data;
 pub mod float;
 pub mod gray;
+pub mod handy;
 pub mod move_;
 pub mod rotate;
+pub mod scale;
 pub mod serial;
+pub mod text;

@@ -1,0 +1,129 @@
+/*
+ * main.c: runs PROGRAM on a Linux host in real time, one scan every 10 ms.
+ *
+ * Type `X0=1` or `X0=0` and Enter to switch an input; outputs are printed when they change. Ctrl-C stops.
+ */
+#define _POSIX_C_SOURCE 200809L
+
+#include "PROGRAM.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
+
+#define SCAN_MS 10
+
+static PROGRAM_plc plc_memory;
+static volatile sig_atomic_t stopped;
+
+static void stop(int signal_number)
+{
+    (void)signal_number;
+    stopped = 1;
+}
+
+/* Output terminals: number, name, comment. The last entry ends the table. */
+static const struct {
+    unsigned number;
+    const char *name;
+    const char *comment;
+} outputs[] = {
+    /* OUTPUTS */
+    {0, NULL, NULL},
+};
+
+/* Sets an input terminal; false if the program has no such input. */
+static bool set_input(PROGRAM_plc *plc, unsigned long number, bool on)
+{
+    (void)plc;
+    (void)on;
+    switch (number) {
+    /* INPUTS */
+    default:
+        return false;
+    }
+}
+
+static uint64_t microseconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
+}
+
+/* Takes commands like X12=1 (octal) from standard input, without waiting for them. */
+static void read_commands(PROGRAM_plc *plc)
+{
+    static bool closed;
+    static char line[80];
+    static size_t length;
+    struct pollfd input = {.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+
+    while (!closed && poll(&input, 1, 0) > 0) {
+        char c;
+        if (read(STDIN_FILENO, &c, 1) != 1) {
+            closed = true;
+            return;
+        }
+        if (c != '\n') {
+            if (length < sizeof line - 1) {
+                line[length++] = c;
+            }
+            continue;
+        }
+        line[length] = '\0';
+        length = 0;
+        char *end = line;
+        if (line[0] == 'X' || line[0] == 'x') {
+            const unsigned long number = strtoul(line + 1, &end, 8);
+            if (end != line + 1 && end[0] == '=' && (end[1] == '0' || end[1] == '1') && set_input(plc, number, end[1] == '1')) {
+                continue;
+            }
+        }
+        fprintf(stderr, "%s: not an input of the program; type for example X0=1\n", line);
+    }
+}
+
+/* Prints the outputs that changed. */
+static void print_outputs(const PROGRAM_plc *plc, uint32_t now_ms)
+{
+    static bool shown[sizeof outputs / sizeof outputs[0]];
+
+    for (size_t i = 0; outputs[i].name != NULL; i++) {
+        const bool on = PROGRAM_output(plc, outputs[i].number);
+        if (on != shown[i]) {
+            shown[i] = on;
+            printf("%7lu.%03u s  %s %-3s %s\n", (unsigned long)(now_ms / 1000u), (unsigned)(now_ms % 1000u), outputs[i].name,
+                   on ? "on" : "off", outputs[i].comment);
+            fflush(stdout);
+        }
+    }
+}
+
+int main(void)
+{
+    PROGRAM_plc *const plc = &plc_memory;
+    const uint64_t start = microseconds();
+    uint64_t next = start;
+    uint32_t scan_us = 0;
+
+    signal(SIGINT, stop);
+    signal(SIGTERM, stop);
+    PROGRAM_init(plc);
+    while (!stopped) {
+        const uint64_t begin = microseconds();
+        const uint32_t now_ms = (uint32_t)((begin - start) / 1000u);
+        read_commands(plc);
+        PROGRAM_scan(plc, now_ms, scan_us);
+        print_outputs(plc, now_ms);
+        scan_us = (uint32_t)(microseconds() - begin);
+
+        next += SCAN_MS * 1000u;
+        const struct timespec until = {.tv_sec = (time_t)(next / 1000000u), .tv_nsec = (long)(next % 1000000u) * 1000L};
+        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
+    }
+    return 0;
+}

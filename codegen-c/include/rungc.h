@@ -1,0 +1,425 @@
+/*
+ * rungc.h: what programs compiled by rungc have in common: timers, counters, edges and wrapping arithmetic.
+ *
+ * Plain C99, nothing to link. Integers are two's complement and wrap; every operation is written so that no input makes it
+ * undefined. The structs have the same layout as those of the runtime library (rungc_rt.h).
+ */
+#ifndef RUNGC_H
+#define RUNGC_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Time and mode, set by the scan function. */
+typedef struct plc_sys {
+    uint32_t now_ms;  /* time since power-on, wrapping; constant within a scan */
+    uint32_t dt_ms;   /* from the start of the previous scan to the start of this one */
+    uint32_t scan_us; /* how long the last scan took */
+    bool first_scan;  /* first scan since RUN began */
+    bool running;     /* RUN, not STOP */
+} plc_sys;
+
+/* A timer: .done is its contact, .value its current value in units. */
+typedef struct plc_timer {
+    uint32_t part_ms; /* time since the last whole unit */
+    uint32_t last_ms; /* when it was last executed */
+    int16_t value;    /* current value */
+    int16_t preset;   /* preset taken over when timing began */
+    bool coil;        /* whether its coil was on when last executed */
+    bool done;        /* contact */
+} plc_timer;
+
+/* A 16-bit up counter: .done is its contact. */
+typedef struct plc_counter16 {
+    int16_t value; /* current value */
+    bool coil;     /* whether its coil was on when last executed */
+    bool done;     /* contact */
+} plc_counter16;
+
+/* A 32-bit up/down counter: .done is its contact. */
+typedef struct plc_counter32 {
+    int32_t value; /* current value */
+    bool coil;     /* whether its coil was on when last executed */
+    bool done;     /* contact */
+} plc_counter32;
+
+/* What a part of a program answers where jumps do not nest: which part is next, or one of these. */
+enum {
+    PLC_LEAVE = -1, /* return from the program or subroutine */
+    PLC_GO_ON = 0   /* go on behind the parts */
+};
+
+/* ---- Scan cycle ----------------------------------------------------------------------------------------------------- */
+
+/* Power on: in RUN, before the first scan. */
+static inline void plc_power_on(plc_sys *sys)
+{
+    memset(sys, 0, sizeof *sys);
+    sys->first_scan = true;
+    sys->running = true;
+}
+
+/* A scan begins, in RUN or in STOP. */
+static inline void plc_begin_scan(plc_sys *sys, uint32_t now_ms, uint32_t scan_us)
+{
+    sys->dt_ms = sys->first_scan ? 0u : now_ms - sys->now_ms;
+    sys->now_ms = now_ms;
+    sys->scan_us = scan_us;
+}
+
+/* Clears the bytes of a struct from offset `from` up to offset `to`. */
+static inline void plc_clear(void *plc, size_t from, size_t to)
+{
+    memset((unsigned char *)plc + from, 0, to - from);
+}
+
+/* ---- Edges ---------------------------------------------------------------------------------------------------------- */
+
+/* Whether `input` went from off to on since the last call with this memory. */
+static inline bool plc_rising(bool *memory, bool input)
+{
+    const bool before = *memory;
+    *memory = input;
+    return input & !before;
+}
+
+/* Whether `input` went from on to off since the last call with this memory. */
+static inline bool plc_falling(bool *memory, bool input)
+{
+    const bool before = *memory;
+    *memory = input;
+    return before & !input;
+}
+
+/* ---- Words ---------------------------------------------------------------------------------------------------------- */
+
+/* The low 16 bits as a signed number. */
+static inline int16_t plc_int16(uint32_t bits)
+{
+    const uint16_t low = (uint16_t)(bits & 0xFFFFu);
+    return (low <= INT16_MAX) ? (int16_t)low : (int16_t)((int32_t)low - INT32_C(0x10000));
+}
+
+/* The bits as a signed number. */
+static inline int32_t plc_int32(uint32_t bits)
+{
+    return (bits <= INT32_MAX) ? (int32_t)bits : (int32_t)(bits - UINT32_C(0x80000000)) + INT32_MIN;
+}
+
+/* Low word of 32 bits. */
+static inline int16_t plc_low(int32_t value)
+{
+    return plc_int16((uint32_t)value);
+}
+
+/* High word of 32 bits. */
+static inline int16_t plc_high(int32_t value)
+{
+    return plc_int16((uint32_t)value >> 16);
+}
+
+/* Two words as 32 bits. */
+static inline int32_t plc_join(int16_t high, int16_t low)
+{
+    return plc_int32(((uint32_t)(uint16_t)high << 16) | (uint16_t)low);
+}
+
+/* 32 bits into two words. */
+static inline void plc_split(int16_t *high, int16_t *low, int32_t value)
+{
+    *high = plc_high(value);
+    *low = plc_low(value);
+}
+
+/* 32 bits as an IEEE single. */
+static inline float plc_float(int32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* The bits of an IEEE single. */
+static inline int32_t plc_float_bits(float value)
+{
+    int32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* Bit 0 to 15 of a word. */
+static inline bool plc_bit(int16_t word, unsigned bit)
+{
+    return (((uint16_t)word >> bit) & 1u) != 0u;
+}
+
+/* The word with bit 0 to 15 set to `on`. */
+static inline int16_t plc_with_bit(int16_t word, unsigned bit, bool on)
+{
+    const uint32_t mask = UINT32_C(1) << bit;
+    const uint32_t old = (uint16_t)word;
+    return plc_int16(on ? (old | mask) : (old & ~mask));
+}
+
+/* Sets bit 0 to 15 of a word. */
+static inline void plc_put_bit(int16_t *word, unsigned bit, bool on)
+{
+    *word = plc_with_bit(*word, bit, on);
+}
+
+/* `count` relays from `first` on as a number, the first one lowest. */
+static inline int32_t plc_bits(const bool *first, unsigned count)
+{
+    uint32_t value = 0;
+    for (unsigned i = 0; i < count; i++) {
+        value |= (uint32_t)first[i] << i;
+    }
+    return plc_int32(value);
+}
+
+/* Spreads the low `count` bits of a number over relays. */
+static inline void plc_put_bits(bool *first, unsigned count, int32_t value)
+{
+    for (unsigned i = 0; i < count; i++) {
+        first[i] = (((uint32_t)value >> i) & 1u) != 0u;
+    }
+}
+
+/* The same for relays that do not stand side by side; NULL for one that is not stored. */
+static inline void plc_scatter(bool *const relays[], unsigned count, int32_t value)
+{
+    for (unsigned i = 0; i < count; i++) {
+        if (relays[i] != NULL) {
+            *relays[i] = (((uint32_t)value >> i) & 1u) != 0u;
+        }
+    }
+}
+
+/* ---- Arithmetic ----------------------------------------------------------------------------------------------------- */
+
+static inline int16_t plc_add16(int16_t a, int16_t b)
+{
+    return plc_int16((uint32_t)a + (uint32_t)b);
+}
+
+static inline int16_t plc_sub16(int16_t a, int16_t b)
+{
+    return plc_int16((uint32_t)a - (uint32_t)b);
+}
+
+static inline int16_t plc_mul16(int16_t a, int16_t b)
+{
+    return plc_int16((uint32_t)a * (uint32_t)b);
+}
+
+/* Truncates towards zero; b is not 0. */
+static inline int16_t plc_div16(int16_t a, int16_t b)
+{
+    return (b == -1) ? plc_sub16(0, a) : (int16_t)(a / b);
+}
+
+/* Has the sign of a; b is not 0. */
+static inline int16_t plc_rem16(int16_t a, int16_t b)
+{
+    return (b == -1) ? 0 : (int16_t)(a % b);
+}
+
+static inline int32_t plc_add32(int32_t a, int32_t b)
+{
+    return plc_int32((uint32_t)a + (uint32_t)b);
+}
+
+static inline int32_t plc_sub32(int32_t a, int32_t b)
+{
+    return plc_int32((uint32_t)a - (uint32_t)b);
+}
+
+static inline int32_t plc_mul32(int32_t a, int32_t b)
+{
+    return plc_int32((uint32_t)a * (uint32_t)b);
+}
+
+/* High half of the 64-bit product. */
+static inline int32_t plc_mul_high32(int32_t a, int32_t b)
+{
+    return plc_int32((uint32_t)(((uint64_t)((int64_t)a * b)) >> 32));
+}
+
+/* Truncates towards zero; b is not 0. */
+static inline int32_t plc_div32(int32_t a, int32_t b)
+{
+    return (b == -1) ? plc_sub32(0, a) : a / b;
+}
+
+/* Has the sign of a; b is not 0. */
+static inline int32_t plc_rem32(int32_t a, int32_t b)
+{
+    return (b == -1) ? 0 : a % b;
+}
+
+/* Sum and difference held at the ends of the range. */
+static inline int16_t plc_sat_add16(int16_t a, int16_t b)
+{
+    const int32_t sum = (int32_t)a + b;
+    return (int16_t)((sum > INT16_MAX) ? INT16_MAX : (sum < INT16_MIN) ? INT16_MIN : sum);
+}
+
+static inline int16_t plc_sat_sub16(int16_t a, int16_t b)
+{
+    const int32_t difference = (int32_t)a - b;
+    return (int16_t)((difference > INT16_MAX) ? INT16_MAX : (difference < INT16_MIN) ? INT16_MIN : difference);
+}
+
+static inline int32_t plc_sat_add32(int32_t a, int32_t b)
+{
+    if (b >= 0) {
+        return (a > INT32_MAX - b) ? INT32_MAX : a + b;
+    }
+    return (a < INT32_MIN - b) ? INT32_MIN : a + b;
+}
+
+static inline int32_t plc_sat_sub32(int32_t a, int32_t b)
+{
+    if (b >= 0) {
+        return (a < INT32_MIN + b) ? INT32_MIN : a - b;
+    }
+    return (a > INT32_MAX + b) ? INT32_MAX : a - b;
+}
+
+/* How often FOR repeats: at least once. */
+static inline int16_t plc_times(int16_t count)
+{
+    return (count > 1) ? count : 1;
+}
+
+/* ---- Timers --------------------------------------------------------------------------------------------------------- */
+
+/* How a timer behaves; 0 for the usual one, which falls back to 0 while it is not driven. */
+enum {
+    PLC_RETENTIVE = 1u,      /* keeps its value while it is not driven; only RST clears it */
+    PLC_FREE_RUNNING = 2u,   /* goes on timing in scans that jump over its coil */
+    PLC_LATCHES_PRESET = 4u, /* takes the preset over when timing begins */
+    PLC_OVERRUNS = 8u        /* goes on counting after the preset is reached */
+};
+
+/* OUT T. In the scan in which the coil comes on the value stays as it is; each later scan adds the time since the scan before. */
+static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys, uint32_t unit_ms,
+                                 unsigned options)
+{
+    if (!drive) {
+        if ((options & PLC_RETENTIVE) == 0u) {
+            memset(timer, 0, sizeof *timer);
+        }
+        timer->coil = false;
+        return;
+    }
+
+    uint32_t elapsed = 0;
+    if (timer->coil) {
+        elapsed = ((options & PLC_FREE_RUNNING) != 0u) ? sys->now_ms - timer->last_ms : sys->dt_ms;
+    } else {
+        timer->preset = preset;
+    }
+    timer->coil = true;
+    timer->last_ms = sys->now_ms;
+    if ((options & PLC_LATCHES_PRESET) != 0u) {
+        preset = timer->preset;
+    }
+
+    const bool overruns = (options & PLC_OVERRUNS) != 0u;
+    if (!timer->done || overruns) {
+        const int16_t limit = overruns ? INT16_MAX : (preset > 0) ? preset : 0;
+        const uint32_t room = (limit > timer->value) ? (uint32_t)((int32_t)limit - timer->value) : 0u;
+        const uint32_t part = (elapsed < UINT32_MAX - timer->part_ms) ? timer->part_ms + elapsed : UINT32_MAX;
+        const uint32_t units = part / unit_ms;
+        timer->part_ms = part % unit_ms;
+        timer->value = plc_int16((uint32_t)timer->value + ((units < room) ? units : room));
+        timer->done = timer->done || timer->value >= preset;
+    }
+}
+
+/* OUT T with units of 1, 10 and 100 ms. */
+static inline void plc_timer_1ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+{
+    plc_timer_run(timer, drive, preset, sys, 1u, 0u);
+}
+
+static inline void plc_timer_10ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+{
+    plc_timer_run(timer, drive, preset, sys, 10u, 0u);
+}
+
+static inline void plc_timer_100ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+{
+    plc_timer_run(timer, drive, preset, sys, 100u, 0u);
+}
+
+/* OUT T of retentive timers. */
+static inline void plc_retentive_1ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+{
+    plc_timer_run(timer, drive, preset, sys, 1u, PLC_RETENTIVE);
+}
+
+static inline void plc_retentive_10ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+{
+    plc_timer_run(timer, drive, preset, sys, 10u, PLC_RETENTIVE);
+}
+
+static inline void plc_retentive_100ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+{
+    plc_timer_run(timer, drive, preset, sys, 100u, PLC_RETENTIVE);
+}
+
+/* RST T: value 0, contact off. */
+static inline void plc_timer_reset(plc_timer *timer)
+{
+    timer->part_ms = 0;
+    timer->value = 0;
+    timer->done = false;
+}
+
+/* ---- Counters ------------------------------------------------------------------------------------------------------- */
+
+/* OUT C0 to C199: counts an off-to-on change of its coil. A preset of 0 acts as 1. */
+static inline void plc_count16(plc_counter16 *counter, bool drive, int16_t preset)
+{
+    if (drive && !counter->coil && !counter->done) {
+        const int16_t target = (preset > 1) ? preset : 1;
+        counter->value = (counter->value < target) ? (int16_t)(counter->value + 1) : target;
+        counter->done = counter->value >= target;
+    }
+    counter->coil = drive;
+}
+
+/* OUT C200 and up: counts an off-to-on change of its coil up or down, wrapping. The contact closes when the value reaches the
+ * preset upwards and opens when it leaves it downwards. */
+static inline void plc_count32(plc_counter32 *counter, bool drive, bool down, int32_t preset)
+{
+    if (drive && !counter->coil) {
+        const int32_t before = counter->value;
+        counter->value = plc_add32(before, down ? -1 : 1);
+        if (!down && counter->value == preset) {
+            counter->done = true;
+        } else if (down && before == preset) {
+            counter->done = false;
+        }
+    }
+    counter->coil = drive;
+}
+
+/* RST C: value 0, contact off. */
+static inline void plc_count16_reset(plc_counter16 *counter)
+{
+    counter->value = 0;
+    counter->done = false;
+}
+
+static inline void plc_count32_reset(plc_counter32 *counter)
+{
+    counter->value = 0;
+    counter->done = false;
+}
+
+#endif

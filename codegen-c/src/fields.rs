@@ -1,0 +1,343 @@
+//! The program's struct: which field holds a device.
+
+use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
+use std::collections::HashMap;
+use std::fmt::Write;
+
+/// First special relay and register.
+const SPECIAL_FIRST: u32 = 8000;
+/// First 32-bit counter.
+pub const COUNTER32_FIRST: u32 = 200;
+
+/// What a device is stored as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// `bool`.
+    Bit,
+    /// `int16_t`.
+    Word,
+    /// `plc_timer`.
+    Timer,
+    /// `plc_counter16`.
+    Counter16,
+    /// `plc_counter32`.
+    Counter32,
+}
+
+impl Kind {
+    /// What a device of this class and number is stored as; `None` for what is no device (labels, nesting levels).
+    pub fn of(class: DeviceClass, number: u32) -> Option<Kind> {
+        use DeviceClass::*;
+        Some(match class {
+            X | Y | M | S => Kind::Bit,
+            T => Kind::Timer,
+            C if number < COUNTER32_FIRST => Kind::Counter16,
+            C => Kind::Counter32,
+            D | R | ER | V | Z => Kind::Word,
+            P | I | N => return None,
+        })
+    }
+
+    /// Its C type.
+    pub fn c_type(self) -> &'static str {
+        match self {
+            Kind::Bit => "bool",
+            Kind::Word => "int16_t",
+            Kind::Timer => "plc_timer",
+            Kind::Counter16 => "plc_counter16",
+            Kind::Counter32 => "plc_counter32",
+        }
+    }
+
+    /// Its size and alignment in bytes.
+    pub fn size(self) -> (u32, u32) {
+        match self {
+            Kind::Bit => (1, 1),
+            Kind::Word => (2, 2),
+            Kind::Timer => (16, 4),
+            Kind::Counter16 => (4, 2),
+            Kind::Counter32 => (8, 4),
+        }
+    }
+}
+
+/// In which section of the struct a field stands. The order makes what is cleared together stand together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Section {
+    /// X: never cleared, set by the host.
+    Inputs,
+    /// Cleared in STOP and at power-on.
+    General,
+    /// An array that is partly general and partly latched (or special).
+    Mixed,
+    /// Kept.
+    Latched,
+    /// Special relays and registers: power-on values at power-on only.
+    Special,
+}
+
+/// A field.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Class.
+    pub class: DeviceClass,
+    /// First number.
+    pub first: u32,
+    /// How many devices.
+    pub count: u32,
+    /// An array.
+    pub array: bool,
+    /// Whether the array's name carries the number it begins with.
+    numbered: bool,
+    /// What each is.
+    pub kind: Kind,
+    /// Where it stands.
+    pub section: Section,
+}
+
+impl Field {
+    /// Writes its name: `X10`, `D`, `M8000`.
+    pub fn name(&self, out: &mut String) {
+        let prefix = self.class.prefix();
+        // Writing to a String does not fail.
+        let _ = match (self.array && !self.numbered, self.class.is_octal()) {
+            (true, _) => write!(out, "{prefix}"),
+            (false, true) => write!(out, "{prefix}{:o}", self.first),
+            (false, false) => write!(out, "{prefix}{}", self.first),
+        };
+    }
+
+    /// One past the last number.
+    pub fn end(&self) -> u32 {
+        self.first + self.count
+    }
+}
+
+/// What RUN/STOP and power-off do to a run of devices.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Keep {
+    Input,
+    General,
+    Latched,
+    Special,
+}
+
+/// A run of devices within one field that power-off treats alike.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// First number.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+    keep: Keep,
+}
+
+impl Run {
+    /// Whether STOP clears it.
+    pub fn is_general(&self) -> bool {
+        self.keep == Keep::General
+    }
+
+    /// Whether it is kept over power-off.
+    pub fn is_latched(&self) -> bool {
+        self.keep == Keep::Latched
+    }
+
+    /// Whether it holds special devices.
+    pub fn is_special(&self) -> bool {
+        self.keep == Keep::Special
+    }
+}
+
+/// All fields of a program's struct.
+pub struct Fields<'m> {
+    /// By class and number.
+    fields: Vec<Field>,
+    /// Where each class begins in `fields`.
+    of_class: [(usize, usize); DeviceClass::ALL.len()],
+    /// By class and number: alike-treated runs, cut at the ends of fields.
+    runs: Vec<(DeviceClass, Run)>,
+    comments: HashMap<(DeviceClass, u32), &'m str>,
+}
+
+impl<'m> Fields<'m> {
+    /// Decides on the fields.
+    pub fn new(module: &'m Module) -> Self {
+        let runs = runs(module);
+        let mut fields: Vec<Field> = Vec::new();
+        let mut merged: Vec<(DeviceClass, Run)> = Vec::new();
+        for &(class, run, array) in &runs {
+            let Some(kind) = Kind::of(class, run.first) else {
+                continue;
+            };
+            merged.push((class, run));
+            if !array {
+                fields.extend((run.first..run.first + run.count).map(|first| Field {
+                    class,
+                    first,
+                    count: 1,
+                    array,
+                    numbered: true,
+                    kind,
+                    section: section(run.keep),
+                }));
+                continue;
+            }
+            match fields.last_mut() {
+                Some(last)
+                    if last.array
+                        && last.class == class
+                        && last.kind == kind
+                        && last.end() == run.first =>
+                {
+                    last.count += run.count;
+                    if last.section != section(run.keep) {
+                        last.section = Section::Mixed;
+                    }
+                }
+                _ => fields.push(Field {
+                    class,
+                    first: run.first,
+                    count: run.count,
+                    array,
+                    numbered: run.first != 0,
+                    kind,
+                    section: section(run.keep),
+                }),
+            }
+        }
+        let mut of_class = [(0, 0); DeviceClass::ALL.len()];
+        for class in DeviceClass::ALL {
+            of_class[class as usize] = (
+                fields.partition_point(|f| f.class < class),
+                fields.partition_point(|f| f.class <= class),
+            );
+        }
+        Fields {
+            fields,
+            of_class,
+            runs: merged,
+            comments: module
+                .comments
+                .iter()
+                .map(|(class, n, text)| ((*class, *n), text.as_str()))
+                .collect(),
+        }
+    }
+
+    /// All fields by class and number.
+    pub fn all(&self) -> &[Field] {
+        &self.fields
+    }
+
+    /// The fields of a class.
+    pub fn of_class(&self, class: DeviceClass) -> &[Field] {
+        let (from, to) = self.of_class[class as usize];
+        &self.fields[from..to]
+    }
+
+    /// The fields in the order of the struct.
+    pub fn in_struct_order(&self) -> Vec<&Field> {
+        let mut fields: Vec<&Field> = self.fields.iter().collect();
+        fields.sort_by_key(|f| f.section);
+        fields
+    }
+
+    /// The field that holds a device.
+    pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
+        let fields = self.of_class(class);
+        let i = fields
+            .partition_point(|f| f.first <= number)
+            .checked_sub(1)?;
+        fields.get(i).filter(|f| number < f.end())
+    }
+
+    /// The array that holds `count` devices from `number` on.
+    pub fn array(&self, class: DeviceClass, number: u32, count: u32) -> Option<&Field> {
+        self.find(class, number)
+            .filter(|f| f.array && f.end() - number >= count)
+    }
+
+    /// The runs of a field that power-off treats alike.
+    pub fn runs(&self, field: &Field) -> impl Iterator<Item = Run> + '_ {
+        let (class, first, end) = (field.class, field.first, field.end());
+        let from = self
+            .runs
+            .partition_point(|(c, r)| (*c, r.first + r.count) <= (class, first));
+        self.runs[from..]
+            .iter()
+            .take_while(move |(c, r)| *c == class && r.first < end)
+            .map(|(_, r)| *r)
+    }
+
+    /// Writes the expression of a stored device; false if it is not stored.
+    pub fn access(&self, out: &mut String, class: DeviceClass, number: u32) -> bool {
+        let Some(field) = self.find(class, number) else {
+            return false;
+        };
+        out.push_str("plc->");
+        field.name(out);
+        if field.array {
+            // D100[103 - 100] keeps the device's own number in sight.
+            let _ = match field.first {
+                0 => write!(out, "[{number}]"),
+                first => write!(out, "[{number} - {first}]"),
+            };
+        }
+        true
+    }
+
+    /// The comment on a device.
+    pub fn comment(&self, class: DeviceClass, number: u32) -> Option<&'m str> {
+        self.comments.get(&(class, number)).copied()
+    }
+}
+
+fn section(keep: Keep) -> Section {
+    match keep {
+        Keep::Input => Section::Inputs,
+        Keep::General => Section::General,
+        Keep::Latched => Section::Latched,
+        Keep::Special => Section::Special,
+    }
+}
+
+/// The layout's areas, cut where counters become 32-bit ones and where special devices begin.
+fn runs(module: &Module) -> Vec<(DeviceClass, Run, bool)> {
+    let mut runs = Vec::with_capacity(module.layout.areas.len());
+    for area in &module.layout.areas {
+        let (first, end) = (area.first, area.first + area.count);
+        let cut = match area.class {
+            DeviceClass::C => COUNTER32_FIRST,
+            DeviceClass::M | DeviceClass::D => SPECIAL_FIRST,
+            _ => end,
+        };
+        let special =
+            |n: u32| matches!(area.class, DeviceClass::M | DeviceClass::D) && n >= SPECIAL_FIRST;
+        let cut = cut.clamp(first, end);
+        for (first, end) in [(first, cut), (cut, end)] {
+            if first < end {
+                let keep = if area.class == DeviceClass::X {
+                    Keep::Input
+                } else if special(first) {
+                    Keep::Special
+                } else if area.latched {
+                    Keep::Latched
+                } else {
+                    Keep::General
+                };
+                runs.push((
+                    area.class,
+                    Run {
+                        first,
+                        count: end - first,
+                        keep,
+                    },
+                    area.array,
+                ));
+            }
+        }
+    }
+    runs
+}

@@ -1,0 +1,248 @@
+//! The header of a program: its struct, field by field, and its functions.
+
+use crate::fields::{Field, Fields, Section};
+use crate::plan::Plan;
+use crate::text;
+use crate::unit::uses_runtime;
+use crate::writer::c_type;
+use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+
+/// Column of the comments beside fields.
+const COMMENT_COLUMN: usize = 36;
+
+/// Heading of a section of the struct.
+fn heading(section: Section) -> &'static str {
+    match section {
+        Section::Inputs => "Inputs: set them before each scan.",
+        Section::General => "Devices that are cleared in STOP and at power-off.",
+        Section::Mixed => "Devices of which some are kept over power-off.",
+        Section::Latched => "Latched devices: kept over power-off.",
+        Section::Special => "Special relays and registers.",
+    }
+}
+
+/// Writes struct and prototypes.
+pub fn api(module: &Module, fields: &Fields, plan: &Plan) -> String {
+    let name = &module.name;
+    let mut out = String::new();
+    let mut size = Size::default();
+    let _ = write!(
+        out,
+        "/* All devices that the program uses, by their names in the PLC (X and Y are numbered in octal). */\n\
+         typedef struct {name}_plc {{\n"
+    );
+    let mut section = None;
+    for field in fields.in_struct_order() {
+        if section != Some(field.section) {
+            if section.is_some() {
+                out.push('\n');
+            }
+            let _ = writeln!(out, "    /* {} */", heading(field.section));
+            section = Some(field.section);
+        }
+        let (bytes, align) = field.kind.size();
+        size.add(bytes * field.count, align);
+        field_line(&mut out, fields, field);
+    }
+    if section.is_some() {
+        out.push('\n');
+    }
+    out.push_str("    /* Private: time, and what the program remembers from scan to scan. */\n    plc_sys sys;\n");
+    size.add(16, 4);
+    if module.edges > 0 {
+        let _ = writeln!(out, "    bool edge[{}];", module.edges);
+        size.add(module.edges, 1);
+    }
+    for (i, temp) in plan.temps.iter().enumerate().filter(|(_, t)| t.field) {
+        let ty = module.temps[i];
+        let mut line = format!("    {} ", c_type(ty));
+        temp.name(&mut line);
+        line.push(';');
+        out.push_str(&line);
+        out.push('\n');
+        let bytes = match c_type(ty) {
+            "bool" => 1,
+            "int16_t" => 2,
+            _ => 4,
+        };
+        size.add(bytes, bytes);
+    }
+    if module.states > 0 {
+        let _ = writeln!(
+            out,
+            "    rungc_state state[{}]; /* of instructions that work over several scans */",
+            module.states
+        );
+        size.add(32 * u32::from(module.states), 4);
+    }
+    if uses_runtime(module) {
+        out.push_str("    const rungc_hal *hal; /* hardware that instructions ask; NULL: nothing fitted */\n");
+        size.add(4, 4);
+    }
+    let _ = writeln!(
+        out,
+        "}} {name}_plc; /* {} bytes on a 32-bit machine */\n",
+        size.total()
+    );
+    prototypes(&mut out, name);
+    out
+}
+
+/// Size of the struct as it grows.
+#[derive(Default)]
+struct Size {
+    bytes: u32,
+    align: u32,
+}
+
+impl Size {
+    fn add(&mut self, bytes: u32, align: u32) {
+        self.bytes = self
+            .bytes
+            .next_multiple_of(align.max(1))
+            .saturating_add(bytes);
+        self.align = self.align.max(align);
+    }
+
+    fn total(&self) -> u32 {
+        self.bytes.next_multiple_of(self.align.max(1))
+    }
+}
+
+fn field_line(out: &mut String, fields: &Fields, field: &Field) {
+    let (class, first) = (field.class, field.first);
+    let mut line = format!("    {} ", field.kind.c_type());
+    field.name(&mut line);
+    if field.array {
+        let _ = write!(line, "[{}]", field.count);
+    }
+    line.push(';');
+    let mut comment = String::new();
+    if field.array {
+        let _ = write!(
+            comment,
+            "{} to {}",
+            class.number(first),
+            class.number(field.end() - 1)
+        );
+        for run in fields
+            .runs(field)
+            .filter(|run| field.section == Section::Mixed && run.is_latched())
+        {
+            let (from, to) = (
+                class.number(run.first),
+                class.number(run.first + run.count - 1),
+            );
+            let _ = write!(comment, ", latched: {from} to {to}");
+        }
+    } else {
+        if let Some(text) = fields.comment(class, first) {
+            comment = text::comment(text);
+        }
+        // X10 stands for X010.
+        if class.is_octal() && comment.is_empty() {
+            comment = class.number(first).to_string();
+        }
+    }
+    push_with_comment(out, &line, &comment);
+    if field.array {
+        for number in first..field.end() {
+            if let Some(text) = fields.comment(class, number) {
+                let comment = format!(
+                    "  [{}] {}: {}",
+                    number - first,
+                    class.number(number),
+                    text::comment(text)
+                );
+                push_with_comment(out, "", &comment);
+            }
+        }
+    }
+}
+
+fn push_with_comment(out: &mut String, line: &str, comment: &str) {
+    out.push_str(line);
+    if !comment.is_empty() {
+        let pad = COMMENT_COLUMN.saturating_sub(line.len()).max(1);
+        out.extend(std::iter::repeat_n(' ', pad));
+        let _ = write!(out, "/* {comment} */");
+    }
+    out.push('\n');
+}
+
+fn prototypes(out: &mut String, name: &str) {
+    let _ = write!(
+        out,
+        "/* Before the first use: everything as at the very first power-on, in RUN. */\n\
+         void {name}_init({name}_plc *plc);\n\n\
+         /* One scan. `now_ms`: time since power-on, may wrap. `scan_us`: how long the last scan took, for D8010 to D8012. */\n\
+         void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us);\n\n\
+         /* State of output terminal Y `terminal` (a plain number: 8 is Y010) after a scan; off in STOP. */\n\
+         bool {name}_output(const {name}_plc *plc, unsigned terminal);\n\n\
+         /* The RUN/STOP switch. STOP clears what is not latched. */\n\
+         void {name}_set_running({name}_plc *plc, bool running);\n\n\
+         /* Power off and on: only latched devices keep their values; then RUN. */\n\
+         void {name}_power_cycle({name}_plc *plc);\n"
+    );
+}
+
+/// The comment at the top of the header: how to use it.
+pub fn embedding(module: &Module, fields: &Fields) -> String {
+    let name = &module.name;
+    let input = first_name(fields, DeviceClass::X).unwrap_or_else(|| "X0".to_string());
+    let output = fields
+        .of_class(DeviceClass::Y)
+        .first()
+        .map_or(0, |f| f.first);
+    let mut lines = vec![
+        (format!("static {name}_plc plc;"), ""),
+        (format!("{name}_init(&plc);"), ""),
+        ("for (;;) {".to_string(), "every 1 to 10 ms, as you like"),
+        (
+            format!("    plc.{input} = read_pin(0);"),
+            "copy the input terminals",
+        ),
+        (
+            format!("    {name}_scan(&plc, millis(), scan_us);"),
+            "one scan",
+        ),
+        (
+            format!("    write_pin(0, {name}_output(&plc, {output}));"),
+            "copy the output terminals",
+        ),
+        ("}".to_string(), ""),
+    ];
+    if uses_runtime(module) {
+        lines.insert(
+            2,
+            (
+                "plc.hal = &board;".to_string(),
+                "hardware that instructions ask; may stay NULL",
+            ),
+        );
+    }
+    let column = lines.iter().map(|(code, _)| code.len()).max().unwrap_or(0) + 2;
+    let mut out = String::from(" * How to embed it:\n *\n");
+    for (code, text) in lines {
+        let line = format!(" *     {code:column$}{text}");
+        let _ = writeln!(out, "{}", line.trim_end());
+    }
+    let _ = write!(
+        out,
+        " *\n * It needs sizeof({name}_plc) bytes of RAM and little stack; no heap, no recursion. To keep latched devices, save the\n \
+         * struct at power-off; at power-on load it and call {name}_power_cycle instead of {name}_init.\n"
+    );
+    out
+}
+
+fn first_name(fields: &Fields, class: DeviceClass) -> Option<String> {
+    let field = fields.of_class(class).first()?;
+    let mut name = String::new();
+    field.name(&mut name);
+    if field.array {
+        name.push_str("[0]");
+    }
+    Some(name)
+}

@@ -1,0 +1,356 @@
+//! Functions of a program for devices whose number is only known at run time, emitted where the program indexes.
+
+use crate::fields::{COUNTER32_FIRST, Field, Fields, Kind};
+use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// A function.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Helper {
+    /// Whether devices exist.
+    Has,
+    /// Reads a contact, a value or a 32-bit value.
+    Get(&'static str),
+    /// Writes one.
+    Put(&'static str),
+    /// Reads a group of bits.
+    Bits,
+    /// Writes a group of bits.
+    PutBits,
+    /// RST.
+    Reset,
+}
+
+/// The functions that a program needs.
+#[derive(Default)]
+pub struct Helpers {
+    needed: BTreeSet<(Helper, DeviceClass)>,
+}
+
+impl Helpers {
+    /// `motor_has_D`.
+    pub fn has(&mut self, class: DeviceClass) {
+        self.needed.insert((Helper::Has, class));
+    }
+
+    /// `motor_word_D`: `bit`, `word` or `long` (the 32 bits of a counter, or a pair).
+    pub fn get(&mut self, what: &'static str, class: DeviceClass) {
+        self.needed.insert((Helper::Get(what), class));
+        if what == "long" {
+            self.get("word", class);
+        }
+    }
+
+    /// `motor_put_word_D`.
+    pub fn put(&mut self, what: &'static str, class: DeviceClass) {
+        self.needed.insert((Helper::Put(what), class));
+        if what == "long" {
+            self.put("word", class);
+        }
+    }
+
+    /// `motor_bits_M`.
+    pub fn bits(&mut self, class: DeviceClass) {
+        self.needed.insert((Helper::Bits, class));
+        self.get("bit", class);
+    }
+
+    /// `motor_put_bits_M`.
+    pub fn put_bits(&mut self, class: DeviceClass) {
+        self.needed.insert((Helper::PutBits, class));
+        self.put("bit", class);
+    }
+
+    /// `motor_reset_T`.
+    pub fn reset(&mut self, class: DeviceClass) {
+        self.needed.insert((Helper::Reset, class));
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.needed.is_empty()
+    }
+
+    /// Writes them.
+    pub fn write(&self, out: &mut String, module: &Module, fields: &Fields) {
+        let printer = Printer {
+            name: &module.name,
+            module,
+            fields,
+        };
+        for &(helper, class) in &self.needed {
+            printer.helper(out, helper, class);
+        }
+    }
+}
+
+struct Printer<'a> {
+    name: &'a str,
+    module: &'a Module,
+    fields: &'a Fields<'a>,
+}
+
+impl Printer<'_> {
+    fn helper(&self, out: &mut String, helper: Helper, class: DeviceClass) {
+        let (name, c) = (self.name, class.prefix());
+        // Writing to a String does not fail, here and below.
+        let _ = match helper {
+            Helper::Has => {
+                let _ = write!(
+                    out,
+                    "/* Whether `count` {c} from number n on exist. */\n\
+                     static inline bool {name}_has_{c}(int32_t n, int32_t count)\n{{\n    return "
+                );
+                for (i, (first, last)) in self.module.model.runs(class).into_iter().enumerate() {
+                    let or = if i > 0 { "\n        || " } else { "" };
+                    let _ = write!(
+                        out,
+                        "{or}(n >= {first} && n <= {} - count)",
+                        u64::from(last) + 1
+                    );
+                }
+                writeln!(out, ";\n}}\n")
+            }
+            Helper::Get("long") => {
+                let _ = write!(
+                    out,
+                    "/* The 32-bit value of {c} n, which exists. */\n\
+                     static inline int32_t {name}_long_{c}({name}_plc *plc, int32_t n)\n{{\n"
+                );
+                self.each(out, class, Some(Kind::Counter32), |out, device| {
+                    let _ = write!(out, "return {device}.value;");
+                });
+                writeln!(
+                    out,
+                    "    return plc_join({name}_word_{c}(plc, n + 1), {name}_word_{c}(plc, n));\n}}\n"
+                )
+            }
+            Helper::Put("long") => {
+                let _ = write!(
+                    out,
+                    "/* Sets the 32-bit value of {c} n, which exists. */\n\
+                     static inline void {name}_put_long_{c}({name}_plc *plc, int32_t n, int32_t value)\n{{\n"
+                );
+                self.each(out, class, Some(Kind::Counter32), |out, device| {
+                    let _ = write!(out, "{device}.value = value; return;");
+                });
+                writeln!(
+                    out,
+                    "    {name}_put_word_{c}(plc, n, plc_low(value));\n    \
+                     {name}_put_word_{c}(plc, n + 1, plc_high(value));\n}}\n"
+                )
+            }
+            Helper::Get(what) => {
+                self.get(out, class, what == "bit");
+                Ok(())
+            }
+            Helper::Put(what) => {
+                self.put(out, class, what == "bit");
+                Ok(())
+            }
+            Helper::Bits => writeln!(
+                out,
+                "/* `count` {c} from n on, which exist, as a number. */\n\
+                 static inline int32_t {name}_bits_{c}({name}_plc *plc, int32_t n, unsigned count)\n{{\n    \
+                 uint32_t value = 0;\n    for (unsigned i = 0; i < count; i++) {{\n        \
+                 value |= (uint32_t){name}_bit_{c}(plc, n + (int32_t)i) << i;\n    }}\n    return plc_int32(value);\n}}\n"
+            ),
+            Helper::PutBits => writeln!(
+                out,
+                "/* Spreads the low bits of a number over `count` {c} from n on, which exist. */\n\
+                 static inline void {name}_put_bits_{c}({name}_plc *plc, int32_t n, unsigned count, int32_t value)\n{{\n    \
+                 for (unsigned i = 0; i < count; i++) {{\n        \
+                 {name}_put_bit_{c}(plc, n + (int32_t)i, (((uint32_t)value >> i) & 1u) != 0u);\n    }}\n}}\n"
+            ),
+            Helper::Reset => {
+                let _ = write!(
+                    out,
+                    "/* RST of {c} n, which exists. */\nstatic inline void {name}_reset_{c}({name}_plc *plc, int32_t n)\n{{\n"
+                );
+                for kind in [Kind::Timer, Kind::Counter16, Kind::Counter32] {
+                    self.each(out, class, Some(kind), |out, device| {
+                        let _ = write!(out, "{}(&{device}); return;", reset_function(kind));
+                    });
+                }
+                writeln!(out, "}}\n")
+            }
+        };
+    }
+
+    fn get(&self, out: &mut String, class: DeviceClass, bit: bool) {
+        let (name, c) = (self.name, class.prefix());
+        let (ty, what, zero, part) = if bit {
+            ("bool", "State", "false", ".done")
+        } else {
+            ("int16_t", "Value", "0", ".value")
+        };
+        let _ = write!(
+            out,
+            "/* {what} of {c} n, which exists. */\n\
+             static inline {ty} {name}_{}_{c}(const {name}_plc *plc, int32_t n)\n{{\n",
+            if bit { "bit" } else { "word" },
+        );
+        let part = if matches!(class, DeviceClass::T | DeviceClass::C) {
+            part
+        } else {
+            ""
+        };
+        self.unused(out, class, false);
+        self.each(out, class, None, |out, device| {
+            let _ = match (bit, device.kind) {
+                (false, Kind::Counter32) => write!(out, "return plc_low({device}{part});"),
+                _ => write!(out, "return {device}{part};"),
+            };
+        });
+        let _ = writeln!(out, "    return {zero};\n}}\n");
+    }
+
+    fn put(&self, out: &mut String, class: DeviceClass, bit: bool) {
+        let (name, c) = (self.name, class.prefix());
+        let _ = write!(
+            out,
+            "/* Sets {c} n, which exists. */\n\
+             static inline void {name}_put_{}_{c}({name}_plc *plc, int32_t n, {} value)\n{{\n",
+            if bit { "bit" } else { "word" },
+            if bit { "bool" } else { "int16_t" },
+        );
+        self.unused(out, class, true);
+        let part = match (class, bit) {
+            (DeviceClass::T | DeviceClass::C, true) => ".done",
+            (DeviceClass::T | DeviceClass::C, false) => ".value",
+            _ => "",
+        };
+        self.each(out, class, None, |out, device| {
+            let _ = write!(out, "{device}{part} = value; return;");
+        });
+        let _ = writeln!(out, "}}\n");
+    }
+
+    /// Keeps the compiler quiet where nothing of a class is stored.
+    fn unused(&self, out: &mut String, class: DeviceClass, value: bool) {
+        if self.fields.of_class(class).is_empty() {
+            out.push_str("    (void)plc;\n    (void)n;\n");
+            out.push_str(if value { "    (void)value;\n" } else { "" });
+        }
+    }
+
+    /// Writes what is to be done with the device for each field that may hold it.
+    fn each(
+        &self,
+        out: &mut String,
+        class: DeviceClass,
+        kind: Option<Kind>,
+        write: impl Fn(&mut String, &Device),
+    ) {
+        let fields = self
+            .fields
+            .of_class(class)
+            .iter()
+            .filter(|f| kind.is_none_or(|kind| f.kind == kind));
+        let (arrays, single): (Vec<&Field>, Vec<&Field>) = fields.partition(|f| f.array);
+        let line = |out: &mut String, device: Device| {
+            let mut text = String::new();
+            write(&mut text, &device);
+            // One statement to a line.
+            for (i, statement) in text.split_inclusive(';').enumerate() {
+                let _ = writeln!(
+                    out,
+                    "{}{}",
+                    if i > 0 { "        " } else { "" },
+                    statement.trim_start()
+                );
+            }
+        };
+        for field in arrays {
+            let mut name = String::from("plc->");
+            field.name(&mut name);
+            let _ = match field.first {
+                0 => write!(out, "    if (n < {}) {{\n        ", field.end()),
+                first => write!(
+                    out,
+                    "    if (n >= {first} && n < {}) {{\n        ",
+                    field.end()
+                ),
+            };
+            let _ = match field.first {
+                0 => write!(name, "[n]"),
+                first => write!(name, "[n - {first}]"),
+            };
+            line(
+                out,
+                Device {
+                    name,
+                    kind: field.kind,
+                },
+            );
+            out.push_str("    }\n");
+        }
+        let mut cases: Vec<(u32, Device)> = Vec::new();
+        for field in single {
+            let mut name = String::from("plc->");
+            field.name(&mut name);
+            cases.push((
+                field.first,
+                Device {
+                    name,
+                    kind: field.kind,
+                },
+            ));
+        }
+        if class == DeviceClass::D {
+            // Index registers have numbers among the special registers, too.
+            for &(number, class, index) in self.module.model.index_aliases {
+                let mut name = String::new();
+                if self.fields.find(DeviceClass::D, number).is_none()
+                    && self.fields.access(&mut name, class, index)
+                {
+                    cases.push((
+                        number,
+                        Device {
+                            name,
+                            kind: Kind::Word,
+                        },
+                    ));
+                }
+            }
+        }
+        if cases.is_empty() {
+            return;
+        }
+        cases.sort_by_key(|case| case.0);
+        out.push_str("    switch (n) {\n");
+        for (number, device) in cases {
+            let _ = write!(out, "    case {number}:\n        ");
+            line(out, device);
+        }
+        out.push_str("    default:\n        break;\n    }\n");
+    }
+}
+
+/// An access to a device.
+struct Device {
+    name: String,
+    kind: Kind,
+}
+
+impl std::fmt::Display for Device {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+/// The function of rungc.h that resets a timer or counter.
+pub fn reset_function(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Timer => "plc_timer_reset",
+        Kind::Counter32 => "plc_count32_reset",
+        _ => "plc_count16_reset",
+    }
+}
+
+/// Whether a counter of this number has 32 bits.
+pub fn is_wide_counter(class: DeviceClass, number: u32) -> bool {
+    class == DeviceClass::C && number >= COUNTER32_FIRST
+}

@@ -1,0 +1,156 @@
+//! Text in C source: comments and wrapped lines.
+
+/// Longest line.
+pub const WIDTH: usize = 120;
+/// Where comments beside statements begin.
+const COMMENT_COLUMN: usize = 64;
+
+/// Makes a user's text safe inside a comment: no end of the comment, no line breaks, no characters that turn text around.
+pub fn comment(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    let mut last = ' ';
+    for c in text.chars() {
+        let c = match c {
+            c if c.is_control() => ' ',
+            '\u{200e}'
+            | '\u{200f}'
+            | '\u{202a}'..='\u{202e}'
+            | '\u{2066}'..='\u{2069}'
+            | '\u{2028}'
+            | '\u{2029}' => ' ',
+            c => c,
+        };
+        match (last, c) {
+            (' ', ' ') => continue,
+            ('*', '/') | ('/', '*') | ('?', '?') => safe.push(' '),
+            _ => {}
+        }
+        safe.push(c);
+        last = c;
+    }
+    safe.trim().to_string()
+}
+
+/// Appends a line of code, broken where it is too long, and a comment beside it.
+pub fn line(out: &mut String, indent: usize, code: &str, beside: Option<&str>) {
+    let start = out.len();
+    let mut rest = code;
+    let mut indent = indent;
+    let mut first = true;
+    loop {
+        push_indent(out, indent);
+        let room = WIDTH.saturating_sub(indent).max(40);
+        let Some(at) = break_at(rest, room) else {
+            out.push_str(rest);
+            break;
+        };
+        out.push_str(rest[..at].trim_end());
+        out.push('\n');
+        rest = &rest[at..];
+        if first {
+            indent += 4;
+            first = false;
+        }
+    }
+    if let Some(text) = beside {
+        let text = comment(text);
+        if !text.is_empty() {
+            let last = out[start..].rfind('\n').map_or(start, |i| start + i + 1);
+            let column = out.len() - last;
+            out.extend(std::iter::repeat_n(
+                ' ',
+                COMMENT_COLUMN.saturating_sub(column).max(1),
+            ));
+            out.push_str("/* ");
+            out.push_str(&text);
+            out.push_str(" */");
+        }
+    }
+    out.push('\n');
+}
+
+/// Appends spaces.
+pub fn push_indent(out: &mut String, indent: usize) {
+    out.extend(std::iter::repeat_n(' ', indent));
+}
+
+/// Where to break a line that has no room: before the operator, or behind the comma, that stands least deep in parentheses.
+fn break_at(code: &str, room: usize) -> Option<usize> {
+    if code.len() <= room {
+        return None;
+    }
+    let bytes = code.as_bytes();
+    let mut depth = 0i32;
+    let mut best: Option<(i32, usize)> = None;
+    for (i, &b) in bytes.iter().enumerate() {
+        if i > room && best.is_some() {
+            break;
+        }
+        match b {
+            b'(' | b'{' => depth += 1,
+            b')' | b'}' => depth -= 1,
+            b'|' | b'&' if i > 0 && bytes[i - 1] == b' ' && bytes.get(i + 1) == Some(&b' ') => {
+                if i > room / 3 && best.is_none_or(|(d, _)| depth <= d) {
+                    best = Some((depth, i));
+                }
+            }
+            b',' if bytes.get(i + 1) == Some(&b' ') => {
+                if i > room / 3 && i + 2 < bytes.len() && best.is_none_or(|(d, _)| depth <= d) {
+                    best = Some((depth, i + 2));
+                }
+            }
+            _ => {}
+        }
+    }
+    best.map(|(_, i)| i)
+}
+
+/// Writes a text into a string literal.
+pub fn string_literal(text: &str) -> String {
+    use std::fmt::Write;
+    let mut out = String::from("\"");
+    for b in text.bytes() {
+        let _ = match b {
+            b'"' | b'\\' => write!(out, "\\{}", b as char),
+            // A trigraph otherwise.
+            b'?' => write!(out, "\\?"),
+            0x20..0x7f => write!(out, "{}", b as char),
+            // Three octal digits end by themselves.
+            _ => write!(out, "\\{b:03o}"),
+        };
+    }
+    out.push('"');
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_cannot_end_early() {
+        assert_eq!(comment("a */ b /* c"), "a * / b / * c");
+        assert_eq!(comment("two\r\nlines"), "two lines");
+        assert_eq!(comment("what??/"), "what? ?/");
+        assert_eq!(comment("a\u{202e}b"), "a b");
+    }
+
+    #[test]
+    fn long_lines_break_at_the_outermost_operator() {
+        let mut out = String::new();
+        let code = format!(
+            "plc->M0 = ({}) & {};",
+            vec!["plc->X0"; 9].join(" | "),
+            vec!["plc->X1"; 9].join(" & ")
+        );
+        line(&mut out, 4, &code, Some("coil"));
+        assert!(out.lines().all(|l| l.len() <= WIDTH), "{out}");
+        assert!(out.contains("\n        & plc->X1"), "{out}");
+        assert!(out.ends_with("/* coil */\n"));
+    }
+
+    #[test]
+    fn literals_hold_any_text() {
+        assert_eq!(string_literal("a\"\\?é1"), "\"a\\\"\\\\\\?\\303\\2511\"");
+    }
+}

@@ -1,0 +1,442 @@
+//! One module as C text: declarations, and functions in groups of bounded size.
+
+use crate::fields::{Field, Fields, Kind, Section};
+use crate::header;
+use crate::plan::Plan;
+use crate::text;
+use crate::writer::{Writer, function_name};
+use rungc_ir::Module;
+use rungc_ir::node::{FunctionKind, Stmt};
+use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+
+/// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to divide.
+const FILE_WEIGHT: u64 = 60_000;
+
+/// Special relay that keeps memory and outputs in STOP.
+const M_KEEP_IN_STOP: u32 = 8033;
+/// Special relay that switches all outputs off.
+const M_OUTPUTS_OFF: u32 = 8034;
+
+/// A module's C text.
+pub struct Unit {
+    /// Struct and prototypes of the API, for the header.
+    pub api: String,
+    /// Whether the runtime library is needed.
+    pub runtime: bool,
+    /// Declarations that all groups need.
+    pub internal: String,
+    /// Functions of the program; the first group also holds those of the API.
+    pub groups: Vec<String>,
+}
+
+/// Makes it.
+pub fn unit(module: &Module) -> Unit {
+    let fields = Fields::new(module);
+    let plan = Plan::new(module);
+    let total: u64 = plan.functions.iter().map(|f| f.weight).sum();
+    let single = total <= FILE_WEIGHT;
+    let storage = if single { "static " } else { "" };
+    let runtime = uses_runtime(module);
+    let mut writer = Writer::new(module, &plan, &fields);
+
+    let mut groups = vec![String::new()];
+    let mut weight = 0;
+    for (index, function) in plan.functions.iter().enumerate() {
+        if function.suffix.is_empty() && is_empty(module, function.root) {
+            continue;
+        }
+        weight += function.weight + 1;
+        if weight > FILE_WEIGHT && !single {
+            groups.push(String::new());
+            weight = function.weight;
+        }
+        if let Some(group) = groups.last_mut() {
+            writer.function(group, index, storage);
+        }
+    }
+
+    let faults = writer.faults;
+    let clears_latched = writer.clears_latched || module.model.latch_key.is_some();
+    let helpers = std::mem::take(&mut writer.helpers);
+    let mut internal = String::new();
+    states(&mut internal, &writer, &plan);
+    prototypes(&mut internal, &writer, &plan, single);
+    helpers.write(&mut internal, module, &fields);
+    let printer = Printer {
+        module,
+        fields: &fields,
+    };
+    if runtime {
+        printer.device_table(&mut internal);
+    }
+    if faults {
+        printer.fault(&mut internal);
+    }
+    printer.clear_functions(&mut internal, clears_latched);
+    printer.api_functions(&mut groups[0]);
+    Unit {
+        api: header::api(module, &fields, &plan),
+        runtime,
+        internal,
+        groups,
+    }
+}
+
+/// Whether a function of the scan cycle has nothing to do, and is left out.
+fn is_empty(module: &Module, root: usize) -> bool {
+    module.functions.get(root).is_none_or(|f| {
+        f.body.is_empty() && matches!(f.kind, FunctionKind::Begin | FunctionKind::End)
+    })
+}
+
+/// Whether a module calls the runtime.
+pub fn uses_runtime(module: &Module) -> bool {
+    fn body(stmts: &[Stmt]) -> bool {
+        stmts.iter().any(|stmt| match stmt {
+            Stmt::Call { .. } => true,
+            Stmt::If {
+                then, otherwise, ..
+            } => body(then) || body(otherwise),
+            Stmt::For { body: inner, .. } => body(inner),
+            Stmt::Parts(parts) => parts.iter().any(|p| body(&p.body)),
+            _ => false,
+        })
+    }
+    module.functions.iter().any(|f| body(&f.body))
+}
+
+/// The states of parts.
+fn states(out: &mut String, writer: &Writer, plan: &Plan) {
+    for (root, names) in plan
+        .state_names
+        .iter()
+        .enumerate()
+        .filter(|(_, names)| !names.is_empty())
+    {
+        out.push_str("/* Where the program goes on after a jump. */\nenum {\n");
+        for state in 1..=names.len() {
+            let comma = if state < names.len() { "," } else { "" };
+            let _ = writeln!(
+                out,
+                "    {} = {state}{comma}",
+                writer.state_name(root, state as u32)
+            );
+        }
+        out.push_str("};\n\n");
+    }
+}
+
+/// Prototypes: in one file, of functions that may be called before they stand there; in several files, of all.
+fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
+    let mut any = false;
+    for function in &plan.functions {
+        let subroutine = function.suffix.is_empty()
+            && matches!(
+                writer.module.functions.get(function.root).map(|f| &f.kind),
+                Some(FunctionKind::Subroutine(_) | FunctionKind::Interrupt(_))
+            );
+        if !single || subroutine {
+            let storage = if single { "static " } else { "" };
+            let _ = writeln!(out, "{storage}{};", writer.signature(function));
+            any = true;
+        }
+    }
+    if any {
+        out.push('\n');
+    }
+}
+
+/// Writes what belongs to the module as a whole.
+pub struct Printer<'a> {
+    pub(crate) module: &'a Module,
+    pub(crate) fields: &'a Fields<'a>,
+}
+
+impl Printer<'_> {
+    fn name(&self) -> &str {
+        &self.module.name
+    }
+
+    /// `plc->M8067`, if it is stored.
+    fn stored(&self, class: DeviceClass, number: u32) -> Option<String> {
+        let mut name = String::new();
+        self.fields.access(&mut name, class, number).then_some(name)
+    }
+
+    /// Reports an operation error (see the runtime's `report`), as far as the program looks at it.
+    fn fault(&self, out: &mut String) {
+        let mut lines = String::new();
+        let m = |n| self.stored(DeviceClass::M, n);
+        let d = |n| self.stored(DeviceClass::D, n);
+        let latch = d(8068).map(|d| format!("{d} = step;"));
+        match (m(8068), latch) {
+            (Some(m), latch) => {
+                let _ = writeln!(
+                    lines,
+                    "    if (!{m}) {{ /* only the first one */\n        {m} = true;"
+                );
+                if let Some(latch) = latch {
+                    let _ = writeln!(lines, "        {latch}");
+                }
+                lines.push_str("    }\n");
+            }
+            (None, Some(latch)) => {
+                let _ = writeln!(lines, "    {latch}");
+            }
+            (None, None) => {}
+        }
+        let values = [
+            (m(8067), "true"),
+            (d(8067), "code"),
+            (d(8069), "step"),
+            (m(8004), "true"),
+            (d(8004), "8067"),
+        ];
+        for (device, value) in values {
+            if let Some(device) = device {
+                let _ = writeln!(lines, "    {device} = {value};");
+            }
+        }
+        for parameter in ["plc", "code", "step"] {
+            if !lines.contains(parameter) {
+                lines.insert_str(0, &format!("    (void){parameter};\n"));
+            }
+        }
+        let name = self.name();
+        let _ = write!(
+            out,
+            "/* An operation error: the instruction is skipped, the error shown in the special devices that the program looks at. */\n\
+             static inline void {name}_fault({name}_plc *plc, int16_t code, int16_t step)\n{{\n{lines}}}\n\n"
+        );
+    }
+
+    /// Functions that clear devices: general ones (STOP, M8031), and, where a program asks for it, latched ones (M8032).
+    fn clear_functions(&self, out: &mut String, latched_too: bool) {
+        let name = self.name();
+        let mut general = String::new();
+        self.clear(&mut general, Section::General, |run| run.is_general());
+        let _ = write!(
+            out,
+            "/* Clears all devices but inputs, latched and special ones. */\nstatic inline void {name}_clear_general({name}_plc *plc)\n{{\n{}}}\n\n",
+            or_unused(&general)
+        );
+        if !latched_too {
+            return;
+        }
+        let mut latched = String::new();
+        self.clear(&mut latched, Section::Latched, |run| run.is_latched());
+        let _ = write!(
+            out,
+            "/* Clears the latched devices. */\nstatic inline void {name}_clear_latched({name}_plc *plc)\n{{\n{}}}\n\n",
+            or_unused(&latched)
+        );
+    }
+
+    /// Writes the clearing of a section and of what mixed arrays hold of its kind.
+    fn clear(
+        &self,
+        out: &mut String,
+        section: Section,
+        wanted: impl Fn(&crate::fields::Run) -> bool,
+    ) {
+        let order = self.fields.in_struct_order();
+        if let Some(first) = order.iter().position(|f| f.section == section) {
+            let behind = order[first..].iter().find(|f| f.section != section);
+            let (mut from, mut to) = (String::new(), String::new());
+            order[first].name(&mut from);
+            match behind {
+                Some(field) => field.name(&mut to),
+                None => to.push_str("sys"),
+            }
+            let name = self.name();
+            let _ = writeln!(
+                out,
+                "    plc_clear(plc, offsetof({name}_plc, {from}), offsetof({name}_plc, {to}));"
+            );
+        }
+        for field in order.iter().filter(|f| f.section == Section::Mixed) {
+            for run in self.fields.runs(field).filter(|run| wanted(run)) {
+                let mut array = String::from("plc->");
+                field.name(&mut array);
+                let _ = writeln!(
+                    out,
+                    "    memset(&{array}[{}], 0, {} * sizeof {array}[0]);",
+                    run.first - field.first,
+                    run.count
+                );
+            }
+        }
+    }
+
+    /// The functions that a host calls.
+    fn api_functions(&self, out: &mut String) {
+        let (name, module) = (self.name(), self.module);
+        let mut inputs = String::new();
+        self.clear(&mut inputs, Section::Inputs, |_| false);
+        let mut special = String::new();
+        self.clear(&mut special, Section::Special, |run| run.is_special());
+        for &(number, value) in &module.initial_words {
+            if let Some(device) = self.stored(DeviceClass::D, number) {
+                let _ = writeln!(special, "    {device} = {value};");
+            }
+        }
+        let forget = self.forget(out);
+        let states = if module.states > 0 {
+            "    memset(plc->state, 0, sizeof plc->state);\n"
+        } else {
+            ""
+        };
+        let _ = write!(
+            out,
+            "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n    {name}_power_cycle(plc);\n}}\n\n\
+             void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}    \
+             plc_power_on(&plc->sys);\n{}}}\n\n",
+            self.lost_latches(),
+            if forget {
+                format!("    {name}_forget(plc);\n")
+            } else {
+                String::new()
+            },
+        );
+        let hold = match self.stored(DeviceClass::M, M_KEEP_IN_STOP) {
+            Some(hold) => format!(" if (!{hold})"),
+            None => String::new(),
+        };
+        let begin_run = if forget {
+            format!("    if (running) {{\n        {name}_forget(plc);\n    }} else")
+        } else {
+            "    if (!running)".to_string()
+        };
+        let _ = write!(
+            out,
+            "void {name}_set_running({name}_plc *plc, bool running)\n{{\n    if (running == plc->sys.running) {{\n        return;\n    }}\n    \
+             plc->sys.running = running;\n    plc->sys.first_scan = running;\n{begin_run}{hold} {{\n        {name}_clear_general(plc);\n    }}\n}}\n\n"
+        );
+        let call = |index: usize, indent: &str| {
+            let mut function = String::new();
+            function_name(&mut function, module, index);
+            if is_empty(module, index) {
+                String::new()
+            } else {
+                format!("{indent}{function}(plc);\n")
+            }
+        };
+        let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
+        let _ = write!(
+            out,
+            "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n    \
+             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
+             plc->sys.first_scan = false;\n}}\n\n"
+        );
+        self.output(out);
+    }
+
+    /// The function that forgets edges and the coils of timers and counters when RUN begins; false if there are none.
+    fn forget(&self, out: &mut String) -> bool {
+        let name = self.name();
+        let mut body = String::new();
+        if self.module.edges > 0 {
+            body.push_str("    memset(plc->edge, 0, sizeof plc->edge);\n");
+        }
+        for class in [DeviceClass::T, DeviceClass::C] {
+            for field in self.fields.of_class(class) {
+                let mut device = String::from("plc->");
+                field.name(&mut device);
+                let _ = match field.array {
+                    true => write!(
+                        body,
+                        "    for (int i = 0; i < {}; i++) {{\n        {device}[i].coil = false;\n    }}\n",
+                        field.count
+                    ),
+                    false => writeln!(body, "    {device}.coil = false;"),
+                };
+            }
+        }
+        if !body.is_empty() {
+            let _ = write!(
+                out,
+                "/* RUN begins: edges, and the coils of timers and counters, are seen anew. */\n\
+                 static void {name}_forget({name}_plc *plc)\n{{\n{body}}}\n\n"
+            );
+        }
+        !body.is_empty()
+    }
+
+    /// Latched devices that a model keeps only while a special register holds a key.
+    fn lost_latches(&self) -> String {
+        let Some((register, key)) = self.module.model.latch_key else {
+            return String::new();
+        };
+        let name = self.name();
+        match self.stored(DeviceClass::D, register) {
+            Some(device) => format!(
+                "    if ({device} != {key}) {{\n        {name}_clear_latched(plc);\n    }}\n"
+            ),
+            None => format!(
+                "    {name}_clear_latched(plc); /* they are kept only if D{register} is {key} */\n"
+            ),
+        }
+    }
+
+    fn output(&self, out: &mut String) {
+        let name = self.name();
+        let stop = match self.stored(DeviceClass::M, M_KEEP_IN_STOP) {
+            Some(keep) => format!("(!plc->sys.running && !{keep})"),
+            None => "!plc->sys.running".to_string(),
+        };
+        let off = match self.stored(DeviceClass::M, M_OUTPUTS_OFF) {
+            Some(off) => format!("{stop} || {off}"),
+            None => stop.trim_matches(['(', ')']).to_string(),
+        };
+        let _ = write!(
+            out,
+            "bool {name}_output(const {name}_plc *plc, unsigned terminal)\n{{\n    if ({off}) {{\n        return false;\n    }}\n"
+        );
+        let fields = self.fields.of_class(DeviceClass::Y);
+        for field in fields.iter().filter(|f| f.array) {
+            let mut array = String::from("plc->");
+            field.name(&mut array);
+            let _ = match field.first {
+                0 => write!(
+                    out,
+                    "    if (terminal < {}u) {{\n        return {array}[terminal];\n    }}\n",
+                    field.end()
+                ),
+                first => write!(
+                    out,
+                    "    if (terminal >= {first}u && terminal < {}u) {{\n        return {array}[terminal - {first}u];\n    }}\n",
+                    field.end()
+                ),
+            };
+        }
+        let single: Vec<&Field> = fields.iter().filter(|f| !f.array).collect();
+        if single.is_empty() {
+            if fields.is_empty() {
+                out.push_str("    (void)terminal;\n");
+            }
+            out.push_str("    return false;\n}\n\n");
+            return;
+        }
+        out.push_str("    switch (terminal) {\n");
+        for field in single {
+            let mut device = String::from("plc->");
+            field.name(&mut device);
+            let _ = writeln!(out, "    case {}:\n        return {device};", field.first);
+        }
+        out.push_str("    default:\n        return false;\n    }\n}\n\n");
+    }
+
+    /// The table by which the runtime finds devices.
+    pub fn device_table(&self, out: &mut String) {
+        let _ = (out, Kind::Bit, text::WIDTH);
+    }
+}
+
+fn or_unused(body: &str) -> &str {
+    if body.is_empty() {
+        "    (void)plc;\n"
+    } else {
+        body
+    }
+}

@@ -1,0 +1,834 @@
+//! Statements and functions as C.
+
+use crate::expr::Around;
+use crate::fields::Fields;
+use crate::helpers::{Helpers, is_wide_counter, reset_function};
+use crate::plan::{CFunction, Flow, Node, Plan};
+use crate::text;
+use crate::walk;
+use rungc_ir::Module;
+use rungc_ir::node::{EdgeId, EdgeKind, Expr, ExprId, FunctionKind, Place, Stmt, TempId, Ty};
+use rungc_rt::TimerKind;
+use rungc_syntax::DeviceClass;
+use std::collections::HashMap;
+use std::fmt::Write;
+
+/// Expressions that nest deeper than this get a name for their inner parts: readers and compilers have limits.
+const MAX_DEPTH: u32 = 12;
+
+/// Writes the functions of one module.
+pub struct Writer<'a, 'm> {
+    pub(crate) module: &'m Module,
+    pub(crate) plan: &'a Plan<'m>,
+    pub(crate) fields: &'a Fields<'m>,
+    /// Functions for indexed access that are needed.
+    pub helpers: Helpers,
+    /// Whether [`Stmt::Fault`] occurs where something of it is to be seen.
+    pub faults: bool,
+    /// Whether latched devices are cleared.
+    pub clears_latched: bool,
+    /// Names of parts of the current statement's expressions.
+    pub(crate) named: HashMap<ExprId, String>,
+    /// Timers with one coil and a constant preset: taking the preset over makes no difference to them.
+    plain_timers: HashMap<u32, u32>,
+    /// The current C function.
+    function: usize,
+    /// Loops around the current statement.
+    loops: usize,
+    /// Parts that have been given a name in this function.
+    names: u32,
+}
+
+impl<'a, 'm> Writer<'a, 'm> {
+    /// A writer.
+    pub fn new(module: &'m Module, plan: &'a Plan<'m>, fields: &'a Fields<'m>) -> Self {
+        let mut writer = Writer {
+            module,
+            plan,
+            fields,
+            helpers: Helpers::default(),
+            faults: false,
+            clears_latched: false,
+            named: HashMap::new(),
+            plain_timers: HashMap::new(),
+            function: 0,
+            loops: 0,
+            names: 0,
+        };
+        for function in &plan.functions {
+            writer.count_timers(&function.body);
+        }
+        writer
+    }
+
+    fn count_timers(&mut self, nodes: &[Node]) {
+        for node in nodes {
+            match node {
+                Node::Stmt(Stmt::Timer { number, preset, .. }) => {
+                    let constant = matches!(self.module.expr(*preset), Expr::I16(_));
+                    *self.plain_timers.entry(*number).or_default() += if constant { 1 } else { 2 };
+                }
+                Node::If {
+                    then, otherwise, ..
+                } => {
+                    self.count_timers(then);
+                    self.count_timers(otherwise);
+                }
+                Node::For { body, .. } => self.count_timers(body),
+                _ => {}
+            }
+        }
+    }
+
+    /// Name of a C function.
+    pub fn function_name(&self, out: &mut String, function: &CFunction) {
+        function_name(out, self.module, function.root);
+        out.push_str(&function.suffix);
+    }
+
+    /// The head of a C function, without storage class and body.
+    pub fn signature(&self, function: &CFunction) -> String {
+        let mut out = String::from(if function.flow == Flow::Void {
+            "void "
+        } else {
+            "int "
+        });
+        self.function_name(&mut out, function);
+        let _ = write!(out, "({}_plc *plc)", self.module.name);
+        out
+    }
+
+    /// Writes a C function; `storage` is `static ` or nothing.
+    pub fn function(&mut self, out: &mut String, index: usize, storage: &str) {
+        let plan = self.plan;
+        let function = &plan.functions[index];
+        self.function = index;
+        self.loops = 0;
+        self.names = 0;
+        let _ = write!(out, "{storage}{}\n{{\n", self.signature(function));
+        if function
+            .body
+            .iter()
+            .all(|node| matches!(node, Node::Stmt(Stmt::Network(_))))
+        {
+            out.push_str("    (void)plc;\n");
+        }
+        if calls_runtime(&function.body) {
+            let _ = writeln!(out, "    rungc_map map = {}_map(plc);", self.module.name);
+        }
+        for (temp, _) in plan
+            .temps
+            .iter()
+            .enumerate()
+            .filter(|(_, t)| t.at_top == Some(index) && !t.field && t.used > 0)
+        {
+            let mut code = String::from(c_type(self.module.temps[temp]));
+            code.push(' ');
+            plan.temps[temp].name(&mut code);
+            code.push_str(zero(self.module.temps[temp]));
+            text::line(out, 4, &code, None);
+        }
+        self.nodes(out, &function.body, 4);
+        let ends = matches!(
+            function.body.last(),
+            Some(Node::Stmt(Stmt::Goto(_) | Stmt::Return))
+        );
+        match function.flow {
+            Flow::Part { next: Some(next) } if !ends => {
+                let code = format!("return {};", self.state_name(function.root, next));
+                text::line(out, 4, &code, None);
+            }
+            Flow::Void => {}
+            _ if ends => {}
+            _ => out.push_str("    return PLC_GO_ON;\n"),
+        }
+        out.push_str("}\n\n");
+    }
+
+    /// Name of a state: `MOTOR_PROGRAM_P12`.
+    pub fn state_name(&self, root: usize, state: u32) -> String {
+        let mut name = String::new();
+        function_name(&mut name, self.module, root);
+        let _ = write!(name, "_{}", self.plan.state_names[root][state as usize - 1]);
+        name.to_ascii_uppercase()
+    }
+
+    fn nodes(&mut self, out: &mut String, nodes: &[Node<'m>], indent: usize) {
+        let mut i = 0;
+        while let Some(node) = nodes.get(i) {
+            i += 1;
+            // An edge that only the next statement asks for is asked for there.
+            if let (
+                Node::Stmt(Stmt::Edge {
+                    edge,
+                    kind,
+                    input,
+                    out: temp,
+                }),
+                Some(next),
+            ) = (node, nodes.get(i))
+            {
+                if self.inline_edge(out, (*edge, *kind, *input), *temp, next, indent) {
+                    i += 1;
+                    continue;
+                }
+            }
+            self.node(out, node, indent);
+        }
+    }
+
+    fn inline_edge(
+        &mut self,
+        out: &mut String,
+        edge: (EdgeId, EdgeKind, ExprId),
+        temp: TempId,
+        next: &Node<'m>,
+        indent: usize,
+    ) -> bool {
+        let known = self.plan.temps[temp.0 as usize];
+        let is_it = |e: ExprId| *self.module.expr(e) == Expr::Temp(temp);
+        let user = match next {
+            Node::If { cond, .. } if is_it(*cond) => *cond,
+            Node::Stmt(Stmt::WriteBit(place, e)) if place.index.is_none() && is_it(*e) => *e,
+            _ => return false,
+        };
+        if known.used != 1 || known.field {
+            return false;
+        }
+        self.name_parts(out, &[edge.2], indent);
+        let named = std::mem::take(&mut self.named);
+        self.named = named;
+        let mut call = String::new();
+        self.edge_call(&mut call, edge);
+        self.named.clear();
+        self.named.insert(user, call);
+        self.node_with_names(out, next, indent);
+        true
+    }
+
+    fn edge_call(&mut self, out: &mut String, (edge, kind, input): (EdgeId, EdgeKind, ExprId)) {
+        let function = match kind {
+            EdgeKind::Rising => "plc_rising",
+            EdgeKind::Falling => "plc_falling",
+        };
+        let _ = write!(out, "{function}(&plc->edge[{}], ", edge.0);
+        self.expr(out, input, Around::Exact);
+        out.push(')');
+    }
+
+    fn node(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
+        let mut roots = Vec::new();
+        match node {
+            Node::Stmt(stmt) => walk::stmt_exprs(stmt, |e| roots.push(e)),
+            Node::If { cond, .. } => roots.push(*cond),
+            Node::For { count, .. } => roots.push(*count),
+            Node::Parts { .. } | Node::Stretch(_) => {}
+        }
+        self.name_parts(out, &roots, indent);
+        self.node_with_names(out, node, indent);
+    }
+
+    /// Gives names to inner parts of expressions that nest deep, or that share parts so much that writing them out would explode.
+    fn name_parts(&mut self, out: &mut String, roots: &[ExprId], indent: usize) {
+        self.named.clear();
+        let plan = self.plan;
+        for &root in roots {
+            if plan.sizes.depth(root) <= MAX_DEPTH && !plan.sizes.is_large(root) {
+                continue;
+            }
+            let mut below = Vec::new();
+            walk::below(self.module, root, &mut below);
+            let mut parents: HashMap<ExprId, u32> = HashMap::new();
+            for &e in &below {
+                walk::operands(self.module.expr(e), |o| *parents.entry(o).or_default() += 1);
+            }
+            let mut depth: HashMap<ExprId, u32> = HashMap::new();
+            for &e in below.iter().filter(|&&e| e != root) {
+                let expr = self.module.expr(e);
+                let mut own = 0;
+                walk::operands(expr, |o| {
+                    let same =
+                        std::mem::discriminant(expr) == std::mem::discriminant(self.module.expr(o));
+                    own = own.max(depth.get(&o).copied().unwrap_or(0) + u32::from(!same));
+                });
+                let shared = parents.get(&e).is_some_and(|&n| n > 1) && plan.sizes.size(e) > 8;
+                if own < MAX_DEPTH && !shared {
+                    depth.insert(e, own);
+                    continue;
+                }
+                if self.named.contains_key(&e) {
+                    continue;
+                }
+                let ty = self.module.ty(e);
+                self.names += 1;
+                let name = format!("part{}", self.names);
+                let mut code = format!("const {} {name} = ", c_type(ty));
+                self.expr(&mut code, e, Around::Exact);
+                code.push(';');
+                text::line(out, indent, &code, None);
+                self.named.insert(e, name);
+            }
+        }
+    }
+
+    fn node_with_names(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
+        match node {
+            Node::Stmt(stmt) => self.stmt(out, stmt, indent),
+            Node::If {
+                cond,
+                then,
+                otherwise,
+            } => self.branch(out, *cond, (then, otherwise), indent),
+            Node::For { count, body } => self.repeat(out, *count, body, indent),
+            Node::Parts { parts, leaves } => self.parts(out, parts, *leaves, indent),
+            Node::Stretch(function) => self.stretch(out, *function, indent),
+        }
+    }
+
+    fn branch(
+        &mut self,
+        out: &mut String,
+        cond: ExprId,
+        bodies: (&[Node<'m>], &[Node<'m>]),
+        indent: usize,
+    ) {
+        let (then, otherwise) = bodies;
+        let mut code = String::from("if (");
+        let inverted = then.is_empty() && !otherwise.is_empty();
+        if inverted {
+            code.push('!');
+            self.expr(&mut code, cond, Around::Unary);
+        } else {
+            self.expr(&mut code, cond, Around::Loose);
+        }
+        code.push_str(") {");
+        text::line(out, indent, &code, None);
+        self.nodes(out, if inverted { otherwise } else { then }, indent + 4);
+        if !inverted && !otherwise.is_empty() {
+            text::line(out, indent, "} else {", None);
+            self.nodes(out, otherwise, indent + 4);
+        }
+        text::line(out, indent, "}", None);
+    }
+
+    fn repeat(&mut self, out: &mut String, count: ExprId, body: &[Node<'m>], indent: usize) {
+        let variable = match self.loops {
+            n @ 0..6 => char::from(b'i' + n as u8).to_string(),
+            n => format!("i{n}"),
+        };
+        let mut code = String::new();
+        if let Expr::I16(times) = *self.module.expr(count) {
+            let _ = write!(
+                code,
+                "for (int {variable} = 0; {variable} < {}; {variable}++) {{",
+                times.max(1)
+            );
+        } else {
+            let _ = write!(code, "for (int16_t {variable} = plc_times(");
+            self.expr(&mut code, count, Around::Exact);
+            let _ = write!(code, "); {variable} > 0; {variable}--) {{");
+        }
+        text::line(out, indent, &code, None);
+        self.loops += 1;
+        self.nodes(out, body, indent + 4);
+        self.loops -= 1;
+        text::line(out, indent, "}", None);
+    }
+
+    fn is_void(&self) -> bool {
+        self.plan.functions[self.function].flow == Flow::Void
+    }
+
+    fn parts(&mut self, out: &mut String, parts: &[(u32, usize)], leaves: bool, indent: usize) {
+        let root = self.plan.functions[self.function].root;
+        let Some(&(first, _)) = parts.first() else {
+            return;
+        };
+        let first = self.state_name(root, first);
+        let pad = " ".repeat(indent);
+        let _ = writeln!(
+            out,
+            "{pad}/* The jumps here do not nest, so the stretches between labels are functions: each answers which one is next. */"
+        );
+        let _ = writeln!(out, "{pad}int next = {first};");
+        let _ = writeln!(
+            out,
+            "{pad}while (next != PLC_GO_ON) {{\n{pad}    switch (next) {{"
+        );
+        for &(state, function) in parts {
+            let mut name = String::new();
+            self.function_name(&mut name, &self.plan.functions[function]);
+            let state = self.state_name(root, state);
+            let _ = writeln!(
+                out,
+                "{pad}    case {state}:\n{pad}        next = {name}(plc);\n{pad}        break;"
+            );
+        }
+        let outside = match (leaves, self.is_void()) {
+            (true, true) => "return;",
+            (true, false) => "return next;",
+            (false, _) => "next = PLC_GO_ON;\n            break;",
+        };
+        let outside = outside
+            .replace('\n', &format!("\n{pad}"))
+            .replace("            break", "        break");
+        let _ = writeln!(
+            out,
+            "{pad}    default:\n{pad}        {outside}\n{pad}    }}\n{pad}}}"
+        );
+    }
+
+    fn stretch(&mut self, out: &mut String, function: usize, indent: usize) {
+        let plan = self.plan;
+        let mut name = String::new();
+        self.function_name(&mut name, &plan.functions[function]);
+        let pad = " ".repeat(indent);
+        let _ = match (plan.functions[function].flow == Flow::Void, self.is_void()) {
+            (true, _) => writeln!(out, "{pad}{name}(plc);"),
+            (false, true) => writeln!(
+                out,
+                "{pad}if ({name}(plc) != PLC_GO_ON) {{\n{pad}    return;\n{pad}}}"
+            ),
+            (false, false) => writeln!(
+                out,
+                "{pad}{{\n{pad}    const int next = {name}(plc);\n{pad}    if (next != PLC_GO_ON) {{\n\
+                 {pad}        return next;\n{pad}    }}\n{pad}}}"
+            ),
+        };
+    }
+
+    /// Writes a temporary's name as it is used.
+    pub(crate) fn temp(&self, out: &mut String, temp: TempId) {
+        let known = &self.plan.temps[temp.0 as usize];
+        if known.field {
+            out.push_str("plc->");
+        }
+        known.name(out);
+    }
+
+    /// The left side of an assignment to a temporary.
+    fn assigned_temp(&self, temp: TempId) -> String {
+        let known = &self.plan.temps[temp.0 as usize];
+        let mut code = String::new();
+        if known.is_constant() {
+            let _ = write!(
+                code,
+                "const {} ",
+                c_type(self.module.temps[temp.0 as usize])
+            );
+        }
+        self.temp(&mut code, temp);
+        code.push_str(" = ");
+        code
+    }
+
+    fn stmt(&mut self, out: &mut String, stmt: &Stmt, indent: usize) {
+        let mut code = String::new();
+        let mut written: Option<(DeviceClass, u32)> = None;
+        match stmt {
+            Stmt::Network(network) => return self.network(out, *network, indent),
+            Stmt::Let(temp, value) => {
+                if self.plan.temps[temp.0 as usize].used == 0 {
+                    return;
+                }
+                code = self.assigned_temp(*temp);
+                self.expr(&mut code, *value, Around::Exact);
+                code.push(';');
+            }
+            Stmt::Edge {
+                edge,
+                kind,
+                input,
+                out: temp,
+            } => {
+                if self.plan.temps[temp.0 as usize].used == 0 {
+                    let _ = write!(code, "plc->edge[{}] = ", edge.0);
+                    self.expr(&mut code, *input, Around::Exact);
+                } else {
+                    code = self.assigned_temp(*temp);
+                    self.edge_call(&mut code, (*edge, *kind, *input));
+                }
+                code.push(';');
+            }
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => {
+                written = Some((DeviceClass::T, *number));
+                self.timer(&mut code, (*number, *kind), *drive, *preset);
+            }
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => {
+                written = Some((DeviceClass::C, *number));
+                self.counter(&mut code, "plc_count16", *number, &[*drive, *preset]);
+            }
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => {
+                written = Some((DeviceClass::C, *number));
+                self.counter(&mut code, "plc_count32", *number, &[*drive, *down, *preset]);
+            }
+            Stmt::CallSub(function) => {
+                function_name(&mut code, self.module, *function as usize);
+                code.push_str("(plc);");
+            }
+            Stmt::Return => code.push_str(if self.is_void() {
+                "return;"
+            } else {
+                "return PLC_LEAVE;"
+            }),
+            Stmt::Goto(label) => {
+                let root = self.plan.functions[self.function].root;
+                if let Some(&state) = self.plan.states.get(&(root, *label)) {
+                    code = format!("return {};", self.state_name(root, state));
+                }
+            }
+            Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
+            Stmt::Fault { code: fault, step } => {
+                self.faults = true;
+                code = format!(
+                    "{}_fault(plc, {fault}, {});",
+                    self.module.name, *step as u16 as i16
+                );
+            }
+            Stmt::Clear { latched } => {
+                self.clears_latched |= *latched;
+                let what = if *latched { "latched" } else { "general" };
+                code = format!("{}_clear_{what}(plc);", self.module.name);
+            }
+            Stmt::WriteBit(place, _)
+            | Stmt::WriteWordBit(place, ..)
+            | Stmt::WriteWord(place, _)
+            | Stmt::WritePair(place, _)
+            | Stmt::WriteFloat(place, _)
+            | Stmt::WriteNibbles { place, .. }
+            | Stmt::Reset(place) => {
+                written = place.index.is_none().then_some((place.class, place.number));
+                self.write(&mut code, stmt);
+            }
+            Stmt::If { .. } | Stmt::For { .. } | Stmt::Parts(_) => {}
+        }
+        if !code.is_empty() {
+            let beside = written.and_then(|(class, number)| self.fields.comment(class, number));
+            text::line(out, indent, &code, beside);
+        }
+    }
+
+    fn network(&mut self, out: &mut String, network: u32, indent: usize) {
+        let Some(network) = self.module.networks.get(network as usize) else {
+            return;
+        };
+        if !out.ends_with("{\n") {
+            out.push('\n');
+        }
+        let mut line = format!("/* step {}", network.step);
+        let texts = [&network.statement, &network.note];
+        for text in texts
+            .into_iter()
+            .flatten()
+            .map(|t| text::comment(t))
+            .filter(|t| !t.is_empty())
+        {
+            line.push_str(": ");
+            line.push_str(&text);
+        }
+        line.push_str(" */\n");
+        text::push_indent(out, indent);
+        out.push_str(&line);
+    }
+
+    fn timer(
+        &mut self,
+        code: &mut String,
+        (number, kind): (u32, TimerKind),
+        drive: ExprId,
+        preset: ExprId,
+    ) {
+        let latches = kind.latches_preset && self.plain_timers.get(&number) != Some(&1);
+        let plain = !latches && !kind.free_running && !kind.overruns;
+        let family = match (plain, kind.unit_ms) {
+            (true, 1 | 10 | 100) if kind.accumulating => {
+                format!("plc_retentive_{}ms", kind.unit_ms)
+            }
+            (true, 1 | 10 | 100) => format!("plc_timer_{}ms", kind.unit_ms),
+            _ => "plc_timer_run".to_string(),
+        };
+        let _ = write!(code, "{family}(&");
+        self.fields.access(code, DeviceClass::T, number);
+        code.push_str(", ");
+        self.expr(code, drive, Around::Exact);
+        code.push_str(", ");
+        self.expr(code, preset, Around::Exact);
+        code.push_str(", &plc->sys");
+        if family == "plc_timer_run" {
+            let options = [
+                (kind.accumulating, "PLC_RETENTIVE"),
+                (kind.free_running, "PLC_FREE_RUNNING"),
+                (latches, "PLC_LATCHES_PRESET"),
+                (kind.overruns, "PLC_OVERRUNS"),
+            ];
+            let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
+            let set = if set.is_empty() {
+                "0u".to_string()
+            } else {
+                set.join(" | ")
+            };
+            let _ = write!(code, ", {}u, {set}", kind.unit_ms.max(1));
+        }
+        code.push_str(");");
+    }
+
+    fn counter(&mut self, code: &mut String, function: &str, number: u32, arguments: &[ExprId]) {
+        let _ = write!(code, "{function}(&");
+        self.fields.access(code, DeviceClass::C, number);
+        for &argument in arguments {
+            code.push_str(", ");
+            self.expr(code, argument, Around::Exact);
+        }
+        code.push_str(");");
+    }
+
+    /// Writes to devices.
+    fn write(&mut self, code: &mut String, stmt: &Stmt) {
+        match *stmt {
+            Stmt::WriteBit(place, value) => self.put(code, "bit", &place, value),
+            Stmt::WriteWord(place, value) => self.put(code, "word", &place, value),
+            Stmt::WriteWordBit(place, bit, value) => self.put_word_bit(code, &place, bit, value),
+            Stmt::WritePair(place, value) => self.put_pair(code, &place, value, false),
+            Stmt::WriteFloat(place, value) => self.put_pair(code, &place, value, true),
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => self.put_nibbles(code, &place, digits, value),
+            Stmt::Reset(place) => self.reset(code, &place),
+            _ => {}
+        }
+    }
+
+    fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
+        if place.index.is_some() {
+            self.helpers.put(what, place.class);
+            let _ = write!(
+                code,
+                "{}_put_{what}_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
+            self.number(code, place, 0);
+            code.push_str(", ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+            return;
+        }
+        // A device that nobody looks at is not stored.
+        if self.fields.access(code, place.class, place.number) {
+            code.push_str(match (place.class, what) {
+                (DeviceClass::T | DeviceClass::C, "bit") => ".done = ",
+                (DeviceClass::T | DeviceClass::C, _) => ".value = ",
+                _ => " = ",
+            });
+            self.expr(code, value, Around::Exact);
+            code.push(';');
+        }
+    }
+
+    fn put_word_bit(&mut self, code: &mut String, place: &Place, bit: u8, value: ExprId) {
+        if place.index.is_some() {
+            self.helpers.get("word", place.class);
+            self.helpers.put("word", place.class);
+            let (name, class) = (&self.module.name, place.class.prefix());
+            let _ = write!(code, "{name}_put_word_{class}(plc, ");
+            self.number(code, place, 0);
+            let _ = write!(code, ", plc_with_bit({name}_word_{class}(plc, ");
+            self.number(code, place, 0);
+            let _ = write!(code, "), {bit}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str("));");
+            return;
+        }
+        let mut target = String::new();
+        if self.fields.access(&mut target, place.class, place.number) {
+            let _ = write!(code, "plc_put_bit(&{target}, {bit}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+        }
+    }
+
+    fn put_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
+        let wide = is_wide_counter(place.class, place.number);
+        if place.index.is_some() {
+            self.put_indexed_pair(code, place, value, float);
+            return;
+        }
+        let mut text = String::new();
+        if float {
+            text.push_str("plc_float_bits(");
+        }
+        self.expr(&mut text, value, Around::Exact);
+        if float {
+            text.push(')');
+        }
+        if wide {
+            if self.fields.access(code, place.class, place.number) {
+                let _ = write!(code, ".value = {text};");
+            }
+            return;
+        }
+        let (high, plus) = self.high_word(place);
+        let part = if matches!(place.class, DeviceClass::T | DeviceClass::C) {
+            ".value"
+        } else {
+            ""
+        };
+        let (mut low_name, mut high_name) = (String::new(), String::new());
+        let low = self.fields.access(&mut low_name, place.class, place.number);
+        let high = self.fields.access(
+            &mut high_name,
+            high.class,
+            high.number.saturating_add_signed(plus),
+        );
+        let _ = match (low, high) {
+            (true, true) => write!(
+                code,
+                "plc_split(&{high_name}{part}, &{low_name}{part}, {text});"
+            ),
+            (true, false) => write!(code, "{low_name}{part} = plc_low({text});"),
+            (false, true) => write!(code, "{high_name}{part} = plc_high({text});"),
+            (false, false) => Ok(()),
+        };
+    }
+
+    fn put_indexed_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
+        self.helpers.put("long", place.class);
+        let _ = write!(
+            code,
+            "{}_put_long_{}(plc, ",
+            self.module.name,
+            place.class.prefix()
+        );
+        self.number(code, place, 0);
+        code.push_str(if float { ", plc_float_bits(" } else { ", " });
+        self.expr(code, value, Around::Exact);
+        code.push_str(if float { "));" } else { ");" });
+    }
+
+    fn put_nibbles(&mut self, code: &mut String, place: &Place, digits: u8, value: ExprId) {
+        let count = 4 * u32::from(digits);
+        if place.index.is_some() {
+            self.helpers.put_bits(place.class);
+            let _ = write!(
+                code,
+                "{}_put_bits_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
+            self.number(code, place, 0);
+            let _ = write!(code, ", {count}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+        } else if self
+            .fields
+            .array(place.class, place.number, count)
+            .is_some()
+        {
+            code.push_str("plc_put_bits(&");
+            self.fields.access(code, place.class, place.number);
+            let _ = write!(code, ", {count}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+        } else {
+            self.put_scattered(code, place, count, value);
+        }
+    }
+
+    /// Spreads a number over relays that are no array.
+    fn put_scattered(&mut self, code: &mut String, place: &Place, count: u32, value: ExprId) {
+        code.push_str("plc_scatter((bool *const[]){");
+        for bit in 0..count {
+            code.push_str(if bit > 0 { ", " } else { "" });
+            let mut name = String::new();
+            if self
+                .fields
+                .access(&mut name, place.class, place.number + bit)
+            {
+                let _ = write!(code, "&{name}");
+            } else {
+                code.push_str("NULL");
+            }
+        }
+        let _ = write!(code, "}}, {count}u, ");
+        self.expr(code, value, Around::Exact);
+        code.push_str(");");
+    }
+
+    fn reset(&mut self, code: &mut String, place: &Place) {
+        if place.index.is_some() {
+            self.helpers.reset(place.class);
+            let _ = write!(
+                code,
+                "{}_reset_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
+            self.number(code, place, 0);
+            code.push_str(");");
+            return;
+        }
+        let mut name = String::new();
+        let Some(field) = self.fields.find(place.class, place.number) else {
+            return;
+        };
+        self.fields.access(&mut name, place.class, place.number);
+        let _ = write!(code, "{}(&{name});", reset_function(field.kind));
+    }
+}
+
+/// Name of a function of the module: `motor_program`, `motor_P5`.
+pub fn function_name(out: &mut String, module: &Module, function: usize) {
+    let name = &module.name;
+    let _ = match module.functions.get(function).map(|f| &f.kind) {
+        Some(FunctionKind::Begin) => write!(out, "{name}_begin"),
+        Some(FunctionKind::End) => write!(out, "{name}_end"),
+        Some(FunctionKind::Subroutine(p)) => write!(out, "{name}_P{p}"),
+        Some(FunctionKind::Interrupt(i)) => write!(out, "{name}_I{i:03}"),
+        Some(FunctionKind::Main) | None => write!(out, "{name}_program"),
+    };
+}
+
+/// C type of a temporary.
+pub fn c_type(ty: Ty) -> &'static str {
+    match ty {
+        Ty::Bit => "bool",
+        Ty::I16 => "int16_t",
+        Ty::I32 => "int32_t",
+        Ty::F32 => "float",
+    }
+}
+
+fn zero(ty: Ty) -> &'static str {
+    match ty {
+        Ty::Bit => " = false;",
+        Ty::I16 | Ty::I32 => " = 0;",
+        Ty::F32 => " = 0.0f;",
+    }
+}
+
+fn calls_runtime(nodes: &[Node]) -> bool {
+    nodes.iter().any(|node| match node {
+        Node::Stmt(stmt) => matches!(stmt, Stmt::Call { .. }),
+        Node::If {
+            then, otherwise, ..
+        } => calls_runtime(then) || calls_runtime(otherwise),
+        Node::For { body, .. } => calls_runtime(body),
+        Node::Parts { .. } | Node::Stretch(_) => false,
+    })
+}

@@ -1,0 +1,274 @@
+//! Builds small modules by hand, and emitted C with the compilers that are there.
+
+use rungc_codegen_c::{Options, emit};
+use rungc_ir::layout::{Area, Layout};
+use rungc_ir::node::*;
+use rungc_ir::{Model, ModelId, Module};
+use rungc_rt::TimerKind;
+use rungc_syntax::{DeviceClass, Span};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::Command;
+
+/// A module in the making.
+pub struct Builder {
+    module: Module,
+    body: Body,
+    used: BTreeSet<(DeviceClass, u32)>,
+}
+
+impl Builder {
+    pub fn new(name: &str) -> Self {
+        let function = |kind| Function {
+            kind,
+            body: Vec::new(),
+        };
+        Builder {
+            module: Module {
+                name: name.to_string(),
+                source_name: format!("{name}.csv"),
+                steps: 26,
+                model: Model::get(ModelId::Fx2n),
+                exprs: Vec::new(),
+                temps: Vec::new(),
+                edges: 0,
+                states: 0,
+                texts: Vec::new(),
+                functions: vec![
+                    function(FunctionKind::Begin),
+                    function(FunctionKind::Main),
+                    function(FunctionKind::End),
+                ],
+                networks: Vec::new(),
+                comments: Vec::new(),
+                layout: Layout::default(),
+                initial_words: Vec::new(),
+            },
+            body: Vec::new(),
+            used: BTreeSet::new(),
+        }
+    }
+
+    pub fn finish(mut self) -> Module {
+        self.module.functions[1].body = self.body;
+        let area = |&(class, first): &(DeviceClass, u32)| Area {
+            class,
+            first,
+            count: 1,
+            array: false,
+            latched: false,
+        };
+        self.module.layout.areas = self.used.iter().map(area).collect();
+        self.module
+    }
+
+    pub fn comment(&mut self, class: DeviceClass, number: u32, text: &str) {
+        self.module.comments.push((class, number, text.to_string()));
+    }
+
+    pub fn network(&mut self, step: u32, statement: Option<&str>) {
+        let statement = statement.map(str::to_string);
+        self.module.networks.push(Network {
+            step,
+            span: Span::default(),
+            statement,
+            note: None,
+        });
+        self.body
+            .push(Stmt::Network(self.module.networks.len() as u32 - 1));
+    }
+
+    fn place(&mut self, class: DeviceClass, number: u32) -> Place {
+        self.used.insert((class, number));
+        Place {
+            class,
+            number,
+            index: None,
+        }
+    }
+
+    pub fn bit(&mut self, class: DeviceClass, number: u32) -> ExprId {
+        let place = self.place(class, number);
+        self.module.add(Expr::ReadBit(place))
+    }
+
+    pub fn word(&mut self, class: DeviceClass, number: u32) -> ExprId {
+        let place = self.place(class, number);
+        self.module.add(Expr::ReadWord(place))
+    }
+
+    pub fn i16(&mut self, value: i16) -> ExprId {
+        self.module.add(Expr::I16(value))
+    }
+
+    pub fn on(&mut self) -> ExprId {
+        self.module.add(Expr::Bit(true))
+    }
+
+    pub fn or(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.module.add(Expr::Or(a, b))
+    }
+
+    pub fn and(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.module.add(Expr::And(a, b))
+    }
+
+    pub fn not(&mut self, a: ExprId) -> ExprId {
+        self.module.add(Expr::Not(a))
+    }
+
+    pub fn ge(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.module.add(Expr::Cmp(CmpOp::Ge, a, b))
+    }
+
+    pub fn add16(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.module.add(Expr::Bin(BinOp::Add, a, b))
+    }
+
+    pub fn write_bit(&mut self, class: DeviceClass, number: u32, value: ExprId) {
+        let place = self.place(class, number);
+        self.body.push(Stmt::WriteBit(place, value));
+    }
+
+    pub fn write_word(&mut self, class: DeviceClass, number: u32, value: ExprId) {
+        let place = self.place(class, number);
+        self.body.push(Stmt::WriteWord(place, value));
+    }
+
+    pub fn timer(&mut self, number: u32, drive: ExprId, preset: ExprId) {
+        self.place(DeviceClass::T, number);
+        let kind = TimerKind {
+            unit_ms: 100,
+            accumulating: false,
+            free_running: false,
+            latches_preset: false,
+            overruns: false,
+        };
+        self.body.push(Stmt::Timer {
+            number,
+            kind,
+            drive,
+            preset,
+        });
+    }
+
+    pub fn when(&mut self, cond: ExprId, then: impl FnOnce(&mut Self)) {
+        let outer = std::mem::take(&mut self.body);
+        then(self);
+        let then = std::mem::replace(&mut self.body, outer);
+        self.body.push(Stmt::If {
+            cond,
+            then,
+            otherwise: Vec::new(),
+        });
+    }
+
+    pub fn rising(&mut self, input: ExprId, then: impl FnOnce(&mut Self)) {
+        let (edge, out) = (
+            EdgeId(self.module.edges),
+            TempId(self.module.temps.len() as u32),
+        );
+        self.module.edges += 1;
+        self.module.temps.push(Ty::Bit);
+        self.body.push(Stmt::Edge {
+            edge,
+            kind: EdgeKind::Rising,
+            input,
+            out,
+        });
+        let cond = self.module.add(Expr::Temp(out));
+        self.when(cond, then);
+    }
+}
+
+const STRICT: [&str; 6] = [
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Wconversion",
+    "-Werror",
+    "-pedantic",
+];
+
+/// The C compilers that are installed; at least one must be.
+fn compilers() -> Vec<&'static str> {
+    let there = |cc: &&str| {
+        Command::new(cc)
+            .arg("--version")
+            .output()
+            .is_ok_and(|o| o.status.success())
+    };
+    let found: Vec<_> = ["gcc", "clang"].into_iter().filter(there).collect();
+    assert!(
+        !found.is_empty(),
+        "emitted C cannot be tested without gcc or clang"
+    );
+    found
+}
+
+/// Emits a module with a `main` around these statements, compiles it strictly with each compiler, runs it, and returns what
+/// it prints.
+pub fn run_c(module: &Module, statements: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder for the C files");
+    let mut sources = Vec::new();
+    for file in emit(module, &Options::default()) {
+        std::fs::write(folder.path().join(&file.path), &file.text).expect("writing C");
+        if file.path.ends_with(".c") {
+            sources.push(file.path);
+        }
+    }
+    let main = format!(
+        "#include \"{}.h\"\n#include <stdio.h>\nint main(void)\n{{\n{statements}\n    return 0;\n}}\n",
+        module.name
+    );
+    std::fs::write(folder.path().join("test_main.c"), main).expect("writing C");
+    sources.push("test_main.c".to_string());
+    let outputs = compilers()
+        .into_iter()
+        .map(|cc| compile_and_run(cc, folder.path(), &sources));
+    let outputs: Vec<String> = outputs.collect();
+    assert!(
+        outputs.windows(2).all(|pair| pair[0] == pair[1]),
+        "compilers disagree: {outputs:?}"
+    );
+    outputs[0].clone()
+}
+
+/// Compiles strictly and optimised, and again with checks for undefined behaviour; both must print the same.
+fn compile_and_run(cc: &str, folder: &Path, sources: &[String]) -> String {
+    let strict: Vec<&str> = STRICT.into_iter().chain(["-O2"]).collect();
+    let checked = [
+        "-std=c99",
+        "-O1",
+        "-fsanitize=undefined",
+        "-fno-sanitize-recover",
+    ];
+    let outputs = [strict.as_slice(), checked.as_slice()].map(|flags| {
+        let compiled = Command::new(cc)
+            .current_dir(folder)
+            .args(flags)
+            .args(["-o", "program"])
+            .args(sources)
+            .output()
+            .expect("running the compiler");
+        let errors = String::from_utf8_lossy(&compiled.stderr).into_owned();
+        assert!(
+            compiled.status.success() && errors.is_empty(),
+            "{cc} {flags:?}: {errors}"
+        );
+        let ran = Command::new(folder.join("program"))
+            .output()
+            .expect("running the program");
+        assert!(
+            ran.status.success(),
+            "{}",
+            String::from_utf8_lossy(&ran.stderr)
+        );
+        String::from_utf8_lossy(&ran.stdout).into_owned()
+    });
+    assert_eq!(
+        outputs[0], outputs[1],
+        "{cc}: checks for undefined behaviour change the result"
+    );
+    outputs[0].clone()
+}

@@ -1,0 +1,76 @@
+//! Emitted C: what it looks like, that it compiles without a warning, and that it does what the program says.
+
+mod build;
+
+use build::{Builder, run_c};
+use rungc_codegen_c::{Options, emit};
+use rungc_syntax::DeviceClass::{D, M, T, X, Y};
+
+fn motor() -> rungc_ir::Module {
+    let mut b = Builder::new("motor");
+    b.comment(X, 0, "start button");
+    b.comment(X, 1, "stop button");
+    b.comment(M, 0, "motor latch");
+    b.comment(T, 0, "run-up time");
+    b.comment(Y, 0, "main contactor");
+    b.comment(Y, 1, "box full");
+    b.network(0, Some("Motor"));
+    let (start, latch, stop) = (b.bit(X, 0), b.bit(M, 0), b.bit(X, 1));
+    let either = b.or(start, latch);
+    let not_stop = b.not(stop);
+    let on = b.and(either, not_stop);
+    b.write_bit(M, 0, on);
+    b.network(4, None);
+    let latch = b.bit(M, 0);
+    let preset = b.i16(30);
+    b.timer(0, latch, preset);
+    let done = b.bit(T, 0);
+    let on = b.and(latch, done);
+    b.write_bit(Y, 0, on);
+    b.network(10, None);
+    let part = b.bit(X, 2);
+    let (count, one) = (b.word(D, 0), b.i16(1));
+    let sum = b.add16(count, one);
+    b.rising(part, |b| b.write_word(D, 0, sum));
+    b.network(19, None);
+    let (count, ten) = (b.word(D, 0), b.i16(10));
+    let full = b.ge(count, ten);
+    b.when(full, |b| {
+        let on = b.on();
+        b.write_bit(Y, 1, on);
+    });
+    b.finish()
+}
+
+#[test]
+fn motor_reads_well() {
+    let files = emit(&motor(), &Options { main: false });
+    for file in files
+        .iter()
+        .filter(|f| f.path.starts_with("motor") || f.path == "Makefile")
+    {
+        insta::assert_snapshot!(file.path.replace('.', "_"), file.text);
+    }
+}
+
+#[test]
+fn motor_runs() {
+    let main = r#"
+        motor_plc plc;
+        uint32_t now = 0;
+        motor_init(&plc);
+        plc.X0 = true;
+        motor_scan(&plc, now, 0);
+        plc.X0 = false;
+        for (int i = 0; i < 30; i++) {
+            plc.X2 = (i & 1) != 0;
+            motor_scan(&plc, now += 99, 0);
+        }
+        printf("%d %d %d ", plc.M0, motor_output(&plc, 0), plc.T0.value);
+        motor_scan(&plc, now += 99, 0);
+        printf("%d %d %d %d ", motor_output(&plc, 0), plc.T0.value, plc.D0, plc.Y1);
+        motor_set_running(&plc, false);
+        printf("%d %d\n", plc.T0.value, motor_output(&plc, 0));
+    "#;
+    assert_eq!(run_c(&motor(), main), "1 0 29 1 30 15 1 0 0\n");
+}

@@ -1,0 +1,356 @@
+//! The editors' list export: a table of instructions with steps, statements and notes.
+
+use crate::Read;
+use crate::il;
+use crate::listing::Listing;
+use crate::text::{append, clean};
+use csv::{ReaderBuilder, StringRecord, WriterBuilder};
+use rungc_syntax::{Device, Diagnostics, Instr, Program, SourceKind, codes};
+use smol_str::SmolStr;
+use std::collections::BTreeMap;
+
+/// The columns in the editors' order, by their English names.
+pub(crate) const HEADERS: [&str; 7] = [
+    "Step No.",
+    "Line Statement",
+    "Instruction",
+    "I/O(Device)",
+    "Blank",
+    "PI Statement",
+    "Note",
+];
+
+/// The columns' names in the editors' languages, without spaces and punctuation, in the order of [`HEADERS`].
+const NAMES: [&[&str]; 7] = [
+    &[
+        "stepno",
+        "step",
+        "ステップ番号",
+        "ステップno",
+        "步号",
+        "步序号",
+    ],
+    &["linestatement", "行間ステートメント", "行间声明"],
+    &["instruction", "命令", "指令"],
+    &["iodevice", "ioデバイス", "io软元件"],
+    &["blank", "空欄", "空白栏"],
+    &["pistatement", "piステートメント", "pi声明"],
+    &["note", "ノート", "注解", "注释"],
+];
+
+/// How far down the row of headers may stand.
+const HEAD_ROWS: usize = 12;
+
+/// How a text is laid out as a table.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Layout {
+    delimiter: u8,
+    /// For each of [`HEADERS`], where it stands.
+    columns: [usize; 7],
+    /// The row of headers, from 0.
+    header: Option<usize>,
+}
+
+/// Whether a text is a list export, and how it is laid out.
+pub(crate) fn detect(text: &str) -> Option<Layout> {
+    [b'\t', b',', b';']
+        .into_iter()
+        .find_map(|delimiter| with_header(text, delimiter))
+        .or_else(|| {
+            // Exports that lost their head: quoted fields in the usual order.
+            let quoted = |separator| {
+                text.lines()
+                    .take(HEAD_ROWS)
+                    .any(|line| line.starts_with('"') && line.contains(separator))
+            };
+            let delimiter = match (quoted("\"\t\""), quoted("\",\"")) {
+                (true, _) => b'\t',
+                (false, true) => b',',
+                (false, false) => return None,
+            };
+            Some(Layout {
+                delimiter,
+                columns: [0, 1, 2, 3, 4, 5, 6],
+                header: None,
+            })
+        })
+}
+
+fn with_header(text: &str, delimiter: u8) -> Option<Layout> {
+    let mut reader = table(text, delimiter);
+    let mut record = StringRecord::new();
+    for row in 0..HEAD_ROWS {
+        if !reader.read_record(&mut record).ok()? {
+            return None;
+        }
+        let mut columns = [usize::MAX; 7];
+        for (at, field) in record.iter().enumerate() {
+            let field: String = field
+                .chars()
+                .filter(|c| c.is_alphanumeric())
+                .flat_map(char::to_lowercase)
+                .collect();
+            if let Some(column) = NAMES
+                .iter()
+                .position(|names| names.contains(&field.as_str()))
+            {
+                columns[column] = at;
+            }
+        }
+        // The instruction and its device are what makes it a list.
+        if columns[2] != usize::MAX && columns[3] != usize::MAX {
+            return Some(Layout {
+                delimiter,
+                columns,
+                header: Some(row),
+            });
+        }
+    }
+    None
+}
+
+fn table(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
+    ReaderBuilder::new()
+        .delimiter(delimiter)
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(text.as_bytes())
+}
+
+/// Reads a list export.
+pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
+    let mut reader = Reader::new(layout);
+    let mut rows = table(text, layout.delimiter);
+    let mut record = StringRecord::new();
+    let mut number = 0;
+    while rows.read_record(&mut record).unwrap_or(false) {
+        let line = record.position().map_or(0, csv::Position::line);
+        reader.listing.go_to_line(line as u32);
+        match layout.header {
+            Some(header) if number < header => reader.head(&record, number == 0),
+            Some(header) if number == header => reader
+                .listing
+                .line(&record.iter().collect::<Vec<_>>().join("  ")),
+            _ => reader.row(&record),
+        }
+        number += 1;
+    }
+    reader.program.kind = SourceKind::Csv;
+    reader.program.source = reader.listing.finish(name);
+    Read {
+        program: reader.program,
+        diagnostics: reader.diagnostics,
+    }
+}
+
+struct Reader {
+    layout: Layout,
+    program: Program,
+    diagnostics: Diagnostics,
+    listing: Listing,
+    /// Statements that wait for the instruction below them.
+    statement: Option<SmolStr>,
+    /// Whether an instruction is open to further operands.
+    current: Current,
+}
+
+/// The instruction that operand rows belong to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Current {
+    /// None yet.
+    None,
+    /// The last one of the program.
+    Last,
+    /// One that could not be read: its operands are passed over.
+    Unread,
+}
+
+impl Reader {
+    fn new(layout: Layout) -> Self {
+        Reader {
+            layout,
+            program: Program::default(),
+            diagnostics: Diagnostics::new(),
+            listing: Listing::default(),
+            statement: None,
+            current: Current::None,
+        }
+    }
+
+    /// A row above the headers: the title in the first one, or the CPU type.
+    fn head(&mut self, record: &StringRecord, first: bool) {
+        self.listing
+            .line(&record.iter().collect::<Vec<_>>().join("  "));
+        let cpu = record
+            .iter()
+            .skip(1)
+            .map(str::trim)
+            .find(|field| field.contains("FX"));
+        if let Some(cpu) = cpu {
+            let cpu = cpu.trim_start_matches("FXCPU").trim();
+            self.program.cpu = clean(cpu).map(Into::into);
+        } else if first {
+            self.program.title = record.get(0).and_then(clean).map(Into::into);
+        }
+    }
+
+    fn row(&mut self, record: &StringRecord) {
+        let [
+            step,
+            line_statement,
+            mnemonic,
+            operand,
+            _,
+            pointer_statement,
+            note,
+        ] = self
+            .layout
+            .columns
+            .map(|column| record.get(column).unwrap_or("").trim());
+        for statement in [line_statement, pointer_statement]
+            .into_iter()
+            .filter_map(clean)
+        {
+            self.listing.comment(&statement);
+            append(&mut self.statement, statement);
+        }
+        if mnemonic.is_empty() && operand.is_empty() {
+            if let (Some(note), Current::Last) = (clean(note), self.current) {
+                self.note(note);
+            }
+            return;
+        }
+        let step = self.step(step);
+        if !mnemonic.is_empty() {
+            self.instruction(mnemonic, step);
+        } else if self.current == Current::None {
+            let span = self.listing.word(operand);
+            self.diagnostics.push(
+                codes::BAD_ROW
+                    .at(
+                        span,
+                        format!("operand `{operand}` belongs to no instruction"),
+                    )
+                    .label("no instruction stands in this row or above")
+                    .help("export the list again from its first step"),
+            );
+            return;
+        }
+        if !operand.is_empty() {
+            self.operand(operand);
+        }
+        if let (Some(note), Current::Last) = (clean(note), self.current) {
+            self.note(note);
+        }
+    }
+
+    /// Writes the step number into the listing and reads it.
+    fn step(&mut self, text: &str) -> Option<u32> {
+        if text.is_empty() {
+            self.listing.margin("");
+            return None;
+        }
+        let step = text.parse().ok();
+        let span = self.listing.margin(text);
+        if step.is_none() {
+            self.diagnostics.push(
+                codes::BAD_ROW
+                    .at(
+                        span,
+                        format!("`{}` is no step number", self.listing.slice(span)),
+                    )
+                    .label("a step number is a decimal number")
+                    .help("the column of step numbers may be empty"),
+            );
+        }
+        step
+    }
+
+    fn instruction(&mut self, text: &str, step: Option<u32>) {
+        let span = self.listing.word(text);
+        let Some(mnemonic) =
+            il::field::mnemonic(self.listing.slice(span), span.start, &mut self.diagnostics)
+        else {
+            self.current = Current::Unread;
+            return;
+        };
+        self.current = Current::Last;
+        self.program.instrs.push(Instr {
+            mnemonic,
+            mnemonic_span: span,
+            operands: Vec::new(),
+            span,
+            step,
+            statement: self.statement.take(),
+            note: None,
+        });
+    }
+
+    fn operand(&mut self, text: &str) {
+        let span = self.listing.word(text);
+        let (Current::Last, Some(instr)) = (self.current, self.program.instrs.last_mut()) else {
+            return;
+        };
+        let characters = instr.mnemonic == "ASC" && instr.operands.is_empty();
+        let text = self.listing.slice(span);
+        match il::field::operand(text, span.start, characters, &mut self.diagnostics) {
+            Some(operand) => {
+                instr.span = instr.span.to(operand.span);
+                instr.operands.push(operand);
+            }
+            None => {
+                self.program.instrs.pop();
+                self.current = Current::Unread;
+            }
+        }
+    }
+
+    fn note(&mut self, note: SmolStr) {
+        self.listing.comment(&note);
+        if let Some(instr) = self.program.instrs.last_mut() {
+            instr.note = match instr.note.take() {
+                None => Some(note),
+                Some(first) => Some(format!("{first} {note}").into()),
+            };
+        }
+    }
+}
+
+/// Reads an export of device comments: rows of device and comment. Rows that name no device are headings.
+pub(crate) fn comments(text: &str) -> BTreeMap<Device, String> {
+    let delimiter = if text.contains('\t') { b'\t' } else { b',' };
+    let mut rows = table(text, delimiter);
+    let mut comments = BTreeMap::new();
+    let mut record = StringRecord::new();
+    while rows.read_record(&mut record).unwrap_or(false) {
+        let device = record.get(0).and_then(il::device);
+        if let (Some(device), Some(comment)) = (device, record.get(1).and_then(clean)) {
+            comments.insert(device, comment.into());
+        }
+    }
+    comments
+}
+
+/// Rows as the editors write them: UTF-16LE with BOM, tabs, every field quoted, CR LF.
+pub(crate) fn encode(rows: &[Vec<String>]) -> Vec<u8> {
+    let mut writer = WriterBuilder::new()
+        .delimiter(b'\t')
+        .quote_style(csv::QuoteStyle::Always)
+        .terminator(csv::Terminator::CRLF)
+        .flexible(true)
+        .from_writer(Vec::new());
+    for row in rows {
+        writer
+            .write_record(row)
+            .expect("writing to memory does not fail");
+    }
+    let bytes = writer
+        .into_inner()
+        .expect("writing to memory does not fail");
+    let text = String::from_utf8(bytes).expect("fields are UTF-8");
+    std::iter::once('\u{FEFF}')
+        .chain(text.chars())
+        .flat_map(|c| c.encode_utf16(&mut [0; 2]).to_vec())
+        .flat_map(u16::to_le_bytes)
+        .collect()
+}

@@ -1,0 +1,63 @@
+//! Fields of a table read with the grammar of lists.
+
+use super::fault::Fault;
+use super::fold::Folded;
+use super::grammar;
+use chumsky::Parser;
+use rungc_syntax::{Diagnostics, Operand, Span};
+use smol_str::SmolStr;
+
+/// Reads a field that names an instruction or a label; `start` is its place in the source.
+pub(crate) fn mnemonic(field: &str, start: u32, diagnostics: &mut Diagnostics) -> Option<SmolStr> {
+    let folded = fold(field);
+    let (mnemonic, faults) = grammar::mnemonic_field()
+        .parse(&folded.text)
+        .into_output_errors();
+    report(faults, &folded, start, diagnostics);
+    mnemonic.flatten()
+}
+
+/// Reads a field that holds an operand; `start` is its place in the source. `characters`: it is what ASC takes.
+pub(crate) fn operand(
+    field: &str,
+    start: u32,
+    characters: bool,
+    diagnostics: &mut Diagnostics,
+) -> Option<Operand> {
+    let folded = fold(field);
+    let (operand, faults) = if characters {
+        grammar::text_field()
+            .parse(&folded.text)
+            .into_output_errors()
+    } else {
+        grammar::operand_field()
+            .parse(&folded.text)
+            .into_output_errors()
+    };
+    report(faults, &folded, start, diagnostics);
+    operand.flatten().map(|mut operand| {
+        operand.span = place(&folded, start)(operand.span);
+        operand
+    })
+}
+
+fn fold(field: &str) -> Folded {
+    let mut folded = Folded::default();
+    folded.fold(field);
+    folded
+}
+
+fn place(folded: &Folded, start: u32) -> impl Fn(Span) -> Span {
+    move |span| {
+        let (first, last) = folded.original(span.start, span.end);
+        Span::new(first + start, last + start)
+    }
+}
+
+fn report(faults: Vec<Fault>, folded: &Folded, start: u32, diagnostics: &mut Diagnostics) {
+    diagnostics.extend(
+        faults
+            .into_iter()
+            .map(|f| f.diagnostic(&folded.text, place(folded, start))),
+    );
+}

@@ -1,0 +1,165 @@
+//! What the writers write reads back to the same program.
+
+use proptest::collection::{btree_map, vec};
+use proptest::option;
+use proptest::prelude::*;
+use rungc_frontend::{Read, print, read_bytes, read_text};
+use rungc_syntax::{Device, DeviceClass, Index, Instr, Operand, OperandKind, Program, Span};
+
+fn device() -> impl Strategy<Value = Device> {
+    let class = proptest::sample::select(DeviceClass::ALL.to_vec());
+    (class, any::<u32>()).prop_map(|(class, number)| Device { class, number })
+}
+
+fn bit_device() -> impl Strategy<Value = Device> {
+    use DeviceClass::{M, S, X, Y};
+    (proptest::sample::select(vec![X, Y, M, S]), 0..9000_u32)
+        .prop_map(|(class, number)| Device { class, number })
+}
+
+fn index() -> impl Strategy<Value = Option<Index>> {
+    let class = proptest::sample::select(vec![DeviceClass::V, DeviceClass::Z]);
+    option::of((class, 0..8_u32).prop_map(|(class, number)| Index { class, number }))
+}
+
+fn text() -> impl Strategy<Value = String> {
+    "[ -~À-ÿ一-丏ぁ-ゖ！-～]{0,12}"
+}
+
+fn kind() -> impl Strategy<Value = OperandKind> {
+    prop_oneof![
+        (device(), index()).prop_map(|(d, i)| OperandKind::Device(d, i)),
+        (device(), 0..16_u8, index()).prop_map(|(d, b, i)| OperandKind::WordBit(d, b, i)),
+        (1..=8_u8, bit_device(), index()).prop_map(|(n, d, i)| OperandKind::Nibbles(n, d, i)),
+        (any::<i32>(), index()).prop_map(|(v, i)| OperandKind::Decimal(v.into(), i)),
+        (any::<u32>(), index()).prop_map(|(v, i)| OperandKind::Hex(v.into(), i)),
+        any::<f32>()
+            .prop_filter("finite", |v| v.is_finite())
+            .prop_map(OperandKind::Float),
+        "[ -~]{0,12}".prop_map(|t| OperandKind::Text(t.into())),
+        (any::<u32>(), any::<u32>(), index()).prop_map(|(module, address, index)| {
+            OperandKind::Buffer {
+                module,
+                address,
+                index,
+            }
+        }),
+    ]
+}
+
+/// Comment text in the form that programs hold.
+fn comment() -> impl Strategy<Value = Option<String>> {
+    text()
+        .prop_map(|t| t.trim().to_owned())
+        .prop_map(|t| (!t.is_empty()).then_some(t))
+}
+
+fn instr() -> impl Strategy<Value = Instr> {
+    let mnemonics = [
+        "LD", "DADDP", "LD>=", "ANDD<>", "BKCMP=P", "$MOV", "BK-", "RD3A", "P12", "I001", "LOG10",
+    ];
+    let statement = vec(comment(), 0..3).prop_map(|lines| {
+        let lines: Vec<_> = lines.into_iter().flatten().collect();
+        (!lines.is_empty()).then(|| lines.join("\n").into())
+    });
+    let operands = vec(kind(), 0..5);
+    (
+        proptest::sample::select(mnemonics.to_vec()),
+        operands,
+        option::of(any::<u32>()),
+        statement,
+        comment(),
+    )
+        .prop_map(|(mnemonic, kinds, step, statement, note)| {
+            let label = mnemonic == "P12" || mnemonic == "I001";
+            let operands = kinds.into_iter().map(|kind| Operand {
+                span: Span::default(),
+                kind,
+            });
+            Instr {
+                mnemonic: mnemonic.into(),
+                mnemonic_span: Span::default(),
+                operands: operands.filter(|_| !label).collect(),
+                span: Span::default(),
+                step,
+                statement,
+                note: note.map(Into::into),
+            }
+        })
+}
+
+prop_compose! {
+    fn program()(
+        title in comment(),
+        cpu in option::of("FX[0-9A-Z/]{1,10}"),
+        instrs in vec(instr(), 0..20),
+        comments in btree_map(device(), text().prop_filter("clean", |t| !t.is_empty() && t.trim() == t), 0..5),
+    ) -> Program {
+        Program { title, cpu, instrs, comments, ..Program::default() }
+    }
+}
+
+/// The instructions without their places.
+fn unplaced(program: &Program) -> Vec<Instr> {
+    let mut instrs = program.instrs.clone();
+    for instr in &mut instrs {
+        (instr.span, instr.mnemonic_span) = Default::default();
+        instr
+            .operands
+            .iter_mut()
+            .for_each(|operand| operand.span = Span::default());
+    }
+    instrs
+}
+
+fn check(read: &Read, written: &Program) -> Result<(), TestCaseError> {
+    let findings: Vec<_> = read.diagnostics.iter().collect();
+    prop_assert!(findings.is_empty(), "{findings:?}");
+    prop_assert_eq!(unplaced(&read.program), unplaced(written));
+    prop_assert_eq!(&read.program.title, &written.title);
+    prop_assert_eq!(&read.program.cpu, &written.cpu);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_printed_list_reads_back(program in program()) {
+        let read = read_text("a.il", &print::to_il(&program));
+        check(&read, &program)?;
+        prop_assert_eq!(&read.program.comments, &program.comments);
+    }
+
+    #[test]
+    fn a_printed_export_reads_back(program in program()) {
+        let read = read_bytes("MAIN.csv", &print::to_csv(&program)).expect("an export is text");
+        check(&read, &program)?;
+    }
+}
+
+#[test]
+fn comments_are_read_from_beside_an_export() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = read_text(
+        "a.il",
+        ";! X000 = start button\n;! D10 = 速度\nLD X0\nOUT Y0\nEND\n",
+    )
+    .program;
+    let list = folder.path().join("MAIN.csv");
+    std::fs::write(&list, print::to_csv(&source)).unwrap();
+    std::fs::write(
+        folder.path().join("comment.CSV"),
+        print::comments_to_csv(&source),
+    )
+    .unwrap();
+    let read = rungc_frontend::read(&list).unwrap();
+    assert_eq!(read.program.comments, source.comments);
+    assert_eq!(read.program.comments.len(), 2);
+}
+
+#[test]
+fn a_list_is_written_with_steps_and_notes_in_columns() {
+    let text = ";! cpu = FX3U/FX3UC\n;! X000 = start\n; motor\n0 LD X0 ; go\n1 OUT T0 K30\n4 ASC ABCD D0\nP1:\nEND\n";
+    insta::assert_snapshot!(print::to_il(&read_text("a.il", text).program));
+}

@@ -1,0 +1,217 @@
+//! Keys, displays and modules, FNC 70–79, 176, 177, 278 and 279.
+
+use super::row::*;
+use super::{Classes, Inst, Param, Rule};
+use crate::model::{ModelId, ModelSet};
+
+const H1U_H2U_FX: ModelSet = INOVANCE.and(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
+const NOT_FX3G: ModelSet = NOT_HM.except(&[ModelId::Fx3g]);
+const BIG_FX: ModelSet = H1U_H2U_FX.except(&[ModelId::Fx3g]);
+
+/// Four devices for each of the n digit groups, operand 3.
+fn four_per_group(constants: &[Option<i64>]) -> Option<u32> {
+    constant(constants, 3)?.checked_mul(4)
+}
+
+/// A display of one group has eight outputs, of two groups twelve; n, operand 2, says which.
+fn display_outputs(constants: &[Option<i64>]) -> Option<u32> {
+    Some(if constant(constants, 2)? < 4 { 8 } else { 12 })
+}
+
+/// And so many words to show.
+fn display_words(constants: &[Option<i64>]) -> Option<u32> {
+    Some(if constant(constants, 2)? < 4 { 1 } else { 2 })
+}
+
+/// Local modules are 0 to 7, remote ones 100 and their station.
+const MODULE: Param = count("m1", 0, 162).rules(&[Rule::Not(8, 99)]);
+const ADDRESS: Param = count("m2", 0, 32767);
+const NUMBER: Param = count("n", 1, 32767);
+const FROM: &[Param] = &[MODULE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
+const TO: &[Param] = &[MODULE, ADDRESS, src("S", VALUES).per(3), NUMBER];
+const MODULE_FX: Param = count("m1", 0, 7).also(DATA);
+const FROM_FX: &[Param] = &[
+    MODULE_FX,
+    ADDRESS.also(DATA),
+    dst("D", RESULTS).per(3),
+    NUMBER.also(DATA),
+];
+const TO_FX: &[Param] = &[
+    MODULE_FX,
+    ADDRESS.also(DATA),
+    src("S", VALUES).per(3),
+    NUMBER.also(DATA),
+];
+/// Modbus access under the name of an analog module's instruction: the port stands before D, the data behind it.
+const READ_MODBUS: &[Param] = &[
+    src("m1", VALUES).limits(1, 247),
+    src("m2", VALUES),
+    both("D", DATA).open_ended(),
+];
+
+const fn io(name: &'static str, fnc: u16, title: &'static str) -> Inst {
+    row(name, title, "h1u-h2u-programming §4.3.8")
+        .fnc(fnc)
+        .on(NOT_FX3G)
+        .errors(&[6706])
+        .todo(SOON)
+}
+
+pub(super) const ROWS: &[Inst] = &[
+    io("TKY", 70, "Ten-key input")
+        .forms(W16_W32)
+        .steps(7, 13)
+        .takes(&[bit("S", BITS).len(10), both("D1", RESULTS), coil("D2", COILS).len(11).changed()])
+        .text(
+            "S … S+9 are the keys 0 to 9. A newly pressed one is appended to the decimal number in D1, which keeps its last 4 (32-bit: \
+             8) digits. D2 … D2+9 show the keys, D2+10 that one is pressed.",
+        ),
+    io("HKY", 71, "Hexadecimal key input")
+        .forms(W16_W32)
+        .steps(9, 17)
+        .takes(&[
+            bit("S", Classes::X).len(4),
+            coil("D1", Classes::Y).len(4),
+            both("D2", REGISTERS.or(INDEX)),
+            coil("D3", COILS).len(8).changed(),
+        ])
+        .flags(&["M8029", "M8167"])
+        .text(
+            "Scans a matrix of 16 keys by four outputs and four inputs. Digits are appended to the number in D2; D3 … D3+5 show A to F, \
+             D3+6 that one of them is pressed, D3+7 that a digit is. With M8167 on all 16 are hexadecimal digits.",
+        ),
+    io("DSW", 72, "Digital switch")
+        .on(NOT_HM)
+        .steps(9, 9)
+        .takes(&[
+            bit("S", Classes::X).len_of(four_per_group),
+            coil("D1", Classes::Y).len(4),
+            dst("D2", REGISTERS.or(INDEX)).per(3),
+            count("n", 1, 2),
+        ])
+        .flags(&["M8029"])
+        .text(
+            "Reads n groups of four decimal switches: outputs D1 … D1+3 select a digit, the lowest first, its bits come in at S (second \
+             group: S+4). D2 and D2+1 are the numbers; M8029 is on after each reading.",
+        ),
+    io("SEGD", 73, "Seven-segment decoder")
+        .forms(W16_P)
+        .steps(5, 5)
+        .takes(&[src("S", VALUES), both("D", RESULTS)])
+        .text("Writes the segments a to g of the digit in the low four bits of S to the low eight bits of D."),
+    io("SEGL", 74, "Seven-segment display")
+        .on(H1U_H2U_FX)
+        .steps(7, 7)
+        .uses(2)
+        .takes(&[
+            src("S", VALUES).len_of(display_words),
+            coil("D", Classes::Y).len_of(display_outputs),
+            count("n", 0, 7),
+        ])
+        .flags(&["M8029"])
+        .text(
+            "Shows S (n from 4 on: and S+1) on a display of four digits: data on D … D+3 (second group: D+10 …), strobes on D+4 … D+7. \
+             n says the polarities. A refresh takes 12 scans, after which M8029 is on.",
+        ),
+    io("ARWS", 75, "Arrow switch")
+        .on(BIG_FX)
+        .steps(9, 9)
+        .takes(&[
+            bit("S", BITS).len(4),
+            both("D1", REGISTERS.or(INDEX)),
+            coil("D2", Classes::Y).len(8),
+            count("n", 0, 3),
+        ])
+        .text(
+            "Edits the digits of D1 with four keys, down, up, right and left from S on, and shows it at D2 as SEGL does.",
+        ),
+    io("ASC", 76, "Text constant")
+        .on(BIG_FX)
+        .steps(11, 11)
+        .takes(&[text("S", Classes::TEXT), text_out("D", REGISTERS).len(8)])
+        .flags(&["M8161"])
+        .text(
+            "Writes the eight characters S to four words from D on, low byte first; with M8161 on to eight words. What is missing is \
+             filled with spaces.",
+        ),
+    io("PR", 77, "Print text")
+        .on(BIG_FX)
+        .steps(5, 5)
+        .uses(2)
+        .takes(&[src("S", REGISTERS).len(8), coil("D", Classes::Y).len(10)])
+        .flags(&["M8027", "M8029"])
+        .text(
+            "Sends the eight (M8027 on: up to sixteen) characters at S one after the other on outputs D … D+7, with a strobe on D+10 \
+             and a busy signal on D+11.",
+        ),
+    io("FROM", 78, "Read from a module")
+        .on(NOT_HM)
+        .forms(ALL_FORMS)
+        .steps(9, 17)
+        .takes(FROM_FX)
+        .variants(&[on(INOVANCE).takes(FROM)])
+        .flags(&["M8164", "D8164"])
+        .errors(&[6706, 6709])
+        .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n."),
+    io("TO", 79, "Write to a module")
+        .on(NOT_HM)
+        .forms(ALL_FORMS)
+        .steps(9, 17)
+        .takes(TO_FX)
+        .variants(&[on(INOVANCE).takes(TO)])
+        .flags(&["M8164", "D8164"])
+        .errors(&[6706, 6709])
+        .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n."),
+    io("RD3A", 176, "Read an analog module")
+        .on(NOT_HM)
+        .forms(W16_P)
+        .steps(7, 7)
+        .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), dst("D", RESULTS)])
+        .variants(&[on(L01S).takes(READ_MODBUS)])
+        .text("Reads channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it reads registers by Modbus."),
+    io("WR3A", 177, "Write an analog module")
+        .on(NOT_HM)
+        .forms(W16_P)
+        .steps(7, 7)
+        .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), src("S", VALUES)])
+        .variants(&[on(L01S).takes(READ_MODBUS)])
+        .text("Writes S to channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it writes registers by Modbus."),
+    io("VRRD", 85, "Read a potentiometer")
+        .on(FX)
+        .forms(W16_P)
+        .steps(5, 5)
+        .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
+        .todo("potentiometers on a board")
+        .text("D = the position of potentiometer S, 0 to 255."),
+    io("VRSC", 86, "Read a potentiometer as a switch")
+        .on(FX)
+        .forms(W16_P)
+        .steps(5, 5)
+        .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
+        .todo("potentiometers on a board")
+        .text("D = the position of potentiometer S as a number from 0 to 10."),
+    io("RBFM", 278, "Read from a module in parts")
+        .on(FX3U)
+        .steps(11, 11)
+        .takes(&[
+            MODULE_FX,
+            ADDRESS.also(DATA),
+            dst("D", DATA).per(3),
+            NUMBER.also(DATA),
+            src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
+        ])
+        .flags(&["M8029", "M8328", "M8329"])
+        .text("Copies n words of the buffer memory of module m1 from address m2 on to D, n2 words in each scan."),
+    io("WBFM", 279, "Write to a module in parts")
+        .on(FX3U)
+        .steps(11, 11)
+        .takes(&[
+            MODULE_FX,
+            ADDRESS.also(DATA),
+            src("S", DATA).per(3),
+            NUMBER.also(DATA),
+            src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
+        ])
+        .flags(&["M8029", "M8328", "M8329"])
+        .text("Copies n words from S on to the buffer memory of module m1 from address m2 on, n2 words in each scan."),
+];

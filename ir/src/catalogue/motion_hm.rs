@@ -1,0 +1,105 @@
+//! Axis motion and advanced interrupts of HM (hm-motion-controller §5.5 and §8).
+
+use super::high_speed::AXIS;
+use super::row::*;
+use super::{Drive, Inst, Param, Rule, Spelling};
+
+const MOTION: &str = "axis motion";
+const INTERRUPTS: &str = "advanced interrupts";
+
+const fn any(name: &'static str) -> Param {
+    src(name, CONSTANTS.or(DATA)).word()
+}
+
+/// A table or a 32-bit register with an even number.
+const fn table(name: &'static str) -> Param {
+    both(name, DATA).rules(&[Rule::Aligned(2)])
+}
+
+const fn motion(name: &'static str, title: &'static str) -> Inst {
+    row(name, title, "hm-motion-controller §8")
+        .on(HM)
+        .todo(MOTION)
+}
+
+const fn wide(name: &'static str, title: &'static str) -> Inst {
+    motion(name, title).forms(W32).spelling(Spelling::Plain)
+}
+
+const fn process(name: &'static str, title: &'static str) -> Inst {
+    row(name, title, "hm-motion-controller §5.5")
+        .on(HM)
+        .todo(INTERRUPTS)
+}
+
+pub(super) const ROWS: &[Inst] = &[
+    process("PROC", "Begin of a process section")
+        .drive(Drive::Alone)
+        .text("Where the next request of an advanced interrupt enters it while the PEND that follows is not driven."),
+    process("PEND", "End of a process section")
+        .text("Ends this run of an advanced interrupt. Driven, the next request goes on behind it."),
+    process("PRET", "End of an advanced interrupt")
+        .drive(Drive::Alone)
+        .text("Ends an advanced interrupt."),
+    motion("AXPO", "Bind an axis to an output")
+        .takes(&[AXIS, count("D2", 0, 8), any("D3").limits(0, 1)])
+        .text("Binds virtual axis D1 to output D2; D3 enables its direction output."),
+    motion("AXPU", "Units of an axis")
+        .takes(&[AXIS, any("D2"), any("D3"), any("D4")])
+        .text("Sets the axis's units of time (ms), pulses and length."),
+    motion("AXSP", "Speeds of an axis")
+        .takes(&[AXIS, any("D2"), any("D3")])
+        .text("Sets the axis's highest speed D2 and start speed D3."),
+    motion("AXAS", "Acceleration of an axis")
+        .takes(&[AXIS, any("D2")])
+        .text("Sets the axis's highest acceleration."),
+    motion("AXEI", "Inputs of an axis")
+        .takes(&[AXIS, any("D2"), any("D3"), any("D4"), any("D5")])
+        .text("Says by masks which inputs are DOG, zero, left and right limit of the axis."),
+    motion("AXOSP", "Homing speeds of an axis")
+        .takes(&[AXIS, any("D2"), any("D3")])
+        .text("Sets the axis's homing speed D2 and creep speed D3."),
+    motion("AXOX", "Homing mode of an axis")
+        .takes(&[AXIS, any("D2"), any("D3"), any("D4")])
+        .text("Sets the axis's event word and how many zero signals and pulses homing counts."),
+    motion("HOME", "Return to the origin")
+        .takes(&[AXIS])
+        .text("Runs the axis to its origin, as AXEI, AXOSP and AXOX say."),
+    motion("JOG", "Jog")
+        .takes(&[AXIS, any("D2"), any("D3"), any("D4"), any("D5")])
+        .text("Jogs the axis by D2 pulses, then on and on at speed D3, while an input of mask D4 (forward) or D5 (backward) is on."),
+    wide("PSOUT", "Position by pulses")
+        .takes(&[AXIS, src("D2", CONSTANTS.or(DATA))])
+        .text("Moves the axis by D2 pulses within its highest speed and acceleration."),
+    wide("PTAB", "Point table")
+        .takes(&[
+            both("D1", DATA).word().len(11),
+            table("D2").open_ended(),
+            any("D3"),
+        ])
+        .text("Appends a segment as the eleven words at D1 say to the point table at D2, one point for each interval D3."),
+    wide("PTOUT", "Follow a point table")
+        .takes(&[AXIS, table("D2").open_ended(), table("D3"), src("D4", CONSTANTS.or(DATA)), any("D5").limits(0, 1)])
+        .text("Moves the axis along the point table at D2 as register D3 goes through its range D4; D5 = 1 starts again at its end."),
+    motion("IPL", "Insert pulses")
+        .takes(&[AXIS, any("D2")])
+        .text("Sends D2 pulses more in each millisecond while driven."),
+    motion("GEAR", "Electronic gear")
+        .takes(&[AXIS, table("D2").word().len(2), any("D3").limits(0, 1), any("D4"), any("D5")])
+        .text("The axis follows register D2 by the ratio D4/D5; D3 says whether its value or its change counts."),
+    wide("CAM", "Electronic cam")
+        .takes(&[
+            AXIS,
+            table("D2").open_ended(),
+            table("D3"),
+            src("D4", CONSTANTS.or(DATA)),
+            both("D5", DATA).word().len(28),
+        ])
+        .text("The axis follows register D3 along the cam table at D2; the 28 words at D5 say when it engages and disengages."),
+    wide("PCTAB", "Cam table")
+        .takes(&[both("D1", DATA).word().len(16), table("D2").open_ended()])
+        .text("Builds the cam table at D2 of a flying cut as the sixteen words at D1 say."),
+    wide("PBTAB", "Return of a cam table")
+        .takes(&[both("D1", DATA).word().len(12), table("D2").open_ended()])
+        .text("Appends the way back to the cam table at D2 as the twelve words at D1 say."),
+];

@@ -1,0 +1,63 @@
+//! The whole way from a program to its module.
+
+use crate::lower::{LowerOptions, lower};
+use crate::model::{Model, ModelId};
+use crate::node::Module;
+use crate::resolve::resolve;
+use rungc_syntax::{DeviceClass, Diagnostics, Program};
+
+/// How to compile.
+#[derive(Clone, Debug, Default)]
+pub struct CompileOptions {
+    /// The model; else the one that the program's source names, else FX3U.
+    pub model: Option<ModelId>,
+    /// Name of the module; else it is made from the name of the source.
+    pub name: Option<String>,
+    /// Devices that tests or a monitor look at, to be stored besides those that the program uses.
+    pub observe: Vec<(DeviceClass, u32)>,
+    /// Store every device of the model.
+    pub observe_all: bool,
+    /// Simplify the module.
+    pub optimise: bool,
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The module; `None` if there were errors.
+    pub module: Option<Module>,
+    /// All findings.
+    pub diagnostics: Diagnostics,
+    /// The model it was compiled for.
+    pub model: &'static Model,
+    /// Length of the program in steps.
+    pub steps: u32,
+}
+
+/// Compiles a program.
+pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
+    let named = || program.cpu.as_deref().and_then(ModelId::from_cpu);
+    let model = Model::get(options.model.or_else(named).unwrap_or(ModelId::Fx3u));
+    let (resolved, mut diagnostics) = resolve(program, model);
+    let compiled = |module, diagnostics| Compiled {
+        module,
+        diagnostics,
+        model,
+        steps: resolved.steps,
+    };
+    if diagnostics.has_errors() {
+        return compiled(None, diagnostics);
+    }
+    let lower_options = LowerOptions {
+        name: options.name.clone(),
+        observe: options.observe.clone(),
+        observe_all: options.observe_all,
+    };
+    match lower(&resolved, &lower_options) {
+        Ok(module) => compiled(Some(module), diagnostics),
+        Err(errors) => {
+            diagnostics.extend(errors.sorted());
+            compiled(None, diagnostics)
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! Text of a module, for people and snapshots.
+//!
+//! One line a statement; temporaries are `t0`, edge memories `e0`, devices have their names, pairs and floats `D0:32`, `D0:f`, an
+//! index is added in brackets: `D[10 + t0]`.
+
+use crate::catalogue::CmpOp;
+use crate::layout::Area;
+use crate::node::{
+    Arg, BinOp, Body, EdgeKind, Expr, ExprId, Function, FunctionKind, Module, Place, Stmt, SysValue,
+};
+use rungc_syntax::DeviceClass;
+use std::fmt::Write as _;
+
+/// The text of a module.
+pub fn dump(module: &Module) -> String {
+    let mut out = Out {
+        module,
+        text: String::new(),
+        indent: 0,
+    };
+    out.line(&format!(
+        "module {} for {}: {} steps, {} edges, {} states",
+        module.name, module.model.name, module.steps, module.edges, module.states
+    ));
+    for area in &module.layout.areas {
+        out.line(&format!("store {}", area_text(area)));
+    }
+    for &(number, value) in &module.initial_words {
+        out.line(&format!("D{number} begins as {value}"));
+    }
+    for function in &module.functions {
+        out.function(function);
+    }
+    out.text
+}
+
+fn area_text(area: &Area) -> String {
+    let mut text = area.class.number(area.first).to_string();
+    if area.array {
+        let _ = write!(text, "[{}]", area.count);
+    }
+    if area.latched {
+        text.push_str(" latched");
+    }
+    text
+}
+
+struct Out<'m> {
+    module: &'m Module,
+    text: String,
+    indent: usize,
+}
+
+impl Out<'_> {
+    fn line(&mut self, line: &str) {
+        for _ in 0..self.indent {
+            self.text.push_str("    ");
+        }
+        self.text.push_str(line);
+        self.text.push('\n');
+    }
+
+    fn block(&mut self, head: &str, body: &Body) {
+        self.line(&format!("{head} {{"));
+        self.indent += 1;
+        self.body(body);
+        self.indent -= 1;
+        self.line("}");
+    }
+
+    fn function(&mut self, function: &Function) {
+        if function.body.is_empty() && !matches!(function.kind, FunctionKind::Subroutine(_)) {
+            return;
+        }
+        let head = match function.kind {
+            FunctionKind::Main => "main".to_string(),
+            FunctionKind::Begin => "begin".to_string(),
+            FunctionKind::End => "end".to_string(),
+            FunctionKind::Subroutine(pointer) => format!("subroutine P{pointer}"),
+            FunctionKind::Interrupt(pointer) => format!("interrupt I{pointer:03}"),
+        };
+        self.block(&head, &function.body);
+    }
+
+    fn body(&mut self, body: &Body) {
+        for stmt in body {
+            self.stmt(stmt);
+        }
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) {
+        match stmt {
+            Stmt::Network(n) => {
+                let network = &self.module.networks[*n as usize];
+                let mut line = format!("# step {}", network.step);
+                for text in [&network.statement, &network.note].into_iter().flatten() {
+                    let _ = write!(line, " {text:?}");
+                }
+                self.line(&line);
+            }
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                self.block(&format!("if {}", self.expr(*cond)), then);
+                if !otherwise.is_empty() {
+                    self.block("else", otherwise);
+                }
+            }
+            Stmt::For { count, body } => self.block(&format!("for {}", self.expr(*count)), body),
+            Stmt::Parts(parts) => {
+                self.line("parts {");
+                self.indent += 1;
+                for part in parts {
+                    let label = part.label.map(|label| format!("L{}", label.0));
+                    self.block(label.as_deref().unwrap_or("first"), &part.body);
+                }
+                self.indent -= 1;
+                self.line("}");
+            }
+            _ => {
+                let line = self.simple(stmt);
+                self.line(&line);
+            }
+        }
+    }
+
+    fn simple(&self, stmt: &Stmt) -> String {
+        let e = |id: &ExprId| self.expr(*id);
+        match stmt {
+            Stmt::Let(temp, value) => format!("t{} = {}", temp.0, e(value)),
+            Stmt::Edge {
+                edge,
+                kind,
+                input,
+                out,
+            } => {
+                let kind = match kind {
+                    EdgeKind::Rising => "rising",
+                    EdgeKind::Falling => "falling",
+                };
+                format!("t{} = {kind} e{} {}", out.0, edge.0, e(input))
+            }
+            Stmt::WriteBit(place, value) | Stmt::WriteWord(place, value) => {
+                format!("{} := {}", self.place(place), e(value))
+            }
+            Stmt::WriteWordBit(place, bit, value) => {
+                format!("{}.{bit:X} := {}", self.place(place), e(value))
+            }
+            Stmt::WritePair(place, value) => format!("{}:32 := {}", self.place(place), e(value)),
+            Stmt::WriteFloat(place, value) => format!("{}:f := {}", self.place(place), e(value)),
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => format!("K{digits}{} := {}", self.place(place), e(value)),
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => format!(
+                "timer T{number} {}ms{}{} drive {} preset {}",
+                kind.unit_ms,
+                if kind.accumulating {
+                    " accumulating"
+                } else {
+                    ""
+                },
+                if kind.free_running {
+                    " free-running"
+                } else {
+                    ""
+                },
+                e(drive),
+                e(preset)
+            ),
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => format!("counter C{number} drive {} preset {}", e(drive), e(preset)),
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => format!(
+                "counter C{number} drive {} down {} preset {}",
+                e(drive),
+                e(down),
+                e(preset)
+            ),
+            Stmt::Reset(place) => format!("reset {}", self.place(place)),
+            Stmt::CallSub(n) => match self.module.functions.get(*n as usize).map(|f| &f.kind) {
+                Some(FunctionKind::Subroutine(pointer)) => format!("call P{pointer}"),
+                _ => format!("call function {n}"),
+            },
+            Stmt::Return => "return".into(),
+            Stmt::Goto(label) => format!("goto L{}", label.0),
+            Stmt::Call { .. } => self.call(stmt),
+            Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
+            Stmt::Clear { latched: true } => "clear latched".into(),
+            Stmt::Clear { latched: false } => "clear general".into(),
+            Stmt::Network(_) | Stmt::If { .. } | Stmt::For { .. } | Stmt::Parts(_) => String::new(),
+        }
+    }
+
+    fn call(&self, stmt: &Stmt) -> String {
+        let Stmt::Call {
+            function,
+            wide,
+            args,
+            drive,
+            slot,
+            ..
+        } = stmt
+        else {
+            return String::new();
+        };
+        let args: Vec<String> = args.iter().map(|arg| self.arg(arg)).collect();
+        let mut line = format!("{}({})", function.name(), args.join(", "));
+        if *wide {
+            line.push_str(" wide");
+        }
+        if *slot != 0 {
+            let _ = write!(line, " slot {slot}");
+        }
+        if let Some(drive) = drive {
+            let _ = write!(line, " drive {}", self.expr(*drive));
+        }
+        line
+    }
+
+    fn arg(&self, arg: &Arg) -> String {
+        let count = |extent: &Option<u32>| match extent {
+            Some(1) => String::new(),
+            Some(count) => format!("*{count}"),
+            None => "*".into(),
+        };
+        match arg {
+            Arg::Const {
+                value, index: None, ..
+            } => value.to_string(),
+            Arg::Const {
+                value,
+                index: Some(index),
+                ..
+            } => format!("{value} + {}", self.expr(*index)),
+            Arg::Float(value) => format!("{value:?}"),
+            Arg::Device { place, extent } => format!("{}{}", self.place(place), count(extent)),
+            Arg::Nibbles {
+                place,
+                digits,
+                extent,
+            } => format!("K{digits}{}{}", self.place(place), count(extent)),
+            Arg::WordBit { place, bit } => format!("{}.{bit:X}", self.place(place)),
+            Arg::Text(n) => format!("{:?}", self.module.texts[*n as usize]),
+        }
+    }
+
+    fn place(&self, place: &Place) -> String {
+        match place.index {
+            None => place.class.number(place.number).to_string(),
+            Some(index) => {
+                let number = match place.class {
+                    DeviceClass::X | DeviceClass::Y => format!("0o{:o}", place.number),
+                    _ => place.number.to_string(),
+                };
+                format!("{}[{number} + {}]", place.class.prefix(), self.expr(index))
+            }
+        }
+    }
+
+    fn expr(&self, id: ExprId) -> String {
+        let two = |a: &ExprId, op: &str, b: &ExprId| {
+            format!("({} {op} {})", self.expr(*a), self.expr(*b))
+        };
+        let of = |name: &str, a: &ExprId| format!("{name}({})", self.expr(*a));
+        match self.module.expr(id) {
+            Expr::Bit(true) => "on".into(),
+            Expr::Bit(false) => "off".into(),
+            Expr::I16(value) => value.to_string(),
+            Expr::I32(value) => format!("{value}L"),
+            Expr::F32(value) => format!("{value:?}f"),
+            Expr::Temp(temp) => format!("t{}", temp.0),
+            Expr::ReadBit(place) | Expr::ReadWord(place) => self.place(place),
+            Expr::ReadWordBit(place, bit) => format!("{}.{bit:X}", self.place(place)),
+            Expr::ReadPair(place) => format!("{}:32", self.place(place)),
+            Expr::ReadFloat(place) => format!("{}:f", self.place(place)),
+            Expr::ReadNibbles {
+                place,
+                digits,
+                wide,
+            } => {
+                let wide = if *wide { ":32" } else { "" };
+                format!("K{digits}{}{wide}", self.place(place))
+            }
+            Expr::Sys(SysValue::Running) => "running".into(),
+            Expr::Sys(SysValue::FirstScan) => "first_scan".into(),
+            Expr::Sys(SysValue::NowMs) => "now_ms".into(),
+            Expr::Sys(SysValue::Scan100us) => "scan_100us".into(),
+            Expr::Not(a) => format!("!{}", self.expr(*a)),
+            Expr::And(a, b) => two(a, "&", b),
+            Expr::Or(a, b) => two(a, "|", b),
+            Expr::Cmp(op, a, b) => two(a, cmp_text(*op), b),
+            Expr::Bin(op, a, b) => two(a, bin_text(*op), b),
+            Expr::Complement(a) => format!("~{}", self.expr(*a)),
+            Expr::Neg(a) => format!("-{}", self.expr(*a)),
+            Expr::Widen(a) => of("widen", a),
+            Expr::Narrow(a) => of("narrow", a),
+            Expr::HighWord(a) => of("high", a),
+            Expr::BitToInt(a) => of("int", a),
+            Expr::InRange { place, count } => format!("in_range({}, {count})", self.place(place)),
+        }
+    }
+}
+
+fn cmp_text(op: CmpOp) -> &'static str {
+    match op {
+        CmpOp::Eq => "==",
+        CmpOp::Ne => "!=",
+        CmpOp::Lt => "<",
+        CmpOp::Le => "<=",
+        CmpOp::Gt => ">",
+        CmpOp::Ge => ">=",
+    }
+}
+
+fn bin_text(op: BinOp) -> &'static str {
+    match op {
+        BinOp::Add => "+",
+        BinOp::Sub => "-",
+        BinOp::Mul => "*",
+        BinOp::MulHigh => "*high",
+        BinOp::Div => "/",
+        BinOp::Rem => "%",
+        BinOp::And => "and",
+        BinOp::Or => "or",
+        BinOp::Xor => "xor",
+        BinOp::SatAdd => "+sat",
+        BinOp::SatSub => "-sat",
+    }
+}

@@ -1,0 +1,190 @@
+//! Calls of the runtime.
+
+use super::Lowerer;
+use super::operand::FIRST_COUNTER32;
+use crate::catalogue::{Extent, Inst, Param, Shape};
+use crate::node::{Arg, EdgeKind, Place, Stmt};
+use crate::resolve::Form;
+use rungc_rt::RtFn;
+use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
+
+impl Lowerer<'_> {
+    pub(super) fn call(&mut self, inst: &Inst, function: RtFn) {
+        let needs = function.needs();
+        let form = self.resolution().form;
+        let step = self.step();
+        let slot = self.slot(needs.state);
+        let drive = self.drive();
+        let drive = if form.pulse {
+            let edge = self.new_edge();
+            self.edge(edge, EdgeKind::Rising, drive)
+        } else {
+            drive
+        };
+        let call = |this: &mut Self, drive| {
+            let args = this.args(inst, form);
+            this.emit(Stmt::Call {
+                function,
+                wide: form.wide,
+                args,
+                drive,
+                slot,
+                step,
+            });
+        };
+        if needs.always {
+            call(self, Some(drive));
+        } else {
+            self.when(drive, |this| call(this, None));
+        }
+    }
+
+    /// Number of a new private memory, or 0 for a function without.
+    fn slot(&mut self, needed: bool) -> u16 {
+        if !needed {
+            return 0;
+        }
+        match self.module.states.checked_add(1) {
+            Some(slot) => self.module.states = slot,
+            None => {
+                let span = self.instr().span;
+                let message = "more than 65535 instructions that keep a state";
+                self.report(codes::NOT_IMPLEMENTED.at(span, message));
+            }
+        }
+        self.module.states
+    }
+
+    fn args(&mut self, inst: &Inst, form: Form) -> Vec<Arg> {
+        let operands = &self.instr().operands;
+        let extents = extents(inst, form, operands, self.model);
+        operands
+            .iter()
+            .zip(extents)
+            .map(|(operand, extent)| self.arg(operand, extent, form.wide))
+            .collect()
+    }
+
+    fn arg(&mut self, operand: &Operand, extent: Option<u32>, wide: bool) -> Arg {
+        match operand.kind {
+            OperandKind::Decimal(value, index) => self.constant_arg(value as i32, index, wide),
+            OperandKind::Hex(value, index) => self.constant_arg(value as u32 as i32, index, wide),
+            OperandKind::Float(value) => Arg::Float(value),
+            OperandKind::Device(device, index) => Arg::Device {
+                place: self.arg_place(device, index, wide),
+                extent,
+            },
+            OperandKind::Nibbles(digits, device, index) => Arg::Nibbles {
+                place: self.arg_place(device, index, wide),
+                digits,
+                extent,
+            },
+            OperandKind::WordBit(device, bit, index) => Arg::WordBit {
+                place: self.arg_place(device, index, wide),
+                bit: bit & 15,
+            },
+            OperandKind::Text(ref text) => {
+                self.module.texts.push(text.to_string());
+                Arg::Text(self.module.texts.len() as u32 - 1)
+            }
+            OperandKind::Buffer { .. } => {
+                let message = format!(
+                    "`{}` is not implemented yet: buffer memory as an operand",
+                    operand.kind
+                );
+                self.report(codes::NOT_IMPLEMENTED.at(operand.span, message));
+                Arg::Text(0)
+            }
+        }
+    }
+
+    fn constant_arg(&mut self, value: i32, index: Option<Index>, wide: bool) -> Arg {
+        let index = index.map(|index| self.constant_index(index, wide));
+        // The index is an `I32` wherever it is added to a number.
+        let index = index.map(|id| {
+            if wide {
+                id
+            } else {
+                self.add(crate::node::Expr::Widen(id))
+            }
+        });
+        Arg::Const { value, index, wide }
+    }
+
+    /// The runtime checks the range.
+    fn arg_place(&mut self, device: Device, index: Option<Index>, wide: bool) -> Place {
+        let index = index.map(|index| self.index(index, wide));
+        Place {
+            index,
+            ..self.canonical(device)
+        }
+    }
+}
+
+/// How many devices (bits of a group) each operand occupies from the named one on; `None`: to the end of its class.
+pub(super) fn extents<'o>(
+    inst: &Inst,
+    form: Form,
+    operands: &'o [Operand],
+    model: &crate::Model,
+) -> impl Iterator<Item = Option<u32>> + use<'o> {
+    let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
+    let params = inst.params_of(&kinds, model);
+    let constants: Vec<Option<i64>> = kinds.iter().map(constant).collect();
+    operands.iter().enumerate().map(move |(i, operand)| {
+        let param = params.get(i)?;
+        if let Extent::Through(last) = param.extent {
+            return through(&operand.kind, kinds.get(last)?);
+        }
+        let elements = elements(param, &constants)?;
+        Some(elements.saturating_mul(unit(param, &operand.kind, form)))
+    })
+}
+
+/// How many devices there are from one to the other.
+fn through(first: &OperandKind, last: &OperandKind) -> Option<u32> {
+    match (first, last) {
+        (OperandKind::Device(first, None), OperandKind::Device(last, None)) => {
+            Some(last.number.saturating_sub(first.number).saturating_add(1))
+        }
+        _ => None,
+    }
+}
+
+fn constant(operand: &OperandKind) -> Option<i64> {
+    match *operand {
+        OperandKind::Decimal(value, None) => Some(value),
+        OperandKind::Hex(value, None) => i64::try_from(value).ok(),
+        _ => None,
+    }
+}
+
+fn elements(param: &Param, constants: &[Option<i64>]) -> Option<u32> {
+    match param.extent {
+        Extent::One => Some(1),
+        Extent::Count(count) => Some(count),
+        Extent::Operand { i, extra } => {
+            let count = constants.get(i).copied()??;
+            u32::try_from(count.saturating_add(i64::from(extra)).max(1)).ok()
+        }
+        Extent::Of(count) => count(constants),
+        Extent::Through(_) => None,
+    }
+}
+
+/// Devices (bits of a group) per element.
+fn unit(param: &Param, operand: &OperandKind, form: Form) -> u32 {
+    match *operand {
+        OperandKind::Nibbles(digits, ..) => 4 * u32::from(digits),
+        OperandKind::Device(device, _)
+            if device.class == DeviceClass::C && device.number >= FIRST_COUNTER32 =>
+        {
+            1
+        }
+        _ => match param.shape {
+            Shape::Value if form.wide => 2,
+            Shape::Pair | Shape::Float => 2,
+            _ => 1,
+        },
+    }
+}

@@ -1,0 +1,191 @@
+//! Coils, SET, RST, pulses, master control.
+
+use super::Lowerer;
+use super::operand::{BitTarget, FIRST_COUNTER32, Guards, fixed};
+use crate::catalogue::Basic;
+use crate::node::{EdgeKind, Expr, ExprId, Stmt};
+use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
+
+/// Last counter that the program counts; those above count pulses of inputs.
+const LAST_COUNTER32: u32 = 234;
+/// Special relay that gives the direction of C200; the others follow.
+const FIRST_DIRECTION: u32 = 8200;
+
+impl Lowerer<'_> {
+    pub(super) fn coil(&mut self) {
+        match self.operand(0) {
+            Some(&OperandKind::Device(device, _)) if device.class == DeviceClass::T => {
+                self.timer(device)
+            }
+            Some(&OperandKind::Device(device, _)) if device.class == DeviceClass::C => {
+                self.counter(device)
+            }
+            Some(&OperandKind::Device(device, None)) if self.is_transition(device) => {
+                self.transition(device.number);
+            }
+            Some(operand) => {
+                let drive = self.drive();
+                self.write_bits(operand, drive);
+            }
+            None => {}
+        }
+    }
+
+    /// Writes the bit that an operand names.
+    fn write_bits(&mut self, operand: &OperandKind, value: ExprId) {
+        let mut guards = Guards::default();
+        if let Some(target) = self.bit_target(operand, 1, false, &mut guards) {
+            self.guarded(guards, |this| this.store_bit(target, 0, value));
+        }
+    }
+
+    fn timer(&mut self, device: Device) {
+        let number = device.number;
+        let Some(kind) = self.model.timer(number) else {
+            return;
+        };
+        let drive = self.drive();
+        self.with_preset(false, |this, preset| {
+            this.emit(Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            });
+        });
+    }
+
+    fn counter(&mut self, device: Device) {
+        let number = device.number;
+        if number > LAST_COUNTER32 {
+            let span = self.instr().span;
+            let message = format!("`OUT {device}` is not implemented yet: high-speed counters");
+            return self.report(codes::NOT_IMPLEMENTED.at(span, message));
+        }
+        let drive = self.drive();
+        if number < FIRST_COUNTER32 {
+            return self.with_preset(false, |this, preset| {
+                this.emit(Stmt::Counter16 {
+                    number,
+                    drive,
+                    preset,
+                });
+            });
+        }
+        let direction = FIRST_DIRECTION + number - FIRST_COUNTER32;
+        let down = if self.specials.has(DeviceClass::M, direction) {
+            self.add(Expr::ReadBit(fixed(DeviceClass::M, direction)))
+        } else {
+            self.bit_const(false)
+        };
+        self.with_preset(true, |this, preset| {
+            this.emit(Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            });
+        });
+    }
+
+    fn with_preset(&mut self, wide: bool, make: impl FnOnce(&mut Self, ExprId)) {
+        let Some(operand) = self.operand(1) else {
+            return;
+        };
+        if matches!(self.operand(0), Some(OperandKind::Device(_, Some(_)))) {
+            let span = self.instr().operands[0].span;
+            let message = "timers and counters with an index register are not implemented yet";
+            return self.report(codes::NOT_IMPLEMENTED.at(span, message));
+        }
+        let mut guards = Guards::default();
+        let preset = self.value(operand, wide, &mut guards);
+        self.guarded(guards, |this| make(this, preset));
+    }
+
+    pub(super) fn set_or_reset(&mut self, on: bool) {
+        let Some(operand) = self.operand(0) else {
+            return;
+        };
+        match *operand {
+            OperandKind::Device(device, None) if on && self.is_transition(device) => {
+                return self.transition(device.number);
+            }
+            _ => {}
+        }
+        self.driven(|this| match *operand {
+            OperandKind::Device(device, index)
+                if matches!(device.class, DeviceClass::T | DeviceClass::C) =>
+            {
+                let mut guards = Guards::default();
+                let place = this.place(device, index, 1, false, &mut guards);
+                this.guarded(guards, |this| this.emit(Stmt::Reset(place)));
+            }
+            OperandKind::Device(device, _) if is_word(device.class) => {
+                let mut guards = Guards::default();
+                let target = this.target(operand, 0, false, false, &mut guards);
+                let zero = this.int(0, false);
+                this.guarded(guards, |this| this.store(target, zero));
+            }
+            _ => {
+                let value = this.bit_const(on);
+                this.write_bits(operand, value);
+                if let (true, &OperandKind::Device(device, None)) = (on, operand) {
+                    this.keep_state(device);
+                }
+            }
+        });
+    }
+
+    pub(super) fn pulse(&mut self, basic: Basic) {
+        let Some(operand) = self.operand(0) else {
+            return;
+        };
+        let kind = if basic == Basic::Pls {
+            EdgeKind::Rising
+        } else {
+            EdgeKind::Falling
+        };
+        let drive = self.drive();
+        let edge = self.new_edge();
+        let pulse = self.edge(edge, kind, drive);
+        self.write_bits(operand, pulse);
+    }
+
+    pub(super) fn master_control(&mut self) {
+        let Some(&OperandKind::Device(level, _)) = self.operand(0) else {
+            return;
+        };
+        let drive = self.drive();
+        let drive = self.settled(drive);
+        if let Some(relay) = self.operand(1) {
+            self.write_bits(relay, drive);
+        }
+        self.logic.zones.push((level.number, self.logic.bus));
+        self.logic.bus = Some(drive);
+        self.logic.stack.clear();
+    }
+
+    pub(super) fn master_control_reset(&mut self) {
+        let Some(&OperandKind::Device(level, _)) = self.operand(0) else {
+            return;
+        };
+        while let Some(&(inner, outer)) = self.logic.zones.last() {
+            if inner < level.number {
+                break;
+            }
+            self.logic.bus = outer;
+            self.logic.zones.pop();
+        }
+    }
+
+    /// The bit target of a device, for what lowering writes by itself.
+    pub(super) fn write_device(&mut self, class: DeviceClass, number: u32, value: ExprId) {
+        self.store_bit(BitTarget::Device(fixed(class, number)), 0, value);
+    }
+}
+
+/// Whether a class holds words (T and C are both).
+fn is_word(class: DeviceClass) -> bool {
+    use DeviceClass::{D, ER, R, V, Z};
+    matches!(class, D | R | ER | V | Z)
+}

@@ -1,0 +1,432 @@
+//! Program flow: which instructions belong to which function, jumps, calls, loops.
+
+use super::operand::Guards;
+use super::parts::{Item, Jump, structure};
+use super::{Lowerer, basic_of};
+use crate::catalogue::Basic;
+use crate::node::{Body, Expr, ExprId, FunctionKind, Stmt, TempId};
+use crate::resolve::Resolved;
+use rungc_syntax::{DeviceClass, OperandKind, codes};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// The pointer that is END.
+const END_POINTER: u32 = 63;
+/// CALL nested too deep.
+const CALL_DEPTH: u16 = 6702;
+
+/// Instructions `start..end` that are a function (the main program without those of the routines in it).
+#[derive(Clone, Debug)]
+pub(super) struct Region {
+    pub(super) kind: FunctionKind,
+    /// Its index in [`crate::node::Module::functions`].
+    pub(super) function: u32,
+    start: usize,
+    end: usize,
+    /// The subroutine that it runs on into, for want of a return.
+    runs_into: Option<u32>,
+}
+
+/// Where functions begin and end and what is jumped to.
+pub(super) struct Flow {
+    /// The main program first.
+    pub(super) regions: Vec<Region>,
+    /// Region of each subroutine, by pointer.
+    subroutines: FxHashMap<u32, usize>,
+    /// Calls that would be recursive: (region of the call, region called).
+    recursive: FxHashSet<(usize, usize)>,
+    /// Pointers that a jump goes to.
+    jumped_to: FxHashSet<u32>,
+    /// The region at hand.
+    current: usize,
+    /// Assignments at the begin of the function at hand.
+    prologue: Vec<(TempId, ExprId)>,
+    /// Whether the instruction at hand cannot be reached.
+    dead: bool,
+}
+
+/// A body whose end has not come.
+pub(super) enum Open {
+    /// FOR.
+    Loop { count: ExprId, outer: Vec<Item> },
+    /// STL.
+    State { cond: ExprId, outer: Vec<Item> },
+}
+
+impl Flow {
+    pub(super) fn of(resolved: &Resolved) -> Self {
+        let count = resolved.instrs.len();
+        let end = (0..count)
+            .find(|&i| basic_of(resolved, i) == Some(Basic::End))
+            .unwrap_or(count);
+        let pointers = |basic: Basic| -> FxHashSet<u32> {
+            (0..count)
+                .filter(|&i| basic_of(resolved, i) == Some(basic))
+                .filter_map(|i| pointer(resolved, i))
+                .collect()
+        };
+        let (called, jumped_to) = (pointers(Basic::Call), pointers(Basic::Cj));
+        let mut flow = Flow {
+            regions: vec![Region {
+                kind: FunctionKind::Main,
+                function: 1,
+                start: 0,
+                end,
+                runs_into: None,
+            }],
+            subroutines: FxHashMap::default(),
+            recursive: FxHashSet::default(),
+            jumped_to,
+            current: 0,
+            prologue: Vec::new(),
+            dead: false,
+        };
+        let routine = |i: usize| -> Option<FunctionKind> {
+            let label = resolved.instrs[i].label?;
+            match label.class {
+                DeviceClass::P if called.contains(&label.number) => {
+                    Some(FunctionKind::Subroutine(label.number))
+                }
+                DeviceClass::I => Some(FunctionKind::Interrupt(label.number)),
+                _ => None,
+            }
+        };
+        let mut i = 0;
+        while i < end {
+            match routine(i) {
+                Some(kind) => i = flow.add_routine(resolved, kind, i, end, &routine),
+                None => i += 1,
+            }
+        }
+        flow.find_recursion(resolved);
+        flow
+    }
+
+    /// Adds the routine that begins at `start`; where it ends.
+    fn add_routine(
+        &mut self,
+        resolved: &Resolved,
+        kind: FunctionKind,
+        start: usize,
+        last: usize,
+        routine: &impl Fn(usize) -> Option<FunctionKind>,
+    ) -> usize {
+        let limit = (start + 1..last)
+            .find(|&i| routine(i).is_some())
+            .unwrap_or(last);
+        let mut labels = FxHashMap::default();
+        for i in start + 1..limit {
+            if let Some(label) = resolved.instrs[i].label {
+                labels.insert(label.number, i);
+            }
+        }
+        // A return that a jump passes over is not the last one.
+        let mut reach = 0;
+        let mut end = limit;
+        for i in start..limit {
+            match basic_of(resolved, i) {
+                Some(Basic::Cj) => {
+                    let target = pointer(resolved, i).and_then(|p| labels.get(&p));
+                    reach = reach.max(target.copied().unwrap_or(0));
+                }
+                Some(Basic::Sret | Basic::Iret) if reach <= i => {
+                    end = i + 1;
+                    break;
+                }
+                _ => {}
+            }
+        }
+        let returns = end > start
+            && matches!(
+                basic_of(resolved, end - 1),
+                Some(Basic::Sret | Basic::Iret | Basic::Fend)
+            );
+        let next = if returns || end >= last {
+            None
+        } else {
+            routine(end)
+        };
+        let runs_into = match next {
+            Some(FunctionKind::Subroutine(pointer)) => Some(pointer),
+            _ => None,
+        };
+        if let FunctionKind::Subroutine(pointer) = kind {
+            self.subroutines
+                .entry(pointer)
+                .or_insert(self.regions.len());
+        }
+        self.regions.push(Region {
+            kind,
+            function: self.regions.len() as u32 + 2,
+            start,
+            end,
+            runs_into,
+        });
+        end
+    }
+
+    /// Finds the calls that lead back to a subroutine that is running: depth first over the calls.
+    fn find_recursion(&mut self, resolved: &Resolved) {
+        let calls: Vec<Vec<usize>> = self
+            .regions
+            .iter()
+            .map(|r| self.calls(resolved, r))
+            .collect();
+        #[derive(Clone, Copy, PartialEq)]
+        enum Seen {
+            Not,
+            Running,
+            Done,
+        }
+        let mut seen = vec![Seen::Not; calls.len()];
+        for root in 0..calls.len() {
+            let mut stack = vec![(root, 0)];
+            while let Some((region, next)) = stack.pop() {
+                if next == 0 && seen[region] == Seen::Done {
+                    continue;
+                }
+                seen[region] = Seen::Running;
+                let Some(&callee) = calls[region].get(next) else {
+                    seen[region] = Seen::Done;
+                    continue;
+                };
+                stack.push((region, next + 1));
+                match seen[callee] {
+                    Seen::Not => stack.push((callee, 0)),
+                    Seen::Running => {
+                        self.recursive.insert((region, callee));
+                    }
+                    Seen::Done => {}
+                }
+            }
+        }
+    }
+
+    /// The regions that a region calls.
+    fn calls(&self, resolved: &Resolved, region: &Region) -> Vec<usize> {
+        let mut calls: Vec<usize> = self
+            .instructions(region)
+            .filter(|&i| basic_of(resolved, i) == Some(Basic::Call))
+            .filter_map(|i| pointer(resolved, i))
+            .chain(region.runs_into)
+            .filter_map(|pointer| self.subroutines.get(&pointer).copied())
+            .collect();
+        calls.sort_unstable();
+        calls.dedup();
+        calls
+    }
+
+    /// The instructions of a region.
+    fn instructions(&self, region: &Region) -> impl Iterator<Item = usize> + use<> {
+        let routines: Vec<(usize, usize)> = match region.kind {
+            FunctionKind::Main => self.regions[1..].iter().map(|r| (r.start, r.end)).collect(),
+            _ => Vec::new(),
+        };
+        let mut routines = routines.into_iter().peekable();
+        (region.start..region.end).filter(move |&i| {
+            while routines.next_if(|&(_, end)| end <= i).is_some() {}
+            routines.peek().is_none_or(|&(start, _)| i < start)
+        })
+    }
+}
+
+/// The pointer that CJ or CALL names.
+fn pointer(resolved: &Resolved, i: usize) -> Option<u32> {
+    match resolved.program.instrs.get(i)?.operands.first()?.kind {
+        OperandKind::Device(device, _) => Some(device.number),
+        _ => None,
+    }
+}
+
+impl Lowerer<'_> {
+    /// Lowers a function.
+    pub(super) fn region(&mut self, index: usize) -> Body {
+        let region = self.flow.regions[index].clone();
+        self.flow.current = index;
+        self.flow.dead = false;
+        self.logic.clear();
+        let instructions: Vec<usize> = self.flow.instructions(&region).collect();
+        for i in instructions {
+            self.at = i;
+            if self.flow.dead && !self.revives() {
+                continue;
+            }
+            self.flow.dead = false;
+            if matches!(self.resolved.instrs[i].label, Some(label) if label.class == DeviceClass::I)
+            {
+                let span = self.instr().span;
+                let message = format!("`{}` is not implemented yet: interrupts", self.instr());
+                self.report(codes::NOT_IMPLEMENTED.at(span, message));
+            }
+            self.instruction();
+        }
+        while !self.open.is_empty() {
+            self.close();
+        }
+        if let Some(pointer) = region.runs_into {
+            self.emit_call(pointer);
+        }
+        let items = std::mem::take(&mut self.out);
+        let (mut body, escapes) = structure(items);
+        for jump in escapes {
+            self.report_jump(&jump);
+        }
+        if body.last() == Some(&Stmt::Return) {
+            body.pop();
+        }
+        let prologue = std::mem::take(&mut self.flow.prologue);
+        if !prologue.is_empty() {
+            body.splice(0..0, prologue.into_iter().map(|(t, e)| Stmt::Let(t, e)));
+        }
+        body
+    }
+
+    /// Whether the instruction at hand is a label that a jump goes to.
+    fn revives(&self) -> bool {
+        self.resolution()
+            .label
+            .is_some_and(|label| self.flow.jumped_to.contains(&label.number))
+    }
+
+    fn report_jump(&mut self, jump: &Jump) {
+        let span = self.resolved.program.instrs[jump.at].span;
+        let label = DeviceClass::P.number(jump.target);
+        self.report(
+            codes::BETWEEN_ROUTINES
+                .at(span, format!("`{label}` cannot be reached from here"))
+                .label("the label stands in a loop, a state or a routine that this jump is not in"),
+        );
+    }
+
+    /// Ends the innermost open body.
+    fn close(&mut self) {
+        match self.open.pop() {
+            Some(Open::Loop { count, outer }) => {
+                let items = std::mem::replace(&mut self.out, outer);
+                let (body, escapes) = structure(items);
+                self.push_nested(Stmt::For { count, body }, escapes);
+            }
+            Some(Open::State { cond, outer }) => {
+                let mut items = std::mem::replace(&mut self.out, outer);
+                // A label at the end of a state stands in front of what follows.
+                let tail = items
+                    .iter()
+                    .rposition(|item| !matches!(item, Item::Label(_)));
+                let labels = items.split_off(tail.map_or(0, |tail| tail + 1));
+                let (then, escapes) = structure(items);
+                let stmt = Stmt::If {
+                    cond,
+                    then,
+                    otherwise: Vec::new(),
+                };
+                self.push_nested(stmt, escapes);
+                self.out.extend(labels);
+            }
+            None => {}
+        }
+    }
+
+    fn push_nested(&mut self, stmt: Stmt, escapes: Vec<Jump>) {
+        self.out.push(if escapes.is_empty() {
+            Item::Code(stmt)
+        } else {
+            Item::Nested(stmt, escapes)
+        });
+    }
+
+    pub(super) fn begin_loop(&mut self) {
+        let count = match self.operand(0) {
+            Some(operand) => {
+                let mut guards = Guards::default();
+                let count = self.value(operand, false, &mut guards);
+                self.guarded_value(guards, count)
+            }
+            None => self.int(1, false),
+        };
+        let outer = std::mem::take(&mut self.out);
+        self.open.push(Open::Loop { count, outer });
+    }
+
+    pub(super) fn end_loop(&mut self) {
+        if matches!(self.open.last(), Some(Open::Loop { .. })) {
+            self.close();
+        }
+    }
+
+    pub(super) fn open_state(&mut self, cond: ExprId) {
+        let outer = std::mem::take(&mut self.out);
+        self.open.push(Open::State { cond, outer });
+    }
+
+    pub(super) fn close_open_state(&mut self) {
+        if matches!(self.open.last(), Some(Open::State { .. })) {
+            self.close();
+        }
+    }
+
+    pub(super) fn label(&mut self) {
+        let Some(label) = self.resolution().label else {
+            return;
+        };
+        if label.class != DeviceClass::P || !self.flow.jumped_to.contains(&label.number) {
+            return;
+        }
+        // A jump into a zone of master control finds it on.
+        let zones = self.logic.zones.iter().map(|&(_, outer)| outer);
+        let buses: Vec<ExprId> = zones.chain([self.logic.bus]).flatten().collect();
+        if !self.logic.zones.is_empty() {
+            for bus in buses {
+                if let Expr::Temp(temp) = self.expr(bus) {
+                    let on = self.bit_const(true);
+                    self.flow.prologue.push((temp, on));
+                }
+            }
+        }
+        self.out.push(Item::Label(label.number));
+    }
+
+    pub(super) fn jump(&mut self) {
+        let cond = self.drive_of_form();
+        let Some(target) = pointer(self.resolved, self.at) else {
+            return;
+        };
+        if target == END_POINTER {
+            return self.when(cond, |this| this.emit(Stmt::Return));
+        }
+        let stay = self.not(cond);
+        self.out.push(Item::Jump(Jump {
+            cond,
+            stay,
+            target,
+            at: self.at,
+        }));
+    }
+
+    pub(super) fn call_subroutine(&mut self) {
+        let Some(pointer) = pointer(self.resolved, self.at) else {
+            return;
+        };
+        self.driven(|this| this.emit_call(pointer));
+    }
+
+    /// Calls a subroutine; a call that would recurse is the PLC's error for calls nested too deep.
+    fn emit_call(&mut self, pointer: u32) {
+        let Some(&callee) = self.flow.subroutines.get(&pointer) else {
+            return;
+        };
+        let stmt = if self.flow.recursive.contains(&(self.flow.current, callee)) {
+            Stmt::Fault {
+                code: CALL_DEPTH,
+                step: self.step(),
+            }
+        } else {
+            Stmt::CallSub(self.flow.regions[callee].function)
+        };
+        self.emit(stmt);
+    }
+
+    /// FEND, END, SRET, IRET: the function ends here.
+    pub(super) fn return_here(&mut self) {
+        self.emit(Stmt::Return);
+        self.flow.dead = self.open.is_empty();
+    }
+}

@@ -1,0 +1,312 @@
+//! Lowering: from instructions to the IR of [`crate::node`].
+//!
+//! One walk over the instructions. Contact logic is collected as an expression ([`logic`]) until an instruction consumes it;
+//! operands become expressions and places with the conditions under which they exist ([`operand`]). Jumps and loops are collected
+//! as items and made into structured statements when their body ends ([`flow`]). What the layout stores is found last.
+
+mod arith;
+mod build;
+mod call;
+mod coil;
+mod flow;
+mod logic;
+mod operand;
+mod parts;
+mod special;
+mod stl;
+mod system;
+
+use crate::catalogue::{Basic, Drive, Inst, Join, Lower};
+use crate::layout;
+use crate::model::Model;
+use crate::node::{Function, FunctionKind, Module, Network, Stmt};
+use crate::resolve::{Resolution, Resolved};
+use flow::{Flow, Open};
+use parts::Item;
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, codes};
+use special::Specials;
+
+/// What to know besides the program.
+#[derive(Clone, Debug, Default)]
+pub struct LowerOptions {
+    /// Name of the module; else it is made from the name of the source.
+    pub name: Option<String>,
+    /// Devices that tests or a monitor look at, to be stored besides those that the program uses.
+    pub observe: Vec<(DeviceClass, u32)>,
+    /// Store every device of the model.
+    pub observe_all: bool,
+}
+
+/// Lowers a program that was checked. What cannot be lowered (yet) is reported as errors.
+pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diagnostics> {
+    let mut lowerer = Lowerer::new(resolved, options);
+    lowerer.program();
+    let Lowerer {
+        mut module,
+        diagnostics,
+        specials,
+        ..
+    } = lowerer;
+    if diagnostics.has_errors() {
+        return Err(diagnostics);
+    }
+    layout::build(&mut module, options, &specials.flags);
+    module.comments = resolved
+        .program
+        .comments
+        .iter()
+        .filter(|(device, _)| module.layout.area(device.class, device.number).is_some())
+        .map(|(device, text)| (device.class, device.number, text.clone()))
+        .collect();
+    module.initial_words = module
+        .model
+        .special_words
+        .iter()
+        .copied()
+        .filter(|&(number, _)| module.layout.area(DeviceClass::D, number).is_some())
+        .collect();
+    Ok(module)
+}
+
+/// State of the walk.
+struct Lowerer<'a> {
+    resolved: &'a Resolved<'a>,
+    model: &'static Model,
+    module: Module,
+    /// How deep each expression's tree is.
+    depths: Vec<u8>,
+    /// Runs of devices of each class, see [`Model::runs`].
+    runs: Vec<Vec<(u32, u32)>>,
+    specials: Specials,
+    flow: Flow,
+    diagnostics: Diagnostics,
+    /// The instruction at hand.
+    at: usize,
+    /// What the body at hand holds so far.
+    out: Vec<Item>,
+    /// Bodies around it, from the outermost.
+    open: Vec<Open>,
+    logic: logic::Logic,
+    steps: stl::Steps,
+    /// Statement above a network that has not begun yet.
+    heading: Option<String>,
+}
+
+impl<'a> Lowerer<'a> {
+    fn new(resolved: &'a Resolved<'a>, options: &LowerOptions) -> Self {
+        let program = resolved.program;
+        let model = resolved.model;
+        let flow = Flow::of(resolved);
+        Lowerer {
+            resolved,
+            model,
+            module: Module {
+                name: module_name(options.name.as_deref().unwrap_or(&program.source.name)),
+                source_name: program.source.name.clone(),
+                steps: resolved.steps,
+                model,
+                exprs: Vec::new(),
+                temps: Vec::new(),
+                edges: 0,
+                states: 0,
+                texts: Vec::new(),
+                functions: Vec::new(),
+                networks: Vec::new(),
+                comments: Vec::new(),
+                layout: layout::Layout::default(),
+                initial_words: Vec::new(),
+            },
+            depths: Vec::new(),
+            runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),
+            specials: Specials::of(resolved, options),
+            logic: logic::Logic::of(resolved),
+            steps: stl::Steps::of(resolved),
+            flow,
+            diagnostics: Diagnostics::new(),
+            at: 0,
+            out: Vec::new(),
+            open: Vec::new(),
+            heading: None,
+        }
+    }
+
+    fn program(&mut self) {
+        for kind in [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End] {
+            self.module.functions.push(Function {
+                kind,
+                body: Vec::new(),
+            });
+        }
+        for region in 0..self.flow.regions.len() {
+            let kind = self.flow.regions[region].kind.clone();
+            if kind != FunctionKind::Main {
+                self.module.functions.push(Function {
+                    kind,
+                    body: Vec::new(),
+                });
+            }
+        }
+        for region in 0..self.flow.regions.len() {
+            let body = self.region(region);
+            let function = self.flow.regions[region].function as usize;
+            self.module.functions[function].body = body;
+        }
+        self.module.functions[0].body = self.begin_function();
+        self.module.functions[2].body = self.end_function();
+    }
+
+    fn instr(&self) -> &'a Instr {
+        &self.resolved.program.instrs[self.at]
+    }
+
+    fn resolution(&self) -> &'a Resolution {
+        &self.resolved.instrs[self.at]
+    }
+
+    fn operand(&self, i: usize) -> Option<&'a OperandKind> {
+        self.instr().operands.get(i).map(|operand| &operand.kind)
+    }
+
+    fn step(&self) -> u32 {
+        self.resolution().step
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Lowers the instruction at hand.
+    fn instruction(&mut self) {
+        let instr = self.instr();
+        let Some(inst) = self.resolution().inst else {
+            return;
+        };
+        if let Some(statement) = &instr.statement {
+            self.heading = Some(statement.to_string());
+        }
+        let lower = inst.lower_on_model(self.model.id);
+        if self.begins_network(lower) {
+            self.begin_network();
+        } else if let Some(network) = self.module.networks.last_mut() {
+            network.span = network.span.to(instr.span);
+        }
+        if let (Some(network), Some(note)) = (self.module.networks.last_mut(), &instr.note) {
+            network.note.get_or_insert_with(|| note.to_string());
+        }
+        match lower {
+            Lower::Basic(basic) => self.basic(basic),
+            Lower::Compare(join, op) => self.compare_contact(join, op),
+            Lower::Call(function) => self.call(inst, function),
+            Lower::Todo(what) => self.not_implemented(inst, what),
+            _ => self.driven(|this| this.inline(inst, lower)),
+        }
+        if inst.drive == Drive::Alone {
+            self.logic.stack.clear();
+        }
+    }
+
+    fn begins_network(&self, lower: Lower) -> bool {
+        match lower {
+            Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
+            | Lower::Compare(Join::Ld, _) => self.logic.starts_rung[self.at],
+            Lower::Basic(Basic::For) => true,
+            Lower::Basic(Basic::Stl) => !self.steps.continues_row[self.at],
+            _ => false,
+        }
+    }
+
+    fn begin_network(&mut self) {
+        self.logic.stack.clear();
+        let network = Network {
+            step: self.step(),
+            span: self.instr().span,
+            statement: self.heading.take(),
+            note: None,
+        };
+        // A state's own network begins in front of its block, which opens later.
+        if self.instr_is(Basic::Stl) {
+            self.close_state();
+        }
+        self.emit(Stmt::Network(self.module.networks.len() as u32));
+        self.module.networks.push(network);
+    }
+
+    fn instr_is(&self, basic: Basic) -> bool {
+        self.basic_at(self.at) == Some(basic)
+    }
+
+    /// Which basic instruction stands at `i`.
+    fn basic_at(&self, i: usize) -> Option<Basic> {
+        basic_of(self.resolved, i)
+    }
+
+    fn basic(&mut self, basic: Basic) {
+        match basic {
+            Basic::Ld | Basic::Ldi | Basic::And | Basic::Ani | Basic::Or | Basic::Ori => {
+                self.contact(basic)
+            }
+            Basic::Ldp | Basic::Ldf | Basic::Andp | Basic::Andf | Basic::Orp | Basic::Orf => {
+                self.edge_contact(basic)
+            }
+            Basic::Anb | Basic::Orb | Basic::Mps | Basic::Mrd | Basic::Mpp => {
+                self.join_blocks(basic)
+            }
+            Basic::Inv | Basic::Mep | Basic::Mef => self.change_result(basic),
+            Basic::Out => self.coil(),
+            Basic::Set | Basic::Rst => self.set_or_reset(basic == Basic::Set),
+            Basic::Pls | Basic::Plf => self.pulse(basic),
+            Basic::Mc => self.master_control(),
+            Basic::Mcr => self.master_control_reset(),
+            Basic::Stl => self.begin_state(),
+            Basic::Ret => self.close_state(),
+            Basic::For => self.begin_loop(),
+            Basic::Next => self.end_loop(),
+            Basic::Cj => self.jump(),
+            Basic::Call => self.call_subroutine(),
+            Basic::Label => self.label(),
+            Basic::Fend | Basic::End | Basic::Sret | Basic::Iret => self.return_here(),
+            // The watchdog belongs to the host; interrupt routines are refused before.
+            Basic::Nop | Basic::Ei | Basic::Di => {}
+            Basic::Wdt => {
+                self.drive();
+            }
+        }
+    }
+
+    fn not_implemented(&mut self, inst: &Inst, what: &str) {
+        let span = self.instr().mnemonic_span;
+        let name = inst.name;
+        self.report(
+            codes::NOT_IMPLEMENTED
+                .at(span, format!("`{name}` is not implemented yet: {what}"))
+                .label("compiling stops here"),
+        );
+    }
+}
+
+/// Which basic instruction stands at `i` of a program.
+fn basic_of(resolved: &Resolved, i: usize) -> Option<Basic> {
+    match resolved.instrs.get(i)?.inst?.lower {
+        Lower::Basic(basic) => Some(basic),
+        _ => None,
+    }
+}
+
+/// An identifier in lower case from the name of a file.
+fn module_name(source: &str) -> String {
+    let stem = source.rsplit_once('.').map_or(source, |(stem, _)| stem);
+    let mut name: String = stem
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_lowercase()
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        name.insert_str(0, "plc");
+    }
+    name
+}

@@ -1,0 +1,425 @@
+//! Operands: what they read, where they write, and under which conditions what they name exists.
+
+use super::Lowerer;
+use crate::node::{BinOp, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_syntax::{Device, DeviceClass, Index, OperandKind, codes};
+
+/// First counter of 32 bits.
+pub(super) const FIRST_COUNTER32: u32 = 200;
+/// A device lies outside the model's range.
+const OUT_OF_RANGE: u16 = 6706;
+
+/// Conditions under which an instruction's operands exist; where one does not hold the instruction faults.
+#[derive(Default)]
+pub(super) struct Guards(Vec<ExprId>);
+
+impl Guards {
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// Where a result goes.
+#[derive(Clone, Copy)]
+pub(super) enum Target {
+    /// A word; takes the low word of a 32-bit value.
+    Word(Place),
+    /// A pair or a 32-bit counter.
+    Pair(Place),
+    /// Two words that are no pair of one class, low word first.
+    Halves(Place, Place),
+    /// A group of bits.
+    Nibbles(Place, u8),
+    /// Nowhere: the operand was reported.
+    None,
+}
+
+/// A bit that is written.
+#[derive(Clone, Copy)]
+pub(super) enum BitTarget {
+    /// A bit device.
+    Device(Place),
+    /// Bit of a word.
+    OfWord(Place, u8),
+}
+
+impl Lowerer<'_> {
+    /// What `make` emits is executed where `guards` hold; else the instruction faults.
+    pub(super) fn guarded(&mut self, guards: Guards, make: impl FnOnce(&mut Self)) {
+        self.guarded_or(guards, make, |_| {});
+    }
+
+    /// As [`Lowerer::guarded`]; `instead` emits what else is done besides the fault.
+    pub(super) fn guarded_or(
+        &mut self,
+        guards: Guards,
+        make: impl FnOnce(&mut Self),
+        instead: impl FnOnce(&mut Self),
+    ) {
+        let Some(cond) = guards.0.into_iter().reduce(|a, b| self.and(a, b)) else {
+            return make(self);
+        };
+        let then = self.body(make);
+        let step = self.step();
+        let otherwise = self.body(|this| {
+            this.emit(Stmt::Fault {
+                code: OUT_OF_RANGE,
+                step,
+            });
+            instead(this);
+        });
+        self.emit(Stmt::If {
+            cond,
+            then,
+            otherwise,
+        });
+    }
+
+    /// Value of an index register as an `I32`.
+    pub(super) fn index(&mut self, index: Index, wide: bool) -> ExprId {
+        let place = fixed(index.class, index.number);
+        // FX takes the pair (Vn, Zn), named by its Z, in 32-bit instructions; HM's addresses are 16-bit everywhere.
+        if wide && self.model.z_pairs_with_v && index.class == DeviceClass::Z {
+            self.add(Expr::ReadPair(place))
+        } else {
+            let word = self.add(Expr::ReadWord(place));
+            self.add(Expr::Widen(word))
+        }
+    }
+
+    /// Value of an index register behind a constant, of the constant's width.
+    pub(super) fn constant_index(&mut self, index: Index, wide: bool) -> ExprId {
+        let place = fixed(index.class, index.number);
+        if !wide {
+            return self.add(Expr::ReadWord(place));
+        }
+        match (index.class, self.model.z_pairs_with_v) {
+            (DeviceClass::V, true) => self.index(index, wide),
+            _ => self.add(Expr::ReadPair(place)),
+        }
+    }
+
+    /// A device of which `count` from it on are accessed, and its conditions.
+    pub(super) fn place(
+        &mut self,
+        device: Device,
+        index: Option<Index>,
+        count: u32,
+        wide: bool,
+        guards: &mut Guards,
+    ) -> Place {
+        let index = index.map(|index| self.index(index, wide));
+        let place = Place {
+            index,
+            ..self.canonical(device)
+        };
+        if index.is_some() {
+            guards.0.push(self.add(Expr::InRange { place, count }));
+        } else if !self.exists(place.class, place.number, count) {
+            guards.0.push(self.bit_const(false));
+        }
+        place
+    }
+
+    /// Whether `count` devices from `number` on lie in one run of the model.
+    pub(super) fn exists(&self, class: DeviceClass, number: u32, count: u32) -> bool {
+        let end = u64::from(number) + u64::from(count.max(1)) - 1;
+        self.runs[class as usize]
+            .iter()
+            .any(|&(first, last)| first <= number && end <= u64::from(last))
+    }
+
+    /// The device's own name, where it is a special register that is an index register.
+    pub(super) fn canonical(&self, device: Device) -> Place {
+        match self
+            .model
+            .index_aliases
+            .iter()
+            .find(|alias| device.class == DeviceClass::D && alias.0 == device.number)
+        {
+            Some(&(_, class, number)) => fixed(class, number),
+            None => fixed(device.class, device.number),
+        }
+    }
+
+    /// State of a bit operand.
+    pub(super) fn bit(&mut self, operand: &OperandKind, guards: &mut Guards) -> ExprId {
+        match *operand {
+            OperandKind::Device(device, None) if device.class == DeviceClass::M => {
+                match self.run_flag(device.number) {
+                    Some(state) => state,
+                    None => {
+                        let place = self.place(device, None, 1, false, guards);
+                        self.add(Expr::ReadBit(place))
+                    }
+                }
+            }
+            OperandKind::Device(device, index) => {
+                let place = self.place(device, index, 1, false, guards);
+                self.add(Expr::ReadBit(place))
+            }
+            OperandKind::WordBit(device, bit, index) => {
+                let place = self.place(device, index, 1, false, guards);
+                self.add(Expr::ReadWordBit(place, bit & 15))
+            }
+            _ => {
+                self.unreadable(operand);
+                self.bit_const(false)
+            }
+        }
+    }
+
+    /// M8000–M8003 are known from the scan driver, unless the program writes them.
+    fn run_flag(&mut self, number: u32) -> Option<ExprId> {
+        if self.specials.writes_run_flags {
+            return None;
+        }
+        let first = Expr::Sys(SysValue::FirstScan);
+        let expr = match number {
+            8000 => Expr::Bit(true),
+            8001 => Expr::Bit(false),
+            8002 => first,
+            8003 => {
+                let first = self.add(first);
+                Expr::Not(first)
+            }
+            _ => return None,
+        };
+        Some(self.add(expr))
+    }
+
+    /// Integer value of an operand: `I32` if `wide`, else `I16`.
+    pub(super) fn value(
+        &mut self,
+        operand: &OperandKind,
+        wide: bool,
+        guards: &mut Guards,
+    ) -> ExprId {
+        match *operand {
+            OperandKind::Decimal(value, index) => self.constant(value as i32, index, wide),
+            OperandKind::Hex(value, index) => self.constant(value as u32 as i32, index, wide),
+            OperandKind::Float(value) => self.int(value.to_bits() as i32, wide),
+            OperandKind::Device(device, index) => self.word(device, index, wide, guards),
+            OperandKind::Nibbles(digits, device, index) => {
+                let digits = digits.clamp(1, if wide { 8 } else { 4 });
+                let bits = 4 * u32::from(digits);
+                let place = self.place(device, index, bits, wide, guards);
+                self.add(Expr::ReadNibbles {
+                    place,
+                    digits,
+                    wide,
+                })
+            }
+            OperandKind::WordBit(..) | OperandKind::Text(_) | OperandKind::Buffer { .. } => {
+                self.unreadable(operand);
+                self.int(0, wide)
+            }
+        }
+    }
+
+    fn constant(&mut self, value: i32, index: Option<Index>, wide: bool) -> ExprId {
+        let constant = self.int(value, wide);
+        match index {
+            Some(index) => {
+                let index = self.constant_index(index, wide);
+                self.add(Expr::Bin(BinOp::Add, constant, index))
+            }
+            None => constant,
+        }
+    }
+
+    fn word(
+        &mut self,
+        device: Device,
+        index: Option<Index>,
+        wide: bool,
+        guards: &mut Guards,
+    ) -> ExprId {
+        match self.word_target(device, index, wide, wide, guards) {
+            Target::Pair(place) if wide => self.add(Expr::ReadPair(place)),
+            Target::Pair(place) => {
+                let value = self.add(Expr::ReadPair(place));
+                self.add(Expr::Narrow(value))
+            }
+            Target::Halves(low, high) => {
+                let low = self.add(Expr::ReadWord(low));
+                let high = self.add(Expr::ReadWord(high));
+                self.pair_of(low, high)
+            }
+            Target::Word(place) => self.add(Expr::ReadWord(place)),
+            Target::Nibbles(..) | Target::None => self.int(0, wide),
+        }
+    }
+
+    /// The `I32` with these words.
+    fn pair_of(&mut self, low: ExprId, high: ExprId) -> ExprId {
+        let low = self.add(Expr::Widen(low));
+        let mask = self.add(Expr::I32(0xffff));
+        let low = self.add(Expr::Bin(BinOp::And, low, mask));
+        let high = self.add(Expr::Widen(high));
+        let shift = self.add(Expr::I32(0x1_0000));
+        let high = self.add(Expr::Bin(BinOp::Mul, high, shift));
+        self.add(Expr::Bin(BinOp::Or, high, low))
+    }
+
+    /// A word device as a target of 16 or 32 bits; `wide_index` tells the index's width.
+    fn word_target(
+        &mut self,
+        device: Device,
+        index: Option<Index>,
+        wide: bool,
+        wide_index: bool,
+        guards: &mut Guards,
+    ) -> Target {
+        let own = self.canonical(device);
+        let counter32 = own.class == DeviceClass::C && own.number >= FIRST_COUNTER32;
+        if counter32 {
+            return Target::Pair(self.place(device, index, 1, wide_index, guards));
+        }
+        if !wide {
+            return Target::Word(self.place(device, index, 1, wide_index, guards));
+        }
+        let renamed = own.class != device.class;
+        if self.model.z_pairs_with_v && index.is_none() {
+            match own.class {
+                DeviceClass::Z => {
+                    return Target::Pair(self.place(device, None, 1, wide_index, guards));
+                }
+                // The register behind D8029 (V0) is D8030, an ordinary one or another index register.
+                _ if renamed => {
+                    let next = Device {
+                        number: device.number + 1,
+                        ..device
+                    };
+                    let low = self.place(device, None, 1, wide_index, guards);
+                    let high = self.place(next, None, 1, wide_index, guards);
+                    return Target::Halves(low, high);
+                }
+                _ => {}
+            }
+        }
+        Target::Pair(self.place(device, index, 2, wide_index, guards))
+    }
+
+    /// Element `element` of a result that begins at an operand: elements are as wide as the result, `wide_index` is the
+    /// instruction's form.
+    pub(super) fn target(
+        &mut self,
+        operand: &OperandKind,
+        element: u32,
+        wide: bool,
+        wide_index: bool,
+        guards: &mut Guards,
+    ) -> Target {
+        match *operand {
+            OperandKind::Device(device, index) => {
+                let counter32 = device.class == DeviceClass::C && device.number >= FIRST_COUNTER32;
+                let width = if wide && !counter32 { 2 } else { 1 };
+                let device = Device {
+                    number: device.number.saturating_add(element * width),
+                    ..device
+                };
+                self.word_target(device, index, wide, wide_index, guards)
+            }
+            OperandKind::Nibbles(digits, device, index) => {
+                let digits = digits.clamp(1, if wide { 8 } else { 4 });
+                let bits = 4 * u32::from(digits);
+                Target::Nibbles(self.place(device, index, bits, wide_index, guards), digits)
+            }
+            _ => {
+                self.unreadable(operand);
+                Target::None
+            }
+        }
+    }
+
+    /// Writes an integer of the target's width.
+    pub(super) fn store(&mut self, target: Target, value: ExprId) {
+        let stmt = match target {
+            Target::Word(place) => Stmt::WriteWord(place, value),
+            Target::Pair(place) => Stmt::WritePair(place, value),
+            Target::Nibbles(place, digits) => Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            },
+            Target::Halves(low, high) => {
+                let value = self.settled(value);
+                let low_word = self.add(Expr::Narrow(value));
+                self.emit(Stmt::WriteWord(low, low_word));
+                let high_word = self.add(Expr::HighWord(value));
+                Stmt::WriteWord(high, high_word)
+            }
+            Target::None => return,
+        };
+        self.emit(stmt);
+    }
+
+    /// A bit operand of which `count` from it on are written.
+    pub(super) fn bit_target(
+        &mut self,
+        operand: &OperandKind,
+        count: u32,
+        wide: bool,
+        guards: &mut Guards,
+    ) -> Option<BitTarget> {
+        match *operand {
+            OperandKind::Device(device, index) => {
+                let place = self.place(device, index, count, wide, guards);
+                Some(BitTarget::Device(place))
+            }
+            OperandKind::WordBit(device, bit, index) => {
+                let place = self.place(device, index, 1, wide, guards);
+                Some(BitTarget::OfWord(place, bit & 15))
+            }
+            _ => {
+                self.unreadable(operand);
+                None
+            }
+        }
+    }
+
+    /// Writes the bit `offset` bits after the target.
+    pub(super) fn store_bit(&mut self, target: BitTarget, offset: u32, value: ExprId) {
+        self.emit(match target {
+            BitTarget::Device(place) => Stmt::WriteBit(
+                Place {
+                    number: place.number + offset,
+                    ..place
+                },
+                value,
+            ),
+            BitTarget::OfWord(place, bit) => {
+                Stmt::WriteWordBit(place, bit.saturating_add(offset as u8).min(15), value)
+            }
+        });
+    }
+
+    /// Reports an operand that is written in the program but that nothing can access inline.
+    fn unreadable(&mut self, operand: &OperandKind) {
+        let instr = self.instr();
+        let span = instr
+            .operands
+            .iter()
+            .find(|o| o.kind == *operand)
+            .map_or(instr.span, |o| o.span);
+        let what = match operand {
+            OperandKind::Buffer { .. } => "buffer memory as an operand",
+            _ => "this kind of operand",
+        };
+        let name = &instr.mnemonic;
+        self.report(codes::NOT_IMPLEMENTED.at(
+            span,
+            format!("`{operand}` of `{name}` is not implemented yet: {what}"),
+        ));
+    }
+}
+
+/// A place without an index.
+pub(super) const fn fixed(class: DeviceClass, number: u32) -> Place {
+    Place {
+        class,
+        number,
+        index: None,
+    }
+}

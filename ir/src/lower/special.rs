@@ -1,0 +1,131 @@
+//! Which special relays and registers something looks at. What the scan or an instruction would write to the others is left out.
+
+use super::LowerOptions;
+use super::call::extents;
+use crate::catalogue::{Lower, Role};
+use crate::resolve::Resolved;
+use rungc_syntax::{DeviceClass, OperandKind};
+
+/// First special relay and register.
+const FIRST: u32 = 8000;
+/// More than any model has.
+const COUNT: usize = 1000;
+/// M8000 to M8003: in RUN, not in RUN, first scan, not the first scan.
+const RUN_FLAGS: std::ops::RangeInclusive<u32> = 8000..=8003;
+
+/// The special devices that the program names (or reaches with an index), that a call may touch, or that are observed.
+pub(super) struct Specials {
+    relays: Vec<bool>,
+    registers: Vec<bool>,
+    /// Those that the called functions use as flags.
+    pub(super) flags: Vec<(DeviceClass, u32)>,
+    /// Whether the program writes one of M8000–M8003.
+    pub(super) writes_run_flags: bool,
+}
+
+impl Specials {
+    pub(super) fn of(resolved: &Resolved, options: &LowerOptions) -> Self {
+        let mut specials = Specials {
+            relays: vec![options.observe_all; COUNT],
+            registers: vec![options.observe_all; COUNT],
+            flags: Vec::new(),
+            writes_run_flags: false,
+        };
+        for &(class, number) in &options.observe {
+            specials.mark(class, number, Some(1));
+        }
+        for i in 0..resolved.instrs.len() {
+            specials.mark_instr(resolved, i);
+        }
+        specials
+    }
+
+    /// Whether something looks at a special device.
+    pub(super) fn has(&self, class: DeviceClass, number: u32) -> bool {
+        let set = match class {
+            DeviceClass::M => &self.relays,
+            DeviceClass::D => &self.registers,
+            _ => return false,
+        };
+        number
+            .checked_sub(FIRST)
+            .and_then(|i| set.get(i as usize))
+            .copied()
+            .unwrap_or(false)
+    }
+
+    fn mark(&mut self, class: DeviceClass, number: u32, count: Option<u32>) {
+        let set = match class {
+            DeviceClass::M => &mut self.relays,
+            DeviceClass::D => &mut self.registers,
+            _ => return,
+        };
+        let Some(first) = number.checked_sub(FIRST) else {
+            return;
+        };
+        let end = count.map_or(COUNT, |count| {
+            (first as usize).saturating_add(count as usize)
+        });
+        for mark in set.iter_mut().take(end).skip(first as usize) {
+            *mark = true;
+        }
+    }
+
+    fn mark_instr(&mut self, resolved: &Resolved, i: usize) {
+        let instr = &resolved.program.instrs[i];
+        let resolution = &resolved.instrs[i];
+        let Some(inst) = resolution.inst else {
+            return;
+        };
+        if matches!(inst.lower_on_model(resolved.model.id), Lower::Call(_)) {
+            for (class, number) in flags_of(inst.flags) {
+                self.mark(class, number, Some(1));
+                if !self.flags.contains(&(class, number)) {
+                    self.flags.push((class, number));
+                }
+            }
+        }
+        let special = |operand: &OperandKind| {
+            matches!(operand,
+            OperandKind::Device(d, _) | OperandKind::Nibbles(_, d, _) | OperandKind::WordBit(d, ..)
+            if matches!(d.class, DeviceClass::M | DeviceClass::D) && d.number >= FIRST)
+        };
+        if !instr.operands.iter().any(|operand| special(&operand.kind)) {
+            return;
+        }
+        let extents: Vec<_> =
+            extents(inst, resolution.form, &instr.operands, resolved.model).collect();
+        let kinds: Vec<_> = instr.operands.iter().map(|o| o.kind.clone()).collect();
+        let params = inst.params_of(&kinds, resolved.model);
+        for (i, operand) in kinds.iter().enumerate() {
+            let extent = extents[i];
+            let (device, index) = match *operand {
+                OperandKind::Device(device, index) | OperandKind::Nibbles(_, device, index) => {
+                    (device, index)
+                }
+                OperandKind::WordBit(device, _, index) => (device, index),
+                _ => continue,
+            };
+            if index.is_some() && device.number >= FIRST {
+                self.mark(device.class, FIRST, None);
+            } else {
+                self.mark(device.class, device.number, extent);
+            }
+            let end = extent.map_or(u32::MAX, |count| device.number.saturating_add(count));
+            let reads = params.get(i).is_some_and(|param| param.role == Role::Read);
+            self.writes_run_flags |= !reads
+                && device.class == DeviceClass::M
+                && device.number >= FIRST
+                && (index.is_some()
+                    || RUN_FLAGS.clone().any(|n| (device.number..end).contains(&n)));
+        }
+    }
+}
+
+/// The devices that a row's `flags` name.
+fn flags_of(flags: &'static [&'static str]) -> impl Iterator<Item = (DeviceClass, u32)> {
+    flags.iter().filter_map(|flag| {
+        let (prefix, number) = flag.split_at_checked(1)?;
+        Some((DeviceClass::from_prefix(prefix)?, number.parse().ok()?))
+    })
+}

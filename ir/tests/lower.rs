@@ -1,0 +1,165 @@
+//! Lowering, as the text of modules: one small program for each construct.
+
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_ir::dump::dump;
+use rungc_ir::{ModelId, Module};
+
+/// Compiles a list that must have no errors.
+fn module(options: &CompileOptions, text: &str) -> Module {
+    let read = rungc_frontend::read_text("test.il", text);
+    let compiled = compile(&read.program, options);
+    let findings: Vec<_> = read
+        .diagnostics
+        .iter()
+        .chain(compiled.diagnostics.iter())
+        .collect();
+    compiled
+        .module
+        .unwrap_or_else(|| panic!("{text}: {findings:#?}"))
+}
+
+fn on(model: ModelId) -> CompileOptions {
+    CompileOptions {
+        model: Some(model),
+        ..CompileOptions::default()
+    }
+}
+
+/// Functions of a module as lowered, for H2U.
+fn lowered(text: &str) -> String {
+    dump(&module(&on(ModelId::H2u), text))
+}
+
+#[test]
+fn motor() {
+    insta::assert_snapshot!(lowered(
+        "LD X0 ; start\nOR M0\nANI X1\nOUT M0 ; motor latch\nLD M0\nOUT T0 K30\nAND T0\nOUT Y0\nLDP X2\nADD D0 K1 D0\n\
+         LD>= D0 K10\nSET Y1\nEND\n"
+    ));
+}
+
+#[test]
+fn branches() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nMPS\nAND X1\nOUT Y0\nMRD\nAND X2\nOUT Y1\nMPP\nANI X3\nOUT Y2\nOUT Y3\nLD X4\nOR X5\nLD X6\nANI X7\nORB\nLD M1\nOR M2\n\
+         ANB\nINV\nOUT Y4\nEND\n"
+    ));
+}
+
+#[test]
+fn block_joined_after_a_coil() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nAND X1\nOUT Y0\nLD X10\nOR X11\nANB\nOUT Y1\nEND\n"
+    ));
+}
+
+#[test]
+fn pulses() {
+    insta::assert_snapshot!(lowered(
+        "LDP X0\nORF X1\nOUT M0\nLD X2\nPLS M1\nLD X3\nINCP D0\nDECP D1\nEND\n"
+    ));
+}
+
+#[test]
+fn run_flags() {
+    insta::assert_snapshot!(lowered(
+        "LD M8000\nOUT Y0\nLD M8002\nMOV K5 D0\nLDI M8013\nOUT Y1\nEND\n"
+    ));
+}
+
+#[test]
+fn counters() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nOUT C0 K5\nLD X1\nOUT C200 D10\nLD X2\nOUT M8201\nLD X3\nOUT C201 K-5\nLD X4\nRST C0\nRST C200\nRST D5\nRST T250\nEND\n"
+    ));
+}
+
+#[test]
+fn arithmetic() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nADD D0 D1 D2\nDSUB D0 D2 D4\nMUL D0 D1 D10\nDMUL D0 D2 D20\nDIV D0 K3 D30\nDIV D0 D1 K4M0\nWAND D0 HFF D1\nNEG D0\nLD M8022\nOUT Y0\nEND\n"
+    ));
+}
+
+#[test]
+fn saturating_arithmetic() {
+    insta::assert_snapshot!(dump(&module(
+        &on(ModelId::Hm),
+        "LD X0\nADD D1000 D1001 D1002\nDINC D1004\nDIV D1000 D1001 D1010\nEND\n"
+    )));
+}
+
+#[test]
+fn compares() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nCMP D0 K5 M0\nDZCP K1 K10 D2 M10\nLDD>= D0 K100000\nAND< T0 K4\nOR<> C0 D5\nOUT Y0\nEND\n"
+    ));
+}
+
+#[test]
+fn addressing() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nMOV K4X0 D0\nMOV D0 K2Y10\nMOV D10Z0 D20V1\nDMOV D10Z1 D30\nMOV K100Z2 D40\nMOV T0 D50\nDMOV C200 D52\nDMOV K70000 Z3\n\
+         MOV D8028 D60\nCML K1M0Z0 D61\nEND\n"
+    ));
+}
+
+#[test]
+fn master_control() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nMC N0 M100\nLD X1\nOUT Y0\nLD X2\nMC N1 M101\nLD X3\nSET Y1\nMCR N1\nLD X4\nOUT T0 K5\nMCR N0\nLD X5\nOUT Y2\nEND\n"
+    ));
+}
+
+#[test]
+fn steps() {
+    insta::assert_snapshot!(lowered(
+        "LD M8002\nSET S0\nSTL S0\nOUT Y0\nLD X0\nSET S20\nSET S21\nSTL S20\nOUT Y1\nSTL S21\nOUT Y2\nSTL S20\nSTL S21\nLD X1\nOUT S0\n\
+         RET\nLD X2\nOUT Y3\nEND\n"
+    ));
+}
+
+#[test]
+fn jumps_that_nest() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nCJ P1\nLD X1\nCJ P2\nLD X2\nOUT Y0\nP2\nLD X3\nOUT Y1\nP1\nLD X4\nCJ P63\nLD X5\nOUT Y2\nEND\n"
+    ));
+}
+
+#[test]
+fn jumps_that_cross() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nCJ P1\nLD X1\nCJ P2\nP1\nLD X2\nOUT Y0\nP2\nLD X3\nOUT Y1\nP3\nLD X4\nINC D0\nLD< D0 K5\nCJ P3\nEND\n"
+    ));
+}
+
+#[test]
+fn jump_out_of_a_loop() {
+    insta::assert_snapshot!(lowered(
+        "FOR K10\nLD X0\nCJ P1\nLD X1\nINC D0\nNEXT\nLD X2\nOUT Y0\nP1\nLD X3\nOUT Y1\nEND\n"
+    ));
+}
+
+#[test]
+fn subroutines() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nCALL P1\nLD X1\nCALLP P2\nFEND\nP1\nLD X2\nCJ P3\nLD X3\nOUT Y0\nSRET\nP3\nLD X4\nCALL P2\nSRET\nP2\nLD X5\nOUT Y1\nSRET\nEND\n"
+    ));
+}
+
+#[test]
+fn special_devices() {
+    let observe = [8010, 8011, 8012, 8040, 8041]
+        .map(|n| (rungc_syntax::DeviceClass::D, n))
+        .into_iter()
+        .chain([8000, 8011, 8046, 8067].map(|n| (rungc_syntax::DeviceClass::M, n)))
+        .collect();
+    let options = CompileOptions {
+        observe,
+        ..on(ModelId::H2u)
+    };
+    insta::assert_snapshot!(dump(&module(
+        &options,
+        "LD X0\nOUT M8047\nLD X1\nOUT M8031\nEND\n"
+    )));
+}

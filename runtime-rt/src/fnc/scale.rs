@@ -1,0 +1,151 @@
+//! Limits, dead bands and scaling: FNC 256–259 and 269 of the FX3 programming manual, l01s-programming §4.2.
+
+use crate::cx::Cx;
+use crate::fault::{Done, Fault};
+
+/// S1 and S2 as lower and upper bound; a fault if they are the wrong way round.
+fn bounds(cx: &Cx) -> Result<(i32, i32), Fault> {
+    let (low, high) = (cx.read(0)?, cx.read(1)?);
+    if low <= high {
+        Ok((low, high))
+    } else {
+        Err(Fault::DEVICE)
+    }
+}
+
+/// LIMIT S1 S2 S3 D (FNC 256): S3 held between S1 and S2.
+pub fn limit(cx: &mut Cx) -> Done {
+    let (low, high) = bounds(cx)?;
+    let value = cx.read(2)?;
+    cx.write(3, value.clamp(low, high))
+}
+
+/// BAND S1 S2 S3 D (FNC 257): 0 while S3 lies between S1 and S2, else how far it lies outside; wraps.
+pub fn band(cx: &mut Cx) -> Done {
+    let (low, high) = bounds(cx)?;
+    let value = cx.read(2)?;
+    let outside = if value < low {
+        value.wrapping_sub(low)
+    } else if value > high {
+        value.wrapping_sub(high)
+    } else {
+        0
+    };
+    cx.write(3, outside)
+}
+
+/// ZONE S1 S2 S3 D (FNC 258): S3 + S1 if S3 is negative, S3 + S2 if it is positive, 0 if it is 0; wraps.
+pub fn zone(cx: &mut Cx) -> Done {
+    let (below, above, value) = (cx.read(0)?, cx.read(1)?, cx.read(2)?);
+    let shifted = match value {
+        ..0 => value.wrapping_add(below),
+        0 => 0,
+        1.. => value.wrapping_add(above),
+    };
+    cx.write(3, shifted)
+}
+
+/// Where the coordinates of point `i` (from 0) of `count` stand in the table, as elements after its head.
+type Place = fn(i: i32, count: i32) -> (i32, i32);
+
+/// D = the line through the table's points at x = S1, rounded half away from zero. The table's head counts its points, whose x must not fall.
+fn interpolate(cx: &mut Cx, place: Place) -> Done {
+    let x = cx.read(0)?;
+    let count = cx.elem(1, 0)?;
+    if !(1..=i32::from(i16::MAX)).contains(&count) {
+        return Err(Fault::DEVICE);
+    }
+    let point = |cx: &Cx, i: i32| -> Result<(i32, i32), Fault> {
+        let (x, y) = place(i, count);
+        Ok((cx.elem(1, x)?, cx.elem(1, y)?))
+    };
+    let mut result = None;
+    let mut left = point(cx, 0)?;
+    if left.0 == x {
+        result = Some(left.1);
+    }
+    for i in 1..count {
+        let right = point(cx, i)?;
+        if right.0 < left.0 {
+            return Err(Fault::DEVICE);
+        }
+        if right.0 == x {
+            // Where several points share an x the last one counts.
+            result = Some(right.1);
+        } else if left.0 < x && x < right.0 {
+            result = Some(on_line(left, right, x));
+        }
+        left = right;
+    }
+    match result {
+        Some(y) => cx.write(2, y),
+        None => Err(Fault::DEVICE),
+    }
+}
+
+/// y at x on the line through two points, x strictly between them.
+fn on_line(left: (i32, i32), right: (i32, i32), x: i32) -> i32 {
+    let run = i128::from(right.0) - i128::from(left.0);
+    let rise = (i128::from(right.1) - i128::from(left.1)) * (i128::from(x) - i128::from(left.0));
+    let half = if rise < 0 { -run } else { run };
+    let rounded = (2 * rise + half) / (2 * run);
+    (i128::from(left.1) + rounded) as i32
+}
+
+/// SCL S1 S2 D (FNC 259): scales by a table x1, y1, x2, y2, ….
+pub fn scl(cx: &mut Cx) -> Done {
+    interpolate(cx, |i, _| (1 + 2 * i, 2 + 2 * i))
+}
+
+/// SCL2 S1 S2 D (FNC 269): scales by a table x1, x2, …, y1, y2, ….
+pub fn scl2(cx: &mut Cx) -> Done {
+    interpolate(cx, |i, count| (1 + i, 1 + count + i))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::double::Double;
+    use crate::{Class, Fault, Operand, RtFn, d, k};
+
+    fn reg(n: i32) -> Operand {
+        d(Class::D, n)
+    }
+
+    fn apply(function: RtFn, a: i32, b: i32, c: i32) -> Result<i16, Fault> {
+        let mut plc = Double::new();
+        plc.call(function, &[k(a), k(b), k(c), reg(0)])?;
+        Ok(plc.d(0, 1)[0])
+    }
+
+    #[test]
+    fn limits_bands_and_zones() {
+        assert_eq!(apply(RtFn::Limit, -5, 5, 7), Ok(5));
+        assert_eq!(apply(RtFn::Limit, -5, 5, -7), Ok(-5));
+        assert_eq!(apply(RtFn::Limit, 5, -5, 0), Err(Fault::DEVICE));
+        assert_eq!(apply(RtFn::Band, -5, 5, 7), Ok(2));
+        assert_eq!(apply(RtFn::Band, -5, 5, -7), Ok(-2));
+        assert_eq!(apply(RtFn::Band, -5, 5, 4), Ok(0));
+        assert_eq!(apply(RtFn::Zone, -100, 100, -1), Ok(-101));
+        assert_eq!(apply(RtFn::Zone, -100, 100, 1), Ok(101));
+        assert_eq!(apply(RtFn::Zone, -100, 100, 0), Ok(0));
+    }
+
+    #[test]
+    fn scaling_interpolates_and_rounds() {
+        let mut plc = Double::new().with_d(10, &[3, 0, 0, 10, 15, 20, -15]);
+        let mut at = |x| {
+            plc.call(RtFn::Scl, &[k(x), reg(10), reg(0)])
+                .map(|()| plc.d(0, 1)[0])
+        };
+        assert_eq!(at(0), Ok(0));
+        assert_eq!(at(1), Ok(2));
+        assert_eq!(at(10), Ok(15));
+        assert_eq!(at(15), Ok(0));
+        assert_eq!(at(20), Ok(-15));
+        assert_eq!(at(21), Err(Fault::DEVICE));
+        assert_eq!(at(-1), Err(Fault::DEVICE));
+        let mut plc = Double::new().with_d(10, &[2, 0, 10, 100, 200]);
+        plc.call(RtFn::Scl2, &[k(5), reg(10), reg(0)]).unwrap();
+        assert_eq!(plc.d(0, 1), [150]);
+    }
+}

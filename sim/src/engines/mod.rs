@@ -1,0 +1,53 @@
+//! The ways to execute compiled programs, behind one interface.
+
+mod interpreter;
+mod process;
+
+pub use interpreter::Interpreter;
+pub use process::Process;
+
+use crate::protocol::{Answer, Request};
+
+/// Something that executes compiled programs: [`Request::Case`] chooses one of those that it was made with.
+pub trait Engine {
+    /// Its name on the command line: `interp`, `c`, `rust`.
+    fn name(&self) -> &str;
+
+    /// Does or answers what is asked. Requests that ask for no value may be answered [`Answer::Ok`] before they are carried out;
+    /// what went wrong is then the answer to the next one that does.
+    fn ask(&mut self, request: Request) -> Result<Answer, EngineError>;
+}
+
+/// What went wrong with an engine.
+#[derive(Debug, thiserror::Error)]
+pub enum EngineError {
+    /// The batch has no such program.
+    #[error("there is no program {0}")]
+    NoProgram(usize),
+    /// The executable could not be started.
+    #[error("cannot start {command}: {error}")]
+    Start {
+        /// Its path.
+        command: String,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The executable ended before it answered.
+    #[error("the executable ended at `{0}` ({1})")]
+    Ended(Request, String),
+    /// The executable did not answer in time.
+    #[error("no answer to `{0}`: a scan does not end")]
+    Silent(Request),
+    /// The executable said something else.
+    #[error("`{0}` was answered `{1}`")]
+    Garbled(Request, String),
+    /// A device, module or channel to be set does not exist.
+    #[error("`{0}`: there is no such device")]
+    Missing(Request),
+}
+
+impl std::fmt::Debug for dyn Engine + '_ {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Engine({})", self.name())
+    }
+}

@@ -1,0 +1,163 @@
+//! A batch executable as an engine.
+
+use super::{Engine, EngineError};
+use crate::protocol::{Answer, Request};
+use std::collections::VecDeque;
+use std::io::{BufRead, BufReader, BufWriter, Write};
+use std::path::PathBuf;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// How long an answer may take. All scans of a case are answered within this time, which a loop in the program would exceed.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A batch executable. It is started at the first request and again after it was killed or has crashed.
+pub struct Process {
+    name: String,
+    command: PathBuf,
+    running: Option<Running>,
+}
+
+struct Running {
+    child: Child,
+    requests: BufWriter<ChildStdin>,
+    answers: Receiver<String>,
+    /// Requests not yet known to be answered.
+    pending: VecDeque<Request>,
+}
+
+impl Process {
+    /// An engine that runs this executable.
+    pub fn new(name: impl Into<String>, command: PathBuf) -> Self {
+        Process {
+            name: name.into(),
+            command,
+            running: None,
+        }
+    }
+
+    fn start(&self) -> Result<Running, EngineError> {
+        let failed = |error| EngineError::Start {
+            command: self.command.display().to_string(),
+            error,
+        };
+        let mut child = Command::new(&self.command)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .map_err(failed)?;
+        let (Some(stdin), Some(stdout)) = (child.stdin.take(), child.stdout.take()) else {
+            return Err(failed(std::io::Error::other("no pipes")));
+        };
+        let (sender, answers) = channel();
+        // Reads ahead, so that the executable never waits for its answers to be read while it is sent requests.
+        std::thread::spawn(move || {
+            for line in BufReader::new(stdout).lines().map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        Ok(Running {
+            child,
+            requests: BufWriter::new(stdin),
+            answers,
+            pending: VecDeque::new(),
+        })
+    }
+
+    /// Kills the executable, if it runs; returns how it ended.
+    fn stop(&mut self) -> String {
+        let Some(mut running) = self.running.take() else {
+            return "it was not running".to_string();
+        };
+        // It may have ended already, which is then what `wait` tells.
+        let _ = running.child.kill();
+        match running.child.wait() {
+            Ok(status) => status.to_string(),
+            Err(error) => error.to_string(),
+        }
+    }
+}
+
+impl Running {
+    fn send(&mut self, request: Request) -> std::io::Result<()> {
+        self.pending.push_back(request);
+        writeln!(self.requests, "{request}")
+    }
+
+    /// Waits for the answers to all pending requests; the last one is returned.
+    fn answers(&mut self) -> Result<Answer, EngineError> {
+        let mut last = Answer::Ok;
+        let mut missing = None;
+        while let Some(request) = self.pending.pop_front() {
+            let line = match self.answers.recv_timeout(PATIENCE) {
+                Ok(line) => line,
+                Err(RecvTimeoutError::Timeout) => return Err(EngineError::Silent(request)),
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(EngineError::Ended(request, String::new()));
+                }
+            };
+            let Some(answer) = Answer::parse(&line) else {
+                return Err(EngineError::Garbled(request, line));
+            };
+            if answer == Answer::Missing && !self.pending.is_empty() {
+                missing.get_or_insert(EngineError::Missing(request));
+            }
+            last = answer;
+        }
+        missing.map_or(Ok(last), Err)
+    }
+}
+
+fn asks_for_value(request: Request) -> bool {
+    matches!(
+        request,
+        Request::Bit(..)
+            | Request::Word(..)
+            | Request::Double(..)
+            | Request::Output(_)
+            | Request::Bfm(..)
+    )
+}
+
+impl Engine for Process {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
+        if self.running.is_none() {
+            self.running = Some(self.start()?);
+        }
+        let Some(running) = self.running.as_mut() else {
+            return Ok(Answer::Missing);
+        };
+        let ended = |_| EngineError::Ended(request, String::new());
+        let mut result = running.send(request).map_err(ended).map(|()| Answer::Ok);
+        if result.is_ok() && asks_for_value(request) {
+            let flushed = running.requests.flush().map_err(ended);
+            result = flushed.and_then(|()| running.answers());
+        }
+        match result {
+            Err(EngineError::Ended(request, _)) => Err(EngineError::Ended(request, self.stop())),
+            Err(error @ (EngineError::Silent(_) | EngineError::Garbled(..))) => {
+                self.stop();
+                Err(error)
+            }
+            result => result,
+        }
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        if let Some(running) = &mut self.running {
+            // An executable that does not end by itself is killed.
+            let _ = running.send(Request::Exit);
+            let _ = running.requests.flush();
+        }
+        self.stop();
+    }
+}

@@ -1,0 +1,408 @@
+//! Reading a test file: TOML to [`TestFile`], every mistake with its place.
+
+use super::{Basis, Case, Check, Problem, Rejects, Run, Setting, Step, Target, TestFile, Value};
+use rungc_ir::ModelId;
+use rungc_rt::Clock;
+use rungc_syntax::Source;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use toml::Spanned;
+
+type Map<T> = BTreeMap<Spanned<String>, T>;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawFile {
+    model: Spanned<String>,
+    topic: String,
+    note: Option<String>,
+    case: Vec<Spanned<RawCase>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawCase {
+    name: Spanned<String>,
+    model: Option<Spanned<String>>,
+    #[serde(default)]
+    source: String,
+    basis: Option<Basis>,
+    #[serde(default)]
+    note: String,
+    program: String,
+    #[serde(default)]
+    init: Map<Spanned<Scalar>>,
+    #[serde(default)]
+    step: Vec<Spanned<RawStep>>,
+    rejects: Option<RawRejects>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawRejects {
+    code: u16,
+    line: Option<u32>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawStep {
+    #[serde(default)]
+    set: Map<Spanned<Scalar>>,
+    scans: Option<u32>,
+    run_ms: Option<Spanned<u32>>,
+    scan_ms: Option<Spanned<u32>>,
+    #[serde(default)]
+    expect: Map<Spanned<Scalar>>,
+    pulses: Option<Map<RawPulses>>,
+    encoder: Option<RawEncoder>,
+    rx: Option<Map<String>>,
+    expect_tx: Option<Map<String>>,
+    clock: Option<Spanned<String>>,
+    mode: Option<RawMode>,
+    #[serde(default)]
+    power_cycle: bool,
+    #[serde(default)]
+    bfm: Map<Spanned<Scalar>>,
+    #[serde(default)]
+    expect_bfm: Map<Spanned<Scalar>>,
+    #[serde(default)]
+    analog: Map<Spanned<Scalar>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum RawMode {
+    Run,
+    Stop,
+}
+
+/// Pulses at an input; read so that mistakes in them are noticed.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(
+    dead_code,
+    reason = "no engine has pulse inputs; the keys are only checked"
+)]
+struct RawPulses {
+    count: u32,
+    hz: f64,
+}
+
+/// An encoder's cycles; read so that mistakes in them are noticed.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[expect(
+    dead_code,
+    reason = "no engine has encoder inputs; the keys are only checked"
+)]
+struct RawEncoder {
+    a: String,
+    b: String,
+    count: i32,
+    hz: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Scalar {
+    Integer(i64),
+    Float(f64),
+    Text(String),
+}
+
+/// Collects the problems of one file.
+struct Reader<'t> {
+    source: &'t Source,
+    problems: Vec<Problem>,
+}
+
+/// Reads the text of a test file.
+pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
+    let raw: RawFile = match toml::from_str(&source.text) {
+        Ok(raw) => raw,
+        Err(error) => {
+            let at = error.span().map_or(0, |span| span.start);
+            return Err(vec![problem(source, at, error.message().to_string())]);
+        }
+    };
+    let mut reader = Reader {
+        source,
+        problems: Vec::new(),
+    };
+    let file = reader.file(raw);
+    if reader.problems.is_empty() {
+        Ok(file)
+    } else {
+        reader.problems.sort_by_key(|p| (p.line, p.column));
+        Err(reader.problems)
+    }
+}
+
+fn problem(source: &Source, at: usize, message: String) -> Problem {
+    let (line, column) = source.line_col(at as u32);
+    Problem {
+        line,
+        column,
+        message,
+    }
+}
+
+impl Reader<'_> {
+    fn report(&mut self, at: usize, message: String) {
+        self.problems.push(problem(self.source, at, message));
+    }
+
+    fn line(&self, at: usize) -> u32 {
+        self.source.line_col(at as u32).0
+    }
+
+    fn model(&mut self, name: &Spanned<String>) -> ModelId {
+        ModelId::from_name(name.get_ref()).unwrap_or_else(|| {
+            let message = format!("there is no model `{}`", name.get_ref());
+            self.report(name.span().start, message);
+            ModelId::Fx3u
+        })
+    }
+
+    fn file(&mut self, raw: RawFile) -> TestFile {
+        let model = self.model(&raw.model);
+        let mut cases: Vec<Case> = Vec::new();
+        for case in raw.case {
+            let name = case.get_ref().name.clone();
+            if cases.iter().any(|c| c.name == *name.get_ref()) {
+                let message = format!("the case `{}` stands twice in this file", name.get_ref());
+                self.report(name.span().start, message);
+            }
+            let case = self.case(case, model);
+            cases.push(case);
+        }
+        TestFile {
+            name: self.source.name.clone(),
+            topic: raw.topic,
+            note: raw.note.unwrap_or_default(),
+            cases,
+        }
+    }
+
+    fn case(&mut self, raw: Spanned<RawCase>, model: ModelId) -> Case {
+        let at = raw.span().start;
+        let raw = raw.into_inner();
+        let model = raw.model.as_ref().map_or(model, |name| self.model(name));
+        let init = self.settings(raw.init);
+        let steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
+        let check = match raw.rejects {
+            Some(rejects) => {
+                if !steps.is_empty() {
+                    self.report(at, "a case has `rejects` or steps, not both".to_string());
+                }
+                Check::Rejects(Rejects {
+                    code: rejects.code,
+                    line: rejects.line,
+                })
+            }
+            None => {
+                if steps.is_empty() {
+                    self.report(at, "a case has steps, or `rejects`".to_string());
+                }
+                Check::Steps { init, steps }
+            }
+        };
+        Case {
+            line: self.line(raw.name.span().start),
+            name: raw.name.into_inner(),
+            model,
+            source: raw.source,
+            basis: raw.basis,
+            note: raw.note,
+            program: raw.program,
+            check,
+        }
+    }
+
+    fn step(&mut self, raw: Spanned<RawStep>) -> Step {
+        let at = raw.span().start;
+        let raw = raw.into_inner();
+        let run = match (raw.scans, raw.run_ms) {
+            (Some(_), Some(run_ms)) => {
+                let message = "a step has `scans` or `run_ms`, not both".to_string();
+                self.report(run_ms.span().start, message);
+                Run::Scans(1)
+            }
+            (None, Some(ms)) => Run::Ms(ms.into_inner()),
+            (scans, None) => Run::Scans(scans.unwrap_or(1)),
+        };
+        let scan_ms = match raw.scan_ms {
+            Some(ms) if !(1..=32_767).contains(ms.get_ref()) => {
+                self.report(ms.span().start, "`scan_ms` is 1 to 32767".to_string());
+                10
+            }
+            ms => ms.map_or(10, Spanned::into_inner),
+        };
+        let mut needs = Vec::new();
+        for (used, what) in [
+            (raw.pulses.is_some(), "pulse inputs"),
+            (raw.encoder.is_some(), "encoder inputs"),
+            (raw.rx.is_some() || raw.expect_tx.is_some(), "serial ports"),
+        ] {
+            if used {
+                needs.push(what);
+            }
+        }
+        let mut bytes: Vec<(Spanned<String>, String)> = Vec::new();
+        bytes.extend(raw.rx.into_iter().flatten());
+        bytes.extend(raw.expect_tx.into_iter().flatten());
+        for (port, bytes) in bytes {
+            let hex = |b: &str| b.len() == 2 && u8::from_str_radix(b, 16).is_ok();
+            if !bytes.split_whitespace().all(hex) {
+                let message = "bytes are written as pairs of hexadecimal digits".to_string();
+                self.report(port.span().start, message);
+            }
+        }
+        Step {
+            line: self.line(at),
+            power_cycle: raw.power_cycle,
+            running: raw.mode.map(|mode| matches!(mode, RawMode::Run)),
+            clock: raw.clock.and_then(|text| self.clock(&text)),
+            bfm: self.buffer(raw.bfm),
+            analog: self.analog(raw.analog),
+            set: self.settings(raw.set),
+            run,
+            scan_ms,
+            expect: self.settings(raw.expect),
+            expect_bfm: self.buffer(raw.expect_bfm),
+            needs,
+        }
+    }
+
+    fn settings(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {
+        raw.into_iter()
+            .filter_map(|(name, value)| {
+                let target = match Target::parse(name.get_ref()) {
+                    Ok(target) => target,
+                    Err(message) => {
+                        self.report(name.span().start, message);
+                        return None;
+                    }
+                };
+                match Value::of(target, value.get_ref()) {
+                    Ok(value) => Some(Setting { target, value }),
+                    Err(expected) => {
+                        let message = format!("the value of `{}` is {expected}", name.get_ref());
+                        self.report(value.span().start, message);
+                        None
+                    }
+                }
+            })
+            .collect()
+    }
+
+    /// A 16-bit value.
+    fn word(&mut self, value: &Spanned<Scalar>) -> Option<i16> {
+        let word = integer(value.get_ref(), 16).map(|v| v as i16);
+        if word.is_none() {
+            let message = "this value is a 16-bit integer".to_string();
+            self.report(value.span().start, message);
+        }
+        word
+    }
+
+    fn buffer(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<(u16, u16, i16)> {
+        raw.into_iter()
+            .filter_map(|(name, value)| {
+                let place = name.get_ref().split_once(':');
+                let place = place.and_then(|(u, a)| Some((u.parse().ok()?, a.parse().ok()?)));
+                let Some((unit, address)) = place else {
+                    let message = "a word of buffer memory is named `MODULE:ADDRESS`".to_string();
+                    self.report(name.span().start, message);
+                    return None;
+                };
+                Some((unit, address, self.word(&value)?))
+            })
+            .collect()
+    }
+
+    fn analog(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<(u8, i16)> {
+        raw.into_iter()
+            .filter_map(|(name, value)| {
+                let channel = name.get_ref().strip_prefix("AD");
+                let Some(channel) = channel.and_then(|n| n.parse().ok()) else {
+                    let message = "an analog input is named `AD0`, `AD1`, …".to_string();
+                    self.report(name.span().start, message);
+                    return None;
+                };
+                Some((channel, self.word(&value)?))
+            })
+            .collect()
+    }
+
+    fn clock(&mut self, text: &Spanned<String>) -> Option<Clock> {
+        let clock = clock(text.get_ref());
+        if clock.is_none() {
+            let message = "a time is written `2026-01-02T03:04:05`".to_string();
+            self.report(text.span().start, message);
+        }
+        clock
+    }
+}
+
+/// Reads `2026-01-02T03:04:05`.
+fn clock(text: &str) -> Option<Clock> {
+    let (date, time) = text.split_once('T')?;
+    let mut date = date.splitn(3, '-');
+    let (year, month, day) = (date.next()?, date.next()?, date.next()?);
+    let mut time = time.splitn(3, ':');
+    let (hour, minute, second) = (time.next()?, time.next()?, time.next()?);
+    Clock::new(
+        year.parse().ok()?,
+        month.parse().ok()?,
+        day.parse().ok()?,
+        hour.parse().ok()?,
+        minute.parse().ok()?,
+        second.parse().ok()?,
+    )
+}
+
+/// An integer of so many bits, signed or unsigned; `"0xFFFF"` too.
+fn integer(value: &Scalar, bits: u32) -> Option<i64> {
+    let value = match value {
+        Scalar::Integer(value) => *value,
+        Scalar::Text(text) => i64::from_str_radix(text.strip_prefix("0x")?, 16).ok()?,
+        Scalar::Float(_) => return None,
+    };
+    (-1 << (bits - 1)..1 << bits)
+        .contains(&value)
+        .then_some(value)
+}
+
+impl Value {
+    /// The value that a target is given or compared with; the error says what is expected.
+    fn of(target: Target, value: &Scalar) -> Result<Value, &'static str> {
+        let word = || integer(value, 16).map(|v| Value::Int((v as i16).into()));
+        let double = || integer(value, 32).map(|v| Value::Int(v as i32));
+        match target {
+            Target::Bit(..) => match value {
+                Scalar::Integer(v @ 0..=1) => Ok(Value::Int(*v as i32)),
+                _ => Err("0 or 1"),
+            },
+            Target::Current(rungc_syntax::DeviceClass::C, 200..) => {
+                double().ok_or("a 32-bit integer")
+            }
+            Target::Word(..) | Target::Current(..) | Target::Nibbles(1..=4, ..) => {
+                word().ok_or("a 16-bit integer, or hexadecimal in quotes: \"0xFFFF\"")
+            }
+            Target::Pair(..) | Target::Nibbles(..) | Target::Pulses(_) => {
+                double().ok_or("a 32-bit integer")
+            }
+            Target::Float(..) | Target::Frequency(_) => match value {
+                Scalar::Integer(v) => Ok(Value::Float(*v as f64)),
+                Scalar::Float(v) => Ok(Value::Float(*v)),
+                Scalar::Text(_) => Err("a number"),
+            },
+            Target::Text(..) => match value {
+                Scalar::Text(text) => Ok(Value::Text(text.clone())),
+                _ => Err("a text in quotes"),
+            },
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! PLC test files (`*.plctest.toml`): cases that run a program and compare devices, or that a program must not compile.
+//!
+//! [`load`] reads a file; [`Suite`] compiles the programs of many; [`run`] runs them on an [`Engine`](crate::engines::Engine).
+
+mod format;
+mod name;
+mod report;
+mod runner;
+mod suite;
+
+pub use name::Target;
+pub use report::{Failure, Outcome, Report};
+pub use runner::run;
+pub use suite::{Id, Suite};
+
+use rungc_ir::ModelId;
+use rungc_rt::Clock;
+use rungc_syntax::Source;
+use serde::Deserialize;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// A test file.
+#[derive(Clone, Debug)]
+pub struct TestFile {
+    /// The file's name as it was given.
+    pub name: String,
+    /// The instruction or subject.
+    pub topic: String,
+    /// A remark on the whole file.
+    pub note: String,
+    /// Its cases.
+    pub cases: Vec<Case>,
+}
+
+/// One case.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Its name, unique in the file.
+    pub name: String,
+    /// Where it stands in the file, from 1.
+    pub line: u32,
+    /// The model that it is for.
+    pub model: ModelId,
+    /// Where the behaviour is stated: a manual's file and lines.
+    pub source: String,
+    /// How the behaviour follows from that.
+    pub basis: Option<Basis>,
+    /// A remark.
+    pub note: String,
+    /// The program as an instruction list.
+    pub program: String,
+    /// What is checked.
+    pub check: Check,
+}
+
+/// What a case is based on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Basis {
+    /// The manual states it outright.
+    Manual,
+    /// It follows from the manual's rules.
+    Derived,
+    /// Known behaviour of the FX family on which the manual is silent.
+    Fx,
+}
+
+/// What a case checks.
+#[derive(Clone, Debug)]
+pub enum Check {
+    /// What the program does.
+    Steps {
+        /// Set once before the first scan.
+        init: Vec<Setting>,
+        /// In this order.
+        steps: Vec<Step>,
+    },
+    /// That the program does not compile.
+    Rejects(Rejects),
+}
+
+/// The diagnostic that a program must raise.
+#[derive(Clone, Copy, Debug)]
+pub struct Rejects {
+    /// The PLC's error code; 0 for any.
+    pub code: u16,
+    /// The line of the program, from 1, that it points to.
+    pub line: Option<u32>,
+}
+
+/// One step of a case, its parts in the order in which they happen.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Where it stands in the file, from 1.
+    pub line: u32,
+    /// Power off and on.
+    pub power_cycle: bool,
+    /// The RUN/STOP switch.
+    pub running: Option<bool>,
+    /// Sets the real-time clock.
+    pub clock: Option<Clock>,
+    /// Sets buffer memory: module, address, value.
+    pub bfm: Vec<(u16, u16, i16)>,
+    /// Sets analog inputs: channel, value.
+    pub analog: Vec<(u8, i16)>,
+    /// Sets devices.
+    pub set: Vec<Setting>,
+    /// How many scans run.
+    pub run: Run,
+    /// Virtual milliseconds that a scan takes.
+    pub scan_ms: u32,
+    /// What devices must hold then.
+    pub expect: Vec<Setting>,
+    /// What buffer memory must hold then.
+    pub expect_bfm: Vec<(u16, u16, i16)>,
+    /// Hardware that the step needs and no engine has yet.
+    pub needs: Vec<&'static str>,
+}
+
+/// How long a step runs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Run {
+    /// So many scans.
+    Scans(u32),
+    /// Whole scans until so many milliseconds have passed.
+    Ms(u32),
+}
+
+/// A device and its value.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Setting {
+    /// What it names.
+    pub target: Target,
+    /// Its value.
+    pub value: Value,
+}
+
+/// A value as [`Target`] asks for it.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Value {
+    /// A bit, word or double word.
+    Int(i32),
+    /// A float.
+    Float(f64),
+    /// Characters.
+    Text(String),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Int(v) => v.fmt(f),
+            Value::Float(v) => v.fmt(f),
+            Value::Text(v) => write!(f, "{v:?}"),
+        }
+    }
+}
+
+/// A mistake in a test file.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Problem {
+    /// Line, from 1.
+    pub line: u32,
+    /// Column in characters, from 1.
+    pub column: u32,
+    /// What is wrong.
+    pub message: String,
+}
+
+/// Why a test file could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// It could not be read.
+    #[error("{}: {error}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// Mistakes in it, one a line.
+    #[error("{}", lines(name, problems))]
+    Format {
+        /// The file's name.
+        name: String,
+        /// What is wrong in it.
+        problems: Vec<Problem>,
+    },
+}
+
+fn lines(name: &str, problems: &[Problem]) -> String {
+    let line = |p: &Problem| format!("{name}:{}:{}: {}", p.line, p.column, p.message);
+    problems.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Reads a test file.
+pub fn load(path: &Path) -> Result<TestFile, LoadError> {
+    let text = std::fs::read_to_string(path).map_err(|error| LoadError::Io {
+        path: path.to_path_buf(),
+        error,
+    })?;
+    parse(&path.display().to_string(), &text)
+}
+
+/// Reads the text of a test file.
+pub fn parse(name: &str, text: &str) -> Result<TestFile, LoadError> {
+    let source = Source::new(name, text);
+    format::parse(&source).map_err(|problems| LoadError::Format {
+        name: name.to_string(),
+        problems,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parse;
+
+    fn problems_of(text: &str) -> String {
+        parse("t.plctest.toml", text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_place() {
+        let text = r#"model = "h3u"
+topic = "t"
+[[case]]
+name = "a"
+program = "END"
+init = { D0 = 70000, X009 = 1, M0 = 2 }
+[[case.step]]
+scans = 1
+run_ms = 5
+clock = "noon"
+bfm = { "5" = 1 }
+[[case]]
+name = "a"
+program = "END"
+"#;
+        insta::assert_snapshot!(problems_of(text), @r#"
+        t.plctest.toml:1:9: there is no model `h3u`
+        t.plctest.toml:6:15: the value of `D0` is a 16-bit integer, or hexadecimal in quotes: "0xFFFF"
+        t.plctest.toml:6:22: `X009`: `X` is followed by an octal number
+        t.plctest.toml:6:37: the value of `M0` is 0 or 1
+        t.plctest.toml:9:10: a step has `scans` or `run_ms`, not both
+        t.plctest.toml:10:9: a time is written `2026-01-02T03:04:05`
+        t.plctest.toml:11:9: a word of buffer memory is named `MODULE:ADDRESS`
+        t.plctest.toml:12:1: a case has steps, or `rejects`
+        t.plctest.toml:13:8: the case `a` stands twice in this file
+        "#);
+    }
+
+    #[test]
+    fn unknown_keys_are_mistakes() {
+        let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `clock`, `mode`, `power_cycle`, `bfm`, `expect_bfm`, `analog`");
+    }
+}

@@ -1,0 +1,171 @@
+//! Names in `set`, `init` and `expect`: `M0`, `D0.i32`, `K4M0`, `T0.value`, `Y000.pulses`.
+
+use rungc_syntax::DeviceClass;
+use std::fmt;
+
+/// What a name denotes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Target {
+    /// A bit device; a timer's or counter's contact.
+    Bit(DeviceClass, u32),
+    /// A 16-bit word.
+    Word(DeviceClass, u32),
+    /// The current value of a timer or counter; 32 bits from C200.
+    Current(DeviceClass, u32),
+    /// A pair of words as a signed integer.
+    Pair(DeviceClass, u32),
+    /// A pair of words as a float.
+    Float(DeviceClass, u32),
+    /// Characters, two a word, low byte first.
+    Text(DeviceClass, u32),
+    /// A group of `4 * .0` bits.
+    Nibbles(u8, DeviceClass, u32),
+    /// Pulses that an output has emitted since power-on.
+    Pulses(u32),
+    /// The frequency that an output emits now.
+    Frequency(u32),
+}
+
+const BITS: [DeviceClass; 4] = [
+    DeviceClass::X,
+    DeviceClass::Y,
+    DeviceClass::M,
+    DeviceClass::S,
+];
+const CONTACTS: [DeviceClass; 2] = [DeviceClass::T, DeviceClass::C];
+const WORDS: [DeviceClass; 5] = [
+    DeviceClass::D,
+    DeviceClass::R,
+    DeviceClass::ER,
+    DeviceClass::V,
+    DeviceClass::Z,
+];
+
+impl Target {
+    /// Reads a name; the error says what is wrong with it.
+    pub fn parse(name: &str) -> Result<Target, String> {
+        let (device, view) = match name.split_once('.') {
+            Some((device, view)) => (device, Some(view)),
+            None => (name, None),
+        };
+        if let Some((digits, device)) = group(device) {
+            let (class, number) = device_of(device, name)?;
+            return match (view, BITS.contains(&class), digits) {
+                (None, true, 1..=8) => Ok(Target::Nibbles(digits, class, number)),
+                (None, true, _) => Err(format!("`{name}`: a group has 1 to 8 digits")),
+                (None, false, _) => Err(format!("`{name}`: a group begins at an X, Y, M or S")),
+                (Some(_), ..) => Err(format!("`{name}`: nothing may follow a group")),
+            };
+        }
+        let (class, number) = device_of(device, name)?;
+        let is_word = WORDS.contains(&class);
+        match view {
+            None if BITS.contains(&class) || CONTACTS.contains(&class) => {
+                Ok(Target::Bit(class, number))
+            }
+            None if is_word => Ok(Target::Word(class, number)),
+            Some("value") if CONTACTS.contains(&class) => Ok(Target::Current(class, number)),
+            Some("i32") if is_word => Ok(Target::Pair(class, number)),
+            Some("f32") if is_word => Ok(Target::Float(class, number)),
+            Some("str") if is_word => Ok(Target::Text(class, number)),
+            Some("pulses") if class == DeviceClass::Y => Ok(Target::Pulses(number)),
+            Some("hz") if class == DeviceClass::Y => Ok(Target::Frequency(number)),
+            Some(view) => Err(format!(
+                "`{name}`: `.{view}` does not go with {}",
+                class.prefix()
+            )),
+            None => Err(format!("`{name}` holds no value")),
+        }
+    }
+
+    /// What the target needs beyond devices, if an engine has to lack it.
+    pub(crate) fn needs(self) -> Option<&'static str> {
+        match self {
+            Target::Pulses(_) | Target::Frequency(_) => Some("pulse outputs"),
+            _ => None,
+        }
+    }
+
+    /// The devices it covers, as (class, first, count); a text covers `text_len` bytes.
+    pub(crate) fn devices(self, text_len: usize) -> (DeviceClass, u32, u32) {
+        match self {
+            Target::Bit(class, n) | Target::Word(class, n) | Target::Current(class, n) => {
+                (class, n, 1)
+            }
+            Target::Pair(class, n) | Target::Float(class, n) => (class, n, 2),
+            Target::Text(class, n) => (class, n, text_len.div_ceil(2) as u32),
+            Target::Nibbles(digits, class, n) => (class, n, 4 * u32::from(digits)),
+            Target::Pulses(n) | Target::Frequency(n) => (DeviceClass::Y, n, 1),
+        }
+    }
+}
+
+/// Splits `K4M0` into 4 and `M0`.
+fn group(device: &str) -> Option<(u8, &str)> {
+    let rest = device.strip_prefix('K')?;
+    let at = rest.find(|c: char| !c.is_ascii_digit())?;
+    let (digits, device) = rest.split_at(at);
+    Some((digits.parse().ok()?, device))
+}
+
+fn device_of(device: &str, name: &str) -> Result<(DeviceClass, u32), String> {
+    let at = device
+        .find(|c: char| c.is_ascii_digit())
+        .unwrap_or(device.len());
+    let (letters, number) = device.split_at(at);
+    let class = DeviceClass::from_prefix(letters)
+        .ok_or_else(|| format!("`{name}` is no device name, e.g. `M0`, `X010`, `D0.i32`"))?;
+    let radix = if class.is_octal() { 8 } else { 10 };
+    let number = u32::from_str_radix(number, radix).map_err(|_| {
+        let kind = if radix == 8 { "an octal" } else { "a decimal" };
+        format!("`{name}`: `{letters}` is followed by {kind} number")
+    })?;
+    Ok((class, number))
+}
+
+impl fmt::Display for Target {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Target::Bit(class, n) | Target::Word(class, n) => write!(f, "{}", class.number(n)),
+            Target::Current(class, n) => write!(f, "{}.value", class.number(n)),
+            Target::Pair(class, n) => write!(f, "{}.i32", class.number(n)),
+            Target::Float(class, n) => write!(f, "{}.f32", class.number(n)),
+            Target::Text(class, n) => write!(f, "{}.str", class.number(n)),
+            Target::Nibbles(digits, class, n) => write!(f, "K{digits}{}", class.number(n)),
+            Target::Pulses(n) => write!(f, "{}.pulses", DeviceClass::Y.number(n)),
+            Target::Frequency(n) => write!(f, "{}.hz", DeviceClass::Y.number(n)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Target;
+    use rungc_syntax::DeviceClass::{C, D, M, X, Y};
+
+    #[test]
+    fn names_are_read() {
+        for (name, target) in [
+            ("X010", Target::Bit(X, 8)),
+            ("C200.value", Target::Current(C, 200)),
+            ("D8013", Target::Word(D, 8013)),
+            ("D0.f32", Target::Float(D, 0)),
+            ("K4M16", Target::Nibbles(4, M, 16)),
+            ("Y003.hz", Target::Frequency(3)),
+            ("Y000", Target::Bit(Y, 0)),
+        ] {
+            assert_eq!(Target::parse(name), Ok(target));
+            assert_eq!(target.to_string(), name);
+        }
+    }
+
+    #[test]
+    fn wrong_names_are_errors() {
+        for name in [
+            "", "Q0", "X008", "D", "D0.i16", "K9M0", "K4D0", "M0.i32", "P0", "D0.value",
+            "K4M0.i32", "D-1", "T0.hz",
+        ] {
+            assert!(Target::parse(name).is_err(), "{name}");
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! What became of the cases.
+
+use super::{Id, Suite, Target, Value};
+use std::fmt;
+
+/// Why a case failed.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Failure {
+    /// Its program does not compile: line and message of each error.
+    Refused(Vec<(u32, String)>),
+    /// Its program had to be rejected, and was not, or for another reason.
+    Accepted(String),
+    /// It needs hardware that no engine has yet.
+    Lacks(Vec<&'static str>),
+    /// A device of it does not exist on the model.
+    NoDevice {
+        /// Step of the case, from 1; 0 for `init`.
+        step: usize,
+        /// The device.
+        target: Target,
+    },
+    /// Devices do not hold what the case expects.
+    Differs {
+        /// Step of the case, from 1.
+        step: usize,
+        /// The step's line in the file.
+        line: u32,
+        /// Name, expected and actual value of each.
+        values: Vec<(String, Value, Value)>,
+    },
+    /// The engine failed.
+    Engine {
+        /// Step of the case, from 1; 0 for `init`.
+        step: usize,
+        /// What it says.
+        message: String,
+    },
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Refused(errors) => {
+                write!(f, "the program does not compile:")?;
+                errors
+                    .iter()
+                    .try_for_each(|(line, message)| write!(f, " line {line}: {message};"))
+            }
+            Failure::Accepted(message) => write!(f, "{message}"),
+            Failure::Lacks(what) => {
+                write!(f, "needs {}, which this engine lacks", what.join(" and "))
+            }
+            Failure::NoDevice { step, target } => {
+                write!(f, "step {step}: `{target}` does not exist on the model")
+            }
+            Failure::Differs { step, line, values } => {
+                write!(f, "step {step} (line {line}):")?;
+                values.iter().try_for_each(|(name, expected, actual)| {
+                    write!(f, " {name} is {actual}, expected {expected};")
+                })
+            }
+            Failure::Engine { step, message } => write!(f, "step {step}: {message}"),
+        }
+    }
+}
+
+/// The result of one case on one engine.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Outcome {
+    /// Which case.
+    pub id: Id,
+    /// Name of the engine.
+    pub engine: String,
+    /// Why it failed, if it did.
+    pub failure: Option<Failure>,
+}
+
+/// The results of all cases.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// In the order in which they ran.
+    pub outcomes: Vec<Outcome>,
+}
+
+impl Report {
+    /// Those that failed.
+    pub fn failures(&self) -> impl Iterator<Item = &Outcome> {
+        self.outcomes.iter().filter(|o| o.failure.is_some())
+    }
+
+    /// How many passed.
+    pub fn passed(&self) -> usize {
+        self.outcomes.iter().filter(|o| o.failure.is_none()).count()
+    }
+
+    /// Whether all passed.
+    pub fn is_success(&self) -> bool {
+        self.failures().next().is_none()
+    }
+
+    /// Adds the results of another engine.
+    pub fn extend(&mut self, other: Report) {
+        self.outcomes.extend(other.outcomes);
+    }
+}
+
+impl Outcome {
+    /// The case's place, name and engine, why it failed, and what it is based on.
+    pub fn describe(&self, suite: &Suite) -> String {
+        let file = &suite.files()[self.id.file];
+        let case = &file.cases[self.id.case];
+        let verdict = match &self.failure {
+            Some(failure) => failure.to_string(),
+            None => "passed".to_string(),
+        };
+        let mut text = format!(
+            "{}:{}: {} [{}]: {}",
+            file.name,
+            case.line,
+            case.name,
+            self.engine,
+            verdict.trim_end_matches(';')
+        );
+        if self.failure.is_some() && !case.source.is_empty() {
+            text.push_str(&format!("\n    source: {}", case.source));
+        }
+        if self.failure.is_some() && !case.note.is_empty() {
+            text.push_str(&format!("\n    note: {}", case.note));
+        }
+        text
+    }
+}

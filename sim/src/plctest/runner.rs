@@ -1,0 +1,315 @@
+//! Runs the cases of a suite on an engine.
+
+use super::suite::Built;
+use super::{Check, Failure, Outcome, Rejects, Report, Run, Setting, Step, Suite, Target, Value};
+use crate::devices::rt_class;
+use crate::engines::{Engine, EngineError};
+use crate::protocol::{Answer, Request};
+use rungc_rt::Class;
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
+
+/// Relative tolerance of floats.
+const FLOAT_TOLERANCE: f64 = 1e-5;
+
+/// Runs all cases. `progress` is told each result as it is known.
+pub fn run(suite: &Suite, engine: &mut dyn Engine, progress: &mut dyn FnMut(&Outcome)) -> Report {
+    let mut report = Report::default();
+    for (id, case) in suite.cases() {
+        let result = match (&case.check, suite.built(id)) {
+            (Check::Rejects(rejects), built) => check_rejects(*rejects, built),
+            (Check::Steps { .. }, Built::Refused(errors)) => Err(Failure::Refused(
+                errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
+            )),
+            (Check::Steps { init, steps }, Built::Module(module)) => {
+                run_case(engine, *module, init, steps)
+            }
+        };
+        let outcome = Outcome {
+            id,
+            engine: engine.name().to_string(),
+            failure: result.err(),
+        };
+        progress(&outcome);
+        report.outcomes.push(outcome);
+    }
+    report
+}
+
+/// Whether the compiler raised the error that a case asks for.
+fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
+    let wanted = match (rejects.code, rejects.line) {
+        (0, None) => "an error".to_string(),
+        (0, Some(line)) => format!("an error on line {line}"),
+        (code, None) => format!("error {code}"),
+        (code, Some(line)) => format!("error {code} on line {line}"),
+    };
+    let Built::Refused(errors) = built else {
+        let message = format!("the program compiles, {wanted} is expected");
+        return Err(Failure::Accepted(message));
+    };
+    let fits = |(code, line, _): &(Option<u16>, u32, String)| {
+        (rejects.code == 0 || *code == Some(rejects.code))
+            && rejects.line.is_none_or(|l| l == *line)
+    };
+    if errors.iter().any(fits) {
+        return Ok(());
+    }
+    let found: Vec<String> = errors
+        .iter()
+        .map(|(code, line, message)| match code {
+            Some(code) => format!("error {code} on line {line}: {message}"),
+            None => format!("line {line}: {message}"),
+        })
+        .collect();
+    let message = format!("{wanted} is expected, found {}", found.join("; "));
+    Err(Failure::Accepted(message))
+}
+
+/// A case while it runs.
+struct Running<'e> {
+    engine: &'e mut dyn Engine,
+    /// The step that runs, from 1.
+    step: usize,
+    now_ms: u32,
+    /// State of the input terminals, which a power cycle does not change.
+    inputs: BTreeMap<u32, bool>,
+}
+
+fn run_case(
+    engine: &mut dyn Engine,
+    module: usize,
+    init: &[Setting],
+    steps: &[Step],
+) -> Result<(), Failure> {
+    let settings = steps.iter().flat_map(|s| s.set.iter().chain(&s.expect));
+    let mut needs: Vec<_> = steps.iter().flat_map(|s| s.needs.clone()).collect();
+    needs.extend(init.iter().chain(settings).filter_map(|s| s.target.needs()));
+    needs.sort_unstable();
+    needs.dedup();
+    if !needs.is_empty() {
+        return Err(Failure::Lacks(needs));
+    }
+    let mut running = Running {
+        engine,
+        step: 0,
+        now_ms: 0,
+        inputs: BTreeMap::new(),
+    };
+    running.ask(Request::Case(module))?;
+    running.set_all(init)?;
+    for (i, step) in steps.iter().enumerate() {
+        running.step = i + 1;
+        running.run_step(step)?;
+    }
+    Ok(())
+}
+
+impl Running<'_> {
+    fn ask(&mut self, request: Request) -> Result<Answer, Failure> {
+        self.engine
+            .ask(request)
+            .map_err(|error| self.failed(&error))
+    }
+
+    fn failed(&self, error: &EngineError) -> Failure {
+        Failure::Engine {
+            step: self.step,
+            message: error.to_string(),
+        }
+    }
+
+    /// Asks for something that must exist.
+    fn insist(&mut self, request: Request) -> Result<(), Failure> {
+        match self.ask(request)? {
+            Answer::Missing => Err(self.failed(&EngineError::Missing(request))),
+            _ => Ok(()),
+        }
+    }
+
+    fn run_step(&mut self, step: &Step) -> Result<(), Failure> {
+        if step.power_cycle {
+            self.ask(Request::Power)?;
+            self.now_ms = 0;
+            for (number, on) in self.inputs.clone() {
+                self.ask(Request::SetBit(Class::X, number, on))?;
+            }
+        }
+        if let Some(running) = step.running {
+            self.ask(Request::Run(running))?;
+        }
+        if let Some(clock) = step.clock {
+            self.insist(Request::SetClock(clock))?;
+        }
+        for &(unit, address, value) in &step.bfm {
+            self.insist(Request::SetBfm(unit, address, value))?;
+        }
+        for &(channel, value) in &step.analog {
+            self.insist(Request::SetAnalog(channel, value))?;
+        }
+        self.set_all(&step.set)?;
+        let scans = match step.run {
+            Run::Scans(scans) => scans,
+            Run::Ms(ms) => ms.div_ceil(step.scan_ms),
+        };
+        for _ in 0..scans {
+            self.ask(Request::Scan {
+                now_ms: self.now_ms,
+                scan_us: step.scan_ms.saturating_mul(1000),
+            })?;
+            self.now_ms = self.now_ms.wrapping_add(step.scan_ms);
+        }
+        self.check(step)
+    }
+
+    fn check(&mut self, step: &Step) -> Result<(), Failure> {
+        let mut values = Vec::new();
+        for Setting { target, value } in &step.expect {
+            let actual = self.get(*target, value)?;
+            if !agrees(value, &actual) {
+                values.push((target.to_string(), value.clone(), actual));
+            }
+        }
+        for &(unit, address, expected) in &step.expect_bfm {
+            let request = Request::Bfm(unit, address);
+            let Answer::Value(actual) = self.ask(request)? else {
+                return Err(self.failed(&EngineError::Missing(request)));
+            };
+            if actual != i64::from(expected) {
+                let name = format!("buffer memory {unit}:{address}");
+                values.push((name, Value::Int(expected.into()), Value::Int(actual as i32)));
+            }
+        }
+        if values.is_empty() {
+            return Ok(());
+        }
+        Err(Failure::Differs {
+            step: self.step,
+            line: step.line,
+            values,
+        })
+    }
+
+    fn set_all(&mut self, settings: &[Setting]) -> Result<(), Failure> {
+        settings.iter().try_for_each(|s| self.set(s))
+    }
+
+    fn set(&mut self, setting: &Setting) -> Result<(), Failure> {
+        for request in requests(setting) {
+            if let Request::SetBit(Class::X, number, on) = request {
+                self.inputs.insert(number, on);
+            }
+            if self.ask(request)? == Answer::Missing {
+                return Err(self.no_device(setting.target));
+            }
+        }
+        Ok(())
+    }
+
+    fn no_device(&self, target: Target) -> Failure {
+        Failure::NoDevice {
+            step: self.step,
+            target,
+        }
+    }
+
+    /// One value of the engine, for `target`.
+    fn value(&mut self, target: Target, request: Request) -> Result<i64, Failure> {
+        match self.ask(request)? {
+            Answer::Value(value) => Ok(value),
+            _ => Err(self.no_device(target)),
+        }
+    }
+
+    /// What the target holds, in the shape of the value expected of it.
+    fn get(&mut self, target: Target, expected: &Value) -> Result<Value, Failure> {
+        let class = |class| rt_class(class).unwrap_or(Class::D);
+        let int = |value: i64| Value::Int(value as i32);
+        match target {
+            Target::Bit(DeviceClass::Y, n) => self.value(target, Request::Output(n)).map(int),
+            Target::Bit(c, n) => self.value(target, Request::Bit(class(c), n)).map(int),
+            Target::Current(DeviceClass::C, n @ 200..) => {
+                self.value(target, Request::Double(Class::C, n)).map(int)
+            }
+            Target::Word(c, n) | Target::Current(c, n) => {
+                self.value(target, Request::Word(class(c), n)).map(int)
+            }
+            Target::Pair(c, n) => self.value(target, Request::Double(class(c), n)).map(int),
+            Target::Float(c, n) => {
+                let bits = self.value(target, Request::Double(class(c), n))?;
+                Ok(Value::Float(f32::from_bits(bits as u32).into()))
+            }
+            Target::Nibbles(digits, c, first) => {
+                let mut value = 0u32;
+                for i in 0..4 * u32::from(digits) {
+                    let on = self.value(target, Request::Bit(class(c), first.saturating_add(i)))?;
+                    value |= u32::from(on != 0) << i;
+                }
+                let value = value as i32;
+                Ok(Value::Int(if digits <= 4 {
+                    (value as i16).into()
+                } else {
+                    value
+                }))
+            }
+            Target::Text(c, first) => {
+                let len = match expected {
+                    Value::Text(text) => text.len(),
+                    _ => 0,
+                };
+                let mut bytes = Vec::new();
+                for i in 0..len.div_ceil(2) as u32 {
+                    let word = Request::Word(class(c), first.saturating_add(i));
+                    bytes.extend((self.value(target, word)? as u16).to_le_bytes());
+                }
+                bytes.truncate(len);
+                Ok(Value::Text(String::from_utf8_lossy(&bytes).into_owned()))
+            }
+            Target::Pulses(_) | Target::Frequency(_) => {
+                Err(Failure::Lacks(target.needs().into_iter().collect()))
+            }
+        }
+    }
+}
+
+/// What sets a target.
+fn requests(setting: &Setting) -> Vec<Request> {
+    let (class, number, _) = setting.target.devices(0);
+    let class = rt_class(class).unwrap_or(Class::D);
+    match (setting.target, &setting.value) {
+        (Target::Bit(..), Value::Int(v)) => vec![Request::SetBit(class, number, *v != 0)],
+        (Target::Current(DeviceClass::C, 200..) | Target::Pair(..), Value::Int(v)) => {
+            vec![Request::SetDouble(class, number, *v)]
+        }
+        (Target::Word(..) | Target::Current(..), Value::Int(v)) => {
+            vec![Request::SetWord(class, number, *v as i16)]
+        }
+        (Target::Float(..), Value::Float(v)) => {
+            let bits = (*v as f32).to_bits() as i32;
+            vec![Request::SetDouble(class, number, bits)]
+        }
+        (Target::Nibbles(digits, ..), Value::Int(v)) => (0..4 * u32::from(digits))
+            .map(|i| Request::SetBit(class, number.saturating_add(i), v >> i & 1 == 1))
+            .collect(),
+        (Target::Text(..), Value::Text(text)) => text
+            .as_bytes()
+            .chunks(2)
+            .zip(number..)
+            .map(|(bytes, n)| {
+                let high = bytes.get(1).copied().unwrap_or(0);
+                Request::SetWord(class, n, i16::from_le_bytes([bytes[0], high]))
+            })
+            .collect(),
+        // Pulse outputs are not set, and the reader gives every other target a value of its kind.
+        _ => Vec::new(),
+    }
+}
+
+fn agrees(expected: &Value, actual: &Value) -> bool {
+    match (expected, actual) {
+        (Value::Float(e), Value::Float(a)) => {
+            e == a || (e.is_nan() && a.is_nan()) || (a - e).abs() <= FLOAT_TOLERANCE * e.abs()
+        }
+        (expected, actual) => expected == actual,
+    }
+}

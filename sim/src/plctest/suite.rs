@@ -1,0 +1,136 @@
+//! The programs of many test files, compiled.
+
+use super::{Case, Check, TestFile};
+use rungc_ir::Module;
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_syntax::{DeviceClass, Diagnostic, Severity, Source};
+use std::collections::BTreeSet;
+
+/// Which case of which file.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
+pub struct Id {
+    /// Position of the file in the suite.
+    pub file: usize,
+    /// Position of the case in the file.
+    pub case: usize,
+}
+
+/// What became of a case's program.
+#[derive(Debug)]
+pub(super) enum Built {
+    /// It is this module.
+    Module(usize),
+    /// It raised errors: the PLC's code, the line in the program, and the message of each.
+    Refused(Vec<(Option<u16>, u32, String)>),
+}
+
+/// Test files and their compiled programs.
+#[derive(Debug)]
+pub struct Suite {
+    files: Vec<TestFile>,
+    modules: Vec<Module>,
+    built: Vec<Vec<Built>>,
+}
+
+impl Suite {
+    /// Compiles the programs of all cases; those that do not compile are a matter of their cases.
+    pub fn compile(files: Vec<TestFile>) -> Self {
+        let mut modules = Vec::new();
+        let mut build = |case: &Case| match compile_case(case) {
+            Ok(module) => {
+                modules.push(module);
+                Built::Module(modules.len() - 1)
+            }
+            Err(errors) => Built::Refused(errors),
+        };
+        let built = files
+            .iter()
+            .map(|file| file.cases.iter().map(&mut build).collect())
+            .collect();
+        Suite {
+            files,
+            modules,
+            built,
+        }
+    }
+
+    /// The compiled programs, in the order in which engines number them.
+    pub fn modules(&self) -> &[Module] {
+        &self.modules
+    }
+
+    /// The files.
+    pub fn files(&self) -> &[TestFile] {
+        &self.files
+    }
+
+    /// All cases in order.
+    pub fn cases(&self) -> impl Iterator<Item = (Id, &Case)> {
+        self.files.iter().enumerate().flat_map(|(file, test)| {
+            let id = move |case| Id { file, case };
+            test.cases.iter().enumerate().map(move |(i, c)| (id(i), c))
+        })
+    }
+
+    /// How many cases there are.
+    pub fn len(&self) -> usize {
+        self.files.iter().map(|f| f.cases.len()).sum()
+    }
+
+    /// Whether there is no case at all.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    pub(super) fn built(&self, id: Id) -> &Built {
+        &self.built[id.file][id.case]
+    }
+}
+
+/// Devices that a case looks at and its program may not use.
+fn observed(case: &Case) -> Vec<(DeviceClass, u32)> {
+    let Check::Steps { init, steps } = &case.check else {
+        return Vec::new();
+    };
+    let of_steps = steps.iter().flat_map(|s| s.set.iter().chain(&s.expect));
+    let devices: BTreeSet<_> = init
+        .iter()
+        .chain(of_steps)
+        .flat_map(|setting| {
+            let text_len = match &setting.value {
+                super::Value::Text(text) => text.len(),
+                _ => 0,
+            };
+            let (class, first, count) = setting.target.devices(text_len);
+            (first..first.saturating_add(count)).map(move |n| (class, n))
+        })
+        .collect();
+    devices.into_iter().collect()
+}
+
+fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> {
+    let read = rungc_frontend::read_text(&format!("{}.il", case.name), &case.program);
+    let options = CompileOptions {
+        model: Some(case.model),
+        name: Some(case.name.clone()),
+        observe: observed(case),
+        observe_all: false,
+        optimise: true,
+    };
+    let compiled = compile(&read.program, &options);
+    let source = &read.program.source;
+    let errors: Vec<_> = [&read.diagnostics, &compiled.diagnostics]
+        .into_iter()
+        .flat_map(|diagnostics| diagnostics.iter())
+        .filter(|d| d.severity == Severity::Error)
+        .map(|d| (d.plc_error, line_of(source, d), d.message.clone()))
+        .collect();
+    match compiled.module {
+        Some(module) if errors.is_empty() => Ok(module),
+        _ => Err(errors),
+    }
+}
+
+fn line_of(source: &Source, diagnostic: &Diagnostic) -> u32 {
+    source.line_col(diagnostic.span.start).0
+}

@@ -1,0 +1,125 @@
+//! What a test asks of an engine, and the text form in which it asks executables.
+//!
+//! A batch executable holds many compiled programs. It reads one request a line and answers each with one line: `ok`, `none` (no
+//! such device, module or channel), or a decimal value. It flushes its output when its input is exhausted or a value was asked for.
+
+use rungc_rt::{Class, Clock};
+use std::fmt;
+
+/// One request.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Request {
+    /// Program number `.0` of the batch, freshly powered on, with hardware that has nothing set.
+    Case(usize),
+    /// Sets a bit device.
+    SetBit(Class, u32, bool),
+    /// Sets a word device.
+    SetWord(Class, u32, i16),
+    /// Sets a pair, or a 32-bit counter.
+    SetDouble(Class, u32, i32),
+    /// Asks for a bit device.
+    Bit(Class, u32),
+    /// Asks for a word device.
+    Word(Class, u32),
+    /// Asks for a pair, or for a 32-bit counter.
+    Double(Class, u32),
+    /// One scan.
+    Scan {
+        /// Milliseconds since power-on.
+        now_ms: u32,
+        /// Duration of the scan before, in microseconds.
+        scan_us: u32,
+    },
+    /// Asks for the state of an output terminal.
+    Output(u32),
+    /// The RUN/STOP switch.
+    Run(bool),
+    /// Power off and on; virtual time begins at 0 again.
+    Power,
+    /// Sets a word of a module's buffer memory.
+    SetBfm(u16, u16, i16),
+    /// Asks for a word of a module's buffer memory.
+    Bfm(u16, u16),
+    /// Sets the real-time clock.
+    SetClock(Clock),
+    /// Sets the raw value of an analog input.
+    SetAnalog(u8, i16),
+    /// Ends the executable.
+    Exit,
+}
+
+/// The answer to a request.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Answer {
+    /// Done.
+    Ok,
+    /// There is no such device, module or channel.
+    Missing,
+    /// The value asked for.
+    Value(i64),
+}
+
+impl Answer {
+    /// Reads an executable's answer.
+    pub fn parse(line: &str) -> Option<Answer> {
+        match line.trim_end() {
+            "ok" => Some(Answer::Ok),
+            "none" => Some(Answer::Missing),
+            number => number.parse().ok().map(Answer::Value),
+        }
+    }
+
+    /// `Ok` if something was found, else `Missing`.
+    pub(crate) fn done(found: Option<()>) -> Answer {
+        found.map_or(Answer::Missing, |()| Answer::Ok)
+    }
+
+    /// The value if something was found, else `Missing`.
+    pub(crate) fn value(found: Option<impl Into<i64>>) -> Answer {
+        found.map_or(Answer::Missing, |v| Answer::Value(v.into()))
+    }
+}
+
+/// The letters of a class.
+pub(crate) fn letters(class: Class) -> &'static str {
+    match class {
+        Class::X => "X",
+        Class::Y => "Y",
+        Class::M => "M",
+        Class::S => "S",
+        Class::T => "T",
+        Class::C => "C",
+        Class::D => "D",
+        Class::R => "R",
+        Class::V => "V",
+        Class::Z => "Z",
+        Class::ER => "ER",
+    }
+}
+
+impl fmt::Display for Request {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Request::Case(i) => write!(f, "case {i}"),
+            Request::SetBit(c, n, v) => write!(f, "bit {} {n} {}", letters(c), u8::from(v)),
+            Request::SetWord(c, n, v) => write!(f, "word {} {n} {v}", letters(c)),
+            Request::SetDouble(c, n, v) => write!(f, "dword {} {n} {v}", letters(c)),
+            Request::Bit(c, n) => write!(f, "getbit {} {n}", letters(c)),
+            Request::Word(c, n) => write!(f, "getword {} {n}", letters(c)),
+            Request::Double(c, n) => write!(f, "getdword {} {n}", letters(c)),
+            Request::Scan { now_ms, scan_us } => write!(f, "scan {now_ms} {scan_us}"),
+            Request::Output(n) => write!(f, "out {n}"),
+            Request::Run(run) => write!(f, "run {}", u8::from(run)),
+            Request::Power => write!(f, "power"),
+            Request::SetBfm(unit, address, v) => write!(f, "bfm {unit} {address} {v}"),
+            Request::Bfm(unit, address) => write!(f, "getbfm {unit} {address}"),
+            Request::SetClock(c) => write!(
+                f,
+                "clock {} {} {} {} {} {}",
+                c.year, c.month, c.day, c.hour, c.minute, c.second
+            ),
+            Request::SetAnalog(channel, v) => write!(f, "analog {channel} {v}"),
+            Request::Exit => write!(f, "exit"),
+        }
+    }
+}
