@@ -1,6 +1,6 @@
 //! Encodings of text: found by byte-order mark, by the shape of the bytes, and by which code page reads without a fault.
 
-use encoding_rs::{Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE};
+use encoding_rs::{Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 /// Decodes a text file; nothing if it is no text. The flag tells whether some bytes had to be replaced.
 pub(crate) fn decode(bytes: &[u8]) -> Option<(String, bool)> {
@@ -14,26 +14,29 @@ pub(crate) fn decode(bytes: &[u8]) -> Option<(String, bool)> {
     (controls * 32 <= text.chars().count()).then(|| (text.into_owned(), replaced))
 }
 
-/// Decodes short texts of one project, which share an encoding, all at once.
+/// Decodes short texts of one project, which share a code page, all at once.
 pub(crate) fn decode_local(texts: &[&[u8]]) -> Vec<String> {
-    let encoding = guess(&texts.join(&b'\n'));
+    let encoding = code_page(&texts.join(&b'\n')).unwrap_or(WINDOWS_1252);
     let decode = |text: &&[u8]| encoding.decode_without_bom_handling(text).0.into_owned();
     texts.iter().map(decode).collect()
 }
 
 fn guess(bytes: &[u8]) -> &'static Encoding {
-    if let Some(encoding) = wide(bytes) {
-        return encoding;
-    }
+    wide(bytes).or_else(|| code_page(bytes)).unwrap_or(GBK)
+}
+
+/// The encoding that reads these bytes without a fault.
+fn code_page(bytes: &[u8]) -> Option<&'static Encoding> {
     if std::str::from_utf8(bytes).is_ok() {
-        return UTF_8;
+        return Some(UTF_8);
     }
     let reads = |encoding: &'static Encoding| {
         encoding.decode_without_bom_handling_and_without_replacement(bytes)
     };
-    match reads(SHIFT_JIS) {
-        Some(japanese) if is_japanese(&japanese) || reads(GBK).is_none() => SHIFT_JIS,
-        _ => GBK,
+    match (reads(SHIFT_JIS), reads(GBK)) {
+        (Some(japanese), chinese) if chinese.is_none() || is_japanese(&japanese) => Some(SHIFT_JIS),
+        (_, Some(_)) => Some(GBK),
+        _ => None,
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod csv;
 mod encoding;
+mod gx;
 mod il;
 mod listing;
 pub mod print;
@@ -44,6 +45,12 @@ pub enum ReadError {
         /// The file's name.
         name: String,
     },
+    /// A folder that holds no program.
+    #[error("`{path}` holds no project: no `Resource/POU/Body/MAIN.wpg`, no `MAIN.csv`")]
+    NoProject {
+        /// Its path.
+        path: String,
+    },
     /// The content is in no known encoding or format.
     #[error("`{name}` is neither text nor a known project file")]
     Undecodable {
@@ -52,19 +59,40 @@ pub enum ReadError {
     },
 }
 
-/// Reads a program of any known format, found by its content: a list as text, a list export, with the device comments that lie
-/// beside it, a vendor's project.
+/// Reads a program of any known format, found by its content: a list as text, a list export with the device comments that lie
+/// beside it, a GX Developer project (its folder or its `MAIN.wpg`, with `COMMENT.wcd`), a GX Works2 project.
 pub fn read(path: &Path) -> Result<Read, ReadError> {
+    let inside = if path.is_dir() {
+        Some(main_file(path)?)
+    } else {
+        None
+    };
+    let path = inside.as_deref().unwrap_or(path);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let bytes = load(path)?;
-    let mut read = read_bytes(&name, &bytes)?;
-    if read.program.kind == SourceKind::Csv
-        && let Some(comments) = beside(path, "COMMENT.csv")
-    {
-        let text = encoding::decode(&load(&comments)?);
-        read.program.comments = text
-            .map(|(text, _)| csv::comments(&text))
-            .unwrap_or_default();
+    let mut read = read_bytes(&name, &load(path)?)?;
+    match read.program.kind {
+        SourceKind::Csv => {
+            if let Some(comments) = path
+                .parent()
+                .and_then(|folder| find(folder, &["COMMENT.csv"]))
+            {
+                let text = encoding::decode(&load(&comments)?);
+                read.program.comments = text
+                    .map(|(text, _)| csv::comments(&text))
+                    .unwrap_or_default();
+            }
+        }
+        SourceKind::GxDeveloper => {
+            let resource = path
+                .ancestors()
+                .nth(3)
+                .and_then(|folder| find(folder, &["Others", "COMMENT.wcd"]));
+            let comments = resource.or_else(|| find(path.parent()?, &["COMMENT.wcd"]));
+            if let Some(comments) = comments {
+                gx::add_comments(&mut read, &load(&comments)?);
+            }
+        }
+        SourceKind::Il | SourceKind::GxWorks2 => {}
     }
     Ok(read)
 }
@@ -75,6 +103,12 @@ pub fn read_bytes(name: &str, bytes: &[u8]) -> Result<Read, ReadError> {
         return Err(ReadError::TooLarge {
             name: name.to_owned(),
         });
+    }
+    if gx::is_ole(bytes) {
+        return Ok(gx::read_gxw(name, bytes));
+    }
+    if gx::is_wpg(bytes) {
+        return Ok(gx::read_wpg(name, bytes));
     }
     let Some((text, replaced)) = encoding::decode(bytes) else {
         return Err(ReadError::Undecodable {
@@ -121,13 +155,26 @@ fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
     std::fs::read(path).map_err(io)
 }
 
-/// The file of this name, in either case, in the same folder.
-fn beside(path: &Path, name: &str) -> Option<PathBuf> {
-    find_in(path.parent()?, name)
+/// The program in a project's folder.
+fn main_file(folder: &Path) -> Result<PathBuf, ReadError> {
+    const PLACES: [&[&str]; 5] = [
+        &["Resource", "POU", "Body", "MAIN.wpg"],
+        &["POU", "Body", "MAIN.wpg"],
+        &["Body", "MAIN.wpg"],
+        &["MAIN.wpg"],
+        &["MAIN.csv"],
+    ];
+    let found = PLACES.iter().find_map(|place| find(folder, place));
+    found.ok_or_else(|| ReadError::NoProject {
+        path: folder.display().to_string(),
+    })
 }
 
-/// The file or folder of this name, in either case, in a folder.
-fn find_in(folder: &Path, name: &str) -> Option<PathBuf> {
+/// The file that the names lead to from a folder on; projects spell their folders in both cases.
+fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {
+    let Some((name, rest)) = names.split_first() else {
+        return Some(folder.to_owned());
+    };
     let folder = if folder.as_os_str().is_empty() {
         Path::new(".")
     } else {
@@ -135,8 +182,8 @@ fn find_in(folder: &Path, name: &str) -> Option<PathBuf> {
     };
     let mut entries: Vec<_> = std::fs::read_dir(folder).ok()?.flatten().collect();
     entries.sort_by_key(std::fs::DirEntry::file_name);
-    let found = entries
+    entries
         .into_iter()
-        .find(|e| e.file_name().eq_ignore_ascii_case(name))?;
-    Some(found.path())
+        .filter(|e| e.file_name().eq_ignore_ascii_case(name))
+        .find_map(|e| find(&e.path(), rest))
 }
