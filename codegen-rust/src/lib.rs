@@ -1,1 +1,58 @@
-//! Placeholder.
+//! Rust from rungc's IR: a `no_std` crate without `unsafe`, made with quote, laid out by prettyplease.
+//!
+//! [`emit`] makes a crate of one program; [`batch`] one of many, for tests. How a program becomes Rust: `storage` names the fields,
+//! `analysis` finds where temporaries live, `function` splits what is long, `stmt` and `expr` write statements and expressions,
+//! `machine` the struct and its implementations, `format` lays out and places comments, `files` puts it together.
+//!
+//! Layout takes about as long as everything else together; it is made function by function, so time is linear in the program's
+//! length.
+
+mod analysis;
+mod expr;
+mod files;
+mod format;
+mod function;
+mod generate;
+mod machine;
+mod stmt;
+mod storage;
+
+use rungc_ir::Module;
+
+/// What to emit.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Options {
+    /// Also a `src/main.rs` that scans in real time on a host with `std`.
+    pub main: bool,
+    /// Where the emitted crate finds `rungc-rt`.
+    pub runtime: Runtime,
+}
+
+/// Where an emitted crate finds `rungc-rt`.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub enum Runtime {
+    /// In the folder `rungc-rt` inside it; its sources are among the files.
+    #[default]
+    Included,
+    /// At this path, relative to the crate or absolute.
+    At(String),
+}
+
+/// A file of the output.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct OutFile {
+    /// Path relative to the output folder.
+    pub path: String,
+    /// What stands in it.
+    pub text: String,
+}
+
+/// Emits a program as a crate that `cargo build` builds. The same module gives the same bytes.
+pub fn emit(module: &Module, options: &Options) -> Vec<OutFile> {
+    files::program(module, options)
+}
+
+/// Emits programs as one crate whose executable runs them on virtual hardware, as requests on standard input say.
+pub fn batch(modules: &[Module]) -> Vec<OutFile> {
+    files::batch(modules)
+}

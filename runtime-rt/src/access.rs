@@ -18,14 +18,26 @@ pub trait Access: Plc {
         let _ = self.set_bit(class, number as u32, value);
     }
 
-    /// Value of a word device.
+    /// Value of a word device; of a 32-bit counter the low word.
     fn word_at(&self, class: Class, number: i32) -> i16 {
+        if class == Class::C && number >= COUNTER32_FIRST {
+            return self.counter32(number as u32).unwrap_or(0) as i16;
+        }
         self.word(class, number as u32).unwrap_or(0)
     }
 
-    /// Sets a word device.
+    /// Sets a word device; a 32-bit counter takes the sign-extended word.
     fn set_word_at(&mut self, class: Class, number: i32, value: i16) {
+        if class == Class::C && number >= COUNTER32_FIRST {
+            let _ = self.set_counter32(number as u32, value.into());
+            return;
+        }
         let _ = self.set_word(class, number as u32, value);
+    }
+
+    /// Resets a timer or counter.
+    fn reset_at(&mut self, class: Class, number: i32) {
+        let _ = self.reset(class, number as u32);
     }
 
     /// Value of a pair or a 32-bit counter.

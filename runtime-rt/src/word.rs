@@ -20,6 +20,11 @@ pub const fn float_words(value: f32) -> [i16; 2] {
     words(value.to_bits() as i32)
 }
 
+/// High 32 bits of the 64-bit product.
+pub const fn mul_high(a: i32, b: i32) -> i32 {
+    ((a as i64 * b as i64) >> 32) as i32
+}
+
 /// Bit 0–15 of a word.
 pub const fn bit(word: i16, bit: u8) -> bool {
     word as u16 >> (bit & 15) & 1 == 1

@@ -9,18 +9,35 @@ static SRC: Dir = include_dir!("$CARGO_MANIFEST_DIR/../runtime-rt/src");
 static MANIFEST: &str = include_str!("../../runtime-rt/Cargo.toml");
 
 /// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `src/…`.
-pub fn files() -> Vec<(String, &'static str)> {
-    let mut files = vec![("Cargo.toml".to_string(), MANIFEST)];
+pub fn files() -> Vec<(String, String)> {
+    let mut files = Vec::new();
     collect(&SRC, &mut files);
-    files[1..].sort();
+    files.sort();
+    files.insert(0, ("Cargo.toml".to_string(), manifest()));
     files
 }
 
-fn collect(dir: &Dir<'static>, files: &mut Vec<(String, &'static str)>) {
+/// The manifest without what only tests need: that is inherited from a workspace which is not there.
+fn manifest() -> String {
+    let mut kept = String::new();
+    let mut is_for_tests = false;
+    for line in MANIFEST.lines() {
+        if line.starts_with('[') {
+            is_for_tests = line.starts_with("[dev-dependencies");
+        }
+        if !is_for_tests {
+            kept.push_str(line);
+            kept.push('\n');
+        }
+    }
+    kept
+}
+
+fn collect(dir: &Dir<'static>, files: &mut Vec<(String, String)>) {
     for file in dir.files() {
         // Sources are UTF-8; anything else in the folder is none of the crate's.
         if let Some(text) = file.contents_utf8() {
-            files.push((format!("src/{}", file.path().display()), text));
+            files.push((format!("src/{}", file.path().display()), text.to_string()));
         }
     }
     for dir in dir.dirs() {
@@ -37,5 +54,6 @@ mod tests {
         let files = files();
         let has = |path: &str| files.iter().any(|(p, _)| p == path);
         assert!(has("Cargo.toml") && has("src/lib.rs") && has("src/fnc/data.rs"));
+        assert!(!files[0].1.contains("workspace"), "stands alone");
     }
 }

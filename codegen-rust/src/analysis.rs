@@ -1,0 +1,366 @@
+//! What the generator must know before it writes a function: where temporaries live, what calls what, how long code will be.
+
+use rungc_ir::Module;
+use rungc_ir::node::{Arg, Body, Expr, ExprId, LabelId, Place, Stmt, TempId};
+use std::collections::HashMap;
+
+/// A body, by where its statements lie in memory while the module is borrowed.
+type BodyKey = *const Stmt;
+
+/// A statement of a body.
+pub type Position = (BodyKey, usize);
+
+/// Key of a body.
+pub fn key(body: &[Stmt]) -> BodyKey {
+    body.as_ptr()
+}
+
+/// The bodies directly in a statement.
+pub fn bodies(stmt: &Stmt) -> Vec<&Body> {
+    match stmt {
+        Stmt::If {
+            then, otherwise, ..
+        } => vec![then, otherwise],
+        Stmt::For { body, .. } => vec![body],
+        Stmt::Parts(parts) => parts.iter().map(|part| &part.body).collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn place_index(place: Place, out: &mut Vec<ExprId>) {
+    out.extend(place.index);
+}
+
+/// The expressions that a statement itself evaluates (not those of its bodies).
+pub fn expressions(stmt: &Stmt) -> Vec<ExprId> {
+    let mut out = Vec::new();
+    match stmt {
+        Stmt::Let(_, e) | Stmt::Edge { input: e, .. } => out.push(*e),
+        Stmt::WriteBit(place, e)
+        | Stmt::WriteWordBit(place, _, e)
+        | Stmt::WriteWord(place, e)
+        | Stmt::WritePair(place, e)
+        | Stmt::WriteFloat(place, e)
+        | Stmt::WriteNibbles {
+            place, value: e, ..
+        } => {
+            place_index(*place, &mut out);
+            out.push(*e);
+        }
+        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+            out.extend([*drive, *preset]);
+        }
+        Stmt::Counter32 {
+            drive,
+            down,
+            preset,
+            ..
+        } => out.extend([*drive, *down, *preset]),
+        Stmt::Reset(place) => place_index(*place, &mut out),
+        Stmt::If { cond, .. } => out.push(*cond),
+        Stmt::For { count, .. } => out.push(*count),
+        Stmt::Call { args, drive, .. } => {
+            for arg in args {
+                match *arg {
+                    Arg::Const { index, .. } => out.extend(index),
+                    Arg::Device { place, .. }
+                    | Arg::Nibbles { place, .. }
+                    | Arg::WordBit { place, .. } => place_index(place, &mut out),
+                    Arg::Float(_) | Arg::Text(_) => {}
+                }
+            }
+            out.extend(*drive);
+        }
+        Stmt::Network(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Fault { .. }
+        | Stmt::Clear { .. } => {}
+    }
+    out
+}
+
+/// The operands of an expression.
+pub fn operands(expr: &Expr) -> [Option<ExprId>; 2] {
+    match *expr {
+        Expr::ReadBit(place)
+        | Expr::ReadWordBit(place, _)
+        | Expr::ReadWord(place)
+        | Expr::ReadPair(place)
+        | Expr::ReadFloat(place)
+        | Expr::ReadNibbles { place, .. }
+        | Expr::InRange { place, .. } => [place.index, None],
+        Expr::Not(a)
+        | Expr::Complement(a)
+        | Expr::Neg(a)
+        | Expr::Widen(a)
+        | Expr::Narrow(a)
+        | Expr::HighWord(a)
+        | Expr::BitToInt(a) => [Some(a), None],
+        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
+            [Some(a), Some(b)]
+        }
+        Expr::Bit(_)
+        | Expr::I16(_)
+        | Expr::I32(_)
+        | Expr::F32(_)
+        | Expr::Temp(_)
+        | Expr::Sys(_) => [None, None],
+    }
+}
+
+/// The expressions below `roots`, each once, operands first.
+pub fn reachable(module: &Module, roots: &[ExprId]) -> Vec<ExprId> {
+    let mut found: Vec<ExprId> = Vec::new();
+    let mut seen = std::collections::HashSet::new();
+    let mut open = roots.to_vec();
+    while let Some(id) = open.pop() {
+        if seen.insert(id) {
+            found.push(id);
+            open.extend(operands(module.expr(id)).into_iter().flatten());
+        }
+    }
+    // Operands have lower handles.
+    found.sort_unstable();
+    found
+}
+
+/// The temporary that a statement assigns.
+pub fn assigned(stmt: &Stmt) -> Option<TempId> {
+    match stmt {
+        Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } => Some(*temp),
+        _ => None,
+    }
+}
+
+/// The temporaries that a statement itself reads.
+fn read(module: &Module, stmt: &Stmt) -> Vec<TempId> {
+    reachable(module, &expressions(stmt))
+        .into_iter()
+        .filter_map(|id| match *module.expr(id) {
+            Expr::Temp(temp) => Some(temp),
+            _ => None,
+        })
+        .collect()
+}
+
+/// How often a temporary occurs.
+#[derive(Clone, Copy, Default, Debug, PartialEq, Eq)]
+pub struct Count {
+    /// Statements that assign it.
+    pub assigned: u32,
+    /// Statements that read it.
+    pub read: u32,
+}
+
+/// The temporaries of some statements, bodies included, in a fixed order.
+pub fn count(module: &Module, stmts: &[Stmt]) -> std::collections::BTreeMap<TempId, Count> {
+    let mut counts = std::collections::BTreeMap::new();
+    walk(stmts, &mut |stmt| {
+        if let Some(temp) = assigned(stmt) {
+            counts.entry(temp).or_insert(Count::default()).assigned += 1;
+        }
+        for temp in read(module, stmt) {
+            counts.entry(temp).or_insert(Count::default()).read += 1;
+        }
+    });
+    counts
+}
+
+/// Calls `visit` with every statement, bodies included.
+pub fn walk<'a>(stmts: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
+    for stmt in stmts {
+        visit(stmt);
+        for body in bodies(stmt) {
+            walk(body, visit);
+        }
+    }
+}
+
+/// Where a temporary is declared.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Declared {
+    /// By the statement that assigns it first.
+    There {
+        /// Whether another one assigns it later.
+        again: bool,
+    },
+    /// In front of this statement, because it is assigned inside and read outside.
+    Before(Position),
+}
+
+/// A temporary in its function.
+#[derive(Clone, Debug)]
+struct Life {
+    /// The statements that enclose its first occurrence, from the outside in, that one included.
+    path: Vec<Position>,
+    /// How many of the bodies on the path hold all of its occurrences.
+    common: usize,
+    count: Count,
+}
+
+/// The temporaries of a function.
+#[derive(Default)]
+pub struct Temps {
+    lives: HashMap<TempId, Life>,
+}
+
+impl Temps {
+    /// Analyses a function's body.
+    pub fn of(module: &Module, body: &[Stmt]) -> Self {
+        let mut temps = Temps::default();
+        temps.visit(module, body, &mut Vec::new());
+        temps
+    }
+
+    fn visit(&mut self, module: &Module, body: &[Stmt], path: &mut Vec<Position>) {
+        for (i, stmt) in body.iter().enumerate() {
+            path.push((key(body), i));
+            for temp in read(module, stmt) {
+                self.occurs(temp, path).read += 1;
+            }
+            if let Some(temp) = assigned(stmt) {
+                self.occurs(temp, path).assigned += 1;
+            }
+            for inner in bodies(stmt) {
+                self.visit(module, inner, path);
+            }
+            path.pop();
+        }
+    }
+
+    fn occurs(&mut self, temp: TempId, path: &[Position]) -> &mut Count {
+        let life = self.lives.entry(temp).or_insert_with(|| Life {
+            path: path.to_vec(),
+            common: path.len(),
+            count: Count::default(),
+        });
+        let same = life
+            .path
+            .iter()
+            .zip(path)
+            .take_while(|(a, b)| a.0 == b.0)
+            .count();
+        life.common = life.common.min(same);
+        &mut life.count
+    }
+
+    /// Where a temporary is declared.
+    pub fn declared(&self, temp: TempId) -> Option<Declared> {
+        let life = self.lives.get(&temp)?;
+        Some(if life.common == life.path.len() {
+            Declared::There {
+                again: life.count.assigned > 1,
+            }
+        } else {
+            Declared::Before(*life.path.get(life.common.checked_sub(1)?)?)
+        })
+    }
+
+    /// How often a temporary occurs in the whole function.
+    pub fn count(&self, temp: TempId) -> Count {
+        self.lives
+            .get(&temp)
+            .map_or(Count::default(), |life| life.count)
+    }
+
+    /// The temporaries to declare in front of a statement, in order.
+    pub fn before(&self) -> HashMap<Position, Vec<TempId>> {
+        let mut found: HashMap<Position, Vec<TempId>> = HashMap::new();
+        for &temp in self.lives.keys() {
+            if let Some(Declared::Before(position)) = self.declared(temp) {
+                found.entry(position).or_default().push(temp);
+            }
+        }
+        found.values_mut().for_each(|temps| temps.sort_unstable());
+        found
+    }
+}
+
+/// Whether control may leave the statements other than at their end.
+pub fn escapes(stmts: &[Stmt]) -> bool {
+    let mut labels: Vec<LabelId> = Vec::new();
+    let mut gotos = Vec::new();
+    let mut returns = false;
+    walk(stmts, &mut |stmt| match stmt {
+        Stmt::Return => returns = true,
+        Stmt::Goto(label) => gotos.push(*label),
+        Stmt::Parts(parts) => labels.extend(parts.iter().filter_map(|part| part.label)),
+        _ => {}
+    });
+    returns || gotos.iter().any(|label| !labels.contains(label))
+}
+
+/// Roughly how many lines a statement will be, its bodies included.
+pub fn weight(module: &Module, stmt: &Stmt) -> usize {
+    let own = match stmt {
+        Stmt::Network(_) => 0,
+        _ => 1 + reachable(module, &expressions(stmt)).len() / 12,
+    };
+    own + bodies(stmt)
+        .into_iter()
+        .map(|body| 1 + body.iter().map(|stmt| weight(module, stmt)).sum::<usize>())
+        .sum::<usize>()
+}
+
+/// Which functions the scan reaches, and which of them hand the hardware on.
+pub struct Calls {
+    /// By function number: called from the scan.
+    pub reached: Vec<bool>,
+    /// By function number: takes `hal`.
+    pub needs_hal: Vec<bool>,
+}
+
+impl Calls {
+    /// Analyses a module. The first three functions are the scan's.
+    pub fn of(module: &Module) -> Self {
+        let mut callees = Vec::new();
+        let mut needs_hal = Vec::new();
+        for function in &module.functions {
+            let mut called = Vec::new();
+            let mut direct = false;
+            walk(&function.body, &mut |stmt| match stmt {
+                Stmt::CallSub(n) => called.push(*n as usize),
+                Stmt::Call { .. } => direct = true,
+                _ => {}
+            });
+            callees.push(called);
+            needs_hal.push(direct);
+        }
+        let mut reached = vec![false; callees.len()];
+        let mut open: Vec<usize> = (0..callees.len().min(3)).collect();
+        while let Some(n) = open.pop() {
+            if let Some(seen) = reached.get_mut(n)
+                && !std::mem::replace(seen, true)
+            {
+                open.extend(&callees[n]);
+            }
+        }
+        // Calls do not recurse, so this ends after as many rounds as calls nest.
+        loop {
+            let before = needs_hal.clone();
+            for (n, called) in callees.iter().enumerate() {
+                needs_hal[n] |= called
+                    .iter()
+                    .any(|&m| before.get(m).copied().unwrap_or(false));
+            }
+            if before == needs_hal {
+                break;
+            }
+        }
+        Calls { reached, needs_hal }
+    }
+
+    /// Whether the statements hand the hardware on.
+    pub fn stmts_need_hal(&self, stmts: &[Stmt]) -> bool {
+        let mut needs = false;
+        walk(stmts, &mut |stmt| match stmt {
+            Stmt::Call { .. } => needs = true,
+            Stmt::CallSub(n) => needs |= self.needs_hal.get(*n as usize).copied().unwrap_or(false),
+            _ => {}
+        });
+        needs
+    }
+}

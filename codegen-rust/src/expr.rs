@@ -1,0 +1,445 @@
+//! Expressions of the IR as expressions of Rust, with as few parentheses as a reader would write.
+
+use crate::generate::Generator;
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, quote};
+use rungc_ir::catalogue::CmpOp;
+use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
+use rungc_syntax::DeviceClass;
+
+/// What kind of Rust expression it is, for parentheses.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Shape {
+    /// Needs none: a path, field, call, positive literal.
+    Atom,
+    /// Behind a prefix operator.
+    Unary,
+    /// `a as T`.
+    Cast,
+    /// Operands of this operator.
+    Binary(&'static str),
+}
+
+/// A Rust expression.
+#[derive(Clone, Debug)]
+pub struct Code {
+    /// Its text.
+    pub tokens: TokenStream,
+    /// Its kind.
+    pub shape: Shape,
+    /// The operands if it is binary: for `a |= b`.
+    pub operands: Option<(TokenStream, TokenStream)>,
+}
+
+impl Code {
+    /// Something that needs no parentheses.
+    pub fn atom(tokens: TokenStream) -> Self {
+        Code {
+            tokens,
+            shape: Shape::Atom,
+            operands: None,
+        }
+    }
+
+    fn shaped(tokens: TokenStream, shape: Shape) -> Self {
+        Code {
+            tokens,
+            shape,
+            operands: None,
+        }
+    }
+
+    fn binary(op: &'static str, a: Code, b: Code) -> Self {
+        let sign: TokenStream = match op {
+            "&" => quote!(&),
+            "|" => quote!(|),
+            "^" => quote!(^),
+            "/" => quote!(/),
+            "%" => quote!(%),
+            "==" => quote!(==),
+            "!=" => quote!(!=),
+            "<" => quote!(<),
+            "<=" => quote!(<=),
+            ">" => quote!(>),
+            _ => quote!(>=),
+        };
+        let (a, b) = (a.operand_of(op), b.operand_of(op));
+        Code {
+            tokens: quote!(#a #sign #b),
+            shape: Shape::Binary(op),
+            operands: Some((a, b)),
+        }
+    }
+
+    /// As something that a method is called on.
+    pub fn receiver(self) -> TokenStream {
+        match self.shape {
+            Shape::Atom => self.tokens,
+            _ => {
+                let tokens = self.tokens;
+                quote!((#tokens))
+            }
+        }
+    }
+
+    /// As an operand of `op`. Operators are never mixed without parentheses; chains of a bitwise operator need none.
+    fn operand_of(self, op: &'static str) -> TokenStream {
+        match self.shape {
+            Shape::Atom | Shape::Unary => self.tokens,
+            Shape::Binary(own) if own == op && matches!(op, "&" | "|" | "^") => self.tokens,
+            _ => self.receiver(),
+        }
+    }
+}
+
+impl ToTokens for Code {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        self.tokens.to_tokens(tokens);
+    }
+}
+
+/// A 16-bit literal, with its type if nothing around it tells.
+fn literal16(value: i16, typed: bool) -> Code {
+    match (value, typed) {
+        (i16::MIN, _) => Code::atom(quote!(i16::MIN)),
+        (0.., true) => Code::atom(Literal::i16_suffixed(value).into_token_stream()),
+        (0.., false) => Code::atom(Literal::i16_unsuffixed(value).into_token_stream()),
+        (_, typed) => {
+            let literal = literal16(-value, typed);
+            Code::shaped(quote!(-#literal), Shape::Unary)
+        }
+    }
+}
+
+/// A 32-bit literal, with its type if nothing around it tells.
+pub fn literal32(value: i32, typed: bool) -> Code {
+    match (value, typed) {
+        (i32::MIN, _) => Code::atom(quote!(i32::MIN)),
+        (0.., true) => Code::atom(Literal::i32_suffixed(value).into_token_stream()),
+        (0.., false) => Code::atom(Literal::i32_unsuffixed(value).into_token_stream()),
+        (_, typed) => {
+            let literal = literal32(-value, typed);
+            Code::shaped(quote!(-#literal), Shape::Unary)
+        }
+    }
+}
+
+fn float_literal(value: f32) -> Code {
+    if !value.is_finite() {
+        let bits = Literal::u32_unsuffixed(value.to_bits());
+        return Code::atom(quote!(f32::from_bits(#bits)));
+    }
+    let literal = Literal::f32_suffixed(value.abs());
+    if value.is_sign_negative() {
+        Code::shaped(quote!(-#literal), Shape::Unary)
+    } else {
+        Code::atom(literal.into_token_stream())
+    }
+}
+
+impl Generator<'_> {
+    /// An expression where its type is known from around it.
+    pub fn expr(&mut self, id: ExprId) -> Code {
+        self.code(id, false)
+    }
+
+    /// An expression that must tell its own type.
+    pub fn typed(&mut self, id: ExprId) -> Code {
+        self.code(id, true)
+    }
+
+    fn code(&mut self, id: ExprId, typed: bool) -> Code {
+        if let Some(name) = self.hoisted(id) {
+            return Code::atom(quote!(#name));
+        }
+        match *self.module.expr(id) {
+            Expr::Bit(value) => Code::atom(quote!(#value)),
+            Expr::I16(value) => literal16(value, typed),
+            Expr::I32(value) => literal32(value, typed),
+            Expr::F32(value) => float_literal(value),
+            Expr::Temp(temp) => Code::atom(self.temp_name(temp).into_token_stream()),
+            Expr::ReadBit(place) => self.read_bit(place),
+            Expr::ReadWordBit(place, bit) => {
+                let word = self.read_word(place);
+                let function = self.word_function("bit");
+                let bit = Literal::u8_unsuffixed(bit);
+                Code::atom(quote!(#function(#word, #bit)))
+            }
+            Expr::ReadWord(place) => self.read_word(place),
+            Expr::ReadPair(place) => self.read_pair(place),
+            Expr::ReadFloat(place) => self.read_float(place),
+            Expr::ReadNibbles {
+                place,
+                digits,
+                wide,
+            } => self.read_nibbles(place, digits, wide),
+            Expr::Sys(value) => sys_value(value),
+            Expr::Not(a) => self.not(a),
+            Expr::And(a, b) => Code::binary("&", self.expr(a), self.expr(b)),
+            Expr::Or(a, b) => Code::binary("|", self.expr(a), self.expr(b)),
+            Expr::Cmp(op, a, b) => Code::binary(comparison(op), self.typed(a), self.expr(b)),
+            Expr::Bin(op, a, b) => self.arithmetic(op, a, b, typed),
+            Expr::Complement(a) => {
+                let a = self.code(a, typed).operand_of("!");
+                Code::shaped(quote!(!#a), Shape::Unary)
+            }
+            Expr::Neg(a) => {
+                let a = self.typed(a).receiver();
+                Code::atom(quote!(#a.wrapping_neg()))
+            }
+            Expr::Widen(a) => {
+                let a = self.typed(a);
+                Code::atom(quote!(i32::from(#a)))
+            }
+            Expr::Narrow(a) => {
+                let a = self.typed(a).operand_of("as");
+                Code::shaped(quote!(#a as i16), Shape::Cast)
+            }
+            Expr::HighWord(a) => {
+                let a = self.typed(a).operand_of(">>");
+                Code::shaped(quote!((#a >> 16) as i16), Shape::Cast)
+            }
+            Expr::BitToInt(a) => {
+                let a = self.expr(a);
+                Code::atom(quote!(i16::from(#a)))
+            }
+            Expr::InRange { place, count } => self.in_range(place, count),
+        }
+    }
+
+    /// `!a`; comparisons of integers are turned round instead.
+    fn not(&mut self, a: ExprId) -> Code {
+        if let (None, &Expr::Cmp(op, x, y)) = (self.hoisted(a), self.module.expr(a))
+            && self.module.ty(x) != Ty::F32
+        {
+            return Code::binary(comparison(opposite(op)), self.typed(x), self.expr(y));
+        }
+        let a = self.expr(a).operand_of("!");
+        Code::shaped(quote!(!#a), Shape::Unary)
+    }
+
+    fn arithmetic(&mut self, op: BinOp, a: ExprId, b: ExprId, typed: bool) -> Code {
+        let bitwise = match op {
+            BinOp::And => Some("&"),
+            BinOp::Or => Some("|"),
+            BinOp::Xor => Some("^"),
+            _ => None,
+        };
+        if let Some(sign) = bitwise {
+            return Code::binary(sign, self.code(a, typed), self.expr(b));
+        }
+        let min = match self.module.ty(a) {
+            Ty::I32 => quote!(i32::MIN),
+            _ => quote!(i16::MIN),
+        };
+        let by_constant = match *self.module.expr(b) {
+            Expr::I16(value) => !matches!(value, 0 | -1),
+            Expr::I32(value) => !matches!(value, 0 | -1),
+            _ => false,
+        };
+        let a = self.typed(a);
+        let b = self.expr(b);
+        match op {
+            BinOp::MulHigh => {
+                let mul_high = self.word_function("mul_high");
+                return Code::atom(quote!(#mul_high(#a, #b)));
+            }
+            BinOp::Div if by_constant => return Code::binary("/", a, b),
+            BinOp::Rem if by_constant => return Code::binary("%", a, b),
+            _ => {}
+        }
+        let a = a.receiver();
+        Code::atom(match op {
+            BinOp::Add => quote!(#a.wrapping_add(#b)),
+            BinOp::Sub => quote!(#a.wrapping_sub(#b)),
+            BinOp::Mul => quote!(#a.wrapping_mul(#b)),
+            BinOp::SatAdd => quote!(#a.saturating_add(#b)),
+            BinOp::SatSub => quote!(#a.saturating_sub(#b)),
+            // Only MIN / -1 has no quotient left here: it wraps to MIN, with remainder 0.
+            BinOp::Div => quote!(#a.checked_div(#b).unwrap_or(#min)),
+            _ => quote!(#a.checked_rem(#b).unwrap_or(0)),
+        })
+    }
+
+    fn read_bit(&mut self, place: Place) -> Code {
+        let plc = quote!(plc);
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return Code::atom(quote!(plc.bit_at(#class, #number)));
+        }
+        // A device that is not stored is a special one nobody looks at, which reads as 0.
+        let cell = self.storage.bit(&plc, place.class, place.number);
+        Code::atom(cell.unwrap_or_else(|| quote!(false)))
+    }
+
+    /// Value of a word device.
+    pub fn read_word(&mut self, place: Place) -> Code {
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return Code::atom(quote!(plc.word_at(#class, #number)));
+        }
+        let cell = self.storage.word(&quote!(plc), place.class, place.number);
+        Code::atom(cell.unwrap_or_else(|| quote!(0i16)))
+    }
+
+    fn read_pair(&mut self, place: Place) -> Code {
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return Code::atom(quote!(plc.pair_at(#class, #number)));
+        }
+        let plc = quote!(plc);
+        if let Some(counter) = self.storage.counter32(&plc, place.class, place.number) {
+            return Code::atom(counter);
+        }
+        let (low, high) = self.pair_words(place);
+        let function = self.word_function("pair");
+        Code::atom(quote!(#function(#low, #high)))
+    }
+
+    fn read_float(&mut self, place: Place) -> Code {
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return Code::atom(quote!(plc.float_at(#class, #number)));
+        }
+        let (low, high) = self.pair_words(place);
+        let function = self.word_function("float");
+        Code::atom(quote!(#function(#low, #high)))
+    }
+
+    fn pair_words(&mut self, place: Place) -> (Code, Code) {
+        let (class, number) = self.high_word(place);
+        let high = Place {
+            class,
+            number,
+            index: None,
+        };
+        (self.read_word(place), self.read_word(high))
+    }
+
+    /// Where the high word of a pair is.
+    pub fn high_word(&self, place: Place) -> (DeviceClass, u32) {
+        if place.class == DeviceClass::Z && self.module.model.z_pairs_with_v {
+            (DeviceClass::V, place.number)
+        } else {
+            (place.class, place.number + 1)
+        }
+    }
+
+    fn read_nibbles(&mut self, place: Place, digits: u8, wide: bool) -> Code {
+        let value = if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            let digits = Literal::u8_unsuffixed(digits);
+            quote!(plc.nibbles_at(#digits, #class, #number))
+        } else {
+            let bits = self.bit_slice(place, digits);
+            let function = self.word_function("pack");
+            quote!(#function(#bits))
+        };
+        if wide {
+            Code::atom(value)
+        } else {
+            Code::shaped(quote!(#value as i16), Shape::Cast)
+        }
+    }
+
+    /// `4 * digits` bits as a slice: of an array, or a new one.
+    fn bit_slice(&mut self, place: Place, digits: u8) -> TokenStream {
+        let count = 4 * u32::from(digits);
+        if let Some(slice) = self.array_slice(place, count) {
+            return quote!(&#slice);
+        }
+        let bits: Vec<Code> = (0..count)
+            .map(|i| {
+                self.read_bit(Place {
+                    number: place.number + i,
+                    ..place
+                })
+            })
+            .collect();
+        quote!(&[#(#bits),*])
+    }
+
+    /// `plc.m[4..20]`, if all of these bits lie in one array.
+    pub fn array_slice(&self, place: Place, count: u32) -> Option<TokenStream> {
+        let field = self.storage.find(place.class, place.number)?;
+        let offset = place.number - field.area.first;
+        let is_bits = field.elem == crate::storage::Elem::Bit;
+        if !field.area.array || !is_bits || offset + count > field.area.count {
+            return None;
+        }
+        let name = &field.name;
+        let from = Literal::u32_unsuffixed(offset);
+        let to = Literal::u32_unsuffixed(offset + count);
+        Some(quote!(plc.#name[#from..#to]))
+    }
+
+    fn in_range(&mut self, place: Place, count: u32) -> Code {
+        if place.index.is_none() {
+            let model = self.module.model;
+            let holds = model.in_range(place.class, i64::from(place.number), count);
+            return Code::atom(quote!(#holds));
+        }
+        let (class, number) = self.indexed(place);
+        let devices = self.devices_const();
+        let count = Literal::u32_unsuffixed(count);
+        Code::atom(quote!(#devices.hold(#class, #number, #count)))
+    }
+
+    /// Class and number of a place, for access by number.
+    pub fn indexed(&mut self, place: Place) -> (TokenStream, TokenStream) {
+        self.import_access();
+        let class = self.class(place.class);
+        let Some(index) = place.index else {
+            return (class, literal32(place.number as i32, false).tokens);
+        };
+        let number = self.offset(place.number as i32, index);
+        (class, number)
+    }
+
+    /// `base` + `index`.
+    pub fn offset(&mut self, base: i32, index: ExprId) -> TokenStream {
+        let cannot_overflow = matches!(self.module.expr(index), Expr::Widen(_));
+        let index = self.typed(index);
+        if base == 0 {
+            return index.tokens;
+        }
+        let base = literal32(base, false);
+        if cannot_overflow {
+            quote!(#base + #index)
+        } else {
+            let index = index.receiver();
+            quote!(#index.wrapping_add(#base))
+        }
+    }
+}
+
+fn sys_value(value: SysValue) -> Code {
+    match value {
+        SysValue::Running => Code::atom(quote!(plc.sys.running)),
+        SysValue::FirstScan => Code::atom(quote!(plc.sys.first_scan)),
+        SysValue::NowMs => Code::shaped(quote!(plc.sys.now_ms as i32), Shape::Cast),
+        SysValue::Scan100us => Code::shaped(quote!((plc.sys.scan_us / 100) as i32), Shape::Cast),
+    }
+}
+
+fn comparison(op: CmpOp) -> &'static str {
+    match op {
+        CmpOp::Eq => "==",
+        CmpOp::Ne => "!=",
+        CmpOp::Lt => "<",
+        CmpOp::Le => "<=",
+        CmpOp::Gt => ">",
+        CmpOp::Ge => ">=",
+    }
+}
+
+fn opposite(op: CmpOp) -> CmpOp {
+    match op {
+        CmpOp::Eq => CmpOp::Ne,
+        CmpOp::Ne => CmpOp::Eq,
+        CmpOp::Lt => CmpOp::Ge,
+        CmpOp::Ge => CmpOp::Lt,
+        CmpOp::Gt => CmpOp::Le,
+        CmpOp::Le => CmpOp::Gt,
+    }
+}

@@ -1,0 +1,447 @@
+//! Puts the items of a program together to files: a crate for one program, or one for many.
+
+use crate::generate::{Generator, Item, Uses};
+use crate::{Options, OutFile, Runtime};
+use rungc_ir::Module;
+use rungc_rt::TimerKind;
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Lines of functions that one file holds.
+const FILE_LINES: usize = 600;
+
+/// Modules of a batch in one file.
+const CASES_PER_FILE: usize = 25;
+
+/// Folder of the runtime inside an emitted crate.
+const RUNTIME_FOLDER: &str = "rungc-rt";
+
+fn file(path: impl Into<String>, text: impl Into<String>) -> OutFile {
+    OutFile {
+        path: path.into(),
+        text: text.into(),
+    }
+}
+
+/// The runtime's sources, for a path dependency.
+fn runtime() -> Vec<OutFile> {
+    rungc_rt_sources::files()
+        .into_iter()
+        .map(|(path, text)| file(format!("{RUNTIME_FOLDER}/{path}"), text))
+        .collect()
+}
+
+fn manifest(name: &str, description: &str, runtime_path: &str, profile: &str) -> String {
+    format!(
+        "[package]\nname = {name:?}\ndescription = {description:?}\nversion = \"0.1.0\"\nedition = \"2024\"\npublish = false\n\n\
+         [dependencies]\nrungc-rt = {{ path = {runtime_path:?} }}\n\n\
+         # A workspace of its own. Delete this line to make the crate a member of yours.\n[workspace]\n{profile}"
+    )
+}
+
+/// A crate for one program.
+pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
+    let mut generator = Generator::new(module, true);
+    generator.functions();
+    let functions = std::mem::take(&mut generator.items);
+    let crate_name = crate_name(&module.name);
+    let (runtime_path, runtime) = match &options.runtime {
+        Runtime::Included => (RUNTIME_FOLDER, runtime()),
+        Runtime::At(path) => (path.as_str(), Vec::new()),
+    };
+    let description = format!("PLC program {}", module.source_name);
+    let mut files = vec![
+        file(
+            "Cargo.toml",
+            manifest(&crate_name, &description, runtime_path, ""),
+        ),
+        file("src/lib.rs", library(&mut generator, &functions)),
+        file("src/devices.rs", devices(&mut generator)),
+    ];
+    files.extend(program_files(&generator, functions));
+    if options.main {
+        files.push(file("src/main.rs", host(&generator, &crate_name)));
+    }
+    files.extend(runtime);
+    files
+}
+
+/// A name that cargo takes, which no crate it needs has.
+fn crate_name(module: &str) -> String {
+    let name: String = module
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_lowercase()
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    let is_taken = matches!(
+        name.as_str(),
+        "" | "rungc_rt"
+            | "libm"
+            | "core"
+            | "std"
+            | "alloc"
+            | "test"
+            | "build"
+            | "deps"
+            | "examples"
+            | "incremental"
+            | "self"
+            | "super"
+            | "crate"
+            | "_"
+    );
+    let is_keyword = syn::parse_str::<syn::Ident>(&name).is_err();
+    if is_taken || is_keyword || name.starts_with(|c: char| c.is_ascii_digit()) {
+        format!("plc_{name}")
+    } else {
+        name
+    }
+}
+
+/// The lines that bring into scope what items use.
+fn imports(uses: &Uses) -> String {
+    let mut out = String::new();
+    let mut names: Vec<&str> = uses.imports.iter().copied().collect();
+    let word: Vec<&str> = uses.word_imports.iter().copied().collect();
+    let word = match word.as_slice() {
+        [] => None,
+        [one] => Some(format!("word::{one}")),
+        more => Some(format!("word::{{{}}}", more.join(", "))),
+    };
+    let modules: Vec<&str> = uses.fnc_imports.iter().copied().collect();
+    let modules = match modules.as_slice() {
+        [] => None,
+        [one] => Some(format!("fnc::{one}")),
+        more => Some(format!("fnc::{{{}}}", more.join(", "))),
+    };
+    names.extend(word.as_deref());
+    names.extend(modules.as_deref());
+    match names.as_slice() {
+        [] => {}
+        [one] => out.push_str(&format!("use rungc_rt::{one};\n")),
+        more => {
+            let line = format!("use rungc_rt::{{{}}};\n", more.join(", "));
+            if line.len() <= 100 {
+                out.push_str(&line);
+            } else {
+                out.push_str("use rungc_rt::{\n");
+                for name in more {
+                    out.push_str(&format!("    {name},\n"));
+                }
+                out.push_str("};\n");
+            }
+        }
+    }
+    out
+}
+
+/// The constants of the kinds of timers that are used.
+fn timer_constants(timers: &BTreeMap<String, TimerKind>, visibility: &str) -> String {
+    let mut out = String::new();
+    for (name, kind) in timers {
+        let TimerKind {
+            unit_ms,
+            accumulating,
+            free_running,
+            latches_preset,
+            overruns,
+        } = kind;
+        let _ = write!(
+            out,
+            "\n{visibility}const {name}: TimerKind = TimerKind {{\n    unit_ms: {unit_ms},\n    accumulating: {accumulating},\n    \
+             free_running: {free_running},\n    latches_preset: {latches_preset},\n    overruns: {overruns},\n}};\n"
+        );
+    }
+    out
+}
+
+fn joined<'a>(items: impl IntoIterator<Item = &'a Item>) -> Uses {
+    let mut uses = Uses::default();
+    for item in items {
+        uses.join(&item.uses);
+    }
+    uses
+}
+
+/// An item's text with its function visible outside its file.
+fn exported(text: &str, visibility: &str) -> String {
+    let mut out = String::with_capacity(text.len() + visibility.len());
+    for line in text.split_inclusive('\n') {
+        if line.starts_with("fn ") {
+            out.push_str(visibility);
+        }
+        out.push_str(line);
+    }
+    out
+}
+
+fn library(generator: &mut Generator, functions: &[Item]) -> String {
+    let module = generator.module;
+    let machine = generator.machine_struct();
+    let implementation = generator.machine_impl();
+    let program = generator.program_impl();
+    let uses = joined([&machine, &implementation, &program]);
+    let name = &generator.type_name;
+    let crate_name = crate_name(&module.name);
+    let mut out = format!(
+        "//! {name}: generated by rungc {version} from {source} ({title}, {steps} steps). Do not edit: change the PLC program.\n\
+         //!\n\
+         //! ```no_run\n\
+         //! use {crate_name}::{name};\n\
+         //! use rungc_rt::{{Class, NoHal, Plc, Program}};\n\
+         //!\n\
+         //! let mut plc = {name}::new();\n\
+         //! let (mut now_ms, mut scan_us) = (0, 0);\n\
+         //! loop {{\n\
+         //!     plc.set_bit(Class::X, 0, true); // every input terminal\n\
+         //!     plc.scan(&mut NoHal, now_ms, scan_us);\n\
+         //!     let on = plc.output(0); // every output terminal\n\
+         //! # let _ = on;\n\
+         //!     now_ms += 10; // milliseconds since power-on\n\
+         //!     scan_us = 150; // how long the scan took, in microseconds\n\
+         //! }}\n\
+         //! ```\n\
+         //!\n\
+         //! Timers are as exact as scans are frequent: scan every 10 ms or faster. All memory is in [`{name}`]. Devices marked\n\
+         //! \"latched\" keep their values over power-off on the PLC; a host that wants that stores these fields.\n\
+         #![no_std]\n#![forbid(unsafe_code)]\n",
+        version = env!("CARGO_PKG_VERSION"),
+        source = one_line(&module.source_name),
+        title = module.model.title,
+        steps = module.steps,
+    );
+    out.push_str("\nmod devices;\n");
+    if !functions.is_empty() {
+        out.push_str("mod program;\n");
+    }
+    out.push('\n');
+    out.push_str(&imports(&uses));
+    for item in [&machine, &implementation, &program] {
+        out.push('\n');
+        out.push_str(&item.text);
+    }
+    out
+}
+
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
+}
+
+fn devices(generator: &mut Generator) -> String {
+    let table = generator.devices_table();
+    let access = generator.plc_impl();
+    let uses = joined([&table, &access]);
+    format!(
+        "//! Access to devices by number.\n\nuse crate::{};\n{}\n{}\n{}",
+        generator.type_name,
+        imports(&uses),
+        table.text,
+        access.text
+    )
+}
+
+/// `src/program.rs`, or a folder of files if it would be long.
+fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
+    if functions.is_empty() {
+        return Vec::new();
+    }
+    let lines: usize = functions.iter().map(lines).sum();
+    let type_name = &generator.type_name;
+    let uses = joined(&functions);
+    let from_crate = if uses.devices {
+        format!("use crate::{{{type_name}, devices::DEVICES}};\n")
+    } else {
+        format!("use crate::{type_name};\n")
+    };
+    let clippy = format!(
+        "#![allow(\n    {},\n    reason = \"as the PLC program has it\"\n)]\n",
+        LINTS.join(",\n    ")
+    );
+    if lines <= FILE_LINES {
+        let mut out = format!(
+            "//! The program, step by step.\n{clippy}\n{from_crate}{}",
+            imports(&uses)
+        );
+        out.push_str(&timer_constants(&uses.timers, ""));
+        for item in &functions {
+            out.push('\n');
+            out.push_str(&exported(&item.text, "pub(crate) "));
+        }
+        return vec![file("src/program.rs", out)];
+    }
+    let mut parts: Vec<Vec<Item>> = vec![Vec::new()];
+    let mut filled = 0;
+    for item in functions {
+        let length = self::lines(&item);
+        if filled > 0 && filled + length > FILE_LINES {
+            parts.push(Vec::new());
+            filled = 0;
+        }
+        filled += length;
+        if let Some(part) = parts.last_mut() {
+            part.push(item);
+        }
+    }
+    let mut root = format!("//! The program, step by step.\n{clippy}\n");
+    for i in 0..parts.len() {
+        let _ = writeln!(root, "mod part{i};");
+    }
+    root.push('\n');
+    for i in 0..parts.len() {
+        let _ = writeln!(root, "pub(crate) use part{i}::*;");
+    }
+    if !uses.timers.is_empty() {
+        root.push_str("use rungc_rt::TimerKind;\n");
+    }
+    root.push_str(&timer_constants(&uses.timers, ""));
+    let mut files = vec![file("src/program/mod.rs", root)];
+    for (i, part) in parts.iter().enumerate() {
+        let mut uses = joined(part);
+        uses.imports.remove("TimerKind");
+        let from_crate = if uses.devices {
+            format!("use crate::{{{type_name}, devices::DEVICES}};\n")
+        } else {
+            format!("use crate::{type_name};\n")
+        };
+        let mut out = format!(
+            "{}use super::*;\n{from_crate}{}",
+            "//! A part of the program.\n\n",
+            imports(&uses)
+        );
+        for item in part {
+            out.push('\n');
+            out.push_str(&exported(&item.text, "pub(crate) "));
+        }
+        files.push(file(format!("src/program/part{i}.rs"), out));
+    }
+    files
+}
+
+/// What clippy would say about programs that say little in many words.
+const LINTS: [&str; 8] = [
+    "clippy::approx_constant",
+    "clippy::collapsible_else_if",
+    "clippy::collapsible_if",
+    "clippy::eq_op",
+    "clippy::erasing_op",
+    "clippy::identity_op",
+    "clippy::neg_cmp_op_on_partial_ord",
+    "unused_assignments",
+];
+
+fn lines(item: &Item) -> usize {
+    item.text.lines().count()
+}
+
+fn host(generator: &Generator, crate_name: &str) -> String {
+    let mut table = String::new();
+    let fields = &generator.storage.fields;
+    for field in fields.iter().filter(|f| f.area.class == DeviceClass::Y) {
+        for number in field.area.first..=field.last() {
+            let comment = generator
+                .device_comment(DeviceClass::Y, number)
+                .unwrap_or_default();
+            let name = DeviceClass::Y.number(number).to_string();
+            let _ = write!(
+                table,
+                "\n    ({number}, {name:?}, {:?}),",
+                one_line(comment)
+            );
+        }
+    }
+    if !table.is_empty() {
+        table.push('\n');
+    }
+    include_str!("../templates/host.rs")
+        .replace("OUTPUT_TABLE", &table)
+        .replace("CRATE", crate_name)
+        .replace("TYPE", &generator.type_name.to_string())
+}
+
+/// A crate for many programs.
+pub fn batch(modules: &[Module]) -> Vec<OutFile> {
+    let profile = "\n[profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\ncodegen-units = 16\n\n\
+                   [profile.dev.package.rungc-rt]\nopt-level = 2\n";
+    let mut files = vec![
+        file(
+            "Cargo.toml",
+            manifest("batch", "PLC programs for tests", RUNTIME_FOLDER, profile),
+        ),
+        file("src/main.rs", include_str!("../templates/batch.rs")),
+    ];
+    let mut models: BTreeMap<&str, &Module> = BTreeMap::new();
+    let mut cases = String::from(
+        "//! The programs of the batch.\n#![allow(warnings, clippy::all, reason = \"not made to be read\")]\n\n",
+    );
+    let mut arms = String::new();
+    for (n, chunk) in modules.chunks(CASES_PER_FILE).enumerate() {
+        let mut out = String::new();
+        for (i, module) in chunk.iter().enumerate() {
+            let number = n * CASES_PER_FILE + i;
+            models.entry(module.model.name).or_insert(module);
+            let type_name = case(module, number, &mut out);
+            let _ = writeln!(
+                arms,
+                "        {number} => Box::new(cases{n}::case{number}::{type_name}::new()),"
+            );
+        }
+        let _ = writeln!(cases, "mod cases{n};");
+        files.push(file(format!("src/cases/cases{n}.rs"), out));
+    }
+    let _ = write!(
+        cases,
+        "\n/// A program, freshly powered on.\npub fn program(number: usize) -> Option<Box<dyn rungc_rt::Program>> {{\n    \
+         Some(match number {{\n{arms}        _ => return None,\n    }})\n}}\n"
+    );
+    files.push(file("src/cases/mod.rs", cases));
+    let mut tables = String::from(
+        "//! The models' devices.\n#![allow(dead_code, reason = \"one for each model of the batch\")]\n\nuse rungc_rt::{Class, Runs};\n",
+    );
+    for (name, module) in models {
+        let mut generator = Generator::new(module, true);
+        let table = generator.devices_table().text;
+        tables.push('\n');
+        tables.push_str(&table.replace("const DEVICES", &format!("const {}", name.to_uppercase())));
+    }
+    files.push(file("src/models.rs", tables));
+    files.extend(runtime());
+    files
+}
+
+/// One program of a batch; returns the name of its struct.
+fn case(module: &Module, number: usize, out: &mut String) -> String {
+    let mut generator = Generator::new(module, false);
+    generator.functions();
+    let functions = std::mem::take(&mut generator.items);
+    let machine = [
+        generator.machine_struct(),
+        generator.machine_impl(),
+        generator.program_impl(),
+        generator.plc_impl(),
+    ];
+    let model = module.model.name.to_uppercase();
+    let uses = joined(machine.iter().chain(&functions));
+    let _ = writeln!(
+        out,
+        "pub mod case{number} {{\nuse crate::models::{model} as DEVICES;"
+    );
+    out.push_str(&imports(&uses));
+    for item in &machine {
+        out.push_str(&item.text);
+        out.push('\n');
+    }
+    out.push_str("mod program {\nuse super::*;\n");
+    out.push_str(&timer_constants(&uses.timers, ""));
+    for item in &functions {
+        out.push_str(&exported(&item.text, "pub(super) "));
+        out.push('\n');
+    }
+    out.push_str("}\n}\n");
+    generator.type_name.to_string()
+}

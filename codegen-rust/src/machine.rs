@@ -1,0 +1,659 @@
+//! The struct that holds the devices, and what it implements: access by number, and the scan.
+
+use crate::generate::{Generator, Item, function_name};
+use crate::storage::{Elem, Field};
+use crate::{expr::literal32, format};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use rungc_ir::node::{FunctionKind, Stmt};
+use rungc_syntax::DeviceClass;
+
+/// Special relay that keeps memory and outputs in STOP.
+const M_KEEP_IN_STOP: u32 = 8033;
+/// Special relay that switches all outputs off.
+const M_OUTPUTS_OFF: u32 = 8034;
+
+/// One way of access by number.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Access {
+    Bit,
+    Word,
+    Counter32,
+}
+
+impl Generator<'_> {
+    /// The struct.
+    pub fn machine_struct(&mut self) -> Item {
+        self.uses = Default::default();
+        let name = self.type_name.clone();
+        let fields: Vec<TokenStream> = self
+            .storage
+            .fields
+            .clone()
+            .iter()
+            .map(|field| self.field(field))
+            .collect();
+        let doc = format!(
+            " The devices of the {} that the program uses, and what its scan remembers. All of them are plain fields: read and \
+             write them between two scans.",
+            self.module.model.title
+        );
+        let doc = self.with_comments.then(|| quote!(#[doc = #doc]));
+        let hidden = self.hidden_fields();
+        let hidden_types: Vec<TokenStream> = hidden.iter().map(|f| f.1.clone()).collect();
+        let hidden_names: Vec<Ident> = hidden.iter().map(|f| f.0.clone()).collect();
+        let hidden_docs: Vec<TokenStream> = hidden.iter().map(|f| self.doc(f.3)).collect();
+        self.item_of(quote! {
+            #doc
+            #[derive(Clone, Debug)]
+            pub struct #name {
+                #(#fields,)*
+                #(#hidden_docs pub(crate) #hidden_names: #hidden_types,)*
+            }
+        })
+    }
+
+    fn doc(&self, text: &str) -> TokenStream {
+        if !self.with_comments {
+            return TokenStream::new();
+        }
+        let text = format!(" {text}");
+        quote!(#[doc = #text])
+    }
+
+    fn field(&mut self, field: &Field) -> TokenStream {
+        let area = field.area;
+        let mut text = area.class.number(area.first).to_string();
+        let latched = if area.latched { " (latched)" } else { "" };
+        if area.array {
+            if area.count > 1 {
+                text.push_str(&format!("–{}", area.class.number(field.last())));
+            }
+            text.push_str(latched);
+            let named = (area.first..=field.last())
+                .filter_map(|n| Some((n, self.device_comment(area.class, n)?)))
+                .map(|(n, comment)| format!("{} {comment}", area.class.number(n)));
+            let named: Vec<String> = named.collect();
+            if !named.is_empty() {
+                text.push_str(": ");
+                text.push_str(&named.join(", "));
+            }
+        } else {
+            text.push_str(latched);
+            if let Some(comment) = self.device_comment(area.class, area.first) {
+                text.push_str(&format!(": {comment}"));
+            }
+        }
+        let text = text.replace(char::is_control, " ");
+        let doc = self.doc(&text);
+        let (name, ty) = (&field.name, self.field_type(field));
+        quote!(#doc pub #name: #ty)
+    }
+
+    fn field_type(&mut self, field: &Field) -> TokenStream {
+        let ty = match field.elem {
+            Elem::Bit | Elem::Word => format_ident!("{}", field.elem.type_name()),
+            _ => self.rt(field.elem.type_name()),
+        };
+        if field.area.array {
+            let count = Literal::u32_unsuffixed(field.area.count);
+            quote!([#ty; #count])
+        } else {
+            quote!(#ty)
+        }
+    }
+
+    /// A field's value at power-on, special registers' apart.
+    fn zero(&mut self, field: &Field) -> TokenStream {
+        let zero = match field.elem {
+            Elem::Bit => quote!(false),
+            Elem::Word => quote!(0),
+            _ => {
+                let ty = self.rt(field.elem.type_name());
+                quote!(#ty::new())
+            }
+        };
+        if field.area.array {
+            let count = Literal::u32_unsuffixed(field.area.count);
+            quote!([#zero; #count])
+        } else {
+            zero
+        }
+    }
+
+    /// What is no device: name, type, value at power-on, meaning.
+    fn hidden_fields(&mut self) -> Vec<(Ident, TokenStream, TokenStream, &'static str)> {
+        let (edge, state, sys) = (self.rt("Edge"), self.rt("State"), self.rt("Sys"));
+        let mut fields = Vec::new();
+        if self.module.edges > 0 {
+            let count = Literal::u32_unsuffixed(self.module.edges);
+            fields.push((
+                format_ident!("edges"),
+                quote!([#edge; #count]),
+                quote!([#edge(false); #count]),
+                "What edge contacts and pulse instructions saw last.",
+            ));
+        } else {
+            self.uses.imports.remove("Edge");
+        }
+        // Slot 0 stands for instructions without memory.
+        let count = Literal::u32_unsuffixed(u32::from(self.module.states) + 1);
+        fields.push((
+            format_ident!("states"),
+            quote!([#state; #count]),
+            quote!([#state::new(); #count]),
+            "Private memories of instructions.",
+        ));
+        fields.push((
+            format_ident!("sys"),
+            quote!(#sys),
+            quote!(#sys::power_on()),
+            "Time and mode.",
+        ));
+        fields
+    }
+
+    /// Power-on, and clearing.
+    pub fn machine_impl(&mut self) -> Item {
+        self.uses = Default::default();
+        let name = self.type_name.clone();
+        let fields = self.storage.fields.clone();
+        let names: Vec<&Ident> = fields.iter().map(|f| &f.name).collect();
+        let zeros: Vec<TokenStream> = fields.iter().map(|f| self.zero(f)).collect();
+        let hidden = self.hidden_fields();
+        let hidden_names: Vec<&Ident> = hidden.iter().map(|f| &f.0).collect();
+        let hidden_zeros: Vec<&TokenStream> = hidden.iter().map(|f| &f.2).collect();
+        let preset = self.preset();
+        let doc = self.doc("The PLC as it leaves the factory, switched to RUN.");
+        let value = quote! {
+            Self { #(#names: #zeros,)* #(#hidden_names: #hidden_zeros,)* }
+        };
+        let new = if preset.is_empty() {
+            quote!(#doc pub const fn new() -> Self { #value })
+        } else {
+            quote!(#doc pub const fn new() -> Self { let mut plc = #value; plc.preset(); plc })
+        };
+        let preset = (!preset.is_empty()).then(|| {
+            let doc = self.doc("Gives special registers the values that they have at power-on.");
+            quote!(#doc const fn preset(&mut self) { #preset })
+        });
+        let clear_general = self.clear(false);
+        let clear_latched = (self.clears_latched() || self.module.model.latch_key.is_some())
+            .then(|| self.clear(true));
+        let forget = self.forget();
+        self.item_of(quote! {
+            impl #name {
+                #new
+                #preset
+                #clear_general
+                #clear_latched
+                #forget
+            }
+            impl Default for #name {
+                fn default() -> Self { Self::new() }
+            }
+        })
+    }
+
+    /// The statements that give special registers their values.
+    fn preset(&mut self) -> TokenStream {
+        let plc = quote!(self);
+        let words = self.module.initial_words.iter();
+        words
+            .filter_map(|&(number, value)| {
+                let cell = self.storage.word(&plc, DeviceClass::D, number)?;
+                let value = literal32(i32::from(value), false);
+                Some(quote!(#cell = #value;))
+            })
+            .collect()
+    }
+
+    fn clears_latched(&self) -> bool {
+        let mut found = false;
+        for function in &self.module.functions {
+            crate::analysis::walk(&function.body, &mut |stmt| {
+                found |= matches!(stmt, Stmt::Clear { latched: true });
+            });
+        }
+        found
+    }
+
+    /// The statements that set fields to 0.
+    fn zeroing(&mut self, pick: impl Fn(&Field) -> bool) -> TokenStream {
+        let fields = self.storage.fields.clone();
+        let mut out = TokenStream::new();
+        for field in fields.iter().filter(|field| pick(field)) {
+            let (name, zero) = (&field.name, self.zero(field));
+            out.extend(quote!(self.#name = #zero;));
+        }
+        out
+    }
+
+    fn clear(&mut self, latched: bool) -> TokenStream {
+        let statements = self.zeroing(|field| field.area.is_cleared(latched));
+        let (name, doc) = if latched {
+            (
+                format_ident!("clear_latched"),
+                self.doc("Clears the latched devices, as M8032 does."),
+            )
+        } else {
+            (
+                format_ident!("clear_general"),
+                self.doc("Clears what is neither latched nor special nor an input, as M8031 and STOP do."),
+            )
+        };
+        quote!(#doc fn #name(&mut self) { #statements })
+    }
+
+    /// Forgets edges and coils, before the first scan in RUN.
+    fn forget(&mut self) -> TokenStream {
+        let mut out = TokenStream::new();
+        if self.module.edges > 0 {
+            let edge = self.rt("Edge");
+            let count = Literal::u32_unsuffixed(self.module.edges);
+            out.extend(quote!(self.edges = [#edge(false); #count];));
+        }
+        for field in &self.storage.fields {
+            if matches!(field.elem, Elem::Bit | Elem::Word) {
+                continue;
+            }
+            let name = &field.name;
+            out.extend(if field.area.array {
+                quote!(for device in &mut self.#name { device.coil = false; })
+            } else {
+                quote!(self.#name.coil = false;)
+            });
+        }
+        let doc = self.doc("Forgets that edges and the coils of timers and counters were on.");
+        quote!(#doc fn forget(&mut self) { #out })
+    }
+
+    /// The scan.
+    pub fn program_impl(&mut self) -> Item {
+        self.uses = Default::default();
+        let name = self.type_name.clone();
+        let (program, hal) = (self.rt("Program"), self.rt("Hal"));
+        let call = |this: &Self, kind: FunctionKind| {
+            let functions = &this.module.functions;
+            let n = functions.iter().position(|f| f.kind == kind)?;
+            let function = functions.get(n).filter(|f| !f.body.is_empty())?;
+            let name = format_ident!("{}", function_name(function));
+            let hal = this.calls.needs_hal.get(n)?.then(|| quote!(, hal));
+            Some(quote!(program::#name(self #hal);))
+        };
+        let begin = call(self, FunctionKind::Begin);
+        let main = call(self, FunctionKind::Main);
+        let end = call(self, FunctionKind::End);
+        let hal_name = if self.calls.needs_hal.iter().take(3).any(|&needs| needs) {
+            format_ident!("hal")
+        } else {
+            format_ident!("_hal")
+        };
+        let in_run =
+            (main.is_some() || end.is_some()).then(|| quote!(if self.sys.running { #main #end }));
+        let plc = quote!(self);
+        let keep = self.storage.bit(&plc, DeviceClass::M, M_KEEP_IN_STOP);
+        let off = self.storage.bit(&plc, DeviceClass::M, M_OUTPUTS_OFF);
+        let stop = match &keep {
+            Some(keep) => quote!(if !#keep { self.clear_general(); }),
+            None => quote!(self.clear_general();),
+        };
+        let stop = match &keep {
+            Some(_) => quote!({ #stop }),
+            None => quote!({ #stop }),
+        };
+        let class = self.class(DeviceClass::Y);
+        let plc_trait = self.rt("Plc");
+        let keep = keep.map_or_else(
+            || quote!(self.sys.running),
+            |keep| quote!((self.sys.running | #keep)),
+        );
+        let off = off.map(|off| quote!(& !#off));
+        let power_cycle = self.power_cycle();
+        self.uses.plc = false;
+        self.item_of(quote! {
+            impl #program for #name {
+                fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
+                    self.sys.begin_scan(now_ms, scan_us);
+                    #begin
+                    #in_run
+                    self.sys.end_scan();
+                }
+                fn set_running(&mut self, running: bool) {
+                    if !self.sys.set_running(running) { return; }
+                    if running { self.forget(); } else #stop
+                }
+                #power_cycle
+                fn output(&self, number: u32) -> bool {
+                    #keep #off & #plc_trait::bit(self, #class, number).unwrap_or(false)
+                }
+            }
+        })
+    }
+
+    fn power_cycle(&mut self) -> TokenStream {
+        let plc = quote!(self);
+        let latched = self.module.model.latch_key.map(|(register, key)| {
+            let literal = literal32(i32::from(key), false);
+            match self.storage.word(&plc, DeviceClass::D, register) {
+                Some(cell) => quote!(if #cell != #literal { self.clear_latched(); }),
+                None => {
+                    let words = self.module.model.special_words;
+                    let initial = words.iter().find(|w| w.0 == register).map_or(0, |w| w.1);
+                    if initial == key {
+                        TokenStream::new()
+                    } else {
+                        quote!(self.clear_latched();)
+                    }
+                }
+            }
+        });
+        let kept = |field: &Field| field.area.latched || field.area.is_cleared(false);
+        let others = self.zeroing(|field| !kept(field));
+        let preset = (!self.preset().is_empty()).then(|| quote!(self.preset();));
+        let hidden = self.hidden_fields();
+        let hidden = hidden
+            .iter()
+            .filter(|f| f.0 != "edges")
+            .map(|(name, _, value, _)| quote!(self.#name = #value;));
+        let hidden: TokenStream = hidden.collect();
+        quote! {
+            fn power_cycle(&mut self) {
+                #latched
+                self.clear_general();
+                #others
+                #preset
+                self.forget();
+                #hidden
+            }
+        }
+    }
+
+    /// Access by number.
+    pub fn plc_impl(&mut self) -> Item {
+        self.uses = Default::default();
+        let name = self.type_name.clone();
+        let (plc, class) = (self.rt("Plc"), self.rt("Class"));
+        let (state, sys) = (self.rt("State"), self.rt("Sys"));
+        let devices = self.devices_const();
+        let bits = self.arms(Access::Bit, false);
+        let set_bits = self.arms(Access::Bit, true);
+        let words = self.arms(Access::Word, false);
+        let set_words = self.arms(Access::Word, true);
+        let counters = self.arms(Access::Counter32, false);
+        let set_counters = self.arms(Access::Counter32, true);
+        let resets = self.reset_arms();
+        let last_state = Literal::usize_unsuffixed(usize::from(self.module.states));
+        let slot = if self.module.states == 0 {
+            quote!(_slot)
+        } else {
+            quote!(slot)
+        };
+        let state_cell = if self.module.states == 0 {
+            quote!(&mut self.states[0])
+        } else {
+            quote!(&mut self.states[usize::from(slot).min(#last_state)])
+        };
+        let text = self.text();
+        let pairs = (!self.module.model.z_pairs_with_v).then(|| {
+            quote!(
+                fn z_pairs_with_v(&self) -> bool {
+                    false
+                }
+            )
+        });
+        let reader = |name: &str,
+                      parameters: TokenStream,
+                      key: TokenStream,
+                      ty: TokenStream,
+                      arms: TokenStream,
+                      absent: TokenStream| {
+            let name = format_ident!("{}", name);
+            if arms.is_empty() {
+                return quote!(fn #name(&self, #parameters) -> Option<#ty> { #absent });
+            }
+            quote!(fn #name(&self, #parameters) -> Option<#ty> {
+                let value = match #key { #arms _ => return #absent };
+                Some(value)
+            })
+        };
+        let writer = |name: &str,
+                      parameters: TokenStream,
+                      key: TokenStream,
+                      arms: TokenStream,
+                      absent: TokenStream| {
+            let name = format_ident!("{}", name);
+            if arms.is_empty() {
+                return quote!(fn #name(&mut self, #parameters) -> Option<()> { #absent });
+            }
+            quote!(fn #name(&mut self, #parameters) -> Option<()> {
+                match #key { #arms _ => return #absent }
+                Some(())
+            })
+        };
+        let value = |arms: &TokenStream| {
+            if arms.is_empty() {
+                quote!(_value)
+            } else {
+                quote!(value)
+            }
+        };
+        let (bit_value, word_value, counter_value) =
+            (value(&set_bits), value(&set_words), value(&set_counters));
+        let key = quote!((class, number));
+        let device = quote!(class: #class, number: u32);
+        let counter = quote!(number: u32);
+        let methods = [
+            reader(
+                "bit",
+                device.clone(),
+                key.clone(),
+                quote!(bool),
+                bits,
+                quote!(#devices.bit(class, number)),
+            ),
+            writer(
+                "set_bit",
+                quote!(#device, #bit_value: bool),
+                key.clone(),
+                set_bits,
+                quote!(#devices.bit(class, number).map(drop)),
+            ),
+            reader(
+                "word",
+                device.clone(),
+                key.clone(),
+                quote!(i16),
+                words,
+                quote!(#devices.word(class, number)),
+            ),
+            writer(
+                "set_word",
+                quote!(#device, #word_value: i16),
+                key.clone(),
+                set_words,
+                quote!(#devices.word(class, number).map(drop)),
+            ),
+            reader(
+                "counter32",
+                counter.clone(),
+                quote!(number),
+                quote!(i32),
+                counters,
+                quote!(#devices.counter32(number)),
+            ),
+            writer(
+                "set_counter32",
+                quote!(#counter, #counter_value: i32),
+                quote!(number),
+                set_counters,
+                quote!(#devices.counter32(number).map(drop)),
+            ),
+            writer(
+                "reset",
+                device,
+                key,
+                resets,
+                quote!(#devices.reset(class, number)),
+            ),
+        ];
+        self.item_of(quote! {
+            impl #plc for #name {
+                #(#methods)*
+                fn state(&mut self, #slot: u16) -> &mut #state { #state_cell }
+                fn sys(&self) -> &#sys { &self.sys }
+                #text
+                #pairs
+            }
+        })
+    }
+
+    /// The numbers of a field's devices as a pattern.
+    fn pattern(&mut self, field: &Field, with_class: bool) -> TokenStream {
+        let number = |n: u32| number_literal(field.area.class, n);
+        let first = number(field.area.first);
+        let numbers = if field.area.count > 1 {
+            let last = number(field.last());
+            quote!(#first..=#last)
+        } else {
+            quote!(#first)
+        };
+        if with_class {
+            let class = self.class(field.area.class);
+            quote!((#class, #numbers))
+        } else {
+            numbers
+        }
+    }
+
+    /// A field's device behind `self` where a pattern has matched its number.
+    fn matched(field: &Field) -> TokenStream {
+        let name = &field.name;
+        if !field.area.array {
+            return quote!(self.#name);
+        }
+        match (field.area.first, field.area.count) {
+            (_, 1) => quote!(self.#name[0]),
+            (0, _) => quote!(self.#name[number as usize]),
+            (first, _) => {
+                let first = number_literal(field.area.class, first);
+                quote!(self.#name[(number - #first) as usize])
+            }
+        }
+    }
+
+    fn arms(&mut self, access: Access, set: bool) -> TokenStream {
+        let fields = self.storage.fields.clone();
+        let mut out = TokenStream::new();
+        for field in &fields {
+            let part = match (access, field.elem) {
+                (Access::Bit, Elem::Bit) | (Access::Word, Elem::Word) => TokenStream::new(),
+                (Access::Bit, Elem::Timer | Elem::Counter16 | Elem::Counter32) => quote!(.done),
+                (Access::Word, Elem::Timer | Elem::Counter16)
+                | (Access::Counter32, Elem::Counter32) => quote!(.value),
+                _ => continue,
+            };
+            let pattern = self.pattern(field, access != Access::Counter32);
+            let cell = Self::matched(field);
+            out.extend(if set {
+                quote!(#pattern => #cell #part = value,)
+            } else {
+                quote!(#pattern => #cell #part,)
+            });
+        }
+        if access == Access::Word {
+            out.extend(self.alias_arms(set));
+        }
+        out
+    }
+
+    /// Special registers that are other names of index registers.
+    fn alias_arms(&mut self, set: bool) -> TokenStream {
+        let mut out = TokenStream::new();
+        for &(number, class, index) in self.module.model.index_aliases {
+            let Some(cell) = self.storage.word(&quote!(self), class, index) else {
+                continue;
+            };
+            let d = self.class(DeviceClass::D);
+            let number = Literal::u32_unsuffixed(number);
+            out.extend(if set {
+                quote!((#d, #number) => #cell = value,)
+            } else {
+                quote!((#d, #number) => #cell,)
+            });
+        }
+        out
+    }
+
+    fn reset_arms(&mut self) -> TokenStream {
+        let fields = self.storage.fields.clone();
+        let mut out = TokenStream::new();
+        for field in &fields {
+            if !matches!(field.elem, Elem::Bit | Elem::Word) {
+                let pattern = self.pattern(field, true);
+                let cell = Self::matched(field);
+                out.extend(quote!(#pattern => #cell.reset(),));
+            }
+        }
+        out
+    }
+
+    fn text(&self) -> Option<TokenStream> {
+        if self.module.texts.is_empty() {
+            return None;
+        }
+        let arms = self.module.texts.iter().enumerate().map(|(n, text)| {
+            let n = Literal::usize_unsuffixed(n);
+            let bytes = Literal::byte_string(text.as_bytes());
+            quote!(#n => #bytes,)
+        });
+        Some(quote! {
+            fn text(&self, index: u32) -> &[u8] {
+                match index { #(#arms)* _ => &[] }
+            }
+        })
+    }
+
+    /// The table of the model's devices.
+    pub fn devices_table(&mut self) -> Item {
+        self.uses = Default::default();
+        let runs = self.rt("Runs");
+        let mut rows = Vec::new();
+        let stored = DeviceClass::ALL
+            .into_iter()
+            .filter(|class| !matches!(class, DeviceClass::P | DeviceClass::I | DeviceClass::N));
+        for class in stored {
+            for (first, last) in self.module.model.runs(class) {
+                let [first, last] = [first, last].map(|n| number_literal(class, n));
+                let class = self.class(class);
+                rows.push(quote!((#class, #first, #last)));
+            }
+        }
+        let doc = format!("The devices of the {}.", self.module.model.title);
+        let doc = self.doc(&doc);
+        self.item_of(quote!(#doc pub(crate) const DEVICES: #runs = #runs(&[#(#rows),*]);))
+    }
+
+    fn item_of(&mut self, tokens: TokenStream) -> Item {
+        let comments = std::mem::take(&mut self.comments);
+        Item {
+            text: if self.with_comments {
+                format::format(tokens, &comments)
+            } else {
+                tokens.to_string()
+            },
+            uses: std::mem::take(&mut self.uses),
+        }
+    }
+}
+
+/// A device number as its class writes it.
+fn number_literal(class: DeviceClass, number: u32) -> Literal {
+    if class.is_octal()
+        && number > 7
+        && let Ok(literal) = format!("0o{number:o}").parse()
+    {
+        return literal;
+    }
+    Literal::u32_unsuffixed(number)
+}

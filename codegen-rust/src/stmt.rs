@@ -1,0 +1,619 @@
+//! Statements of the IR as statements of Rust.
+
+use crate::analysis::{self, Declared};
+use crate::expr::{Code, Shape, literal32};
+use crate::generate::{Generator, function_name};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
+use rungc_rt::RtFn;
+use rungc_syntax::DeviceClass;
+
+impl Generator<'_> {
+    /// A run of statements of one body, of which the first is number `first` there.
+    pub fn statements(&mut self, body: &[Stmt], range: std::ops::Range<usize>) -> TokenStream {
+        let mut out = TokenStream::new();
+        let mut i = range.start;
+        while i < range.end {
+            let Some(stmt) = body.get(i) else { break };
+            self.declarations(body, i, &mut out);
+            let next = body.get(i + 1).filter(|_| i + 1 < range.end);
+            if let Some(tokens) = next.and_then(|next| self.edge_condition(stmt, next)) {
+                out.extend(tokens);
+                i += 2;
+                continue;
+            }
+            let lets = self.hoist(&analysis::expressions(stmt));
+            out.extend(lets);
+            let tokens = self.statement(stmt);
+            out.extend(tokens);
+            i += 1;
+        }
+        out
+    }
+
+    /// The declarations in front of a statement.
+    fn declarations(&mut self, body: &[Stmt], i: usize, out: &mut TokenStream) {
+        for temp in self
+            .declare
+            .remove(&(analysis::key(body), i))
+            .unwrap_or_default()
+        {
+            let name = self.temp_name(temp);
+            let zero = match self.module.temps.get(temp.0 as usize) {
+                Some(Ty::I16) => quote!(0i16),
+                Some(Ty::I32) => quote!(0i32),
+                Some(Ty::F32) => quote!(0f32),
+                Some(Ty::Bit) | None => quote!(false),
+            };
+            out.extend(quote!(let mut #name = #zero;));
+            self.assigned.insert(temp);
+        }
+    }
+
+    /// An edge that only the `If` behind it asks for: `if plc.edges[0].rising(plc.x2) { … }`.
+    fn edge_condition(&mut self, stmt: &Stmt, next: &Stmt) -> Option<TokenStream> {
+        let Stmt::Edge { out, .. } = stmt else {
+            return None;
+        };
+        let Stmt::If {
+            cond,
+            then,
+            otherwise,
+        } = next
+        else {
+            return None;
+        };
+        let count = self.temps.count(*out);
+        let is_it = matches!(self.module.expr(*cond), Expr::Temp(temp) if temp == out);
+        if !is_it || (count.assigned, count.read) != (1, 1) {
+            return None;
+        }
+        let lets = self.hoist(&analysis::expressions(stmt));
+        let edge = Code::atom(self.edge(stmt)?);
+        let branches = self.branches(edge, then, otherwise);
+        Some(quote!(#(#lets)* #branches))
+    }
+
+    /// `plc.edges[0].rising(plc.x2)`.
+    fn edge(&mut self, stmt: &Stmt) -> Option<TokenStream> {
+        let Stmt::Edge {
+            edge, kind, input, ..
+        } = stmt
+        else {
+            return None;
+        };
+        let i = Literal::u32_unsuffixed(edge.0);
+        let method = match kind {
+            EdgeKind::Rising => format_ident!("rising"),
+            EdgeKind::Falling => format_ident!("falling"),
+        };
+        let input = self.expr(*input);
+        Some(quote!(plc.edges[#i].#method(#input)))
+    }
+
+    fn statement(&mut self, stmt: &Stmt) -> TokenStream {
+        match stmt {
+            Stmt::Network(n) => self.network(*n),
+            Stmt::Let(temp, value) => self.assign_temp(*temp, *value),
+            Stmt::Edge { out, .. } => {
+                let Some(edge) = self.edge(stmt) else {
+                    return TokenStream::new();
+                };
+                self.bind(*out, edge)
+            }
+            Stmt::WriteBit(place, value) => self.write_bit(*place, *value),
+            Stmt::WriteWordBit(place, bit, value) => self.write_word_bit(*place, *bit, *value),
+            Stmt::WriteWord(place, value) => self.write_word(*place, *value),
+            Stmt::WritePair(place, value) => self.write_pair(*place, *value, "words"),
+            Stmt::WriteFloat(place, value) => self.write_pair(*place, *value, "float_words"),
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => self.write_nibbles(*place, *digits, *value),
+            Stmt::Timer { .. } | Stmt::Counter16 { .. } | Stmt::Counter32 { .. } => self.coil(stmt),
+            Stmt::Reset(place) => self.reset(*place),
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                let cond = self.expr(*cond);
+                self.branches(cond, then, otherwise)
+            }
+            Stmt::For { count, body } => {
+                let count = match *self.module.expr(*count) {
+                    Expr::I16(n) => literal32(i32::from(n.max(1)), false).tokens,
+                    _ => {
+                        let count = self.typed(*count).receiver();
+                        quote!(#count.max(1))
+                    }
+                };
+                let body = self.body(body);
+                quote!(for _ in 0..#count { #body })
+            }
+            Stmt::CallSub(n) => self.call_sub(*n),
+            Stmt::Return => quote!(return;),
+            Stmt::Parts(parts) => self.parts(parts),
+            Stmt::Goto(label) => self.goto(*label),
+            Stmt::Call {
+                function,
+                wide,
+                args,
+                drive,
+                slot,
+                step,
+            } => self.call(*function, *wide, args, *drive, *slot, *step),
+            Stmt::Fault { code, step } => {
+                let (report, fault) = (self.rt("report"), self.rt("Fault"));
+                let (code, step) = (
+                    Literal::u16_unsuffixed(*code),
+                    Literal::u32_unsuffixed(*step),
+                );
+                quote!(#report(plc, #fault(#code), #step);)
+            }
+            Stmt::Clear { latched: false } => quote!(plc.clear_general();),
+            Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
+        }
+    }
+
+    fn network(&mut self, n: u32) -> TokenStream {
+        let Some(network) = self.module.networks.get(n as usize) else {
+            return TokenStream::new();
+        };
+        self.step = network.step;
+        if !self.with_comments {
+            return TokenStream::new();
+        }
+        let mut text = format!("step {}", network.step);
+        let words = [&network.statement, &network.note];
+        for (i, words) in words.into_iter().flatten().enumerate() {
+            text.push_str(if i == 0 { ": " } else { "; " });
+            text.push_str(words);
+        }
+        self.comments.line(&text)
+    }
+
+    /// The comment of a device, behind the statement that writes it.
+    fn end_comment(&mut self, class: DeviceClass, number: u32) -> TokenStream {
+        match self.device_comment(class, number) {
+            Some(text) if self.with_comments => self.comments.end(text),
+            _ => TokenStream::new(),
+        }
+    }
+
+    fn assign_temp(&mut self, temp: TempId, value: ExprId) -> TokenStream {
+        if self.temps.count(temp).read == 0 {
+            return TokenStream::new();
+        }
+        let value = self.typed(value);
+        self.bind(temp, value.tokens)
+    }
+
+    /// Gives a temporary its value, and declares it where this is its first.
+    fn bind(&mut self, temp: TempId, value: TokenStream) -> TokenStream {
+        if self.temps.count(temp).read == 0 {
+            return quote!(#value;);
+        }
+        let name = self.temp_name(temp);
+        if !self.assigned.insert(temp) {
+            return quote!(#name = #value;);
+        }
+        match self.temps.declared(temp) {
+            Some(Declared::There { again: true }) => quote!(let mut #name = #value;),
+            _ => quote!(let #name = #value;),
+        }
+    }
+
+    /// `target = value;`, or `target |= …;`.
+    fn assign(&mut self, target: TokenStream, value: Code, place: Place) -> TokenStream {
+        let written = target.to_string();
+        if value.tokens.to_string() == written {
+            return TokenStream::new();
+        }
+        let comment = self.end_comment(place.class, place.number);
+        if let (Shape::Binary(op), Some((a, b))) = (value.shape, &value.operands) {
+            let commutes = matches!(op, "&" | "|" | "^");
+            let rest = if a.to_string() == written {
+                Some(b)
+            } else if commutes && b.to_string() == written {
+                Some(a)
+            } else {
+                None
+            };
+            let joined = match (op, rest) {
+                ("&", Some(rest)) => Some(quote!(#target &= #rest;)),
+                ("|", Some(rest)) => Some(quote!(#target |= #rest;)),
+                ("^", Some(rest)) => Some(quote!(#target ^= #rest;)),
+                ("/", Some(rest)) => Some(quote!(#target /= #rest;)),
+                ("%", Some(rest)) => Some(quote!(#target %= #rest;)),
+                _ => None,
+            };
+            if let Some(joined) = joined {
+                return quote!(#joined #comment);
+            }
+        }
+        quote!(#target = #value; #comment)
+    }
+
+    fn write_bit(&mut self, place: Place, value: ExprId) -> TokenStream {
+        let value = self.expr(value);
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return quote!(plc.set_bit_at(#class, #number, #value););
+        }
+        match self.storage.bit(&quote!(plc), place.class, place.number) {
+            Some(cell) => self.assign(cell, value, place),
+            // A special device that nobody looks at.
+            None => TokenStream::new(),
+        }
+    }
+
+    fn write_word(&mut self, place: Place, value: ExprId) -> TokenStream {
+        let plc = quote!(plc);
+        if place.index.is_some() {
+            let value = self.expr(value);
+            let (class, number) = self.indexed(place);
+            return quote!(plc.set_word_at(#class, #number, #value););
+        }
+        if let Some(counter) = self.storage.counter32(&plc, place.class, place.number) {
+            let value = self.typed(value);
+            return self.assign(counter, Code::atom(quote!(i32::from(#value))), place);
+        }
+        let value = self.expr(value);
+        match self.storage.word(&plc, place.class, place.number) {
+            Some(cell) => self.assign(cell, value, place),
+            None => TokenStream::new(),
+        }
+    }
+
+    fn write_word_bit(&mut self, place: Place, bit: u8, value: ExprId) -> TokenStream {
+        let value = self.expr(value);
+        let word = self.read_word(place);
+        let with_bit = self.word_function("with_bit");
+        let bit = Literal::u8_unsuffixed(bit);
+        let value = Code::atom(quote!(#with_bit(#word, #bit, #value)));
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return quote!(plc.set_word_at(#class, #number, #value););
+        }
+        match self.storage.word(&quote!(plc), place.class, place.number) {
+            Some(cell) => self.assign(cell, value, place),
+            None => TokenStream::new(),
+        }
+    }
+
+    /// Writes a pair with the function of `rungc_rt::word` that makes words of the value.
+    fn write_pair(&mut self, place: Place, value: ExprId, function: &'static str) -> TokenStream {
+        let value = self.typed(value);
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            let method = if function == "words" {
+                format_ident!("set_pair_at")
+            } else {
+                format_ident!("set_float_at")
+            };
+            return quote!(plc.#method(#class, #number, #value););
+        }
+        let plc = quote!(plc);
+        if let Some(counter) = self.storage.counter32(&plc, place.class, place.number) {
+            return self.assign(counter, value, place);
+        }
+        let (high_class, high) = self.high_word(place);
+        let low = self.storage.word(&plc, place.class, place.number);
+        let high = self.storage.word(&plc, high_class, high);
+        if low.is_none() && high.is_none() {
+            return TokenStream::new();
+        }
+        let [low, high] = [low, high].map(|cell| cell.unwrap_or_else(|| quote!(_)));
+        let function = self.word_function(function);
+        let comment = self.end_comment(place.class, place.number);
+        quote!([#low, #high] = #function(#value); #comment)
+    }
+
+    fn write_nibbles(&mut self, place: Place, digits: u8, value: ExprId) -> TokenStream {
+        let is_narrow = self.module.ty(value) == Ty::I16;
+        let value = self.typed(value);
+        let value = if is_narrow {
+            quote!(i32::from(#value))
+        } else {
+            value.tokens
+        };
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            let digits = Literal::u8_unsuffixed(digits);
+            return quote!(plc.set_nibbles_at(#digits, #class, #number, #value););
+        }
+        let count = 4 * u32::from(digits);
+        let unpack = self.word_function("unpack");
+        if let Some(slice) = self.array_slice(place, count) {
+            let count = Literal::u32_unsuffixed(count);
+            return quote!(#slice.copy_from_slice(&#unpack::<#count>(#value)););
+        }
+        let cells = (0..count).map(|i| {
+            self.storage
+                .bit(&quote!(plc), place.class, place.number + i)
+                .unwrap_or_else(|| quote!(_))
+        });
+        quote!([#(#cells),*] = #unpack(#value);)
+    }
+
+    /// OUT T and OUT C.
+    fn coil(&mut self, stmt: &Stmt) -> TokenStream {
+        let plc = quote!(plc);
+        let (class, number, arguments) = match *stmt {
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => {
+                let kind = self.timer_kind(kind);
+                let (drive, preset) = (self.expr(drive), self.expr(preset));
+                let arguments = quote!(#kind, #drive, #preset, plc.sys.now_ms, plc.sys.dt_ms);
+                (DeviceClass::T, number, arguments)
+            }
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => {
+                let (drive, preset) = (self.expr(drive), self.expr(preset));
+                (DeviceClass::C, number, quote!(#drive, #preset))
+            }
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => {
+                let (drive, down) = (self.expr(drive), self.expr(down));
+                let preset = self.expr(preset);
+                (DeviceClass::C, number, quote!(#drive, #down, #preset))
+            }
+            _ => return TokenStream::new(),
+        };
+        let Some(cell) = self.storage.cell(&plc, class, number) else {
+            return TokenStream::new();
+        };
+        let comment = self.end_comment(class, number);
+        quote!(#cell.run(#arguments); #comment)
+    }
+
+    fn reset(&mut self, place: Place) -> TokenStream {
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return quote!(plc.reset_at(#class, #number););
+        }
+        let cell = self.storage.cell(&quote!(plc), place.class, place.number);
+        let comment = self.end_comment(place.class, place.number);
+        match cell {
+            Some(cell) => quote!(#cell.reset(); #comment),
+            None => TokenStream::new(),
+        }
+    }
+
+    fn branches(&mut self, cond: Code, then: &[Stmt], otherwise: &[Stmt]) -> TokenStream {
+        let then_code = self.body(then);
+        let else_code = self.body(otherwise);
+        if else_code.is_empty() {
+            if then_code.is_empty() {
+                return TokenStream::new();
+            }
+            return quote!(if #cond { #then_code });
+        }
+        if then_code.is_empty() {
+            let cond = cond.receiver();
+            return quote!(if !#cond { #else_code });
+        }
+        quote!(if #cond { #then_code } else { #else_code })
+    }
+
+    fn call_sub(&mut self, n: u32) -> TokenStream {
+        let Some(function) = self.module.functions.get(n as usize) else {
+            return TokenStream::new();
+        };
+        if function.body.is_empty() {
+            return TokenStream::new();
+        }
+        let name = format_ident!("{}", function_name(function));
+        let needs_hal = self.calls.needs_hal.get(n as usize).copied();
+        if needs_hal.unwrap_or(false) {
+            quote!(#name(plc, hal);)
+        } else {
+            quote!(#name(plc);)
+        }
+    }
+
+    /// Parts between which jumps go to and fro: a loop over the number of the part to run next.
+    fn parts(&mut self, parts: &[Part]) -> TokenStream {
+        let is_jumped_to = parts.iter().any(|part| jumps_to(&part.body, parts));
+        if !is_jumped_to {
+            return parts.iter().map(|part| self.body(&part.body)).collect();
+        }
+        let depth = self.jumps.len();
+        self.jumps
+            .push(parts.iter().map(|part| part.label).collect());
+        let label = jump_label(depth);
+        let part_variable = part_variable(depth);
+        let mut arms = TokenStream::new();
+        for (i, part) in parts.iter().enumerate() {
+            let is_last = i + 1 == parts.len();
+            let pattern = if is_last {
+                quote!(_)
+            } else {
+                let i = Literal::usize_unsuffixed(i);
+                quote!(#i)
+            };
+            let name = match &part.name {
+                Some(name) if self.with_comments => self.comments.line(name),
+                _ => TokenStream::new(),
+            };
+            let body = self.body(&part.body);
+            let ends = matches!(part.body.last(), Some(Stmt::Goto(_) | Stmt::Return));
+            let tail = if ends {
+                TokenStream::new()
+            } else if is_last {
+                quote!(break;)
+            } else {
+                let next = Literal::usize_unsuffixed(i + 1);
+                quote!(#part_variable = #next;)
+            };
+            arms.extend(quote!(#pattern => { #name #body #tail }));
+        }
+        self.jumps.pop();
+        let comment = if self.with_comments {
+            self.comments
+                .line("These jumps do not nest: the parts between their labels are run by number.")
+        } else {
+            TokenStream::new()
+        };
+        quote! {
+            #comment
+            let mut #part_variable = 0;
+            #label: loop {
+                match #part_variable { #arms }
+            }
+        }
+    }
+
+    fn goto(&mut self, label: LabelId) -> TokenStream {
+        for (depth, labels) in self.jumps.iter().enumerate().rev() {
+            if let Some(part) = labels.iter().position(|l| *l == Some(label)) {
+                let name = jump_label(depth);
+                let variable = part_variable(depth);
+                let part = Literal::usize_unsuffixed(part);
+                return quote!(#variable = #part; continue #name;);
+            }
+        }
+        TokenStream::new()
+    }
+
+    fn call(
+        &mut self,
+        function: RtFn,
+        wide: bool,
+        args: &[Arg],
+        drive: Option<ExprId>,
+        slot: u16,
+        step: u32,
+    ) -> TokenStream {
+        let (call, site) = (self.rt("call"), self.rt("Site"));
+        self.uses.fnc_imports.insert(function.module());
+        let module = format_ident!("{}", function.module());
+        let name = format_ident!("{}", function.name());
+        let step = Literal::u32_unsuffixed(step);
+        let mut site = quote!(#site::at(#step));
+        if wide {
+            site.extend(quote!(.wide()));
+        }
+        if slot != 0 {
+            let slot = Literal::u16_unsuffixed(slot);
+            site.extend(quote!(.slot(#slot)));
+        }
+        if let Some(drive) = drive {
+            let drive = self.expr(drive);
+            site.extend(quote!(.driven(#drive)));
+        }
+        let args: Vec<TokenStream> = args.iter().map(|arg| self.argument(arg)).collect();
+        quote!(#call(#module::#name, #site, &[#(#args),*], plc, hal);)
+    }
+
+    fn argument(&mut self, arg: &Arg) -> TokenStream {
+        match *arg {
+            Arg::Const { value, index, wide } => {
+                let k = self.rt("k");
+                let value = match index {
+                    None => literal32(value, false).tokens,
+                    Some(index) if wide => {
+                        let index = self.typed(index).receiver();
+                        let value = literal32(value, false);
+                        quote!(#index.wrapping_add(#value))
+                    }
+                    Some(index) => {
+                        let index = self.typed(index).receiver();
+                        let value = literal32(value, false);
+                        quote!(i32::from(#index.wrapping_add(#value) as i16))
+                    }
+                };
+                quote!(#k(#value))
+            }
+            Arg::Float(value) => {
+                let operand = self.rt("Operand");
+                let bits = Literal::u32_unsuffixed(value.to_bits());
+                let float = if value.is_finite() {
+                    let literal = Literal::f32_unsuffixed(value.abs());
+                    if value.is_sign_negative() {
+                        quote!(-#literal)
+                    } else {
+                        quote!(#literal)
+                    }
+                } else {
+                    quote!(f32::from_bits(#bits))
+                };
+                quote!(#operand::float(#float))
+            }
+            Arg::Device { place, .. } => {
+                let d = self.rt("d");
+                let (class, number) = self.operand_place(place);
+                quote!(#d(#class, #number))
+            }
+            Arg::Nibbles { place, digits, .. } => {
+                let kn = self.rt("kn");
+                let digits = Literal::u8_unsuffixed(digits);
+                let (class, number) = self.operand_place(place);
+                quote!(#kn(#digits, #class, #number))
+            }
+            Arg::WordBit { place, bit } => {
+                let operand = self.rt("Operand");
+                let bit = Literal::u8_unsuffixed(bit);
+                let (class, number) = self.operand_place(place);
+                quote!(#operand::word_bit(#class, #number, #bit))
+            }
+            Arg::Text(n) => {
+                let operand = self.rt("Operand");
+                let n = Literal::u32_unsuffixed(n);
+                quote!(#operand::text(#n))
+            }
+        }
+    }
+
+    /// Class and number of a device that the runtime is handed.
+    fn operand_place(&mut self, place: Place) -> (TokenStream, TokenStream) {
+        let class = self.class(place.class);
+        let number = match place.index {
+            None => literal32(place.number as i32, false).tokens,
+            Some(index) => self.offset(place.number as i32, index),
+        };
+        (class, number)
+    }
+}
+
+/// Whether the statements jump to one of the parts.
+fn jumps_to(stmts: &[Stmt], parts: &[Part]) -> bool {
+    let mut found = false;
+    analysis::walk(stmts, &mut |stmt| {
+        if let Stmt::Goto(label) = stmt {
+            found |= parts.iter().any(|part| part.label == Some(*label));
+        }
+    });
+    found
+}
+
+fn jump_label(depth: usize) -> syn::Lifetime {
+    let name = if depth == 0 {
+        "'parts".to_string()
+    } else {
+        format!("'parts{depth}")
+    };
+    syn::Lifetime::new(&name, proc_macro2::Span::call_site())
+}
+
+fn part_variable(depth: usize) -> proc_macro2::Ident {
+    if depth == 0 {
+        format_ident!("part")
+    } else {
+        format_ident!("part{}", depth)
+    }
+}

@@ -1,0 +1,176 @@
+//! The fields of the emitted struct: where each stored device lives.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+use rungc_ir::layout::{Area, Layout};
+use rungc_syntax::DeviceClass;
+
+/// First 32-bit counter.
+const COUNTER32_FIRST: u32 = 200;
+
+/// What a field holds per device.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Elem {
+    /// `bool`.
+    Bit,
+    /// `i16`.
+    Word,
+    /// `rungc_rt::Timer`.
+    Timer,
+    /// `rungc_rt::Counter16`.
+    Counter16,
+    /// `rungc_rt::Counter32`.
+    Counter32,
+}
+
+impl Elem {
+    /// Name of its type.
+    pub fn type_name(self) -> &'static str {
+        match self {
+            Elem::Bit => "bool",
+            Elem::Word => "i16",
+            Elem::Timer => "Timer",
+            Elem::Counter16 => "Counter16",
+            Elem::Counter32 => "Counter32",
+        }
+    }
+
+    fn of(class: DeviceClass, number: u32) -> Self {
+        match class {
+            DeviceClass::T => Elem::Timer,
+            DeviceClass::C if number < COUNTER32_FIRST => Elem::Counter16,
+            DeviceClass::C => Elem::Counter32,
+            DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S => Elem::Bit,
+            _ => Elem::Word,
+        }
+    }
+}
+
+/// A field: one device, or an array of neighbours.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// `x0`, `d` (an array from D0 on), `d100` (one from D100 on, or D100 itself).
+    pub name: Ident,
+    /// The devices.
+    pub area: Area,
+    /// What each of them is.
+    pub elem: Elem,
+}
+
+impl Field {
+    fn new(area: Area) -> Self {
+        let prefix = area.class.prefix().to_lowercase();
+        let name = match area.class {
+            _ if area.array && area.first == 0 => prefix,
+            class if class.is_octal() => format!("{prefix}{:o}", area.first),
+            _ => format!("{prefix}{}", area.first),
+        };
+        Field {
+            name: Ident::new(&name, Span::call_site()),
+            elem: Elem::of(area.class, area.first),
+            area,
+        }
+    }
+
+    /// Number of its last device.
+    pub fn last(&self) -> u32 {
+        self.area.first + self.area.count.max(1) - 1
+    }
+}
+
+/// All fields, sorted by class and number.
+#[derive(Clone, Debug, Default)]
+pub struct Storage {
+    /// The fields.
+    pub fields: Vec<Field>,
+}
+
+impl Storage {
+    /// The fields for a layout.
+    pub fn new(layout: &Layout) -> Self {
+        let mut fields = Vec::new();
+        for area in &layout.areas {
+            if !area.array {
+                fields.extend((0..area.count).map(|i| {
+                    Field::new(Area {
+                        first: area.first + i,
+                        count: 1,
+                        ..*area
+                    })
+                }));
+                continue;
+            }
+            // An array has one element type: counters part at C200.
+            let wide_from = if area.class == DeviceClass::C {
+                COUNTER32_FIRST.clamp(area.first, area.first + area.count)
+            } else {
+                area.first
+            };
+            let parts = [
+                (area.first, wide_from - area.first),
+                (wide_from, area.first + area.count - wide_from),
+            ];
+            let parts = parts.into_iter().filter(|&(_, count)| count > 0);
+            fields.extend(parts.map(|(first, count)| {
+                Field::new(Area {
+                    first,
+                    count,
+                    ..*area
+                })
+            }));
+        }
+        Storage { fields }
+    }
+
+    /// The field that holds a device.
+    pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
+        let after = self
+            .fields
+            .partition_point(|f| (f.area.class, f.area.first) <= (class, number));
+        let field = self.fields.get(after.checked_sub(1)?)?;
+        (field.area.class == class && number <= field.last()).then_some(field)
+    }
+
+    /// The place of a device behind `plc`: `plc.x0`, `plc.d[7]`.
+    pub fn cell(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
+        let field = self.find(class, number)?;
+        let name = &field.name;
+        Some(if field.area.array {
+            let i = Literal::u32_unsuffixed(number - field.area.first);
+            quote!(#plc.#name[#i])
+        } else {
+            quote!(#plc.#name)
+        })
+    }
+
+    /// Where its state as a bit is.
+    pub fn bit(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
+        let cell = self.cell(plc, class, number)?;
+        match Elem::of(class, number) {
+            Elem::Bit => Some(cell),
+            Elem::Word => None,
+            Elem::Timer | Elem::Counter16 | Elem::Counter32 => Some(quote!(#cell.done)),
+        }
+    }
+
+    /// Where its value as a 16-bit word is.
+    pub fn word(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
+        let cell = self.cell(plc, class, number)?;
+        match Elem::of(class, number) {
+            Elem::Word => Some(cell),
+            Elem::Bit | Elem::Counter32 => None,
+            Elem::Timer | Elem::Counter16 => Some(quote!(#cell.value)),
+        }
+    }
+
+    /// Where a 32-bit counter's value is.
+    pub fn counter32(
+        &self,
+        plc: &TokenStream,
+        class: DeviceClass,
+        number: u32,
+    ) -> Option<TokenStream> {
+        let cell = self.cell(plc, class, number)?;
+        (Elem::of(class, number) == Elem::Counter32).then(|| quote!(#cell.value))
+    }
+}

@@ -1,0 +1,74 @@
+//! Runs the program on this computer in real time, one scan every 10 ms.
+//!
+//! Type `X0=1` or `X0=0` and Enter to switch an input (in octal, as on the PLC); outputs are printed when they change.
+
+use CRATE::TYPE;
+use rungc_rt::{Class, Plc, Program, VirtualHal};
+use std::io::{self, BufRead};
+use std::sync::mpsc::{self, Receiver};
+use std::time::{Duration, Instant};
+
+/// Time from the start of one scan to the start of the next.
+const SCAN: Duration = Duration::from_millis(10);
+
+/// Output terminals: number, name, comment.
+const OUTPUTS: &[(u32, &str, &str)] = &[OUTPUT_TABLE];
+
+fn main() {
+    let mut plc = TYPE::new();
+    let mut hal = VirtualHal::new();
+    let mut shown = [false; OUTPUTS.len()];
+    let commands = commands();
+    let start = Instant::now();
+    let mut next = start;
+    let mut scan_us = 0;
+    loop {
+        let begin = Instant::now();
+        let now_ms = (begin - start).as_millis() as u32;
+        for line in commands.try_iter() {
+            if set_input(&mut plc, &line).is_none() {
+                eprintln!("{line}: not an input; type for example X0=1");
+            }
+        }
+        hal.advance_to(now_ms);
+        plc.scan(&mut hal, now_ms, scan_us);
+        for (&(number, name, comment), shown) in OUTPUTS.iter().zip(&mut shown) {
+            let on = plc.output(number);
+            if on != *shown {
+                *shown = on;
+                let state = if on { "on" } else { "off" };
+                let seconds = f64::from(now_ms) / 1000.0;
+                println!("{seconds:>11.3} s  {name} {state:<3} {comment}");
+            }
+        }
+        scan_us = begin.elapsed().as_micros() as u32;
+        next += SCAN;
+        std::thread::sleep(next.saturating_duration_since(Instant::now()));
+    }
+}
+
+/// The lines of standard input, as they come.
+fn commands() -> Receiver<String> {
+    let (sender, receiver) = mpsc::channel();
+    std::thread::spawn(move || {
+        for line in io::stdin().lock().lines().map_while(Result::ok) {
+            if sender.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    receiver
+}
+
+/// Does what `X12=1` says; `None` if it says nothing of the kind, or the PLC has no such input.
+fn set_input(plc: &mut TYPE, line: &str) -> Option<()> {
+    let (name, value) = line.trim().split_once('=')?;
+    let number = name.trim().strip_prefix(['X', 'x'])?;
+    let number = u32::from_str_radix(number, 8).ok()?;
+    let on = match value.trim() {
+        "0" => false,
+        "1" => true,
+        _ => return None,
+    };
+    plc.set_bit(Class::X, number, on)
+}

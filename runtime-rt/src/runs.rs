@@ -1,0 +1,88 @@
+//! Which devices a model has, for code that knows them by number only.
+
+use crate::plc::Class;
+
+/// First 32-bit counter.
+const COUNTER32_FIRST: u32 = 200;
+
+/// Runs of devices that lie next to each other: class, first and last number.
+#[derive(Clone, Copy, Debug)]
+pub struct Runs(pub &'static [(Class, u32, u32)]);
+
+impl Runs {
+    /// Whether `count` devices from `first` on all exist, in one run.
+    pub fn hold(self, class: Class, first: i32, count: u32) -> bool {
+        let first = i64::from(first);
+        let last = first + i64::from(count.max(1)) - 1;
+        self.0
+            .iter()
+            .any(|&(c, from, to)| c == class && i64::from(from) <= first && last <= i64::from(to))
+    }
+
+    fn has(self, class: Class, number: u32) -> bool {
+        self.0
+            .iter()
+            .any(|&(c, from, to)| c == class && from <= number && number <= to)
+    }
+
+    /// What [`crate::Plc::bit`] says of a device that is not stored: off if the model has it.
+    pub fn bit(self, class: Class, number: u32) -> Option<bool> {
+        let is_bit = matches!(
+            class,
+            Class::X | Class::Y | Class::M | Class::S | Class::T | Class::C
+        );
+        (is_bit && self.has(class, number)).then_some(false)
+    }
+
+    /// What [`crate::Plc::word`] says of a device that is not stored: 0 if the model has it.
+    pub fn word(self, class: Class, number: u32) -> Option<i16> {
+        let is_word = match class {
+            Class::X | Class::Y | Class::M | Class::S => false,
+            Class::C => number < COUNTER32_FIRST,
+            Class::T | Class::D | Class::R | Class::V | Class::Z | Class::ER => true,
+        };
+        (is_word && self.has(class, number)).then_some(0)
+    }
+
+    /// What [`crate::Plc::counter32`] says of a counter that is not stored: 0 if the model has it.
+    pub fn counter32(self, number: u32) -> Option<i32> {
+        (number >= COUNTER32_FIRST && self.has(Class::C, number)).then_some(0)
+    }
+
+    /// What [`crate::Plc::reset`] says of a timer or counter that is not stored.
+    pub fn reset(self, class: Class, number: u32) -> Option<()> {
+        (matches!(class, Class::T | Class::C) && self.has(class, number)).then_some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RUNS: Runs = Runs(&[
+        (Class::M, 0, 99),
+        (Class::D, 0, 199),
+        (Class::D, 8000, 8255),
+        (Class::C, 200, 234),
+    ]);
+
+    #[test]
+    fn a_run_holds_what_lies_in_it_whole() {
+        assert!(RUNS.hold(Class::D, 0, 200));
+        assert!(!RUNS.hold(Class::D, 0, 201));
+        assert!(!RUNS.hold(Class::D, -1, 1));
+        assert!(!RUNS.hold(Class::D, i32::MAX, u32::MAX));
+        assert!(RUNS.hold(Class::D, 8255, 1));
+    }
+
+    #[test]
+    fn devices_that_are_not_stored_read_as_zero() {
+        assert_eq!(RUNS.bit(Class::M, 99), Some(false));
+        assert_eq!(RUNS.bit(Class::M, 100), None);
+        assert_eq!(RUNS.bit(Class::D, 0), None);
+        assert_eq!(RUNS.word(Class::D, 0), Some(0));
+        assert_eq!(RUNS.word(Class::C, 200), None);
+        assert_eq!(RUNS.counter32(200), Some(0));
+        assert_eq!(RUNS.reset(Class::T, 0), None);
+    }
+}
