@@ -5,6 +5,7 @@
 //! No output language and no file format is known here.
 
 pub mod catalogue;
+pub mod check;
 pub mod compile;
 pub mod dump;
 pub mod layout;

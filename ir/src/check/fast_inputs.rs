@@ -1,0 +1,238 @@
+//! Fast inputs: high-speed counters and interrupts that want the same terminal, and interrupts of one source.
+
+use super::Code;
+use super::pointers::Pointers;
+use crate::catalogue::Basic;
+use crate::model::{ModelId, ModelSet};
+use rungc_syntax::{DeviceClass, Diagnostics, codes};
+
+/// Checks who uses the fast inputs.
+pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
+    let interrupts = interrupts(pointers);
+    let counters = counters(code);
+    one_pointer_per_source(code, &interrupts, out);
+    inputs_shared(code, &interrupts, &counters, out);
+    counters_share(code, &counters, out);
+    never_enabled(code, &interrupts, out);
+}
+
+/// An interrupt routine.
+struct Interrupt {
+    /// Its pointer's number.
+    number: u32,
+    /// Where it begins.
+    label: usize,
+}
+
+impl Interrupt {
+    /// The input that requests it: I000, I001 X000; I100, I101 X001; … I501 X005.
+    fn input(&self) -> Option<u32> {
+        (self.number % 100 <= 1 && self.number / 100 <= 5).then_some(self.number / 100)
+    }
+
+    /// What it must not share with another: an input, or one of the timers I6, I7, I8.
+    fn source(&self) -> Option<u32> {
+        let timer = (601..=899).contains(&self.number);
+        self.input().or(timer.then_some(self.number / 100))
+    }
+}
+
+/// The interrupt routines in the order of the program.
+fn interrupts(pointers: &Pointers) -> Vec<Interrupt> {
+    let mut found: Vec<_> = pointers
+        .iter()
+        .filter(|(device, _)| device.class == DeviceClass::I)
+        .filter_map(|(device, pointer)| {
+            let number = device.number;
+            let label = *pointer.labels.first()?;
+            Some(Interrupt { number, label })
+        })
+        .collect();
+    found.sort_unstable_by_key(|interrupt| interrupt.label);
+    found
+}
+
+fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
+    for (n, second) in interrupts.iter().enumerate() {
+        let same =
+            |first: &&Interrupt| second.source().is_some() && first.source() == second.source();
+        let Some(first) = interrupts[..n].iter().find(same) else {
+            continue;
+        };
+        let message = match second.input() {
+            Some(input) => format!("both edges of `{}` interrupt", DeviceClass::X.number(input)),
+            None => format!("timer interrupt I{} has two periods", second.number / 100),
+        };
+        let diagnostic = codes::BOTH_EDGES
+            .at(code.span(second.label), message)
+            .label("the second routine of this source")
+            .other(code.span(first.label), "the first one");
+        out.push(diagnostic);
+    }
+}
+
+/// The inputs that a high-speed counter counts, resets and starts by.
+struct CounterInputs {
+    models: ModelSet,
+    /// Counter and its inputs, as values (X010 is 8).
+    counters: &'static [(u32, &'static [u32])],
+}
+
+/// The FX family's assignment (h1u-h2u-programming §3.6) and that of HM (hm-programming §4.6).
+const COUNTERS: &[CounterInputs] = &[
+    CounterInputs {
+        models: ModelSet::ALL.except(&[ModelId::Hm]),
+        counters: &[
+            (235, &[0]),
+            (236, &[1]),
+            (237, &[2]),
+            (238, &[3]),
+            (239, &[4]),
+            (240, &[5]),
+            (241, &[0, 1]),
+            (242, &[2, 3]),
+            (243, &[4, 5]),
+            (244, &[0, 1, 6]),
+            (245, &[2, 3, 7]),
+            (246, &[0, 1]),
+            (247, &[0, 1, 2]),
+            (248, &[3, 4, 5]),
+            (249, &[0, 1, 2, 6]),
+            (250, &[3, 4, 5, 7]),
+            (251, &[0, 1]),
+            (252, &[0, 1, 2]),
+            (253, &[3, 4, 5]),
+            (254, &[0, 1, 2, 6]),
+            (255, &[3, 4, 5, 7]),
+        ],
+    },
+    CounterInputs {
+        models: ModelSet::of(&[ModelId::Hm]),
+        counters: &[
+            (235, &[0o0]),
+            (237, &[0o2]),
+            (239, &[0o0, 0o10]),
+            (240, &[0o2, 0o11]),
+            (241, &[0o0, 0o10, 0o12]),
+            (242, &[0o2, 0o11, 0o13]),
+            (244, &[0o0, 0o1]),
+            (245, &[0o2, 0o3]),
+            (246, &[0o0, 0o1, 0o10]),
+            (247, &[0o2, 0o3, 0o11]),
+            (248, &[0o0, 0o1, 0o10, 0o12]),
+            (249, &[0o2, 0o3, 0o11, 0o13]),
+            (250, &[0o0, 0o1]),
+            (251, &[0o2, 0o3]),
+            (252, &[0o0, 0o1, 0o10]),
+            (253, &[0o2, 0o3, 0o11]),
+            (254, &[0o0, 0o1, 0o10, 0o12]),
+            (255, &[0o2, 0o3, 0o11, 0o13]),
+        ],
+    },
+];
+
+/// A high-speed counter that the program drives.
+struct Counter {
+    number: u32,
+    inputs: &'static [u32],
+    /// Its first coil.
+    coil: usize,
+}
+
+/// The high-speed counters that the program drives, each once.
+fn counters(code: &Code) -> Vec<Counter> {
+    let model = code.model().id;
+    let tables = COUNTERS.iter().filter(|table| table.models.has(model));
+    let table: Vec<_> = tables.flat_map(|table| table.counters).collect();
+    let mut found: Vec<Counter> = Vec::new();
+    for i in 0..code.len {
+        let Some(device) = code
+            .device(i, 0)
+            .filter(|_| code.basic(i) == Some(Basic::Out))
+        else {
+            continue;
+        };
+        let number = device.number;
+        let known = found.iter().any(|counter| counter.number == number);
+        if device.class != DeviceClass::C || known {
+            continue;
+        }
+        if let Some(&&(_, inputs)) = table.iter().find(|(of, _)| *of == number) {
+            let coil = i;
+            found.push(Counter {
+                number,
+                inputs,
+                coil,
+            });
+        }
+    }
+    found
+}
+
+fn inputs_shared(
+    code: &Code,
+    interrupts: &[Interrupt],
+    counters: &[Counter],
+    out: &mut Diagnostics,
+) {
+    for interrupt in interrupts {
+        let Some(input) = interrupt.input() else {
+            continue;
+        };
+        for counter in counters
+            .iter()
+            .filter(|counter| counter.inputs.contains(&input))
+        {
+            let input = DeviceClass::X.number(input);
+            let message = format!(
+                "`{input}` serves both an interrupt and counter `C{}`",
+                counter.number
+            );
+            let diagnostic = codes::INPUT_SHARED
+                .at(code.span(interrupt.label), message)
+                .label("requests an interrupt here …")
+                .other(code.span(counter.coil), "… and counts here");
+            out.push(diagnostic);
+        }
+    }
+}
+
+fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {
+    for (n, second) in counters.iter().enumerate() {
+        for first in &counters[..n] {
+            let Some(&input) = second
+                .inputs
+                .iter()
+                .find(|input| first.inputs.contains(input))
+            else {
+                continue;
+            };
+            let input = DeviceClass::X.number(input);
+            let message = format!(
+                "`C{}` and `C{}` both use `{input}`",
+                first.number, second.number
+            );
+            let diagnostic = codes::COUNTERS_SHARE
+                .at(code.span(second.coil), message)
+                .label("used here …")
+                .other(code.span(first.coil), "… and here")
+                .help("choose counters with inputs of their own");
+            out.push(diagnostic);
+        }
+    }
+}
+
+fn never_enabled(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
+    let enabled = || (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei));
+    let Some(first) = interrupts.first().filter(|_| !enabled()) else {
+        return;
+    };
+    let diagnostic = codes::NEVER_ENABLED
+        .at(
+            code.span(first.label),
+            "this interrupt routine never runs: there is no EI",
+        )
+        .label("interrupts are disabled at the start of RUN")
+        .help("put EI at the beginning of the program");
+    out.push(diagnostic);
+}

@@ -1,0 +1,279 @@
+//! Jumps and calls: their labels exist once, and lead where they may.
+
+use super::Code;
+use super::pointers::{Pointer, Pointers};
+use super::structure::{NONE, Places, Routine};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rustc_hash::FxHashMap;
+
+/// Checks all pointers of a program.
+pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut Diagnostics) {
+    for (device, pointer) in pointers.iter() {
+        defined_once(code, device, pointer, out);
+        if device.class != DeviceClass::P {
+            continue;
+        }
+        if device.number == END_POINTER {
+            end_pointer(code, pointer, out);
+            continue;
+        }
+        used_one_way(code, device, pointer, out);
+        match pointer.labels.first() {
+            None => missing(code, device, pointer, out),
+            Some(&label) => {
+                for &jump in &pointer.jumps {
+                    destination(code, places, jump, label, out);
+                }
+                unused(code, device, pointer, label, out);
+            }
+        }
+    }
+    Calls::new(pointers, places).check(code, out);
+}
+
+/// P63 means the end of the program.
+const END_POINTER: u32 = 63;
+
+fn defined_once(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics) {
+    let Some((&first, again)) = pointer.labels.split_first() else {
+        return;
+    };
+    for &second in again {
+        let diagnostic = codes::LABEL_TWICE
+            .at(code.span(second), format!("`{device}` is defined twice"))
+            .label("defined again here")
+            .other(code.span(first), "first defined here");
+        out.push(diagnostic);
+    }
+}
+
+fn end_pointer(code: &Code, pointer: &Pointer, out: &mut Diagnostics) {
+    for &label in &pointer.labels {
+        let diagnostic = codes::P63
+            .at(code.span(label), "`P63` must not be defined")
+            .label("P63 is the end of the program")
+            .help("use another number for this label");
+        out.push(diagnostic);
+    }
+    for &call in &pointer.calls {
+        let diagnostic = codes::P63
+            .at(code.span(call), "`P63` cannot be called")
+            .label("P63 is the end of the program");
+        out.push(diagnostic);
+    }
+}
+
+fn used_one_way(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics) {
+    if let (Some(&jump), Some(&call)) = (pointer.jumps.first(), pointer.calls.first()) {
+        let diagnostic = codes::JUMPED_AND_CALLED
+            .at(
+                code.span(jump.max(call)),
+                format!("`{device}` is both jumped to and called"),
+            )
+            .label(if jump > call {
+                "jumped to here"
+            } else {
+                "called here"
+            })
+            .other(
+                code.span(jump.min(call)),
+                if jump > call {
+                    "called here"
+                } else {
+                    "jumped to here"
+                },
+            )
+            .help("give the subroutine a label of its own");
+        out.push(diagnostic);
+    }
+}
+
+fn missing(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics) {
+    for &i in pointer
+        .jumps
+        .iter()
+        .chain(&pointer.calls)
+        .chain(&pointer.others)
+    {
+        let span = code
+            .instr(i)
+            .operands
+            .first()
+            .map_or(code.span(i), |operand| operand.span);
+        let diagnostic = codes::NO_LABEL
+            .at(span, format!("there is no label `{device}`"))
+            .label("leads nowhere")
+            .help(format!("put the line `{device}` where it should lead"));
+        out.push(diagnostic);
+    }
+}
+
+fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mut Diagnostics) {
+    if pointer.jumps.is_empty() && pointer.calls.is_empty() && pointer.others.is_empty() {
+        let diagnostic = codes::UNUSED_LABEL
+            .at(
+                code.span(label),
+                format!("nothing jumps to `{device}` or calls it"),
+            )
+            .label("not used");
+        out.push(diagnostic);
+    }
+}
+
+/// Whether a jump stays in its routine and does not enter a loop.
+fn destination(code: &Code, places: &Places, jump: usize, label: usize, out: &mut Diagnostics) {
+    let (from, to) = (places.of(jump), places.of(label));
+    if from.routine != to.routine {
+        let diagnostic = codes::BETWEEN_ROUTINES
+            .at(code.span(jump), "this jump leads into another routine")
+            .label("jumps from here …")
+            .other(code.span(label), "… to here")
+            .help("use CALL to run a subroutine, SRET to leave one");
+        out.push(diagnostic);
+        return;
+    }
+    let mut around = from.inner_loop;
+    while around != to.inner_loop && around != NONE {
+        around = places.outer_loop(around);
+    }
+    if around != to.inner_loop {
+        let diagnostic = codes::INTO_LOOP
+            .at(code.span(jump), "this jump leads into a loop")
+            .label("jumps from here …")
+            .other(code.span(label), "… to here …")
+            .other(code.span(to.inner_loop as usize), "… inside this loop")
+            .help("jump to the FOR or behind the NEXT");
+        out.push(diagnostic);
+    }
+    if from.state != to.state {
+        let diagnostic = codes::JUMP_IN_STL
+            .at(
+                code.span(jump),
+                "this jump leaves or enters a state of a step ladder",
+            )
+            .label("jumps from here …")
+            .other(code.span(label), "… to here");
+        out.push(diagnostic);
+    }
+}
+
+/// Which routine calls which.
+struct Calls {
+    /// By routine: the call and the routine called.
+    calls: FxHashMap<Routine, Vec<(usize, Routine)>>,
+    /// The deepest chain of calls that begins in a routine, once known.
+    depths: FxHashMap<Routine, u32>,
+}
+
+impl Calls {
+    fn new(pointers: &Pointers, places: &Places) -> Self {
+        let mut calls: FxHashMap<Routine, Vec<_>> = FxHashMap::default();
+        for (_, pointer) in pointers.iter() {
+            let Some(&label) = pointer.labels.first() else {
+                continue;
+            };
+            for &call in &pointer.calls {
+                let (from, to) = (places.of(call).routine, places.of(label).routine);
+                calls.entry(from).or_default().push((call, to));
+            }
+        }
+        for made in calls.values_mut() {
+            made.sort_unstable();
+        }
+        let depths = FxHashMap::default();
+        Calls { calls, depths }
+    }
+
+    fn check(mut self, code: &Code, out: &mut Diagnostics) {
+        let mut roots: Vec<_> = self.calls.keys().copied().collect();
+        roots.sort_unstable();
+        for root in roots {
+            self.walk(code, root, out);
+        }
+        let max = code.model().max_call;
+        let begins = |routine: &Routine| matches!(routine, Routine::Main | Routine::Interrupt(_));
+        let mut deep: Vec<_> = self
+            .depths
+            .iter()
+            .filter(|&(routine, &depth)| begins(routine) && depth > max)
+            .collect();
+        deep.sort_unstable();
+        for (&routine, &depth) in deep {
+            let chain = self.deepest(routine);
+            let (Some(&first), Some(&beyond)) = (chain.first(), chain.get(max as usize)) else {
+                continue;
+            };
+            let message = format!(
+                "calls nest {depth} deep, but {} allows {max}",
+                code.model().name
+            );
+            let diagnostic = codes::DEEP_CALL
+                .at(code.span(beyond), message)
+                .label("one call too many")
+                .other(code.span(first), "the chain begins here");
+            out.push(diagnostic);
+        }
+    }
+
+    /// Finds the depth of a routine and of all that it calls, depth first without recursion, and reports circles.
+    fn walk(&mut self, code: &Code, root: Routine, out: &mut Diagnostics) {
+        if self.depths.contains_key(&root) {
+            return;
+        }
+        // Routines that are being looked at: the routine, its next call, the deepest chain found so far.
+        let mut path = vec![(root, 0, 0)];
+        while let Some(&mut (routine, ref mut next, ref mut depth)) = path.last_mut() {
+            let made = self.calls.get(&routine).map_or(&[][..], Vec::as_slice);
+            let Some(&(call, called)) = made.get(*next) else {
+                let depth = *depth;
+                self.depths.insert(routine, depth);
+                path.pop();
+                continue;
+            };
+            if let Some(&known) = self.depths.get(&called) {
+                *depth = (*depth).max(known + 1);
+                *next += 1;
+            } else if path.iter().any(|&(open, ..)| open == called) {
+                out.push(recursion(code, call, called));
+                if let Some((_, next, _)) = path.last_mut() {
+                    *next += 1;
+                }
+            } else {
+                path.push((called, 0, 0));
+            }
+        }
+    }
+
+    /// The calls of the deepest chain that begins in a routine.
+    fn deepest(&self, mut routine: Routine) -> Vec<usize> {
+        let mut chain = Vec::new();
+        let depth = |routine: &Routine| self.depths.get(routine).copied().unwrap_or(0);
+        let mut left = depth(&routine);
+        while left > 0 {
+            left -= 1;
+            let made = self.calls.get(&routine).map_or(&[][..], Vec::as_slice);
+            let Some(&(call, called)) = made.iter().find(|(_, called)| depth(called) == left)
+            else {
+                break;
+            };
+            chain.push(call);
+            routine = called;
+        }
+        chain
+    }
+}
+
+fn recursion(code: &Code, call: usize, called: Routine) -> rungc_syntax::Diagnostic {
+    let diagnostic = codes::RECURSION
+        .at(
+            code.span(call),
+            "this call leads back into its own subroutine",
+        )
+        .label("calls itself through this");
+    match called {
+        Routine::Sub(label) | Routine::Interrupt(label) => {
+            diagnostic.other(code.span(label as usize), "the subroutine begins here")
+        }
+        Routine::Main | Routine::Nothing => diagnostic,
+    }
+}

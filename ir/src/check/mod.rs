@@ -1,0 +1,187 @@
+//! Looks at a program as a whole: contact logic, structure, labels, interrupts, and what hurts in practice.
+//!
+//! Each file is one concept and walks the program once, so that checking stays linear in its length. [`structure`] finds where each
+//! instruction stands (routine, loop, state); what jumps, calls and warns builds on that.
+
+mod blocks;
+mod fast_inputs;
+mod labels;
+mod once;
+mod pointers;
+mod structure;
+mod unreachable;
+mod usage;
+
+use crate::catalogue::{Basic, Drive, Inst, Join, Lower, Param};
+use crate::model::Model;
+use crate::resolve::{Resolved, numbered};
+use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, Span, codes};
+
+/// Checks the structure of a program, and warns of what is legal but hurts.
+pub fn check(resolved: &Resolved) -> Diagnostics {
+    let mut out = Diagnostics::new();
+    let code = Code::new(resolved);
+    code.end(&mut out);
+    blocks::check(&code, &mut out);
+    let pointers = pointers::Pointers::new(&code);
+    let places = structure::check(&code, &pointers, &mut out);
+    labels::check(&code, &pointers, &places, &mut out);
+    fast_inputs::check(&code, &pointers, &mut out);
+    once::check(&code, &mut out);
+    unreachable::check(&code, &places, &mut out);
+    usage::check(&code, &places, &mut out);
+    numbered(out, resolved.model)
+}
+
+/// The part of a program that is run: up to and with its first END.
+struct Code<'a> {
+    resolved: &'a Resolved<'a>,
+    /// How many instructions that is.
+    len: usize,
+}
+
+impl<'a> Code<'a> {
+    fn new(resolved: &'a Resolved<'a>) -> Self {
+        let end = resolved
+            .instrs
+            .iter()
+            .position(|instr| matches!(lower(instr.inst), Some(Lower::Basic(Basic::End))));
+        let len = end.map_or(resolved.instrs.len(), |end| end + 1);
+        Code { resolved, len }
+    }
+
+    fn model(&self) -> &'static Model {
+        self.resolved.model
+    }
+
+    fn inst(&self, i: usize) -> Option<&'static Inst> {
+        self.resolved.instrs[i].inst
+    }
+
+    fn instr(&self, i: usize) -> &'a Instr {
+        &self.resolved.program.instrs[i]
+    }
+
+    fn span(&self, i: usize) -> Span {
+        self.instr(i).span
+    }
+
+    fn wide(&self, i: usize) -> bool {
+        self.resolved.instrs[i].form.wide
+    }
+
+    /// The basic instruction that this is, if it is one.
+    fn basic(&self, i: usize) -> Option<Basic> {
+        match lower(self.inst(i)) {
+            Some(Lower::Basic(basic)) => Some(basic),
+            _ => None,
+        }
+    }
+
+    /// The pointer that an instruction defines.
+    fn label(&self, i: usize) -> Option<Device> {
+        self.resolved.instrs[i].label
+    }
+
+    /// The device that operand `n` names without an index register.
+    fn device(&self, i: usize, n: usize) -> Option<Device> {
+        match self.instr(i).operands.get(n)?.kind {
+            OperandKind::Device(device, None) => Some(device),
+            _ => None,
+        }
+    }
+
+    /// What the operands of an instruction are.
+    fn params(&self, i: usize) -> &'static [Param] {
+        let Some(inst) = self.inst(i) else {
+            return &[];
+        };
+        let kinds: Vec<_> = self
+            .instr(i)
+            .operands
+            .iter()
+            .map(|operand| operand.kind.clone())
+            .collect();
+        inst.params_of(&kinds, self.model())
+    }
+
+    /// How an instruction takes part in the contact logic.
+    fn part(&self, i: usize) -> Part {
+        let Some(inst) = self.inst(i) else {
+            return Part::Unknown;
+        };
+        match (inst.lower, inst.drive) {
+            (Lower::Basic(Basic::Nop), _) => Part::Nothing,
+            (Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf), _)
+            | (Lower::Compare(Join::Ld, _), _) => Part::Start,
+            (Lower::Basic(Basic::Anb), _) => Part::JoinSeries,
+            (Lower::Basic(Basic::Orb), _) => Part::JoinParallel,
+            (Lower::Basic(Basic::Mps), _) => Part::Push,
+            (Lower::Basic(Basic::Mrd), _) => Part::Read,
+            (Lower::Basic(Basic::Mpp), _) => Part::Pop,
+            (_, Drive::Logic) => Part::Continue,
+            (_, Drive::Contact) => Part::Output,
+            (_, Drive::Alone) => Part::Alone,
+        }
+    }
+
+    /// Whether there is an END, and something behind it.
+    fn end(&self, out: &mut Diagnostics) {
+        let instrs = &self.resolved.program.instrs;
+        let Some(last) = self.len.checked_sub(1) else {
+            out.push(codes::NO_END.at(Span::default(), "the program is empty"));
+            return;
+        };
+        if self.basic(last) != Some(Basic::End) {
+            let diagnostic = codes::NO_END.at(self.span(last), "the program does not end with END");
+            out.push(
+                diagnostic
+                    .label("the last instruction")
+                    .help("add END behind it"),
+            );
+            return;
+        }
+        let behind = (self.len..instrs.len()).find(|&i| self.part(i) != Part::Nothing);
+        if let Some(first) = behind
+            && self.basic(first) != Some(Basic::End)
+        {
+            let diagnostic = codes::AFTER_END.at(self.span(first), "nothing behind END is run");
+            out.push(
+                diagnostic
+                    .label("not run, and neither is what follows")
+                    .other(self.span(last), "the scan ends here"),
+            );
+        }
+    }
+}
+
+/// How an instruction takes part in the contact logic.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Part {
+    /// NOP.
+    Nothing,
+    /// Begins a block: LD and its kin.
+    Start,
+    /// Continues the block: AND, OR, INV and their kin.
+    Continue,
+    /// ANB.
+    JoinSeries,
+    /// ORB.
+    JoinParallel,
+    /// MPS.
+    Push,
+    /// MRD.
+    Read,
+    /// MPP.
+    Pop,
+    /// Is driven by the result.
+    Output,
+    /// Stands without contacts.
+    Alone,
+    /// Could not be resolved, which was reported.
+    Unknown,
+}
+
+fn lower(inst: Option<&'static Inst>) -> Option<Lower> {
+    inst.map(|inst| inst.lower)
+}

@@ -1,0 +1,90 @@
+//! Where pointers are defined, and what names them.
+
+use super::Code;
+use crate::catalogue::Basic;
+use rungc_syntax::{Device, OperandKind};
+use rustc_hash::FxHashMap;
+
+/// What is known of one pointer.
+#[derive(Default)]
+pub(super) struct Pointer {
+    /// The labels that define it; more than one is an error.
+    pub(super) labels: Vec<usize>,
+    /// The jumps to it.
+    pub(super) jumps: Vec<usize>,
+    /// The calls of it.
+    pub(super) calls: Vec<usize>,
+    /// The other instructions that name it.
+    pub(super) others: Vec<usize>,
+}
+
+/// All pointers of a program.
+pub(super) struct Pointers {
+    map: FxHashMap<Device, Pointer>,
+    /// In the order they first appear.
+    order: Vec<Device>,
+}
+
+impl Pointers {
+    pub(super) fn new(code: &Code) -> Self {
+        let mut pointers = Pointers {
+            map: FxHashMap::default(),
+            order: Vec::new(),
+        };
+        for i in 0..code.len {
+            if let Some(label) = code.label(i) {
+                pointers.entry(label).labels.push(i);
+                continue;
+            }
+            for operand in &code.instr(i).operands {
+                let OperandKind::Device(device, _) = operand.kind else {
+                    continue;
+                };
+                if !matches!(
+                    device.class,
+                    rungc_syntax::DeviceClass::P | rungc_syntax::DeviceClass::I
+                ) {
+                    continue;
+                }
+                let pointer = pointers.entry(device);
+                match code.basic(i) {
+                    Some(Basic::Cj) => pointer.jumps.push(i),
+                    Some(Basic::Call) => pointer.calls.push(i),
+                    _ => pointer.others.push(i),
+                }
+            }
+        }
+        pointers
+    }
+
+    fn entry(&mut self, device: Device) -> &mut Pointer {
+        self.map.entry(device).or_insert_with(|| {
+            self.order.push(device);
+            Pointer::default()
+        })
+    }
+
+    /// What is known of a pointer that the program defines or names.
+    pub(super) fn get(&self, device: Device) -> Option<&Pointer> {
+        self.map.get(&device)
+    }
+
+    /// All pointers, in the order they first appear.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Device, &Pointer)> {
+        self.order
+            .iter()
+            .filter_map(|&device| Some((device, self.map.get(&device)?)))
+    }
+
+    /// Whether something calls this label.
+    pub(super) fn is_called(&self, label: Device) -> bool {
+        self.get(label)
+            .is_some_and(|pointer| !pointer.calls.is_empty())
+    }
+
+    /// Whether something jumps to this label.
+    pub(super) fn is_jumped_to(&self, label: Device) -> bool {
+        self.get(label)
+            .is_some_and(|pointer| !pointer.jumps.is_empty())
+    }
+}

@@ -1,0 +1,556 @@
+//! What begins must end, and what may hold what: master control, loops, step ladders, subroutines and interrupt routines.
+
+use super::Code;
+use super::pointers::Pointers;
+use crate::catalogue::Basic;
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
+
+/// No instruction.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Where an instruction stands. Structures are named by the instruction that begins them, [`NONE`] for none.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Place {
+    /// What runs it.
+    pub(super) routine: Routine,
+    /// The innermost loop around it.
+    pub(super) inner_loop: u32,
+    /// The STL of the state it belongs to.
+    pub(super) state: u32,
+}
+
+/// What runs an instruction.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub(super) enum Routine {
+    /// The main program.
+    Main,
+    /// The subroutine that begins at this label.
+    Sub(u32),
+    /// The interrupt routine that begins at this pointer.
+    Interrupt(u32),
+    /// Nothing: it stands behind FEND, SRET or IRET without a label.
+    Nothing,
+}
+
+/// Where all instructions stand.
+pub(super) struct Places {
+    places: Vec<Place>,
+    /// For each FOR the loop around it.
+    outer: Vec<(u32, u32)>,
+}
+
+impl Places {
+    /// Where an instruction stands.
+    pub(super) fn of(&self, i: usize) -> Place {
+        self.places[i]
+    }
+
+    /// The loop around the loop that this FOR begins.
+    pub(super) fn outer_loop(&self, at: u32) -> u32 {
+        let found = self.outer.binary_search_by_key(&at, |&(inner, _)| inner);
+        found.map_or(NONE, |at| self.outer[at].1)
+    }
+}
+
+/// Kinds of structures.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Mc,
+    For,
+    Stl,
+    Sub,
+    Interrupt,
+}
+
+/// A structure that has begun.
+struct Open {
+    kind: Kind,
+    /// The instruction that began it.
+    at: usize,
+    /// Level of a master control zone.
+    level: u32,
+    /// Whether something is known to be wrong with it, so that nothing more is said.
+    reported: bool,
+}
+
+/// What happens if the one structure lies wholly inside the other, or crosses its end.
+enum Verdict {
+    Fine,
+    /// An error, with the PLC's number.
+    Error(u16),
+}
+
+/// The nesting table (h1u-h2u-programming §8.8). Its left half is lost in the manual; the remarks below it and the list of errors
+/// (§8.7) say what stood there.
+fn inside(outer: Kind, inner: Kind) -> Verdict {
+    use Kind::{For, Interrupt, Mc, Stl, Sub};
+    match (outer, inner) {
+        (Mc, Mc | For | Stl) | (For, For) | (Stl, For | Stl) | (Sub | Interrupt, For) => {
+            Verdict::Fine
+        }
+        (Mc, Sub | Interrupt) => Verdict::Error(6608),
+        (For, Mc | Stl) => Verdict::Error(6619),
+        (For, Sub | Interrupt) => Verdict::Error(6607),
+        (Stl, Mc | Sub | Interrupt) => Verdict::Error(6605),
+        (Sub | Interrupt, Mc | Stl | Sub | Interrupt) => Verdict::Error(6606),
+    }
+}
+
+/// The same for a structure that begins inside another and ends behind it.
+fn crossing(outer: Kind, inner: Kind) -> u16 {
+    use Kind::{For, Interrupt, Mc, Stl, Sub};
+    match (outer, inner) {
+        (Mc, Mc | Stl) => 6608,
+        (Mc, For) | (For, Mc | Stl) | (Stl, For) => 6619,
+        (For, Sub) => 6701,
+        (For, For | Interrupt) | (Sub | Interrupt, For) => 6607,
+        (Stl, Mc | Stl) => 6605,
+        (Mc | Stl | Sub | Interrupt, Sub | Interrupt) | (Sub | Interrupt, Mc | Stl) => 6606,
+    }
+}
+
+impl Kind {
+    /// How it is called in messages.
+    fn name(self) -> &'static str {
+        match self {
+            Kind::Mc => "master control zone",
+            Kind::For => "loop",
+            Kind::Stl => "step ladder",
+            Kind::Sub => "subroutine",
+            Kind::Interrupt => "interrupt routine",
+        }
+    }
+
+    /// What ends it.
+    fn end(self) -> &'static str {
+        match self {
+            Kind::Mc => "MCR",
+            Kind::For => "NEXT",
+            Kind::Stl => "RET",
+            Kind::Sub => "SRET",
+            Kind::Interrupt => "IRET",
+        }
+    }
+}
+
+struct Walk<'a, 'p> {
+    code: &'a Code<'p>,
+    pointers: &'a Pointers,
+    out: &'a mut Diagnostics,
+    open: Vec<Open>,
+    routine: Routine,
+    /// Whether the main program has ended.
+    after_fend: bool,
+    /// A label behind FEND that nothing names, since the last end of a routine.
+    unused_label: bool,
+    /// STL in a row so far.
+    stl_row: u32,
+    state: u32,
+    /// Open loops, innermost last.
+    loops: Vec<u32>,
+    outer: Vec<(u32, u32)>,
+}
+
+/// Checks the structure of a program and finds where its instructions stand.
+pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> Places {
+    let mut walk = Walk {
+        code,
+        pointers,
+        out,
+        open: Vec::new(),
+        routine: Routine::Main,
+        after_fend: false,
+        unused_label: false,
+        stl_row: 0,
+        state: NONE,
+        loops: Vec::new(),
+        outer: Vec::new(),
+    };
+    let mut places = Vec::with_capacity(code.len);
+    for i in 0..code.len {
+        walk.begin(i);
+        places.push(walk.place());
+        walk.end(i);
+    }
+    walk.finish();
+    let outer = walk.outer;
+    Places { places, outer }
+}
+
+impl Walk<'_, '_> {
+    fn place(&self) -> Place {
+        Place {
+            routine: self.routine,
+            inner_loop: self.loops.last().copied().unwrap_or(NONE),
+            state: self.state,
+        }
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.out.push(diagnostic);
+    }
+
+    /// What instruction `i` begins.
+    fn begin(&mut self, i: usize) {
+        let basic = self.code.basic(i);
+        if basic != Some(Basic::Stl) {
+            self.stl_row = 0;
+        }
+        match basic {
+            Some(Basic::Mc) => self.begin_mc(i),
+            Some(Basic::For) => self.begin_for(i),
+            Some(Basic::Stl) => self.begin_state(i),
+            Some(Basic::Label) => self.label(i),
+            _ => {}
+        }
+    }
+
+    /// What instruction `i` ends.
+    fn end(&mut self, i: usize) {
+        match self.code.basic(i) {
+            Some(Basic::Mcr) => self.end_mc(i),
+            Some(Basic::Next) => self.end_for(i),
+            Some(Basic::Ret) => self.end_states(i),
+            Some(Basic::Sret) => self.end_routine(i, Kind::Sub),
+            Some(Basic::Iret) => self.end_routine(i, Kind::Interrupt),
+            Some(Basic::Fend) => self.fend(i),
+            _ => {}
+        }
+    }
+
+    fn push(&mut self, kind: Kind, at: usize) {
+        self.open.push(Open {
+            kind,
+            at,
+            level: 0,
+            reported: false,
+        });
+    }
+
+    fn level(&self, i: usize) -> u32 {
+        self.code.device(i, 0).map_or(0, |device| device.number)
+    }
+
+    fn begin_mc(&mut self, i: usize) {
+        let level = self.level(i);
+        let around = self.open.iter().rev().find(|open| open.kind == Kind::Mc);
+        let wrong = around
+            .filter(|open| open.level >= level)
+            .map(|open| open.at);
+        let reported = wrong.is_some();
+        if let Some(around) = wrong {
+            let message = format!("N{level} is not deeper than the zone around it");
+            let diagnostic = codes::MC_ORDER
+                .at(self.code.span(i), message)
+                .label("this zone lies inside …")
+                .other(self.code.span(around), "… this one")
+                .help("number nested zones N0, N1, N2 … from outside to inside, and close each with MCR");
+            self.report(diagnostic);
+        }
+        self.open.push(Open {
+            kind: Kind::Mc,
+            at: i,
+            level,
+            reported,
+        });
+    }
+
+    fn begin_for(&mut self, i: usize) {
+        self.outer
+            .push((i as u32, self.loops.last().copied().unwrap_or(NONE)));
+        self.loops.push(i as u32);
+        self.push(Kind::For, i);
+        let max = self.code.model().max_for;
+        if self.loops.len() as u32 == max + 1 {
+            let message = format!("loops nest {max} deep on {}", self.code.model().name);
+            let outermost = self.loops[0] as usize;
+            let diagnostic = codes::DEEP_FOR
+                .at(self.code.span(i), message)
+                .label("one too many")
+                .other(self.code.span(outermost), "the outermost loop");
+            self.report(diagnostic);
+        }
+    }
+
+    fn begin_state(&mut self, i: usize) {
+        /// At most this many STL may stand in a row (h1u-h2u-programming §8.7, error 6625).
+        const MAX_ROW: u32 = 8;
+        self.state = i as u32;
+        self.stl_row += 1;
+        if self.stl_row == MAX_ROW + 1 {
+            let diagnostic = codes::STL_ROW
+                .at(self.code.span(i), "nine STL in a row")
+                .label("at most eight parallel branches can be joined");
+            self.report(diagnostic);
+        }
+        if !self.open.iter().any(|open| open.kind == Kind::Stl) {
+            self.push(Kind::Stl, i);
+        }
+    }
+
+    fn label(&mut self, i: usize) {
+        let Some(label) = self.code.label(i) else {
+            return;
+        };
+        match label.class {
+            DeviceClass::I => self.begin_routine(i, Kind::Interrupt),
+            _ if self.pointers.is_called(label) && !self.pointers.is_jumped_to(label) => {
+                self.begin_routine(i, Kind::Sub);
+            }
+            _ => self.jump_label(i, label),
+        }
+    }
+
+    /// A label that is not called: it belongs to what surrounds it, or to the main program if nothing does.
+    fn jump_label(&mut self, i: usize, label: Device) {
+        if self.routine == Routine::Nothing {
+            let named = self.pointers.is_jumped_to(label) || self.pointers.is_called(label);
+            self.unused_label = !named;
+            self.routine = match named {
+                true => Routine::Main,
+                false => Routine::Sub(i as u32),
+            };
+        }
+    }
+
+    fn begin_routine(&mut self, i: usize, kind: Kind) {
+        let mut reported = false;
+        if !self.after_fend {
+            reported = true;
+            let message = format!("this {} stands in the main program", kind.name());
+            let diagnostic = codes::ROUTINE_IN_MAIN
+                .at(self.code.span(i), message)
+                .label("begins before FEND")
+                .help("end the main program with FEND and put routines behind it");
+            self.report(diagnostic);
+        }
+        self.open.push(Open {
+            kind,
+            at: i,
+            level: 0,
+            reported,
+        });
+        self.routine = match kind {
+            Kind::Interrupt => Routine::Interrupt(i as u32),
+            _ => Routine::Sub(i as u32),
+        };
+    }
+
+    fn end_mc(&mut self, i: usize) {
+        let level = self.level(i);
+        let zone = self
+            .open
+            .iter()
+            .rposition(|open| open.kind == Kind::Mc && open.level == level);
+        let Some(zone) = zone else {
+            let other = self.open.iter().rev().find(|open| open.kind == Kind::Mc);
+            let other = other.map(|open| (open.at, open.level));
+            let message = format!("no MC N{level} is open here");
+            let diagnostic = codes::LONE_MCR.at(self.code.span(i), message);
+            let diagnostic = match other {
+                Some((at, open)) => diagnostic
+                    .label(format!("ends N{level} …"))
+                    .other(self.code.span(at), format!("… but N{open} is open")),
+                None => diagnostic.label("there is nothing to end"),
+            };
+            self.report(diagnostic);
+            return;
+        };
+        self.close(zone, i);
+        // MCR of a level ends the deeper ones too.
+        let mut at = 0;
+        self.open.retain(|open| {
+            at += 1;
+            at <= zone || open.kind != Kind::Mc
+        });
+    }
+
+    fn end_for(&mut self, i: usize) {
+        let Some(begin) = self.open.iter().rposition(|open| open.kind == Kind::For) else {
+            let diagnostic = codes::LONE_NEXT
+                .at(self.code.span(i), "no FOR is open here")
+                .label("there is nothing to repeat");
+            self.report(diagnostic);
+            return;
+        };
+        self.loops.pop();
+        self.close(begin, i);
+    }
+
+    fn end_states(&mut self, i: usize) {
+        self.state = NONE;
+        let Some(begin) = self.open.iter().rposition(|open| open.kind == Kind::Stl) else {
+            let diagnostic = codes::LONE_RET
+                .at(self.code.span(i), "no step ladder is open here")
+                .label("there is no STL before it")
+                .help("a subroutine ends with SRET, an interrupt routine with IRET");
+            self.report(diagnostic);
+            return;
+        };
+        self.close(begin, i);
+    }
+
+    fn end_routine(&mut self, i: usize, kind: Kind) {
+        let begin = self.open.iter().rposition(|open| open.kind == kind);
+        match begin {
+            Some(begin) => self.close(begin, i),
+            None if kind == Kind::Sub && self.unused_label => {}
+            None => self.lone_return(i, kind),
+        }
+        self.unused_label = false;
+        self.routine = match self.after_fend {
+            true => Routine::Nothing,
+            false => Routine::Main,
+        };
+    }
+
+    fn lone_return(&mut self, i: usize, kind: Kind) {
+        let name = kind.end();
+        let diagnostic = codes::LONE_RETURN
+            .at(
+                self.code.span(i),
+                format!("`{name}` ends no {}", kind.name()),
+            )
+            .label("no routine has begun");
+        let diagnostic = match kind {
+            Kind::Sub if !self.after_fend => diagnostic.plc_error(6631),
+            _ => diagnostic,
+        };
+        self.report(diagnostic);
+    }
+
+    fn fend(&mut self, i: usize) {
+        for open in std::mem::take(&mut self.open) {
+            let routine = matches!(open.kind, Kind::Sub | Kind::Interrupt);
+            if !open.reported {
+                self.report(match routine {
+                    true => self.open_routine(&open),
+                    false => self.fend_inside(&open, i),
+                });
+            }
+            // Its end may still follow, and is not to be reported again.
+            if !routine {
+                let reported = true;
+                self.open.push(Open { reported, ..open });
+            }
+        }
+        self.after_fend = true;
+        self.unused_label = false;
+        self.routine = Routine::Nothing;
+        self.state = NONE;
+    }
+
+    fn fend_inside(&self, open: &Open, i: usize) -> Diagnostic {
+        let plc_error = match open.kind {
+            Kind::Mc => 6608,
+            Kind::For => 6607,
+            Kind::Stl => 6605,
+            Kind::Sub | Kind::Interrupt => 6606,
+        };
+        let (name, end) = (open.kind.name(), open.kind.end());
+        codes::FEND_INSIDE
+            .at(self.code.span(i), format!("FEND inside a {name}"))
+            .label("the main program ends here …")
+            .other(
+                self.code.span(open.at),
+                format!("… but no {end} has closed this"),
+            )
+            .plc_error(plc_error)
+    }
+
+    fn open_routine(&self, open: &Open) -> Diagnostic {
+        let (name, end) = (open.kind.name(), open.kind.end());
+        codes::OPEN_ROUTINE
+            .at(self.code.span(open.at), format!("this {name} has no {end}"))
+            .label("begins here and never ends")
+            .help(format!("end it with {end}"))
+    }
+
+    /// Ends the structure at this place of the stack with instruction `i`, and judges those that it crosses or lies in.
+    fn close(&mut self, at: usize, i: usize) {
+        let closed = self.open.remove(at);
+        let (outer, inner) = self.open.split_at_mut(at);
+        let mut found = Vec::new();
+        for inner in inner.iter_mut().filter(|inner| !inner.reported) {
+            // Deeper zones of master control end with the outer one.
+            if (closed.kind, inner.kind) == (Kind::Mc, Kind::Mc) {
+                continue;
+            }
+            if !closed.reported {
+                inner.reported = true;
+                found.push(crossed(self.code, &closed, inner, i));
+            }
+        }
+        if found.is_empty() && !closed.reported {
+            let around = outer.iter().rev().filter(|outer| !outer.reported);
+            let wrong = around.filter_map(|outer| match inside(outer.kind, closed.kind) {
+                Verdict::Error(plc_error) => Some((outer, plc_error)),
+                Verdict::Fine => None,
+            });
+            found.extend(
+                wrong
+                    .map(|(outer, code)| not_inside(self.code, outer, &closed, code))
+                    .next(),
+            );
+        }
+        for diagnostic in found {
+            self.report(diagnostic);
+        }
+    }
+
+    /// Reports what is still open at the end.
+    fn finish(&mut self) {
+        for open in std::mem::take(&mut self.open) {
+            if open.reported {
+                continue;
+            }
+            let span = self.code.span(open.at);
+            let diagnostic = match open.kind {
+                Kind::Sub | Kind::Interrupt => self.open_routine(&open),
+                Kind::Mc => codes::OPEN_MC
+                    .at(span, format!("no MCR closes MC N{}", open.level))
+                    .label("begins here and never ends")
+                    .help(format!("end the zone with MCR N{}", open.level)),
+                Kind::For => codes::OPEN_FOR
+                    .at(span, "no NEXT closes this FOR")
+                    .label("begins here and never ends")
+                    .help("end the loop with NEXT"),
+                Kind::Stl => codes::OPEN_STL
+                    .at(span, "no RET closes this step ladder")
+                    .label("begins here and never ends")
+                    .help("put RET behind the last state"),
+            };
+            self.report(diagnostic);
+        }
+    }
+}
+
+fn crossed(code: &Code, outer: &Open, inner: &Open, i: usize) -> Diagnostic {
+    let (outside, within) = (outer.kind.name(), inner.kind.name());
+    codes::CROSSED
+        .at(
+            code.span(i),
+            format!("the {outside} ends inside the {within}"),
+        )
+        .label(format!("ends the {outside} …"))
+        .other(code.span(outer.at), "… that began here")
+        .other(
+            code.span(inner.at),
+            format!("but this {within} is still open"),
+        )
+        .help(format!("put the {} before this", inner.kind.end()))
+        .plc_error(crossing(outer.kind, inner.kind))
+}
+
+fn not_inside(code: &Code, outer: &Open, inner: &Open, plc_error: u16) -> Diagnostic {
+    let (outside, within) = (outer.kind.name(), inner.kind.name());
+    codes::NOT_INSIDE
+        .at(
+            code.span(inner.at),
+            format!("a {within} cannot stand inside a {outside}")
+                .replace("a interrupt", "an interrupt"),
+        )
+        .label(format!("this {within}"))
+        .other(code.span(outer.at), format!("lies in this {outside}"))
+        .plc_error(plc_error)
+}
