@@ -75,7 +75,7 @@ impl Rungs<'_, '_> {
             }
             Part::Alone => self.alone(i),
             _ if self.unsure.is_some() => self.behind_unknown(i, part),
-            Part::Nothing => {}
+            Part::Nothing => self.nothing(),
             Part::Start => self.start(i),
             Part::Continue => self.go_on(i),
             Part::JoinSeries | Part::JoinParallel => self.join(i, part),
@@ -98,6 +98,13 @@ impl Rungs<'_, '_> {
 
     fn report(&mut self, diagnostic: Diagnostic) {
         self.out.push(diagnostic);
+    }
+
+    /// NOP stands where a coil was deleted, too: the contacts before it drive nothing, which the PLC accepts.
+    fn nothing(&mut self) {
+        if let Some(block) = self.blocks.last_mut() {
+            block.spent = true;
+        }
     }
 
     fn start(&mut self, i: usize) {

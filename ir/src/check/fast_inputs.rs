@@ -6,6 +6,9 @@ use crate::catalogue::Basic;
 use crate::model::{ModelId, ModelSet};
 use rungc_syntax::{DeviceClass, Diagnostics, codes};
 
+/// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
+const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::of(&[ModelId::Hm]);
+
 /// Checks who uses the fast inputs.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
     let interrupts = interrupts(pointers);
@@ -53,6 +56,9 @@ fn interrupts(pointers: &Pointers) -> Vec<Interrupt> {
 }
 
 fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
+    if BOTH_EDGES_ALLOWED.has(code.model().id) {
+        return;
+    }
     for (n, second) in interrupts.iter().enumerate() {
         let same =
             |first: &&Interrupt| second.source().is_some() && first.source() == second.source();

@@ -1,13 +1,11 @@
 //! From mnemonics to rows and forms.
 
 use super::Form;
-use crate::catalogue::{self, Forms, Found, Inst, Spelling};
+use crate::catalogue::{self, Forms, Found, Inst};
 use crate::model::{Model, ModelId, ModelSet};
 use rungc_syntax::{Diagnostic, Diagnostics, Instr, codes, diag};
 use std::sync::OnceLock;
 
-/// Models that write instructions with only a 32-bit form without the D too (HM prints `EADD`, not `DEADD`).
-const BARE_NAMES: ModelSet = ModelSet::of(&[ModelId::Hm]);
 /// How many unknown mnemonics get a suggestion; searching one costs as much as resolving hundreds of good instructions.
 const MAX_SUGGESTIONS: u32 = 200;
 
@@ -34,7 +32,7 @@ impl Finder {
             out.push(self.not_on_model(instr, found.inst));
             return None;
         }
-        if !self.has_form(found.inst, found.form) || self.is_bare(mnemonic, found) {
+        if !self.has_form(found.inst, found.form) || found.bare && !self.model.bare_names {
             out.push(self.no_such_form(instr, found.inst, found.form));
             return None;
         }
@@ -45,14 +43,6 @@ impl Finder {
         let forms = inst.forms_on(self.model.id);
         let width = if form.wide { Forms::W32 } else { Forms::W16 };
         forms.has(width) && (!form.pulse || forms.has(Forms::PULSE))
-    }
-
-    /// Whether the D of a 32-bit instruction is missing.
-    fn is_bare(&self, mnemonic: &str, found: Found) -> bool {
-        found.form.wide
-            && matches!(found.inst.spelling, Spelling::Prefix)
-            && !mnemonic.starts_with('D')
-            && !BARE_NAMES.has(self.model.id)
     }
 
     fn unknown(&mut self, instr: &Instr) -> Diagnostic {
@@ -115,22 +105,12 @@ impl Finder {
             })
     }
 
-    fn no_such_form(&self, instr: &Instr, inst: &'static Inst, form: Form) -> Diagnostic {
-        let forms: Vec<_> = inst
-            .spellings()
+    fn no_such_form(&self, instr: &Instr, inst: &Inst, form: Form) -> Diagnostic {
+        let forms: Vec<_> = [(false, false), (false, true), (true, false), (true, true)]
             .into_iter()
-            .filter(|&(ref name, form)| {
-                self.has_form(inst, form)
-                    && !self.is_bare(
-                        name,
-                        Found {
-                            inst,
-                            form,
-                            bare: false,
-                        },
-                    )
-            })
-            .map(|(name, _)| format!("`{name}`"))
+            .map(|(wide, pulse)| Form { wide, pulse })
+            .filter(|&form| self.has_form(inst, form))
+            .filter_map(|form| Some(format!("`{}`", inst.spelling_of(form)?)))
             .collect();
         let missing = match form {
             Form { pulse: true, .. } if !inst.forms_on(self.model.id).has(Forms::PULSE) => "pulse",

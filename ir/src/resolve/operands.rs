@@ -1,6 +1,6 @@
 //! Holds the operands of an instruction to its catalogue row and to the model's devices.
 
-use super::rules::Rules;
+use super::rules;
 use crate::catalogue::{Classes, Extent, Found, Param, Shape};
 use crate::model::Model;
 use rungc_syntax::{
@@ -12,7 +12,6 @@ pub(super) struct Checker {
     model: &'static Model,
     /// The model's devices by class, ranges that an access may span joined.
     runs: Vec<Vec<(u32, u32)>>,
-    rules: Rules,
 }
 
 /// An instruction whose operands are looked at.
@@ -28,8 +27,7 @@ impl Checker {
             .into_iter()
             .map(|class| joined(model, class))
             .collect();
-        let rules = Rules::new(model);
-        Checker { model, runs, rules }
+        Checker { model, runs }
     }
 
     /// Checks the number of a label.
@@ -68,15 +66,10 @@ impl Checker {
             let name = &instr.mnemonic;
             out.push(too_many(instr, extra.span, name, params));
         }
-        let mut good = true;
-        for (operand, param) in instr.operands.iter().zip(params) {
-            if let Some(diagnostic) = self.operand(&place, operand, param) {
-                out.push(diagnostic);
-                good = false;
-            }
-        }
-        if good && kinds.len() >= needed {
-            out.extend(self.rules.broken(found, instr));
+        for (at, (operand, param)) in instr.operands.iter().zip(params).enumerate() {
+            let wide = found.form.wide;
+            let wrong = self.operand(&place, operand, param);
+            out.extend(wrong.or_else(|| rules::broken(&instr.operands, at, param, wide)));
         }
     }
 
@@ -479,8 +472,13 @@ fn bits(found: Found, param: &Param) -> u32 {
     16 * words(found, param)
 }
 
+/// Whether a group has a digit count that the operand can take; a result of two words may go to eight digits.
 fn digits_fit(place: &Place, span: Span, digits: u8, param: &Param) -> Option<Diagnostic> {
-    let bits = bits(place.found, param);
+    let values = match param.extent {
+        Extent::Count(count) => count,
+        _ => 1,
+    };
+    let bits = bits(place.found, param).saturating_mul(values).min(32);
     let most = bits / 4;
     (!(1..=most).contains(&u32::from(digits))).then(|| {
         let message = format!("K{digits} is no digit count for a {bits}-bit value");
@@ -502,7 +500,7 @@ fn constant(
     if !(-half..half).contains(&value) {
         return Some(wide_constant(place, operand, bits));
     }
-    outside_limits(operand, &[value], indexed, param)
+    outside_limits(place, operand, &[value], indexed, param)
 }
 
 fn hex_constant(
@@ -519,7 +517,7 @@ fn hex_constant(
     // Fits in 32 bits, so both readings fit in i64.
     let unsigned = value as i64;
     let signed = unsigned - ((unsigned >> (bits - 1)) << bits);
-    outside_limits(operand, &[unsigned, signed], indexed, param)
+    outside_limits(place, operand, &[unsigned, signed], indexed, param)
 }
 
 fn wide_constant(place: &Place, operand: &Operand, bits: u32) -> Diagnostic {
@@ -545,12 +543,13 @@ fn wide_constant(place: &Place, operand: &Operand, bits: u32) -> Diagnostic {
 
 /// A constant none of whose readings lies in the operand's limits.
 fn outside_limits(
+    place: &Place,
     operand: &Operand,
     readings: &[i64],
     indexed: bool,
     param: &Param,
 ) -> Option<Diagnostic> {
-    let (min, max) = param.limits?;
+    let (min, max) = rules::limits(param, place.found.form.wide)?;
     let fits = readings.iter().any(|value| (min..=max).contains(value));
     (!fits && !indexed).then(|| {
         let message = format!(

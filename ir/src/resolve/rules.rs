@@ -1,260 +1,149 @@
-//! Rules about operands that a parameter of the catalogue cannot state: how operands limit each other, and numbers that must be
-//! round.
+//! What an operand must obey besides its class and limits: the [`Rule`]s of the catalogue.
 
 use super::operands::constant_value;
-use crate::catalogue::Found;
-use crate::model::{Model, ModelId, ModelSet};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Instr, Operand, OperandKind, codes};
-use rustc_hash::FxHashMap;
+use crate::catalogue::{Classes, Param, Rule};
+use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, codes};
 
-/// A rule about the operands of some instructions.
-struct Rule {
-    /// The instructions, by the names of their rows.
-    insts: &'static [&'static str],
-    /// The models that have the rule.
-    models: ModelSet,
-    /// The rule.
-    demand: Demand,
-}
-
-/// What a rule demands of operands, which are given by position.
-enum Demand {
-    /// A constant lies in one of these ranges in the 16-bit form, or in one of those in the 32-bit form.
-    Constant(usize, &'static [(i64, i64)], &'static [(i64, i64)]),
-    /// The first constant is not greater than the second.
-    NotAbove(usize, usize),
-    /// A constant is a multiple of this.
-    MultipleConstant(usize, i64),
-    /// A device's number is a multiple of this.
-    Multiple(usize, u32),
-    /// A device's number, as it is written, ends in 0.
-    Round(usize),
-    /// Devices of this class have a number in this range.
-    Number(usize, DeviceClass, u32, u32),
-    /// Both operands are devices of one class.
-    SameClass(usize, usize),
-    /// Two groups have the same number of digits.
-    SameDigits(usize, usize),
-    /// A group and a word do not go together.
-    SameKind(usize, usize),
-    /// A group has this number of digits in the 16-bit form, or that in the 32-bit form.
-    Digits(usize, u8, u8),
-}
-
-const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
-const H1U: ModelSet = ModelSet::of(&[ModelId::H1u]);
-const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
-const NOT_HM: ModelSet = ModelSet::ALL.except(&[ModelId::Hm]);
-
-const fn rule(insts: &'static [&'static str], models: ModelSet, demand: Demand) -> Rule {
-    Rule {
-        insts,
-        models,
-        demand,
-    }
-}
-
-const RULES: &[Rule] = &[
-    // P128 to P131 are encrypted subroutines (h1u-h2u-programming §4.3.1).
-    rule(&["CJ"], INOVANCE, Demand::Number(0, DeviceClass::P, 0, 127)),
-    rule(&["SMOV"], ModelSet::ALL, Demand::NotAbove(2, 1)),
-    rule(
-        &["SFTL", "SFTR", "WSFL", "WSFR"],
-        ModelSet::ALL,
-        Demand::NotAbove(3, 2),
-    ),
-    rule(
-        &["SFTL", "SFTR"],
-        H1U,
-        Demand::Constant(2, &[(1, 256)], &[]),
-    ),
-    rule(
-        &["BMOV", "SFWR", "SFRD"],
-        ModelSet::ALL,
-        Demand::SameDigits(0, 1),
-    ),
-    rule(&["SFWR", "SFRD"], HM, Demand::SameKind(0, 1)),
-    rule(
-        &["ROL", "ROR", "RCL", "RCR"],
-        ModelSet::ALL,
-        Demand::Digits(0, 4, 8),
-    ),
-    rule(
-        &["ROL", "ROR", "RCL", "RCR"],
-        ModelSet::ALL,
-        Demand::Constant(1, &[(0, 16)], &[(0, 32)]),
-    ),
-    rule(&["ZRST"], ModelSet::ALL, Demand::SameClass(0, 1)),
-    rule(&["REF"], ModelSet::ALL, Demand::Round(0)),
-    rule(&["REF"], NOT_HM, Demand::MultipleConstant(1, 8)),
-    rule(&["REF"], HM, Demand::Constant(1, &[(8, 8)], &[])),
-    rule(&["MTR"], ModelSet::ALL, Demand::Round(0)),
-    rule(&["MTR"], ModelSet::ALL, Demand::Round(1)),
-    rule(&["PRUN"], ModelSet::ALL, Demand::Round(0)),
-    rule(&["PRUN"], ModelSet::ALL, Demand::Round(1)),
-    rule(&["ABSD"], ModelSet::ALL, Demand::Digits(0, 4, 8)),
-    rule(&["ROTC"], ModelSet::ALL, Demand::NotAbove(2, 1)),
-    // Local modules 0 to 7, remote ones from 100 (h1u-h2u-programming §4.3.8).
-    rule(
-        &["FROM", "TO"],
-        INOVANCE,
-        Demand::Constant(0, &[(0, 7), (100, 32767)], &[(0, 7), (100, 32767)]),
-    ),
-    rule(&["HSCT"], HM, Demand::Multiple(3, 16)),
-];
-
-/// The rules by instruction.
-pub(super) struct Rules(FxHashMap<&'static str, Vec<&'static Rule>>);
-
-impl Rules {
-    /// The rules of a model.
-    pub(super) fn new(model: &Model) -> Self {
-        let mut rules: FxHashMap<_, Vec<_>> = FxHashMap::default();
-        for rule in RULES.iter().filter(|rule| rule.models.has(model.id)) {
-            for &name in rule.insts {
-                rules.entry(name).or_default().push(rule);
-            }
+/// What is wrong with operand `at` of an instruction by the rules of its parameter, if anything.
+pub(super) fn broken(
+    operands: &[Operand],
+    at: usize,
+    param: &Param,
+    wide: bool,
+) -> Option<Diagnostic> {
+    let operand = operands.get(at)?;
+    param.rules.iter().find_map(|rule| match *rule {
+        Rule::WideLimits(..) => None,
+        Rule::Not(min, max) => {
+            let value = constant_value(&operand.kind)?;
+            (min..=max)
+                .contains(&value)
+                .then(|| forbidden(operand, min, max))
         }
-        Rules(rules)
-    }
-
-    /// What is wrong with the operands of an instruction by the rules for it.
-    pub(super) fn broken(&self, found: Found, instr: &Instr) -> Vec<Diagnostic> {
-        self.0.get(found.inst.name).map_or_else(Vec::new, |rules| {
-            rules
+        Rule::MultipleOf(of) => {
+            let value = constant_value(&operand.kind)?;
+            (of != 0 && value % of != 0).then(|| no_multiple(operand, of))
+        }
+        Rule::AtMost(other) => {
+            let other = operands.get(other)?;
+            compare(
+                operand,
+                other,
+                |value, bound| value > bound,
+                "must not be greater than",
+            )
+        }
+        Rule::AtLeast(other) => {
+            let other = operands.get(other)?;
+            compare(
+                operand,
+                other,
+                |value, bound| value < bound,
+                "must not be smaller than",
+            )
+        }
+        Rule::Below(other) => {
+            let other = operands.get(other)?;
+            compare(
+                operand,
+                other,
+                |value, bound| value >= bound,
+                "must be smaller than",
+            )
+        }
+        Rule::EndsInZero => {
+            let device = device_of(&operand.kind)?;
+            let base = if device.class.is_octal() { 8 } else { 10 };
+            unaligned(operand, device, base, "does not end in 0")
+        }
+        Rule::Aligned(of) => {
+            let device = device_of(&operand.kind)?;
+            unaligned(operand, device, of, &format!("is not a multiple of {of}"))
+        }
+        Rule::WholeGroup => {
+            let whole = if wide { 8 } else { 4 };
+            let digits = digits(operand)?;
+            (digits != whole).then(|| partial_group(operand, whole))
+        }
+        Rule::GroupLike(other) => {
+            let other = operands.get(other)?;
+            let registers = [operand, other]
                 .iter()
-                .filter_map(|rule| rule.demand.broken(&instr.operands, found.form.wide))
-                .collect()
-        })
-    }
-}
-
-impl Demand {
-    /// What to say if the operands do not meet the demand; an operand that is not there or not of the right kind meets it.
-    fn broken(&self, operands: &[Operand], wide: bool) -> Option<Diagnostic> {
-        let at = |i: usize| operands.get(i);
-        let constant = |i: usize| constant_value(&at(i)?.kind);
-        let device = |i: usize| device_of(&at(i)?.kind);
-        let span = |i: usize| at(i).map(|operand| operand.span);
-        let text = |i: usize| at(i).map(|operand| operand.kind.to_string());
-        match *self {
-            Demand::Constant(i, narrow, broad) => {
-                let ranges = if wide { broad } else { narrow };
-                let value = constant(i)?;
-                let fits = ranges
-                    .iter()
-                    .any(|&(min, max)| (min..=max).contains(&value));
-                (!fits).then_some(())?;
-                let ranges: Vec<_> = ranges.iter().map(|&(min, max)| range(min, max)).collect();
-                let message = format!("`{}` is outside the limits of this operand", text(i)?);
-                Some(
-                    codes::LIMITS
-                        .at(span(i)?, message)
-                        .label(format!("{} here", ranges.join(" or "))),
-                )
-            }
-            Demand::NotAbove(low, high) => {
-                (constant(low)? > constant(high)?).then_some(())?;
-                let message = format!(
-                    "`{}` must not be greater than `{}`",
-                    text(low)?,
-                    text(high)?
-                );
-                Some(disagree(&operands[low], &operands[high], message))
-            }
-            Demand::MultipleConstant(i, of) => {
-                (constant(i)? % of != 0).then_some(())?;
-                let message = format!("`{}` is not a multiple of {of}", text(i)?);
-                Some(
-                    codes::LIMITS
-                        .at(span(i)?, message)
-                        .label(format!("K{of}, K{}, … here", 2 * of)),
-                )
-            }
-            Demand::Multiple(i, of) => {
-                let device = device(i)?;
-                (device.number % of != 0).then_some(())?;
-                let next = device.class.number(device.number.next_multiple_of(of));
-                let message = format!("the number of `{device}` is not a multiple of {of}");
-                Some(
-                    codes::NOT_THIS_NUMBER
-                        .at(span(i)?, message)
-                        .label(format!("e.g. {next}")),
-                )
-            }
-            Demand::Round(i) => {
-                let device = device(i)?;
-                let base = if device.class.is_octal() { 8 } else { 10 };
-                (device.number % base != 0).then_some(())?;
-                let below = device.class.number(device.number - device.number % base);
-                let message = format!("the number of `{device}` does not end in 0");
-                Some(
-                    codes::NOT_THIS_NUMBER
-                        .at(span(i)?, message)
-                        .label(format!("e.g. {below}")),
-                )
-            }
-            Demand::Number(i, class, first, last) => {
-                let device = device(i)?;
-                (device.class == class && !(first..=last).contains(&device.number)).then_some(())?;
-                let (first, last) = (class.number(first), class.number(last));
-                let message = format!("`{device}` cannot serve here");
-                Some(
-                    codes::NOT_THIS_NUMBER
-                        .at(span(i)?, message)
-                        .label(format!("here only {first}–{last}")),
-                )
-            }
-            Demand::SameClass(a, b) => {
-                (device(a)?.class != device(b)?.class).then_some(())?;
-                let message = format!("`{}` and `{}` are not of one class", text(a)?, text(b)?);
-                Some(disagree(&operands[b], &operands[a], message))
-            }
-            Demand::SameDigits(a, b) => {
-                (digits(at(a)?)? != digits(at(b)?)?).then_some(())?;
-                let message = format!(
-                    "`{}` and `{}` have different digit counts",
-                    text(a)?,
-                    text(b)?
-                );
-                Some(disagree(&operands[b], &operands[a], message))
-            }
-            Demand::SameKind(a, b) => {
-                (device(a).is_some() && device(b).is_some()).then_some(())?;
-                (digits(at(a)?).is_some() != digits(at(b)?).is_some()).then_some(())?;
-                let message = format!(
-                    "`{}` and `{}`: a group and a word do not go together",
-                    text(a)?,
-                    text(b)?
-                );
-                Some(disagree(&operands[b], &operands[a], message))
-            }
-            Demand::Digits(i, narrow, broad) => {
-                let wanted = if wide { broad } else { narrow };
-                (digits(at(i)?)? != wanted).then_some(())?;
-                let message = format!("`{}` must have the full {wanted} digits here", text(i)?);
-                Some(
-                    codes::DIGITS
-                        .at(span(i)?, message)
-                        .label(format!("K{wanted} here")),
-                )
-            }
+                .all(|one| device_of(&one.kind).is_some());
+            let message = match (digits(operand), digits(other)) {
+                (a, b) if a == b || !registers => return None,
+                (Some(_), Some(_)) => "must have as many digits as",
+                _ => "does not go with",
+            };
+            Some(disagree(operand, other, message))
         }
-    }
+        Rule::ClassLike(other) => {
+            let other = operands.get(other)?;
+            let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
+            differ.then(|| disagree(operand, other, "must be of the same class as"))
+        }
+    })
 }
 
-fn disagree(main: &Operand, other: &Operand, message: String) -> Diagnostic {
+/// The limits of a constant in the form that is written.
+pub(super) fn limits(param: &Param, wide: bool) -> Option<(i64, i64)> {
+    let of_wide_form = param.rules.iter().find_map(|rule| match *rule {
+        Rule::WideLimits(min, max) if wide => Some((min, max)),
+        _ => None,
+    });
+    of_wide_form.or(param.limits)
+}
+
+fn forbidden(operand: &Operand, min: i64, max: i64) -> Diagnostic {
+    let message = format!("`{}` has no meaning here", operand.kind);
+    let range = match min == max {
+        true => format!("K{min} is not used"),
+        false => format!("K{min} to K{max} are not used"),
+    };
+    codes::LIMITS.at(operand.span, message).label(range)
+}
+
+fn no_multiple(operand: &Operand, of: i64) -> Diagnostic {
+    let message = format!("`{}` is not a multiple of {of}", operand.kind);
+    codes::LIMITS
+        .at(operand.span, message)
+        .label(format!("K{of}, K{}, … here", of.saturating_mul(2)))
+}
+
+fn compare(
+    operand: &Operand,
+    other: &Operand,
+    wrong: fn(i64, i64) -> bool,
+    demand: &str,
+) -> Option<Diagnostic> {
+    let (value, bound) = (constant_value(&operand.kind)?, constant_value(&other.kind)?);
+    wrong(value, bound).then(|| disagree(operand, other, demand))
+}
+
+fn unaligned(operand: &Operand, device: Device, of: u32, fault: &str) -> Option<Diagnostic> {
+    let rest = device.number.checked_rem(of).filter(|&rest| rest != 0)?;
+    let below = device.class.number(device.number - rest);
+    let message = format!("the number of `{device}` {fault}");
+    Some(
+        codes::NOT_THIS_NUMBER
+            .at(operand.span, message)
+            .label(format!("e.g. {below}")),
+    )
+}
+
+fn partial_group(operand: &Operand, whole: u8) -> Diagnostic {
+    let message = format!("`{}` must have all {whole} digits here", operand.kind);
+    codes::DIGITS
+        .at(operand.span, message)
+        .label(format!("K{whole} here"))
+}
+
+fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
+    let message = format!("`{}` {demand} `{}`", operand.kind, other.kind);
     codes::OPERANDS_DISAGREE
-        .at(main.span, message)
+        .at(operand.span, message)
         .label("this does not go …")
         .other(other.span, "… with this")
-}
-
-fn range(min: i64, max: i64) -> String {
-    match min == max {
-        true => format!("K{min}"),
-        false => format!("K{min} to K{max}"),
-    }
 }
 
 fn device_of(kind: &OperandKind) -> Option<Device> {
