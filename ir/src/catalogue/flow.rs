@@ -2,6 +2,7 @@
 
 use super::row::*;
 use super::{Basic, Classes, Drive, Inst, Lower, Param};
+use rungc_syntax::DeviceClass;
 
 const LABEL: &[Param] = &[pointer("P", Classes::P)];
 /// HM's labels may carry an index register.
@@ -9,6 +10,8 @@ const INDEXED_LABEL: &[Param] = &[Param {
     indexable: true,
     ..pointer("P", Classes::P)
 }];
+/// P128 to P131 are encrypted subroutines, which can only be called.
+const JUMP_LABEL: &[Param] = &[pointer("P", Classes::P).numbers(&[(DeviceClass::P, 0, 127)])];
 
 const fn flow(name: &'static str, fnc: u16, title: &'static str, basic: Basic) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.1")
@@ -21,7 +24,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .takes(LABEL)
-        .variants(&[on(HM).takes(INDEXED_LABEL)])
+        .variants(&[on(HM).takes(INDEXED_LABEL), on(INOVANCE).takes(JUMP_LABEL)])
         .errors(&[6701])
         .text(
             "Goes on at the label while driven; what lies between is not executed and keeps its state. P63 is the end of the scan.",

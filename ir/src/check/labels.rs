@@ -24,7 +24,9 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
                 for &jump in &pointer.jumps {
                     destination(code, places, jump, label, out);
                 }
-                unused(code, device, pointer, label, out);
+                if !pointers.any_may_be_meant() {
+                    unused(code, device, pointer, label, out);
+                }
             }
         }
     }

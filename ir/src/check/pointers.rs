@@ -2,7 +2,7 @@
 
 use super::Code;
 use crate::catalogue::Basic;
-use rungc_syntax::{Device, OperandKind};
+use rungc_syntax::{Device, DeviceClass, OperandKind};
 use rustc_hash::FxHashMap;
 
 /// What is known of one pointer.
@@ -23,6 +23,8 @@ pub(super) struct Pointers {
     map: FxHashMap<Device, Pointer>,
     /// In the order they first appear.
     order: Vec<Device>,
+    /// Whether a jump or call names its label with an index register, so that any label may be meant.
+    indexed: bool,
 }
 
 impl Pointers {
@@ -30,6 +32,7 @@ impl Pointers {
         let mut pointers = Pointers {
             map: FxHashMap::default(),
             order: Vec::new(),
+            indexed: false,
         };
         for i in 0..code.len {
             if let Some(label) = code.label(i) {
@@ -37,13 +40,14 @@ impl Pointers {
                 continue;
             }
             for operand in &code.instr(i).operands {
-                let OperandKind::Device(device, _) = operand.kind else {
+                let OperandKind::Device(device, index) = operand.kind else {
                     continue;
                 };
-                if !matches!(
-                    device.class,
-                    rungc_syntax::DeviceClass::P | rungc_syntax::DeviceClass::I
-                ) {
+                if !matches!(device.class, DeviceClass::P | DeviceClass::I) {
+                    continue;
+                }
+                if index.is_some() {
+                    pointers.indexed = true;
                     continue;
                 }
                 let pointer = pointers.entry(device);
@@ -86,5 +90,10 @@ impl Pointers {
     pub(super) fn is_jumped_to(&self, label: Device) -> bool {
         self.get(label)
             .is_some_and(|pointer| !pointer.jumps.is_empty())
+    }
+
+    /// Whether a label that nothing names may still be meant by a jump or call with an index register.
+    pub(super) fn any_may_be_meant(&self) -> bool {
+        self.indexed
     }
 }

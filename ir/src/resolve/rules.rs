@@ -65,17 +65,16 @@ pub(super) fn broken(
             let digits = digits(operand)?;
             (digits != whole).then(|| partial_group(operand, whole))
         }
+        Rule::SameDigits(other) => {
+            let other = operands.get(other)?;
+            let differ = digits(operand)? != digits(other)?;
+            differ.then(|| disagree(operand, other, "must have as many digits as"))
+        }
         Rule::GroupLike(other) => {
             let other = operands.get(other)?;
-            let registers = [operand, other]
-                .iter()
-                .all(|one| device_of(&one.kind).is_some());
-            let message = match (digits(operand), digits(other)) {
-                (a, b) if a == b || !registers => return None,
-                (Some(_), Some(_)) => "must have as many digits as",
-                _ => "does not go with",
-            };
-            Some(disagree(operand, other, message))
+            device_of(&operand.kind).and(device_of(&other.kind))?;
+            let differ = digits(operand).is_some() != digits(other).is_some();
+            differ.then(|| disagree(operand, other, "does not go with"))
         }
         Rule::ClassLike(other) => {
             let other = operands.get(other)?;
