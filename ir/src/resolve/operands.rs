@@ -275,7 +275,7 @@ impl Checker {
 }
 
 /// From this number on counters hold 32 bits.
-const FIRST_WIDE_COUNTER: u32 = 200;
+pub(super) const FIRST_WIDE_COUNTER: u32 = 200;
 
 /// The ranges of a class, adjoining ones joined unless they are of a different nature: special devices from 8000, 32-bit counters.
 fn joined(model: &Model, class: DeviceClass) -> Vec<(u32, u32)> {

@@ -1,8 +1,8 @@
 //! What an operand must obey besides its class and limits: the [`Rule`]s of the catalogue.
 
-use super::operands::constant_value;
+use super::operands::{FIRST_WIDE_COUNTER, constant_value};
 use crate::catalogue::{Classes, Param, Rule};
-use rungc_syntax::{Device, Diagnostic, Operand, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
 
 /// What is wrong with operand `at` of an instruction by the rules of its parameter, if anything.
 pub(super) fn broken(
@@ -76,6 +76,11 @@ pub(super) fn broken(
             let differ = digits(operand).is_some() != digits(other).is_some();
             differ.then(|| disagree(operand, other, "does not go with"))
         }
+        Rule::WideCounter => {
+            let device = device_of(&operand.kind)?;
+            let narrow = device.class == DeviceClass::C && device.number < FIRST_WIDE_COUNTER;
+            (wide && narrow).then(|| narrow_counter(operand))
+        }
         Rule::ClassLike(other) => {
             let other = operands.get(other)?;
             let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
@@ -135,6 +140,16 @@ fn partial_group(operand: &Operand, whole: u8) -> Diagnostic {
     codes::DIGITS
         .at(operand.span, message)
         .label(format!("K{whole} here"))
+}
+
+fn narrow_counter(operand: &Operand) -> Diagnostic {
+    let message = format!(
+        "`{}` is a 16-bit counter, a 32-bit one belongs here",
+        operand.kind
+    );
+    codes::NOT_THIS_NUMBER
+        .at(operand.span, message)
+        .label("C200 and up in the 32-bit form")
 }
 
 fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
