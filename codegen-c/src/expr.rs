@@ -112,7 +112,7 @@ pub fn integer(out: &mut String, value: i32) {
 }
 
 /// Writes a float constant.
-fn float(out: &mut String, value: f32) {
+pub fn float(out: &mut String, value: f32) {
     if value.is_finite() {
         let _ = write!(out, "{value:?}f");
     } else {
@@ -154,7 +154,7 @@ impl Writer<'_, '_> {
             Expr::Cmp(op, a, b) => self.compare(out, *op, *a, *b, around),
             Expr::Bin(op, a, b) => self.binary(out, id, *op, (*a, *b), around),
             Expr::Complement(a) => {
-                self.to_int16(out, id, around, |w, out| {
+                self.int16_of(out, id, around, |w, out| {
                     out.push('~');
                     w.expr(out, *a, Around::Unary);
                 });
@@ -193,7 +193,7 @@ impl Writer<'_, '_> {
     }
 
     /// Writes an operation on `int` as what `id` is: with a cast if it is an `I16` and its type is looked at.
-    fn to_int16(
+    fn int16_of(
         &mut self,
         out: &mut String,
         id: ExprId,

@@ -226,11 +226,6 @@ impl<'m> Fields<'m> {
         }
     }
 
-    /// All fields by class and number.
-    pub fn all(&self) -> &[Field] {
-        &self.fields
-    }
-
     /// The fields of a class.
     pub fn of_class(&self, class: DeviceClass) -> &[Field] {
         let (from, to) = self.of_class[class as usize];

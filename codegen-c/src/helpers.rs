@@ -68,11 +68,6 @@ impl Helpers {
         self.needed.insert((Helper::Reset, class));
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.needed.is_empty()
-    }
-
     /// Writes them.
     pub fn write(&self, out: &mut String, module: &Module, fields: &Fields) {
         let printer = Printer {

@@ -15,6 +15,7 @@ mod host;
 mod plan;
 mod runtime;
 mod scopes;
+mod table;
 mod text;
 mod unit;
 mod walk;

@@ -1,15 +1,9 @@
-//! Calls of the runtime library, and the table by which it finds the program's devices.
+//! Calls of the runtime library.
 
-use crate::expr::{Around, integer};
+use crate::expr::{Around, float, integer};
 use crate::writer::Writer;
 use rungc_ir::node::{Arg, Expr, ExprId, Place, Stmt};
-use rungc_syntax::DeviceClass;
 use std::fmt::Write;
-
-/// The C name of a class.
-pub fn class_name(class: DeviceClass) -> String {
-    format!("RUNGC_{}", class.prefix())
-}
 
 impl Writer<'_, '_> {
     /// Writes a [`Stmt::Call`].
@@ -32,7 +26,7 @@ impl Writer<'_, '_> {
             match args.get(i) {
                 Some(arg) => self.argument(code, arg),
                 // An operand that was left out.
-                None => code.push_str("rungc_k(0)"),
+                None => code.push_str("rungc_K(0)"),
             }
         }
         code.push_str(");");
@@ -64,36 +58,35 @@ impl Writer<'_, '_> {
         match arg {
             Arg::Const { value, index, wide } => self.constant(code, *value, *index, *wide),
             Arg::Float(value) => {
-                let _ = match value.is_finite() {
-                    true => write!(code, "rungc_e({value:?}f)"),
-                    false => write!(code, "rungc_e(plc_float({}))", value.to_bits() as i32),
-                };
+                code.push_str("rungc_E(");
+                float(code, *value);
+                code.push(')');
             }
-            Arg::Device { place, .. } => {
-                let _ = write!(code, "rungc_d({}, ", class_name(place.class));
-                self.device_number(code, place);
-            }
+            Arg::Device { place, .. } => self.device(code, place),
             Arg::Nibbles { place, digits, .. } => {
-                let _ = write!(code, "rungc_kn({digits}, {}, ", class_name(place.class));
-                self.device_number(code, place);
+                let _ = write!(code, "rungc_group({digits}, ");
+                self.device(code, place);
+                code.push(')');
             }
             Arg::WordBit { place, bit } => {
-                let _ = write!(code, "rungc_word_bit({bit}, {}, ", class_name(place.class));
-                self.device_number(code, place);
+                code.push_str("rungc_bit_of(");
+                self.device(code, place);
+                let _ = write!(code, ", {bit})");
             }
             Arg::Text(text) => {
-                let _ = write!(code, "rungc_text({text})");
+                let _ = write!(code, "rungc_string({text})");
             }
         }
     }
 
-    fn device_number(&mut self, code: &mut String, place: &Place) {
+    fn device(&mut self, code: &mut String, place: &Place) {
+        let _ = write!(code, "rungc_{}(", place.class.prefix());
         self.number(code, place, 0);
         code.push(')');
     }
 
     fn constant(&mut self, code: &mut String, value: i32, index: Option<ExprId>, wide: bool) {
-        code.push_str("rungc_k(");
+        code.push_str("rungc_K(");
         match (index, wide) {
             (None, _) => integer(code, value),
             (Some(index), true) => {

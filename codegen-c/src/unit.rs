@@ -1,9 +1,9 @@
 //! One module as C text: declarations, and functions in groups of bounded size.
 
-use crate::fields::{Field, Fields, Kind, Section};
+use crate::fields::{Field, Fields, Section};
 use crate::header;
 use crate::plan::Plan;
-use crate::text;
+use crate::table;
 use crate::writer::{Writer, function_name};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, Stmt};
@@ -68,7 +68,7 @@ pub fn unit(module: &Module) -> Unit {
         fields: &fields,
     };
     if runtime {
-        printer.device_table(&mut internal);
+        table::write(&mut internal, module, &fields);
     }
     if faults {
         printer.fault(&mut internal);
@@ -425,11 +425,6 @@ impl Printer<'_> {
             let _ = writeln!(out, "    case {}:\n        return {device};", field.first);
         }
         out.push_str("    default:\n        return false;\n    }\n}\n\n");
-    }
-
-    /// The table by which the runtime finds devices.
-    pub fn device_table(&self, out: &mut String) {
-        let _ = (out, Kind::Bit, text::WIDTH);
     }
 }
 

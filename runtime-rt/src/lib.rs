@@ -11,6 +11,18 @@
 extern crate std;
 
 mod access;
+#[cfg(feature = "capi")]
+#[allow(unsafe_code, reason = "C hands over pointers")]
+pub mod capi;
+#[cfg(feature = "staticlib")]
+#[allow(unsafe_code, reason = "abort() is the C library's")]
+mod capi_panic;
+#[cfg(feature = "capi")]
+#[allow(
+    unsafe_code,
+    reason = "C hands over pointers, and the hardware is one for the process"
+)]
+pub mod capi_virtual;
 mod cx;
 #[cfg(test)]
 mod double;

@@ -57,6 +57,11 @@ macro_rules! registry {
                 match self { $(RtFn::$variant => fnc::$module::$function(cx),)* }
             }
         }
+
+        $(
+            #[cfg(feature = "capi")]
+            crate::capi::export!($module::$function($($operand),*));
+        )*
     };
 }
 

@@ -1,0 +1,669 @@
+/*
+ * rungc_rt.h: the runtime library of programs compiled by rungc. Made by cbindgen from runtime-rt; do not edit.
+ *
+ * A program describes its struct once (rungc_layout), binds it to one struct and the hardware (rungc_map), and calls one function
+ * for each instruction that is not worth inlining. Only the functions that a program calls are linked.
+ */
+
+#ifndef RUNGC_RT_H
+#define RUNGC_RT_H
+
+#include "rungc.h"
+
+/**
+ * Device class. The numbers are part of the C ABI.
+ */
+enum rungc_class
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Input relay.
+     */
+    RUNGC_CLASS_X = 0,
+    /**
+     * Output relay.
+     */
+    RUNGC_CLASS_Y = 1,
+    /**
+     * Auxiliary relay; from 8000 special.
+     */
+    RUNGC_CLASS_M = 2,
+    /**
+     * Step relay.
+     */
+    RUNGC_CLASS_S = 3,
+    /**
+     * Timer: contact as a bit, current value as a word.
+     */
+    RUNGC_CLASS_T = 4,
+    /**
+     * Counter: contact as a bit, current value as a word, or 32 bits from C200.
+     */
+    RUNGC_CLASS_C = 5,
+    /**
+     * Data register; from 8000 special.
+     */
+    RUNGC_CLASS_D = 6,
+    /**
+     * Extension register.
+     */
+    RUNGC_CLASS_R = 7,
+    /**
+     * Index register V.
+     */
+    RUNGC_CLASS_V = 8,
+    /**
+     * Index register Z.
+     */
+    RUNGC_CLASS_Z = 9,
+    /**
+     * Extension file register.
+     */
+    RUNGC_CLASS_ER = 10,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_class rungc_class;
+#else
+typedef uint8_t rungc_class;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What an area of devices is made of.
+ */
+enum rungc_area_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * `bool`.
+     */
+    RUNGC_AREA_KIND_BITS = 0,
+    /**
+     * `int16_t`.
+     */
+    RUNGC_AREA_KIND_WORDS = 1,
+    /**
+     * `plc_timer`.
+     */
+    RUNGC_AREA_KIND_TIMERS = 2,
+    /**
+     * `plc_counter16`.
+     */
+    RUNGC_AREA_KIND_COUNTERS16 = 3,
+    /**
+     * `plc_counter32`.
+     */
+    RUNGC_AREA_KIND_COUNTERS32 = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_area_kind rungc_area_kind;
+#else
+typedef uint8_t rungc_area_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * Devices that stand side by side in the program's struct.
+ */
+typedef struct rungc_area {
+    /**
+     * Their class.
+     */
+    rungc_class class_;
+    /**
+     * What each is.
+     */
+    rungc_area_kind kind;
+    /**
+     * First number.
+     */
+    uint32_t first;
+    /**
+     * How many.
+     */
+    uint32_t count;
+    /**
+     * Where they begin in the struct, in bytes.
+     */
+    size_t offset;
+} rungc_area;
+
+/**
+ * Numbers that the model has, stored or not.
+ */
+typedef struct rungc_range {
+    /**
+     * Class.
+     */
+    rungc_class class_;
+    /**
+     * First number.
+     */
+    uint32_t first;
+    /**
+     * Last number.
+     */
+    uint32_t last;
+} rungc_range;
+
+/**
+ * A special register that is another name of an index register.
+ */
+typedef struct rungc_alias {
+    /**
+     * Number of the register D.
+     */
+    uint32_t number;
+    /**
+     * Class of the index register.
+     */
+    rungc_class class_;
+    /**
+     * Its number.
+     */
+    uint32_t index;
+} rungc_alias;
+
+/**
+ * A text of the program.
+ */
+typedef struct rungc_text {
+    /**
+     * Its characters.
+     */
+    const uint8_t *bytes;
+    /**
+     * How many.
+     */
+    size_t length;
+} rungc_text;
+
+/**
+ * What a program's struct looks like. All pointers are valid for their counts, for as long as the program runs.
+ */
+typedef struct rungc_layout {
+    /**
+     * Areas, sorted by class and first number.
+     */
+    const struct rungc_area *areas;
+    /**
+     * How many.
+     */
+    size_t area_count;
+    /**
+     * What the model has, sorted likewise.
+     */
+    const struct rungc_range *ranges;
+    /**
+     * How many.
+     */
+    size_t range_count;
+    /**
+     * Index registers with a second name.
+     */
+    const struct rungc_alias *aliases;
+    /**
+     * How many.
+     */
+    size_t alias_count;
+    /**
+     * Texts.
+     */
+    const struct rungc_text *texts;
+    /**
+     * How many.
+     */
+    size_t text_count;
+    /**
+     * Where the struct holds its `plc_sys`.
+     */
+    size_t sys;
+    /**
+     * Where the struct holds its private memories.
+     */
+    size_t states;
+    /**
+     * How many; slots are numbered from 1.
+     */
+    uint16_t state_count;
+    /**
+     * Whether a 32-bit access to Zn takes Vn as its high word.
+     */
+    bool z_pairs_with_v;
+} rungc_layout;
+
+/**
+ * A moment of the real-time clock.
+ */
+typedef struct rungc_clock {
+    /**
+     * Four digits.
+     */
+    uint16_t year;
+    /**
+     * 1 to 12.
+     */
+    uint8_t month;
+    /**
+     * 1 to 31.
+     */
+    uint8_t day;
+    /**
+     * 0 to 23.
+     */
+    uint8_t hour;
+    /**
+     * 0 to 59.
+     */
+    uint8_t minute;
+    /**
+     * 0 to 59.
+     */
+    uint8_t second;
+    /**
+     * 0 = Sunday to 6 = Saturday.
+     */
+    uint8_t weekday;
+} rungc_clock;
+
+/**
+ * The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
+ */
+typedef struct rungc_hal {
+    /**
+     * The host's own.
+     */
+    void *context;
+    /**
+     * Reads the real-time clock; false if there is none.
+     */
+    bool (*clock)(void *context, struct rungc_clock *clock);
+    /**
+     * Sets the real-time clock; false if that failed.
+     */
+    bool (*set_clock)(void *context, const struct rungc_clock *clock);
+    /**
+     * Reads a word of the buffer memory of a module; false if there is none.
+     */
+    bool (*read_bfm)(void *context, uint16_t unit, uint16_t address, int16_t *value);
+    /**
+     * Writes a word of the buffer memory of a module; false if there is none.
+     */
+    bool (*write_bfm)(void *context, uint16_t unit, uint16_t address, int16_t value);
+    /**
+     * Raw value of a built-in analog input; false if there is none.
+     */
+    bool (*analog)(void *context, uint8_t channel, int16_t *value);
+    /**
+     * Reads an input terminal now; false if there is none.
+     */
+    bool (*input)(void *context, uint16_t number, bool *on);
+    /**
+     * Sets an output terminal now.
+     */
+    void (*set_output)(void *context, uint16_t number, bool on);
+} rungc_hal;
+
+/**
+ * Private memory of one instruction in the program (RAMP's progress, HKY's scan position, …), zero at power-on.
+ */
+typedef struct rungc_state {
+    int32_t _0[8];
+} rungc_state;
+
+/**
+ * A program's devices: its struct, what it looks like, and the hardware.
+ */
+typedef struct rungc_map {
+    /**
+     * What the struct looks like.
+     */
+    const struct rungc_layout *layout;
+    /**
+     * The struct. Nothing else may use it during a call.
+     */
+    void *plc;
+    /**
+     * The hardware; `NULL`: nothing fitted.
+     */
+    const struct rungc_hal *hal;
+    /**
+     * Taken by instructions without private memory.
+     */
+    struct rungc_state none;
+} rungc_map;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * State of a bit device, for hosts that find devices by number; false if the model has none of that number.
+ */
+bool rungc_get_bit(const struct rungc_map *map, rungc_class class_, uint32_t number, bool *on);
+
+/**
+ * Sets a bit device.
+ */
+bool rungc_set_bit(struct rungc_map *map, rungc_class class_, uint32_t number, bool on);
+
+/**
+ * Value of a 16-bit word device.
+ */
+bool rungc_get_word(const struct rungc_map *map, rungc_class class_, uint32_t number, int16_t *value);
+
+/**
+ * Sets a 16-bit word device.
+ */
+bool rungc_set_word(struct rungc_map *map, rungc_class class_, uint32_t number, int16_t value);
+
+/**
+ * Value of a 32-bit counter.
+ */
+bool rungc_get_counter32(const struct rungc_map *map, uint32_t number, int32_t *value);
+
+/**
+ * Sets the value of a 32-bit counter.
+ */
+bool rungc_set_counter32(struct rungc_map *map, uint32_t number, int32_t value);
+
+/**
+ * The virtual hardware as instructions see it, for `Map::hal`.
+ */
+struct rungc_hal rungc_virtual_hal(void);
+
+/**
+ * Virtual hardware as new: without modules, at virtual time 0.
+ */
+void rungc_virtual_reset(void);
+
+/**
+ * Virtual time begins at 0 again, as after power off and on.
+ */
+void rungc_virtual_restart(void);
+
+/**
+ * Virtual time is now `now_ms`; before each scan.
+ */
+void rungc_virtual_advance(uint32_t now_ms);
+
+/**
+ * Sets a word of buffer memory, fitting the module if need be; false if the table is full.
+ */
+bool rungc_virtual_set_bfm(uint16_t unit, uint16_t address, int16_t value);
+
+/**
+ * A word of buffer memory; false if there is no such module.
+ */
+bool rungc_virtual_get_bfm(uint16_t unit, uint16_t address, int16_t *value);
+
+/**
+ * Sets the raw value of an analog input; false if there is no such channel.
+ */
+bool rungc_virtual_set_analog(uint8_t channel, int16_t value);
+
+/**
+ * Sets the real-time clock; false if there is no such moment.
+ */
+bool rungc_virtual_set_clock(uint16_t year, uint8_t month, uint8_t day, uint8_t hour, uint8_t minute, uint8_t second);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* RUNGC_RT_H */
+
+/* Operands as programs write them: rungc_K(5), rungc_E(1.5f), rungc_D(100), rungc_group(4, rungc_M(0)), rungc_bit_of(rungc_D(0), 15). */
+static inline rungc_operand rungc_device(rungc_class device_class, int32_t number)
+{
+    rungc_operand operand;
+    operand.kind = RUNGC_OPERAND_KIND_DEVICE;
+    operand.class_ = device_class;
+    operand.digits = 0;
+    operand.value = number;
+    return operand;
+}
+
+static inline rungc_operand rungc_K(int32_t value)
+{
+    rungc_operand operand = rungc_device(RUNGC_CLASS_D, value);
+    operand.kind = RUNGC_OPERAND_KIND_CONST;
+    return operand;
+}
+
+static inline rungc_operand rungc_E(float value)
+{
+    rungc_operand operand = rungc_device(RUNGC_CLASS_D, plc_float_bits(value));
+    operand.kind = RUNGC_OPERAND_KIND_FLOAT;
+    return operand;
+}
+
+static inline rungc_operand rungc_string(int32_t number)
+{
+    rungc_operand operand = rungc_device(RUNGC_CLASS_D, number);
+    operand.kind = RUNGC_OPERAND_KIND_TEXT;
+    return operand;
+}
+
+static inline rungc_operand rungc_group(uint8_t digits, rungc_operand first)
+{
+    first.kind = RUNGC_OPERAND_KIND_NIBBLES;
+    first.digits = digits;
+    return first;
+}
+
+static inline rungc_operand rungc_bit_of(rungc_operand word, uint8_t bit)
+{
+    word.kind = RUNGC_OPERAND_KIND_WORD_BIT;
+    word.digits = bit;
+    return word;
+}
+
+static inline rungc_operand rungc_X(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_X, number);
+}
+
+static inline rungc_operand rungc_Y(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_Y, number);
+}
+
+static inline rungc_operand rungc_M(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_M, number);
+}
+
+static inline rungc_operand rungc_S(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_S, number);
+}
+
+static inline rungc_operand rungc_T(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_T, number);
+}
+
+static inline rungc_operand rungc_C(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_C, number);
+}
+
+static inline rungc_operand rungc_D(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_D, number);
+}
+
+static inline rungc_operand rungc_R(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_R, number);
+}
+
+static inline rungc_operand rungc_V(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_V, number);
+}
+
+static inline rungc_operand rungc_Z(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_Z, number);
+}
+
+static inline rungc_operand rungc_ER(int32_t number)
+{
+    return rungc_device(RUNGC_CLASS_ER, number);
+}
+
+/* Where a call stands: the step, shown in D8069 if the instruction fails; `wide` for the 32-bit form. */
+static inline rungc_site rungc_at(uint32_t step)
+{
+    rungc_site site;
+    site.step = step;
+    site.slot = 0;
+    site.wide = false;
+    site.drive = true;
+    return site;
+}
+
+static inline rungc_site rungc_wide_at(uint32_t step)
+{
+    rungc_site site = rungc_at(step);
+    site.wide = true;
+    return site;
+}
+
+/* The instructions. An operation error is reported in the program's special devices. */
+void rungc_smov(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand m1, rungc_operand m2, rungc_operand d, rungc_operand n);
+void rungc_bmov(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_bmov_forward(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_fmov(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_xch(rungc_map *map, rungc_site site, rungc_operand d1, rungc_operand d2);
+void rungc_xch_words(rungc_map *map, rungc_site site, rungc_operand d1, rungc_operand d2);
+void rungc_swap(rungc_map *map, rungc_site site, rungc_operand s);
+void rungc_bcd(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_bcd_clamped(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_bin(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_bin_unchecked(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_ror(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n);
+void rungc_rol(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n);
+void rungc_rcr(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n);
+void rungc_rcl(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n);
+void rungc_sftr(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n1, rungc_operand n2);
+void rungc_sftl(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n1, rungc_operand n2);
+void rungc_wsfr(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n1, rungc_operand n2);
+void rungc_wsfl(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n1, rungc_operand n2);
+void rungc_sfwr(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_sfrd(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_sfwr_hm(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_sfrd_hm(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_pop(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_sfr(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n);
+void rungc_sfl(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n);
+void rungc_zrst(rungc_map *map, rungc_site site, rungc_operand d1, rungc_operand d2);
+void rungc_deco(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_enco(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_sum(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_bon(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_mean(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_mean_sum(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_ans(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand m, rungc_operand d);
+void rungc_anr(rungc_map *map, rungc_site site);
+void rungc_annunciator_monitor(rungc_map *map, rungc_site site);
+void rungc_sqr(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_sqr_clamped(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_flt(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_ecmp(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_ezcp(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s, rungc_operand d);
+void rungc_emov(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_ebcd(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_ebin(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_eadd(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_esub(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_emul(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_ediv(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_ediv_clamped(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_exp(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_loge(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_log10(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_esqr(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_eneg(rungc_map *map, rungc_site site, rungc_operand d);
+void rungc_int(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_int_clamped(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_sin(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_cos(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_tan(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_asin(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_acos(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_atan(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_rad(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_deg(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_sinh(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_cosh(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_tanh(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_prun(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_asci(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_asci_bytes(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_hex(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_hex_bytes(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_ccd(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_crc(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_tcmp(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s3, rungc_operand s, rungc_operand d);
+void rungc_tzcp(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s, rungc_operand d);
+void rungc_tadd(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_tsub(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_htos(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_stoh(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_trd(rungc_map *map, rungc_site site, rungc_operand d);
+void rungc_trd_short(rungc_map *map, rungc_site site, rungc_operand d);
+void rungc_twr(rungc_map *map, rungc_site site, rungc_operand s);
+void rungc_twr_short(rungc_map *map, rungc_site site, rungc_operand s);
+void rungc_clock_refresh(rungc_map *map, rungc_site site);
+void rungc_clock_refresh_short(rungc_map *map, rungc_site site);
+void rungc_hour(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d1, rungc_operand d2);
+void rungc_gry(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_gbin(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_wsum(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_wtob(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_btow(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_uni(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_dis(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_sort2(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand m1, rungc_operand m2, rungc_operand d, rungc_operand n);
+void rungc_rnd(rungc_map *map, rungc_site site, rungc_operand d);
+void rungc_duty(rungc_map *map, rungc_site site, rungc_operand n1, rungc_operand n2, rungc_operand d);
+void rungc_bk_add(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_bk_sub(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_bkcmp_eq(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_bkcmp_gt(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_bkcmp_lt(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_bkcmp_ne(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_bkcmp_le(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_bkcmp_ge(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_fdel(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_fins(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_zpush(rungc_map *map, rungc_site site, rungc_operand d);
+void rungc_zpop(rungc_map *map, rungc_site site, rungc_operand d);
+void rungc_limit(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s3, rungc_operand d);
+void rungc_band(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s3, rungc_operand d);
+void rungc_zone(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand s3, rungc_operand d);
+void rungc_scl(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_scl2(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_estr(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_eval(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_str(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_val(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d1, rungc_operand d2);
+void rungc_str_add(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d);
+void rungc_len(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_right(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_left(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d, rungc_operand n);
+void rungc_midr(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand d, rungc_operand s2);
+void rungc_midw(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand d, rungc_operand s2);
+void rungc_instr(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_str_mov(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_dabin(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_binda(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);

@@ -1,0 +1,135 @@
+//! `include/rungc_rt.h` is made with cbindgen from the runtime's C ABI. `UPDATE_HEADER=1 cargo test -p rungc-codegen-c` makes it anew.
+
+use cbindgen::{
+    Builder, Config, EnumConfig, ExportConfig, Language, ParseConfig, RenameRule, Style,
+};
+use rungc_rt::RtFn;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Types that rungc.h defines, under its names, and what the others are called in C.
+const NAMES: [(&str, &str); 15] = [
+    ("Sys", "plc_sys"),
+    ("Timer", "plc_timer"),
+    ("Counter16", "plc_counter16"),
+    ("Counter32", "plc_counter32"),
+    ("Class", "rungc_class"),
+    ("State", "rungc_state"),
+    ("Site", "rungc_site"),
+    ("Operand", "rungc_operand"),
+    ("OperandKind", "rungc_operand_kind"),
+    ("Clock", "rungc_clock"),
+    ("Kind", "rungc_area_kind"),
+    ("Area", "rungc_area"),
+    ("Range", "rungc_range"),
+    ("Alias", "rungc_alias"),
+    ("Text", "rungc_text"),
+];
+
+const TOP: &str = "/*
+ * rungc_rt.h: the runtime library of programs compiled by rungc. Made by cbindgen from runtime-rt; do not edit.
+ *
+ * A program describes its struct once (rungc_layout), binds it to one struct and the hardware (rungc_map), and calls one function
+ * for each instruction that is not worth inlining. Only the functions that a program calls are linked.
+ */";
+
+/// Operands and sites, as emitted code writes them.
+const CONSTRUCTORS: &str = include_str!("constructors.h");
+
+fn functions() -> String {
+    let mut out = String::from(
+        "/* The instructions. An operation error is reported in the program's special devices. */\n",
+    );
+    for function in RtFn::ALL {
+        let _ = write!(
+            out,
+            "void rungc_{}(rungc_map *map, rungc_site site",
+            function.name()
+        );
+        for operand in function.operands() {
+            let _ = write!(out, ", rungc_operand {operand}");
+        }
+        out.push_str(");\n");
+    }
+    out
+}
+
+fn header() -> String {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime-rt/src");
+    let mut names: std::collections::HashMap<String, String> = NAMES
+        .iter()
+        .map(|(rust, c)| (rust.to_string(), c.to_string()))
+        .collect();
+    names.insert("Layout".into(), "rungc_layout".into());
+    names.insert("HalTable".into(), "rungc_hal".into());
+    names.insert("Map".into(), "rungc_map".into());
+    let config = Config {
+        language: Language::C,
+        style: Style::Both,
+        cpp_compat: true,
+        header: Some(TOP.to_string()),
+        include_guard: Some("RUNGC_RT_H".to_string()),
+        no_includes: true,
+        includes: vec!["rungc.h".to_string()],
+        trailer: Some(format!("{CONSTRUCTORS}\n{}", functions())),
+        line_length: 120,
+        tab_width: 4,
+        usize_is_size_t: true,
+        export: ExportConfig {
+            exclude: ["Sys", "Timer", "Counter16", "Counter32"]
+                .map(str::to_string)
+                .into(),
+            rename: names,
+            ..ExportConfig::default()
+        },
+        enumeration: EnumConfig {
+            rename_variants: RenameRule::ScreamingSnakeCase,
+            prefix_with_name: true,
+            ..EnumConfig::default()
+        },
+        parse: ParseConfig {
+            parse_deps: false,
+            ..ParseConfig::default()
+        },
+        ..Config::default()
+    };
+    let files = [
+        "plc.rs",
+        "operand.rs",
+        "hal.rs",
+        "capi.rs",
+        "capi_virtual.rs",
+    ];
+    let builder = files
+        .iter()
+        .fold(Builder::new().with_config(config), |b, f| {
+            b.with_src(source.join(f))
+        });
+    let mut text = Vec::new();
+    builder
+        .generate()
+        .expect("the C ABI is plain")
+        .write(&mut text);
+    String::from_utf8(text).expect("cbindgen writes UTF-8")
+}
+
+#[test]
+fn header_is_up_to_date() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("include/rungc_rt.h");
+    let made = header();
+    if std::env::var_os("UPDATE_HEADER").is_some() {
+        std::fs::write(&path, &made).expect("writing the header");
+    }
+    let there = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        there == made,
+        "include/rungc_rt.h is stale: UPDATE_HEADER=1 cargo test -p rungc-codegen-c --test header"
+    );
+}
+
+#[test]
+fn functions_have_names_of_their_own() {
+    let mut names: Vec<&str> = RtFn::ALL.iter().map(|f| f.name()).collect();
+    names.sort_unstable();
+    assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+}

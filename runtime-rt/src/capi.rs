@@ -1,0 +1,476 @@
+//! The C ABI: what emitted C calls. The only module with `unsafe` in this crate.
+//!
+//! A program describes its struct of devices once, in a constant [`Layout`] of offsets; a [`Map`] binds it to one such struct. Each
+//! function of the [registry](crate::RtFn) is exported as `rungc_` and its name, so that a linker takes only those that are used.
+//! The header `rungc_rt.h` is made from this file.
+
+use crate::cx::Cx;
+use crate::fault::{Done, report};
+use crate::hal::{Clock, Hal};
+use crate::operand::Operand;
+use crate::plc::{Class, Plc, Site, State, Sys};
+use crate::timing::{Counter16, Counter32, Timer};
+use core::ffi::c_void;
+
+/// What an area of devices is made of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum Kind {
+    /// `bool`.
+    Bits = 0,
+    /// `int16_t`.
+    Words = 1,
+    /// `plc_timer`.
+    Timers = 2,
+    /// `plc_counter16`.
+    Counters16 = 3,
+    /// `plc_counter32`.
+    Counters32 = 4,
+}
+
+/// Devices that stand side by side in the program's struct.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Area {
+    /// Their class.
+    pub class: Class,
+    /// What each is.
+    pub kind: Kind,
+    /// First number.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+    /// Where they begin in the struct, in bytes.
+    pub offset: usize,
+}
+
+/// Numbers that the model has, stored or not.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Range {
+    /// Class.
+    pub class: Class,
+    /// First number.
+    pub first: u32,
+    /// Last number.
+    pub last: u32,
+}
+
+/// A special register that is another name of an index register.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Alias {
+    /// Number of the register D.
+    pub number: u32,
+    /// Class of the index register.
+    pub class: Class,
+    /// Its number.
+    pub index: u32,
+}
+
+/// A text of the program.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Text {
+    /// Its characters.
+    pub bytes: *const u8,
+    /// How many.
+    pub length: usize,
+}
+
+/// What a program's struct looks like. All pointers are valid for their counts, for as long as the program runs.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Layout {
+    /// Areas, sorted by class and first number.
+    pub areas: *const Area,
+    /// How many.
+    pub area_count: usize,
+    /// What the model has, sorted likewise.
+    pub ranges: *const Range,
+    /// How many.
+    pub range_count: usize,
+    /// Index registers with a second name.
+    pub aliases: *const Alias,
+    /// How many.
+    pub alias_count: usize,
+    /// Texts.
+    pub texts: *const Text,
+    /// How many.
+    pub text_count: usize,
+    /// Where the struct holds its `plc_sys`.
+    pub sys: usize,
+    /// Where the struct holds its private memories.
+    pub states: usize,
+    /// How many; slots are numbered from 1.
+    pub state_count: u16,
+    /// Whether a 32-bit access to Zn takes Vn as its high word.
+    pub z_pairs_with_v: bool,
+}
+
+/// The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct HalTable {
+    /// The host's own.
+    pub context: *mut c_void,
+    /// Reads the real-time clock; false if there is none.
+    pub clock: Option<extern "C" fn(context: *mut c_void, clock: *mut Clock) -> bool>,
+    /// Sets the real-time clock; false if that failed.
+    pub set_clock: Option<extern "C" fn(context: *mut c_void, clock: *const Clock) -> bool>,
+    /// Reads a word of the buffer memory of a module; false if there is none.
+    pub read_bfm: Option<
+        extern "C" fn(context: *mut c_void, unit: u16, address: u16, value: *mut i16) -> bool,
+    >,
+    /// Writes a word of the buffer memory of a module; false if there is none.
+    pub write_bfm:
+        Option<extern "C" fn(context: *mut c_void, unit: u16, address: u16, value: i16) -> bool>,
+    /// Raw value of a built-in analog input; false if there is none.
+    pub analog: Option<extern "C" fn(context: *mut c_void, channel: u8, value: *mut i16) -> bool>,
+    /// Reads an input terminal now; false if there is none.
+    pub input: Option<extern "C" fn(context: *mut c_void, number: u16, on: *mut bool) -> bool>,
+    /// Sets an output terminal now.
+    pub set_output: Option<extern "C" fn(context: *mut c_void, number: u16, on: bool)>,
+}
+
+/// A program's devices: its struct, what it looks like, and the hardware.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Map {
+    /// What the struct looks like.
+    pub layout: *const Layout,
+    /// The struct. Nothing else may use it during a call.
+    pub plc: *mut c_void,
+    /// The hardware; `NULL`: nothing fitted.
+    pub hal: *const HalTable,
+    /// Taken by instructions without private memory.
+    pub none: State,
+}
+
+/// Where a device is.
+enum Found {
+    /// Stored there.
+    At(Kind, *mut u8),
+    /// The model has it; the program does not look at it.
+    Elsewhere,
+    /// The model has no such device.
+    Nowhere,
+}
+
+/// The elements that a pointer of a [`Layout`] stands for.
+fn elements<'a, T>(first: *const T, count: usize) -> &'a [T] {
+    if first.is_null() {
+        return &[];
+    }
+    // SAFETY: a Layout's pointers are valid for their counts and as long as the program runs, and nothing writes to them.
+    unsafe { core::slice::from_raw_parts(first, count) }
+}
+
+impl Map {
+    fn layout(&self) -> &Layout {
+        // SAFETY: whoever makes a Map gives it a valid layout that outlives it.
+        unsafe { &*self.layout }
+    }
+
+    fn find(&self, class: Class, number: u32) -> Found {
+        let layout = self.layout();
+        let areas = elements(layout.areas, layout.area_count);
+        let behind = areas.partition_point(|a| (a.class, a.first) <= (class, number));
+        let area = behind.checked_sub(1).and_then(|i| areas.get(i));
+        if let Some(area) = area.filter(|a| a.class == class && number - a.first < a.count) {
+            let size = match area.kind {
+                Kind::Bits => size_of::<bool>(),
+                Kind::Words => size_of::<i16>(),
+                Kind::Timers => size_of::<Timer>(),
+                Kind::Counters16 => size_of::<Counter16>(),
+                Kind::Counters32 => size_of::<Counter32>(),
+            };
+            let offset = area.offset + (number - area.first) as usize * size;
+            // SAFETY: an area's elements lie inside the program's struct, which `plc` points to.
+            return Found::At(area.kind, unsafe { self.plc.cast::<u8>().add(offset) });
+        }
+        if class == Class::D {
+            let aliases = elements(layout.aliases, layout.alias_count);
+            if let Some(alias) = aliases
+                .iter()
+                .find(|a| a.number == number && a.class != Class::D)
+            {
+                return self.find(alias.class, alias.index);
+            }
+        }
+        let ranges = elements(layout.ranges, layout.range_count);
+        let behind = ranges.partition_point(|r| (r.class, r.first) <= (class, number));
+        let range = behind.checked_sub(1).and_then(|i| ranges.get(i));
+        match range.filter(|r| r.class == class && number <= r.last) {
+            Some(_) => Found::Elsewhere,
+            None => Found::Nowhere,
+        }
+    }
+
+    /// Runs an instruction and reports its fault.
+    fn call(&mut self, function: fn(&mut Cx) -> Done, site: Site, ops: &[Operand]) {
+        let mut hal = Board { table: self.hal };
+        let done = function(&mut Cx {
+            plc: self,
+            hal: &mut hal,
+            ops,
+            site,
+        });
+        if let Err(fault) = done {
+            report(self, fault, site.step);
+        }
+    }
+}
+
+/// Reads an element of the program's struct.
+fn read<T: Copy>(at: *mut u8) -> T {
+    // SAFETY: `find` gives a pointer to an element of the kind that the caller reads, aligned as the C compiler placed it.
+    unsafe { at.cast::<T>().read() }
+}
+
+/// Changes an element of the program's struct.
+fn change<T>(at: *mut u8, change: impl FnOnce(&mut T)) -> Option<()> {
+    // SAFETY: as for `read`; nothing else uses the struct during a call.
+    change(unsafe { &mut *at.cast::<T>() });
+    Some(())
+}
+
+impl Plc for Map {
+    fn bit(&self, class: Class, number: u32) -> Option<bool> {
+        match self.find(class, number) {
+            Found::At(Kind::Bits, at) => Some(read(at)),
+            Found::At(Kind::Timers, at) => Some(read::<Timer>(at).done),
+            Found::At(Kind::Counters16, at) => Some(read::<Counter16>(at).done),
+            Found::At(Kind::Counters32, at) => Some(read::<Counter32>(at).done),
+            Found::Elsewhere if is_bit(class) => Some(false),
+            _ => None,
+        }
+    }
+
+    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
+        match self.find(class, number) {
+            Found::At(Kind::Bits, at) => change(at, |bit| *bit = value),
+            Found::At(Kind::Timers, at) => change(at, |timer: &mut Timer| timer.done = value),
+            Found::At(Kind::Counters16, at) => {
+                change(at, |counter: &mut Counter16| counter.done = value)
+            }
+            Found::At(Kind::Counters32, at) => {
+                change(at, |counter: &mut Counter32| counter.done = value)
+            }
+            Found::Elsewhere if is_bit(class) => Some(()),
+            _ => None,
+        }
+    }
+
+    fn word(&self, class: Class, number: u32) -> Option<i16> {
+        match self.find(class, number) {
+            Found::At(Kind::Words, at) => Some(read(at)),
+            Found::At(Kind::Timers, at) => Some(read::<Timer>(at).value),
+            Found::At(Kind::Counters16, at) => Some(read::<Counter16>(at).value),
+            Found::Elsewhere if is_word(class, number) => Some(0),
+            _ => None,
+        }
+    }
+
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
+        match self.find(class, number) {
+            Found::At(Kind::Words, at) => change(at, |word| *word = value),
+            Found::At(Kind::Timers, at) => change(at, |timer: &mut Timer| timer.value = value),
+            Found::At(Kind::Counters16, at) => {
+                change(at, |counter: &mut Counter16| counter.value = value)
+            }
+            Found::Elsewhere if is_word(class, number) => Some(()),
+            _ => None,
+        }
+    }
+
+    fn counter32(&self, number: u32) -> Option<i32> {
+        match self.find(Class::C, number) {
+            Found::At(Kind::Counters32, at) => Some(read::<Counter32>(at).value),
+            Found::Elsewhere if number >= COUNTER32_FIRST => Some(0),
+            _ => None,
+        }
+    }
+
+    fn set_counter32(&mut self, number: u32, value: i32) -> Option<()> {
+        match self.find(Class::C, number) {
+            Found::At(Kind::Counters32, at) => {
+                change(at, |counter: &mut Counter32| counter.value = value)
+            }
+            Found::Elsewhere if number >= COUNTER32_FIRST => Some(()),
+            _ => None,
+        }
+    }
+
+    fn state(&mut self, slot: u16) -> &mut State {
+        let layout = *self.layout();
+        if slot == 0 || slot > layout.state_count {
+            return &mut self.none;
+        }
+        let offset = layout.states + usize::from(slot - 1) * size_of::<State>();
+        // SAFETY: the struct holds `state_count` memories there, and nothing else uses it during a call.
+        unsafe { &mut *self.plc.cast::<u8>().add(offset).cast::<State>() }
+    }
+
+    fn sys(&self) -> &Sys {
+        // SAFETY: the struct holds its `plc_sys` there, which is the same type.
+        unsafe { &*self.plc.cast::<u8>().add(self.layout().sys).cast::<Sys>() }
+    }
+
+    fn text(&self, index: u32) -> &[u8] {
+        let layout = self.layout();
+        let texts = elements(layout.texts, layout.text_count);
+        texts
+            .get(index as usize)
+            .map_or(&[], |text| elements(text.bytes, text.length))
+    }
+
+    fn z_pairs_with_v(&self) -> bool {
+        self.layout().z_pairs_with_v
+    }
+
+    fn reset(&mut self, class: Class, number: u32) -> Option<()> {
+        match self.find(class, number) {
+            Found::At(Kind::Timers, at) => change(at, Timer::reset),
+            Found::At(Kind::Counters16, at) => change(at, Counter16::reset),
+            Found::At(Kind::Counters32, at) => change(at, Counter32::reset),
+            Found::Elsewhere if matches!(class, Class::T | Class::C) => Some(()),
+            _ => None,
+        }
+    }
+}
+
+/// First 32-bit counter.
+const COUNTER32_FIRST: u32 = 200;
+
+/// Whether devices of a class have a state.
+fn is_bit(class: Class) -> bool {
+    matches!(
+        class,
+        Class::X | Class::Y | Class::M | Class::S | Class::T | Class::C
+    )
+}
+
+/// Whether a device has a 16-bit value.
+fn is_word(class: Class, number: u32) -> bool {
+    match class {
+        Class::C => number < COUNTER32_FIRST,
+        Class::X | Class::Y | Class::M | Class::S => false,
+        _ => true,
+    }
+}
+
+/// The host's hardware.
+struct Board {
+    table: *const HalTable,
+}
+
+impl Board {
+    fn table(&self) -> Option<&HalTable> {
+        // SAFETY: NULL, or the host's table, which outlives the call.
+        unsafe { self.table.as_ref() }
+    }
+}
+
+impl Hal for Board {
+    fn clock(&mut self) -> Option<Clock> {
+        let table = self.table()?;
+        let mut clock = Clock::default();
+        (table.clock?)(table.context, &mut clock).then_some(clock)
+    }
+
+    fn set_clock(&mut self, clock: Clock) -> Option<()> {
+        let table = self.table()?;
+        (table.set_clock?)(table.context, &clock).then_some(())
+    }
+
+    fn read_bfm(&mut self, unit: u16, address: u16) -> Option<i16> {
+        let table = self.table()?;
+        let mut value = 0;
+        (table.read_bfm?)(table.context, unit, address, &mut value).then_some(value)
+    }
+
+    fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+        let table = self.table()?;
+        (table.write_bfm?)(table.context, unit, address, value).then_some(())
+    }
+
+    fn analog(&mut self, channel: u8) -> Option<i16> {
+        let table = self.table()?;
+        let mut value = 0;
+        (table.analog?)(table.context, channel, &mut value).then_some(value)
+    }
+
+    fn input(&mut self, number: u16) -> Option<bool> {
+        let table = self.table()?;
+        let mut on = false;
+        (table.input?)(table.context, number, &mut on).then_some(on)
+    }
+
+    fn set_output(&mut self, number: u16, value: bool) {
+        if let Some((table, set_output)) = self.table().and_then(|t| t.set_output.map(|f| (t, f))) {
+            set_output(table.context, number, value);
+        }
+    }
+}
+
+/// Runs an instruction: what the exported functions are made of.
+pub(crate) fn run(map: &mut Map, function: fn(&mut Cx) -> Done, site: Site, ops: &[Operand]) {
+    map.call(function, site, ops);
+}
+
+/// Exports a function of the registry.
+macro_rules! export {
+    ($module:ident::$function:ident($($operand:ident),*)) => {
+        const _: () = {
+            #[allow(unsafe_code, reason = "the name of each function occurs once in the registry, and no other symbol begins like it")]
+            #[unsafe(export_name = concat!("rungc_", stringify!($function)))]
+            extern "C" fn exported(
+                map: &mut $crate::capi::Map,
+                site: $crate::Site
+                $(, $operand: $crate::Operand)*
+            ) {
+                $crate::capi::run(map, $crate::fnc::$module::$function, site, &[$($operand),*]);
+            }
+        };
+    };
+}
+pub(crate) use export;
+
+/// State of a bit device, for hosts that find devices by number; false if the model has none of that number.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_get_bit(map: &Map, class: Class, number: u32, on: &mut bool) -> bool {
+    map.bit(class, number).map(|bit| *on = bit).is_some()
+}
+
+/// Sets a bit device.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_set_bit(map: &mut Map, class: Class, number: u32, on: bool) -> bool {
+    map.set_bit(class, number, on).is_some()
+}
+
+/// Value of a 16-bit word device.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_get_word(map: &Map, class: Class, number: u32, value: &mut i16) -> bool {
+    map.word(class, number).map(|word| *value = word).is_some()
+}
+
+/// Sets a 16-bit word device.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_set_word(map: &mut Map, class: Class, number: u32, value: i16) -> bool {
+    map.set_word(class, number, value).is_some()
+}
+
+/// Value of a 32-bit counter.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_get_counter32(map: &Map, number: u32, value: &mut i32) -> bool {
+    map.counter32(number)
+        .map(|counter| *value = counter)
+        .is_some()
+}
+
+/// Sets the value of a 32-bit counter.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_set_counter32(map: &mut Map, number: u32, value: i32) -> bool {
+    map.set_counter32(number, value).is_some()
+}

@@ -1,0 +1,23 @@
+//! What a static library without the standard library does when it meets a bug: this crate never panics on any input.
+
+use core::panic::PanicInfo;
+
+#[cfg(not(target_os = "none"))]
+unsafe extern "C" {
+    safe fn abort() -> !;
+}
+
+#[cfg(not(target_os = "none"))]
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    abort()
+}
+
+/// On bare metal the hardware's watchdog ends it.
+#[cfg(target_os = "none")]
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    loop {
+        core::hint::spin_loop();
+    }
+}

@@ -1,0 +1,124 @@
+//! The virtual hardware for C hosts that test: one for the whole process, which must use it from one thread.
+
+use crate::capi::HalTable;
+use crate::hal::{Clock, Hal};
+use crate::virtual_hal::VirtualHal;
+use core::cell::UnsafeCell;
+use core::ffi::c_void;
+use core::ptr::null_mut;
+
+/// The hardware of a process with one thread.
+struct OneThread(UnsafeCell<VirtualHal>);
+
+// SAFETY: the header says that these functions may be called from one thread only.
+unsafe impl Sync for OneThread {}
+
+static HARDWARE: OneThread = OneThread(UnsafeCell::new(VirtualHal::new()));
+
+/// Does something with the hardware.
+fn with<R>(what: impl FnOnce(&mut VirtualHal) -> R) -> R {
+    // SAFETY: there is one thread, and `what` never calls back into this file.
+    what(unsafe { &mut *HARDWARE.0.get() })
+}
+
+/// Stores what was found where C asked for it.
+fn give<T>(value: Option<T>, to: *mut T) -> bool {
+    match value {
+        Some(value) if !to.is_null() => {
+            // SAFETY: C gave a pointer to a variable of this type.
+            unsafe { to.write(value) };
+            true
+        }
+        _ => false,
+    }
+}
+
+extern "C" fn clock(_: *mut c_void, clock: *mut Clock) -> bool {
+    give(with(Hal::clock), clock)
+}
+
+extern "C" fn set_clock(_: *mut c_void, clock: *const Clock) -> bool {
+    // SAFETY: C gave a pointer to a clock, or NULL.
+    let clock = unsafe { clock.as_ref() };
+    clock
+        .and_then(|&clock| with(|hal| hal.set_clock(clock)))
+        .is_some()
+}
+
+extern "C" fn read_bfm(_: *mut c_void, unit: u16, address: u16, value: *mut i16) -> bool {
+    give(with(|hal| hal.read_bfm(unit, address)), value)
+}
+
+extern "C" fn write_bfm(_: *mut c_void, unit: u16, address: u16, value: i16) -> bool {
+    with(|hal| hal.write_bfm(unit, address, value)).is_some()
+}
+
+extern "C" fn analog(_: *mut c_void, channel: u8, value: *mut i16) -> bool {
+    give(with(|hal| hal.analog(channel)), value)
+}
+
+/// The virtual hardware as instructions see it, for `Map::hal`.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_hal() -> HalTable {
+    HalTable {
+        context: null_mut(),
+        clock: Some(clock),
+        set_clock: Some(set_clock),
+        read_bfm: Some(read_bfm),
+        write_bfm: Some(write_bfm),
+        analog: Some(analog),
+        input: None,
+        set_output: None,
+    }
+}
+
+/// Virtual hardware as new: without modules, at virtual time 0.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_reset() {
+    with(|hal| *hal = VirtualHal::new());
+}
+
+/// Virtual time begins at 0 again, as after power off and on.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_restart() {
+    with(VirtualHal::restart);
+}
+
+/// Virtual time is now `now_ms`; before each scan.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_advance(now_ms: u32) {
+    with(|hal| hal.advance_to(now_ms));
+}
+
+/// Sets a word of buffer memory, fitting the module if need be; false if the table is full.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_set_bfm(unit: u16, address: u16, value: i16) -> bool {
+    with(|hal| hal.set_bfm(unit, address, value)).is_some()
+}
+
+/// A word of buffer memory; false if there is no such module.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_get_bfm(unit: u16, address: u16, value: *mut i16) -> bool {
+    give(with(|hal| hal.bfm(unit, address)), value)
+}
+
+/// Sets the raw value of an analog input; false if there is no such channel.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_set_analog(channel: u8, value: i16) -> bool {
+    with(|hal| hal.set_analog(channel, value)).is_some()
+}
+
+/// Sets the real-time clock; false if there is no such moment.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_set_clock(
+    year: u16,
+    month: u8,
+    day: u8,
+    hour: u8,
+    minute: u8,
+    second: u8,
+) -> bool {
+    Clock::new(year, month, day, hour, minute, second)
+        .and_then(|clock| with(|hal| hal.set_clock(clock)))
+        .is_some()
+}
