@@ -3,6 +3,7 @@
 use crate::lower::{LowerOptions, lower};
 use crate::model::{Model, ModelId};
 use crate::node::Module;
+use crate::passes::optimise;
 use crate::resolve::resolve;
 use rungc_syntax::{DeviceClass, Diagnostics, Program};
 
@@ -54,7 +55,12 @@ pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
         observe_all: options.observe_all,
     };
     match lower(&resolved, &lower_options) {
-        Ok(module) => compiled(Some(module), diagnostics),
+        Ok(mut module) => {
+            if options.optimise {
+                optimise(&mut module);
+            }
+            compiled(Some(module), diagnostics)
+        }
         Err(errors) => {
             diagnostics.extend(errors.sorted());
             compiled(None, diagnostics)

@@ -12,8 +12,10 @@ pub mod layout;
 pub mod lower;
 pub mod model;
 pub mod node;
+pub mod passes;
 pub mod resolve;
 mod runs;
+pub mod validate;
 
 pub use model::{Model, ModelId, ModelSet};
 pub use node::Module;

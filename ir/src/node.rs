@@ -435,32 +435,38 @@ impl Module {
 
     /// Type of an expression.
     pub fn ty(&self, id: ExprId) -> Ty {
-        match *self.expr(id) {
-            Expr::Bit(_)
-            | Expr::ReadBit(_)
-            | Expr::ReadWordBit(..)
-            | Expr::Not(_)
-            | Expr::And(..)
-            | Expr::Or(..) => Ty::Bit,
-            Expr::Cmp(..) | Expr::InRange { .. } => Ty::Bit,
-            Expr::I16(_)
-            | Expr::ReadWord(_)
-            | Expr::Narrow(_)
-            | Expr::HighWord(_)
-            | Expr::BitToInt(_) => Ty::I16,
-            Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) => Ty::I32,
-            Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
-            Expr::Temp(temp) => self.temps[temp.0 as usize],
-            Expr::ReadNibbles { wide, .. } => {
-                if wide {
-                    Ty::I32
-                } else {
-                    Ty::I16
-                }
+        type_of(&self.exprs, &self.temps, id)
+    }
+}
+
+/// Type of an expression of an arena.
+pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
+    match exprs[id.0 as usize] {
+        Expr::Bit(_)
+        | Expr::ReadBit(_)
+        | Expr::ReadWordBit(..)
+        | Expr::Not(_)
+        | Expr::And(..)
+        | Expr::Or(..)
+        | Expr::Cmp(..)
+        | Expr::InRange { .. } => Ty::Bit,
+        Expr::I16(_)
+        | Expr::ReadWord(_)
+        | Expr::Narrow(_)
+        | Expr::HighWord(_)
+        | Expr::BitToInt(_) => Ty::I16,
+        Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) => Ty::I32,
+        Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
+        Expr::Temp(temp) => temps[temp.0 as usize],
+        Expr::ReadNibbles { wide, .. } => {
+            if wide {
+                Ty::I32
+            } else {
+                Ty::I16
             }
-            Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
-            Expr::Sys(SysValue::NowMs | SysValue::Scan100us) => Ty::I32,
-            Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => self.ty(a),
         }
+        Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
+        Expr::Sys(SysValue::NowMs | SysValue::Scan100us) => Ty::I32,
+        Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => type_of(exprs, temps, a),
     }
 }

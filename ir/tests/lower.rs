@@ -2,6 +2,8 @@
 
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::dump::dump;
+use rungc_ir::passes::optimise;
+use rungc_ir::validate::validate;
 use rungc_ir::{ModelId, Module};
 
 /// Compiles a list that must have no errors.
@@ -25,9 +27,23 @@ fn on(model: ModelId) -> CompileOptions {
     }
 }
 
-/// Functions of a module as lowered, for H2U.
+/// A module as lowered for H2U, and what is otherwise when it is optimised.
 fn lowered(text: &str) -> String {
-    dump(&module(&on(ModelId::H2u), text))
+    both(&on(ModelId::H2u), text)
+}
+
+fn both(options: &CompileOptions, text: &str) -> String {
+    let plain = module(options, text);
+    validate(&plain).unwrap();
+    let mut optimised = plain.clone();
+    optimise(&mut optimised);
+    validate(&optimised).unwrap();
+    let simpler = dump(&optimised);
+    let code = simpler
+        .find("{\n")
+        .and_then(|at| simpler[..at].rfind('\n'))
+        .map_or("", |at| &simpler[at + 1..]);
+    format!("{}--- optimised ---\n{code}", dump(&plain))
 }
 
 #[test]
@@ -83,10 +99,10 @@ fn arithmetic() {
 
 #[test]
 fn saturating_arithmetic() {
-    insta::assert_snapshot!(dump(&module(
+    insta::assert_snapshot!(both(
         &on(ModelId::Hm),
         "LD X0\nADD D1000 D1001 D1002\nDINC D1004\nDIV D1000 D1001 D1010\nEND\n"
-    )));
+    ));
 }
 
 #[test]
@@ -158,8 +174,5 @@ fn special_devices() {
         observe,
         ..on(ModelId::H2u)
     };
-    insta::assert_snapshot!(dump(&module(
-        &options,
-        "LD X0\nOUT M8047\nLD X1\nOUT M8031\nEND\n"
-    )));
+    insta::assert_snapshot!(both(&options, "LD X0\nOUT M8047\nLD X1\nOUT M8031\nEND\n"));
 }

@@ -65,6 +65,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
         .copied()
         .filter(|&(number, _)| module.layout.area(DeviceClass::D, number).is_some())
         .collect();
+    debug_assert_eq!(crate::validate::validate(&module), Ok(()));
     Ok(module)
 }
 

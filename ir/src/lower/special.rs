@@ -2,7 +2,7 @@
 
 use super::LowerOptions;
 use super::call::extents;
-use crate::catalogue::{Lower, Role};
+use crate::catalogue::{Drive, Lower, Role};
 use crate::resolve::Resolved;
 use rungc_syntax::{DeviceClass, OperandKind};
 
@@ -34,8 +34,18 @@ impl Specials {
         for &(class, number) in &options.observe {
             specials.mark(class, number, Some(1));
         }
+        let mut contacts = [false; 4];
         for i in 0..resolved.instrs.len() {
-            specials.mark_instr(resolved, i);
+            match run_flag_contact(resolved, i) {
+                Some(flag) => contacts[flag] = true,
+                None => specials.mark_instr(resolved, i),
+            }
+        }
+        // As contacts they are constants or values of the scan driver, unless the program writes them.
+        if specials.writes_run_flags {
+            for (flag, read) in contacts.into_iter().enumerate() {
+                specials.relays[flag] |= read;
+            }
         }
         specials
     }
@@ -119,6 +129,22 @@ impl Specials {
                 && (index.is_some()
                     || RUN_FLAGS.clone().any(|n| (device.number..end).contains(&n)));
         }
+    }
+}
+
+/// Which of the run flags an instruction reads as a contact.
+fn run_flag_contact(resolved: &Resolved, i: usize) -> Option<usize> {
+    let inst = resolved.instrs[i].inst?;
+    match resolved.program.instrs[i].operands.first()?.kind {
+        OperandKind::Device(device, None)
+            if inst.drive == Drive::Logic
+                && matches!(inst.lower, Lower::Basic(_))
+                && device.class == DeviceClass::M
+                && RUN_FLAGS.contains(&device.number) =>
+        {
+            Some((device.number - FIRST) as usize)
+        }
+        _ => None,
     }
 }
 

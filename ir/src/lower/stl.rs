@@ -26,6 +26,8 @@ pub(super) struct Steps {
     pub(super) continues_row: Vec<bool>,
     /// Marks of the states that are left.
     marks: FxHashMap<u32, EdgeId>,
+    /// States whose first block has come.
+    begun: FxHashSet<u32>,
     /// The states of the block at hand; none outside.
     current: Vec<u32>,
 }
@@ -45,6 +47,7 @@ impl Steps {
             left: FxHashSet::default(),
             continues_row: vec![false; count],
             marks: FxHashMap::default(),
+            begun: FxHashSet::default(),
             current: Vec::new(),
         };
         let mut row: Vec<u32> = Vec::new();
@@ -113,9 +116,10 @@ impl Lowerer<'_> {
         self.steps.current = states;
     }
 
-    /// Turns a state off that a transition left in the scan before.
+    /// Turns a state off that a transition left in the scan before. It may have several blocks (a merge of branches has one of
+    /// its own): the first decides.
     fn leave_if_marked(&mut self, state: u32) {
-        if !self.steps.left.contains(&state) {
+        if !self.steps.begun.insert(state) || !self.steps.left.contains(&state) {
             return;
         }
         let mark = self.mark(state);

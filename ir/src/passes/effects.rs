@@ -1,0 +1,109 @@
+//! What expressions read and statements write, and whether a read may be moved behind a write.
+
+use super::fold::{Arena, operands};
+use crate::node::{Expr, ExprId, Place, Stmt};
+use rungc_syntax::DeviceClass;
+
+/// The devices that an expression reads: runs of (class, first, last).
+#[derive(Clone, Debug, Default)]
+pub(super) struct Reads(Vec<(DeviceClass, u32, u32)>);
+
+/// What a statement writes.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Writes {
+    /// No device.
+    Nothing,
+    /// The devices of a class from the one number to the other.
+    Run(DeviceClass, u32, u32),
+    /// Index registers, some of which are pairs.
+    Index,
+    /// Anything.
+    All,
+}
+
+impl Reads {
+    /// What an expression reads.
+    pub(super) fn of(arena: &Arena, id: ExprId) -> Self {
+        let mut reads = Reads::default();
+        reads.collect(arena, id);
+        reads
+    }
+
+    fn collect(&mut self, arena: &Arena, id: ExprId) {
+        let expr = arena.get(id);
+        for operand in operands(&expr).into_iter().flatten() {
+            self.collect(arena, operand);
+        }
+        let (place, count) = match expr {
+            Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
+                (place, 1)
+            }
+            Expr::ReadPair(place) | Expr::ReadFloat(place) => (place, 2),
+            Expr::ReadNibbles { place, digits, .. } => (place, 4 * u32::from(digits)),
+            _ => return,
+        };
+        let (first, last) = run(place, count);
+        self.0.push((place.class, first, last));
+    }
+
+    /// Whether the value may be another behind the write.
+    pub(super) fn disturbed_by(&self, writes: Writes) -> bool {
+        self.0.iter().any(|&(class, first, last)| match writes {
+            Writes::Nothing => false,
+            Writes::Run(other, from, to) => class == other && first <= to && from <= last,
+            Writes::Index => is_index(class),
+            Writes::All => true,
+        })
+    }
+}
+
+fn is_index(class: DeviceClass) -> bool {
+    matches!(class, DeviceClass::V | DeviceClass::Z)
+}
+
+/// The numbers that an access may touch.
+fn run(place: Place, count: u32) -> (u32, u32) {
+    match place.index {
+        Some(_) => (0, u32::MAX),
+        None => (place.number, place.number.saturating_add(count - 1)),
+    }
+}
+
+/// What a statement writes, when it is executed.
+pub(super) fn writes(stmt: &Stmt) -> Writes {
+    let place = |place: Place, count| {
+        if is_index(place.class) {
+            return Writes::Index;
+        }
+        // An index may lead from the special registers to those that are names of index registers.
+        if place.index.is_some() && place.class == DeviceClass::D && place.number >= 8000 {
+            return Writes::All;
+        }
+        let (first, last) = run(place, count);
+        Writes::Run(place.class, first, last)
+    };
+    match *stmt {
+        Stmt::Network(_) | Stmt::Let(..) | Stmt::Edge { .. } => Writes::Nothing,
+        Stmt::WriteBit(at, _)
+        | Stmt::WriteWordBit(at, ..)
+        | Stmt::WriteWord(at, _)
+        | Stmt::Reset(at) => place(at, 1),
+        Stmt::WritePair(at, _) | Stmt::WriteFloat(at, _) => place(at, 2),
+        Stmt::WriteNibbles {
+            place: at, digits, ..
+        } => place(at, 4 * u32::from(digits)),
+        Stmt::Timer { number, .. } => Writes::Run(DeviceClass::T, number, number),
+        Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
+            Writes::Run(DeviceClass::C, number, number)
+        }
+        Stmt::If { .. }
+        | Stmt::For { .. }
+        | Stmt::Parts(_)
+        | Stmt::Call { .. }
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Goto(_)
+        | Stmt::Fault { .. }
+        | Stmt::Clear { .. } => Writes::All,
+    }
+}

@@ -1,0 +1,280 @@
+//! Makes expressions in their simplest form.
+
+use crate::catalogue::CmpOp;
+use crate::model::Model;
+use crate::node::{BinOp, Expr, ExprId, TempId, Ty};
+
+/// An arena of expressions that are simplified as they are added.
+pub(super) struct Arena<'m> {
+    pub(super) exprs: Vec<Expr>,
+    /// How deep each tree is.
+    depths: Vec<u8>,
+    temps: &'m [Ty],
+    model: &'static Model,
+}
+
+/// How far [`Arena::same`] looks into two expressions.
+const SAME_DEPTH: u8 = 3;
+
+impl<'m> Arena<'m> {
+    pub(super) fn new(temps: &'m [Ty], model: &'static Model, capacity: usize) -> Self {
+        Arena {
+            exprs: Vec::with_capacity(capacity),
+            depths: Vec::with_capacity(capacity),
+            temps,
+            model,
+        }
+    }
+
+    pub(super) fn get(&self, id: ExprId) -> Expr {
+        self.exprs[id.0 as usize]
+    }
+
+    pub(super) fn depth(&self, id: ExprId) -> u8 {
+        self.depths[id.0 as usize]
+    }
+
+    pub(super) fn is_constant(&self, id: ExprId) -> bool {
+        matches!(
+            self.get(id),
+            Expr::Bit(_) | Expr::I16(_) | Expr::I32(_) | Expr::F32(_)
+        )
+    }
+
+    pub(super) fn temp(&self, id: ExprId) -> Option<TempId> {
+        match self.get(id) {
+            Expr::Temp(temp) => Some(temp),
+            _ => None,
+        }
+    }
+
+    fn push(&mut self, expr: Expr) -> ExprId {
+        let deepest = operands(&expr)
+            .into_iter()
+            .flatten()
+            .map(|id| self.depth(id).saturating_add(1))
+            .max();
+        self.exprs.push(expr);
+        self.depths.push(deepest.unwrap_or(0));
+        ExprId(self.exprs.len() as u32 - 1)
+    }
+
+    /// The simplest expression with this value.
+    pub(super) fn add(&mut self, expr: Expr) -> ExprId {
+        match expr {
+            Expr::Not(a) => self.not(a),
+            Expr::And(a, b) => self.join(a, b, true),
+            Expr::Or(a, b) => self.join(a, b, false),
+            Expr::Cmp(op, a, b) => self.cmp(op, a, b),
+            Expr::Bin(op, a, b) => self.bin(op, a, b),
+            Expr::InRange { place, count } => {
+                let index = match place.index.map(|index| self.get(index)) {
+                    None => 0,
+                    Some(Expr::I32(index)) => index,
+                    _ => return self.push(expr),
+                };
+                let first = i64::from(place.number) + i64::from(index);
+                let holds = self.model.in_range(place.class, first, count);
+                self.push(Expr::Bit(holds))
+            }
+            _ => self.one(expr),
+        }
+    }
+
+    fn one(&mut self, expr: Expr) -> ExprId {
+        let get = |id: ExprId| self.get(id);
+        let simple = match expr {
+            Expr::Widen(a) => match get(a) {
+                Expr::I16(value) => Expr::I32(i32::from(value)),
+                _ => expr,
+            },
+            Expr::Narrow(a) => match get(a) {
+                Expr::I32(value) => Expr::I16(value as i16),
+                Expr::Widen(inner) => return inner,
+                _ => expr,
+            },
+            Expr::HighWord(a) => match get(a) {
+                Expr::I32(value) => Expr::I16((value >> 16) as i16),
+                _ => expr,
+            },
+            Expr::BitToInt(a) => match get(a) {
+                Expr::Bit(value) => Expr::I16(i16::from(value)),
+                _ => expr,
+            },
+            Expr::Complement(a) => match get(a) {
+                Expr::I16(value) => Expr::I16(!value),
+                Expr::I32(value) => Expr::I32(!value),
+                Expr::Complement(inner) => return inner,
+                _ => expr,
+            },
+            Expr::Neg(a) => match get(a) {
+                Expr::I16(value) => Expr::I16(value.wrapping_neg()),
+                Expr::I32(value) => Expr::I32(value.wrapping_neg()),
+                Expr::Neg(inner) => return inner,
+                _ => expr,
+            },
+            _ => expr,
+        };
+        self.push(simple)
+    }
+
+    pub(super) fn not(&mut self, a: ExprId) -> ExprId {
+        match self.get(a) {
+            Expr::Bit(value) => self.push(Expr::Bit(!value)),
+            Expr::Not(inner) => inner,
+            // A comparison of floats with NaN is false both ways.
+            Expr::Cmp(op, x, y) if self.ty(x) != Ty::F32 => {
+                self.push(Expr::Cmp(opposite(op), x, y))
+            }
+            _ => self.push(Expr::Not(a)),
+        }
+    }
+
+    /// And (`all`) or or.
+    fn join(&mut self, a: ExprId, b: ExprId, all: bool) -> ExprId {
+        match (self.get(a), self.get(b)) {
+            (Expr::Bit(value), _) => return if value == all { b } else { a },
+            (_, Expr::Bit(value)) => return if value == all { a } else { b },
+            (Expr::Not(inner), _) if self.same(inner, b, SAME_DEPTH) => {
+                return self.push(Expr::Bit(!all));
+            }
+            (_, Expr::Not(inner)) if self.same(inner, a, SAME_DEPTH) => {
+                return self.push(Expr::Bit(!all));
+            }
+            _ if self.same(a, b, SAME_DEPTH) => return a,
+            _ => {}
+        }
+        self.push(if all { Expr::And(a, b) } else { Expr::Or(a, b) })
+    }
+
+    fn cmp(&mut self, op: CmpOp, a: ExprId, b: ExprId) -> ExprId {
+        let (x, y) = match (self.get(a), self.get(b)) {
+            (Expr::I16(x), Expr::I16(y)) => (i32::from(x), i32::from(y)),
+            (Expr::I32(x), Expr::I32(y)) => (x, y),
+            _ => return self.push(Expr::Cmp(op, a, b)),
+        };
+        let holds = match op {
+            CmpOp::Eq => x == y,
+            CmpOp::Ne => x != y,
+            CmpOp::Lt => x < y,
+            CmpOp::Le => x <= y,
+            CmpOp::Gt => x > y,
+            CmpOp::Ge => x >= y,
+        };
+        self.push(Expr::Bit(holds))
+    }
+
+    fn bin(&mut self, op: BinOp, a: ExprId, b: ExprId) -> ExprId {
+        let folded = match (self.get(a), self.get(b)) {
+            (Expr::I16(x), Expr::I16(y)) => fold16(op, x, y).map(Expr::I16),
+            (Expr::I32(x), Expr::I32(y)) => fold32(op, x, y).map(Expr::I32),
+            (Expr::I16(0) | Expr::I32(0), _) if op == BinOp::Add => return b,
+            (_, Expr::I16(0) | Expr::I32(0)) if matches!(op, BinOp::Add | BinOp::Sub) => return a,
+            _ => None,
+        };
+        self.push(folded.unwrap_or(Expr::Bin(op, a, b)))
+    }
+
+    /// Type of an expression.
+    pub(super) fn ty(&self, id: ExprId) -> Ty {
+        crate::node::type_of(&self.exprs, self.temps, id)
+    }
+
+    /// Whether two expressions, evaluated at the same moment, surely have one value.
+    pub(super) fn same(&self, a: ExprId, b: ExprId, depth: u8) -> bool {
+        if a == b {
+            return true;
+        }
+        let Some(depth) = depth.checked_sub(1) else {
+            return false;
+        };
+        let both = |x, y, z, w| self.same(x, z, depth) && self.same(y, w, depth);
+        match (self.get(a), self.get(b)) {
+            (Expr::And(x, y), Expr::And(z, w)) | (Expr::Or(x, y), Expr::Or(z, w)) => {
+                both(x, y, z, w)
+            }
+            (Expr::Cmp(o, x, y), Expr::Cmp(p, z, w)) => o == p && both(x, y, z, w),
+            (Expr::Bin(o, x, y), Expr::Bin(p, z, w)) => o == p && both(x, y, z, w),
+            (Expr::Not(x), Expr::Not(y)) | (Expr::Widen(x), Expr::Widen(y)) => {
+                self.same(x, y, depth)
+            }
+            (x, y) => x == y && operands(&x).iter().all(Option::is_none),
+        }
+    }
+}
+
+/// The expressions that an expression evaluates.
+pub(crate) fn operands(expr: &Expr) -> [Option<ExprId>; 2] {
+    match *expr {
+        Expr::Not(a)
+        | Expr::Complement(a)
+        | Expr::Neg(a)
+        | Expr::Widen(a)
+        | Expr::Narrow(a)
+        | Expr::HighWord(a)
+        | Expr::BitToInt(a) => [Some(a), None],
+        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
+            [Some(a), Some(b)]
+        }
+        Expr::ReadBit(place)
+        | Expr::ReadWordBit(place, _)
+        | Expr::ReadWord(place)
+        | Expr::ReadPair(place)
+        | Expr::ReadFloat(place)
+        | Expr::ReadNibbles { place, .. }
+        | Expr::InRange { place, .. } => [place.index, None],
+        Expr::Bit(_)
+        | Expr::I16(_)
+        | Expr::I32(_)
+        | Expr::F32(_)
+        | Expr::Temp(_)
+        | Expr::Sys(_) => [None, None],
+    }
+}
+
+fn opposite(op: CmpOp) -> CmpOp {
+    match op {
+        CmpOp::Eq => CmpOp::Ne,
+        CmpOp::Ne => CmpOp::Eq,
+        CmpOp::Lt => CmpOp::Ge,
+        CmpOp::Ge => CmpOp::Lt,
+        CmpOp::Gt => CmpOp::Le,
+        CmpOp::Le => CmpOp::Gt,
+    }
+}
+
+fn fold16(op: BinOp, a: i16, b: i16) -> Option<i16> {
+    Some(match op {
+        BinOp::Add => a.wrapping_add(b),
+        BinOp::Sub => a.wrapping_sub(b),
+        BinOp::Mul => a.wrapping_mul(b),
+        BinOp::MulHigh => return None,
+        BinOp::Div if b == 0 => return None,
+        BinOp::Div => a.wrapping_div(b),
+        BinOp::Rem if b == 0 => return None,
+        BinOp::Rem => a.wrapping_rem(b),
+        BinOp::And => a & b,
+        BinOp::Or => a | b,
+        BinOp::Xor => a ^ b,
+        BinOp::SatAdd => a.saturating_add(b),
+        BinOp::SatSub => a.saturating_sub(b),
+    })
+}
+
+fn fold32(op: BinOp, a: i32, b: i32) -> Option<i32> {
+    Some(match op {
+        BinOp::Add => a.wrapping_add(b),
+        BinOp::Sub => a.wrapping_sub(b),
+        BinOp::Mul => a.wrapping_mul(b),
+        BinOp::MulHigh => ((i64::from(a) * i64::from(b)) >> 32) as i32,
+        BinOp::Div if b == 0 => return None,
+        BinOp::Div => a.wrapping_div(b),
+        BinOp::Rem if b == 0 => return None,
+        BinOp::Rem => a.wrapping_rem(b),
+        BinOp::And => a & b,
+        BinOp::Or => a | b,
+        BinOp::Xor => a ^ b,
+        BinOp::SatAdd => a.saturating_add(b),
+        BinOp::SatSub => a.saturating_sub(b),
+    })
+}

@@ -1,0 +1,147 @@
+//! Temporaries whose assignment is put off until they are used, so that a single use can take the expression itself.
+
+use super::effects::{Reads, Writes};
+use super::fold::Arena;
+use crate::node::{Expr, ExprId, TempId};
+
+/// Expressions deeper than this are not put into others.
+const MAX_DEPTH: u8 = 24;
+/// How many assignments are put off at a time.
+const MAX_PENDING: usize = 16;
+
+/// How often temporaries are used and assigned, counted over the module; more than one is many.
+pub(super) struct Counts {
+    pub(super) uses: Vec<u32>,
+    pub(super) assignments: Vec<u32>,
+}
+
+/// An assignment that was put off.
+#[derive(Debug)]
+struct Pending {
+    temp: TempId,
+    value: ExprId,
+    reads: Reads,
+    /// Uses that are still to come.
+    left: u32,
+}
+
+/// The temporaries at hand.
+pub(super) struct Temps {
+    counts: Counts,
+    /// Constants and copies, by temporary.
+    known: Vec<Option<ExprId>>,
+    pending: Vec<Pending>,
+}
+
+impl Temps {
+    pub(super) fn new(counts: Counts) -> Self {
+        Temps {
+            known: vec![None; counts.uses.len()],
+            counts,
+            pending: Vec::new(),
+        }
+    }
+
+    /// Whether a temporary is assigned in one place only.
+    pub(super) fn is_fixed(&self, temp: TempId) -> bool {
+        self.counts.assignments[temp.0 as usize] == 1
+    }
+
+    /// What stands for a temporary at its use.
+    pub(super) fn value(&mut self, temp: TempId) -> Option<ExprId> {
+        if let Some(known) = self.known[temp.0 as usize] {
+            return Some(known);
+        }
+        let i = self.pending.iter().position(|p| p.temp == temp)?;
+        let value = self.pending[i].value;
+        self.pending[i].left = self.pending[i].left.saturating_sub(1);
+        if self.pending[i].left == 0 {
+            self.pending.remove(i);
+        }
+        Some(value)
+    }
+
+    /// Takes note of an assignment; what has to be assigned here and now.
+    pub(super) fn assign(
+        &mut self,
+        arena: &Arena,
+        temp: TempId,
+        value: ExprId,
+    ) -> Vec<(TempId, ExprId)> {
+        let uses = self.counts.uses[temp.0 as usize];
+        if uses == 0 {
+            return Vec::new();
+        }
+        if !self.is_fixed(temp) || !self.uses_only_fixed(arena, value) {
+            return vec![(temp, value)];
+        }
+        let copy = arena.temp(value).is_some();
+        if copy || arena.is_constant(value) {
+            self.known[temp.0 as usize] = Some(value);
+            return Vec::new();
+        }
+        let movable = uses == 1 || is_leaf(arena, value);
+        if !movable || arena.depth(value) > MAX_DEPTH {
+            return vec![(temp, value)];
+        }
+        self.pending.push(Pending {
+            temp,
+            value,
+            reads: Reads::of(arena, value),
+            left: uses,
+        });
+        let excess = self.pending.len().saturating_sub(MAX_PENDING);
+        self.pending
+            .drain(..excess)
+            .map(|p| (p.temp, p.value))
+            .collect()
+    }
+
+    /// Whether every temporary in an expression has one value only.
+    fn uses_only_fixed(&self, arena: &Arena, value: ExprId) -> bool {
+        if let Expr::Temp(temp) = arena.get(value) {
+            return self.is_fixed(temp);
+        }
+        super::fold::operands(&arena.get(value))
+            .into_iter()
+            .flatten()
+            .all(|operand| self.uses_only_fixed(arena, operand))
+    }
+
+    /// What has to be assigned in front of a write.
+    pub(super) fn before(&mut self, writes: Writes) -> Vec<(TempId, ExprId)> {
+        self.take(|pending| pending.reads.disturbed_by(writes))
+    }
+
+    /// What has to be assigned in front of a condition: what is used besides it too.
+    pub(super) fn before_condition(&mut self) -> Vec<(TempId, ExprId)> {
+        self.take(|pending| pending.left > 1)
+    }
+
+    /// Everything that was put off.
+    pub(super) fn all(&mut self) -> Vec<(TempId, ExprId)> {
+        self.take(|_| true)
+    }
+
+    fn take(&mut self, which: impl Fn(&Pending) -> bool) -> Vec<(TempId, ExprId)> {
+        if self.pending.is_empty() {
+            return Vec::new();
+        }
+        self.pending
+            .extract_if(.., |pending| which(pending))
+            .map(|p| (p.temp, p.value))
+            .collect()
+    }
+}
+
+/// Whether an expression costs no more than a temporary: a bit or word that is named directly, perhaps inverted.
+fn is_leaf(arena: &Arena, value: ExprId) -> bool {
+    match arena.get(value) {
+        Expr::ReadBit(place) | Expr::ReadWord(place) => place.index.is_none(),
+        Expr::Sys(_) => true,
+        Expr::Not(inner) => {
+            matches!(arena.get(inner), Expr::ReadBit(place) if place.index.is_none())
+        }
+        _ => false,
+    }
+}

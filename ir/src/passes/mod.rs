@@ -1,0 +1,23 @@
+//! Passes over a module. None changes what a scan does to any device.
+//!
+//! [`optimise`] rewrites the module twice: the first round leaves conditions with fewer uses, which the second puts where they are
+//! used, so that emitted code reads as one would write it by hand.
+
+mod effects;
+mod fold;
+mod inline;
+mod rewrite;
+
+pub(crate) use fold::operands;
+pub(crate) use rewrite::for_exprs;
+
+use crate::node::Module;
+
+/// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins neighbouring branches
+/// with one condition, and removes code that cannot be reached or whose results nothing uses.
+pub fn optimise(module: &mut Module) {
+    for _ in 0..2 {
+        rewrite::run(module);
+        debug_assert_eq!(crate::validate::validate(module), Ok(()));
+    }
+}

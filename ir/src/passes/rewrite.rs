@@ -1,0 +1,405 @@
+//! The walk that rewrites a module.
+
+use super::effects::writes;
+use super::fold::{Arena, operands};
+use super::inline::{Counts, Temps};
+use crate::node::{Arg, Body, Expr, ExprId, LabelId, Module, Part, Place, Stmt, TempId};
+use rustc_hash::FxHashSet;
+
+/// Rewrites every function.
+pub(super) fn run(module: &mut Module) {
+    let counts = count(module);
+    let mut functions = std::mem::take(&mut module.functions);
+    let mut rewriter = Rewriter {
+        old: &module.exprs,
+        arena: Arena::new(&module.temps, module.model, module.exprs.len()),
+        temps: Temps::new(counts),
+        gotos: FxHashSet::default(),
+    };
+    for function in &mut functions {
+        let body = std::mem::take(&mut function.body);
+        rewriter.gotos.clear();
+        function.body = rewriter.body(body);
+        if function.body.last() == Some(&Stmt::Return) {
+            function.body.pop();
+        }
+    }
+    let exprs = rewriter.arena.exprs;
+    module.exprs = exprs;
+    module.functions = functions;
+}
+
+/// Counts how often each temporary is used and assigned.
+fn count(module: &Module) -> Counts {
+    let mut counts = Counts {
+        uses: vec![0; module.temps.len()],
+        assignments: vec![0; module.temps.len()],
+    };
+    for function in &module.functions {
+        count_body(module, &function.body, &mut counts);
+    }
+    counts
+}
+
+fn count_body(module: &Module, body: &Body, counts: &mut Counts) {
+    for stmt in body {
+        if let Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } = stmt {
+            counts.assignments[temp.0 as usize] += 1;
+        }
+        for_exprs(stmt, &mut |expr| count_uses(module, expr, counts));
+        for_bodies(stmt, &mut |body| count_body(module, body, counts));
+    }
+}
+
+fn count_uses(module: &Module, id: ExprId, counts: &mut Counts) {
+    let expr = module.expr(id);
+    if let Expr::Temp(temp) = expr {
+        counts.uses[temp.0 as usize] += 1;
+    }
+    for operand in operands(expr).into_iter().flatten() {
+        count_uses(module, operand, counts);
+    }
+}
+
+struct Rewriter<'m> {
+    old: &'m [Expr],
+    arena: Arena<'m>,
+    temps: Temps,
+    /// Labels that are jumped to, of the code rewritten so far.
+    gotos: FxHashSet<LabelId>,
+}
+
+impl Rewriter<'_> {
+    fn body(&mut self, body: Body) -> Body {
+        let mut out = Vec::with_capacity(body.len());
+        self.into(body, &mut out);
+        let rest = self.temps.all();
+        assign(rest, &mut out);
+        out
+    }
+
+    /// Rewrites statements behind those in `out`; what is put off stays so.
+    fn into(&mut self, body: Body, out: &mut Body) {
+        for stmt in body {
+            if ends(out) {
+                return;
+            }
+            self.stmt(stmt, out);
+        }
+    }
+
+    fn stmt(&mut self, stmt: Stmt, out: &mut Body) {
+        match stmt {
+            Stmt::Let(temp, value) => {
+                let value = self.expr(value);
+                let now = self.temps.assign(&self.arena, temp, value);
+                assign(now, out);
+            }
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => self.branch(cond, then, otherwise, out),
+            Stmt::For { count, body } => {
+                let count = self.expr(count);
+                self.settle(out);
+                let body = self.body(body);
+                out.push(Stmt::For { count, body });
+            }
+            Stmt::Parts(parts) => {
+                self.settle(out);
+                self.parts(parts, out);
+            }
+            Stmt::Goto(label) => {
+                self.gotos.insert(label);
+                self.settle(out);
+                out.push(stmt);
+            }
+            mut stmt => {
+                for_exprs_mut(&mut stmt, &mut |id| *id = self.expr(*id));
+                let first = self.temps.before(writes(&stmt));
+                assign(first, out);
+                out.push(stmt);
+            }
+        }
+    }
+
+    fn settle(&mut self, out: &mut Body) {
+        let rest = self.temps.all();
+        assign(rest, out);
+    }
+
+    fn branch(&mut self, cond: ExprId, then: Body, otherwise: Body, out: &mut Body) {
+        let shared = self.temps.before_condition();
+        assign(shared, out);
+        let mut cond = self.expr(cond);
+        match self.arena.get(cond) {
+            Expr::Bit(true) => return self.into(then, out),
+            Expr::Bit(false) => return self.into(otherwise, out),
+            _ => {}
+        }
+        self.settle(out);
+        let (mut then, mut otherwise) = (self.body(then), self.body(otherwise));
+        if then.is_empty() {
+            if otherwise.is_empty() {
+                return;
+            }
+            cond = self.arena.not(cond);
+            std::mem::swap(&mut then, &mut otherwise);
+        }
+        if otherwise.is_empty() {
+            then = match self.joined(cond, then, out) {
+                Some(then) => then,
+                None => return,
+            };
+        }
+        out.push(Stmt::If {
+            cond,
+            then,
+            otherwise,
+        });
+    }
+
+    /// Appends a branch to the one before it, if that has the same condition, a temporary's; else gives it back.
+    fn joined(&self, cond: ExprId, then: Body, out: &mut Body) -> Option<Body> {
+        match out.last_mut() {
+            Some(Stmt::If {
+                cond: before,
+                then: first,
+                otherwise,
+            }) if otherwise.is_empty()
+                && self
+                    .arena
+                    .temp(cond)
+                    .is_some_and(|temp| self.temps.is_fixed(temp))
+                && self.arena.temp(cond) == self.arena.temp(*before)
+                && !ends(first) =>
+            {
+                first.extend(then);
+                None
+            }
+            _ => Some(then),
+        }
+    }
+
+    fn parts(&mut self, parts: Vec<Part>, out: &mut Body) {
+        let mut rewritten: Vec<Part> = parts
+            .into_iter()
+            .map(|part| Part {
+                body: self.body(part.body),
+                ..part
+            })
+            .collect();
+        // A part that nothing jumps to goes on from the one before it, or cannot be reached.
+        let mut kept: Vec<Part> = Vec::with_capacity(rewritten.len());
+        for part in rewritten.drain(..) {
+            let reached = part.label.is_some_and(|label| self.gotos.contains(&label));
+            match kept.last_mut() {
+                Some(before) if !reached => {
+                    if !ends(&before.body) {
+                        before.body.extend(part.body);
+                    }
+                }
+                _ => kept.push(Part {
+                    label: part.label.filter(|_| reached),
+                    name: part.name.filter(|_| reached),
+                    ..part
+                }),
+            }
+        }
+        match kept.as_mut_slice() {
+            [only] if only.label.is_none() => out.append(&mut only.body),
+            _ => out.push(Stmt::Parts(kept)),
+        }
+    }
+
+    fn expr(&mut self, id: ExprId) -> ExprId {
+        let expr = self.old[id.0 as usize];
+        if let Expr::Temp(temp) = expr {
+            return match self.temps.value(temp) {
+                Some(value) => value,
+                None => self.arena.add(expr),
+            };
+        }
+        let mut e = |id| self.expr(id);
+        let expr = match expr {
+            Expr::Not(a) => Expr::Not(e(a)),
+            Expr::Complement(a) => Expr::Complement(e(a)),
+            Expr::Neg(a) => Expr::Neg(e(a)),
+            Expr::Widen(a) => Expr::Widen(e(a)),
+            Expr::Narrow(a) => Expr::Narrow(e(a)),
+            Expr::HighWord(a) => Expr::HighWord(e(a)),
+            Expr::BitToInt(a) => Expr::BitToInt(e(a)),
+            Expr::And(a, b) => Expr::And(e(a), e(b)),
+            Expr::Or(a, b) => Expr::Or(e(a), e(b)),
+            Expr::Cmp(op, a, b) => Expr::Cmp(op, e(a), e(b)),
+            Expr::Bin(op, a, b) => Expr::Bin(op, e(a), e(b)),
+            mut other => {
+                if let Some(index) = index_mut(&mut other) {
+                    *index = e(*index);
+                }
+                other
+            }
+        };
+        self.arena.add(expr)
+    }
+}
+
+/// The index of the place that an expression reads.
+fn index_mut(expr: &mut Expr) -> Option<&mut ExprId> {
+    match expr {
+        Expr::ReadBit(place)
+        | Expr::ReadWordBit(place, _)
+        | Expr::ReadWord(place)
+        | Expr::ReadPair(place)
+        | Expr::ReadFloat(place)
+        | Expr::ReadNibbles { place, .. }
+        | Expr::InRange { place, .. } => place.index.as_mut(),
+        _ => None,
+    }
+}
+
+fn assign(assignments: Vec<(TempId, ExprId)>, out: &mut Body) {
+    out.extend(assignments.into_iter().map(|(t, e)| Stmt::Let(t, e)));
+}
+
+/// Whether nothing behind these statements is executed.
+fn ends(body: &Body) -> bool {
+    match body.last() {
+        Some(Stmt::Return | Stmt::Goto(_)) => true,
+        Some(Stmt::If {
+            then, otherwise, ..
+        }) => ends(then) && ends(otherwise),
+        _ => false,
+    }
+}
+
+/// Calls `f` with the bodies inside a statement.
+fn for_bodies(stmt: &Stmt, f: &mut impl FnMut(&Body)) {
+    match stmt {
+        Stmt::If {
+            then, otherwise, ..
+        } => {
+            f(then);
+            f(otherwise);
+        }
+        Stmt::For { body, .. } => f(body),
+        Stmt::Parts(parts) => parts.iter().for_each(|part| f(&part.body)),
+        _ => {}
+    }
+}
+
+/// Calls `f` with the expressions that a statement itself evaluates.
+pub(crate) fn for_exprs(stmt: &Stmt, f: &mut impl FnMut(ExprId)) {
+    let mut place = |place: &Place| {
+        if let Some(index) = place.index {
+            f(index);
+        }
+    };
+    match stmt {
+        Stmt::WriteBit(at, value)
+        | Stmt::WriteWord(at, value)
+        | Stmt::WriteWordBit(at, _, value)
+        | Stmt::WritePair(at, value)
+        | Stmt::WriteFloat(at, value)
+        | Stmt::WriteNibbles {
+            place: at, value, ..
+        } => {
+            place(at);
+            f(*value);
+        }
+        Stmt::Let(_, value) => f(*value),
+        Stmt::Edge { input, .. } => f(*input),
+        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+            f(*drive);
+            f(*preset);
+        }
+        Stmt::Counter32 {
+            drive,
+            down,
+            preset,
+            ..
+        } => {
+            f(*drive);
+            f(*down);
+            f(*preset);
+        }
+        Stmt::Reset(at) => place(at),
+        Stmt::If { cond, .. } => f(*cond),
+        Stmt::For { count, .. } => f(*count),
+        Stmt::Call { args, drive, .. } => {
+            for arg in args {
+                match arg {
+                    Arg::Const { index, .. } => index.iter().for_each(|index| f(*index)),
+                    Arg::Device { place, .. }
+                    | Arg::Nibbles { place, .. }
+                    | Arg::WordBit { place, .. } => place.index.iter().for_each(|index| f(*index)),
+                    Arg::Float(_) | Arg::Text(_) => {}
+                }
+            }
+            drive.iter().for_each(|drive| f(*drive));
+        }
+        Stmt::Network(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Fault { .. }
+        | Stmt::Clear { .. } => {}
+    }
+}
+
+/// Calls `f` with the expressions that a statement without bodies evaluates, to replace them.
+fn for_exprs_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut ExprId)) {
+    match stmt {
+        Stmt::WriteBit(at, value)
+        | Stmt::WriteWord(at, value)
+        | Stmt::WriteWordBit(at, _, value)
+        | Stmt::WritePair(at, value)
+        | Stmt::WriteFloat(at, value)
+        | Stmt::WriteNibbles {
+            place: at, value, ..
+        } => {
+            at.index.iter_mut().for_each(&mut *f);
+            f(value);
+        }
+        Stmt::Let(_, value) => f(value),
+        Stmt::Edge { input, .. } => f(input),
+        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+            f(drive);
+            f(preset);
+        }
+        Stmt::Counter32 {
+            drive,
+            down,
+            preset,
+            ..
+        } => {
+            f(drive);
+            f(down);
+            f(preset);
+        }
+        Stmt::Reset(at) => at.index.iter_mut().for_each(f),
+        Stmt::Call { args, drive, .. } => {
+            for arg in args {
+                match arg {
+                    Arg::Const { index, .. } => index.iter_mut().for_each(&mut *f),
+                    Arg::Device { place, .. }
+                    | Arg::Nibbles { place, .. }
+                    | Arg::WordBit { place, .. } => place.index.iter_mut().for_each(&mut *f),
+                    Arg::Float(_) | Arg::Text(_) => {}
+                }
+            }
+            drive.iter_mut().for_each(f);
+        }
+        Stmt::If { cond, .. } => f(cond),
+        Stmt::For { count, .. } => f(count),
+        Stmt::Network(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Fault { .. }
+        | Stmt::Clear { .. } => {}
+    }
+}

@@ -1,0 +1,383 @@
+//! Holds a module to the rules of [`crate::node`].
+
+use crate::node::{
+    Arg, BinOp, Body, Expr, ExprId, FunctionKind, LabelId, Module, Place, Stmt, SysValue, TempId,
+    Ty,
+};
+use crate::passes::{for_exprs, operands};
+use rungc_syntax::DeviceClass;
+
+/// Checks every rule; the first one that is broken.
+pub fn validate(module: &Module) -> Result<(), String> {
+    let kinds: Vec<_> = module.functions.iter().take(3).map(|f| &f.kind).collect();
+    let first = [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End];
+    if kinds != first.iter().collect::<Vec<_>>() {
+        return Err(format!("the first functions are {kinds:?}"));
+    }
+    for (i, expr) in module.exprs.iter().enumerate() {
+        check_expr(module, i, expr)?;
+    }
+    no_recursion(module)?;
+    for function in &module.functions {
+        let mut checker = Checker {
+            module,
+            assigned: vec![false; module.temps.len()],
+            log: Vec::new(),
+            labels: Vec::new(),
+        };
+        checker
+            .body(&function.body)
+            .map_err(|error| format!("{:?}: {error}", function.kind))?;
+    }
+    Ok(())
+}
+
+fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
+    for operand in operands(expr).into_iter().flatten() {
+        if operand.0 as usize >= at {
+            return Err(format!("expression {at} ({expr:?}) uses a later one"));
+        }
+    }
+    if let Expr::Temp(temp) = expr
+        && temp.0 as usize >= module.temps.len()
+    {
+        return Err(format!("expression {at} is {temp:?}, which does not exist"));
+    }
+    let ty = |id: ExprId| module.ty(id);
+    let integer = |id: ExprId| matches!(ty(id), Ty::I16 | Ty::I32);
+    let well_typed = match *expr {
+        Expr::Not(a) | Expr::BitToInt(a) => ty(a) == Ty::Bit,
+        Expr::And(a, b) | Expr::Or(a, b) => ty(a) == Ty::Bit && ty(b) == Ty::Bit,
+        Expr::Cmp(_, a, b) => ty(a) == ty(b) && ty(a) != Ty::Bit,
+        Expr::Bin(BinOp::MulHigh, a, b) => ty(a) == Ty::I32 && ty(b) == Ty::I32,
+        Expr::Bin(_, a, b) => ty(a) == ty(b) && integer(a),
+        Expr::Complement(a) | Expr::Neg(a) => integer(a),
+        Expr::Widen(a) => ty(a) == Ty::I16,
+        Expr::Narrow(a) | Expr::HighWord(a) => ty(a) == Ty::I32,
+        Expr::ReadNibbles { digits, wide, .. } => (1..=if wide { 8 } else { 4 }).contains(&digits),
+        Expr::ReadWordBit(_, bit) => bit < 16,
+        Expr::InRange { count, .. } => count > 0,
+        Expr::Sys(
+            SysValue::Running | SysValue::FirstScan | SysValue::NowMs | SysValue::Scan100us,
+        )
+        | Expr::Bit(_)
+        | Expr::I16(_)
+        | Expr::I32(_)
+        | Expr::F32(_)
+        | Expr::Temp(_)
+        | Expr::ReadBit(_)
+        | Expr::ReadWord(_)
+        | Expr::ReadPair(_)
+        | Expr::ReadFloat(_) => true,
+    };
+    let indexed_well = match *expr {
+        Expr::ReadBit(place)
+        | Expr::ReadWordBit(place, _)
+        | Expr::ReadWord(place)
+        | Expr::ReadPair(place)
+        | Expr::ReadFloat(place)
+        | Expr::ReadNibbles { place, .. }
+        | Expr::InRange { place, .. } => place.index.is_none_or(|index| ty(index) == Ty::I32),
+        _ => true,
+    };
+    if well_typed && indexed_well {
+        Ok(())
+    } else {
+        Err(format!("expression {at} ({expr:?}) is ill typed"))
+    }
+}
+
+/// Functions call no function that is running.
+fn no_recursion(module: &Module) -> Result<(), String> {
+    fn calls(body: &Body, found: &mut Vec<usize>) {
+        for stmt in body {
+            match stmt {
+                Stmt::CallSub(n) => found.push(*n as usize),
+                Stmt::If {
+                    then, otherwise, ..
+                } => {
+                    calls(then, found);
+                    calls(otherwise, found);
+                }
+                Stmt::For { body, .. } => calls(body, found),
+                Stmt::Parts(parts) => parts.iter().for_each(|part| calls(&part.body, found)),
+                _ => {}
+            }
+        }
+    }
+    let mut callers = vec![0u32; module.functions.len()];
+    let mut callees = Vec::with_capacity(module.functions.len());
+    for function in &module.functions {
+        let mut found = Vec::new();
+        calls(&function.body, &mut found);
+        for &callee in &found {
+            match callers.get_mut(callee) {
+                Some(count) => *count += 1,
+                None => return Err(format!("function {callee} does not exist")),
+            }
+        }
+        callees.push(found);
+    }
+    // Functions that none left calls are taken away until none is left, or only those in a circle.
+    let mut free: Vec<usize> = (0..callers.len()).filter(|&i| callers[i] == 0).collect();
+    let mut taken = 0;
+    while let Some(function) = free.pop() {
+        taken += 1;
+        for &callee in &callees[function] {
+            callers[callee] -= 1;
+            if callers[callee] == 0 {
+                free.push(callee);
+            }
+        }
+    }
+    if taken == module.functions.len() {
+        Ok(())
+    } else {
+        Err("functions call each other in a circle".into())
+    }
+}
+
+struct Checker<'m> {
+    module: &'m Module,
+    /// Which temporaries have a value here.
+    assigned: Vec<bool>,
+    /// Those assigned so far, in order.
+    log: Vec<TempId>,
+    /// Labels of the parts around, innermost last.
+    labels: Vec<LabelId>,
+}
+
+impl Checker<'_> {
+    /// Checks statements in order; whether what follows is reached.
+    fn body(&mut self, body: &Body) -> Result<bool, String> {
+        let mut reached = true;
+        for stmt in body {
+            reached &= self.stmt(stmt)?;
+        }
+        Ok(reached)
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) -> Result<bool, String> {
+        let mut missing = None;
+        for_exprs(stmt, &mut |id| {
+            if missing.is_none() {
+                missing = self.fault_in(id);
+            }
+        });
+        if let Some(fault) = missing {
+            return Err(format!("{stmt:?}: {fault}"));
+        }
+        self.typed(stmt)?;
+        match stmt {
+            Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } => {
+                self.assign(*temp);
+                Ok(true)
+            }
+            Stmt::If {
+                then, otherwise, ..
+            } => self.branches(then, otherwise),
+            Stmt::For { body, .. } => {
+                self.body(body)?;
+                Ok(true)
+            }
+            Stmt::Parts(parts) => {
+                let outer = self.labels.len();
+                self.labels
+                    .extend(parts.iter().filter_map(|part| part.label));
+                let begin = self.log.len();
+                for part in parts {
+                    if part.label.is_some() {
+                        self.forget(begin);
+                    }
+                    self.body(&part.body)?;
+                }
+                self.forget(begin);
+                self.labels.truncate(outer);
+                Ok(true)
+            }
+            Stmt::Goto(label) if !self.labels.contains(label) => {
+                Err(format!("{label:?} is not around the jump to it"))
+            }
+            Stmt::Goto(_) | Stmt::Return => Ok(false),
+            _ => Ok(true),
+        }
+    }
+
+    /// Both branches of a condition: what both assign, or the one that goes on, is assigned.
+    fn branches(&mut self, then: &Body, otherwise: &Body) -> Result<bool, String> {
+        let begin = self.log.len();
+        let first = self.body(then)?;
+        let by_first = self.forget(begin);
+        let second = self.body(otherwise)?;
+        let by_second = self.forget(begin);
+        match (first, second) {
+            (true, true) => {
+                for temp in &by_first {
+                    self.assigned[temp.0 as usize] = true;
+                }
+                let both: Vec<TempId> = by_second
+                    .into_iter()
+                    .filter(|temp| self.assigned[temp.0 as usize])
+                    .collect();
+                for temp in by_first {
+                    self.assigned[temp.0 as usize] = false;
+                }
+                both.into_iter().for_each(|temp| self.assign(temp));
+            }
+            (true, false) => by_first.into_iter().for_each(|temp| self.assign(temp)),
+            (false, true) => by_second.into_iter().for_each(|temp| self.assign(temp)),
+            (false, false) => {}
+        }
+        Ok(first || second)
+    }
+
+    fn assign(&mut self, temp: TempId) {
+        if let Some(assigned) = self.assigned.get_mut(temp.0 as usize)
+            && !std::mem::replace(assigned, true)
+        {
+            self.log.push(temp);
+        }
+    }
+
+    /// Takes back assignments down to a length of the log.
+    fn forget(&mut self, begin: usize) -> Vec<TempId> {
+        let taken = self.log.split_off(begin);
+        for temp in &taken {
+            self.assigned[temp.0 as usize] = false;
+        }
+        taken
+    }
+
+    /// What is wrong with evaluating an expression here.
+    fn fault_in(&self, id: ExprId) -> Option<String> {
+        let Some(expr) = self.module.exprs.get(id.0 as usize) else {
+            return Some(format!("{id:?} does not exist"));
+        };
+        let here = match *expr {
+            Expr::Temp(temp) if !self.assigned[temp.0 as usize] => {
+                Some(format!("{temp:?} is not assigned on every path"))
+            }
+            Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
+                self.unstored(place, 1)
+            }
+            Expr::ReadPair(place) | Expr::ReadFloat(place) => self.unstored_pair(place),
+            Expr::ReadNibbles { place, digits, .. } => self.unstored(place, 4 * u32::from(digits)),
+            _ => None,
+        };
+        here.or_else(|| {
+            operands(expr)
+                .into_iter()
+                .flatten()
+                .find_map(|operand| self.fault_in(operand))
+        })
+    }
+
+    /// The first of `count` devices from a place on that the model has and the layout lacks.
+    fn unstored(&self, place: Place, count: u32) -> Option<String> {
+        if place.index.is_some() {
+            return None;
+        }
+        (place.number..place.number + count)
+            .find(|&number| {
+                self.module.model.has(place.class, number)
+                    && self.module.layout.area(place.class, number).is_none()
+            })
+            .map(|number| format!("{} is not stored", place.class.number(number)))
+    }
+
+    fn unstored_pair(&self, place: Place) -> Option<String> {
+        match place.class {
+            DeviceClass::Z if self.module.model.z_pairs_with_v => {
+                let high = Place {
+                    class: DeviceClass::V,
+                    ..place
+                };
+                self.unstored(place, 1).or_else(|| self.unstored(high, 1))
+            }
+            DeviceClass::C if place.number >= 200 => self.unstored(place, 1),
+            _ => self.unstored(place, 2),
+        }
+    }
+
+    /// Types of what a statement writes, its handles, the devices it touches.
+    fn typed(&self, stmt: &Stmt) -> Result<(), String> {
+        let module = self.module;
+        let is = |id: ExprId, ty: Ty| module.ty(id) == ty;
+        let temp_is = |temp: TempId, ty: Ty| module.temps.get(temp.0 as usize) == Some(&ty);
+        let (well, unstored) = match *stmt {
+            Stmt::Network(n) => ((n as usize) < module.networks.len(), None),
+            Stmt::Let(temp, value) => (temp_is(temp, module.ty(value)), None),
+            Stmt::Edge {
+                edge, input, out, ..
+            } => (
+                edge.0 < module.edges && is(input, Ty::Bit) && temp_is(out, Ty::Bit),
+                None,
+            ),
+            Stmt::WriteBit(place, value) => (is(value, Ty::Bit), self.unstored(place, 1)),
+            Stmt::WriteWordBit(place, bit, value) => {
+                (bit < 16 && is(value, Ty::Bit), self.unstored(place, 1))
+            }
+            Stmt::WriteWord(place, value) => (is(value, Ty::I16), self.unstored(place, 1)),
+            Stmt::WritePair(place, value) => (is(value, Ty::I32), self.unstored_pair(place)),
+            Stmt::WriteFloat(place, value) => (is(value, Ty::F32), self.unstored_pair(place)),
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => (
+                (1..=8).contains(&digits) && (is(value, Ty::I16) || is(value, Ty::I32)),
+                self.unstored(place, 4 * u32::from(digits)),
+            ),
+            Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+                (is(drive, Ty::Bit) && is(preset, Ty::I16), None)
+            }
+            Stmt::Counter32 {
+                drive,
+                down,
+                preset,
+                ..
+            } => (
+                is(drive, Ty::Bit) && is(down, Ty::Bit) && is(preset, Ty::I32),
+                None,
+            ),
+            Stmt::Reset(place) => (true, self.unstored(place, 1)),
+            Stmt::If { cond, .. } => (is(cond, Ty::Bit), None),
+            Stmt::For { count, .. } => (is(count, Ty::I16), None),
+            Stmt::Call {
+                ref args,
+                drive,
+                slot,
+                ..
+            } => (
+                slot <= module.states
+                    && drive.is_none_or(|drive| is(drive, Ty::Bit))
+                    && args.iter().all(|arg| self.arg(arg)),
+                None,
+            ),
+            Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Fault { .. }
+            | Stmt::Clear { .. } => (true, None),
+        };
+        match (well, unstored) {
+            (true, None) => Ok(()),
+            (true, Some(unstored)) => Err(format!("{stmt:?}: {unstored}")),
+            (false, _) => Err(format!(
+                "{stmt:?} is ill typed or names what does not exist"
+            )),
+        }
+    }
+
+    fn arg(&self, arg: &Arg) -> bool {
+        let index = |index: &Option<ExprId>| index.is_none_or(|id| self.module.ty(id) == Ty::I32);
+        match arg {
+            Arg::Const { index: at, .. } => index(at),
+            Arg::Device { place, .. } | Arg::Nibbles { place, .. } => index(&place.index),
+            Arg::WordBit { place, bit } => *bit < 16 && index(&place.index),
+            Arg::Text(n) => (*n as usize) < self.module.texts.len(),
+            Arg::Float(_) => true,
+        }
+    }
+}
