@@ -326,6 +326,12 @@ impl Cx<'_> {
         })
     }
 
+    /// Whether operand `i` is numbered in octal: X or Y.
+    pub fn is_octal(&self, i: usize) -> bool {
+        self.op(i)
+            .is_ok_and(|op| matches!(op.class, Class::X | Class::Y))
+    }
+
     /// Faults unless the `count` bits from operand `i` on exist.
     pub fn check_bits(&self, i: usize, count: i32) -> Done {
         (0..count).try_for_each(|n| self.bit(i, n).map(drop))

@@ -14,6 +14,8 @@ impl Fault {
     pub const DOMAIN: Fault = Fault(6706);
     /// A value lies outside what the instruction takes.
     pub const VALUE: Fault = Fault(6707);
+    /// A module is not there, or has no such buffer memory.
+    pub const MODULE: Fault = Fault(6750);
 }
 
 /// What an instruction returns.

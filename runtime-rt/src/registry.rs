@@ -342,4 +342,52 @@ registry! {
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     /// SORT (FNC 69): sorts a table kept by columns.
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
+    /// REF (FNC 50): refreshes terminals.
+    Ref = modules::refresh_terminals(d, n) [hal];
+    /// REF of HM: leaves outputs of axes out.
+    RefHm = modules::refresh_terminals_hm(d, n) [hal];
+    /// REFF (FNC 51): filter of the inputs.
+    Reff = modules::reff(n) [hal];
+    /// MTR (FNC 52): matrix of switches.
+    Mtr = keys::mtr(s, d1, d2, n) [state, always];
+    /// TKY (FNC 70): ten keys.
+    Tky = keys::tky(s, d1, d2) [state, always];
+    /// HKY (FNC 71): matrix of 16 keys.
+    Hky = keys::hky(s, d1, d2, d3) [state, always];
+    /// DSW (FNC 72): decimal switches.
+    Dsw = keys::dsw(s, d1, d2, n) [state, always];
+    /// SEGD (FNC 73): segments of a digit.
+    Segd = display::segd(s, d);
+    /// SEGL (FNC 74): display of four or eight digits.
+    Segl = display::segl(s, d, n) [state, always];
+    /// ARWS (FNC 75): edits a number with arrow keys.
+    Arws = display::arws(s, d1, d2, n) [state, always];
+    /// ASC (FNC 76): text constant.
+    Asc = display::asc(s, d);
+    /// PR (FNC 77): prints characters.
+    Pr = display::pr(s, d) [state, always];
+    /// FROM (FNC 78): reads buffer memory.
+    From = modules::from(m1, m2, d, n) [hal];
+    /// TO (FNC 79): writes buffer memory.
+    To = modules::to(m1, m2, s, n) [hal];
+    /// RD3A (FNC 176): reads an analog module.
+    Rd3a = modules::rd3a(m1, m2, d) [hal];
+    /// WR3A (FNC 177): writes an analog module.
+    Wr3a = modules::wr3a(m1, m2, s) [hal];
+    /// RBFM (FNC 278): reads buffer memory in portions.
+    Rbfm = modules::rbfm(m1, m2, d, n1, n2) [state, always, hal];
+    /// WBFM (FNC 279): writes buffer memory in portions.
+    Wbfm = modules::wbfm(m1, m2, s, n1, n2) [state, always, hal];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn names_are_unique() {
+        let names: HashSet<&str> = RtFn::ALL.iter().map(|f| f.name()).collect();
+        assert_eq!(names.len(), RtFn::ALL.len());
+    }
 }

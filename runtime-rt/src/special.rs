@@ -48,3 +48,15 @@ pub const M_START_PULSE: u32 = 8042;
 pub const M_NO_OUTPUT_RESET: u32 = 8045;
 /// The monitor of states works.
 pub const M_STL_MONITOR: u32 = 8047;
+/// Filter of X0–X7 in milliseconds.
+pub const D_INPUT_FILTER: u32 = 8020;
+/// PR sends up to 16 characters.
+pub const M_PR_LONG: u32 = 8027;
+/// FROM and TO move as many elements as D8164 says.
+pub const M_TRANSFER_COUNT: u32 = 8164;
+/// How many elements FROM and TO move with M8164.
+pub const D_TRANSFER_COUNT: u32 = 8164;
+/// All keys of HKY are hexadecimal digits.
+pub const M_HKY_HEX: u32 = 8167;
+/// What uses output Y000 of HM; the other outputs follow.
+pub const D_OUTPUT_USE: u32 = 8180;

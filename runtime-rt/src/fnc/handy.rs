@@ -319,7 +319,7 @@ pub fn ist(cx: &mut Cx) -> Done {
     let group = |mode: usize| mode.min(2);
     if chosen == 0 || group(chosen as usize - 1) != group(mode) {
         if chosen != 0 && !cx.special(M_NO_OUTPUT_RESET) {
-            end_states(cx, states)?;
+            end_states(cx, states);
         }
         for (state, number) in (0..3).enumerate() {
             let _ = cx.plc.set_bit(Class::S, number, state == group(mode));
@@ -345,19 +345,17 @@ pub fn ist(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// Switches the states of a run and all outputs off.
-fn end_states(cx: &mut Cx, states: core::ops::RangeInclusive<i32>) -> Done {
-    for state in states {
-        let number = u32::try_from(state).map_err(|_| Fault::DEVICE)?;
-        cx.plc
-            .set_bit(Class::S, number, false)
-            .ok_or(Fault::DEVICE)?;
+/// Last output of any model (Y377).
+const LAST_OUTPUT: u32 = 0o377;
+
+/// Switches the states of a run and all outputs off. What the program does not have stays out.
+fn end_states(cx: &mut Cx, states: core::ops::RangeInclusive<i32>) {
+    for state in states.filter_map(|state| u32::try_from(state).ok()) {
+        let _ = cx.plc.set_bit(Class::S, state, false);
     }
-    let mut output = 0;
-    while cx.plc.set_bit(Class::Y, output, false).is_some() {
-        output += 1;
+    for output in 0..=LAST_OUTPUT {
+        let _ = cx.plc.set_bit(Class::Y, output, false);
     }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -1,0 +1,342 @@
+//! Terminals and modules: FNC 50, 51, 78, 79, 176, 177, 278 and 279, h1u-h2u-programming §4.3.6 and §4.3.8.
+
+use crate::cx::Cx;
+use crate::fault::{Done, Fault};
+use crate::plc::Class;
+use crate::special::{D_INPUT_FILTER, D_OUTPUT_USE, D_TRANSFER_COUNT, M_TRANSFER_COUNT};
+
+/// The run of terminals that operand 0 and the count in operand 1 name.
+fn terminals(cx: &Cx) -> Result<(Class, core::ops::Range<u16>), Fault> {
+    let count = cx.count(1, 1..=256)?;
+    let op = cx.ops.first().ok_or(Fault::DEVICE)?;
+    let end = op
+        .value
+        .checked_add(count)
+        .and_then(|n| u16::try_from(n).ok());
+    match (op.class, u16::try_from(op.value), end) {
+        (class @ (Class::X | Class::Y), Ok(first), Some(end)) => Ok((class, first..end)),
+        _ => Err(Fault::DEVICE),
+    }
+}
+
+/// Refreshes terminals now, leaving out outputs that are not `ours`.
+fn refresh(cx: &mut Cx, ours: fn(&Cx, u16) -> bool) -> Done {
+    let (class, run) = terminals(cx)?;
+    for number in run {
+        if class == Class::Y {
+            let on = cx.plc.bit(class, number.into()).unwrap_or(false);
+            if ours(cx, number) {
+                cx.hal.set_output(number, on);
+            }
+        } else if let Some(on) = cx.hal.input(number) {
+            // Inputs that the program does not look at are not kept.
+            let _ = cx.plc.set_bit(class, number.into(), on);
+        }
+    }
+    Ok(())
+}
+
+/// REF D n (FNC 50): reads n inputs, or sends n outputs, from D on now.
+pub fn refresh_terminals(cx: &mut Cx) -> Done {
+    refresh(cx, |_, _| true)
+}
+
+/// REF of HM: outputs that an axis uses (D8180 … not 0) are left out.
+pub fn refresh_terminals_hm(cx: &mut Cx) -> Done {
+    refresh(cx, |cx, number| {
+        number >= 16 || cx.special_word(D_OUTPUT_USE + u32::from(number)) == 0
+    })
+}
+
+/// REFF n (FNC 51): sets the filter of X0–X7 to n milliseconds, and reads them now.
+pub fn reff(cx: &mut Cx) -> Done {
+    let n = cx.count(0, 0..=60)?;
+    cx.set_special_word(D_INPUT_FILTER, n as i16);
+    for number in 0..8 {
+        if let Some(on) = cx.hal.input(number) {
+            let _ = cx.plc.set_bit(Class::X, number.into(), on);
+        }
+    }
+    Ok(())
+}
+
+/// Number of a module, or address in its buffer memory, at operand `i`.
+fn place(cx: &Cx, i: usize) -> Result<u16, Fault> {
+    u16::try_from(cx.count(i, 0..=32_767)?).map_err(|_| Fault::VALUE)
+}
+
+/// How many elements FROM and TO move: operand 3, or with M8164 D8164.
+fn transfer_count(cx: &Cx) -> Result<i32, Fault> {
+    let n = match cx.special(M_TRANSFER_COUNT) {
+        true => cx.special_word(D_TRANSFER_COUNT).into(),
+        false => cx.read(3)?,
+    };
+    if (1..=32_767).contains(&n) {
+        Ok(n)
+    } else {
+        Err(Fault::VALUE)
+    }
+}
+
+/// Address of word `n` behind `address`.
+fn behind(address: u16, n: i32) -> Result<u16, Fault> {
+    u16::try_from(i32::from(address) + n).map_err(|_| Fault::MODULE)
+}
+
+/// A word of buffer memory.
+fn read(cx: &mut Cx, unit: u16, address: u16) -> Result<i16, Fault> {
+    cx.hal.read_bfm(unit, address).ok_or(Fault::MODULE)
+}
+
+/// Writes a word of buffer memory.
+fn write(cx: &mut Cx, unit: u16, address: u16, value: i16) -> Done {
+    cx.hal.write_bfm(unit, address, value).ok_or(Fault::MODULE)
+}
+
+/// FROM m1 m2 D n (FNC 78): n words, or pairs, of module m1 from address m2 on go to D; with M8164 the count is D8164.
+pub fn from(cx: &mut Cx) -> Done {
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
+    let n = transfer_count(cx)?;
+    cx.check_elems(2, n)?;
+    for k in 0..n {
+        let value = if cx.wide() {
+            let low = read(cx, unit, behind(address, 2 * k)?)?;
+            let high = read(cx, unit, behind(address, 2 * k + 1)?)?;
+            crate::word::pair(low, high)
+        } else {
+            read(cx, unit, behind(address, k)?)?.into()
+        };
+        cx.set_elem(2, k, value)?;
+    }
+    Ok(())
+}
+
+/// TO m1 m2 S n (FNC 79): n words, or pairs, from S on go to module m1 from address m2 on; with M8164 the count is D8164.
+pub fn to(cx: &mut Cx) -> Done {
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
+    let n = transfer_count(cx)?;
+    cx.check_elems(2, n)?;
+    for k in 0..n {
+        let value = cx.elem(2, k)?;
+        if cx.wide() {
+            let [low, high] = crate::word::words(value);
+            write(cx, unit, behind(address, 2 * k)?, low)?;
+            write(cx, unit, behind(address, 2 * k + 1)?, high)?;
+        } else {
+            write(cx, unit, behind(address, k)?, value as i16)?;
+        }
+    }
+    Ok(())
+}
+
+/// Buffer memory of an FX0N-3A: converted value, value to convert, control.
+const INPUT_VALUE: u16 = 0;
+const OUTPUT_VALUE: u16 = 16;
+const CONTROL: u16 = 17;
+
+/// RD3A m1 m2 D (FNC 176): analog input m2 (1 or 2) of the FX0N-3A at position m1 goes to D.
+pub fn rd3a(cx: &mut Cx) -> Done {
+    let unit = place(cx, 0)?;
+    let channel = cx.count(1, 1..=2)? as i16 - 1;
+    cx.word(2, 0)?;
+    // The rise of control bit 1 starts a conversion of the channel in bit 0.
+    write(cx, unit, CONTROL, channel)?;
+    write(cx, unit, CONTROL, channel | 2)?;
+    let value = read(cx, unit, INPUT_VALUE)?;
+    cx.set_word(2, 0, value)
+}
+
+/// WR3A m1 m2 S (FNC 177): S (0 to 255) goes to the analog output of the FX0N-3A at position m1.
+pub fn wr3a(cx: &mut Cx) -> Done {
+    let unit = place(cx, 0)?;
+    cx.count(1, 1..=1)?;
+    let value = cx.count(2, 0..=255)?;
+    write(cx, unit, OUTPUT_VALUE, value as i16)?;
+    // The fall of control bit 2 starts the conversion.
+    write(cx, unit, CONTROL, 4)?;
+    write(cx, unit, CONTROL, 0)
+}
+
+/// The next words of a divided transfer: where it stands and how many there are. Memory: words moved; whether it is over.
+fn portion(cx: &mut Cx) -> Result<Option<(i32, i32, i32)>, Fault> {
+    if !cx.drive() {
+        cx.state().0 = [0; 8];
+        return Ok(None);
+    }
+    let (n, most) = (cx.count(3, 1..=32_767)?, cx.count(4, 1..=32_767)?);
+    cx.check_words(2, n)?;
+    let done = cx.state().0[0];
+    Ok((done < n).then_some((done, (done + most).min(n), n)))
+}
+
+/// Tells whether a divided transfer is over.
+fn finish_portion(cx: &mut Cx, end: i32, n: i32) {
+    cx.state().0[0] = end;
+    cx.set_special(crate::special::M_COMPLETE, end >= n);
+}
+
+/// RBFM m1 m2 D n1 n2 (FNC 278): FROM of n1 words, n2 a scan; M8029 tells the end.
+pub fn rbfm(cx: &mut Cx) -> Done {
+    let Some((start, end, n)) = portion(cx)? else {
+        return Ok(());
+    };
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
+    for k in start..end {
+        let value = read(cx, unit, behind(address, k)?)?;
+        cx.set_word(2, k, value)?;
+    }
+    finish_portion(cx, end, n);
+    Ok(())
+}
+
+/// WBFM m1 m2 S n1 n2 (FNC 279): TO of n1 words, n2 a scan; M8029 tells the end.
+pub fn wbfm(cx: &mut Cx) -> Done {
+    let Some((start, end, n)) = portion(cx)? else {
+        return Ok(());
+    };
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
+    for k in start..end {
+        let value = cx.word(2, k)?;
+        write(cx, unit, behind(address, k)?, value)?;
+    }
+    finish_portion(cx, end, n);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::double::Double;
+    use crate::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, d, k, kn};
+
+    fn reg(n: i32) -> Operand {
+        d(Class::D, n)
+    }
+
+    #[test]
+    fn words_and_pairs_from_and_to_a_module() {
+        let mut plc = Double::new().with_d(0, &[5, -6]);
+        plc.hal.set_bfm(1, 20, 0).unwrap();
+        plc.call(RtFn::To, &[k(1), k(20), reg(0), k(2)]).unwrap();
+        assert_eq!(
+            (plc.hal.bfm(1, 20), plc.hal.bfm(1, 21)),
+            (Some(5), Some(-6))
+        );
+        plc.site = plc.site.wide();
+        plc.call(RtFn::From, &[k(1), k(20), reg(10), k(1)]).unwrap();
+        assert_eq!(plc.d(10, 2), [5, -6]);
+        plc.call(RtFn::To, &[k(1), k(30), k(-70_000), k(1)])
+            .unwrap();
+        assert_eq!(
+            (plc.hal.bfm(1, 30), plc.hal.bfm(1, 31)),
+            (Some(-4464), Some(-2))
+        );
+        plc.call(RtFn::From, &[k(1), k(20), kn(8, Class::M, 0), k(1)])
+            .unwrap();
+        assert_eq!(plc.m(0, 20), "10100000000000000101");
+    }
+
+    #[test]
+    fn modules_that_are_not_there_fault() {
+        let mut plc = Double::new().with_d(0, &[7]);
+        assert_eq!(
+            plc.call(RtFn::From, &[k(5), k(0), reg(0), k(1)]),
+            Err(Fault::MODULE)
+        );
+        assert_eq!(
+            plc.call(RtFn::To, &[k(5), k(0), reg(0), k(1)]),
+            Err(Fault::MODULE)
+        );
+        assert_eq!(plc.d(0, 1), [7]);
+        plc.hal.set_bfm(5, 0, 1).unwrap();
+        plc.set_m(8164, "1");
+        assert_eq!(
+            plc.call(RtFn::From, &[k(5), k(0), reg(0), k(1)]),
+            Err(Fault::VALUE)
+        );
+        plc.set_d(8164, &[3]);
+        plc.call(RtFn::From, &[k(5), k(0), reg(0), k(1)]).unwrap();
+        assert_eq!(plc.d(0, 1), [1]);
+    }
+
+    #[test]
+    fn analog_module() {
+        let mut plc = Double::new().with_d(0, &[200]);
+        plc.hal.set_bfm(0, 0, 128).unwrap();
+        plc.call(RtFn::Rd3a, &[k(0), k(2), reg(1)]).unwrap();
+        assert_eq!((plc.d(1, 1), plc.hal.bfm(0, 17)), ([128].to_vec(), Some(3)));
+        plc.call(RtFn::Wr3a, &[k(0), k(1), reg(0)]).unwrap();
+        assert_eq!(
+            (plc.hal.bfm(0, 16), plc.hal.bfm(0, 17)),
+            (Some(200), Some(0))
+        );
+        assert_eq!(
+            plc.call(RtFn::Rd3a, &[k(0), k(3), reg(1)]),
+            Err(Fault::VALUE)
+        );
+    }
+
+    #[test]
+    fn divided_transfers() {
+        let mut plc = Double::new().with_d(0, &[1, 2, 3, 4, 5]);
+        plc.hal.set_bfm(0, 9, 9).unwrap();
+        let mut scans = 0;
+        while plc.bit(Class::M, 8029) != Some(true) {
+            plc.scan(10, true, RtFn::Wbfm, &[k(0), k(10), reg(0), k(5), k(2)])
+                .unwrap();
+            scans += 1;
+        }
+        assert_eq!(scans, 3);
+        plc.scan(10, false, RtFn::Rbfm, &[k(0), k(10), reg(20), k(5), k(5)])
+            .unwrap();
+        plc.scan(10, true, RtFn::Rbfm, &[k(0), k(10), reg(20), k(5), k(5)])
+            .unwrap();
+        assert_eq!(plc.d(20, 6), [1, 2, 3, 4, 5, 0]);
+    }
+
+    /// Terminals of which every third is on; counts the outputs that are set.
+    struct Terminals(std::vec::Vec<u16>);
+
+    impl Hal for Terminals {
+        fn input(&mut self, number: u16) -> Option<bool> {
+            Some(number % 3 == 0)
+        }
+        fn set_output(&mut self, number: u16, value: bool) {
+            if value {
+                self.0.push(number);
+            }
+        }
+    }
+
+    #[test]
+    fn terminals_are_refreshed_at_once() {
+        let mut plc = Double::new();
+        let mut hal = Terminals(std::vec![]);
+        for n in 0..16 {
+            plc.set_bit(Class::Y, n, true);
+        }
+        plc.set_d(8181, &[1]);
+        let mut call = |plc: &mut Double, function: RtFn, ops: &[Operand]| {
+            function.call(&mut Cx {
+                plc,
+                hal: &mut hal,
+                ops,
+                site: Site::at(0),
+            })
+        };
+        call(&mut plc, RtFn::Ref, &[d(Class::X, 8), k(8)]).unwrap();
+        call(&mut plc, RtFn::RefHm, &[d(Class::Y, 0), k(8)]).unwrap();
+        call(&mut plc, RtFn::Ref, &[d(Class::Y, 8), k(8)]).unwrap();
+        assert_eq!(
+            call(&mut plc, RtFn::Ref, &[d(Class::M, 8), k(8)]),
+            Err(Fault::DEVICE)
+        );
+        call(&mut plc, RtFn::Reff, &[k(20)]).unwrap();
+        assert_eq!(plc.d(8020, 1), [20]);
+        let on: std::vec::Vec<u32> = (0..32)
+            .filter(|&n| plc.bit(Class::X, n) == Some(true))
+            .collect();
+        assert_eq!(on, [0, 3, 6, 9, 12, 15]);
+        let sent: std::vec::Vec<u16> = (0..16).filter(|&n| n != 1).collect();
+        assert_eq!(hal.0, sent);
+    }
+}
