@@ -326,11 +326,11 @@ impl Generator<'_> {
             return quote!(plc.set_nibbles_at(#digits, #class, #number, #value););
         }
         let count = 4 * u32::from(digits);
-        let unpack = self.word_function("unpack");
         if let Some(slice) = self.array_slice(place, count) {
-            let count = Literal::u32_unsuffixed(count);
-            return quote!(#slice.copy_from_slice(&#unpack::<#count>(#value)););
+            let unpack_to = self.word_function("unpack_to");
+            return quote!(#unpack_to(#value, &mut #slice););
         }
+        let unpack = self.word_function("unpack");
         let cells = (0..count).map(|i| {
             self.storage
                 .bit(&quote!(plc), place.class, place.number + i)

@@ -52,6 +52,13 @@ pub fn unpack<const N: usize>(value: i32) -> [bool; N] {
     core::array::from_fn(|bit| value >> (bit & 31) & 1 == 1)
 }
 
+/// Sets the bits to the low bits of an integer, the first one to the lowest.
+pub fn unpack_to(value: i32, bits: &mut [bool]) {
+    for (n, bit) in bits.iter_mut().enumerate() {
+        *bit = value >> (n & 31) & 1 == 1;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,5 +79,8 @@ mod tests {
         assert_eq!(pack(&[true, false, true, true]), 0b1101);
         assert_eq!(unpack(0b1101), [true, false, true, true]);
         assert_eq!(pack(&unpack::<32>(-5)), -5);
+        let mut bits = [true; 5];
+        unpack_to(0b1101, &mut bits[1..]);
+        assert_eq!(bits, [true, true, false, true, true]);
     }
 }
