@@ -3,7 +3,7 @@
 use super::row::*;
 use super::{Classes, Inst, Param, Rule, Variant};
 use crate::model::{ModelId, ModelSet};
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{Device, DeviceClass, OperandKind};
 
 const COUNTERS: &str = "high-speed counters";
 const PULSES: &str = "pulse output";
@@ -42,9 +42,23 @@ const RESET_FX: &[Param] = &[
     FAST_COUNTER,
     mixed_out("D", COILS.or(Classes::C)),
 ];
+/// With M8130 or M8132 as D, S2 is the number of rows of a table.
+const ROWS_OF_TABLE: Rule = Rule::Holds(
+    |operands| match operands {
+        [_, rows, _, mode] => {
+            let class = DeviceClass::M;
+            let table =
+                [8130, 8132].map(|number| OperandKind::Device(Device { class, number }, None));
+            !table.contains(&mode.kind)
+                || !matches!(rows.kind, OperandKind::Decimal(rows, None) if !(1..=128).contains(&rows))
+        }
+        _ => true,
+    },
+    "a table has 1 to 128 rows",
+);
 const ZONE: &[Param] = &[
     src("S1", VALUES.without(Classes::V)),
-    src("S2", VALUES.without(Classes::V)).rules(&[Rule::AtLeast(0)]),
+    src("S2", VALUES.without(Classes::V)).rules(&[Rule::AtLeast(0), ROWS_OF_TABLE]),
     src("S", Classes::C).numbers(FAST),
     coil("D", COILS).len(3),
 ];

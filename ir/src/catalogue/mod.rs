@@ -31,7 +31,7 @@ pub use lookup::{Found, all, find};
 use crate::model::{Model, ModelId, ModelSet};
 use crate::resolve::Form;
 use rungc_rt::RtFn;
-use rungc_syntax::{DeviceClass, OperandKind};
+use rungc_syntax::{DeviceClass, Operand, OperandKind};
 
 /// What an operand may be: a set of classes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -190,7 +190,7 @@ pub enum Extent {
 }
 
 /// Something more that an operand must obey. A rule about constants says nothing of an operand that is none (or is indexed).
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Rule {
     /// In the 32-bit form a constant lies between these instead of [`Param::limits`].
     WideLimits(i64, i64),
@@ -218,6 +218,8 @@ pub enum Rule {
     WideCounter,
     /// A device of the same class as operand `i`.
     ClassLike(usize),
+    /// What this function finds in all operands; the text says what is demanded.
+    Holds(fn(&[Operand]) -> bool, &'static str),
 }
 
 /// One operand of an instruction.

@@ -1,9 +1,10 @@
 //! Serial instructions, FNC 80–93, inverters, FNC 270–276, and the memory cassette, FNC 290–305.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param};
+use super::{Classes, Inst, Lower, Param, Rule};
 use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
+use rungc_syntax::OperandKind;
 
 const SERIAL: &str = "serial communication";
 const CAN: &str = "CAN communication";
@@ -14,6 +15,22 @@ const CASSETTE: &str = "memory cassettes";
 const fn number(name: &'static str, max: i64) -> Param {
     src(name, CONSTANTS.or(DATA)).limits(0, max)
 }
+
+/// Bit 13 of S1 chooses 29-bit identifiers; else they have 11 bits.
+const CAN_IDENTIFIER: Rule = Rule::Holds(
+    |operands| {
+        let constant = |i: usize| match operands.get(i).map(|operand| &operand.kind) {
+            Some(&OperandKind::Hex(value, None)) => Some(value),
+            Some(&OperandKind::Decimal(value, None)) => u64::try_from(value).ok(),
+            _ => None,
+        };
+        match (constant(0), constant(1)) {
+            (Some(mode), Some(identifier)) => mode & 1 << 13 != 0 || identifier <= 0x7ff,
+            _ => true,
+        }
+    },
+    "at most H7FF unless bit 13 of S1 is on",
+);
 
 const fn any(name: &'static str) -> Param {
     src(name, CONSTANTS.or(DATA))
@@ -201,7 +218,7 @@ pub(super) const ROWS: &[Inst] = &[
     serial("CANTX", 90, "Send by CAN")
         .steps(13, 13)
         .on(INOVANCE)
-        .takes(&[any("S1"), any("S2"), src("D", DATA).len(4), number("n", 8)])
+        .takes(&[any("S1"), any("S2").rules(&[CAN_IDENTIFIER]), src("D", DATA).len(4), number("n", 8)])
         .todo(CAN)
         .text("Sends n bytes from D on, high byte first, with the identifier in S1 and S2."),
     serial("CANRX", 91, "Receive by CAN")

@@ -2,7 +2,7 @@
 
 use super::Code;
 use super::pointers::Pointers;
-use crate::catalogue::Basic;
+use crate::catalogue::{Basic, Drive};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 
 /// No instruction.
@@ -214,8 +214,16 @@ impl Walk<'_, '_> {
             Some(Basic::Sret) => self.end_routine(i, Kind::Sub),
             Some(Basic::Iret) => self.end_routine(i, Kind::Interrupt),
             Some(Basic::Fend) => self.fend(i),
+            None if self.ends_advanced_interrupt(i) => self.end_routine(i, Kind::Interrupt),
             _ => {}
         }
+    }
+
+    /// HM's advanced interrupts end with PRET instead of IRET.
+    fn ends_advanced_interrupt(&self, i: usize) -> bool {
+        self.code
+            .inst(i)
+            .is_some_and(|inst| inst.drive == Drive::Alone && inst.name == "PRET")
     }
 
     fn push(&mut self, kind: Kind, at: usize) {

@@ -81,6 +81,12 @@ pub(super) fn broken(
             let narrow = device.class == DeviceClass::C && device.number < FIRST_WIDE_COUNTER;
             (wide && narrow).then(|| narrow_counter(operand))
         }
+        Rule::Holds(holds, demand) => (!holds(operands)).then(|| {
+            let message = format!("`{}` does not go with the other operands", operand.kind);
+            codes::OPERANDS_DISAGREE
+                .at(operand.span, message)
+                .label(demand)
+        }),
         Rule::ClassLike(other) => {
             let other = operands.get(other)?;
             let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);

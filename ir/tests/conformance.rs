@@ -1,0 +1,148 @@
+//! The conformance cases as judges of diagnostics: each program that must be rejected is, with the PLC's code and at the line that the
+//! case names; no other program has an error.
+
+use rungc_frontend::read_text;
+use rungc_ir::check::check;
+use rungc_ir::model::{Model, ModelId};
+use rungc_ir::resolve::resolve;
+use rungc_syntax::{Diagnostic, Severity};
+use std::path::{Path, PathBuf};
+
+/// Cases that are judged differently on purpose, with the reason.
+const EXCEPTIONS: &[(&str, &str)] = &[(
+    "h1u-h2u/basic-flow-call/recursion_is_an_error",
+    "the case allows a compiler to reject the program instead of stopping it at run time; this one does, as its output never recurses",
+)];
+
+/// A program of a case and what is expected of it.
+struct Case {
+    /// `folder/file/name`.
+    name: String,
+    model: ModelId,
+    program: String,
+    /// The PLC's code (0: any) and the line (none: any) of the error; `None` if there must be no error.
+    rejects: Option<(i64, Option<i64>)>,
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("folder of cases") {
+        let path = entry.expect("entry of the folder").path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else if path.extension().is_some_and(|ext| ext == "toml") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn cases() -> Vec<Case> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../golden/conformance");
+    files(&folder)
+        .iter()
+        .flat_map(|path| cases_of(&folder, path))
+        .collect()
+}
+
+fn cases_of(folder: &Path, path: &Path) -> Vec<Case> {
+    let text = std::fs::read_to_string(path).expect("file of cases");
+    let table: toml::Table = text.parse().expect("TOML");
+    let file = path
+        .strip_prefix(folder)
+        .expect("inside the folder")
+        .display()
+        .to_string();
+    let file = file.trim_end_matches(".plctest.toml").to_owned();
+    let model = |table: &toml::Table| {
+        table
+            .get("model")
+            .and_then(toml::Value::as_str)
+            .and_then(ModelId::from_name)
+    };
+    let cases = table["case"].as_array().expect("cases").iter();
+    cases
+        .map(|case| {
+            let case = case.as_table().expect("a case");
+            let text = |key: &str| case[key].as_str().expect("text").to_owned();
+            let rejects = case.get("rejects").map(|rejects| {
+                let number = |key: &str| rejects.get(key).and_then(toml::Value::as_integer);
+                (number("code").unwrap_or(0), number("line"))
+            });
+            Case {
+                name: format!("{file}/{}", text("name")),
+                model: model(case).or_else(|| model(&table)).expect("a model"),
+                program: text("program"),
+                rejects,
+            }
+        })
+        .collect()
+}
+
+/// The errors of a program, with their lines.
+fn errors(case: &Case) -> Vec<(u32, Diagnostic)> {
+    let read = read_text("case", &case.program);
+    let (resolved, mut diagnostics) = resolve(&read.program, Model::get(case.model));
+    diagnostics.extend(check(&resolved).sorted());
+    diagnostics.extend(read.diagnostics.sorted());
+    diagnostics
+        .sorted()
+        .into_iter()
+        .filter(|diagnostic| diagnostic.severity == Severity::Error)
+        .map(|diagnostic| {
+            (
+                read.program.source.line_col(diagnostic.span.start).0,
+                diagnostic,
+            )
+        })
+        .collect()
+}
+
+/// What is wrong with the verdict on a case, if anything.
+fn misjudged(case: &Case) -> Option<String> {
+    let errors = errors(case);
+    let told: Vec<_> = errors
+        .iter()
+        .map(|(line, error)| {
+            format!(
+                "{line}: {} {} {:?}",
+                error.code, error.message, error.plc_error
+            )
+        })
+        .collect();
+    let told = told.join("; ");
+    let right = match case.rejects {
+        None => errors.is_empty(),
+        Some((code, at)) => errors.iter().any(|(line, error)| {
+            (code == 0 || error.plc_error.map(i64::from) == Some(code))
+                && at.is_none_or(|at| at == i64::from(*line))
+        }),
+    };
+    (!right).then(|| format!("{}: expected {:?}, found {told}", case.name, case.rejects))
+}
+
+#[test]
+fn programs_are_rejected_where_the_cases_say_so() {
+    let cases = cases();
+    let rejecting = cases.iter().filter(|case| case.rejects.is_some());
+    assert!(rejecting.count() >= 400, "the cases are not all there");
+    let mut wrong = Vec::new();
+    for case in &cases {
+        let expected = EXCEPTIONS.iter().any(|(name, _)| *name == case.name);
+        match misjudged(case) {
+            Some(text) if !expected => wrong.push(text),
+            None if expected => {
+                wrong.push(format!("{}: is judged right and no exception", case.name))
+            }
+            _ => {}
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{} of {} misjudged:\n{}",
+        wrong.len(),
+        cases.len(),
+        wrong.join("\n")
+    );
+}
