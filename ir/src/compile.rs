@@ -1,5 +1,6 @@
 //! The whole way from a program to its module.
 
+use crate::check::check;
 use crate::lower::{LowerOptions, lower};
 use crate::model::{Model, ModelId};
 use crate::node::Module;
@@ -46,6 +47,7 @@ pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
         model,
         steps: resolved.steps,
     };
+    diagnostics.extend(check(&resolved).sorted());
     if diagnostics.has_errors() {
         return compiled(None, diagnostics);
     }

@@ -111,7 +111,7 @@ fn missing(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics
 }
 
 fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mut Diagnostics) {
-    if pointer.jumps.is_empty() && pointer.calls.is_empty() && pointer.others.is_empty() {
+    if !pointer.is_named() {
         let diagnostic = codes::UNUSED_LABEL
             .at(
                 code.span(label),

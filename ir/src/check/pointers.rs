@@ -18,6 +18,14 @@ pub(super) struct Pointer {
     pub(super) others: Vec<usize>,
 }
 
+impl Pointer {
+    /// Whether any instruction names it.
+    pub(super) fn is_named(&self) -> bool {
+        let uses = [&self.jumps, &self.calls, &self.others];
+        uses.iter().any(|uses| !uses.is_empty())
+    }
+}
+
 /// All pointers of a program.
 pub(super) struct Pointers {
     map: FxHashMap<Device, Pointer>,

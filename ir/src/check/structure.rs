@@ -149,6 +149,8 @@ struct Walk<'a, 'p> {
     /// Open loops, innermost last.
     loops: Vec<u32>,
     outer: Vec<(u32, u32)>,
+    /// Where the instructions before this one stand.
+    places: Vec<Place>,
 }
 
 /// Checks the structure of a program and finds where its instructions stand.
@@ -165,15 +167,15 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> 
         state: NONE,
         loops: Vec::new(),
         outer: Vec::new(),
+        places: Vec::with_capacity(code.len),
     };
-    let mut places = Vec::with_capacity(code.len);
     for i in 0..code.len {
         walk.begin(i);
-        places.push(walk.place());
+        walk.places.push(walk.place());
         walk.end(i);
     }
     walk.finish();
-    let outer = walk.outer;
+    let (places, outer) = (walk.places, walk.outer);
     Places { places, outer }
 }
 
@@ -309,15 +311,26 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// A label that is not called: it belongs to what surrounds it, or to the main program if nothing does.
+    /// A label that is not called. Behind FEND, SRET or IRET it goes on with the routine that jumps to it.
     fn jump_label(&mut self, i: usize, label: Device) {
-        if self.routine == Routine::Nothing {
-            let named = self.pointers.is_jumped_to(label) || self.pointers.is_called(label);
-            self.unused_label = !named;
-            self.routine = match named {
-                true => Routine::Main,
-                false => Routine::Sub(i as u32),
-            };
+        if self.routine != Routine::Nothing {
+            return;
+        }
+        let Some(pointer) = self
+            .pointers
+            .get(label)
+            .filter(|pointer| pointer.is_named())
+        else {
+            self.unused_label = true;
+            self.routine = Routine::Sub(i as u32);
+            return;
+        };
+        let before = pointer.jumps.iter().find_map(|&jump| self.places.get(jump));
+        self.routine = before.map_or(Routine::Main, |place| place.routine);
+        match self.routine {
+            Routine::Sub(_) => self.push(Kind::Sub, i),
+            Routine::Interrupt(_) => self.push(Kind::Interrupt, i),
+            Routine::Main | Routine::Nothing => {}
         }
     }
 
