@@ -15,6 +15,7 @@ pub mod node;
 pub mod passes;
 pub mod resolve;
 mod runs;
+pub mod special;
 pub mod validate;
 
 pub use model::{Model, ModelId, ModelSet};

@@ -150,8 +150,6 @@ pub struct Model {
     pub max_for: u32,
     /// How deep CALL may nest.
     pub max_call: u32,
-    /// Special registers that start with a value other than 0: (number, value), e.g. D8000 = 200.
-    pub special_words: &'static [(u32, i16)],
     /// Special data registers that are other names of index registers: (number, class, index number), e.g. D8028 is Z0.
     pub index_aliases: &'static [(u32, DeviceClass, u32)],
 }

@@ -20,7 +20,6 @@ pub(super) const HM: Model = Model {
     steps_per_operand: Some((2, 3)),
     max_for: 5,
     max_call: 8,
-    special_words: &[(8000, 200)],
     index_aliases: INDEX_ALIASES,
 };
 

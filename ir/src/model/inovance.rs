@@ -20,7 +20,6 @@ pub(super) const H1U: Model = Model {
     steps_per_operand: None,
     max_for: 6,
     max_call: 5,
-    special_words: &[(8000, 200), (8020, 10)],
     index_aliases: INDEX_ALIASES,
 };
 
@@ -40,7 +39,6 @@ pub(super) const H2U: Model = Model {
     steps_per_operand: None,
     max_for: 6,
     max_call: 5,
-    special_words: &[(8000, 200), (8020, 10)],
     index_aliases: INDEX_ALIASES,
 };
 

@@ -20,7 +20,6 @@ pub(super) const L01S: Model = Model {
     steps_per_operand: None,
     max_for: 5,
     max_call: 5,
-    special_words: &[(8000, 200), (8020, 10)],
     index_aliases: INDEX_ALIASES,
 };
 

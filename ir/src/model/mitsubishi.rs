@@ -24,7 +24,6 @@ pub(super) const FX2N: Model = Model {
     steps_per_operand: None,
     max_for: 5,
     max_call: 5,
-    special_words: &[(8000, 200), (8020, 10)],
     index_aliases: INDEX_ALIASES,
 };
 
@@ -44,7 +43,6 @@ pub(super) const FX3G: Model = Model {
     steps_per_operand: None,
     max_for: 5,
     max_call: 5,
-    special_words: &[(8000, 200), (8020, 10)],
     index_aliases: INDEX_ALIASES,
 };
 
@@ -67,7 +65,6 @@ pub(super) const FX3U: Model = Model {
     steps_per_operand: None,
     max_for: 5,
     max_call: 5,
-    special_words: &[(8000, 200), (8020, 10)],
     index_aliases: INDEX_ALIASES,
 };
 

@@ -1,0 +1,198 @@
+//! Special relays M8000… and special registers D8000…: what each means on each model, and whether it works.
+//!
+//! A number that a table does not hold has no meaning on the model (the manual calls it reserved, or says nothing).
+
+mod hm;
+mod inovance;
+mod l01s;
+mod mitsubishi;
+
+use crate::model::{Model, ModelId};
+use rungc_syntax::DeviceClass;
+
+/// Whether a program may write it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Access {
+    /// The PLC writes it; a program should only read it.
+    Read,
+    /// A program may write it.
+    ReadWrite,
+}
+
+/// Whether it does what it means.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Status {
+    /// The scan driver keeps it.
+    Scan,
+    /// These instructions read or write it.
+    Instructions(&'static str),
+    /// It is a plain relay or register here, for this reason.
+    Inert(&'static str),
+}
+
+/// Special devices `first` to `last` of one class.
+#[derive(Clone, Copy, Debug)]
+pub struct Special {
+    /// M or D.
+    pub class: DeviceClass,
+    /// First number.
+    pub first: u32,
+    /// Last number, inclusive.
+    pub last: u32,
+    /// Whether a program may write it.
+    pub access: Access,
+    /// Value at power-on.
+    pub default: i16,
+    /// Whether it works.
+    pub status: Status,
+    /// What it means.
+    pub meaning: &'static str,
+}
+
+impl Special {
+    /// Whether it does what it means.
+    pub fn works(&self) -> bool {
+        !matches!(self.status, Status::Inert(_))
+    }
+}
+
+/// What a special device means on a model.
+pub fn find(model: ModelId, class: DeviceClass, number: u32) -> Option<&'static Special> {
+    tables(model).iter().find_map(|table| {
+        let after = table.partition_point(|row| (row.class, row.first) <= (class, number));
+        let row = table.get(after.checked_sub(1)?)?;
+        (row.class == class && number <= row.last).then_some(row)
+    })
+}
+
+/// All special devices of a model, table by table.
+pub fn all(model: ModelId) -> impl Iterator<Item = &'static Special> {
+    tables(model).iter().copied().flatten()
+}
+
+/// Special registers that start with a value other than 0: (number, value).
+pub fn initial_words(model: &Model) -> impl Iterator<Item = (u32, i16)> {
+    all(model.id)
+        .filter(|row| row.class == DeviceClass::D && row.default != 0)
+        .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
+}
+
+/// The tables of a model: each sorted by class and number, none holding what another holds.
+const fn tables(model: ModelId) -> &'static [&'static [Special]] {
+    match model {
+        ModelId::H1u => &[inovance::BOTH, inovance::H1U],
+        ModelId::H2u => &[inovance::BOTH, inovance::H2U],
+        ModelId::L01s => &[l01s::L01S],
+        ModelId::Hm => &[hm::HM],
+        ModelId::Fx2n => &[mitsubishi::ALL, mitsubishi::FX2N],
+        ModelId::Fx3g => &[mitsubishi::ALL, mitsubishi::FX3, mitsubishi::FX3G],
+        ModelId::Fx3u => &[mitsubishi::ALL, mitsubishi::FX3, mitsubishi::FX3U],
+    }
+}
+
+// Why a device is inert.
+const POWER: &str = "power supply and battery are not watched";
+const HARDWARE: &str = "there is no hardware here that could fail so";
+const CHECKED: &str = "errors of this kind are found before the program runs";
+const HOST: &str = "the host decides when scans begin and whether the PLC is in RUN";
+const FAST: &str = "high-speed inputs are not implemented yet";
+const PULSES: &str = "pulse output is not implemented yet";
+const SERIAL: &str = "serial communication is not implemented yet";
+const CAN: &str = "CAN communication is not implemented yet";
+const LINK: &str = "links between PLCs are not implemented yet";
+const TRACE: &str = "sampling traces are a matter of the editor";
+const INTERRUPTS: &str = "interrupts are not implemented yet";
+const NETWORK: &str = "network cards are not implemented";
+const ANALOG: &str = "built-in analog channels are not implemented yet";
+const MODULES: &str = "which modules are there is the host's affair";
+const MOTION: &str = "axis motion is not implemented yet";
+const SCOPE: &str = "the oscilloscope is not implemented yet";
+const MAKER: &str = "it serves the maker's tools only";
+
+/// Writes a table of special devices, a row a line:
+/// `class first[-last] access default status "meaning";` with the access `r` or `rw` and the status `scan`, `by("…")` or
+/// `inert(…)`.
+macro_rules! specials {
+    ($($class:ident $first:literal $(- $last:literal)? $access:ident $default:literal $status:ident $(($why:expr))? $meaning:literal;)*) => {
+        &[$($crate::special::Special {
+            class: ::rungc_syntax::DeviceClass::$class,
+            first: $first,
+            last: $crate::special::specials!(@last $first $($last)?),
+            access: $crate::special::specials!(@access $access),
+            default: $default,
+            status: $crate::special::specials!(@status $status $($why)?),
+            meaning: $meaning,
+        }),*]
+    };
+    (@last $first:literal) => { $first };
+    (@last $first:literal $last:literal) => { $last };
+    (@access r) => { $crate::special::Access::Read };
+    (@access rw) => { $crate::special::Access::ReadWrite };
+    (@status scan) => { $crate::special::Status::Scan };
+    (@status by $instructions:expr) => { $crate::special::Status::Instructions($instructions) };
+    (@status inert $why:expr) => { $crate::special::Status::Inert($why) };
+}
+use specials;
+
+#[cfg(test)]
+mod tests {
+    use super::{Access, Status, all, find, initial_words, tables};
+    use crate::model::{Model, ModelId};
+    use rungc_syntax::DeviceClass::{D, M};
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn tables_are_sorted_and_say_each_number_once() {
+        for id in ModelId::ALL {
+            let mut seen = BTreeSet::new();
+            for table in tables(id) {
+                for pair in table.windows(2) {
+                    let (a, b) = (&pair[0], &pair[1]);
+                    assert!((a.class, a.last) < (b.class, b.first), "{id:?} {a:?} {b:?}");
+                }
+            }
+            for row in all(id) {
+                for number in row.first..=row.last {
+                    assert!(seen.insert((row.class, number)), "{id:?} {row:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn every_special_device_exists_on_its_model() {
+        for id in ModelId::ALL {
+            for row in all(id) {
+                let model = Model::get(id);
+                assert!(row.first >= 8000 && !row.meaning.is_empty(), "{row:?}");
+                assert!(model.has(row.class, row.first), "{id:?} {row:?}");
+                assert!(model.has(row.class, row.last), "{id:?} {row:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn rows_are_found_by_model() {
+        let of = |id, class, number| find(id, class, number).map(|row| (row.access, row.works()));
+        assert_eq!(of(ModelId::H2u, M, 8000), Some((Access::Read, true)));
+        assert_eq!(of(ModelId::H2u, M, 8210), Some((Access::ReadWrite, true)));
+        assert_eq!(of(ModelId::H2u, M, 8010), None);
+        assert_eq!(of(ModelId::Hm, M, 8034), Some((Access::ReadWrite, false)));
+        assert_eq!(of(ModelId::Fx3u, M, 8034), Some((Access::ReadWrite, true)));
+        let flag = find(ModelId::H1u, M, 8024).map(|row| row.status);
+        assert_eq!(flag, Some(Status::Instructions("BMOV")));
+        assert_eq!(
+            find(ModelId::L01s, D, 8020).map(|row| row.default),
+            Some(10)
+        );
+    }
+
+    #[test]
+    fn registers_start_with_their_defaults() {
+        let words: Vec<_> = initial_words(Model::get(ModelId::H2u)).collect();
+        assert!(words.contains(&(8000, 200)));
+        assert!(words.contains(&(8002, 24)));
+        // 100000 in the pair D8147, D8146.
+        assert!(words.contains(&(8146, -31072)) && words.contains(&(8147, 1)));
+    }
+}

@@ -1,0 +1,202 @@
+//! Special devices of FX2N, FX3G and FX3U, from public knowledge of their programming manuals.
+
+use super::{
+    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, MAKER, MODULES, POWER, PULSES, SERIAL,
+    Special, TRACE, specials,
+};
+
+/// What all three have.
+pub(super) const ALL: &[Special] = specials! {
+    M 8000 r 1 scan "on while the program runs";
+    M 8001 r 0 scan "off while the program runs";
+    M 8002 r 0 scan "on in the first scan of RUN";
+    M 8003 r 0 scan "off in the first scan of RUN";
+    M 8004 r 0 scan "an error relay of M8060–M8067 is on, M8062 and M8063 apart";
+    M 8005 r 0 inert(POWER) "the battery is low";
+    M 8006 r 0 inert(POWER) "the battery has been low";
+    M 8007-8008 r 0 inert(POWER) "power failure";
+    M 8009 r 0 inert(POWER) "the 24 V supply of an extension has failed";
+    M 8011 r 0 scan "clock of 10 ms";
+    M 8012 r 0 scan "clock of 100 ms";
+    M 8013 r 0 scan "clock of 1 s";
+    M 8014 r 0 scan "clock of 1 min";
+    M 8015 rw 0 scan "stops the real-time clock; its fall sets the clock from D8013–D8019";
+    M 8016 rw 0 scan "holds D8013–D8019 while the clock goes on";
+    M 8017 rw 0 scan "its rise rounds the clock to a minute";
+    M 8018 r 1 scan "there is a real-time clock";
+    M 8019 r 0 scan "the clock was to be set to no moment";
+    M 8020 r 0 by("arithmetic") "zero flag";
+    M 8021 r 0 by("arithmetic") "borrow flag: the result was too small";
+    M 8022 r 0 by("arithmetic") "carry flag: the result was too large; the bit that a rotation moved last";
+    M 8024 rw 0 by("BMOV") "BMOV copies from D to S";
+    M 8025 rw 0 inert(FAST) "comparisons of high-speed counters act at an external reset too";
+    M 8026 rw 0 by("RAMP") "RAMP holds the final value";
+    M 8027 rw 0 by("PR") "PR sends up to 16 characters";
+    M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO (FX2N: T32–T62 count 10 ms)";
+    M 8029 r 0 by("instructions that take several scans") "an instruction is complete";
+    M 8030 rw 0 inert(POWER) "the lamp for a low battery stays off";
+    M 8031 rw 0 scan "clears what is not latched";
+    M 8032 rw 0 scan "clears what is latched";
+    M 8033 rw 0 scan "devices keep their values in STOP";
+    M 8034 rw 0 scan "all outputs are off; their images go on";
+    M 8035-8036 rw 0 inert(HOST) "both on: RUN is forced";
+    M 8037 rw 0 inert(HOST) "STOP is forced";
+    M 8038 rw 0 inert(SERIAL) "communication parameters are set";
+    M 8039 rw 0 inert(HOST) "scans last at least D8039";
+    M 8040 rw 0 scan "steps do not change";
+    M 8041 rw 0 by("IST") "a step program may start";
+    M 8042 rw 0 by("IST") "pulse of the start input";
+    M 8043 rw 0 by("IST") "the return to the origin is complete";
+    M 8044 rw 0 by("IST") "the machine is at its origin";
+    M 8045 rw 0 by("IST") "outputs are not reset at a change of mode";
+    M 8046 r 0 scan "a step is on (with M8047)";
+    M 8047 rw 0 scan "D8040–D8047 and M8046 show the steps";
+    M 8048 r 0 scan "an annunciator is on (with M8049)";
+    M 8049 rw 0 scan "D8049 and M8048 show the annunciators";
+    M 8050-8055 rw 0 inert(INTERRUPTS) "forbids the interrupts of X000–X005";
+    M 8056-8058 rw 0 inert(INTERRUPTS) "forbids the timer interrupts I6–I8";
+    M 8059 rw 0 inert(INTERRUPTS) "forbids the interrupts of counters";
+    M 8060 r 0 inert(HARDWARE) "I/O configuration error, code in D8060";
+    M 8061 r 0 inert(HARDWARE) "hardware error, code in D8061";
+    M 8062-8063 r 0 inert(SERIAL) "communication error, code in D8062 and D8063";
+    M 8064 r 0 inert(CHECKED) "parameter error, code in D8064";
+    M 8065 r 0 inert(CHECKED) "syntax error, code in D8065";
+    M 8066 r 0 inert(CHECKED) "circuit error, code in D8066";
+    M 8067 r 0 scan "operation error, code in D8067";
+    M 8068 rw 0 scan "operation error, kept; its step in D8068";
+    M 8069 rw 0 inert(HARDWARE) "checks the I/O bus";
+    M 8070-8073 rw 0 inert(LINK) "parallel link";
+    M 8075-8079 rw 0 inert(TRACE) "sampling trace";
+    M 8099 rw 0 inert(FAST) "starts the ring counter D8099";
+    M 8109 r 0 inert(HARDWARE) "output refresh error, number in D8109";
+    M 8121 r 0 inert(SERIAL) "RS waits to send";
+    M 8122 rw 0 inert(SERIAL) "RS sends";
+    M 8123 rw 0 inert(SERIAL) "RS has received";
+    M 8124 r 0 inert(SERIAL) "RS receives";
+    M 8126-8129 r 0 inert(SERIAL) "computer link, time-out of RS";
+    M 8130-8133 rw 0 inert(FAST) "HSZ by a table, and PLSY by HSZ";
+    M 8145-8149 rw 0 inert(PULSES) "stops pulses, shows that they are sent";
+    M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
+    M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
+    M 8162 rw 0 inert(LINK) "fast mode of the parallel link";
+    M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
+    M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
+    M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
+    M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
+    M 8170-8175 rw 0 inert(INTERRUPTS) "a pulse came at X000–X005";
+    M 8183-8191 r 0 inert(LINK) "N:N link";
+    M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
+    M 8235-8245 rw 0 inert(FAST) "C235–C245 count down";
+    M 8246-8255 r 0 inert(FAST) "C246–C255 are counting down";
+    D 8000 rw 200 inert(HOST) "longest time of a scan in ms";
+    D 8003 r 16 scan "kind of memory";
+    D 8004 r 0 scan "number of the error relay that is on, in BCD";
+    D 8005 r 0 inert(POWER) "voltage of the battery in 0.1 V";
+    D 8006 rw 30 inert(POWER) "voltage at which the battery is low";
+    D 8007 r 0 inert(POWER) "how often the power has failed";
+    D 8008 rw 10 inert(POWER) "time after which the power has failed, in ms";
+    D 8009 r 0 inert(POWER) "extension whose supply has failed";
+    D 8010 r 0 scan "time of the scan in 0.1 ms";
+    D 8011 r 0 scan "shortest time of a scan in 0.1 ms";
+    D 8012 r 0 scan "longest time of a scan in 0.1 ms";
+    D 8013-8015 rw 0 scan "clock: second, minute, hour";
+    D 8016-8018 rw 0 scan "clock: day, month, year";
+    D 8019 rw 0 scan "clock: weekday, 0 is Sunday";
+    D 8020 rw 10 by("REFF") "filter time of the first inputs in ms";
+    D 8028 rw 0 scan "Z0";
+    D 8029 rw 0 scan "V0";
+    D 8039 rw 0 inert(HOST) "constant time of a scan in ms (with M8039)";
+    D 8040-8047 r 0 scan "the lowest eight steps that are on (with M8047)";
+    D 8049 r 0 scan "the lowest annunciator that is on (with M8049)";
+    D 8060 r 0 inert(HARDWARE) "number of the missing input or output";
+    D 8061 r 0 inert(HARDWARE) "code of the hardware error";
+    D 8062-8063 r 0 inert(SERIAL) "code of the communication error";
+    D 8064 r 0 inert(CHECKED) "code of the parameter error";
+    D 8065 r 0 inert(CHECKED) "code of the syntax error";
+    D 8066 r 0 inert(CHECKED) "code of the circuit error";
+    D 8067 r 0 scan "code of the operation error";
+    D 8068 rw 0 scan "step of the operation error, kept";
+    D 8069 r 0 scan "step of the error of M8065–M8067";
+    D 8070 rw 500 inert(LINK) "error time of the parallel link in ms";
+    D 8074-8098 rw 0 inert(TRACE) "sampling trace";
+    D 8099 rw 0 inert(FAST) "ring counter of 0.1 ms";
+    D 8102 r 0 inert(MAKER) "program capacity";
+    D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
+    D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
+    D 8130-8135 r 0 inert(FAST) "HSZ by a table, and PLSY by HSZ";
+    D 8136-8137 rw 0 inert(PULSES) "pulses sent at Y000 and Y001";
+    D 8140-8143 rw 0 inert(PULSES) "pulses sent at Y000, at Y001";
+    D 8145-8148 rw 0 inert(PULSES) "speeds and ramp time of positioning";
+    D 8164 rw 0 by("FROM, TO") "number of words (with M8164)";
+    D 8173-8180 rw 0 inert(LINK) "N:N link: settings";
+    D 8182 rw 0 scan "Z1";
+    D 8183 rw 0 scan "V1";
+    D 8184 rw 0 scan "Z2";
+    D 8185 rw 0 scan "V2";
+    D 8186 rw 0 scan "Z3";
+    D 8187 rw 0 scan "V3";
+    D 8188 rw 0 scan "Z4";
+    D 8189 rw 0 scan "V4";
+    D 8190 rw 0 scan "Z5";
+    D 8191 rw 0 scan "V5";
+    D 8192 rw 0 scan "Z6";
+    D 8193 rw 0 scan "V6";
+    D 8194 rw 0 scan "Z7";
+    D 8195 rw 0 scan "V7";
+    D 8201-8218 r 0 inert(LINK) "N:N link: times and errors";
+};
+
+/// FX2N: version 3.10, 8 k steps.
+pub(super) const FX2N: &[Special] = specials! {
+    D 8001 r 24310 scan "model and version";
+    D 8002 r 8 scan "program capacity in k steps";
+};
+
+/// What FX3G and FX3U have besides.
+pub(super) const FX3: &[Special] = specials! {
+    M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
+    M 8091 rw 0 by("COMRD, BINDA") "no zero behind the characters";
+    M 8136-8139 rw 0 inert(FAST) "table comparison of high-speed counters";
+    M 8151-8159 r 0 inert(SERIAL) "inverter communication";
+    M 8176-8177 rw 0 inert(INTERRUPTS) "a pulse came at X006, X007";
+    M 8198-8199 rw 0 inert(FAST) "four counts a cycle for C251, C252 and C253–C255";
+    M 8304 r 0 inert(MAKER) "zero flag of multiplication and division";
+    M 8306 r 0 inert(MAKER) "carry flag of multiplication and division";
+    M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
+    M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
+    M 8338 rw 0 inert(PULSES) "PLSV with ramps";
+    M 8340-8349 rw 0 inert(PULSES) "positioning with Y000";
+    M 8350-8359 rw 0 inert(PULSES) "positioning with Y001";
+    M 8360-8369 rw 0 inert(PULSES) "positioning with Y002";
+    M 8370-8379 rw 0 inert(PULSES) "positioning with Y003";
+    M 8398 rw 0 inert(FAST) "starts the ring counter D8398";
+    M 8401-8429 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
+    M 8460-8467 rw 0 inert(PULSES) "interrupt and clear signals of positioning";
+    D 8310-8311 rw 0 by("RND") "state of RND";
+    D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";
+    D 8336 rw 0 inert(PULSES) "interrupt inputs of DVIT";
+    D 8340-8349 rw 0 inert(PULSES) "positioning with Y000";
+    D 8350-8359 rw 0 inert(PULSES) "positioning with Y001";
+    D 8360-8369 rw 0 inert(PULSES) "positioning with Y002";
+    D 8370-8379 rw 0 inert(PULSES) "positioning with Y003";
+    D 8393 rw 0 inert(FAST) "delay time of input interrupts in ms";
+    D 8398-8399 rw 0 inert(FAST) "ring counter of 1 ms";
+    D 8400-8439 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
+    D 8464-8467 rw 0 inert(PULSES) "outputs for the clear signal of positioning";
+};
+
+/// FX3G: version 2.00, 32 k steps.
+pub(super) const FX3G: &[Special] = specials! {
+    D 8001 r 26200 scan "model and version";
+    D 8002 r 32 scan "program capacity in k steps";
+    D 8030-8031 r 0 inert(MODULES) "potentiometers VR1, VR2";
+    D 8101 r 26200 scan "model and version";
+};
+
+/// FX3U: version 3.20, 64 k steps.
+pub(super) const FX3U: &[Special] = specials! {
+    M 8380-8392 rw 0 inert(FAST) "inputs and modes of high-speed counters";
+    D 8001 r 24320 scan "model and version";
+    D 8002 r 64 scan "program capacity in k steps";
+    D 8101 r 16320 scan "model and version";
+};
