@@ -338,8 +338,8 @@ impl Generator<'_> {
             match self.storage.word(&plc, DeviceClass::D, register) {
                 Some(cell) => quote!(if #cell != #literal { self.clear_latched(); }),
                 None => {
-                    let words = self.module.model.special_words;
-                    let initial = words.iter().find(|w| w.0 == register).map_or(0, |w| w.1);
+                    let mut words = self.module.model.special_words();
+                    let initial = words.find(|w| w.0 == register).map_or(0, |w| w.1);
                     if initial == key {
                         TokenStream::new()
                     } else {

@@ -6,6 +6,7 @@ mod l01s;
 mod mitsubishi;
 
 use crate::catalogue::Classes;
+use crate::special;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 
@@ -166,6 +167,13 @@ impl Model {
             ModelId::Fx3g => &mitsubishi::FX3G,
             ModelId::Fx3u => &mitsubishi::FX3U,
         }
+    }
+
+    /// Special registers that start with a value other than 0: (number, value), e.g. D8000 = 200.
+    pub fn special_words(&self) -> impl Iterator<Item = (u32, i16)> + use<> {
+        special::all(self.id)
+            .filter(|row| row.class == DeviceClass::D && row.default != 0)
+            .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
     }
 
     /// The range that holds a device.

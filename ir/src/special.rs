@@ -7,7 +7,7 @@ mod inovance;
 mod l01s;
 mod mitsubishi;
 
-use crate::model::{Model, ModelId};
+use crate::model::ModelId;
 use rungc_syntax::DeviceClass;
 
 /// Whether a program may write it.
@@ -70,13 +70,6 @@ pub fn all(model: ModelId) -> impl Iterator<Item = &'static Special> {
     tables(model).iter().copied().flatten()
 }
 
-/// Special registers that start with a value other than 0: (number, value).
-pub fn initial_words(model: &Model) -> impl Iterator<Item = (u32, i16)> {
-    all(model.id)
-        .filter(|row| row.class == DeviceClass::D && row.default != 0)
-        .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
-}
-
 /// The tables of a model: each sorted by class and number, none holding what another holds.
 const fn tables(model: ModelId) -> &'static [&'static [Special]] {
     match model {
@@ -136,7 +129,7 @@ use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, Status, all, find, initial_words, tables};
+    use super::{Access, Status, all, find, tables};
     use crate::model::{Model, ModelId};
     use rungc_syntax::DeviceClass::{D, M};
     use std::collections::BTreeSet;
@@ -189,7 +182,7 @@ mod tests {
 
     #[test]
     fn registers_start_with_their_defaults() {
-        let words: Vec<_> = initial_words(Model::get(ModelId::H2u)).collect();
+        let words: Vec<_> = Model::get(ModelId::H2u).special_words().collect();
         assert!(words.contains(&(8000, 200)));
         assert!(words.contains(&(8002, 24)));
         // 100000 in the pair D8147, D8146.

@@ -73,7 +73,7 @@ impl<'m> Machine<'m> {
     }
 
     fn power_on(&mut self) {
-        for &(number, value) in self.module.model.special_words {
+        for (number, value) in self.module.model.special_words() {
             // A model's table names only devices that it has.
             let _ = self.set_word(Class::D, number, value);
         }

@@ -58,7 +58,9 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
         .filter(|(device, _)| module.layout.area(device.class, device.number).is_some())
         .map(|(device, text)| (device.class, device.number, text.clone()))
         .collect();
-    module.initial_words = crate::special::initial_words(module.model)
+    module.initial_words = module
+        .model
+        .special_words()
         .filter(|&(number, _)| module.layout.area(DeviceClass::D, number).is_some())
         .collect();
     debug_assert_eq!(crate::validate::validate(&module), Ok(()));

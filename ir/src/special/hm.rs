@@ -31,7 +31,7 @@ pub(super) const HM: &[Special] = specials! {
     M 8235 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
     M 8237 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
     M 8239-8242 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
-    D 8000 rw 200 inert(HOST) "scan watchdog limit in ms; PLC faults and stops when a scan exceeds it";
+    D 8000 rw 200 scan "scan watchdog limit in ms; PLC faults and stops when a scan exceeds it";
     D 8001 r 0 scan "series number of the instruction set";
     D 8002 r 0 scan "program capacity";
     D 8003 r 0 scan "drive series number";

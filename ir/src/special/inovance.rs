@@ -189,7 +189,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8469 rw 0 inert(PULSES) "Y2: stop pulses";
     M 8490 rw 0 by("MEAN") "MEAN: sum flag (sum instead of mean)";
     M 8491 rw 0 inert(LINK) "N:N link checksum: off with checksum (default), on without (Mitsubishi compatible)";
-    D 8000 rw 200 inert(HOST) "watchdog time in ms for one scan (max 32767)";
+    D 8000 rw 200 scan "watchdog time in ms for one scan (max 32767)";
     D 8003 r 16 scan "kind of memory: fixed H10 = built-in";
     D 8004 r 0 scan "BCD number of the error relay M8060-M8067 that is on, 0 when none";
     D 8006 rw 26 inert(POWER) "battery-low threshold, initial 2.6 V";

@@ -9,8 +9,8 @@ use super::{
 pub(super) const L01S: &[Special] = specials! {
     M 8000 r 1 scan "RUN monitor: on during every scan while in RUN";
     M 8001 r 0 scan "RUN monitor inverted: off during RUN";
-    M 8002 r 0 inert(PULSES) "initial pulse: on for the first scan after RUN";
-    M 8003 r 0 inert(PULSES) "inverted initial pulse: off for the first scan after RUN, on afterwards";
+    M 8002 r 0 scan "initial pulse: on for the first scan after RUN";
+    M 8003 r 0 scan "inverted initial pulse: off for the first scan after RUN, on afterwards";
     M 8011-8012 r 0 scan "clock oscillating with 10–100 ms period";
     M 8013 r 0 scan "clock oscillating with 1 s period";
     M 8014 r 0 scan "clock oscillating with 1 min period";
@@ -18,7 +18,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8021 r 0 by("arithmetic") "borrow flag: on when a result is below the type minimum";
     M 8022 r 0 by("arithmetic") "carry flag: on when a result exceeds the type maximum; shifted-out bit of ROR/ROL/RCR/RCL/SFR/SFL";
     M 8024 rw 0 by("BMOV") "selects the direction of BMOV (on: copies from D to S, off: S to D)";
-    M 8029 r 0 inert(PULSES) "instruction execution complete flag; pulse/positioning instructions set it on completion";
+    M 8029 r 0 by("instructions that take several scans") "an instruction is complete";
     M 8031 rw 0 scan "write on: clear all non-latched memory";
     M 8032 rw 0 scan "write on: clear all latched memory";
     M 8033 rw 0 scan "on: memory contents are held on the change from RUN to STOP";
@@ -57,12 +57,12 @@ pub(super) const L01S: &[Special] = specials! {
     M 8129 r 0 inert(SERIAL) "port 2: RD3A/WR3A communication timeout (resets itself)";
     M 8151-8154 r 0 inert(PULSES) "busy monitor of pulse axis 5–8";
     M 8160 rw 0 by("XCH") "XCH works as byte swap when on";
-    M 8161 rw 0 inert(SERIAL) "8-bit mode for RS/RS2 (and ASCI, HEX, CCD, CRC ...): only the low byte of each register is used";
+    M 8161 rw 0 by("ASCI, HEX, CCD") "8-bit mode for RS/RS2 (and ASCI, HEX, CCD, CRC ...): only the low byte of each register is used";
     M 8170-8177 rw 0 inert(INTERRUPTS) "pulse catch of input X000–007: set on its rising edge";
     M 8192 rw 0 inert(SERIAL) "port 3 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port";
     M 8196 rw 0 inert(SERIAL) "port 2 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port/BD/Modbus";
-    M 8198 rw 0 inert(SERIAL) "4-fold counting for C251, C252, C254 (off = 1-fold)";
-    M 8199 rw 0 inert(SERIAL) "4-fold counting for C253, C255 (off = 1-fold)";
+    M 8198 rw 0 inert(FAST) "4-fold counting for C251, C252, C254 (off = 1-fold)";
+    M 8199 rw 0 inert(FAST) "4-fold counting for C253, C255 (off = 1-fold)";
     M 8200-8227 rw 0 by("OUT C") "count direction of C200–227: on = down, off = up";
     M 8228 rw 0 by("OUT C") "handwheel function start (not supported on this model); in FX also count direction of C228 (on = down)";
     M 8229-8234 rw 0 by("OUT C") "count direction of C229–234: on = down, off = up";
@@ -133,7 +133,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8450-8453 rw 0 inert(PULSES) "pulse stop for axis 5–8";
     M 8464-8467 rw 0 inert(PULSES) "Y000–003: clear-signal device designation enabled";
     M 8473-8476 rw 0 inert(PULSES) "PWM: Y000–003 output signal inverted";
-    D 8000 rw 200 inert(HOST) "watchdog timer (ms)";
+    D 8000 rw 200 scan "watchdog timer (ms)";
     D 8001 r 0 scan "PLC type and system version";
     D 8002 r 0 scan "memory capacity in K steps: 8 = 8K; for 16K and above this reads 8 and D8102 holds 16 or 32";
     D 8003 r 0 scan "memory kind: 10H = built-in memory";

@@ -88,7 +88,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
     M 8235-8245 rw 0 inert(FAST) "C235–C245 count down";
     M 8246-8255 r 0 inert(FAST) "C246–C255 are counting down";
-    D 8000 rw 200 inert(HOST) "longest time of a scan in ms";
+    D 8000 rw 200 scan "longest time of a scan in ms";
     D 8003 r 16 scan "kind of memory";
     D 8004 r 0 scan "number of the error relay that is on, in BCD";
     D 8005 r 0 inert(POWER) "voltage of the battery in 0.1 V";
