@@ -109,6 +109,47 @@ typedef uint8_t rungc_area_kind;
 #endif // __cplusplus
 
 /**
+ * How to read an [`Operand`]. The numbers are part of the C ABI.
+ */
+enum rungc_operand_kind
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Integer constant `value`.
+     */
+    RUNGC_OPERAND_KIND_CONST = 0,
+    /**
+     * Float constant, its bits in `value`.
+     */
+    RUNGC_OPERAND_KIND_FLOAT = 1,
+    /**
+     * Device number `value` of `class`, as a bit or a word as the instruction asks.
+     */
+    RUNGC_OPERAND_KIND_DEVICE = 2,
+    /**
+     * Group of `4 * digits` bits from bit device `value` of `class`.
+     */
+    RUNGC_OPERAND_KIND_NIBBLES = 3,
+    /**
+     * Bit `digits` of word device `value` of `class`.
+     */
+    RUNGC_OPERAND_KIND_WORD_BIT = 4,
+    /**
+     * Text number `value` of the program.
+     */
+    RUNGC_OPERAND_KIND_TEXT = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_operand_kind rungc_operand_kind;
+#else
+typedef uint8_t rungc_operand_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * Devices that stand side by side in the program's struct.
  */
 typedef struct rungc_area {
@@ -339,6 +380,50 @@ typedef struct rungc_map {
     struct rungc_state none;
 } rungc_map;
 
+/**
+ * An operand, its index register already added.
+ */
+typedef struct rungc_operand {
+    /**
+     * How to read it.
+     */
+    rungc_operand_kind kind;
+    /**
+     * Device class, where it is a device.
+     */
+    rungc_class class_;
+    /**
+     * Digits of a group, or the bit of a word.
+     */
+    uint8_t digits;
+    /**
+     * Device number, constant, or bits of a float.
+     */
+    int32_t value;
+} rungc_operand;
+
+/**
+ * Where a call stands in the program.
+ */
+typedef struct rungc_site {
+    /**
+     * Step number, reported in D8069 if the instruction faults.
+     */
+    uint32_t step;
+    /**
+     * Which [`State`] belongs to it; 0 for instructions without.
+     */
+    uint16_t slot;
+    /**
+     * 32-bit form.
+     */
+    bool wide;
+    /**
+     * Whether the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
+     */
+    bool drive;
+} rungc_site;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -364,14 +449,14 @@ bool rungc_get_word(const struct rungc_map *map, rungc_class class_, uint32_t nu
 bool rungc_set_word(struct rungc_map *map, rungc_class class_, uint32_t number, int16_t value);
 
 /**
- * Value of a 32-bit counter.
+ * The 32-bit value of a counter from C200 on or of a pair of words, as 32-bit instructions see it.
  */
-bool rungc_get_counter32(const struct rungc_map *map, uint32_t number, int32_t *value);
+bool rungc_get_long(struct rungc_map *map, rungc_class class_, uint32_t number, int32_t *value);
 
 /**
- * Sets the value of a 32-bit counter.
+ * Sets the 32-bit value of a counter from C200 on or of a pair of words.
  */
-bool rungc_set_counter32(struct rungc_map *map, uint32_t number, int32_t value);
+bool rungc_set_long(struct rungc_map *map, rungc_class class_, uint32_t number, int32_t value);
 
 /**
  * The virtual hardware as instructions see it, for `Map::hal`.
@@ -667,3 +752,13 @@ void rungc_instr(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operan
 void rungc_str_mov(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
 void rungc_dabin(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
 void rungc_binda(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d);
+void rungc_ist(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand d1, rungc_operand d2);
+void rungc_ser(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_absd(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_incd(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_ttmr(rungc_map *map, rungc_site site, rungc_operand d, rungc_operand n);
+void rungc_stmr(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand m, rungc_operand d);
+void rungc_alt(rungc_map *map, rungc_site site, rungc_operand d);
+void rungc_ramp(rungc_map *map, rungc_site site, rungc_operand s1, rungc_operand s2, rungc_operand d, rungc_operand n);
+void rungc_rotc(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand m1, rungc_operand m2, rungc_operand d);
+void rungc_sort(rungc_map *map, rungc_site site, rungc_operand s, rungc_operand m1, rungc_operand m2, rungc_operand d, rungc_operand n);

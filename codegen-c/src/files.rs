@@ -4,7 +4,7 @@ use crate::fields::Fields;
 use crate::header;
 use crate::text;
 use crate::unit::{self, Unit};
-use crate::{Options, OutFile, RUNGC_H};
+use crate::{Options, OutFile, RUNGC_H, RUNGC_RT_H};
 use rungc_ir::Module;
 use std::fmt::Write;
 
@@ -28,7 +28,7 @@ fn file(path: impl Into<String>, text: String) -> OutFile {
 
 /// The files of one program.
 pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
-    let unit = unit::unit(module);
+    let unit = unit::unit(module, false);
     let name = &module.name;
     let mut files = vec![file(format!("{name}.h"), header_file(module, &unit))];
     let mut sources = Vec::new();
@@ -59,14 +59,19 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         sources.push(path.clone());
         files.push(file(path, text));
     }
-    files.push(file("rungc.h", RUNGC_H.to_string()));
+    files.extend(shared(unit.runtime));
     if options.main {
         files.push(file("main.c", crate::host::main_file(module)));
         sources.push("main.c".to_string());
     }
+    let mut headers = format!("{name}.h rungc.h");
+    headers.push_str(if unit.runtime { " rungc_rt.h" } else { "" });
+    if several {
+        let _ = write!(headers, " {name}_internal.h");
+    }
     files.push(file(
         "Makefile",
-        makefile(name, &sources, options.main, unit.runtime),
+        makefile(name, &sources, &headers, options.main, unit.runtime),
     ));
     files
 }
@@ -88,26 +93,121 @@ fn header_file(module: &Module, unit: &Unit) -> String {
     )
 }
 
-/// A Makefile that builds an executable, or without a `main.c` a library.
-fn makefile(name: &str, sources: &[String], main: bool, runtime: bool) -> String {
+/// What all programs share: rungc.h, and if the runtime library is needed its header and its sources.
+fn shared(runtime: bool) -> Vec<OutFile> {
+    let mut files = vec![file("rungc.h", RUNGC_H.to_string())];
+    if runtime {
+        files.push(file("rungc_rt.h", RUNGC_RT_H.to_string()));
+        for (path, text) in rungc_rt_sources::files() {
+            let mut text = text.to_string();
+            if path == "Cargo.toml" {
+                // A workspace of its own, wherever the folder lies.
+                text.push_str(
+                    "\n[workspace]\n\n[profile.release]\npanic = \"abort\"\nopt-level = \"s\"\n",
+                );
+            }
+            files.push(file(format!("rungc-rt/{path}"), text));
+        }
+    }
+    files
+}
+
+/// How the runtime library is built.
+const LIBRARY_RULE: &str = "\
+# The runtime library: `make TARGET=thumbv7em-none-eabihf CC=arm-none-eabi-gcc` for a microcontroller (rustup target add ...).
+ifdef TARGET
+TARGET_FLAG = --target $(TARGET)
+endif
+LIBRARY = rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a
+
+$(LIBRARY): $(shell find rungc-rt/src -name '*.rs') rungc-rt/Cargo.toml
+\tcd rungc-rt && cargo rustc --release --crate-type staticlib --features staticlib $(TARGET_FLAG)
+
+";
+
+/// A Makefile that builds an executable, or without a `main.c` a library of the program's objects.
+fn makefile(name: &str, sources: &[String], headers: &str, main: bool, runtime: bool) -> String {
     let objects: Vec<String> = sources.iter().map(|s| s.replace(".c", ".o")).collect();
     let target = if main {
         name.to_string()
     } else {
         format!("lib{name}.a")
     };
-    let _ = runtime;
-    let link = if main {
-        "\t$(CC) $(CFLAGS) -o $@ $(OBJECTS) $(LDFLAGS)"
-    } else {
-        "\t$(AR) rcs $@ $(OBJECTS)"
+    let library = if runtime { " $(LIBRARY)" } else { "" };
+    let what = match (main, runtime) {
+        (false, true) => format!(
+            "{target} and $(LIBRARY), both to be linked with your firmware (-Wl,--gc-sections)"
+        ),
+        _ => target.clone(),
+    };
+    let link = match main {
+        true => format!(
+            "{target}: $(OBJECTS){library}\n\t$(CC) $(CFLAGS) -o $@ $(OBJECTS){library} $(LDFLAGS)"
+        ),
+        false => format!("{target}: $(OBJECTS)\n\t$(AR) rcs $@ $(OBJECTS)"),
     };
     format!(
-        "# `make` builds {target}; `make CC=arm-none-eabi-gcc CFLAGS=...` builds it for another machine.\n\
+        "# `make` builds {what}; `make CC=arm-none-eabi-gcc CFLAGS=...` builds for another machine.\n\
          CFLAGS ?= -std=c99 -O2 -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections\n\
          LDFLAGS ?= -Wl,--gc-sections\n\
-         OBJECTS = {}\n\n{target}: $(OBJECTS)\n{link}\n\n$(OBJECTS): {name}.h rungc.h\n\n\
-         clean:\n\trm -f $(OBJECTS) {target}\n\n.PHONY: clean\n",
+         OBJECTS = {}\n\nall: {target}{library}\n\n{}{link}\n\n$(OBJECTS): {headers}\n\n\
+         clean:\n\trm -rf $(OBJECTS) {target}{}\n\n.PHONY: all clean\n",
         objects.join(" "),
+        if runtime { LIBRARY_RULE } else { "" },
+        if runtime { " rungc-rt/target" } else { "" },
     )
 }
+
+/// The files of a program that holds all modules, for tests.
+pub fn batch(modules: &[Module]) -> Vec<OutFile> {
+    let mut api = String::from(
+        "/* cases.h: the programs of a batch, for tests. */\n#ifndef CASES_H\n#define CASES_H\n\n#include \"rungc_rt.h\"\n\n",
+    );
+    let mut sources: Vec<String> = Vec::new();
+    let mut table = String::new();
+    let mut members = String::new();
+    for (i, module) in modules.iter().enumerate() {
+        let module = Module {
+            name: format!("case{i}"),
+            ..module.clone()
+        };
+        let unit = unit::unit(&module, true);
+        api.push_str(&unit.api);
+        api.push('\n');
+        let _ = writeln!(table, "CASE({i})");
+        let _ = writeln!(members, "    ENTRY({i}),");
+        let size = sources.last().map_or(usize::MAX, String::len);
+        let length: usize =
+            unit.internal.len() + unit.groups.iter().map(String::len).sum::<usize>();
+        if size.saturating_add(length) > BATCH_FILE {
+            sources.push(String::from("#include \"cases.h\"\n\n"));
+        }
+        if let Some(source) = sources.last_mut() {
+            source.push_str(&unit.internal);
+            unit.groups.iter().for_each(|group| source.push_str(group));
+        }
+    }
+    api.push_str("#endif\n");
+    let unions: String = (0..modules.len())
+        .map(|i| format!("    case{i}_plc case{i};\n"))
+        .collect();
+    let main = include_str!("../include/batch.c")
+        .replace("    /* MEMORY */\n", &unions)
+        .replace("/* CASES */\n", &table)
+        .replace("    /* ENTRIES */\n", &members);
+    let mut files = vec![file("cases.h", api), file("main.c", main)];
+    let mut names = vec!["main.c".to_string()];
+    for (i, text) in sources.into_iter().enumerate() {
+        names.push(format!("cases_{}.c", i + 1));
+        files.push(file(format!("cases_{}.c", i + 1), text));
+    }
+    files.extend(shared(true));
+    files.push(file(
+        "Makefile",
+        makefile("batch", &names, "cases.h rungc.h rungc_rt.h", true, true),
+    ));
+    files
+}
+
+/// About how large a source file of a batch may be, in bytes.
+const BATCH_FILE: usize = 400_000;

@@ -24,7 +24,7 @@ fn heading(section: Section) -> &'static str {
 }
 
 /// Writes struct and prototypes.
-pub fn api(module: &Module, fields: &Fields, plan: &Plan) -> String {
+pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> String {
     let name = &module.name;
     let mut out = String::new();
     let mut size = Size::default();
@@ -77,7 +77,7 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan) -> String {
         );
         size.add(32 * u32::from(module.states), 4);
     }
-    if uses_runtime(module) {
+    if runtime {
         out.push_str("    const rungc_hal *hal; /* hardware that instructions ask; NULL: nothing fitted */\n");
         size.add(4, 4);
     }
@@ -87,6 +87,13 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan) -> String {
         size.total()
     );
     prototypes(&mut out, name);
+    if runtime {
+        let _ = write!(
+            out,
+            "\n/* The struct as the runtime library sees it; with rungc_get_bit() and its like a host finds devices by number. */\n\
+             rungc_map {name}_map({name}_plc *plc);\n"
+        );
+    }
     out
 }
 

@@ -42,6 +42,15 @@ pub struct OutFile {
 /// The header that all programs share.
 const RUNGC_H: &str = include_str!("../include/rungc.h");
 
+/// The header of the runtime library, made by cbindgen (see `tests/header.rs`).
+const RUNGC_RT_H: &str = include_str!("../include/rungc_rt.h");
+
+/// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make` builds it as
+/// `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.
+pub fn batch(modules: &[Module]) -> Vec<OutFile> {
+    files::batch(modules)
+}
+
 /// Emits a program. The same module gives the same bytes.
 pub fn emit(module: &Module, options: &Options) -> Vec<OutFile> {
     files::program(module, options)

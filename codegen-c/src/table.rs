@@ -96,8 +96,7 @@ pub fn write(out: &mut String, module: &Module, fields: &Fields) {
     let _ = write!(
         out,
         "static const rungc_layout {name}_layout = {{\n    {},\n}};\n\n\
-         /* The struct as the runtime sees it. */\n\
-         static inline rungc_map {name}_map({name}_plc *plc)\n{{\n    \
+         rungc_map {name}_map({name}_plc *plc)\n{{\n    \
          const rungc_map map = {{.layout = &{name}_layout, .plc = plc, .hal = plc->hal}};\n    return map;\n}}\n\n",
         layout.join(",\n    ")
     );

@@ -30,14 +30,14 @@ pub struct Unit {
     pub groups: Vec<String>,
 }
 
-/// Makes it.
-pub fn unit(module: &Module) -> Unit {
+/// Makes it. `by_number`: the host finds devices by number, so the device table is there even if no instruction needs it.
+pub fn unit(module: &Module, by_number: bool) -> Unit {
     let fields = Fields::new(module);
     let plan = Plan::new(module);
     let total: u64 = plan.functions.iter().map(|f| f.weight).sum();
     let single = total <= FILE_WEIGHT;
     let storage = if single { "static " } else { "" };
-    let runtime = uses_runtime(module);
+    let runtime = by_number || uses_runtime(module);
     let mut writer = Writer::new(module, &plan, &fields);
 
     let mut groups = vec![String::new()];
@@ -67,16 +67,16 @@ pub fn unit(module: &Module) -> Unit {
         module,
         fields: &fields,
     };
-    if runtime {
-        table::write(&mut internal, module, &fields);
-    }
     if faults {
         printer.fault(&mut internal);
     }
     printer.clear_functions(&mut internal, clears_latched);
     printer.api_functions(&mut groups[0]);
+    if runtime {
+        table::write(&mut groups[0], module, &fields);
+    }
     Unit {
-        api: header::api(module, &fields, &plan),
+        api: header::api(module, &fields, &plan, runtime),
         runtime,
         internal,
         groups,

@@ -74,3 +74,16 @@ fn motor_runs() {
     "#;
     assert_eq!(run_c(&motor(), main), "1 0 29 1 30 15 1 0 0\n");
 }
+
+#[test]
+fn batch_answers_requests() {
+    let requests = "case 0\nbit X 0 1\nscan 0 0\ngetbit M 0\nout 0\nscan 3000 0\nout 0\ngetword T 0\nword D 0 9\nbit X 2 1\nscan 3010 0\n\
+        getword D 0\nout 1\ngetbit M 8000\ngetbit M 99999\ngetdword D 0\nrun 0\nout 0\ncase 1\nscan 0 0\nout 0\nbfm 0 5 7\ngetbfm 0 5\n\
+        getbfm 3 5\ncase 2\nexit\n";
+    let answers = build::run_batch(&[motor(), motor()], requests);
+    let expected = "ok ok ok 1 0 ok 1 30 ok ok ok 10 1 0 none 10 ok 0 ok ok 0 ok 7 none none";
+    assert_eq!(
+        answers.split_whitespace().collect::<Vec<_>>().join(" "),
+        expected
+    );
+}

@@ -79,6 +79,8 @@ fn header() -> String {
             exclude: ["Sys", "Timer", "Counter16", "Counter32"]
                 .map(str::to_string)
                 .into(),
+            // Only the functions below take them, which cbindgen does not see: a macro makes them.
+            include: ["Operand", "OperandKind", "Site"].map(str::to_string).into(),
             rename: names,
             ..ExportConfig::default()
         },

@@ -207,6 +207,21 @@ impl Map {
         }
     }
 
+    /// Does something with one device as an instruction would.
+    fn with_operand<R>(&mut self, class: Class, number: u32, what: impl FnOnce(&mut Cx) -> R) -> R {
+        let mut hal = Board { table: self.hal };
+        let ops = [Operand::device(
+            class,
+            i32::try_from(number).unwrap_or(i32::MAX),
+        )];
+        what(&mut Cx {
+            plc: self,
+            hal: &mut hal,
+            ops: &ops,
+            site: Site::at(0).wide(),
+        })
+    }
+
     /// Runs an instruction and reports its fault.
     fn call(&mut self, function: fn(&mut Cx) -> Done, site: Site, ops: &[Operand]) {
         let mut hal = Board { table: self.hal };
@@ -461,16 +476,21 @@ pub extern "C" fn rungc_set_word(map: &mut Map, class: Class, number: u32, value
     map.set_word(class, number, value).is_some()
 }
 
-/// Value of a 32-bit counter.
+/// The 32-bit value of a counter from C200 on or of a pair of words, as 32-bit instructions see it.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_get_counter32(map: &Map, number: u32, value: &mut i32) -> bool {
-    map.counter32(number)
-        .map(|counter| *value = counter)
-        .is_some()
+pub extern "C" fn rungc_get_long(
+    map: &mut Map,
+    class: Class,
+    number: u32,
+    value: &mut i32,
+) -> bool {
+    let found = map.with_operand(class, number, |cx| cx.dword(0, 0));
+    found.map(|long| *value = long).is_ok()
 }
 
-/// Sets the value of a 32-bit counter.
+/// Sets the 32-bit value of a counter from C200 on or of a pair of words.
 #[unsafe(no_mangle)]
-pub extern "C" fn rungc_set_counter32(map: &mut Map, number: u32, value: i32) -> bool {
-    map.set_counter32(number, value).is_some()
+pub extern "C" fn rungc_set_long(map: &mut Map, class: Class, number: u32, value: i32) -> bool {
+    map.with_operand(class, number, |cx| cx.set_dword(0, 0, value))
+        .is_ok()
 }

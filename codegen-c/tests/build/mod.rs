@@ -1,14 +1,15 @@
 //! Builds small modules by hand, and emitted C with the compilers that are there.
 
-use rungc_codegen_c::{Options, emit};
+use rungc_codegen_c::{Options, batch, emit};
 use rungc_ir::layout::{Area, Layout};
 use rungc_ir::node::*;
 use rungc_ir::{Model, ModelId, Module};
 use rungc_rt::TimerKind;
 use rungc_syntax::{DeviceClass, Span};
 use std::collections::BTreeSet;
+use std::io::Write;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// A module in the making.
 pub struct Builder {
@@ -271,4 +272,39 @@ fn compile_and_run(cc: &str, folder: &Path, sources: &[String]) -> String {
         "{cc}: checks for undefined behaviour change the result"
     );
     outputs[0].clone()
+}
+
+/// Builds a batch with `make`, sends it these requests, and returns the answers.
+pub fn run_batch(modules: &[Module], requests: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder for the C files");
+    for file in batch(modules) {
+        let path = folder.path().join(&file.path);
+        std::fs::create_dir_all(path.parent().expect("a file stands in a folder"))
+            .expect("making a folder");
+        std::fs::write(path, &file.text).expect("writing C");
+    }
+    let strict = format!("CFLAGS={} -O1", STRICT.join(" "));
+    let made = Command::new("make")
+        .current_dir(folder.path())
+        .arg(strict)
+        .output()
+        .expect("running make");
+    assert!(
+        made.status.success(),
+        "{}",
+        String::from_utf8_lossy(&made.stderr)
+    );
+    let mut child = Command::new(folder.path().join("batch"))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("starting the batch");
+    let mut stdin = child.stdin.take().expect("its standard input");
+    stdin
+        .write_all(requests.as_bytes())
+        .expect("sending requests");
+    drop(stdin);
+    let output = child.wait_with_output().expect("its answers");
+    assert!(output.status.success());
+    String::from_utf8_lossy(&output.stdout).into_owned()
 }

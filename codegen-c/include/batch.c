@@ -1,0 +1,197 @@
+/*
+ * main.c: runs the programs of a batch as requests on standard input say, one a line; each is answered with one line: `ok`, `none`
+ * (no such device, module or channel) or a decimal value. The hardware is virtual.
+ */
+#include "cases.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Memory of the program that runs. */
+static union {
+    char empty;
+    /* MEMORY */
+} memory;
+
+static rungc_hal hardware;
+
+/* What can be done with a program. */
+typedef struct {
+    void (*init)(void);
+    void (*scan)(uint32_t now_ms, uint32_t scan_us);
+    void (*set_running)(bool running);
+    void (*power_cycle)(void);
+    bool (*output)(unsigned terminal);
+    rungc_map (*map)(void);
+} program;
+
+#define CASE(n)                                                                                                        \
+    static void init##n(void)                                                                                          \
+    {                                                                                                                  \
+        case##n##_init(&memory.case##n);                                                                               \
+        memory.case##n.hal = &hardware;                                                                                \
+    }                                                                                                                  \
+    static void scan##n(uint32_t now_ms, uint32_t scan_us)                                                             \
+    {                                                                                                                  \
+        case##n##_scan(&memory.case##n, now_ms, scan_us);                                                              \
+    }                                                                                                                  \
+    static void set_running##n(bool running)                                                                           \
+    {                                                                                                                  \
+        case##n##_set_running(&memory.case##n, running);                                                               \
+    }                                                                                                                  \
+    static void power_cycle##n(void)                                                                                   \
+    {                                                                                                                  \
+        case##n##_power_cycle(&memory.case##n);                                                                        \
+    }                                                                                                                  \
+    static bool output##n(unsigned terminal)                                                                           \
+    {                                                                                                                  \
+        return case##n##_output(&memory.case##n, terminal);                                                            \
+    }                                                                                                                  \
+    static rungc_map map##n(void)                                                                                      \
+    {                                                                                                                  \
+        return case##n##_map(&memory.case##n);                                                                         \
+    }
+
+#define ENTRY(n) {init##n, scan##n, set_running##n, power_cycle##n, output##n, map##n}
+
+/* CASES */
+
+static const program programs[] = {
+    /* ENTRIES */
+    {NULL, NULL, NULL, NULL, NULL, NULL},
+};
+
+/* The class that a name means. */
+static bool find_class(const char *name, rungc_class *found)
+{
+    static const char *const names[] = {"X", "Y", "M", "S", "T", "C", "D", "R", "V", "Z", "ER"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strcmp(name, names[i]) == 0) {
+            *found = (rungc_class)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static void done(bool ok)
+{
+    puts(ok ? "ok" : "none");
+}
+
+/* Answers a request for a value at once: the other side waits for it. */
+static void value(bool ok, long number)
+{
+    if (ok) {
+        printf("%ld\n", number);
+    } else {
+        puts("none");
+    }
+    fflush(stdout);
+}
+
+/* Sets or reads a device; false if the request is another one. */
+static bool device_request(const program *program, const char *verb, const char *class_name, uint32_t number, long set)
+{
+    rungc_map map = program->map();
+    rungc_class device_class = RUNGC_CLASS_D;
+    const bool known = find_class(class_name, &device_class);
+    if (strcmp(verb, "bit") == 0) {
+        done(known && rungc_set_bit(&map, device_class, number, set != 0));
+    } else if (strcmp(verb, "word") == 0) {
+        done(known && rungc_set_word(&map, device_class, number, (int16_t)set));
+    } else if (strcmp(verb, "dword") == 0) {
+        done(known && rungc_set_long(&map, device_class, number, (int32_t)set));
+    } else if (strcmp(verb, "getbit") == 0) {
+        bool on = false;
+        const bool found = known && rungc_get_bit(&map, device_class, number, &on);
+        value(found, on);
+    } else if (strcmp(verb, "getword") == 0) {
+        int16_t word = 0;
+        const bool found = known && rungc_get_word(&map, device_class, number, &word);
+        value(found, word);
+    } else if (strcmp(verb, "getdword") == 0) {
+        int32_t both = 0;
+        const bool found = known && rungc_get_long(&map, device_class, number, &both);
+        value(found, both);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* Runs the program, or sets or reads the virtual hardware; false if the request is another one. */
+static bool machine_request(const program *program, const char *verb, const long *number)
+{
+    if (strcmp(verb, "scan") == 0) {
+        rungc_virtual_advance((uint32_t)number[0]);
+        program->scan((uint32_t)number[0], (uint32_t)number[1]);
+        done(true);
+    } else if (strcmp(verb, "out") == 0) {
+        value(true, program->output((unsigned)number[0]));
+    } else if (strcmp(verb, "run") == 0) {
+        program->set_running(number[0] != 0);
+        done(true);
+    } else if (strcmp(verb, "power") == 0) {
+        rungc_virtual_restart();
+        program->power_cycle();
+        done(true);
+    } else if (strcmp(verb, "bfm") == 0) {
+        done(rungc_virtual_set_bfm((uint16_t)number[0], (uint16_t)number[1], (int16_t)number[2]));
+    } else if (strcmp(verb, "getbfm") == 0) {
+        int16_t word = 0;
+        const bool found = rungc_virtual_get_bfm((uint16_t)number[0], (uint16_t)number[1], &word);
+        value(found, word);
+    } else if (strcmp(verb, "clock") == 0) {
+        done(rungc_virtual_set_clock((uint16_t)number[0], (uint8_t)number[1], (uint8_t)number[2], (uint8_t)number[3],
+                                     (uint8_t)number[4], (uint8_t)number[5]));
+    } else if (strcmp(verb, "analog") == 0) {
+        done(rungc_virtual_set_analog((uint8_t)number[0], (int16_t)number[1]));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+int main(void)
+{
+    static char line[256];
+    const size_t count = sizeof programs / sizeof programs[0] - 1;
+    const program *program = NULL;
+
+    hardware = rungc_virtual_hal();
+    while (fgets(line, sizeof line, stdin) != NULL) {
+        char verb[16] = "";
+        char class_name[4] = "";
+        unsigned long device = 0;
+        long set = 0;
+        long number[6] = {0};
+        if (sscanf(line, "%15s", verb) != 1) {
+            continue;
+        }
+        if (strcmp(verb, "exit") == 0) {
+            break;
+        }
+        (void)sscanf(line, "%*s %ld %ld %ld %ld %ld %ld", &number[0], &number[1], &number[2], &number[3], &number[4],
+                     &number[5]);
+        if (strcmp(verb, "case") == 0) {
+            program = (number[0] >= 0 && (size_t)number[0] < count) ? &programs[number[0]] : NULL;
+            rungc_virtual_reset();
+            if (program != NULL) {
+                program->init();
+            }
+            done(program != NULL);
+            continue;
+        }
+        if (program == NULL) {
+            done(false);
+            continue;
+        }
+        (void)sscanf(line, "%*s %3s %lu %ld", class_name, &device, &set);
+        if (!device_request(program, verb, class_name, (uint32_t)device, set) && !machine_request(program, verb, number)) {
+            value(false, 0);
+        }
+    }
+    fflush(stdout);
+    return 0;
+}
