@@ -378,6 +378,14 @@ registry! {
     Rbfm = modules::rbfm(m1, m2, d, n1, n2) [state, always, hal];
     /// WBFM (FNC 279): writes buffer memory in portions.
     Wbfm = modules::wbfm(m1, m2, s, n1, n2) [state, always, hal];
+    /// PID (FNC 88) of H1U/H2U: without auto-tuning.
+    Pid = pid::pid(s1, s2, s3, d);
+    /// PID of FX: with auto-tuning by step response.
+    PidTuning = pid::pid_tuning(s1, s2, s3, d);
+    /// PID of HM: one computation per execution.
+    PidHm = pid::pid_hm(s1, s2, s3, d);
+    /// PID of L01S: for temperatures.
+    PidThermal = pid_thermal::pid_thermal(s1, s2, s3, d) [state];
 }
 
 #[cfg(test)]

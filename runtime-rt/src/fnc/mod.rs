@@ -12,6 +12,8 @@ pub mod handy;
 pub mod keys;
 pub mod modules;
 pub mod move_;
+pub mod pid;
+pub mod pid_thermal;
 pub mod rotate;
 pub mod scale;
 pub mod serial;
