@@ -1,8 +1,10 @@
 //! The ways to execute compiled programs, behind one interface.
 
+mod build;
 mod interpreter;
 mod process;
 
+pub use build::{BuildError, EngineKind, build};
 pub use interpreter::Interpreter;
 pub use process::Process;
 

@@ -1,0 +1,141 @@
+//! Builds executables from the emitted C and Rust of a batch of programs.
+
+use super::{Engine, Interpreter, Process};
+use rungc_ir::Module;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The engines there are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum EngineKind {
+    /// The reference interpreter.
+    Interp,
+    /// Emitted C, built by `make` with the C compiler `cc`.
+    C,
+    /// Emitted Rust, built by `cargo`.
+    Rust,
+}
+
+impl EngineKind {
+    /// All of them.
+    pub const ALL: [EngineKind; 3] = [EngineKind::Interp, EngineKind::C, EngineKind::Rust];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            EngineKind::Interp => "interp",
+            EngineKind::C => "c",
+            EngineKind::Rust => "rust",
+        }
+    }
+
+    /// The engine with this name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}
+
+/// Why an executable could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// A file could not be written, or a tool not be started.
+    #[error("{what}: {error}")]
+    Io {
+        /// The file or the tool.
+        what: String,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// A tool refused the emitted code, which is an error of the compiler.
+    #[error("{command} failed:\n{output}")]
+    Tool {
+        /// The command.
+        command: String,
+        /// The end of what it says.
+        output: String,
+    },
+}
+
+/// Makes an engine for these programs. Sources and objects go to `folder`, which may be used again: what has not changed is not
+/// built again.
+pub fn build<'m>(
+    kind: EngineKind,
+    modules: &'m [Module],
+    folder: &Path,
+) -> Result<Box<dyn Engine + 'm>, BuildError> {
+    let folder = folder.join(kind.name());
+    let command = match kind {
+        EngineKind::Interp => return Ok(Box::new(Interpreter::new(modules))),
+        EngineKind::C => build_c(modules, &folder)?,
+        EngineKind::Rust => build_rust(modules, &folder)?,
+    };
+    Ok(Box::new(Process::new(kind.name(), command)))
+}
+
+fn io_error(what: impl std::fmt::Display, error: io::Error) -> BuildError {
+    BuildError::Io {
+        what: what.to_string(),
+        error,
+    }
+}
+
+/// Writes a file unless it has this text already, so that build tools see only what changed.
+fn write(path: &Path, text: &str) -> Result<(), BuildError> {
+    if fs::read_to_string(path).is_ok_and(|old| old == text) {
+        return Ok(());
+    }
+    let failed = |error| io_error(path.display(), error);
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(failed)?;
+    }
+    fs::write(path, text).map_err(failed)
+}
+
+/// Lines of a tool's output that an error quotes.
+const QUOTED_LINES: usize = 60;
+
+fn run(command: &mut Command) -> Result<(), BuildError> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let output = command
+        .output()
+        .map_err(|error| io_error(&program, error))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let text = String::from_utf8_lossy(&output.stderr);
+    let quoted: Vec<&str> = text.lines().take(QUOTED_LINES).collect();
+    Err(BuildError::Tool {
+        command: format!("{command:?}"),
+        output: quoted.join("\n"),
+    })
+}
+
+fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
+    for file in rungc_codegen_rust::batch(modules) {
+        write(&folder.join(&file.path), &file.text)?;
+    }
+    let target = folder.join("target");
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    run(Command::new(cargo)
+        .args(["build", "--offline", "--quiet", "--target-dir"])
+        .arg(&target)
+        .current_dir(folder))?;
+    Ok(target.join("debug").join("batch"))
+}
+
+/// What emitted C must compile with, without a warning.
+const C_FLAGS: &str = "CFLAGS=-std=c99 -Wall -Wextra -Wconversion -Werror -O1";
+
+fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
+    for file in rungc_codegen_c::batch(modules) {
+        write(&folder.join(&file.path), &file.text)?;
+    }
+    let jobs = std::thread::available_parallelism().map_or(1, usize::from);
+    run(Command::new("make")
+        .arg(format!("-j{jobs}"))
+        .arg(C_FLAGS)
+        .current_dir(folder))?;
+    Ok(folder.join("batch"))
+}
