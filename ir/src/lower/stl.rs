@@ -10,6 +10,7 @@ use super::operand::fixed;
 use crate::catalogue::Basic;
 use crate::node::{EdgeId, EdgeKind, Expr};
 use crate::resolve::Resolved;
+use crate::special;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -159,7 +160,9 @@ impl Lowerer<'_> {
     /// SET or OUT of a state in a block.
     pub(super) fn transition(&mut self, target: u32) {
         let mut drive = self.drive_of_form();
-        if self.specials.has(DeviceClass::M, HOLD) {
+        let works =
+            special::find(self.model.id, DeviceClass::M, HOLD).is_some_and(|row| row.works());
+        if works && self.specials.has(DeviceClass::M, HOLD) {
             let held = self.add(Expr::ReadBit(fixed(DeviceClass::M, HOLD)));
             let free = self.not(held);
             drive = self.and(drive, free);

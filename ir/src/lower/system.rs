@@ -4,9 +4,11 @@
 use super::Lowerer;
 use super::operand::fixed;
 use super::stl::ANNUNCIATORS;
-use crate::catalogue::CmpOp;
+use crate::catalogue::{self, CmpOp, Lower};
 use crate::node::{BinOp, Body, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
-use rungc_syntax::DeviceClass::{D, M, S};
+use crate::special::{self, Status};
+use rungc_rt::RtFn;
+use rungc_syntax::DeviceClass::{self, D, M, S};
 
 /// Clock relays and their periods in milliseconds; on in the second half of each.
 const CLOCKS: [(u32, i32); 4] = [(8011, 10), (8012, 100), (8013, 1000), (8014, 60_000)];
@@ -18,6 +20,12 @@ const MOST_SCAN_TIME: u32 = 8012;
 const ERRORS: [u32; 2] = [8004, 8067];
 /// Clears the general, the latched devices.
 const CLEAR: [(u32, bool); 2] = [(8031, false), (8032, true)];
+/// Milliseconds since power-on, low and high word.
+const TICK: [u32; 2] = [8008, 8009];
+/// Second, minute, hour, day, month, year, weekday.
+const CLOCK_REGISTERS: std::ops::RangeInclusive<u32> = 8013..=8019;
+/// Stop and set, hold, round; an error in what was set.
+const CLOCK_RELAYS: [u32; 4] = [8015, 8016, 8017, 8019];
 /// Real-time clock fitted.
 const CLOCK_FITTED: u32 = 8018;
 
@@ -51,10 +59,8 @@ impl Lowerer<'_> {
             this.forget_errors();
             this.clocks();
             this.scan_times();
-            if this.specials.has(M, CLOCK_FITTED) {
-                let on = this.bit_const(true);
-                this.write_device(M, CLOCK_FITTED, on);
-            }
+            this.tick();
+            this.real_time_clock();
         })
     }
 
@@ -63,12 +69,19 @@ impl Lowerer<'_> {
             this.monitor(&STATES);
             this.monitor(&ALARMS);
             for (relay, latched) in CLEAR {
-                if this.specials.has(M, relay) {
+                if this.keeps(M, relay) {
                     let asked = this.add(Expr::ReadBit(fixed(M, relay)));
                     this.when(asked, |this| this.emit(Stmt::Clear { latched }));
                 }
             }
         })
+    }
+
+    /// Whether a special device is one that the scan keeps on this model, and something looks at it.
+    fn keeps(&self, class: DeviceClass, number: u32) -> bool {
+        self.specials.has(class, number)
+            && special::find(self.model.id, class, number)
+                .is_some_and(|row| matches!(row.status, Status::Scan))
     }
 
     /// M8000 to M8003.
@@ -81,7 +94,7 @@ impl Lowerer<'_> {
             (8002, first, false),
             (8003, first, true),
         ] {
-            if self.specials.has(M, relay) {
+            if self.keeps(M, relay) {
                 let mut state = self.add(state);
                 if inverted {
                     state = self.not(state);
@@ -95,7 +108,7 @@ impl Lowerer<'_> {
     fn forget_errors(&mut self) {
         let errors: Vec<u32> = ERRORS
             .into_iter()
-            .filter(|&relay| self.specials.has(M, relay))
+            .filter(|&relay| self.keeps(M, relay))
             .collect();
         if errors.is_empty() {
             return;
@@ -112,7 +125,7 @@ impl Lowerer<'_> {
     /// M8011 to M8014: the time since power-on, without its sign bit, tells where in its period each is.
     fn clocks(&mut self) {
         for (relay, period) in CLOCKS {
-            if !self.specials.has(M, relay) {
+            if !self.keeps(M, relay) {
                 continue;
             }
             let now = self.add(Expr::Sys(SysValue::NowMs));
@@ -130,7 +143,7 @@ impl Lowerer<'_> {
     fn scan_times(&mut self) {
         if ![SCAN_TIME, LEAST_SCAN_TIME, MOST_SCAN_TIME]
             .iter()
-            .any(|&register| self.specials.has(D, register))
+            .any(|&register| self.keeps(D, register))
         {
             return;
         }
@@ -139,10 +152,10 @@ impl Lowerer<'_> {
         let zero = self.int(0, false);
         let known = self.add(Expr::Cmp(CmpOp::Gt, time, zero));
         self.when(known, |this| {
-            if this.specials.has(D, SCAN_TIME) {
+            if this.keeps(D, SCAN_TIME) {
                 this.emit(Stmt::WriteWord(fixed(D, SCAN_TIME), time));
             }
-            if this.specials.has(D, LEAST_SCAN_TIME) {
+            if this.keeps(D, LEAST_SCAN_TIME) {
                 let least = this.add(Expr::ReadWord(fixed(D, LEAST_SCAN_TIME)));
                 let unset = this.add(Expr::Cmp(CmpOp::Eq, least, zero));
                 let less = this.add(Expr::Cmp(CmpOp::Lt, time, least));
@@ -151,7 +164,7 @@ impl Lowerer<'_> {
                     this.emit(Stmt::WriteWord(fixed(D, LEAST_SCAN_TIME), time));
                 });
             }
-            if this.specials.has(D, MOST_SCAN_TIME) {
+            if this.keeps(D, MOST_SCAN_TIME) {
                 let most = this.add(Expr::ReadWord(fixed(D, MOST_SCAN_TIME)));
                 let more = this.add(Expr::Cmp(CmpOp::Gt, time, most));
                 this.when(more, |this| {
@@ -161,22 +174,68 @@ impl Lowerer<'_> {
         });
     }
 
+    /// D8008 and D8009 (HM): the milliseconds since power-on.
+    fn tick(&mut self) {
+        let [low, high] = TICK.map(|register| self.keeps(D, register));
+        let now = self.add(Expr::Sys(SysValue::NowMs));
+        if low {
+            let word = self.add(Expr::Narrow(now));
+            self.emit(Stmt::WriteWord(fixed(D, TICK[0]), word));
+        }
+        if high {
+            let word = self.add(Expr::HighWord(now));
+            self.emit(Stmt::WriteWord(fixed(D, TICK[1]), word));
+        }
+    }
+
+    /// M8015 to M8019 and D8013 to D8019.
+    fn real_time_clock(&mut self) {
+        if self.keeps(M, CLOCK_FITTED) {
+            let on = self.bit_const(true);
+            self.write_device(M, CLOCK_FITTED, on);
+        }
+        let registers = CLOCK_REGISTERS.map(|register| (D, register));
+        let mut devices = registers.chain(CLOCK_RELAYS.map(|relay| (M, relay)));
+        if !devices.any(|(class, number)| self.keeps(class, number)) {
+            return;
+        }
+        // All seven registers make a moment, even if the program looks at one.
+        self.specials
+            .flags
+            .extend(CLOCK_REGISTERS.map(|register| (D, register)));
+        let drive = self.bit_const(true);
+        self.module.states = self.module.states.saturating_add(1);
+        self.emit(Stmt::Call {
+            function: self.clock_function(),
+            wide: false,
+            args: Vec::new(),
+            drive: Some(drive),
+            slot: self.module.states,
+            step: 0,
+        });
+    }
+
+    /// The year has as many digits as TRD reads.
+    fn clock_function(&self) -> RtFn {
+        match catalogue::find("TRD").map(|found| found.inst.lower_on_model(self.model.id)) {
+            Some(Lower::Call(RtFn::TrdShort)) => RtFn::ClockRefreshShort,
+            _ => RtFn::ClockRefresh,
+        }
+    }
+
     /// While it is enabled, lists the lowest active S devices. A register without one keeps its value.
     fn monitor(&mut self, monitor: &Monitor) {
         let registers: Vec<u32> = monitor
             .registers
             .clone()
-            .map(|register| {
-                if self.specials.has(D, register) {
-                    register
-                } else {
-                    0
-                }
-            })
+            .map(
+                |register| {
+                    if self.keeps(D, register) { register } else { 0 }
+                },
+            )
             .collect();
-        let any = self.specials.has(M, monitor.any);
-        if !self.specials.has(M, monitor.enable)
-            || !any && registers.iter().all(|&register| register == 0)
+        let any = self.keeps(M, monitor.any);
+        if !self.keeps(M, monitor.enable) || !any && registers.iter().all(|&register| register == 0)
         {
             return;
         }
