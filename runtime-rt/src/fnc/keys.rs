@@ -78,7 +78,7 @@ pub fn hky(cx: &mut Cx) -> Done {
     cx.check_bits(1, 4)?;
     cx.check_bits(3, 8)?;
     let [_, _, scan, mut read, ..] = cx.state().0;
-    let column = scan / 2 & 3;
+    let column = (scan / 2) & 3;
     if scan % 2 == 1 {
         read = read & !(15 << (4 * column)) | (row as i32) << (4 * column);
     }

@@ -298,7 +298,7 @@ mod tests {
 
     impl Hal for Terminals {
         fn input(&mut self, number: u16) -> Option<bool> {
-            Some(number % 3 == 0)
+            Some(number.is_multiple_of(3))
         }
         fn set_output(&mut self, number: u16, value: bool) {
             if value {
