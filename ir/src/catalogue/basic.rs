@@ -176,38 +176,59 @@ const RST: &[Variant] = &[
 ];
 
 pub(super) const ROWS: &[Inst] = &[
-    contact("LD", "Load a contact", Basic::Ld).text("Begins a block of contacts with the state of S."),
-    contact("LDI", "Load an inverted contact", Basic::Ldi).text("Begins a block of contacts with the inverted state of S."),
+    contact("LD", "Load a contact", Basic::Ld).example("LD X000\nOUT Y000")
+        .text("Begins a block of contacts with the state of S."),
+    contact("LDI", "Load an inverted contact", Basic::Ldi).example("LDI X000\nOUT Y000")
+        .text("Begins a block of contacts with the inverted state of S."),
     edge("LDP", "Load a rising edge", Basic::Ldp)
         .fnc(90)
+        .example("LDP X000\nSET Y000")
         .text("Begins a block of contacts; on for the one scan in which S has come on."),
     edge("LDF", "Load a falling edge", Basic::Ldf)
         .fnc(91)
+        .example("LDF X000\nRST Y000")
         .text("Begins a block of contacts; on for the one scan in which S has gone off."),
-    contact("AND", "Series contact", Basic::And).text("The result and S."),
-    contact("ANI", "Inverted series contact", Basic::Ani).text("The result and not S."),
-    edge("ANDP", "Series rising edge", Basic::Andp).fnc(92).text("The result, in the one scan in which S has come on."),
-    edge("ANDF", "Series falling edge", Basic::Andf).fnc(93).text("The result, in the one scan in which S has gone off."),
-    contact("OR", "Parallel contact", Basic::Or).text("The block's result or S."),
-    contact("ORI", "Inverted parallel contact", Basic::Ori).text("The block's result or not S."),
-    edge("ORP", "Parallel rising edge", Basic::Orp).fnc(94).text("The block's result, or on in the one scan in which S has come on."),
-    edge("ORF", "Parallel falling edge", Basic::Orf).fnc(95).text("The block's result, or on in the one scan in which S has gone off."),
-    logic("ANB", "Blocks in series", Basic::Anb).text("The last block and the one before it become one: both."),
-    logic("ORB", "Blocks in parallel", Basic::Orb).text("The last block and the one before it become one: either."),
-    logic("MPS", "Push the result", Basic::Mps).text("Puts the result on the branch stack, for branches that follow."),
-    logic("MRD", "Read the pushed result", Basic::Mrd).text("The result that was pushed last, which stays on the stack."),
-    logic("MPP", "Pop the pushed result", Basic::Mpp).text("The result that was pushed last, which leaves the stack."),
-    logic("INV", "Invert", Basic::Inv).fnc(98).text("Inverts the result so far."),
+    contact("AND", "Series contact", Basic::And).example("LD X000\nAND X001\nOUT Y000")
+        .text("The result and S."),
+    contact("ANI", "Inverted series contact", Basic::Ani).example("LD X000\nANI X001\nOUT Y000")
+        .text("The result and not S."),
+    edge("ANDP", "Series rising edge", Basic::Andp).fnc(92).example("LD X000\nANDP X001\nSET Y000")
+        .text("The result, in the one scan in which S has come on."),
+    edge("ANDF", "Series falling edge", Basic::Andf).fnc(93).example("LD X000\nANDF X001\nSET Y000")
+        .text("The result, in the one scan in which S has gone off."),
+    contact("OR", "Parallel contact", Basic::Or).example("LD X000\nOR Y000\nANI X001\nOUT Y000")
+        .text("The block's result or S."),
+    contact("ORI", "Inverted parallel contact", Basic::Ori).example("LD X000\nORI X001\nOUT Y000")
+        .text("The block's result or not S."),
+    edge("ORP", "Parallel rising edge", Basic::Orp).fnc(94).example("LD X000\nORP X001\nOUT M0")
+        .text("The block's result, or on in the one scan in which S has come on."),
+    edge("ORF", "Parallel falling edge", Basic::Orf).fnc(95).example("LD X000\nORF X001\nOUT M0")
+        .text("The block's result, or on in the one scan in which S has gone off."),
+    logic("ANB", "Blocks in series", Basic::Anb).example("LD X000\nOR X001\nLD X002\nOR X003\nANB\nOUT Y000")
+        .text("The last block and the one before it become one: both."),
+    logic("ORB", "Blocks in parallel", Basic::Orb).example("LD X000\nAND X001\nLD X002\nAND X003\nORB\nOUT Y000")
+        .text("The last block and the one before it become one: either."),
+    logic("MPS", "Push the result", Basic::Mps).example("LD X000\nMPS\nAND X001\nOUT Y000\nMPP\nAND X002\nOUT Y001")
+        .text("Puts the result on the branch stack, for branches that follow."),
+    logic("MRD", "Read the pushed result", Basic::Mrd).example("LD X000\nMPS\nAND X001\nOUT Y000\nMRD\nAND X002\nOUT Y001\nMPP\nAND X003\nOUT Y002")
+        .text("The result that was pushed last, which stays on the stack."),
+    logic("MPP", "Pop the pushed result", Basic::Mpp).example("LD X000\nMPS\nAND X001\nOUT Y000\nMPP\nAND X002\nOUT Y001")
+        .text("The result that was pushed last, which leaves the stack."),
+    logic("INV", "Invert", Basic::Inv).fnc(98).example("LD X000\nAND X001\nINV\nOUT Y000")
+        .text("Inverts the result so far."),
     logic("MEP", "Rising edge of the result", Basic::Mep)
         .on(LIKE_FX3)
+        .example("LD X000\nAND X001\nMEP\nSET M0")
         .text("On for the one scan in which the result so far has come on."),
     logic("MEF", "Falling edge of the result", Basic::Mef)
         .on(LIKE_FX3)
+        .example("LD X000\nAND X001\nMEF\nSET M0")
         .text("On for the one scan in which the result so far has gone off."),
     basic("OUT", "Coil", Basic::Out)
         .aliases(&["TMR", "CNT", "DCNT"])
         .takes(&[coil("D", COILS).plain()])
         .variants(OUT)
+        .example("LD X000\nOUT Y000\nOUT T0 K30\nLD X001\nOUT C0 K10")
         .text(
             "Writes the result to Y, M or S in each scan. A timer runs while driven and closes its contact after the preset; a \
              counter counts each time that the drive comes on. OUT S inside a step is a transition.",
@@ -227,16 +248,20 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[pointer("N", Classes::N), coil("D", Classes::Y.or(M)).plain().numbers(ORDINARY_M)])
         .variants(&[on(HM).steps(5, 5)])
         .errors(&[6608, 6623, 6624])
+        .example("LD X000\nMC N0 M100\nLD X001\nOUT Y000\nMCR N0")
         .text("Up to the MCR of the same level coils are off and instructions not executed while it is not driven; D shows the drive."),
     basic("MCR", "Master control reset", Basic::Mcr)
         .steps(2, 2)
         .takes(&[pointer("N", Classes::N)])
         .variants(&[on(HM).steps(3, 3)])
         .drive(Drive::Alone)
+        .example("LD X000\nMC N0 M100\nLD X001\nOUT Y000\nMCR N0")
         .text("Ends the zone that the MC of this level began, and the deeper ones."),
-    logic("NOP", "No operation", Basic::Nop).text("Does nothing."),
+    logic("NOP", "No operation", Basic::Nop).example("NOP\nLD X000\nOUT Y000")
+        .text("Does nothing."),
     basic("END", "End of the program", Basic::End)
         .drive(Drive::Alone)
+        .example("LD X000\nOUT Y000\nEND")
         .text("Ends the scan; what follows is not executed."),
     basic("STL", "Step", Basic::Stl)
         .takes(&[bit("S", S).plain()])
@@ -244,9 +269,11 @@ pub(super) const ROWS: &[Inst] = &[
         .drive(Drive::Alone)
         .flags(&["M8040", "M8046", "M8047"])
         .errors(&[6605, 6625, 6626, 6627])
+        .example("LD M8002\nSET S0\nSTL S0\nOUT Y000\nLD X000\nSET S20\nSTL S20\nOUT Y001\nLD X001\nSET S0\nRET")
         .text("Begins the instructions of step S, which run while the step is active, up to the next STL or RET."),
     basic("RET", "End of the steps", Basic::Ret)
         .drive(Drive::Alone)
         .errors(&[6627])
+        .example("LD M8002\nSET S0\nSTL S0\nOUT Y000\nLD X000\nSET S20\nSTL S20\nOUT Y001\nLD X001\nSET S0\nRET")
         .text("Ends a series of steps."),
 ];

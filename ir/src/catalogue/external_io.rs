@@ -1,8 +1,9 @@
 //! Keys, displays and modules, FNC 70–79, 176, 177, 278 and 279.
 
 use super::row::*;
-use super::{Classes, Inst, Param, Rule};
+use super::{Classes, Inst, Lower, Param, Rule};
 use crate::model::{ModelId, ModelSet};
+use rungc_rt::RtFn;
 
 const H1U_H2U_FX: ModelSet = INOVANCE.and(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
 const NOT_FX3G: ModelSet = NOT_HM.except(&[ModelId::Fx3g]);
@@ -62,6 +63,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_W32)
         .steps(7, 13)
         .takes(&[bit("S", BITS).len(10), both("D1", RESULTS), coil("D2", COILS).len(11).changed()])
+        .call(RtFn::Tky)
         .text(
             "S … S+9 are the keys 0 to 9. A newly pressed one is appended to the decimal number in D1, which keeps its last 4 (32-bit: \
              8) digits. D2 … D2+9 show the keys, D2+10 that one is pressed.",
@@ -76,6 +78,7 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D3", COILS).len(8).changed(),
         ])
         .flags(&["M8029", "M8167"])
+        .call(RtFn::Hky)
         .text(
             "Scans a matrix of 16 keys by four outputs and four inputs. Digits are appended to the number in D2; D3 … D3+5 show A to F, \
              D3+6 that one of them is pressed, D3+7 that a digit is. With M8167 on all 16 are hexadecimal digits.",
@@ -90,6 +93,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("n", 1, 2),
         ])
         .flags(&["M8029"])
+        .call(RtFn::Dsw)
         .text(
             "Reads n groups of four decimal switches: outputs D1 … D1+3 select a digit, the lowest first, its bits come in at S (second \
              group: S+4). D2 and D2+1 are the numbers; M8029 is on after each reading.",
@@ -98,6 +102,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", VALUES), both("D", RESULTS)])
+        .call(RtFn::Segd)
         .text("Writes the segments a to g of the digit in the low four bits of S to the low eight bits of D."),
     io("SEGL", 74, "Seven-segment display")
         .on(H1U_H2U_FX)
@@ -109,6 +114,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("n", 0, 7),
         ])
         .flags(&["M8029"])
+        .call(RtFn::Segl)
         .text(
             "Shows S (n from 4 on: and S+1) on a display of four digits: data on D … D+3 (second group: D+10 …), strobes on D+4 … D+7. \
              n says the polarities. A refresh takes 12 scans, after which M8029 is on.",
@@ -122,6 +128,7 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D2", Classes::Y).len(8),
             count("n", 0, 3),
         ])
+        .call(RtFn::Arws)
         .text(
             "Edits the digits of D1 with four keys, down, up, right and left from S on, and shows it at D2 as SEGL does.",
         ),
@@ -130,6 +137,8 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(11, 11)
         .takes(&[text("S", Classes::TEXT), text_out("D", REGISTERS).len(8)])
         .flags(&["M8161"])
+        .example("LD X000\nASC \"STOPPED\" D0")
+        .call(RtFn::Asc)
         .text(
             "Writes the eight characters S to four words from D on, low byte first; with M8161 on to eight words. What is missing is \
              filled with spaces.",
@@ -140,6 +149,7 @@ pub(super) const ROWS: &[Inst] = &[
         .uses(2)
         .takes(&[src("S", REGISTERS).len(8), coil("D", Classes::Y).len(10)])
         .flags(&["M8027", "M8029"])
+        .call(RtFn::Pr)
         .text(
             "Sends the eight (M8027 on: up to sixteen) characters at S one after the other on outputs D … D+7, with a strobe on D+10 \
              and a busy signal on D+11.",
@@ -152,6 +162,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(INOVANCE).takes(FROM)])
         .flags(&["M8164", "D8164"])
         .errors(&[6706, 6709])
+        .call(RtFn::From)
         .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n."),
     io("TO", 79, "Write to a module")
         .on(NOT_HM)
@@ -161,6 +172,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(INOVANCE).takes(TO)])
         .flags(&["M8164", "D8164"])
         .errors(&[6706, 6709])
+        .call(RtFn::To)
         .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n."),
     io("RD3A", 176, "Read an analog module")
         .on(NOT_HM)
@@ -168,6 +180,8 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), dst("D", RESULTS)])
         .variants(&[on(L01S).takes(READ_MODBUS)])
+        .call(RtFn::Rd3a)
+        .lower_on(&[(L01S, Lower::Todo("serial communication"))])
         .text("Reads channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it reads registers by Modbus."),
     io("WR3A", 177, "Write an analog module")
         .on(NOT_HM)
@@ -175,6 +189,8 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), src("S", VALUES)])
         .variants(&[on(L01S).takes(READ_MODBUS)])
+        .call(RtFn::Wr3a)
+        .lower_on(&[(L01S, Lower::Todo("serial communication"))])
         .text("Writes S to channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it writes registers by Modbus."),
     io("VRRD", 85, "Read a potentiometer")
         .on(FX)
@@ -201,6 +217,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
+        .call(RtFn::Rbfm)
         .text("Copies n words of the buffer memory of module m1 from address m2 on to D, n2 words in each scan."),
     io("WBFM", 279, "Write to a module in parts")
         .on(FX3U)
@@ -213,5 +230,6 @@ pub(super) const ROWS: &[Inst] = &[
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
+        .call(RtFn::Wbfm)
         .text("Copies n words from S on to the buffer memory of module m1 from address m2 on, n2 words in each scan."),
 ];

@@ -26,6 +26,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(LABEL)
         .variants(&[on(HM).takes(INDEXED_LABEL), on(INOVANCE).takes(JUMP_LABEL)])
         .errors(&[6701])
+        .example("LD X000\nCJ P0\nLD X001\nOUT Y000\nP0\nLD X002\nOUT Y001")
         .text(
             "Goes on at the label while driven; what lies between is not executed and keeps its state. P63 is the end of the scan.",
         ),
@@ -34,21 +35,27 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(3, 3)
         .takes(LABEL)
         .errors(&[6701, 6702])
+        .example("LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET")
         .text("Runs the subroutine at the label up to SRET while driven, then goes on behind the CALL."),
     flow("SRET", 2, "Subroutine return", Basic::Sret)
         .drive(Drive::Alone)
+        .example("LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET")
         .text("Ends a subroutine."),
     flow("IRET", 3, "Interrupt return", Basic::Iret)
         .drive(Drive::Alone)
+        .example("EI\nLD X001\nOUT Y001\nFEND\nI001\nLD M8000\nINC D0\nIRET")
         .text("Ends an interrupt routine."),
     flow("EI", 4, "Enable interrupts", Basic::Ei)
         .drive(Drive::Alone)
+        .example("EI\nLD X001\nOUT Y001\nFEND\nI001\nLD M8000\nINC D0\nIRET")
         .text("Interrupt routines may run from here on. They may not after the start of RUN."),
     flow("DI", 5, "Disable interrupts", Basic::Di)
         .drive(Drive::Alone)
+        .example("EI\nLD X001\nOUT Y001\nDI\nLD X002\nOUT Y002\nEI\nFEND\nI001\nLD M8000\nINC D0\nIRET")
         .text("Interrupt requests are kept from here on until the next EI."),
     flow("FEND", 6, "End of the main program", Basic::Fend)
         .drive(Drive::Alone)
+        .example("LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET")
         .text("Ends the main program; subroutines and interrupt routines follow."),
     flow("WDT", 7, "Watchdog refresh", Basic::Wdt)
         .forms(W16_P)
@@ -59,16 +66,20 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[src("S", VALUES)])
         .drive(Drive::Alone)
         .errors(&[6607])
+        .example("FOR K4\nLD M8000\nADD D0 K1 D0\nNEXT")
         .text("Runs the instructions up to the matching NEXT S times in the same scan; S below 1 counts as 1."),
     flow("NEXT", 9, "End of a loop", Basic::Next)
         .drive(Drive::Alone)
+        .example("FOR K4\nLD M8000\nADD D0 K1 D0\nNEXT")
         .text("Ends the loop that the last FOR began."),
     row("P", "Label", "h1u-h2u-programming §4.2")
         .drive(Drive::Alone)
         .lower(Lower::Basic(Basic::Label))
+        .example("LD X000\nCJ P0\nLD X001\nOUT Y000\nP0\nLD X002\nOUT Y001")
         .text("Where CJ or CALL goes to, written as the pointer itself: P0."),
     row("I", "Interrupt routine", "h1u-h2u-programming §4.2")
         .drive(Drive::Alone)
         .lower(Lower::Basic(Basic::Label))
+        .example("EI\nLD X001\nOUT Y001\nFEND\nI001\nLD M8000\nINC D0\nIRET")
         .text("Where an interrupt routine begins, written as the pointer itself: I001. It ends with IRET."),
 ];

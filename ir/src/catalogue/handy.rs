@@ -47,6 +47,8 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D2", Classes::S).plain().numbers(&[(DeviceClass::S, 20, 899)]),
         ])
         .flags(&["M8040", "M8041", "M8042", "M8043", "M8044", "M8045", "M8047"])
+        .example("LD M8000\nIST X020 S20 S40")
+        .call(RtFn::Ist)
         .text(
             "Runs a step program by eight mode inputs from S on: manual, origin return, single step, one cycle, continuous, origin \
              start, automatic start, stop. Manual operation begins at S0, origin return at S1, automatic operation at S2; D1 to D2 \
@@ -55,6 +57,7 @@ pub(super) const ROWS: &[Inst] = &[
     handy("SER", 61, "Search")
         .forms(ALL_FORMS)
         .takes(SEARCH)
+        .call(RtFn::Ser)
         .text(
             "Compares the n values from S1 on with S2 and writes: D how many are equal, D+1 and D+2 where the first and the last of \
              them stand, D+3 and D+4 where the smallest and the largest value stand (the last of several), counted from 0.",
@@ -68,6 +71,7 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D", COILS).per(3),
             count("n", 1, 64),
         ])
+        .call(RtFn::Absd)
         .text(
             "Bit D+i is on while counter S2 is from the value S1+2i up to below S1+2i+1; a pair in falling order means the range round \
              the end.",
@@ -81,6 +85,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("n", 1, 64),
         ])
         .flags(&["M8029"])
+        .call(RtFn::Incd)
         .text(
             "One of the n bits from D on is on; when counter S2 reaches the value for it, S2 starts again, S2+1 counts on and the next \
              bit takes over. M8029 is on for a scan after the last.",
@@ -89,6 +94,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_FX3G)
         .steps(5, 5)
         .takes(&[dst("D", DATA).len(2), count("n", 0, 2)])
+        .call(RtFn::Ttmr)
         .text("Measures how long it is driven: D in s × 10^n, which stays, D+1 in 100 ms, which goes back to 0."),
     handy("STMR", 65, "Special timer")
         .on(NOT_FX3G)
@@ -98,6 +104,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("m", 1, 32767).also(DATA),
             coil("D", COILS).len(4),
         ])
+        .call(RtFn::Stmr)
         .text(
             "Four delays of m × 100 ms by timer S: D goes off that long after the drive, D+1 is on that long after it, D+2 is on that \
              long from its beginning, D+3 goes on and off that long after it.",
@@ -108,6 +115,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).forms(W16).takes(&[coil("D", COILS).changed().plain()])])
         .steps(3, 3)
         .takes(&[coil("D", COILS).changed()])
+        .call(RtFn::Alt)
         .text("Inverts D at each execution."),
     handy("RAMP", 67, "Ramp")
         .takes(&[
@@ -117,6 +125,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("n", 1, 32767).also(DATA),
         ])
         .flags(&["M8026", "M8029"])
+        .call(RtFn::Ramp)
         .text(
             "Moves D from S1 to S2 within n scans; D+1 counts them. M8029 is on at the end. It then starts again; with M8026 on it \
              stays there.",
@@ -130,6 +139,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("m2", 0, 32767).rules(&[Rule::AtMost(1)]),
             coil("D", COILS).len(8).changed(),
         ])
+        .call(RtFn::Rotc)
         .text(
             "Turns a table of m1 positions, m2 of them slow ones. S counts, S+1 is the window, S+2 the wanted piece. D, D+1 and D+2 are \
              the phases and the zero position; D+3 … D+7 fast and slow forward, stop, slow and fast backward.",
@@ -145,6 +155,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)).limits(1, 6).rules(&[Rule::AtMost(2)]),
         ])
         .flags(&["M8029"])
+        .call(RtFn::Sort)
         .text(
             "Sorts the m1 rows of the table at S, which has m2 columns one behind the other, by column n and writes it to D. It takes \
              m1 scans; M8029 is on at the end.",

@@ -1,8 +1,9 @@
 //! High-speed inputs and outputs, FNC 50–59, 189 and 280.
 
 use super::row::*;
-use super::{Classes, Inst, Param, Rule, Variant};
+use super::{Classes, Inst, Lower, Param, Rule, Variant};
 use crate::model::{ModelId, ModelSet};
+use rungc_rt::RtFn;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 
 const COUNTERS: &str = "high-speed counters";
@@ -131,7 +132,8 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(5, 5)
         .takes(REFRESH)
         .variants(&[on(HM).takes(REFRESH_HM)])
-        .todo(SOON)
+        .call(RtFn::Ref)
+        .lower_on(&[(HM, Lower::Call(RtFn::RefHm))])
         .text("Reads n inputs from D on, or writes n outputs, at once instead of at the scan's beginning or end."),
     fast("REFF", 51, "Refresh with input filter")
         .forms(W16_P)
@@ -139,7 +141,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM.except(&[ModelId::Fx3g]))
         .takes(&[count("n", 0, 60)])
         .flags(&["D8020"])
-        .todo(SOON)
+        .call(RtFn::Reff)
         .text("Sets the filter time of the first inputs to n ms, in D8020."),
     fast("MTR", 52, "Input matrix")
         .steps(9, 9)
@@ -155,7 +157,7 @@ pub(super) const ROWS: &[Inst] = &[
             count("n", 2, 8),
         ])
         .flags(&["M8029"])
-        .todo(SOON)
+        .call(RtFn::Mtr)
         .text(
             "Reads a matrix of 8 × n keys: output D1+k selects row k, whose eight bits come in at S and go to D2 and ten times k. M8029 \
              is on after each reading.",

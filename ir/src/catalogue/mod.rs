@@ -10,6 +10,7 @@ mod block;
 mod clock;
 mod compare;
 mod data;
+mod explain;
 mod external_io;
 mod float;
 mod flow;
@@ -26,6 +27,7 @@ mod string;
 #[cfg(test)]
 mod tests;
 
+pub use explain::{explain, special_table, support_table};
 pub use lookup::{Found, all, find};
 
 use crate::model::{Model, ModelId, ModelSet};
@@ -123,6 +125,40 @@ impl Classes {
             DeviceClass::I => Classes::I,
             DeviceClass::N => Classes::N,
         }
+    }
+
+    /// Its classes as a manual lists them: `K, H, KnX, …`.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        const NAMES: [(Classes, &str); 24] = [
+            (Classes::K, "K"),
+            (Classes::H, "H"),
+            (Classes::E, "E"),
+            (Classes::TEXT, "text"),
+            (Classes::KNX, "KnX"),
+            (Classes::KNY, "KnY"),
+            (Classes::KNM, "KnM"),
+            (Classes::KNS, "KnS"),
+            (Classes::X, "X"),
+            (Classes::Y, "Y"),
+            (Classes::M, "M"),
+            (Classes::S, "S"),
+            (Classes::T, "T"),
+            (Classes::C, "C"),
+            (Classes::D, "D"),
+            (Classes::R, "R"),
+            (Classes::ER, "ER"),
+            (Classes::V, "V"),
+            (Classes::Z, "Z"),
+            (Classes::WORD_BIT, "D.b"),
+            (Classes::BUFFER, "U\\G"),
+            (Classes::P, "P"),
+            (Classes::I, "I"),
+            (Classes::N, "N"),
+        ];
+        NAMES
+            .into_iter()
+            .filter(move |(class, _)| self.meets(*class))
+            .map(|(_, name)| name)
     }
 
     /// Whether no class is in it.
@@ -472,6 +508,8 @@ pub struct Inst {
     pub title: &'static str,
     /// A paragraph for `rungc explain`, in our own words.
     pub text: &'static str,
+    /// A small program that shows it, where one that is made from its operands would not do; see [`Inst::example_on`].
+    pub example: Option<&'static str>,
     /// Where the manual tells it: `h1u-h2u-programming §4.3.2`.
     pub source: &'static str,
     /// Its forms.

@@ -35,11 +35,14 @@ const fn process(name: &'static str, title: &'static str) -> Inst {
 pub(super) const ROWS: &[Inst] = &[
     process("PROC", "Begin of a process section")
         .drive(Drive::Alone)
+        .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Where the next request of an advanced interrupt enters it while the PEND that follows is not driven."),
     process("PEND", "End of a process section")
+        .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Ends this run of an advanced interrupt. Driven, the next request goes on behind it."),
     process("PRET", "End of an advanced interrupt")
         .drive(Drive::Alone)
+        .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Ends an advanced interrupt."),
     motion("AXPO", "Bind an axis to an output")
         .takes(&[AXIS, count("D2", 0, 8), any("D3").limits(0, 1)])

@@ -81,6 +81,7 @@ pub(super) const fn row(name: &'static str, title: &'static str, source: &'stati
         fnc: None,
         title,
         text: "",
+        example: None,
         source,
         forms: W16,
         steps: (1, 1),
@@ -112,6 +113,11 @@ impl Inst {
 
     pub(super) const fn text(self, text: &'static str) -> Self {
         Inst { text, ..self }
+    }
+
+    pub(super) const fn example(self, program: &'static str) -> Self {
+        let example = Some(program);
+        Inst { example, ..self }
     }
 
     pub(super) const fn forms(self, forms: Forms) -> Self {

@@ -1,4 +1,4 @@
-use super::{Extent, Forms, Spelling, all, find};
+use super::{Extent, Forms, Lower, Spelling, all, explain, find, special_table, support_table};
 use crate::model::{Model, ModelId};
 use crate::resolve::Form;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
@@ -123,5 +123,67 @@ fn steps_are_those_of_the_editor() {
             steps,
             "{mnemonic}"
         );
+    }
+}
+
+/// What the pages show is what the checks accept, on every model that has the instruction.
+#[test]
+fn examples_resolve_without_errors() {
+    let mut wrong = Vec::new();
+    for inst in all() {
+        for id in ModelId::ALL.into_iter().filter(|&id| inst.models.has(id)) {
+            let model = Model::get(id);
+            let mut text = inst.example_on(model);
+            text.push_str("\nEND\n");
+            let read = rungc_frontend::read_text("example", &text);
+            let (_, found) = crate::resolve::resolve(&read.program, model);
+            let errors: Vec<_> = read
+                .diagnostics
+                .iter()
+                .chain(found.iter())
+                .filter(|diagnostic| diagnostic.severity == rungc_syntax::Severity::Error)
+                .map(|diagnostic| diagnostic.message.to_string())
+                .collect();
+            if !errors.is_empty() {
+                wrong.push(format!("{} on {}: {text}{errors:?}", inst.name, model.name));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn pages_and_tables_can_be_made() {
+    for inst in all() {
+        let page = explain(inst.name).unwrap_or_else(|| panic!("{}", inst.name));
+        assert!(page.contains(inst.text), "{}", inst.name);
+    }
+    insta::assert_snapshot!("explain_add", explain("daddp").unwrap_or_default());
+    insta::assert_snapshot!("explain_deco", explain("DECO").unwrap_or_default());
+    assert_eq!(explain("MOVE"), None);
+    let table = support_table();
+    for inst in all() {
+        assert!(
+            table.contains(&format!("| `{}` |", inst.name)),
+            "{}",
+            inst.name
+        );
+    }
+    assert!(special_table(ModelId::H2u).contains("| M8002 | read | 0 |"));
+}
+
+/// Nothing of the runtime is out of reach, but for what the scan itself calls.
+#[test]
+fn every_runtime_function_has_a_row() {
+    let of_the_scan = [
+        rungc_rt::RtFn::AnnunciatorMonitor,
+        rungc_rt::RtFn::ClockRefresh,
+        rungc_rt::RtFn::ClockRefreshShort,
+    ];
+    for function in rungc_rt::RtFn::ALL {
+        let calls = |lower: &Lower| matches!(lower, Lower::Call(called) if called == function);
+        let reached = all()
+            .any(|inst| calls(&inst.lower) || inst.lower_on.iter().any(|(_, lower)| calls(lower)));
+        assert!(reached || of_the_scan.contains(function), "{function:?}");
     }
 }
