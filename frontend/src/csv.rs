@@ -154,13 +154,15 @@ struct Reader {
     current: Current,
 }
 
-/// The instruction that operand rows belong to.
+/// What the operands of a row belong to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Current {
     /// None yet.
     None,
     /// The last one of the program.
     Last,
+    /// The last one, which is a label and takes none.
+    Label,
     /// One that could not be read: its operands are passed over.
     Unread,
 }
@@ -207,41 +209,48 @@ impl Reader {
             .layout
             .columns
             .map(|column| record.get(column).unwrap_or("").trim());
-        for statement in [line_statement, pointer_statement]
+        let statements = [line_statement, pointer_statement]
             .into_iter()
-            .filter_map(clean)
-        {
-            self.listing.comment(&statement);
+            .filter_map(clean);
+        for statement in statements.clone() {
             append(&mut self.statement, statement);
         }
-        if mnemonic.is_empty() && operand.is_empty() {
-            if let (Some(note), Current::Last) = (clean(note), self.current) {
-                self.note(note);
-            }
-            return;
+        if !mnemonic.is_empty() || !operand.is_empty() {
+            self.instruction_row(step, mnemonic, operand);
         }
+        for statement in statements {
+            self.listing.comment(&statement);
+        }
+        if let (Some(note), Current::Last | Current::Label) = (clean(note), self.current) {
+            self.note(note);
+        }
+    }
+
+    fn instruction_row(&mut self, step: &str, mnemonic: &str, operand: &str) {
         let step = self.step(step);
         if !mnemonic.is_empty() {
             self.instruction(mnemonic, step);
-        } else if self.current == Current::None {
-            let span = self.listing.word(operand);
-            self.diagnostics.push(
-                codes::BAD_ROW
-                    .at(
-                        span,
-                        format!("operand `{operand}` belongs to no instruction"),
-                    )
-                    .label("no instruction stands in this row or above")
-                    .help("export the list again from its first step"),
-            );
-            return;
         }
-        if !operand.is_empty() {
-            self.operand(operand);
+        match self.current {
+            _ if operand.is_empty() => {}
+            Current::Last => self.operand(operand),
+            Current::Unread => _ = self.listing.word(operand),
+            Current::None => self.misplaced(operand, "no instruction stands in this row or above"),
+            Current::Label => self.misplaced(operand, "a label takes no operands"),
         }
-        if let (Some(note), Current::Last) = (clean(note), self.current) {
-            self.note(note);
-        }
+    }
+
+    fn misplaced(&mut self, operand: &str, why: &'static str) {
+        let span = self.listing.word(operand);
+        self.diagnostics.push(
+            codes::BAD_ROW
+                .at(
+                    span,
+                    format!("operand `{operand}` belongs to no instruction"),
+                )
+                .label(why)
+                .help("the instruction that it belongs to is missing: export the list again"),
+        );
     }
 
     /// Writes the step number into the listing and reads it.
@@ -274,7 +283,11 @@ impl Reader {
             self.current = Current::Unread;
             return;
         };
-        self.current = Current::Last;
+        self.current = if il::is_label(&mnemonic) {
+            Current::Label
+        } else {
+            Current::Last
+        };
         self.program.instrs.push(Instr {
             mnemonic,
             mnemonic_span: span,
@@ -288,7 +301,7 @@ impl Reader {
 
     fn operand(&mut self, text: &str) {
         let span = self.listing.word(text);
-        let (Current::Last, Some(instr)) = (self.current, self.program.instrs.last_mut()) else {
+        let Some(instr) = self.program.instrs.last_mut() else {
             return;
         };
         let characters = instr.mnemonic == "ASC" && instr.operands.is_empty();
@@ -348,9 +361,8 @@ pub(crate) fn encode(rows: &[Vec<String>]) -> Vec<u8> {
         .into_inner()
         .expect("writing to memory does not fail");
     let text = String::from_utf8(bytes).expect("fields are UTF-8");
-    std::iter::once('\u{FEFF}')
-        .chain(text.chars())
-        .flat_map(|c| c.encode_utf16(&mut [0; 2]).to_vec())
+    std::iter::once(0xFEFF)
+        .chain(text.encode_utf16())
         .flat_map(u16::to_le_bytes)
         .collect()
 }

@@ -11,7 +11,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Option<(String, bool)> {
         .filter(|c| c.is_control() && !c.is_whitespace() || *c == char::REPLACEMENT_CHARACTER)
         .count();
     // Text holds a stray control character at most; a binary file is full of them.
-    (controls * 32 <= text.chars().count()).then(|| (text.into_owned(), replaced))
+    (controls * 16 <= text.chars().count()).then(|| (text.into_owned(), replaced))
 }
 
 /// Decodes short texts of one project, which share a code page, all at once.

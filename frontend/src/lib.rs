@@ -127,16 +127,10 @@ pub fn read_bytes(name: &str, bytes: &[u8]) -> Result<Read, ReadError> {
 
 /// Some characters of a text were bytes without a meaning in its encoding.
 fn undecoded(program: &Program) -> Diagnostic {
-    let at = program
-        .source
-        .text
-        .find(char::REPLACEMENT_CHARACTER)
-        .unwrap_or(0) as u32;
+    let at = program.source.text.find(char::REPLACEMENT_CHARACTER);
+    let span = at.map_or(Span::default(), |at| Span::new(at as u32, at as u32 + 3));
     codes::DAMAGED
-        .at(
-            Span::new(at, at + 3),
-            "this text holds bytes that no known encoding reads",
-        )
+        .at(span, "this text holds bytes that no known encoding reads")
         .label("the first of them")
         .help("save the file as UTF-8")
 }

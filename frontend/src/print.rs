@@ -2,7 +2,8 @@
 //! program, save for the source text and places.
 
 use crate::csv::{HEADERS, encode};
-use rungc_syntax::{DeviceClass, Instr, OperandKind, Program};
+use crate::il::is_label;
+use rungc_syntax::{Instr, OperandKind, Program};
 use std::fmt::Write as _;
 
 /// The program as an instruction list: title, CPU and device comments as `;!` lines, then one instruction a line.
@@ -96,12 +97,7 @@ fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr) {
         .iter()
         .flat_map(|statement| statement.lines())
     {
-        let pointer = [DeviceClass::P, DeviceClass::I].iter().any(|class| {
-            instr
-                .mnemonic
-                .strip_prefix(class.prefix())
-                .is_some_and(|n| n.parse::<u32>().is_ok())
-        });
+        let pointer = is_label(&instr.mnemonic);
         rows.push(row(&[(if pointer { 5 } else { 1 }, line.to_owned())]));
     }
     let mut operands = instr.operands.iter().map(|operand| spelled(&operand.kind));

@@ -1,7 +1,7 @@
 //! GX Works2: an OLE compound file whose stream `_hdb` is an OLE compound file in turn. Its streams are known by numbers only, so
 //! the program is found by its tokens.
 
-use super::{Chain, add_comments, cpu, is_comments, no_program, program};
+use super::{Chain, MAX_DATA, add_comments, cpu, is_comments, no_program, program, tokens};
 use crate::Read;
 use cfb::CompoundFile;
 use rungc_syntax::SourceKind;
@@ -9,8 +9,6 @@ use std::io::{Cursor, Read as _};
 
 /// The stream that holds the project's data.
 const DATA: &str = "_hdb";
-/// Streams over this size hold no program; bytes.
-const MAX_STREAM: u64 = 32 << 20;
 
 /// Reads a `.gxw` file.
 pub(crate) fn read(name: &str, bytes: &[u8]) -> Read {
@@ -21,7 +19,8 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Read {
     let programs = streams.iter().filter_map(|stream| {
         let chains = program::chains(stream);
         let start = chains.iter().position(|chain| chain.is_program())?;
-        Some((unbroken(&chains, start), stream, start, chains))
+        let start = stated_start(stream, start, &chains).unwrap_or(start);
+        Some((chains[start], stream, start, chains))
     });
     // The editor keeps a copy of the program: the longest is the one without damage. Of equals, the first.
     let longest = programs.fold(None, |best: Option<(Chain, _, _, _)>, next| match best {
@@ -43,9 +42,13 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Read {
     read
 }
 
-/// The chain at the program's beginning.
-fn unbroken(chains: &[Chain], start: usize) -> Chain {
-    chains.get(start).copied().unwrap_or_default()
+/// The program's beginning before `start`, if damage hides it: its length stands there, 32 bits that count up to behind `END`.
+fn stated_start(stream: &[u8], start: usize, chains: &[Chain]) -> Option<usize> {
+    let end = (start..stream.len())
+        .rev()
+        .find(|&at| program::body(stream, at) == Some(tokens::END) && chains[at].complete)?;
+    let end = end + tokens::END.len() + 2;
+    (4..start).find(|&at| stream[at - 4..at] == u32::try_from(end - at).unwrap_or(0).to_le_bytes())
 }
 
 /// The streams of a compound file whose names are wanted, in the order of their names; those that cannot be read are left out.
@@ -55,7 +58,7 @@ fn streams(bytes: &[u8], wanted: impl Fn(&str) -> bool) -> Vec<Vec<u8>> {
     };
     let mut paths: Vec<_> = file
         .walk()
-        .filter(|entry| entry.is_stream() && entry.len() <= MAX_STREAM && wanted(entry.name()))
+        .filter(|entry| entry.is_stream() && entry.len() <= MAX_DATA as u64 && wanted(entry.name()))
         .map(|entry| (entry.name().len(), entry.path().to_owned()))
         .collect();
     paths.sort();
@@ -64,7 +67,7 @@ fn streams(bytes: &[u8], wanted: impl Fn(&str) -> bool) -> Vec<Vec<u8>> {
         let mut content = Vec::new();
         if let Ok(stream) = file.open_stream(&path) {
             // What can be read before a damaged sector is kept.
-            let _ = stream.take(MAX_STREAM).read_to_end(&mut content);
+            let _ = stream.take(MAX_DATA as u64).read_to_end(&mut content);
             streams.push(content);
         }
     }

@@ -16,6 +16,10 @@ use rungc_syntax::{Device, Diagnostics, Program, SourceKind, Span, codes};
 const HEADER: usize = 0x40;
 /// How those files begin.
 const MAGIC: [u8; 4] = [0x40, 0x00, 0x22, 0x01];
+/// Where the program begins in `MAIN.wpg`.
+const START: usize = 0x44;
+/// Data behind this many bytes belongs to no program.
+const MAX_DATA: usize = 32 << 20;
 /// Where the header names the CPU: `04 02`, then its code.
 const CPU: usize = 0x24;
 /// How an OLE compound file begins.
@@ -38,8 +42,14 @@ pub(crate) fn is_wpg(bytes: &[u8]) -> bool {
 
 /// Reads `MAIN.wpg`.
 pub(crate) fn read_wpg(name: &str, bytes: &[u8]) -> Read {
+    let bytes = bytes.get(..MAX_DATA).unwrap_or(bytes);
     let chains = program::chains(bytes);
-    let start = (HEADER..bytes.len()).find(|&at| chains[at].is_program());
+    let begins = program::body(bytes, START).is_some_and(|body| tokens::token(body).is_some());
+    let start = if begins {
+        Some(START)
+    } else {
+        (HEADER..bytes.len()).find(|&at| chains[at].is_program())
+    };
     let mut read = match start {
         Some(start) => program::read(name, bytes, start, &chains),
         None => no_program(name, bytes),
@@ -63,7 +73,7 @@ fn no_program(name: &str, bytes: &[u8]) -> Read {
     let mut listing = crate::listing::Listing::default();
     listing.next_line();
     let span = listing.word(&format!("?? {shown}"));
-    let what = "no program in this file; its data begins";
+    let what = "no program can be found; the data";
     let mut diagnostics = Diagnostics::new();
     diagnostics.push(bytes_error(
         &codes::DAMAGED,
@@ -99,10 +109,10 @@ pub(crate) fn add_comments(read: &mut Read, bytes: &[u8]) {
     read.program.comments.extend(comments);
     if let Err(at) = whole {
         let shown = hex(bytes.get(at..).unwrap_or_default());
-        let what = "the table of device comments ends too early or is damaged;";
+        let what = "the table of device comments cannot be read on";
         read.diagnostics.push(
             codes::DAMAGED
-                .at(Span::default(), format!("{what} at offset 0x{at:04X} stands: {shown}"))
+                .at(Span::default(), format!("{what} at offset 0x{at:04X}: {shown}"))
                 .label("comments of this program's devices")
                 .help("the program itself is not affected: remove the comment file to go on without comments"),
         );

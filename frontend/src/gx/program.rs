@@ -32,9 +32,9 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    /// Whether it is a program for sure: no other data has four known tokens in a row.
+    /// Whether it is part of a program for sure: no other data has three known tokens in a row.
     pub fn is_program(self) -> bool {
-        self.complete || self.known >= 4
+        self.complete || self.known >= 3
     }
 }
 
@@ -64,8 +64,7 @@ pub(super) fn chains(bytes: &[u8]) -> Vec<Chain> {
     chains
 }
 
-/// Reads the program that begins at `start`. Names are in the listing as offsets of `bytes`, so `base` is added where they lie
-/// within a larger file.
+/// Reads the program that begins at `start`, up to its `END`.
 pub(super) fn read(name: &str, bytes: &[u8], start: usize, chains: &[Chain]) -> Read {
     let mut reader = Reader::default();
     let mut at = start;
@@ -211,6 +210,9 @@ impl<'b> Reader<'b> {
 
     /// Reports that no token stands at `at`; gives the next offset where tokens go on.
     fn damage(&mut self, bytes: &[u8], at: usize, chains: &[Chain]) -> Option<usize> {
+        if bytes.get(at + 1).is_some_and(|&code| code >= 0x90) {
+            self.give_up();
+        }
         self.open = false;
         self.label = false;
         let rest = bytes.get(at..).unwrap_or_default();
@@ -286,12 +288,9 @@ pub(super) fn bytes_error(
     shown: &str,
     what: &str,
 ) -> Diagnostic {
-    code.at(
-        span,
-        format!("{what} at offset 0x{at:04X} of the program's data: {shown}"),
-    )
-    .label("read from these bytes")
-    .help("open the project in its editor and export the list as CSV, which is read as well")
+    code.at(span, format!("{what} at offset 0x{at:04X}: {shown}"))
+        .label("read from these bytes")
+        .help("open the project in its editor and export the list as CSV, which is read as well")
 }
 
 /// Bytes as people read them.

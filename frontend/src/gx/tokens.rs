@@ -275,7 +275,9 @@ pub(super) fn with_prefixes(
     match (kind, digits, bit) {
         (OperandKind::Device(device, _), None, None) => Some(OperandKind::Device(device, index)),
         (OperandKind::Device(device, _), Some(digits), None) => {
-            Some(OperandKind::Nibbles(digits, device, index))
+            use DeviceClass::{M, S, X, Y};
+            matches!(device.class, X | Y | M | S)
+                .then_some(OperandKind::Nibbles(digits, device, index))
         }
         (OperandKind::Device(device, _), None, Some(bit)) => {
             Some(OperandKind::WordBit(device, bit, index))

@@ -4,7 +4,7 @@ use super::fault::{Fault, Kind};
 use chumsky::container::Container;
 use chumsky::prelude::*;
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Span};
-use smol_str::{SmolStr, SmolStrBuilder, ToSmolStr};
+use smol_str::{SmolStr, ToSmolStr};
 
 type Extra = extra::Err<Fault>;
 
@@ -355,19 +355,21 @@ fn operands<'s>() -> impl Parser<'s, &'s str, Operands, Extra> + Copy {
 
 /// The mnemonic's spelling: upper case, without the space or the second `D` of `LD D>=`, operators in the usual order.
 fn spelling(name: &str, wide: bool, operator: &str, pulse: &str) -> SmolStr {
+    if operator.is_empty() && !name.bytes().any(|b| b.is_ascii_lowercase()) {
+        return SmolStr::new(name);
+    }
     let operator = match operator {
         "=>" => ">=",
         "=<" => "<=",
         "><" => "<>",
         other => other,
     };
-    let mut all = SmolStrBuilder::new();
-    for part in [name, if wide { "D" } else { "" }, operator, pulse] {
-        for c in part.chars() {
-            all.push(c.to_ascii_uppercase());
-        }
-    }
-    all.finish()
+    let parts = [name, if wide { "D" } else { "" }, operator, pulse];
+    parts
+        .into_iter()
+        .flat_map(str::chars)
+        .map(|c| c.to_ascii_uppercase())
+        .collect()
 }
 
 fn mnemonic<'s>() -> impl Parser<'s, &'s str, (SmolStr, Span), Extra> + Copy {
@@ -461,7 +463,10 @@ fn step<'s>() -> impl Parser<'s, &'s str, (Option<u32>, Span), Extra> + Copy {
 
 /// `P0`, `P0:`, `I001`.
 fn label<'s>() -> impl Parser<'s, &'s str, (Device, Span), Extra> + Copy {
-    let pointer = device().filter(|d| matches!(d.class, DeviceClass::P | DeviceClass::I));
+    let pointer = any()
+        .filter(|c: &char| matches!(c, 'P' | 'p' | 'I' | 'i'))
+        .rewind()
+        .ignore_then(device());
     pointer
         .map_with(|device, e| (device, span(e.span())))
         .then_ignore(choice((space().then(just(':')).ignored(), boundary())))

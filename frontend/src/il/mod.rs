@@ -152,3 +152,9 @@ pub(crate) fn device(text: &str) -> Option<Device> {
         .into_result()
         .ok()
 }
+
+/// Whether a mnemonic is a label: a pointer P or I.
+pub(crate) fn is_label(mnemonic: &str) -> bool {
+    let digits = mnemonic.strip_prefix(['P', 'I']).unwrap_or("");
+    !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit())
+}

@@ -1,0 +1,189 @@
+//! No input makes a reader panic or hang: random bytes, and valid inputs of every format with random damage.
+
+mod fixture;
+
+use fixture::{Stream, gxw, tokens, wpg};
+use rungc_frontend::{Read, print, read_bytes, read_text};
+
+/// A small generator of random numbers (SplitMix64), so that every run sees the same inputs.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ z >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ z >> 31
+    }
+
+    fn below(&mut self, limit: usize) -> usize {
+        (self.next() % limit.max(1) as u64) as usize
+    }
+
+    fn bytes(&mut self, count: usize) -> Vec<u8> {
+        (0..count).map(|_| self.next() as u8).collect()
+    }
+}
+
+/// Reads bytes. Every place must lie in the source, and every finding have a help.
+fn survive(bytes: &[u8]) -> Option<Read> {
+    let read = read_bytes("input", bytes).ok()?;
+    let source = &read.program.source;
+    for finding in read.diagnostics.iter() {
+        assert!(
+            source.text.get(finding.span.range()).is_some(),
+            "{finding:?}"
+        );
+        assert!(
+            !finding.message.is_empty() && finding.help.is_some(),
+            "{finding:?}"
+        );
+    }
+    for instr in &read.program.instrs {
+        assert!(source.text.get(instr.span.range()).is_some(), "{instr:?}");
+        assert!(
+            instr
+                .operands
+                .iter()
+                .all(|operand| source.text.get(operand.span.range()).is_some()),
+            "{instr:?}"
+        );
+    }
+    Some(read)
+}
+
+/// What reads without an error prints and reads back.
+fn print_and_read(read: &Read) {
+    let again = read_text("again", &print::to_il(&read.program));
+    assert!(!again.diagnostics.has_errors(), "{:?}", again.diagnostics);
+    assert_eq!(again.program.instrs.len(), read.program.instrs.len());
+}
+
+/// Changes, removes, repeats or inserts a few bytes.
+fn mutate(random: &mut Random, bytes: &[u8]) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for _ in 0..=random.below(4) {
+        let at = random.below(bytes.len());
+        let end = (at + random.below(12)).min(bytes.len());
+        match random.below(6) {
+            0 => bytes.truncate(at),
+            1 => drop(bytes.drain(at..end)),
+            2 => {
+                let part = bytes[at..end].to_vec();
+                bytes.splice(at..at, part);
+            }
+            3 => bytes.insert(at, random.next() as u8),
+            _ if at < bytes.len() => bytes[at] = random.next() as u8,
+            _ => {}
+        }
+    }
+    bytes
+}
+
+fn survive_mutations(seed: u64, count: usize, valid: &[u8]) {
+    let read = read_bytes("valid", valid).unwrap();
+    assert_eq!(read.diagnostics.iter().count(), 0);
+    let mut random = Random(seed);
+    for round in 0..count {
+        let read = survive(&mutate(&mut random, valid));
+        if let Some(read) = read.filter(|read| round % 8 == 0 && !read.diagnostics.has_errors()) {
+            print_and_read(&read);
+        }
+    }
+}
+
+const LIST: &str = ";! cpu = FX3U/FX3UC\n;! X000 = start\n; motor\n0 LD X0 ; go\nＬＤ≧　Ｄ０　Ｋ１０\nLDD >= D0Z0, K-5\nOUT T0 K30\nP1: MOV K4M0Z1 D0.F\n\
+    DEMOV E1.5E+3 D0V\n$MOV \"a;b\" D0\nASC ABCD D300\nTO U0\\G5 H1FZ2 // note\nI001\nEND\n";
+
+const TOKENS: &[&[u8]] = &[
+    b"\x80\x00motor",
+    &[0x00],
+    &[0x9C, 0x08],
+    b"\x82\x00\xC6\xF4\xB6\xAF",
+    &[0x21, 0x03],
+    &[0xC2, 0x05],
+    &[0xE8, 200],
+    &[0x4C, 5, 0, 2],
+    &[0xF1, 4],
+    &[0xF0, 1],
+    &[0x90, 0x64],
+    &[0xF2, 3],
+    &[0xA8, 0x00],
+    &[0x49, 0x0D, 0x30],
+    &[0xEC, 0, 0, 0xC0, 0x3F],
+    &[0xA8, 2],
+    &[0xA8, 4],
+    &[0x3C],
+    &[0xD0, 3],
+    &[0x34],
+];
+
+#[test]
+fn random_bytes() {
+    let mut random = Random(1);
+    for _ in 0..64 {
+        let bytes = random.bytes(8 << 10);
+        survive(&bytes);
+        survive(String::from_utf8_lossy(&bytes).as_bytes());
+    }
+    for _ in 0..32 {
+        // The same behind the marks that tell the formats apart.
+        let noise = random.bytes(8 << 10);
+        survive(&[&wpg(0x0208, &[])[..0x44], &noise].concat());
+        survive(&[&gxw(&[])[..512], &noise].concat());
+    }
+}
+
+#[test]
+fn random_text_of_the_right_letters() {
+    const LETTERS: &[u8] = b"LDANORXYMSTCDKHEPIVZ0189.\\\"$;/:<>=-+ ,\t\n\nUG";
+    let mut random = Random(2);
+    for _ in 0..64 {
+        let text: Vec<u8> = (0..8 << 10)
+            .map(|_| LETTERS[random.below(LETTERS.len())])
+            .collect();
+        survive(&text);
+    }
+}
+
+#[test]
+fn mutations_of_lists() {
+    survive_mutations(3, 10_000, LIST.as_bytes());
+}
+
+#[test]
+fn mutations_of_exports() {
+    let export = print::to_csv(&read_text("a", LIST).program);
+    survive_mutations(4, 5_000, &export);
+    let text: String = char::decode_utf16(
+        export[2..]
+            .chunks_exact(2)
+            .map(|b| u16::from_le_bytes([b[0], b[1]])),
+    )
+    .map(Result::unwrap)
+    .collect();
+    survive_mutations(5, 5_000, text.as_bytes());
+}
+
+#[test]
+fn mutations_of_developer_projects() {
+    survive_mutations(6, 10_000, &wpg(0x0208, TOKENS));
+}
+
+#[test]
+fn mutations_of_works2_projects() {
+    let mut stream = vec![0; 60];
+    stream.extend(tokens(TOKENS));
+    let bytes = gxw(&[
+        Stream {
+            name: "12",
+            content: &stream,
+        },
+        Stream {
+            name: "16",
+            content: &stream,
+        },
+    ]);
+    survive_mutations(7, 10_000, &bytes);
+}
