@@ -51,6 +51,18 @@ fn op_text(op: CmpOp) -> &'static str {
     }
 }
 
+/// The operator that says the same with its sides exchanged.
+fn mirrored(op: CmpOp) -> CmpOp {
+    match op {
+        CmpOp::Eq | CmpOp::Ne => op,
+        CmpOp::Lt => CmpOp::Gt,
+        CmpOp::Le => CmpOp::Ge,
+        CmpOp::Gt => CmpOp::Lt,
+        CmpOp::Ge => CmpOp::Le,
+    }
+}
+
+/// The operator that says the opposite.
 fn negated(op: CmpOp) -> CmpOp {
     match op {
         CmpOp::Eq => CmpOp::Ne,
@@ -221,12 +233,25 @@ impl Writer<'_, '_> {
     }
 
     fn compare(&mut self, out: &mut String, op: CmpOp, a: ExprId, b: ExprId, around: Around) {
+        // Constants stand on the right, wherever the list has them.
+        let (op, a, b) = if self.is_constant(a) && !self.is_constant(b) {
+            (mirrored(op), b, a)
+        } else {
+            (op, a, b)
+        };
         let op = op_text(op);
         self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
             w.expr(out, a, Around::Operand(op));
             let _ = write!(out, " {op} ");
             w.expr(out, b, Around::Operand(op));
         });
+    }
+
+    fn is_constant(&self, e: ExprId) -> bool {
+        matches!(
+            self.module.expr(e),
+            Expr::I16(_) | Expr::I32(_) | Expr::F32(_)
+        )
     }
 
     fn in_parentheses(
@@ -306,11 +331,12 @@ impl Writer<'_, '_> {
         let plain = arithmetic(op).filter(|op| !narrow && self.exact_bounds(op, a, b).is_some());
         if let Some(op) = plain {
             self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
-                if matches!(w.module.expr(a), Expr::Bin(..)) {
-                    w.expr(out, a, Around::Operand(op));
-                } else {
+                // A word is an int, which may have 16 bits.
+                if matches!(w.module.expr(a), Expr::Widen(_) | Expr::I32(_)) {
                     out.push_str("(int32_t)");
                     w.expr(out, a, Around::Unary);
+                } else {
+                    w.expr(out, a, Around::Operand(op));
                 }
                 let _ = write!(out, " {op} ");
                 w.expr(out, b, Around::Operand(op));
@@ -341,10 +367,9 @@ impl Writer<'_, '_> {
             }
             if let Expr::Bin(op @ (BinOp::Add | BinOp::Sub | BinOp::Mul), l, r) =
                 *self.module.expr(a)
+                && let (Some(l), Some(r)) = (self.word_of(l), self.word_of(r))
             {
-                if let (Some(l), Some(r)) = (self.word_of(l), self.word_of(r)) {
-                    return self.arithmetic_call(out, op, "16(", l, r);
-                }
+                return self.arithmetic_call(out, op, "16(", l, r);
             }
         }
         self.call(out, "plc_low", a);

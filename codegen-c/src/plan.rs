@@ -145,7 +145,13 @@ impl<'m> Plan<'m> {
             },
             stretches: vec![0; module.functions.len()],
         };
-        for (root, function) in module.functions.iter().enumerate() {
+        let called = walk::called_functions(module);
+        for (root, function) in module
+            .functions
+            .iter()
+            .enumerate()
+            .filter(|&(root, _)| called[root])
+        {
             let items = builder.body(&function.body, root, 0);
             let items = builder.bounded(items, root);
             builder.function(close(items), root, String::new(), Flow::Void);

@@ -89,15 +89,21 @@ fn break_at(code: &str, room: usize) -> Option<usize> {
         match b {
             b'(' | b'{' => depth += 1,
             b')' | b'}' => depth -= 1,
-            b'|' | b'&' if i > 0 && bytes[i - 1] == b' ' && bytes.get(i + 1) == Some(&b' ') => {
-                if i > room / 3 && best.is_none_or(|(d, _)| depth <= d) {
-                    best = Some((depth, i));
-                }
+            b'|' | b'&'
+                if i > 0
+                    && bytes[i - 1] == b' '
+                    && bytes.get(i + 1) == Some(&b' ')
+                    && i > room / 3
+                    && best.is_none_or(|(d, _)| depth <= d) =>
+            {
+                best = Some((depth, i));
             }
-            b',' if bytes.get(i + 1) == Some(&b' ') => {
-                if i > room / 3 && i + 2 < bytes.len() && best.is_none_or(|(d, _)| depth <= d) {
-                    best = Some((depth, i + 2));
-                }
+            b',' if bytes.get(i + 1) == Some(&b' ')
+                && i > room / 3
+                && i + 2 < bytes.len()
+                && best.is_none_or(|(d, _)| depth <= d) =>
+            {
+                best = Some((depth, i + 2));
             }
             _ => {}
         }
@@ -140,8 +146,8 @@ mod tests {
         let mut out = String::new();
         let code = format!(
             "plc->M0 = ({}) & {};",
-            vec!["plc->X0"; 9].join(" | "),
-            vec!["plc->X1"; 9].join(" & ")
+            ["plc->X0"; 9].join(" | "),
+            ["plc->X1"; 9].join(" & ")
         );
         line(&mut out, 4, &code, Some("coil"));
         assert!(out.lines().all(|l| l.len() <= WIDTH), "{out}");

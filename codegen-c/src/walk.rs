@@ -1,7 +1,7 @@
 //! Looks at expressions and the statements they stand in.
 
 use rungc_ir::Module;
-use rungc_ir::node::{Arg, Expr, ExprId, Place, Stmt, TempId};
+use rungc_ir::node::{Arg, Expr, ExprId, Function, FunctionKind, Place, Stmt, TempId};
 
 /// Calls `f` with each operand of an expression.
 pub fn operands(expr: &Expr, mut f: impl FnMut(ExprId)) {
@@ -76,7 +76,7 @@ pub fn stmt_exprs(stmt: &Stmt, mut f: impl FnMut(ExprId)) {
         Stmt::Call { args, drive, .. } => {
             for arg in args {
                 match arg {
-                    Arg::Const { index, .. } => index.into_iter().for_each(|&i| f(i)),
+                    Arg::Const { index, .. } => index.iter().for_each(|&i| f(i)),
                     Arg::Device { place, .. }
                     | Arg::Nibbles { place, .. }
                     | Arg::WordBit { place, .. } => {
@@ -175,5 +175,43 @@ pub fn temps(
             f(temp);
         }
         operands(module.expr(e), |o| buffer.push(o));
+    }
+}
+
+/// Which functions the scan cycle calls. Subroutines that nothing calls are left out of the emitted code.
+pub fn called_functions(module: &Module) -> Vec<bool> {
+    let cyclic = |f: &Function| {
+        matches!(
+            f.kind,
+            FunctionKind::Begin | FunctionKind::Main | FunctionKind::End
+        )
+    };
+    let mut called = vec![false; module.functions.len()];
+    let mut todo: Vec<usize> = (0..called.len())
+        .filter(|&i| cyclic(&module.functions[i]))
+        .collect();
+    while let Some(i) = todo.pop() {
+        if let Some(known) = called.get_mut(i).filter(|known| !**known) {
+            *known = true;
+            calls(&module.functions[i].body, &mut todo);
+        }
+    }
+    called
+}
+
+fn calls(body: &[Stmt], found: &mut Vec<usize>) {
+    for stmt in body {
+        match stmt {
+            Stmt::CallSub(function) => found.push(*function as usize),
+            Stmt::If {
+                then, otherwise, ..
+            } => {
+                calls(then, found);
+                calls(otherwise, found);
+            }
+            Stmt::For { body, .. } => calls(body, found),
+            Stmt::Parts(parts) => parts.iter().for_each(|part| calls(&part.body, found)),
+            _ => {}
+        }
     }
 }

@@ -157,6 +157,9 @@ impl<'a, 'm> Writer<'a, 'm> {
         let mut i = 0;
         while let Some(node) = nodes.get(i) {
             i += 1;
+            if self.is_silent_network(node, nodes.get(i)) {
+                continue;
+            }
             // An edge that only the next statement asks for is asked for there.
             if let (
                 Node::Stmt(Stmt::Edge {
@@ -167,14 +170,23 @@ impl<'a, 'm> Writer<'a, 'm> {
                 }),
                 Some(next),
             ) = (node, nodes.get(i))
+                && self.inline_edge(out, (*edge, *kind, *input), *temp, next, indent)
             {
-                if self.inline_edge(out, (*edge, *kind, *input), *temp, next, indent) {
-                    i += 1;
-                    continue;
-                }
+                i += 1;
+                continue;
             }
             self.node(out, node, indent);
         }
+    }
+
+    /// Whether nothing is left of a network, so that it needs no heading.
+    fn is_silent_network(&self, node: &Node, next: Option<&Node>) -> bool {
+        let Node::Stmt(Stmt::Network(network)) = node else {
+            return false;
+        };
+        let known = self.module.networks.get(*network as usize);
+        let silent = known.is_none_or(|n| n.statement.is_none() && n.note.is_none());
+        silent && matches!(next, None | Some(Node::Stmt(Stmt::Network(_))))
     }
 
     fn inline_edge(
@@ -196,8 +208,6 @@ impl<'a, 'm> Writer<'a, 'm> {
             return false;
         }
         self.name_parts(out, &[edge.2], indent);
-        let named = std::mem::take(&mut self.named);
-        self.named = named;
         let mut call = String::new();
         self.edge_call(&mut call, edge);
         self.named.clear();

@@ -80,7 +80,9 @@ fn header() -> String {
                 .map(str::to_string)
                 .into(),
             // Only the functions below take them, which cbindgen does not see: a macro makes them.
-            include: ["Operand", "OperandKind", "Site"].map(str::to_string).into(),
+            include: ["Operand", "OperandKind", "Site"]
+                .map(str::to_string)
+                .into(),
             rename: names,
             ..ExportConfig::default()
         },
