@@ -8,6 +8,8 @@ mod operands;
 mod rules;
 mod steps;
 
+pub(crate) use operands::constant_value;
+
 use crate::catalogue::Inst;
 use crate::model::{Model, ModelId, ModelSet};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, Program};

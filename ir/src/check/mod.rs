@@ -3,14 +3,19 @@
 //! Each file is one concept and walks the program once, so that checking stays linear in its length. [`structure`] finds where each
 //! instruction stands (routine, loop, state); what jumps, calls and warns builds on that.
 
+mod accesses;
 mod blocks;
+mod coils;
 mod fast_inputs;
 mod labels;
 mod once;
+mod pairs;
 mod pointers;
 mod structure;
+mod timers;
 mod unreachable;
-mod usage;
+mod unused;
+mod writes;
 
 use crate::catalogue::{Basic, Drive, Inst, Join, Lower, Param};
 use crate::model::Model;
@@ -29,7 +34,18 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     fast_inputs::check(&code, &pointers, &mut out);
     once::check(&code, &mut out);
     unreachable::check(&code, &places, &mut out);
-    usage::check(&code, &places, &mut out);
+    coils::check(&code, &pointers, &places, &mut out);
+    timers::check(&code, &places, &mut out);
+    let (mut unused, mut pairs) = (unused::Unused::new(&code), pairs::Pairs::default());
+    for i in 0..code.len {
+        for access in accesses::of(&code, i) {
+            unused.note(i, &access);
+            pairs.note(&access);
+            writes::check(&code, i, &access, &mut out);
+        }
+    }
+    unused.report(&mut out);
+    pairs.report(&mut out);
     numbered(out, resolved.model)
 }
 

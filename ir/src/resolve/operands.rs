@@ -333,7 +333,7 @@ fn extent(kinds: &[OperandKind], param: &Param) -> u32 {
 }
 
 /// The value of a constant without an index.
-pub(super) fn constant_value(kind: &OperandKind) -> Option<i64> {
+pub(crate) fn constant_value(kind: &OperandKind) -> Option<i64> {
     match *kind {
         OperandKind::Decimal(value, None) => Some(value),
         OperandKind::Hex(value, None) => i64::try_from(value).ok(),

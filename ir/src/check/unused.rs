@@ -1,0 +1,180 @@
+//! Relays, timers and counters that are driven and never read, or read and never driven.
+
+use super::Code;
+use super::accesses::Access;
+use super::coils::MAX_PLACES;
+use crate::catalogue::Basic;
+use rungc_syntax::codes::Code as Finding;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use rustc_hash::FxHashSet;
+
+/// The classes that are looked at. States are not: step ladders use them in many ways.
+const CLASSES: [DeviceClass; 3] = [DeviceClass::M, DeviceClass::T, DeviceClass::C];
+/// From here on relays are special, which the system reads and writes.
+const FIRST_SPECIAL: u32 = 8000;
+
+/// What is known of the devices of one class.
+#[derive(Default)]
+struct Class {
+    /// Differences of how many accesses read each device: the sum up to a device is its count.
+    reads: Vec<i32>,
+    /// The same for writes.
+    writes: Vec<i32>,
+    /// Whether an access may read any of them.
+    any_read: bool,
+    /// Whether an access may write any of them.
+    any_written: bool,
+}
+
+/// Collects accesses to find devices of which one half is missing.
+pub(super) struct Unused<'a, 'p> {
+    code: &'a Code<'p>,
+    classes: [Class; 3],
+    /// Coils, in the order of the program.
+    coils: Vec<(Device, Span)>,
+    /// Contacts, in the order of the program.
+    contacts: Vec<(Device, Span)>,
+}
+
+impl<'a, 'p> Unused<'a, 'p> {
+    pub(super) fn new(code: &'a Code<'p>) -> Self {
+        let mut classes: [Class; 3] = Default::default();
+        for (class, known) in CLASSES.iter().zip(&mut classes) {
+            let last = code.model().ranges_of(*class).map(|range| range.last).max();
+            let len = last.map_or(0, |last| last as usize + 2);
+            known.reads = vec![0; len];
+            known.writes = vec![0; len];
+        }
+        Unused {
+            code,
+            classes,
+            coils: Vec::new(),
+            contacts: Vec::new(),
+        }
+    }
+
+    /// Takes an access of instruction `i`.
+    pub(super) fn note(&mut self, i: usize, access: &Access) {
+        let Some(at) = CLASSES
+            .iter()
+            .position(|&class| class == access.first.class)
+        else {
+            return;
+        };
+        let basic = self.code.basic(i);
+        // RST alone never switches anything on.
+        if access.writes() && basic != Some(Basic::Rst) {
+            self.classes[at].add(access, true);
+        }
+        if access.reads() {
+            self.classes[at].add(access, false);
+        }
+        if access.first.class == DeviceClass::M && access.first.number >= FIRST_SPECIAL {
+            return;
+        }
+        match basic {
+            Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) => {
+                self.coils.push((access.first, access.span))
+            }
+            Some(_) if access.reads() && access.count == Some(1) => {
+                self.contacts.push((access.first, access.span))
+            }
+            _ => {}
+        }
+    }
+
+    /// Warns of what has only one half.
+    pub(super) fn report(mut self, out: &mut Diagnostics) {
+        for class in &mut self.classes {
+            class.sum();
+        }
+        let lacks = |device: &Device, write: bool| {
+            let at = CLASSES.iter().position(|class| class == &device.class);
+            at.is_some_and(|at| self.classes[at].lacks(device.number, write))
+        };
+        let unread = self.coils.iter().filter(|(device, _)| lacks(device, false));
+        summary(&codes::NEVER_READ, "driven and never read", unread, out);
+        let undriven = self
+            .contacts
+            .iter()
+            .filter(|(device, _)| lacks(device, true));
+        summary(
+            &codes::NEVER_WRITTEN,
+            "read, but nothing drives them",
+            undriven,
+            out,
+        );
+    }
+}
+
+impl Class {
+    fn add(&mut self, access: &Access, write: bool) {
+        let Some(count) = access.count else {
+            let any = if write {
+                &mut self.any_written
+            } else {
+                &mut self.any_read
+            };
+            *any = true;
+            return;
+        };
+        let counts = if write {
+            &mut self.writes
+        } else {
+            &mut self.reads
+        };
+        let first = access.first.number as usize;
+        let end = first
+            .saturating_add(count as usize)
+            .min(counts.len().saturating_sub(1));
+        if first < end {
+            counts[first] += 1;
+            counts[end] -= 1;
+        }
+    }
+
+    /// Turns the differences into counts.
+    fn sum(&mut self) {
+        for counts in [&mut self.reads, &mut self.writes] {
+            let mut sum = 0;
+            for count in counts {
+                sum += *count;
+                *count = sum;
+            }
+        }
+    }
+
+    fn lacks(&self, number: u32, write: bool) -> bool {
+        let (counts, any) = match write {
+            true => (&self.writes, self.any_written),
+            false => (&self.reads, self.any_read),
+        };
+        !any && counts.get(number as usize) == Some(&0)
+    }
+}
+
+/// One diagnostic for all devices of a kind: a program with an operator panel may have many.
+fn summary<'d>(
+    code: &'static Finding,
+    what: &str,
+    found: impl Iterator<Item = &'d (Device, Span)>,
+    out: &mut Diagnostics,
+) {
+    let mut seen = FxHashSet::default();
+    let found: Vec<_> = found.filter(|(device, _)| seen.insert(*device)).collect();
+    let Some((&&(first, span), others)) = found.split_first() else {
+        return;
+    };
+    let message = match others.len() {
+        0 => format!("`{first}` is {}", what.replace("them", "it")),
+        n => format!("`{first}` and {n} more are {what}"),
+    };
+    let mut diagnostic = code
+        .at(span, message)
+        .label(format!("`{first}`"))
+        .help("nothing is wrong if an operator panel or another program uses them");
+    for (device, span) in others.iter().take(MAX_PLACES) {
+        diagnostic = diagnostic.other(*span, format!("`{device}`"));
+    }
+    out.push(diagnostic);
+}
