@@ -12,6 +12,7 @@ pub(crate) use operands::constant_value;
 
 use crate::catalogue::Inst;
 use crate::model::{Model, ModelId, ModelSet};
+use mnemonic::Fit;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, Program};
 
 /// Which form of an instruction is written.
@@ -26,7 +27,8 @@ pub struct Form {
 /// What is known of one instruction.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolution {
-    /// Its catalogue row; `None` if it is unknown or the model does not have it (which was reported).
+    /// Its catalogue row; `None` if it is unknown or the model does not have it (which was reported). A form that the row does not
+    /// have was reported too.
     pub inst: Option<&'static Inst>,
     /// Its form.
     pub form: Form,
@@ -62,13 +64,15 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
         let found = finder.find(instr, &mut diagnostics);
         kinds.clear();
         kinds.extend(instr.operands.iter().map(|operand| operand.kind.clone()));
-        let length = found.map(|found| found.inst.steps_of(found.form, &kinds, model));
-        if let Some(found) = found {
-            match label {
-                Some(label) => operands.label(instr, label, &mut diagnostics),
-                None => operands.instr(instr, found, &kinds, &mut diagnostics),
+        match (found, label) {
+            (Some((_, Fit::Good)), Some(label)) => operands.label(instr, label, &mut diagnostics),
+            (Some((found, Fit::Good)), None) => {
+                operands.instr(instr, found, &kinds, &mut diagnostics)
             }
+            _ => {}
         }
+        let found = found.map(|(found, _)| found);
+        let length = found.map(|found| found.inst.steps_of(found.form, &kinds, model));
         instrs.push(Resolution {
             inst: found.map(|found| found.inst),
             form: found.map(|found| found.form).unwrap_or_default(),

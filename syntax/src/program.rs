@@ -18,6 +18,8 @@ pub struct Program {
     pub cpu: Option<String>,
     /// The instructions in order. Lines that could not be read are not here: the reader reported them.
     pub instrs: Vec<Instr>,
+    /// For each instruction that could not be read, how many of `instrs` stand before it; ascending.
+    pub unread: Vec<u32>,
     /// Comments on devices, where the source has them.
     pub comments: BTreeMap<Device, String>,
 }

@@ -66,10 +66,21 @@ impl Reader {
     /// Reads one line; `place` leads from the folded line to the source.
     fn parse(&mut self, original: &str, folded: &str, place: impl Fn(Span) -> Span) {
         let (line, faults) = grammar::line().parse(folded).into_output_errors();
+        let before = self.program.instrs.len();
+        let faulty = !faults.is_empty();
         for fault in faults {
             self.diagnostics.push(fault.diagnostic(folded, &place));
         }
-        let Some(line) = line else { return };
+        if let Some(line) = line {
+            self.take(line, original, &place);
+        }
+        if faulty && self.program.instrs.len() == before {
+            self.program.unread.push(before as u32);
+        }
+    }
+
+    /// Takes what a line holds.
+    fn take(&mut self, line: grammar::Line, original: &str, place: &impl Fn(Span) -> Span) {
         let begin = place(Span::default()).start;
         let comment = line.comment.and_then(|at| {
             let at = place(Span::new(at, at)).start - begin;

@@ -1,7 +1,7 @@
 //! Which devices each instruction reads and writes.
 
 use super::Code;
-use crate::catalogue::{Extent, Param, Role, Shape};
+use crate::catalogue::{Classes, Extent, Param, Role, Shape};
 use crate::resolve::constant_value;
 use rungc_syntax::{Device, DeviceClass, Operand, OperandKind, Span};
 
@@ -30,7 +30,7 @@ impl Access {
     }
 }
 
-/// The accesses of instruction `i` by its operands.
+/// The accesses of instruction `i` by its operands, without operands that do not belong there.
 pub(super) fn of(code: &Code, i: usize) -> impl Iterator<Item = Access> {
     let operands = &code.instr(i).operands;
     let params = code.params(i);
@@ -38,7 +38,9 @@ pub(super) fn of(code: &Code, i: usize) -> impl Iterator<Item = Access> {
     operands
         .iter()
         .zip(params)
-        .filter(|(_, param)| param.shape != Shape::Pointer)
+        .filter(|(operand, param)| {
+            param.shape != Shape::Pointer && param.classes.meets(Classes::of(&operand.kind))
+        })
         .filter_map(move |(operand, param)| access(operands, operand, param, wide))
 }
 

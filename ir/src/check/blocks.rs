@@ -58,7 +58,12 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
         in_state: false,
         unsure: None,
     };
+    let mut unread = code.unread();
     for i in 0..code.len {
+        if unread.next_if(|&before| before as usize <= i).is_some() {
+            while unread.next_if(|&before| before as usize <= i).is_some() {}
+            rungs.unknown();
+        }
         rungs.instr(i);
     }
     rungs.finish(None);
@@ -68,11 +73,7 @@ impl Rungs<'_, '_> {
     fn instr(&mut self, i: usize) {
         let part = self.code.part(i);
         match part {
-            Part::Unknown => {
-                self.blocks.clear();
-                self.branches.clear();
-                self.unsure = Some(Unsure::Rung);
-            }
+            Part::Unknown => self.unknown(),
             Part::Alone => self.alone(i),
             _ if self.unsure.is_some() => self.behind_unknown(i, part),
             Part::Nothing => self.nothing(),
@@ -83,6 +84,13 @@ impl Rungs<'_, '_> {
             Part::Read | Part::Pop => self.go_back(i, part),
             Part::Output => self.output(i),
         }
+    }
+
+    /// Stands for an instruction of which nothing is known.
+    fn unknown(&mut self) {
+        self.blocks.clear();
+        self.branches.clear();
+        self.unsure = Some(Unsure::Rung);
     }
 
     fn behind_unknown(&mut self, i: usize, part: Part) {

@@ -20,6 +20,8 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
         used_one_way(code, device, pointer, out);
         match pointer.labels.first() {
             None => missing(code, device, pointer, out),
+            // Where such a label leads is judged once it is clear which of the two it is.
+            Some(_) if pointer.is_ambiguous() => {}
             Some(&label) => {
                 for &jump in &pointer.jumps {
                     destination(code, places, jump, label, out);
@@ -170,7 +172,10 @@ struct Calls {
 impl Calls {
     fn new(pointers: &Pointers, places: &Places) -> Self {
         let mut calls: FxHashMap<Routine, Vec<_>> = FxHashMap::default();
-        for (_, pointer) in pointers.iter() {
+        for (_, pointer) in pointers
+            .iter()
+            .filter(|(_, pointer)| !pointer.is_ambiguous())
+        {
             let Some(&label) = pointer.labels.first() else {
                 continue;
             };

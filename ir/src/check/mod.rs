@@ -22,6 +22,9 @@ use crate::model::Model;
 use crate::resolve::{Resolved, numbered};
 use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, Span, codes};
 
+use std::iter::{Copied, Peekable};
+use std::slice::Iter;
+
 /// Checks the structure of a program, and warns of what is legal but hurts.
 pub fn check(resolved: &Resolved) -> Diagnostics {
     let mut out = Diagnostics::new();
@@ -84,6 +87,11 @@ impl<'a> Code<'a> {
 
     fn wide(&self, i: usize) -> bool {
         self.resolved.instrs[i].form.wide
+    }
+
+    /// For each instruction that could not be read, how many stand before it.
+    fn unread(&self) -> Peekable<Copied<Iter<'a, u32>>> {
+        self.resolved.program.unread.iter().copied().peekable()
     }
 
     /// The basic instruction that this is, if it is one.

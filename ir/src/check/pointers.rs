@@ -19,6 +19,11 @@ pub(super) struct Pointer {
 }
 
 impl Pointer {
+    /// Whether it is both jumped to and called.
+    pub(super) fn is_ambiguous(&self) -> bool {
+        !self.jumps.is_empty() && !self.calls.is_empty()
+    }
+
     /// Whether any instruction names it.
     pub(super) fn is_named(&self) -> bool {
         let uses = [&self.jumps, &self.calls, &self.others];

@@ -304,7 +304,9 @@ impl Walk<'_, '_> {
         };
         match label.class {
             DeviceClass::I => self.begin_routine(i, Kind::Interrupt),
-            _ if self.pointers.is_called(label) && !self.pointers.is_jumped_to(label) => {
+            _ if self.pointers.is_called(label)
+                && (self.after_fend || !self.pointers.is_jumped_to(label)) =>
+            {
                 self.begin_routine(i, Kind::Sub);
             }
             _ => self.jump_label(i, label),

@@ -91,16 +91,22 @@ impl<'a, 'p> Unused<'a, 'p> {
         let lacks = |device: &Device, write: bool| {
             let at = CLASSES.iter().position(|class| class == &device.class);
             at.is_some_and(|at| self.classes[at].lacks(device.number, write))
+                && self.code.model().has(device.class, device.number)
         };
         let unread = self.coils.iter().filter(|(device, _)| lacks(device, false));
-        summary(&codes::NEVER_READ, "driven and never read", unread, out);
+        summary(
+            &codes::NEVER_READ,
+            ["driven and never read", "driven here"],
+            unread,
+            out,
+        );
         let undriven = self
             .contacts
             .iter()
             .filter(|(device, _)| lacks(device, true));
         summary(
             &codes::NEVER_WRITTEN,
-            "read, but nothing drives them",
+            ["read, but nothing drives them", "read here"],
             undriven,
             out,
         );
@@ -156,7 +162,7 @@ impl Class {
 /// One diagnostic for all devices of a kind: a program with an operator panel may have many.
 fn summary<'d>(
     code: &'static Finding,
-    what: &str,
+    [what, here]: [&'static str; 2],
     found: impl Iterator<Item = &'d (Device, Span)>,
     out: &mut Diagnostics,
 ) {
@@ -171,10 +177,10 @@ fn summary<'d>(
     };
     let mut diagnostic = code
         .at(span, message)
-        .label(format!("`{first}`"))
+        .label(here)
         .help("nothing is wrong if an operator panel or another program uses them");
     for (device, span) in others.iter().take(MAX_PLACES) {
-        diagnostic = diagnostic.other(*span, format!("`{device}`"));
+        diagnostic = diagnostic.other(*span, format!("`{device}` {here}"));
     }
     out.push(diagnostic);
 }

@@ -9,6 +9,14 @@ use std::sync::OnceLock;
 /// How many unknown mnemonics get a suggestion; searching one costs as much as resolving hundreds of good instructions.
 const MAX_SUGGESTIONS: u32 = 200;
 
+/// Whether the model has the form of an instruction that it has.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fit {
+    Good,
+    /// Which was reported.
+    NoSuchForm,
+}
+
 /// Finds rows and reports instructions that have none.
 pub(super) struct Finder {
     model: &'static Model,
@@ -21,10 +29,10 @@ impl Finder {
         Finder { model, suggestions }
     }
 
-    /// The row and form of an instruction, if the model has both.
-    pub(super) fn find(&mut self, instr: &Instr, out: &mut Diagnostics) -> Option<Found> {
+    /// The row and form of an instruction, if the model has the instruction; a form that it does not have is reported and marked.
+    pub(super) fn find(&mut self, instr: &Instr, out: &mut Diagnostics) -> Option<(Found, Fit)> {
         let mnemonic = instr.mnemonic.as_str();
-        let Some(found) = catalogue::find(mnemonic) else {
+        let Some(found) = catalogue::find(mnemonic).or_else(|| without_affixes(mnemonic)) else {
             out.push(self.unknown(instr));
             return None;
         };
@@ -34,9 +42,9 @@ impl Finder {
         }
         if !self.has_form(found.inst, found.form) || found.bare && !self.model.bare_names {
             out.push(self.no_such_form(instr, found.inst, found.form));
-            return None;
+            return Some((found, Fit::NoSuchForm));
         }
-        Some(found)
+        Some((found, Fit::Good))
     }
 
     fn has_form(&self, inst: &Inst, form: Form) -> bool {
@@ -47,13 +55,6 @@ impl Finder {
 
     fn unknown(&mut self, instr: &Instr) -> Diagnostic {
         let mnemonic = instr.mnemonic.as_str();
-        if let Some((inst, form)) = without_affixes(mnemonic) {
-            return if inst.models.has(self.model.id) {
-                self.no_such_form(instr, inst, form)
-            } else {
-                self.not_on_model(instr, inst)
-            };
-        }
         let message = format!("unknown instruction `{mnemonic}`");
         let diagnostic = codes::UNKNOWN_INSTRUCTION
             .at(instr.mnemonic_span, message)
@@ -130,7 +131,7 @@ impl Finder {
 }
 
 /// The row that a mnemonic would name if its prefix D or suffix P were taken away, with the form that these mean.
-fn without_affixes(mnemonic: &str) -> Option<(&'static Inst, Form)> {
+fn without_affixes(mnemonic: &str) -> Option<Found> {
     let shorter = [
         (mnemonic.strip_prefix('D'), true, false),
         (mnemonic.strip_suffix('P'), false, true),
@@ -148,6 +149,6 @@ fn without_affixes(mnemonic: &str) -> Option<(&'static Inst, Form)> {
             wide: wide || found.form.wide,
             pulse: pulse || found.form.pulse,
         };
-        Some((found.inst, form))
+        Some(Found { form, ..found })
     })
 }
