@@ -146,6 +146,27 @@ fn read(module: &Module, stmt: &Stmt) -> Vec<TempId> {
         .collect()
 }
 
+/// Whether expressions, written out, have a temporary exactly once.
+pub fn reads_once(module: &Module, roots: &[ExprId], temp: TempId) -> bool {
+    let mut times: HashMap<ExprId, u32> = HashMap::new();
+    for root in roots {
+        *times.entry(*root).or_default() += 1;
+    }
+    let mut reads = 0u32;
+    // Parents first, so that each expression's count is complete when it is passed on.
+    for id in reachable(module, roots).into_iter().rev() {
+        let here = times.get(&id).copied().unwrap_or_default();
+        if *module.expr(id) == Expr::Temp(temp) {
+            reads = reads.saturating_add(here);
+        }
+        for operand in operands(module.expr(id)).into_iter().flatten() {
+            let count = times.entry(operand).or_default();
+            *count = count.saturating_add(here);
+        }
+    }
+    reads == 1
+}
+
 /// How often a temporary occurs.
 #[derive(Clone, Copy, Default, Debug, PartialEq, Eq)]
 pub struct Count {

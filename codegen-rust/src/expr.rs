@@ -4,7 +4,7 @@ use crate::generate::Generator;
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 use rungc_ir::catalogue::CmpOp;
-use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
+use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
 use rungc_syntax::DeviceClass;
 
 /// What kind of Rust expression it is, for parentheses.
@@ -157,7 +157,7 @@ impl Generator<'_> {
             Expr::I16(value) => literal16(value, typed),
             Expr::I32(value) => literal32(value, typed),
             Expr::F32(value) => float_literal(value),
-            Expr::Temp(temp) => Code::atom(self.temp_name(temp).into_token_stream()),
+            Expr::Temp(temp) => self.temp(temp),
             Expr::ReadBit(place) => self.read_bit(place),
             Expr::ReadWordBit(place, bit) => {
                 let word = self.read_word(place);
@@ -188,6 +188,9 @@ impl Generator<'_> {
                 Code::atom(quote!(#a.wrapping_neg()))
             }
             Expr::Widen(a) => {
+                if let Expr::I16(value) = *self.module.expr(a) {
+                    return literal32(value.into(), typed);
+                }
                 let a = self.typed(a);
                 Code::atom(quote!(i32::from(#a)))
             }
@@ -207,8 +210,15 @@ impl Generator<'_> {
         }
     }
 
+    fn temp(&mut self, temp: TempId) -> Code {
+        match self.inlined.take_if(|(inlined, _)| *inlined == temp) {
+            Some((_, edge)) => Code::atom(edge),
+            None => Code::atom(self.temp_name(temp).into_token_stream()),
+        }
+    }
+
     /// `!a`; comparisons of integers are turned round instead.
-    fn not(&mut self, a: ExprId) -> Code {
+    pub fn not(&mut self, a: ExprId) -> Code {
         if let (None, &Expr::Cmp(op, x, y)) = (self.hoisted(a), self.module.expr(a))
             && self.module.ty(x) != Ty::F32
         {

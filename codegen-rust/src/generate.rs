@@ -88,6 +88,8 @@ pub struct Generator<'m> {
     pub jumps: Vec<Vec<Option<LabelId>>>,
     /// Temporaries assigned so far in the function being written.
     pub assigned: HashSet<TempId>,
+    /// An edge that stands for its temporary in the next statement.
+    pub inlined: Option<(TempId, TokenStream)>,
     /// Names of functions already given.
     names: HashSet<String>,
     /// Expressions that have a `let` in the statement being written.
@@ -112,6 +114,7 @@ impl<'m> Generator<'m> {
             step: 0,
             jumps: Vec::new(),
             assigned: HashSet::new(),
+            inlined: None,
             names: HashSet::new(),
             hoisted: HashMap::new(),
             device_comments: module

@@ -10,26 +10,44 @@ use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
-    /// A run of statements of one body, of which the first is number `first` there.
+    /// A run of statements of one body.
     pub fn statements(&mut self, body: &[Stmt], range: std::ops::Range<usize>) -> TokenStream {
         let mut out = TokenStream::new();
         let mut i = range.start;
-        while i < range.end {
-            let Some(stmt) = body.get(i) else { break };
+        while let Some(stmt) = body.get(..range.end).and_then(|body| body.get(i)) {
             self.declarations(body, i, &mut out);
-            let next = body.get(i + 1).filter(|_| i + 1 < range.end);
-            if let Some(tokens) = next.and_then(|next| self.edge_condition(stmt, next)) {
-                out.extend(tokens);
-                i += 2;
-                continue;
-            }
+            let next = body.get(..range.end).and_then(|body| body.get(i + 1));
             let lets = self.hoist(&analysis::expressions(stmt));
             out.extend(lets);
-            let tokens = self.statement(stmt);
-            out.extend(tokens);
+            if self.is_asked_once(stmt, next) {
+                self.inlined = analysis::assigned(stmt).zip(self.edge(stmt));
+            } else {
+                let tokens = self.statement(stmt);
+                out.extend(tokens);
+            }
             i += 1;
         }
         out
+    }
+
+    /// Whether only the next statement asks for an edge, and once: then the edge stands in it, `if plc.edges[0].rising(plc.x2) { … }`.
+    fn is_asked_once(&self, stmt: &Stmt, next: Option<&Stmt>) -> bool {
+        let (Stmt::Edge { out, .. }, Some(next)) = (stmt, next) else {
+            return false;
+        };
+        let count = self.temps.count(*out);
+        if (count.assigned, count.read) != (1, 1) {
+            return false;
+        }
+        let is_written = match next {
+            Stmt::If { .. } => true,
+            Stmt::WriteBit(place, _) => {
+                let plc = quote!(plc);
+                place.index.is_none() && self.storage.bit(&plc, place.class, place.number).is_some()
+            }
+            _ => false,
+        };
+        is_written && analysis::reads_once(self.module, &analysis::expressions(next), *out)
     }
 
     /// The declarations in front of a statement.
@@ -49,30 +67,6 @@ impl Generator<'_> {
             out.extend(quote!(let mut #name = #zero;));
             self.assigned.insert(temp);
         }
-    }
-
-    /// An edge that only the `If` behind it asks for: `if plc.edges[0].rising(plc.x2) { … }`.
-    fn edge_condition(&mut self, stmt: &Stmt, next: &Stmt) -> Option<TokenStream> {
-        let Stmt::Edge { out, .. } = stmt else {
-            return None;
-        };
-        let Stmt::If {
-            cond,
-            then,
-            otherwise,
-        } = next
-        else {
-            return None;
-        };
-        let count = self.temps.count(*out);
-        let is_it = matches!(self.module.expr(*cond), Expr::Temp(temp) if temp == out);
-        if !is_it || (count.assigned, count.read) != (1, 1) {
-            return None;
-        }
-        let lets = self.hoist(&analysis::expressions(stmt));
-        let edge = Code::atom(self.edge(stmt)?);
-        let branches = self.branches(edge, then, otherwise);
-        Some(quote!(#(#lets)* #branches))
     }
 
     /// `plc.edges[0].rising(plc.x2)`.
@@ -118,10 +112,7 @@ impl Generator<'_> {
                 cond,
                 then,
                 otherwise,
-            } => {
-                let cond = self.expr(*cond);
-                self.branches(cond, then, otherwise)
-            }
+            } => self.branches(*cond, then, otherwise),
             Stmt::For { count, body } => {
                 let count = match *self.module.expr(*count) {
                     Expr::I16(n) => literal32(i32::from(n.max(1)), false).tokens,
@@ -394,20 +385,29 @@ impl Generator<'_> {
         }
     }
 
-    fn branches(&mut self, cond: Code, then: &[Stmt], otherwise: &[Stmt]) -> TokenStream {
-        let then_code = self.body(then);
-        let else_code = self.body(otherwise);
-        if else_code.is_empty() {
-            if then_code.is_empty() {
-                return TokenStream::new();
-            }
-            return quote!(if #cond { #then_code });
+    fn branches(&mut self, cond: ExprId, then: &[Stmt], otherwise: &[Stmt]) -> TokenStream {
+        let has_effect = self.inlined.is_some();
+        // `if a {} else { b }` is `if !a { b }`.
+        let (code, first, second) = if then.is_empty() {
+            let code = match *self.module.expr(cond) {
+                Expr::Not(a) => self.expr(a),
+                _ => self.not(cond),
+            };
+            (code, otherwise, then)
+        } else {
+            (self.expr(cond), then, otherwise)
+        };
+        let first = self.body(first);
+        let second = self.body(second);
+        if !second.is_empty() {
+            quote!(if #code { #first } else { #second })
+        } else if !first.is_empty() {
+            quote!(if #code { #first })
+        } else if has_effect {
+            quote!(#code;)
+        } else {
+            TokenStream::new()
         }
-        if then_code.is_empty() {
-            let cond = cond.receiver();
-            return quote!(if !#cond { #else_code });
-        }
-        quote!(if #cond { #then_code } else { #else_code })
     }
 
     fn call_sub(&mut self, n: u32) -> TokenStream {
