@@ -1,2 +1,13 @@
 //! The rungc command line.
-fn main() {}
+#![deny(missing_docs)]
+
+mod args;
+mod report;
+mod time;
+
+use clap::Parser;
+
+fn main() {
+    let cli = args::Cli::parse();
+    println!("{cli:?}");
+}

@@ -1,0 +1,238 @@
+//! Arguments of the command line.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use rungc_ir::ModelId;
+use std::path::PathBuf;
+
+/// Compiles programs of FX-family PLCs into native Rust and C.
+#[derive(Parser, Debug)]
+#[command(name = "rungc", version, propagate_version = true, subcommand_required = true, arg_required_else_help = true)]
+#[command(after_help = "\
+Examples:
+  rungc check machine.gxw                      what is wrong with a program
+  rungc run motor.il --set X000=1@200ms --for 5s --watch Y000,T0
+  rungc build MAIN.csv --emit c -o firmware/plc
+  rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
+  rungc test tests/*.plctest.toml --engine all
+  rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
+
+Exit codes: 0 success, 1 errors in the program or a failed test, 2 wrong usage or unreadable input.")]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+    /// When to use colours.
+    #[arg(long, global = true, value_enum, default_value_t = ColorWhen::Auto, value_name = "WHEN")]
+    pub color: ColorWhen,
+}
+
+/// The commands.
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Report everything that is wrong with a program, without compiling it.
+    Check(CheckArgs),
+    /// Compile a program to C, Rust, an executable, or show its IR.
+    Build(BuildArgs),
+    /// Run a program in the interpreter with virtual time.
+    Run(RunArgs),
+    /// Run PLC test files on one or all engines.
+    Test(TestArgs),
+    /// Rewrite a program as an instruction list or a list export.
+    Convert(ConvertArgs),
+    /// Explain a diagnostic code, an instruction or a special device.
+    Explain(ExplainArgs),
+    /// Print a completion script for a shell.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+}
+
+/// A program and how to read it.
+#[derive(Args, Debug)]
+pub struct Input {
+    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw); found by
+    /// content, not by name.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// PLC model; by default the CPU type that the file names, else fx3u.
+    #[arg(long, value_parser = model, value_name = "MODEL")]
+    pub model: Option<ModelId>,
+    #[command(flatten)]
+    pub reporting: Reporting,
+}
+
+/// How to report diagnostics.
+#[derive(Args, Debug)]
+pub struct Reporting {
+    /// How to print diagnostics.
+    #[arg(long, value_enum, default_value_t = Format::Human)]
+    pub format: Format,
+    /// Treat warnings as errors.
+    #[arg(long)]
+    pub deny_warnings: bool,
+    /// Leave out warnings with this code; may be repeated.
+    #[arg(short = 'A', long = "allow", value_name = "CODE")]
+    pub allow: Vec<String>,
+    /// How many diagnostics to print for people at most; 0 prints all.
+    #[arg(long, default_value_t = 100, value_name = "N")]
+    pub limit: usize,
+}
+
+/// Arguments of `check`.
+#[derive(Args, Debug)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    pub input: Input,
+}
+
+/// Arguments of `build`.
+#[derive(Args, Debug)]
+pub struct BuildArgs {
+    #[command(flatten)]
+    pub input: Input,
+    /// What to make.
+    #[arg(long, value_enum)]
+    pub emit: Emit,
+    /// Folder (c, rust) or file (bin, ir) to write; for ir the default is standard output.
+    #[arg(short, long, value_name = "PATH")]
+    pub output: Option<PathBuf>,
+    /// Name of the program in the emitted code; by default made from the file's name.
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Add a main program for a host, which scans in real time.
+    #[arg(long)]
+    pub main: bool,
+    /// Leave the IR as lowering made it.
+    #[arg(long)]
+    pub no_opt: bool,
+    /// Replace files that are already there.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `run`.
+#[derive(Args, Debug)]
+pub struct RunArgs {
+    #[command(flatten)]
+    pub input: Input,
+    /// How much virtual time to run.
+    #[arg(long = "for", default_value = "1s", value_parser = crate::time::parse, value_name = "TIME")]
+    pub duration: u64,
+    /// Virtual time from scan to scan.
+    #[arg(long, default_value = "10ms", value_parser = crate::time::parse, value_name = "TIME")]
+    pub scan: u64,
+    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start); may be repeated or separated by commas.
+    #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
+    pub set: Vec<String>,
+    /// Devices to show; by default the outputs and timers of the program.
+    #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
+    pub watch: Vec<String>,
+    /// Keep step with the clock instead of running as fast as possible.
+    #[arg(long)]
+    pub real_time: bool,
+}
+
+/// Arguments of `test`.
+#[derive(Args, Debug)]
+pub struct TestArgs {
+    /// Test files (`*.plctest.toml`), or folders of them.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// What to run the cases on.
+    #[arg(long, value_enum, default_value_t = EngineChoice::Interp)]
+    pub engine: EngineChoice,
+    /// Run only cases whose `file::name` contains this.
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+}
+
+/// Arguments of `convert`.
+#[derive(Args, Debug)]
+pub struct ConvertArgs {
+    #[command(flatten)]
+    pub input: Input,
+    /// The form to write.
+    #[arg(long, value_enum)]
+    pub to: ConvertTo,
+    /// File to write; by default standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Replace the file if it is already there.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `explain`.
+#[derive(Args, Debug)]
+pub struct ExplainArgs {
+    /// A diagnostic code (E0106), an instruction (ADD, LD>=), or a special device (M8013).
+    pub topic: String,
+    /// The model whose special devices are meant.
+    #[arg(long, value_parser = model, value_name = "MODEL")]
+    pub model: Option<ModelId>,
+}
+
+/// When to use colours.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ColorWhen {
+    /// On a terminal, unless NO_COLOR is set.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+/// How to print diagnostics.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Format {
+    /// For people.
+    Human,
+    /// One JSON object.
+    Json,
+    /// SARIF 2.1.0.
+    Sarif,
+}
+
+/// What `build` makes.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Emit {
+    /// The intermediate representation, as text.
+    Ir,
+    /// A folder of C99.
+    C,
+    /// A Rust crate.
+    Rust,
+    /// An executable for this machine (through C).
+    Bin,
+}
+
+/// What `convert` writes.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ConvertTo {
+    /// Instruction list.
+    Il,
+    /// The editors' list export (UTF-16, tabs).
+    Csv,
+}
+
+/// What `test` runs on.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum EngineChoice {
+    /// The reference interpreter.
+    Interp,
+    /// Emitted C.
+    C,
+    /// Emitted Rust.
+    Rust,
+    /// All three.
+    All,
+}
+
+fn model(name: &str) -> Result<ModelId, String> {
+    ModelId::from_name(name).ok_or_else(|| {
+        let names: Vec<_> = ModelId::ALL.iter().map(|&id| rungc_ir::Model::get(id).name).collect();
+        format!("no such model; there are {}", names.join(", "))
+    })
+}

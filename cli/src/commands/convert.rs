@@ -1,0 +1,26 @@
+//! `rungc convert`.
+
+use super::{Context, Outcome, Result, conclude, read, write_file};
+use crate::args::{ConvertArgs, ConvertTo};
+use crate::report::Findings;
+use rungc_frontend::print;
+use std::io::{self, Write};
+
+/// Rewrites a program. Nothing is written if the input could not be read whole.
+pub fn run(args: &ConvertArgs, cx: Context) -> Result {
+    let read = read(&args.input.file)?;
+    let findings = Findings::new(&args.input.file, &read.program, read.diagnostics.clone(), &args.input.reporting);
+    if findings.failed() {
+        return conclude(&findings, &args.input.reporting, cx, String::new);
+    }
+    crate::report::print(&findings, &args.input.reporting, cx.color)?;
+    let bytes = match args.to {
+        ConvertTo::Il => print::to_il(&read.program).into_bytes(),
+        ConvertTo::Csv => print::to_csv(&read.program),
+    };
+    match &args.output {
+        Some(path) => write_file(path, &bytes, args.force)?,
+        None => io::stdout().write_all(&bytes)?,
+    }
+    Ok(Outcome::Success)
+}

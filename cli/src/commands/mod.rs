@@ -1,0 +1,96 @@
+//! The commands. Each returns whether all went well; what stops a command before it can answer is a [`Failure`].
+
+pub mod build;
+pub mod check;
+pub mod convert;
+pub mod explain;
+pub mod run;
+pub mod test;
+
+use crate::args::{Format, Input, Reporting};
+use crate::report::{self, Findings};
+use rungc_frontend::Read;
+use std::fmt;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+/// How a command ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Outcome {
+    /// Exit code 0.
+    Success,
+    /// Errors in the program or a failed test: exit code 1.
+    Failed,
+}
+
+/// Why a command could not do its work: exit code 2.
+#[derive(Debug)]
+pub struct Failure(pub String);
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Failure(error.to_string())
+    }
+}
+
+/// What a command returns.
+pub type Result = std::result::Result<Outcome, Failure>;
+
+/// What every command knows.
+#[derive(Clone, Copy, Debug)]
+pub struct Context {
+    /// Whether to colour what goes to standard error.
+    pub color: bool,
+}
+
+/// Reads a program.
+pub fn read(path: &Path) -> std::result::Result<Read, Failure> {
+    rungc_frontend::read(path).map_err(|error| Failure(format!("{}: {error}", path.display())))
+}
+
+/// Prints findings, and for people a closing line that says `done` (what was accomplished) or that errors prevented it.
+pub fn conclude(findings: &Findings, reporting: &Reporting, cx: Context, done: impl FnOnce() -> String) -> Result {
+    report::print(findings, reporting, cx.color)?;
+    if reporting.format == Format::Human {
+        eprintln!("{}", summary(findings, done));
+    }
+    Ok(if findings.failed() { Outcome::Failed } else { Outcome::Success })
+}
+
+fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
+    use rungc_syntax::Severity::{Error, Warning};
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let counts = format!("{}, {}", counted(findings.count(Error), "error"), counted(findings.count(Warning), "warning"));
+    if findings.failed() { format!("      Failed {}: {counts}", findings.program.source.name) } else { format!("{}: {counts}", done()) }
+}
+
+/// Writes a file whole or not at all; refuses to replace one unless `force`.
+pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Result<(), Failure> {
+    let at = |error: io::Error| Failure(format!("{}: {error}", path.display()));
+    if path.exists() && !force {
+        return Err(Failure(format!("{} is already there; --force replaces it", path.display())));
+    }
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    fs::create_dir_all(folder).map_err(at)?;
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(at)?;
+    io::Write::write_all(&mut file, contents).map_err(at)?;
+    file.persist(path).map_err(|error| at(error.error))?;
+    Ok(())
+}
+
+/// The name of a file without folder and extension; of a project folder's `MAIN.wpg` or of `MAIN.csv` the project's.
+pub fn stem(input: &Input, read: &Read) -> String {
+    let stem = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned());
+    let plain = stem(&input.file).unwrap_or_else(|| "program".to_string());
+    match &read.program.title {
+        Some(title) if plain.eq_ignore_ascii_case("main") && !title.trim().is_empty() => title.clone(),
+        _ => plain,
+    }
+}

@@ -1,0 +1,79 @@
+//! Diagnostics as one JSON object.
+
+use super::Findings;
+use rungc_syntax::{Severity, Span};
+use serde::Serialize;
+use std::io;
+
+#[derive(Serialize)]
+struct Output<'a> {
+    file: String,
+    errors: usize,
+    warnings: usize,
+    diagnostics: Vec<Item<'a>>,
+}
+
+#[derive(Serialize)]
+struct Item<'a> {
+    code: &'a str,
+    severity: &'static str,
+    message: &'a str,
+    #[serde(flatten)]
+    place: Place,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    label: &'a str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    related: Vec<Related<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    help: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    plc_error: Option<u16>,
+}
+
+#[derive(Serialize)]
+struct Related<'a> {
+    message: &'a str,
+    #[serde(flatten)]
+    place: Place,
+}
+
+/// 1-based lines and columns (in characters), the end column past the last character; the step where the source states it.
+#[derive(Serialize)]
+struct Place {
+    line: u32,
+    column: u32,
+    end_line: u32,
+    end_column: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<u32>,
+}
+
+fn place(findings: &Findings, span: Span) -> Place {
+    let (line, column) = findings.program.source.line_col(span.start);
+    let (end_line, end_column) = findings.program.source.line_col(span.end);
+    Place { line, column, end_line, end_column, step: findings.step_at(span.start) }
+}
+
+/// The object as pretty-printed text.
+pub fn render(findings: &Findings) -> io::Result<String> {
+    let output = Output {
+        file: findings.path.display().to_string(),
+        errors: findings.count(Severity::Error),
+        warnings: findings.count(Severity::Warning),
+        diagnostics: findings
+            .diagnostics
+            .iter()
+            .map(|d| Item {
+                code: d.code,
+                severity: if d.severity == Severity::Error { "error" } else { "warning" },
+                message: &d.message,
+                place: place(findings, d.span),
+                label: &d.label,
+                related: d.others.iter().map(|o| Related { message: &o.text, place: place(findings, o.span) }).collect(),
+                help: d.help.as_deref(),
+                plc_error: d.plc_error,
+            })
+            .collect(),
+    };
+    Ok(serde_json::to_string_pretty(&output)?)
+}

@@ -1,0 +1,59 @@
+//! Printing diagnostics: for people, as JSON, as SARIF.
+
+mod human;
+mod json;
+mod sarif;
+
+use crate::args::{Format, Reporting};
+use rungc_syntax::{Diagnostic, Diagnostics, Program, Severity};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// What was found about one file.
+pub struct Findings<'a> {
+    /// The file as named on the command line.
+    pub path: &'a Path,
+    /// The program, for its source text and steps.
+    pub program: &'a Program,
+    /// The findings that count, ordered by place.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl<'a> Findings<'a> {
+    /// Takes the diagnostics that `reporting` lets through; with `--deny-warnings` warnings become errors.
+    pub fn new(path: &'a Path, program: &'a Program, diagnostics: Diagnostics, reporting: &Reporting) -> Self {
+        let mut diagnostics = diagnostics.sorted();
+        let allowed = |d: &Diagnostic| reporting.allow.iter().any(|code| code.eq_ignore_ascii_case(d.code));
+        diagnostics.retain(|d| d.severity == Severity::Error || !allowed(d));
+        if reporting.deny_warnings {
+            diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
+        }
+        Findings { path, program, diagnostics }
+    }
+
+    /// How many have this severity.
+    pub fn count(&self, severity: Severity) -> usize {
+        self.diagnostics.iter().filter(|d| d.severity == severity).count()
+    }
+
+    /// Whether the program cannot be compiled.
+    pub fn failed(&self) -> bool {
+        self.count(Severity::Error) > 0
+    }
+
+    /// Step number of the instruction that holds a place in the source, where the source states steps.
+    fn step_at(&self, offset: u32) -> Option<u32> {
+        let instrs = &self.program.instrs;
+        let next = instrs.partition_point(|instr| instr.span.start <= offset);
+        instrs.get(next.checked_sub(1)?)?.step
+    }
+}
+
+/// Prints the findings: JSON and SARIF to standard output, text for people to standard error.
+pub fn print(findings: &Findings, reporting: &Reporting, color: bool) -> io::Result<()> {
+    match reporting.format {
+        Format::Human => human::print(findings, reporting.limit, color, &mut io::stderr().lock()),
+        Format::Json => writeln!(io::stdout(), "{}", json::render(findings)?),
+        Format::Sarif => writeln!(io::stdout(), "{}", sarif::render(findings)?),
+    }
+}
