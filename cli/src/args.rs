@@ -6,7 +6,13 @@ use std::path::PathBuf;
 
 /// Compiles programs of FX-family PLCs into native Rust and C.
 #[derive(Parser, Debug)]
-#[command(name = "rungc", version, propagate_version = true, subcommand_required = true, arg_required_else_help = true)]
+#[command(
+    name = "rungc",
+    version,
+    propagate_version = true,
+    subcommand_required = true,
+    arg_required_else_help = true
+)]
 #[command(after_help = "\
 Examples:
   rungc check machine.gxw                      what is wrong with a program
@@ -232,7 +238,10 @@ pub enum EngineChoice {
 
 fn model(name: &str) -> Result<ModelId, String> {
     ModelId::from_name(name).ok_or_else(|| {
-        let names: Vec<_> = ModelId::ALL.iter().map(|&id| rungc_ir::Model::get(id).name).collect();
+        let names: Vec<_> = ModelId::ALL
+            .iter()
+            .map(|&id| rungc_ir::Model::get(id).name)
+            .collect();
         format!("no such model; there are {}", names.join(", "))
     })
 }

@@ -33,7 +33,11 @@ pub fn spin<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
 
 /// A bar over `total` pieces of work, invisible for the first second and when standard error is no terminal.
 pub fn bar(total: u64) -> ProgressBar {
-    let target = if std::io::stderr().is_terminal() { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+    let target = if std::io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    };
     let bar = ProgressBar::with_draw_target(Some(total), target);
     if let Ok(style) = ProgressStyle::with_template("{spinner} {wide_bar} {pos}/{len} {msg}") {
         bar.set_style(style);

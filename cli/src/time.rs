@@ -3,7 +3,9 @@
 /// Parses a time into milliseconds.
 pub fn parse(text: &str) -> Result<u64, String> {
     let text = text.trim();
-    let digits = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let digits = text
+        .find(|c: char| !c.is_ascii_digit() && c != '.')
+        .unwrap_or(text.len());
     let (number, unit) = text.split_at(digits);
     let factor = match unit.trim() {
         "" | "ms" => 1.0,
@@ -12,10 +14,16 @@ pub fn parse(text: &str) -> Result<u64, String> {
         "h" => 3_600_000.0,
         other => return Err(format!("`{other}` is no unit of time: use ms, s, min or h")),
     };
-    let value: f64 = number.parse().map_err(|_| format!("`{text}` is no time: write for example 200ms or 5s"))?;
+    let value: f64 = number
+        .parse()
+        .map_err(|_| format!("`{text}` is no time: write for example 200ms or 5s"))?;
     let ms = value * factor;
     // A year is far beyond what a scan-by-scan run can do.
-    if ms > 31_536_000_000.0 { Err("that is longer than a year".to_string()) } else { Ok(ms.round() as u64) }
+    if ms > 31_536_000_000.0 {
+        Err("that is longer than a year".to_string())
+    } else {
+        Ok(ms.round() as u64)
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The whole way from a program to its module.
 
-use crate::check::check;
+use crate::check;
 use crate::lower::{LowerOptions, lower};
 use crate::model::{Model, ModelId};
 use crate::node::Module;
@@ -36,10 +36,27 @@ pub struct Compiled {
     pub steps: u32,
 }
 
+/// Finds out what is wrong with a program without lowering it: `module` is always `None`.
+pub fn check(program: &Program, options: &CompileOptions) -> Compiled {
+    let model = model_of(program, options);
+    let (resolved, mut diagnostics) = resolve(program, model);
+    diagnostics.extend(check::check(&resolved).sorted());
+    Compiled {
+        module: None,
+        diagnostics,
+        model,
+        steps: resolved.steps,
+    }
+}
+
+fn model_of(program: &Program, options: &CompileOptions) -> &'static Model {
+    let named = || program.cpu.as_deref().and_then(ModelId::from_cpu);
+    Model::get(options.model.or_else(named).unwrap_or(ModelId::Fx3u))
+}
+
 /// Compiles a program.
 pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
-    let named = || program.cpu.as_deref().and_then(ModelId::from_cpu);
-    let model = Model::get(options.model.or_else(named).unwrap_or(ModelId::Fx3u));
+    let model = model_of(program, options);
     let (resolved, mut diagnostics) = resolve(program, model);
     let compiled = |module, diagnostics| Compiled {
         module,
@@ -47,7 +64,7 @@ pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
         model,
         steps: resolved.steps,
     };
-    diagnostics.extend(check(&resolved).sorted());
+    diagnostics.extend(check::check(&resolved).sorted());
     if diagnostics.has_errors() {
         return compiled(None, diagnostics);
     }

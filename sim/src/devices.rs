@@ -11,7 +11,7 @@ const FIRST_SPECIAL: u32 = 8000;
 const FIRST_COUNTER32: u32 = 200;
 
 /// The class as the runtime numbers it; `None` for pointers and nesting levels, which are no storage.
-pub(crate) fn rt_class(class: DeviceClass) -> Option<Class> {
+pub fn rt_class(class: DeviceClass) -> Option<Class> {
     Some(match class {
         DeviceClass::X => Class::X,
         DeviceClass::Y => Class::Y,

@@ -10,4 +10,5 @@ pub mod machine;
 pub mod plctest;
 pub mod protocol;
 
+pub use devices::rt_class;
 pub use machine::Machine;

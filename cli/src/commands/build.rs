@@ -16,7 +16,10 @@ type OutFile = (String, String);
 /// Compiles a program. Nothing is written if it has errors.
 pub fn run(args: &BuildArgs, cx: Context) -> Result {
     let read = read(&args.input.file)?;
-    let name = args.name.clone().unwrap_or_else(|| stem(&args.input, &read));
+    let name = args
+        .name
+        .clone()
+        .unwrap_or_else(|| stem(&args.input, &read));
     let options = CompileOptions {
         model: args.input.model,
         name: Some(name),
@@ -26,7 +29,12 @@ pub fn run(args: &BuildArgs, cx: Context) -> Result {
     let compiled = progress::spin("compiling", || compile::compile(&read.program, &options));
     let mut diagnostics = read.diagnostics;
     diagnostics.extend(compiled.diagnostics.iter().cloned());
-    let findings = Findings::new(&args.input.file, &read.program, diagnostics, &args.input.reporting);
+    let findings = Findings::new(
+        &args.input.file,
+        &read.program,
+        diagnostics,
+        &args.input.reporting,
+    );
     let module = match compiled.module {
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, &args.input.reporting, cx, String::new),
@@ -34,15 +42,26 @@ pub fn run(args: &BuildArgs, cx: Context) -> Result {
     let written = emit(args, &module)?;
     match written {
         Some(path) => conclude(&findings, &args.input.reporting, cx, || {
-            format!("     Emitted {} ({}, {} steps)", path.display(), module.model.name, module.steps)
+            format!(
+                "     Emitted {} ({}, {} steps)",
+                path.display(),
+                module.model.name,
+                module.steps
+            )
         }),
-        None => report::print(&findings, &args.input.reporting, cx.color).map(|()| Outcome::Success).map_err(Failure::from),
+        None => report::print(&findings, &args.input.reporting, cx.color)
+            .map(|()| Outcome::Success)
+            .map_err(Failure::from),
     }
 }
 
 /// Writes what was asked for; returns where, or `None` for standard output.
 fn emit(args: &BuildArgs, module: &Module) -> std::result::Result<Option<PathBuf>, Failure> {
-    let output = |default: String| args.output.clone().unwrap_or_else(|| PathBuf::from(default));
+    let output = |default: String| {
+        args.output
+            .clone()
+            .unwrap_or_else(|| PathBuf::from(default))
+    };
     match args.emit {
         Emit::Ir => {
             let text = dump::dump(module);
@@ -71,28 +90,55 @@ fn emit(args: &BuildArgs, module: &Module) -> std::result::Result<Option<PathBuf
 }
 
 fn c_files(module: &Module, main: bool) -> Vec<OutFile> {
-    let options = rungc_codegen_c::Options { main, ..Default::default() };
-    rungc_codegen_c::emit(module, &options).into_iter().map(|f| (f.path, f.text)).collect()
+    let options = rungc_codegen_c::Options {
+        main,
+        ..Default::default()
+    };
+    rungc_codegen_c::emit(module, &options)
+        .into_iter()
+        .map(|f| (f.path, f.text))
+        .collect()
 }
 
 fn rust_files(module: &Module, main: bool) -> Vec<OutFile> {
-    let options = rungc_codegen_rust::Options { main, ..Default::default() };
-    rungc_codegen_rust::emit(module, &options).into_iter().map(|f| (f.path, f.text)).collect()
+    let options = rungc_codegen_rust::Options {
+        main,
+        ..Default::default()
+    };
+    rungc_codegen_rust::emit(module, &options)
+        .into_iter()
+        .map(|f| (f.path, f.text))
+        .collect()
 }
 
 /// Writes all files into a new folder, which appears only when complete; with `force` into one that is already there.
 fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::Result<(), Failure> {
     let at = |path: &Path, error: std::io::Error| Failure(format!("{}: {error}", path.display()));
-    let occupied = folder.exists() && fs::read_dir(folder).map_err(|e| at(folder, e))?.next().is_some();
+    let occupied = folder.exists()
+        && fs::read_dir(folder)
+            .map_err(|e| at(folder, e))?
+            .next()
+            .is_some();
     if occupied && !force {
-        return Err(Failure(format!("{} is already there and not empty; --force writes into it", folder.display())));
+        return Err(Failure(format!(
+            "{} is already there and not empty; --force writes into it",
+            folder.display()
+        )));
     }
     if occupied {
-        return files.iter().try_for_each(|(path, text)| write_file(&folder.join(path), text.as_bytes(), true));
+        return files
+            .iter()
+            .try_for_each(|(path, text)| write_file(&folder.join(path), text.as_bytes(), true));
     }
-    let parent = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let parent = folder
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
     fs::create_dir_all(parent).map_err(|e| at(parent, e))?;
-    let fresh = tempfile::Builder::new().prefix(".rungc-").tempdir_in(parent).map_err(|e| at(parent, e))?;
+    let fresh = tempfile::Builder::new()
+        .prefix(".rungc-")
+        .tempdir_in(parent)
+        .map_err(|e| at(parent, e))?;
     let inside = fresh.path().join("out");
     fs::create_dir(&inside).map_err(|e| at(&inside, e))?;
     for (path, text) in files {
@@ -107,19 +153,33 @@ fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::R
 /// Emits C with a main program into a temporary folder, builds it with make, and keeps the executable.
 fn executable(module: &Module, path: &Path, force: bool) -> std::result::Result<(), Failure> {
     if path.exists() && !force {
-        return Err(Failure(format!("{} is already there; --force replaces it", path.display())));
+        return Err(Failure(format!(
+            "{} is already there; --force replaces it",
+            path.display()
+        )));
     }
     let folder = tempfile::tempdir()?;
     let source = folder.path().join("src");
     write_folder(&source, &c_files(module, true), false)?;
-    let built = progress::spin("building", || Command::new("make").arg("-C").arg(&source).output())
-        .map_err(|error| Failure(format!("cannot run make: {error}; building an executable needs make and a C compiler")))?;
+    let built = progress::spin("building", || {
+        Command::new("make").arg("-C").arg(&source).output()
+    })
+    .map_err(|error| {
+        Failure(format!(
+            "cannot run make: {error}; building an executable needs make and a C compiler"
+        ))
+    })?;
     if !built.status.success() {
-        return Err(Failure(format!("the C compiler failed:\n{}", String::from_utf8_lossy(&built.stderr))));
+        return Err(Failure(format!(
+            "the C compiler failed:\n{}",
+            String::from_utf8_lossy(&built.stderr)
+        )));
     }
     let binary = source.join(&module.name);
     if let Some(parent) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
         fs::create_dir_all(parent)?;
     }
-    fs::copy(&binary, path).map(|_| ()).map_err(|error| Failure(format!("{}: {error}", path.display())))
+    fs::copy(&binary, path)
+        .map(|_| ())
+        .map_err(|error| Failure(format!("{}: {error}", path.display())))
 }

@@ -9,7 +9,12 @@ use std::io::{self, Write};
 /// Rewrites a program. Nothing is written if the input could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
     let read = read(&args.input.file)?;
-    let findings = Findings::new(&args.input.file, &read.program, read.diagnostics.clone(), &args.input.reporting);
+    let findings = Findings::new(
+        &args.input.file,
+        &read.program,
+        read.diagnostics.clone(),
+        &args.input.reporting,
+    );
     if findings.failed() {
         return conclude(&findings, &args.input.reporting, cx, String::new);
     }

@@ -2,22 +2,93 @@
 
 use super::{Failure, Outcome, Result};
 use crate::args::ExplainArgs;
-use rungc_ir::catalogue;
-use rungc_ir::catalogue::explain;
-use rungc_syntax::{codes, diag};
+use rungc_ir::{ModelId, catalogue, special};
+use rungc_syntax::codes::{self, Code};
+use rungc_syntax::{DeviceClass, diag};
+use std::fmt::Write;
 
 /// Prints the page of a diagnostic code, an instruction or a special device.
 pub fn run(args: &ExplainArgs) -> Result {
     let topic = args.topic.trim().to_uppercase();
-    let page = codes::find(&topic)
-        .map(codes::Code::page)
-        .or_else(|| explain::instruction(&topic))
-        .or_else(|| explain::special_device(&topic, args.model));
+    let page = codes::find(&args.topic.trim().to_lowercase())
+        .map(code_page)
+        .or_else(|| special_page(&topic, args.model));
     let Some(page) = page else {
-        let names = codes::all().map(|code| code.code).chain(catalogue::all().map(|inst| inst.name));
-        let hint = diag::did_you_mean(&topic, names).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-        return Err(Failure(format!("`{}` is no diagnostic code, instruction or special device{hint}", args.topic)));
+        let codes = codes::all()
+            .into_iter()
+            .flat_map(|code| [code.id, code.name]);
+        let names = codes.chain(catalogue::all().map(|inst| inst.name));
+        let hint = diag::did_you_mean(&topic, names)
+            .map(|near| format!("; did you mean `{near}`?"))
+            .unwrap_or_default();
+        return Err(Failure(format!(
+            "`{}` is no diagnostic code, instruction or special device{hint}",
+            args.topic
+        )));
     };
     println!("{}", page.trim_end());
     Ok(Outcome::Success)
+}
+
+fn code_page(code: &Code) -> String {
+    let mut page = format!(
+        "{} ({}): {}\n\n{}\n",
+        code.id, code.name, code.title, code.text
+    );
+    if let Some(error) = code.plc_error {
+        let _ = write!(page, "\nThe PLC reports this as error {error}.\n");
+    }
+    let indented = |il: &str| {
+        il.trim()
+            .lines()
+            .map(|line| format!("    {}\n", line.trim_end()))
+            .collect::<String>()
+    };
+    for (title, il) in [("Wrong", code.wrong), ("Right", code.right)] {
+        if !il.is_empty() {
+            let model = code
+                .model
+                .map(|model| format!(" ({model})"))
+                .unwrap_or_default();
+            let _ = write!(page, "\n{title}{model}:\n\n{}", indented(il));
+        }
+    }
+    page
+}
+
+/// What a special device means, on the model asked for or on every model that has it.
+fn special_page(topic: &str, model: Option<ModelId>) -> Option<String> {
+    let (class, digits) = match topic.split_at_checked(1)? {
+        ("M", digits) => (DeviceClass::M, digits),
+        ("D", digits) => (DeviceClass::D, digits),
+        _ => return None,
+    };
+    let number: u32 = digits.parse().ok()?;
+    let models: Vec<ModelId> = model.map_or(ModelId::ALL.to_vec(), |model| vec![model]);
+    let mut page = String::new();
+    for id in models {
+        if let Some(special) = special::find(id, class, number) {
+            let title = rungc_ir::Model::get(id).title;
+            let _ = write!(page, "{topic} on {title}: {}\n\n", describe(special));
+        }
+    }
+    (!page.is_empty()).then_some(page)
+}
+
+fn describe(special: &special::Special) -> String {
+    let access = match special.access {
+        special::Access::Read => "the PLC writes it, a program only reads it",
+        special::Access::ReadWrite => "a program may write it",
+    };
+    let status = match special.status {
+        special::Status::Scan => "kept by the scan".to_string(),
+        special::Status::Instructions(names) => format!("used by {names}"),
+        special::Status::Inert(reason) => format!("inert here: {reason}"),
+    };
+    let default = if special.default == 0 {
+        String::new()
+    } else {
+        format!("; starts at {}", special.default)
+    };
+    format!("{}\n    {access}; {status}{default}", special.meaning)
 }

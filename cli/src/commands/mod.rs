@@ -56,28 +56,51 @@ pub fn read(path: &Path) -> std::result::Result<Read, Failure> {
 }
 
 /// Prints findings, and for people a closing line that says `done` (what was accomplished) or that errors prevented it.
-pub fn conclude(findings: &Findings, reporting: &Reporting, cx: Context, done: impl FnOnce() -> String) -> Result {
+pub fn conclude(
+    findings: &Findings,
+    reporting: &Reporting,
+    cx: Context,
+    done: impl FnOnce() -> String,
+) -> Result {
     report::print(findings, reporting, cx.color)?;
     if reporting.format == Format::Human {
         eprintln!("{}", summary(findings, done));
     }
-    Ok(if findings.failed() { Outcome::Failed } else { Outcome::Success })
+    Ok(if findings.failed() {
+        Outcome::Failed
+    } else {
+        Outcome::Success
+    })
 }
 
 fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
     use rungc_syntax::Severity::{Error, Warning};
     let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let counts = format!("{}, {}", counted(findings.count(Error), "error"), counted(findings.count(Warning), "warning"));
-    if findings.failed() { format!("      Failed {}: {counts}", findings.program.source.name) } else { format!("{}: {counts}", done()) }
+    let counts = format!(
+        "{}, {}",
+        counted(findings.count(Error), "error"),
+        counted(findings.count(Warning), "warning")
+    );
+    if findings.failed() {
+        format!("      Failed {}: {counts}", findings.program.source.name)
+    } else {
+        format!("{}: {counts}", done())
+    }
 }
 
 /// Writes a file whole or not at all; refuses to replace one unless `force`.
 pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Result<(), Failure> {
     let at = |error: io::Error| Failure(format!("{}: {error}", path.display()));
     if path.exists() && !force {
-        return Err(Failure(format!("{} is already there; --force replaces it", path.display())));
+        return Err(Failure(format!(
+            "{} is already there; --force replaces it",
+            path.display()
+        )));
     }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = path
+        .parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
     fs::create_dir_all(folder).map_err(at)?;
     let mut file = tempfile::NamedTempFile::new_in(folder).map_err(at)?;
     io::Write::write_all(&mut file, contents).map_err(at)?;
@@ -90,7 +113,9 @@ pub fn stem(input: &Input, read: &Read) -> String {
     let stem = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned());
     let plain = stem(&input.file).unwrap_or_else(|| "program".to_string());
     match &read.program.title {
-        Some(title) if plain.eq_ignore_ascii_case("main") && !title.trim().is_empty() => title.clone(),
+        Some(title) if plain.eq_ignore_ascii_case("main") && !title.trim().is_empty() => {
+            title.clone()
+        }
         _ => plain,
     }
 }

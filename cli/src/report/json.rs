@@ -51,7 +51,13 @@ struct Place {
 fn place(findings: &Findings, span: Span) -> Place {
     let (line, column) = findings.program.source.line_col(span.start);
     let (end_line, end_column) = findings.program.source.line_col(span.end);
-    Place { line, column, end_line, end_column, step: findings.step_at(span.start) }
+    Place {
+        line,
+        column,
+        end_line,
+        end_column,
+        step: findings.step_at(span.start),
+    }
 }
 
 /// The object as pretty-printed text.
@@ -65,11 +71,22 @@ pub fn render(findings: &Findings) -> io::Result<String> {
             .iter()
             .map(|d| Item {
                 code: d.code,
-                severity: if d.severity == Severity::Error { "error" } else { "warning" },
+                severity: if d.severity == Severity::Error {
+                    "error"
+                } else {
+                    "warning"
+                },
                 message: &d.message,
                 place: place(findings, d.span),
                 label: &d.label,
-                related: d.others.iter().map(|o| Related { message: &o.text, place: place(findings, o.span) }).collect(),
+                related: d
+                    .others
+                    .iter()
+                    .map(|o| Related {
+                        message: &o.text,
+                        place: place(findings, o.span),
+                    })
+                    .collect(),
                 help: d.help.as_deref(),
                 plc_error: d.plc_error,
             })

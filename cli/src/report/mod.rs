@@ -21,19 +21,38 @@ pub struct Findings<'a> {
 
 impl<'a> Findings<'a> {
     /// Takes the diagnostics that `reporting` lets through; with `--deny-warnings` warnings become errors.
-    pub fn new(path: &'a Path, program: &'a Program, diagnostics: Diagnostics, reporting: &Reporting) -> Self {
+    pub fn new(
+        path: &'a Path,
+        program: &'a Program,
+        diagnostics: Diagnostics,
+        reporting: &Reporting,
+    ) -> Self {
         let mut diagnostics = diagnostics.sorted();
-        let allowed = |d: &Diagnostic| reporting.allow.iter().any(|code| code.eq_ignore_ascii_case(d.code));
+        let allowed = |d: &Diagnostic| {
+            reporting
+                .allow
+                .iter()
+                .any(|code| code.eq_ignore_ascii_case(d.code))
+        };
         diagnostics.retain(|d| d.severity == Severity::Error || !allowed(d));
         if reporting.deny_warnings {
-            diagnostics.iter_mut().for_each(|d| d.severity = Severity::Error);
+            diagnostics
+                .iter_mut()
+                .for_each(|d| d.severity = Severity::Error);
         }
-        Findings { path, program, diagnostics }
+        Findings {
+            path,
+            program,
+            diagnostics,
+        }
     }
 
     /// How many have this severity.
     pub fn count(&self, severity: Severity) -> usize {
-        self.diagnostics.iter().filter(|d| d.severity == severity).count()
+        self.diagnostics
+            .iter()
+            .filter(|d| d.severity == severity)
+            .count()
     }
 
     /// Whether the program cannot be compiled.

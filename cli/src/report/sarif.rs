@@ -3,8 +3,8 @@
 use super::Findings;
 use rungc_syntax::{Diagnostic, Severity, Span};
 use serde_sarif::sarif::{
-    ArtifactLocation, Location, Message, PhysicalLocation, Region, ReportingDescriptor, Result as Item, ResultLevel, Run, Sarif,
-    Tool, ToolComponent, Version,
+    ArtifactLocation, Location, Message, PhysicalLocation, Region, ReportingDescriptor,
+    Result as Item, ResultLevel, Run, Sarif, Tool, ToolComponent, Version,
 };
 use std::collections::BTreeSet;
 use std::io;
@@ -12,10 +12,24 @@ use std::io;
 /// The log as pretty-printed text.
 pub fn render(findings: &Findings) -> io::Result<String> {
     let codes: BTreeSet<&str> = findings.diagnostics.iter().map(|d| d.code).collect();
-    let rules: Vec<ReportingDescriptor> = codes.into_iter().map(|code| ReportingDescriptor::builder().id(code).build()).collect();
-    let driver = ToolComponent::builder().name("rungc").version(env!("CARGO_PKG_VERSION")).rules(rules).build();
-    let results: Vec<Item> = findings.diagnostics.iter().map(|d| item(findings, d)).collect();
-    let run = Run::builder().tool(Tool::builder().driver(driver).build()).results(results).build();
+    let rules: Vec<ReportingDescriptor> = codes
+        .into_iter()
+        .map(|code| ReportingDescriptor::builder().id(code).build())
+        .collect();
+    let driver = ToolComponent::builder()
+        .name("rungc")
+        .version(env!("CARGO_PKG_VERSION"))
+        .rules(rules)
+        .build();
+    let results: Vec<Item> = findings
+        .diagnostics
+        .iter()
+        .map(|d| item(findings, d))
+        .collect();
+    let run = Run::builder()
+        .tool(Tool::builder().driver(driver).build())
+        .results(results)
+        .build();
     let log = Sarif::builder()
         .schema("https://json.schemastore.org/sarif-2.1.0.json")
         .version(Version::V2_1_0.to_string())
@@ -33,7 +47,11 @@ fn item(findings: &Findings, d: &Diagnostic) -> Item {
     if let Some(help) = &d.help {
         text = format!("{text}. {help}");
     }
-    let related: Vec<Location> = d.others.iter().map(|o| location(findings, o.span, Some(&o.text))).collect();
+    let related: Vec<Location> = d
+        .others
+        .iter()
+        .map(|o| location(findings, o.span, Some(&o.text)))
+        .collect();
     Item::builder()
         .rule_id(d.code)
         .level(level)
@@ -58,9 +76,15 @@ fn location(findings: &Findings, span: Span, text: Option<&str>) -> Location {
         .build();
     let uri = findings.path.to_string_lossy().replace('\\', "/");
     let artifact = ArtifactLocation::builder().uri(uri).build();
-    let physical = PhysicalLocation::builder().artifact_location(artifact).region(region).build();
+    let physical = PhysicalLocation::builder()
+        .artifact_location(artifact)
+        .region(region)
+        .build();
     match text {
-        Some(text) => Location::builder().physical_location(physical).message(message(text)).build(),
+        Some(text) => Location::builder()
+            .physical_location(physical)
+            .message(message(text))
+            .build(),
         None => Location::builder().physical_location(physical).build(),
     }
 }

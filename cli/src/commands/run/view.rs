@@ -36,7 +36,11 @@ impl View {
     /// Nothing seen yet.
     pub fn new(columns: Vec<Column>) -> Self {
         let traces = vec![Vec::new(); columns.len()];
-        View { columns, shown: None, traces }
+        View {
+            columns,
+            shown: None,
+            traces,
+        }
     }
 
     /// The heading of the table.
@@ -50,7 +54,8 @@ impl View {
 
     /// Takes the values after the scan at `now_ms`; returns a row of the table if any changed since the last row.
     pub fn scan(&mut self, now_ms: u64, values: &[String]) -> Option<String> {
-        for (trace, (column, value)) in self.traces.iter_mut().zip(self.columns.iter().zip(values)) {
+        for (trace, (column, value)) in self.traces.iter_mut().zip(self.columns.iter().zip(values))
+        {
             let on = value != "0";
             if column.kind == Kind::Bit && trace.last().map(|&(_, last)| last) != Some(on) {
                 trace.push((now_ms, on));
@@ -74,22 +79,45 @@ impl View {
 
     /// The timing diagram of the bit columns over `total_ms`; empty if there are none.
     pub fn diagram(&self, total_ms: u64) -> String {
-        let bits: Vec<_> = self.columns.iter().zip(&self.traces).filter(|(c, _)| c.kind == Kind::Bit).collect();
-        let name_width = bits.iter().map(|(c, _)| c.name.chars().count()).max().unwrap_or(0);
+        let bits: Vec<_> = self
+            .columns
+            .iter()
+            .zip(&self.traces)
+            .filter(|(c, _)| c.kind == Kind::Bit)
+            .collect();
+        let name_width = bits
+            .iter()
+            .map(|(c, _)| c.name.chars().count())
+            .max()
+            .unwrap_or(0);
         let mut text = String::new();
         for (column, trace) in &bits {
-            let _ = writeln!(text, "  {:>name_width$}  {}", column.name, line(trace, total_ms.max(1)));
+            let _ = writeln!(
+                text,
+                "  {:>name_width$}  {}",
+                column.name,
+                line(trace, total_ms.max(1))
+            );
         }
         if !bits.is_empty() {
             let right = format!("{:.3} s", total_ms as f64 / 1000.0);
-            let _ = writeln!(text, "  {:>name_width$}  0{right:>width$}", "", width = DIAGRAM_WIDTH - 1);
+            let _ = writeln!(
+                text,
+                "  {:>name_width$}  0{right:>width$}",
+                "",
+                width = DIAGRAM_WIDTH - 1
+            );
         }
         text
     }
 }
 
 fn width(column: &Column) -> usize {
-    column.name.chars().count().max(if column.kind == Kind::Bit { 1 } else { 6 })
+    column
+        .name
+        .chars()
+        .count()
+        .max(if column.kind == Kind::Bit { 1 } else { 6 })
 }
 
 /// One line of the diagram: high, low, or `┃` where a slice of time holds more than one change.
@@ -120,13 +148,23 @@ mod tests {
 
     #[test]
     fn rows_on_change_and_a_diagram() {
-        let column = |name: &str, kind| Column { name: name.to_string(), kind };
+        let column = |name: &str, kind| Column {
+            name: name.to_string(),
+            kind,
+        };
         let mut view = View::new(vec![column("Y000", Kind::Bit), column("D0", Kind::Number)]);
-        let row = |view: &mut View, ms, y: &str, d: &str| view.scan(ms, &[y.to_string(), d.to_string()]);
+        let row =
+            |view: &mut View, ms, y: &str, d: &str| view.scan(ms, &[y.to_string(), d.to_string()]);
         assert_eq!(view.heading(), "      time Y000     D0");
-        assert_eq!(row(&mut view, 0, "0", "0").as_deref(), Some("   0.000 s    ·      0"));
+        assert_eq!(
+            row(&mut view, 0, "0", "0").as_deref(),
+            Some("   0.000 s    ·      0")
+        );
         assert_eq!(row(&mut view, 10, "0", "0"), None);
-        assert_eq!(row(&mut view, 500, "1", "-7").as_deref(), Some("   0.500 s    █     -7"));
+        assert_eq!(
+            row(&mut view, 500, "1", "-7").as_deref(),
+            Some("   0.500 s    █     -7")
+        );
         let diagram = view.diagram(1000);
         let first = diagram.lines().next().unwrap();
         assert_eq!(first.matches('▁').count(), 32);

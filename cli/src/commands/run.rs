@@ -1,0 +1,327 @@
+//! `rungc run`.
+
+mod view;
+
+use super::{Context, Failure, Outcome, Result, conclude, read, stem};
+use crate::args::RunArgs;
+use crate::report::{self, Findings};
+use rungc_ir::Module;
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_rt::VirtualHal;
+use rungc_sim::Machine;
+use rungc_sim::plctest::Target;
+use rungc_syntax::DeviceClass;
+use std::io::{self, Write};
+use std::thread;
+use std::time::{Duration, Instant};
+use view::{Column, Kind, View};
+
+/// `X000=1@200ms`.
+#[derive(Clone, Debug, PartialEq)]
+struct Setting {
+    at_ms: u64,
+    target: Target,
+    value: f64,
+}
+
+/// How many devices are shown when none are asked for.
+const DEFAULT_COLUMNS: usize = 12;
+
+/// Runs a program in the interpreter, showing the watched devices.
+pub fn run(args: &RunArgs, cx: Context) -> Result {
+    if args.scan == 0 {
+        return Err(Failure("--scan: a scan takes at least 1 ms".to_string()));
+    }
+    let mut settings = args
+        .set
+        .iter()
+        .map(|text| setting(text))
+        .collect::<std::result::Result<Vec<_>, _>>()?;
+    settings.sort_by_key(|s| s.at_ms);
+    let watched = args
+        .watch
+        .iter()
+        .map(|name| target(name))
+        .collect::<std::result::Result<Vec<_>, _>>()?;
+    let read = read(&args.input.file)?;
+    let options = CompileOptions {
+        model: args.input.model,
+        name: Some(stem(&args.input, &read)),
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    let mut diagnostics = read.diagnostics;
+    diagnostics.extend(compiled.diagnostics.iter().cloned());
+    let findings = Findings::new(
+        &args.input.file,
+        &read.program,
+        diagnostics,
+        &args.input.reporting,
+    );
+    let module = match compiled.module {
+        Some(module) if !findings.failed() => module,
+        _ => return conclude(&findings, &args.input.reporting, cx, String::new),
+    };
+    report::print(&findings, &args.input.reporting, cx.color)?;
+    let watched = if watched.is_empty() {
+        default_watch(&module)
+    } else {
+        watched
+    };
+    simulate(args, &module, &settings, &watched)
+}
+
+fn target(name: &str) -> std::result::Result<Target, Failure> {
+    let upper = upper(name);
+    match Target::parse(&upper).map_err(Failure)? {
+        Target::Pulses(_) | Target::Frequency(_) => Err(Failure(format!(
+            "`{name}`: pulse outputs cannot be watched yet"
+        ))),
+        // A timer or counter is watched by its current value.
+        Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),
+        target => Ok(target),
+    }
+}
+
+/// Device letters in upper case, views (`.i32`) as they are.
+fn upper(name: &str) -> String {
+    let (device, view) = name
+        .trim()
+        .split_once('.')
+        .map_or((name.trim(), None), |(d, v)| (d, Some(v)));
+    let device = device.to_uppercase();
+    view.map_or(device.clone(), |view| {
+        format!("{device}.{}", view.to_lowercase())
+    })
+}
+
+fn setting(text: &str) -> std::result::Result<Setting, Failure> {
+    let wrong = |why: String| Failure(format!("--set {text}: {why}"));
+    let (name, rest) = text
+        .split_once('=')
+        .ok_or_else(|| wrong("write DEVICE=VALUE, for example X000=1@200ms".to_string()))?;
+    let (value, at) = rest
+        .split_once('@')
+        .map_or((rest, None), |(value, at)| (value, Some(at)));
+    let at_ms = at.map_or(Ok(0), crate::time::parse).map_err(wrong)?;
+    let target = target(name).map_err(|Failure(why)| wrong(why))?;
+    let value: f64 = value
+        .trim()
+        .parse()
+        .map_err(|_| wrong(format!("`{value}` is no number")))?;
+    let fits = match target {
+        Target::Bit(..) => value == 0.0 || value == 1.0,
+        Target::Word(..) => value.fract() == 0.0 && (-32768.0..=65535.0).contains(&value),
+        Target::Float(..) => true,
+        Target::Text(..) => return Err(wrong("characters cannot be set here".to_string())),
+        _ => value.fract() == 0.0 && (-2_147_483_648.0..=4_294_967_295.0).contains(&value),
+    };
+    if fits {
+        Ok(Setting {
+            at_ms,
+            target,
+            value,
+        })
+    } else {
+        Err(wrong(format!("`{value}` does not fit `{target}`")))
+    }
+}
+
+/// The outputs, timers and counters that the program uses, as far as a line holds them.
+fn default_watch(module: &Module) -> Vec<Target> {
+    let of = |class| {
+        let areas = module.layout.areas.iter().filter(move |a| a.class == class);
+        areas.flat_map(|a| a.first..a.first + a.count)
+    };
+    let outputs = of(DeviceClass::Y).map(|n| Target::Bit(DeviceClass::Y, n));
+    let timers = of(DeviceClass::T).map(|n| Target::Current(DeviceClass::T, n));
+    let counters = of(DeviceClass::C).map(|n| Target::Current(DeviceClass::C, n));
+    outputs
+        .chain(timers)
+        .chain(counters)
+        .take(DEFAULT_COLUMNS)
+        .collect()
+}
+
+fn column(target: Target) -> Column {
+    let kind = if matches!(target, Target::Bit(..)) {
+        Kind::Bit
+    } else {
+        Kind::Number
+    };
+    // T0 rather than T0.value: the table shows at once that it is a number.
+    let name = match target {
+        Target::Current(class, n) => class.number(n).to_string(),
+        other => other.to_string(),
+    };
+    Column { name, kind }
+}
+
+fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Target]) -> Result {
+    let mut machine = Machine::new(module);
+    let mut hal = VirtualHal::new();
+    let mut view = View::new(watched.iter().map(|&t| column(t)).collect());
+    let mut pending = settings.iter().peekable();
+    let mut out = io::stdout().lock();
+    writeln!(out, "{}", view.heading())?;
+    let begin = Instant::now();
+    let mut now = 0;
+    while now <= args.duration {
+        while let Some(setting) = pending.next_if(|s| s.at_ms <= now) {
+            let missing = || {
+                Failure(format!(
+                    "`{}` does not exist on {}",
+                    setting.target, module.model.title
+                ))
+            };
+            device::set(&mut machine, setting.target, setting.value).ok_or_else(missing)?;
+        }
+        hal.advance_to(now as u32);
+        rungc_rt::Program::scan(
+            &mut machine,
+            &mut hal,
+            now as u32,
+            (args.scan * 1000).min(u64::from(u32::MAX)) as u32,
+        );
+        let values = watched
+            .iter()
+            .map(|&t| {
+                device::get(&machine, t).ok_or_else(|| {
+                    Failure(format!("`{t}` does not exist on {}", module.model.title))
+                })
+            })
+            .collect::<std::result::Result<Vec<_>, _>>()?;
+        if let Some(row) = view.scan(now, &values) {
+            writeln!(out, "{row}")?;
+        }
+        if machine.watchdog_tripped() {
+            return Err(Failure(format!(
+                "at {now} ms: a scan does not end (watchdog, D8061 = 6105)"
+            )));
+        }
+        now += args.scan;
+        if args.real_time {
+            thread::sleep(Duration::from_millis(now).saturating_sub(begin.elapsed()));
+        }
+    }
+    write!(out, "\n{}", view.diagram(args.duration))?;
+    Ok(Outcome::Success)
+}
+
+/// Devices of the machine by their names.
+mod device {
+    use rungc_rt::{Class, Plc};
+    use rungc_sim::Machine;
+    use rungc_sim::plctest::Target;
+    use rungc_sim::rt_class as class_of;
+    use rungc_syntax::DeviceClass;
+
+    const COUNTER32_FIRST: u32 = 200;
+
+    fn wide_counter(class: DeviceClass, number: u32) -> bool {
+        class == DeviceClass::C && number >= COUNTER32_FIRST
+    }
+
+    fn pair(machine: &Machine, class: Class, number: u32) -> Option<i32> {
+        let low = machine.word(class, number)? as u16;
+        let high = machine.word(class, number + 1)?;
+        Some(i32::from(high) << 16 | i32::from(low))
+    }
+
+    fn set_pair(machine: &mut Machine, class: Class, number: u32, value: i32) -> Option<()> {
+        machine.set_word(class, number, value as i16)?;
+        machine.set_word(class, number + 1, (value >> 16) as i16)
+    }
+
+    /// Sets a device; `None` if the model has no such device.
+    pub fn set(machine: &mut Machine, target: Target, value: f64) -> Option<()> {
+        let integer = value as i64;
+        match target {
+            Target::Bit(class, n) => machine.set_bit(class_of(class)?, n, value != 0.0),
+            Target::Current(class, n) if wide_counter(class, n) => {
+                machine.set_counter32(n, integer as i32)
+            }
+            Target::Word(class, n) | Target::Current(class, n) => {
+                machine.set_word(class_of(class)?, n, integer as i16)
+            }
+            Target::Pair(class, n) => set_pair(machine, class_of(class)?, n, integer as i32),
+            Target::Float(class, n) => set_pair(
+                machine,
+                class_of(class)?,
+                n,
+                (value as f32).to_bits() as i32,
+            ),
+            Target::Nibbles(digits, class, n) => {
+                let class = class_of(class)?;
+                (0..4 * u32::from(digits))
+                    .try_for_each(|i| machine.set_bit(class, n + i, integer >> i & 1 == 1))
+            }
+            Target::Text(..) | Target::Pulses(_) | Target::Frequency(_) => None,
+        }
+    }
+
+    /// A device's value as text; `None` if the model has no such device.
+    pub fn get(machine: &Machine, target: Target) -> Option<String> {
+        Some(match target {
+            Target::Bit(class, n) => u8::from(machine.bit(class_of(class)?, n)?).to_string(),
+            Target::Current(class, n) if wide_counter(class, n) => {
+                machine.counter32(n)?.to_string()
+            }
+            Target::Word(class, n) | Target::Current(class, n) => {
+                machine.word(class_of(class)?, n)?.to_string()
+            }
+            Target::Pair(class, n) => pair(machine, class_of(class)?, n)?.to_string(),
+            Target::Float(class, n) => {
+                f32::from_bits(pair(machine, class_of(class)?, n)? as u32).to_string()
+            }
+            Target::Nibbles(digits, class, n) => {
+                let class = class_of(class)?;
+                let bit = |i| Some(u32::from(machine.bit(class, n + i)?) << i);
+                (0..4 * u32::from(digits))
+                    .map(bit)
+                    .sum::<Option<u32>>()?
+                    .to_string()
+            }
+            Target::Text(class, n) => {
+                let class = class_of(class)?;
+                let words = (n..).map_while(|n| machine.word(class, n)).take(32);
+                let bytes = words
+                    .flat_map(i16::to_le_bytes)
+                    .take_while(|&b| b != 0)
+                    .collect::<Vec<_>>();
+                format!("{:?}", String::from_utf8_lossy(&bytes))
+            }
+            Target::Pulses(_) | Target::Frequency(_) => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_read() {
+        let read = setting("x010=1@200ms").unwrap();
+        assert_eq!(
+            read,
+            Setting {
+                at_ms: 200,
+                target: Target::Bit(DeviceClass::X, 8),
+                value: 1.0
+            }
+        );
+        assert_eq!(setting("D0.i32=-70000").unwrap().value, -70000.0);
+        for wrong in [
+            "X000",
+            "X000=2",
+            "X008=1",
+            "D0=70000",
+            "D0=x",
+            "D0=1@soon",
+            "Q1=1",
+        ] {
+            assert!(setting(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! `rungc test`.
+
+use super::{Context, Failure, Outcome, Result};
+use crate::args::{EngineChoice, TestArgs};
+use crate::progress;
+use rungc_sim::engines::{EngineKind, build};
+use rungc_sim::plctest::{self, Report, Suite, TestFile};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Ending of the names of test files.
+const ENDING: &str = ".plctest.toml";
+
+/// Runs test files.
+pub fn run(args: &TestArgs, _cx: Context) -> Result {
+    let start = Instant::now();
+    let files = load(&args.files, args.only.as_deref())?;
+    let suite = progress::spin("compiling the cases", || Suite::compile(files));
+    if suite.is_empty() {
+        return Err(Failure("no case to run".to_string()));
+    }
+    let kinds = engines(args.engine);
+    let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
+    eprintln!(
+        "     Running {} on {}",
+        counted(suite.len(), "case"),
+        names.join(", ")
+    );
+    let folder = tempfile::tempdir()?;
+    let mut report = Report::default();
+    for kind in kinds {
+        let what = if kind == EngineKind::Interp {
+            "preparing"
+        } else {
+            "building the engine"
+        };
+        let built = progress::spin(what, || build(kind, suite.modules(), folder.path()));
+        let mut engine = built.map_err(|error| Failure(error.to_string()))?;
+        let bar = progress::bar(suite.len() as u64).with_message(kind.name());
+        report.extend(plctest::run(&suite, engine.as_mut(), &mut |_| bar.inc(1)));
+        bar.finish_and_clear();
+    }
+    for failed in report.failures() {
+        println!("{}", failed.describe(&suite));
+    }
+    let failed = report.failures().count();
+    println!(
+        "{} passed, {failed} failed ({:.1} s)",
+        report.passed(),
+        start.elapsed().as_secs_f64()
+    );
+    Ok(if report.is_success() {
+        Outcome::Success
+    } else {
+        Outcome::Failed
+    })
+}
+
+fn counted(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+fn engines(choice: EngineChoice) -> Vec<EngineKind> {
+    match choice {
+        EngineChoice::Interp => vec![EngineKind::Interp],
+        EngineChoice::C => vec![EngineKind::C],
+        EngineChoice::Rust => vec![EngineKind::Rust],
+        EngineChoice::All => EngineKind::ALL.to_vec(),
+    }
+}
+
+/// Loads files and, from folders, all test files in them; keeps the cases whose `file::name` contains `only`.
+fn load(paths: &[PathBuf], only: Option<&str>) -> std::result::Result<Vec<TestFile>, Failure> {
+    let mut names = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            find(path, &mut names)?
+        } else {
+            names.push(path.clone())
+        }
+    }
+    names.sort();
+    names.dedup();
+    let mut problems = Vec::new();
+    let mut files = Vec::new();
+    for name in &names {
+        match plctest::load(name) {
+            Ok(file) => files.push(file),
+            Err(error) => problems.push(error.to_string()),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(Failure(problems.join("\n")));
+    }
+    if let Some(only) = only {
+        for file in &mut files {
+            let name = file.name.clone();
+            file.cases
+                .retain(|case| format!("{name}::{}", case.name).contains(only));
+        }
+        files.retain(|file| !file.cases.is_empty());
+    }
+    Ok(files)
+}
+
+fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Failure> {
+    let at = |error: std::io::Error| Failure(format!("{}: {error}", folder.display()));
+    for entry in fs::read_dir(folder).map_err(at)? {
+        let path = entry.map_err(at)?.path();
+        if path.is_dir() {
+            find(&path, names)?;
+        } else if path.to_string_lossy().ends_with(ENDING) {
+            names.push(path);
+        }
+    }
+    Ok(())
+}
