@@ -41,7 +41,6 @@ const fn block(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .forms(ALL_FORMS)
         .steps(9, 17)
         .errors(&[6706])
-        .todo(SOON)
 }
 
 const fn compare(name: &'static str, fnc: u16, function: RtFn) -> Inst {

@@ -15,7 +15,6 @@ const fn clock(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .on(NOT_HM)
         .forms(W16_P)
         .errors(&[6706])
-        .todo(SOON)
 }
 
 pub(super) const ROWS: &[Inst] = &[

@@ -55,7 +55,6 @@ const fn io(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .fnc(fnc)
         .on(NOT_FX3G)
         .errors(&[6706])
-        .todo(SOON)
 }
 
 pub(super) const ROWS: &[Inst] = &[

@@ -34,7 +34,6 @@ const fn handy(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .on(NOT_HM)
         .steps(9, 17)
         .errors(&[6706])
-        .todo(SOON)
 }
 
 pub(super) const ROWS: &[Inst] = &[

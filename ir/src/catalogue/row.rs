@@ -69,8 +69,8 @@ pub(super) const FX3U_L01S: ModelSet = FX3U.and(&[ModelId::L01s]);
 /// All but HM.
 pub(super) const NOT_HM: ModelSet = ModelSet::ALL.except(&[ModelId::Hm]);
 
-/// Why rows of the complete instruction set have no implementation as long as their runtime function is missing.
-pub(super) const SOON: &str = "its runtime function is not written yet";
+/// What a row says that does not say what implements it; a test finds none.
+pub(super) const UNSAID: &str = "nobody said what implements it";
 
 /// A row: 16-bit form of one step, no operands, driven by a contact, on all models.
 pub(super) const fn row(name: &'static str, title: &'static str, source: &'static str) -> Inst {
@@ -92,7 +92,7 @@ pub(super) const fn row(name: &'static str, title: &'static str, source: &'stati
         max_uses: None,
         errors: &[],
         models: ModelSet::ALL,
-        lower: Lower::Todo("instructions without an implementation"),
+        lower: Lower::Todo(UNSAID),
         lower_on: &[],
     }
 }

@@ -205,7 +205,12 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(PID)
         .variants(&[on(FX).takes(PID_FX), on(L01S).takes(PID_L01S)])
         .errors(&[6705, 6706, 6730, 6732, 6733, 6734, 6735, 6736, 6740, 6742])
-        .todo(SOON)
+        .call(RtFn::Pid)
+        .lower_on(&[
+            (FX, Lower::Call(RtFn::PidTuning)),
+            (HM, Lower::Call(RtFn::PidHm)),
+            (L01S, Lower::Call(RtFn::PidThermal)),
+        ])
         .text(
             "Controls the value S2 to the target S1 by output D. S3 and the words behind it hold the sampling time, direction, gain, \
              integral and derivative times, limits and alarms, and the controller's memory.",

@@ -14,7 +14,6 @@ const fn string(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .forms(W16_P)
         .steps(7, 7)
         .errors(&[6706])
-        .todo(SOON)
 }
 
 pub(super) const ROWS: &[Inst] = &[
