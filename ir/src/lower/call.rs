@@ -39,6 +39,49 @@ impl Lowerer<'_> {
         }
     }
 
+    /// MOV with the buffer memory of a module on one side, which is what FROM and TO do; whether it is such a MOV.
+    pub(super) fn move_buffer(&mut self) -> bool {
+        let [source, target] = self.instr().operands.as_slice() else {
+            return false;
+        };
+        let (buffer, other, function) = match (&source.kind, &target.kind) {
+            (OperandKind::Buffer { .. }, OperandKind::Buffer { .. }) => return false,
+            (OperandKind::Buffer { .. }, _) => (source, target, RtFn::From),
+            (_, OperandKind::Buffer { .. }) => (target, source, RtFn::To),
+            _ => return false,
+        };
+        let OperandKind::Buffer {
+            module,
+            address,
+            index,
+        } = buffer.kind
+        else {
+            return false;
+        };
+        let wide = self.resolution().form.wide;
+        let constant = |value| Arg::Const {
+            value,
+            index: None,
+            wide,
+        };
+        let args = vec![
+            constant(module as i32),
+            self.constant_arg(address as i32, index, wide),
+            self.arg(other, Some(if wide { 2 } else { 1 }), wide),
+            constant(1),
+        ];
+        let step = self.step();
+        self.emit(Stmt::Call {
+            function,
+            wide,
+            args,
+            drive: None,
+            slot: 0,
+            step,
+        });
+        true
+    }
+
     /// Number of a new private memory, or 0 for a function without.
     fn slot(&mut self, needed: bool) -> u16 {
         if !needed {

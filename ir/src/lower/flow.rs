@@ -3,14 +3,16 @@
 use super::operand::Guards;
 use super::parts::{Item, Jump, structure};
 use super::{Lowerer, basic_of};
-use crate::catalogue::Basic;
+use crate::catalogue::{Basic, CmpOp};
 use crate::node::{Body, Expr, ExprId, FunctionKind, Stmt, TempId};
 use crate::resolve::Resolved;
-use rungc_syntax::{DeviceClass, OperandKind, codes};
+use rungc_syntax::{DeviceClass, Index, OperandKind, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The pointer that is END.
 const END_POINTER: u32 = 63;
+/// A jump leads nowhere.
+const NO_LABEL: u16 = 6701;
 /// CALL nested too deep.
 const CALL_DEPTH: u16 = 6702;
 
@@ -36,6 +38,8 @@ pub(super) struct Flow {
     recursive: FxHashSet<(usize, usize)>,
     /// Pointers that a jump goes to.
     jumped_to: FxHashSet<u32>,
+    /// The pointers that stand in the function at hand.
+    labels: Vec<u32>,
     /// The region at hand.
     current: usize,
     /// Assignments at the begin of the function at hand.
@@ -64,7 +68,14 @@ impl Flow {
                 .filter_map(|i| pointer(resolved, i))
                 .collect()
         };
-        let (called, jumped_to) = (pointers(Basic::Call), pointers(Basic::Cj));
+        let (called, mut jumped_to) = (pointers(Basic::Call), pointers(Basic::Cj));
+        // An index may lead to any label.
+        if (0..count).any(|i| {
+            basic_of(resolved, i) == Some(Basic::Cj) && pointer_index(resolved, i).is_some()
+        }) {
+            let labels = resolved.instrs.iter().filter_map(|instr| instr.label);
+            jumped_to.extend(labels.map(|label| label.number));
+        }
         let mut flow = Flow {
             regions: vec![Region {
                 kind: FunctionKind::Main,
@@ -76,6 +87,7 @@ impl Flow {
             subroutines: FxHashMap::default(),
             recursive: FxHashSet::default(),
             jumped_to,
+            labels: Vec::new(),
             current: 0,
             prologue: Vec::new(),
             dead: false,
@@ -237,6 +249,14 @@ fn pointer(resolved: &Resolved, i: usize) -> Option<u32> {
     }
 }
 
+/// The index of the pointer that CJ or CALL names.
+fn pointer_index(resolved: &Resolved, i: usize) -> Option<Index> {
+    match resolved.program.instrs.get(i)?.operands.first()?.kind {
+        OperandKind::Device(_, index) => index,
+        _ => None,
+    }
+}
+
 impl Lowerer<'_> {
     /// Lowers a function.
     pub(super) fn region(&mut self, index: usize) -> Body {
@@ -245,6 +265,12 @@ impl Lowerer<'_> {
         self.flow.dead = false;
         self.logic.clear();
         let instructions: Vec<usize> = self.flow.instructions(&region).collect();
+        self.flow.labels = instructions
+            .iter()
+            .filter_map(|&i| self.resolved.instrs[i].label)
+            .filter(|label| label.class == DeviceClass::P)
+            .map(|label| label.number)
+            .collect();
         for i in instructions {
             self.at = i;
             if self.flow.dead && !self.revives() {
@@ -389,9 +415,14 @@ impl Lowerer<'_> {
         let Some(target) = pointer(self.resolved, self.at) else {
             return;
         };
-        if target == END_POINTER {
-            return self.when(cond, |this| this.emit(Stmt::Return));
+        match pointer_index(self.resolved, self.at) {
+            Some(index) => self.indexed_jump(cond, target, index),
+            None if target == END_POINTER => self.when(cond, |this| this.emit(Stmt::Return)),
+            None => self.push_jump(cond, target),
         }
+    }
+
+    fn push_jump(&mut self, cond: ExprId, target: u32) {
         let stay = self.not(cond);
         self.out.push(Item::Jump(Jump {
             cond,
@@ -401,10 +432,35 @@ impl Lowerer<'_> {
         }));
     }
 
+    /// A jump to the label whose number is `base` and the index (HM): to each of the labels that this may be.
+    fn indexed_jump(&mut self, cond: ExprId, base: u32, index: Index) {
+        let cond = self.settled(cond);
+        let index = self.index(index, false);
+        let index = self.settled(index);
+        for label in self.flow.labels.clone() {
+            let offset = self.add(Expr::I32(label as i32 - base as i32));
+            let meant = self.add(Expr::Cmp(CmpOp::Eq, index, offset));
+            let cond = self.and(cond, meant);
+            self.push_jump(cond, label);
+        }
+        let step = self.step();
+        self.when(cond, |this| {
+            this.emit(Stmt::Fault {
+                code: NO_LABEL,
+                step,
+            })
+        });
+    }
+
     pub(super) fn call_subroutine(&mut self) {
         let Some(pointer) = pointer(self.resolved, self.at) else {
             return;
         };
+        if pointer_index(self.resolved, self.at).is_some() {
+            let span = self.instr().span;
+            let message = "CALL with an index register is not implemented yet";
+            return self.report(codes::NOT_IMPLEMENTED.at(span, message));
+        }
         self.driven(|this| this.emit_call(pointer));
     }
 

@@ -20,6 +20,8 @@ const MOST_SCAN_TIME: u32 = 8012;
 const ERRORS: [u32; 2] = [8004, 8067];
 /// Clears the general, the latched devices.
 const CLEAR: [(u32, bool); 2] = [(8031, false), (8032, true)];
+/// Relay and register of the ring counter.
+const RING_COUNTER: (u32, u32) = (8099, 8099);
 /// Milliseconds since power-on, low and high word.
 const TICK: [u32; 2] = [8008, 8009];
 /// Second, minute, hour, day, month, year, weekday.
@@ -60,6 +62,7 @@ impl Lowerer<'_> {
             this.clocks();
             this.scan_times();
             this.tick();
+            this.ring_counter();
             this.real_time_clock();
         })
     }
@@ -186,6 +189,24 @@ impl Lowerer<'_> {
             let word = self.add(Expr::HighWord(now));
             self.emit(Stmt::WriteWord(fixed(D, TICK[1]), word));
         }
+    }
+
+    /// D8099 counts tenths of milliseconds up to 32767 and from 0 again while M8099 is on.
+    fn ring_counter(&mut self) {
+        let (relay, register) = RING_COUNTER;
+        if !self.keeps(M, relay) || !self.keeps(D, register) {
+            return;
+        }
+        let counts = self.add(Expr::ReadBit(fixed(M, relay)));
+        self.when(counts, |this| {
+            let count = this.add(Expr::ReadWord(fixed(D, register)));
+            let passed = this.add(Expr::Sys(SysValue::Scan100us));
+            let passed = this.add(Expr::Narrow(passed));
+            let count = this.add(Expr::Bin(BinOp::Add, count, passed));
+            let mask = this.int(i32::from(i16::MAX), false);
+            let count = this.add(Expr::Bin(BinOp::And, count, mask));
+            this.emit(Stmt::WriteWord(fixed(D, register), count));
+        });
     }
 
     /// M8015 to M8019 and D8013 to D8019.

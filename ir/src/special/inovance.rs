@@ -78,7 +78,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8086-8087 rw 0 inert(PULSES) "Y1–2 pulse output re-initialise";
     M 8090-8092 rw 0 inert(PULSES) "Y0–2 pulse-finished interrupt I502–504 enabled";
     M 8095-8097 rw 0 inert(PULSES) "PWM on Y0–2: unit us instead of ms";
-    M 8099 rw 0 inert(FAST) "starts the high-speed ring counter D8099 (0.1 ms, 0-32767), from the next scan";
+    M 8099 rw 0 scan "starts the high-speed ring counter D8099 (0.1 ms, 0-32767), from the next scan";
     M 8109 r 0 inert(HARDWARE) "output refresh error; number of the output in D8109";
     M 8111 r 0 inert(SERIAL) "COM0: waiting to send (RS)";
     M 8112 rw 0 inert(SERIAL) "COM0: send flag (RS); instruction executing (MODBUS)";
@@ -245,7 +245,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8079 r 0 inert(TRACE) "sampling trace: data pointer";
     D 8080-8081 rw 0 inert(TRACE) "sampling trace: bit device No.0–1";
     D 8096-8098 rw 0 inert(TRACE) "sampling trace: word device No.0–2";
-    D 8099 rw 0 inert(FAST) "high-speed ring counter 0-32767, +1 each 0.1 ms while M8099 is on";
+    D 8099 rw 0 scan "high-speed ring counter 0-32767, +1 each 0.1 ms while M8099 is on";
     D 8102 r 0 inert(MAKER) "program capacity given to the user program";
     D 8104-8106 rw 100 inert(PULSES) "acceleration time of DRVI/DRVA on Y0–2 (ms) when M8135–8137 is on";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";

@@ -67,7 +67,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8069 rw 0 inert(HARDWARE) "checks the I/O bus";
     M 8070-8073 rw 0 inert(LINK) "parallel link";
     M 8075-8079 rw 0 inert(TRACE) "sampling trace";
-    M 8099 rw 0 inert(FAST) "starts the ring counter D8099";
+    M 8099 rw 0 scan "starts the ring counter D8099";
     M 8109 r 0 inert(HARDWARE) "output refresh error, number in D8109";
     M 8121 r 0 inert(SERIAL) "RS waits to send";
     M 8122 rw 0 inert(SERIAL) "RS sends";
@@ -119,7 +119,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8069 r 0 scan "step of the error of M8065–M8067";
     D 8070 rw 500 inert(LINK) "error time of the parallel link in ms";
     D 8074-8098 rw 0 inert(TRACE) "sampling trace";
-    D 8099 rw 0 inert(FAST) "ring counter of 0.1 ms";
+    D 8099 rw 0 scan "ring counter of 0.1 ms";
     D 8102 r 0 inert(MAKER) "program capacity";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
