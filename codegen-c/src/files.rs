@@ -6,6 +6,7 @@ use crate::text;
 use crate::unit::{self, Unit};
 use crate::{Options, OutFile, RUNGC_H, RUNGC_RT_H};
 use rungc_ir::Module;
+use rungc_rt::RtFn;
 use std::fmt::Write;
 
 /// First line of each file.
@@ -97,7 +98,7 @@ fn header_file(module: &Module, unit: &Unit) -> String {
 fn shared(runtime: bool) -> Vec<OutFile> {
     let mut files = vec![file("rungc.h", RUNGC_H.to_string())];
     if runtime {
-        files.push(file("rungc_rt.h", RUNGC_RT_H.to_string()));
+        files.push(file("rungc_rt.h", runtime_header()));
         for (path, text) in rungc_rt_sources::files() {
             let mut text = text.to_string();
             if path == "Cargo.toml" {
@@ -110,6 +111,27 @@ fn shared(runtime: bool) -> Vec<OutFile> {
         }
     }
     files
+}
+
+/// The header of the runtime library with the prototypes of all instructions.
+fn runtime_header() -> String {
+    let mut prototypes = String::from(
+        "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n\
+         /* The instructions. An operation error is shown in the program's special devices. */\n",
+    );
+    for function in RtFn::ALL {
+        let _ = write!(
+            prototypes,
+            "void rungc_{}(rungc_map *map, rungc_site site",
+            function.name()
+        );
+        for operand in function.operands() {
+            let _ = write!(prototypes, ", rungc_operand {operand}");
+        }
+        prototypes.push_str(");\n");
+    }
+    prototypes.push_str("\n#ifdef __cplusplus\n}\n#endif\n");
+    RUNGC_RT_H.replace("/* INSTRUCTIONS */\n", &prototypes)
 }
 
 /// How the runtime library is built.
