@@ -14,8 +14,6 @@ const C: Classes = Classes::C;
 const BIT_OF_WORD: Classes = Classes::WORD_BIT;
 /// The models that count steps as FX2N does.
 const LIKE_FX2N: ModelSet = INOVANCE.and(&[ModelId::Fx2n]);
-/// The models that count steps as FX3U does.
-const LIKE_FX3: ModelSet = FX3.and(&[ModelId::L01s]);
 
 const CONTACT: &[Param] = &[bit("S", CONTACTS).plain()];
 /// FX3U: contacts of bits of words, and index registers.

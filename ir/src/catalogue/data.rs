@@ -11,7 +11,7 @@ const VALUE_OR_BITS: Classes = BITS.or(REGISTERS).or(INDEX);
 const MEAN: &[Param] = &[
     src("S", WORDS).per(2),
     dst("D", RESULTS),
-    src("n", CONSTANTS.or(DATA)).word(),
+    src("n", CONSTANTS).word().also_on(LIKE_FX3, DATA),
 ];
 /// With M8490 on the sum stands behind the mean.
 const MEAN_INOVANCE: &[Param] = &[
@@ -88,7 +88,7 @@ pub(super) const ROWS: &[Inst] = &[
     data("BON", 44, "Test a bit")
         .on(NOT_HM)
         .steps(7, 13)
-        .takes(&[src("S", VALUES), coil("D", COILS), count("n", 0, 15).also(DATA).rules(&[Rule::WideLimits(0, 31)])])
+        .takes(&[src("S", VALUES), coil("D", COILS), count("n", 0, 15).also_on(LIKE_FX3, DATA).rules(&[Rule::WideLimits(0, 31)])])
         .call(RtFn::Bon)
         .text("D = bit n of S, counted from 0."),
     data("MEAN", 45, "Mean")
@@ -109,7 +109,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM)
         .takes(&[
             dst("S", Classes::T).word().changed().plain().numbers(&[(DeviceClass::T, 0, 199)]),
-            count("m", 1, 32767).also(DATA),
+            count("m", 1, 32767).also_on(LIKE_FX3, DATA),
             coil("D", Classes::S).plain().numbers(&[(DeviceClass::S, 900, 999)]),
         ])
         .flags(&["M8048", "M8049", "D8049"])

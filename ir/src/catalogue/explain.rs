@@ -18,7 +18,7 @@ pub fn explain(mnemonic: &str) -> Option<String> {
         .map_or(String::new(), |fnc| format!(" (FNC {fnc})"));
     let mut page = format!("# {}: {}{fnc}\n\n{}\n", inst.name, inst.title, inst.text);
     for section in [
-        operands(params),
+        operands(params, Model::get(model)),
         forms(inst, model),
         differences(inst, model),
         devices(inst, model),
@@ -31,13 +31,13 @@ pub fn explain(mnemonic: &str) -> Option<String> {
     Some(page)
 }
 
-fn operands(params: &[Param]) -> String {
+fn operands(params: &[Param], model: &Model) -> String {
     if params.is_empty() {
         return "\n## Operands\n\nNone.\n".to_owned();
     }
     let mut text = "\n## Operands\n\n| name | accepts | means |\n|---|---|---|\n".to_owned();
     for param in params {
-        let classes: Vec<_> = param.classes.names().collect();
+        let classes: Vec<_> = param.classes_on(model).names().collect();
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
@@ -46,13 +46,6 @@ fn operands(params: &[Param]) -> String {
             classes.join(" "),
             meaning(param, params)
         );
-    }
-    const NOT_EVERYWHERE: Classes = Classes::R.or(Classes::BUFFER).or(Classes::E);
-    if params
-        .iter()
-        .any(|param| param.classes.meets(NOT_EVERYWHERE))
-    {
-        text.push_str("\nR, E and U\\G only on the models that have them.\n");
     }
     text
 }
@@ -189,7 +182,7 @@ fn differences(inst: &Inst, shown: ModelId) -> String {
             .map(|other| Model::get(other).name)
             .collect();
         let _ = writeln!(text, "\nOn {}:", names.join(", "));
-        text.push_str(&operands(there).replace("\n## Operands\n", ""));
+        text.push_str(&operands(there, Model::get(id)).replace("\n## Operands\n", ""));
     }
     text
 }
@@ -393,7 +386,8 @@ impl Next {
         }) {
             return class.number(first).to_string();
         }
-        if param.limits.is_some() && param.classes.meets(Classes::K) {
+        let classes = param.classes_on(model);
+        if param.limits.is_some() && classes.meets(Classes::K) {
             return constant(param);
         }
         let first_data = if model.has(DeviceClass::R, 99) && !model.has(DeviceClass::R, 100) {
@@ -413,7 +407,7 @@ impl Next {
             (Classes::KNX, "K4X000"),
             (Classes::KNM, "K4M0"),
         ];
-        let found = ORDER.iter().find(|(class, _)| param.classes.meets(*class));
+        let found = ORDER.iter().find(|(class, _)| classes.meets(*class));
         match found {
             Some((_, "D")) => {
                 let number = first_data + self.registers;
@@ -426,9 +420,9 @@ impl Next {
                 format!("M{number}")
             }
             Some((_, device)) => (*device).to_owned(),
-            None if param.classes.meets(Classes::P) => "P0".to_owned(),
-            None if param.classes.meets(Classes::N) => "N0".to_owned(),
-            None if param.classes.meets(Classes::TEXT) => "\"ABC\"".to_owned(),
+            None if classes.meets(Classes::P) => "P0".to_owned(),
+            None if classes.meets(Classes::N) => "N0".to_owned(),
+            None if classes.meets(Classes::TEXT) => "\"ABC\"".to_owned(),
             None => constant(param),
         }
     }

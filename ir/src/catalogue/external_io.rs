@@ -186,7 +186,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM)
         .forms(W16_P)
         .steps(7, 7)
-        .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), src("S", VALUES)])
+        .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), src("S", WORDS).also_on(FX, CONSTANTS)])
         .variants(&[on(L01S).takes(READ_MODBUS)])
         .call(RtFn::Wr3a)
         .lower_on(&[(L01S, Lower::Todo("serial communication"))])

@@ -7,7 +7,7 @@ use rungc_rt::RtFn;
 
 /// Floats, and integers that become floats.
 const NUMBERS: Classes = CONSTANTS.or(Classes::E).or(DATA);
-/// Only floats.
+/// Only floats. The manual of H1U and H2U also marks V and Z for the functions that came last.
 const REALS: Classes = Classes::E.or(DATA).or(INDEX);
 
 const TWO: &[Param] = &[

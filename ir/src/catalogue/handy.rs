@@ -100,7 +100,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .takes(&[
             dst("S", Classes::T).word().changed().plain().numbers(&[(DeviceClass::T, 0, 199)]),
-            count("m", 1, 32767).also(DATA),
+            count("m", 1, 32767).also_on(LIKE_FX3, DATA),
             coil("D", COILS).len(4),
         ])
         .call(RtFn::Stmr)
@@ -121,7 +121,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("S1", DATA),
             src("S2", DATA),
             dst("D", DATA).len(2).changed(),
-            count("n", 1, 32767).also(DATA),
+            count("n", 1, 32767).also_on(LIKE_FX3, DATA),
         ])
         .flags(&["M8026", "M8029"])
         .call(RtFn::Ramp)

@@ -99,19 +99,28 @@ const HM_RAMP: &[Param] = &[
     AXIS,
 ];
 
-const fn refresh(n: Param) -> [Param; 2] {
+/// The terminals that HM refreshes: X000, X010, Y000, Y010.
+const HM_TERMINALS: &[(DeviceClass, u32, u32)] = &[
+    (DeviceClass::X, 0o0, 0o0),
+    (DeviceClass::X, 0o10, 0o10),
+    (DeviceClass::Y, 0o0, 0o0),
+    (DeviceClass::Y, 0o10, 0o10),
+];
+
+const fn refresh(numbers: &'static [(DeviceClass, u32, u32)], n: Param) -> [Param; 2] {
     [
         coil("D", Classes::X.or(Classes::Y))
             .per(1)
             .changed()
             .plain()
+            .numbers(numbers)
             .rules(&[Rule::EndsInZero]),
         n,
     ]
 }
 
-const REFRESH: &[Param] = &refresh(count("n", 8, 256).rules(&[Rule::MultipleOf(8)]));
-const REFRESH_HM: &[Param] = &refresh(count("n", 8, 8));
+const REFRESH: &[Param] = &refresh(&[], count("n", 8, 256).rules(&[Rule::MultipleOf(8)]));
+const REFRESH_HM: &[Param] = &refresh(HM_TERMINALS, count("n", 8, 8));
 
 const fn fast(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.6").fnc(fnc)

@@ -265,6 +265,8 @@ pub struct Param {
     pub name: &'static str,
     /// What it may be.
     pub classes: Classes,
+    /// Classes among them that only some models accept here.
+    pub only_on: Option<(Classes, ModelSet)>,
     /// What it denotes.
     pub shape: Shape,
     /// What is done with it.
@@ -281,6 +283,29 @@ pub struct Param {
     pub indexable: bool,
     /// Whether it may be left out (only last ones).
     pub optional: bool,
+}
+
+impl Param {
+    /// What it may be on a model: without the classes that only others accept, and without notations and devices that the model
+    /// does not have at all.
+    pub fn classes_on(&self, model: &Model) -> Classes {
+        const NOTATIONS: Classes = Classes::E
+            .or(Classes::TEXT)
+            .or(Classes::WORD_BIT)
+            .or(Classes::BUFFER);
+        let mut missing = NOTATIONS.without(model.notations);
+        if let Some((classes, models)) = self.only_on
+            && !models.has(model.id)
+        {
+            missing = missing.or(classes);
+        }
+        for class in [DeviceClass::R, DeviceClass::ER] {
+            if model.ranges_of(class).next().is_none() {
+                missing = missing.or(Classes::of_device(class));
+            }
+        }
+        self.classes.without(missing)
+    }
 }
 
 /// The forms an instruction has.

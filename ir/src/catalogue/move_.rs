@@ -99,7 +99,11 @@ pub(super) const ROWS: &[Inst] = &[
         .fnc(16)
         .forms(ALL_FORMS)
         .steps(7, 13)
-        .takes(&[src("S", VALUES), dst("D", RESULTS).per(2), count("n", 1, 512)])
+        .takes(&[
+            src("S", VALUES),
+            dst("D", RESULTS.without(INDEX)).per(2),
+            count("n", 1, 512).also_on(LIKE_FX3, DATA),
+        ])
         .variants(&[on(HM).takes(FILL_HM)])
         .errors(&[6706])
         .call(RtFn::Fmov)

@@ -14,7 +14,6 @@ const ROTATE: &[Param] = &[
         .also(DATA)
         .rules(&[Rule::WideLimits(0, 32)]),
 ];
-const ROTATE_CONSTANT: &[Param] = &[ROTATED, count("n", 0, 16).rules(&[Rule::WideLimits(0, 32)])];
 const ROTATE_CARRY_HM: &[Param] = &[ROTATED, count("n", 1, 15).rules(&[Rule::WideLimits(1, 31)])];
 
 const fn shift_bits(n1: Param, n2: Param) -> [Param; 4] {
@@ -28,7 +27,9 @@ const fn shift_bits(n1: Param, n2: Param) -> [Param; 4] {
 
 const SHIFT_BITS: &[Param] = &shift_bits(
     count("n1", 1, 1024),
-    count("n2", 0, 1024).also(DATA).rules(&[Rule::AtMost(2)]),
+    count("n2", 0, 1024)
+        .also_on(LIKE_FX3, DATA)
+        .rules(&[Rule::AtMost(2)]),
 );
 const SHIFT_BITS_H1U: &[Param] = &shift_bits(
     count("n1", 1, 256),
@@ -55,7 +56,7 @@ const SHIFT_WORDS_FX: &[Param] = &shift_words(512);
 
 const fn enqueue(max: i64, rules: &'static [Rule]) -> [Param; 3] {
     [
-        src("S", WORDS.or(CONSTANTS)),
+        src("S", WORDS).also_on(FX.and(&[ModelId::L01s]), CONSTANTS),
         both("D", RESULTS).per(2).rules(rules),
         count("n", 2, max),
     ]
@@ -103,16 +104,14 @@ const fn queue(name: &'static str, fnc: u16, title: &'static str, function: RtFn
 
 pub(super) const ROWS: &[Inst] = &[
     rotate("ROR", 30, "Rotate right", RtFn::Ror)
-        .variants(&[on(INOVANCE).takes(ROTATE_CONSTANT)])
         .text("Rotates D right by n bits. The bit that left last is also in M8022."),
     rotate("ROL", 31, "Rotate left", RtFn::Rol)
-        .variants(&[on(INOVANCE).takes(ROTATE_CONSTANT)])
         .text("Rotates D left by n bits. The bit that left last is also in M8022."),
     rotate("RCR", 32, "Rotate right with carry", RtFn::Rcr)
-        .variants(&[on(INOVANCE).takes(ROTATE_CONSTANT), on(HM).takes(ROTATE_CARRY_HM)])
+        .variants(&[on(HM).takes(ROTATE_CARRY_HM)])
         .text("Rotates the ring of D and M8022 right by n bits: bit 0 goes to M8022, M8022 to the top."),
     rotate("RCL", 33, "Rotate left with carry", RtFn::Rcl)
-        .variants(&[on(INOVANCE).takes(ROTATE_CONSTANT), on(HM).takes(ROTATE_CARRY_HM)])
+        .variants(&[on(HM).takes(ROTATE_CARRY_HM)])
         .text("Rotates the ring of D and M8022 left by n bits: the top bit goes to M8022, M8022 to bit 0."),
     shift("SFTR", 34, "Shift bits right", RtFn::Sftr)
         .takes(SHIFT_BITS)

@@ -58,6 +58,8 @@ pub(super) const FX3: ModelSet = ModelSet::of(&[ModelId::Fx3g, ModelId::Fx3u]);
 pub(super) const FX: ModelSet = FX3.and(&[ModelId::Fx2n]);
 /// Only FX3U.
 pub(super) const FX3U: ModelSet = ModelSet::of(&[ModelId::Fx3u]);
+/// FX3G, FX3U and what descends from them.
+pub(super) const LIKE_FX3: ModelSet = FX3.and(&[ModelId::L01s]);
 /// Only HM.
 pub(super) const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
 /// H1U and H2U.
@@ -182,6 +184,7 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
     Param {
         name,
         classes,
+        only_on: None,
         shape,
         role,
         extent: Extent::One,
@@ -292,6 +295,12 @@ impl Param {
     pub(super) const fn also(self, classes: Classes) -> Self {
         let classes = self.classes.or(classes);
         Param { classes, ..self }
+    }
+
+    /// On these models it may also be one of these.
+    pub(super) const fn also_on(self, models: ModelSet, classes: Classes) -> Self {
+        let only_on = Some((classes.without(self.classes), models));
+        Param { only_on, ..self }.also(classes)
     }
 
     /// It is both read and written.

@@ -2,7 +2,7 @@
 
 use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelId;
 use rungc_rt::RtFn;
 use rungc_syntax::OperandKind;
 
@@ -82,7 +82,6 @@ const WRITE_WORDS: &[Param] = &[
 ];
 /// The first operand is the number of a D register.
 const FREE: &[Param] = &[any("S1"), any("S2").limits(1, 255), any("D").limits(0, 1)];
-const LIKE_FX3: ModelSet = FX3.and(&[ModelId::L01s]);
 
 const PID: &[Param] = &[
     src("S1", DATA),

@@ -77,8 +77,9 @@ impl Checker {
     fn operand(&self, place: &Place, operand: &Operand, param: &Param) -> Option<Diagnostic> {
         let span = operand.span;
         let kind = &operand.kind;
-        if !param.classes.meets(Classes::of(kind)) {
-            return Some(wrong_class(place.instr, operand, param));
+        let classes = param.classes_on(self.model);
+        if !classes.meets(Classes::of(kind)) {
+            return Some(wrong_class(place.instr, operand, param, classes));
         }
         if let Some(index) = index_of(kind)
             && let Some(diagnostic) = self.index(place, span, index, param)
@@ -392,7 +393,7 @@ fn signature(name: &str, params: &[Param]) -> String {
     text
 }
 
-fn wrong_class(instr: &Instr, operand: &Operand, param: &Param) -> Diagnostic {
+fn wrong_class(instr: &Instr, operand: &Operand, param: &Param, classes: Classes) -> Diagnostic {
     let message = format!(
         "`{}` cannot be operand {} of `{}`",
         operand.kind, param.name, instr.mnemonic
@@ -400,43 +401,10 @@ fn wrong_class(instr: &Instr, operand: &Operand, param: &Param) -> Diagnostic {
     codes::OPERAND_CLASS
         .at(operand.span, message)
         .label("not accepted here")
-        .help(format!("accepted: {}", class_names(param.classes)))
-}
-
-/// The classes of a set as a manual lists them.
-fn class_names(classes: Classes) -> String {
-    const NAMES: [(Classes, &str); 24] = [
-        (Classes::K, "K"),
-        (Classes::H, "H"),
-        (Classes::E, "E"),
-        (Classes::TEXT, "text"),
-        (Classes::KNX, "KnX"),
-        (Classes::KNY, "KnY"),
-        (Classes::KNM, "KnM"),
-        (Classes::KNS, "KnS"),
-        (Classes::X, "X"),
-        (Classes::Y, "Y"),
-        (Classes::M, "M"),
-        (Classes::S, "S"),
-        (Classes::T, "T"),
-        (Classes::C, "C"),
-        (Classes::D, "D"),
-        (Classes::R, "R"),
-        (Classes::ER, "ER"),
-        (Classes::V, "V"),
-        (Classes::Z, "Z"),
-        (Classes::WORD_BIT, "D.b"),
-        (Classes::BUFFER, "U\\G"),
-        (Classes::P, "P"),
-        (Classes::I, "I"),
-        (Classes::N, "N"),
-    ];
-    let names: Vec<_> = NAMES
-        .iter()
-        .filter(|(class, _)| classes.meets(*class))
-        .map(|&(_, name)| name)
-        .collect();
-    names.join(", ")
+        .help(format!(
+            "accepted: {}",
+            classes.names().collect::<Vec<_>>().join(", ")
+        ))
 }
 
 /// A device whose number does not serve in this place.
