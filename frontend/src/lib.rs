@@ -129,7 +129,7 @@ pub fn read_bytes(name: &str, bytes: &[u8]) -> Result<Read, ReadError> {
 fn undecoded(program: &Program) -> Diagnostic {
     let at = program.source.text.find(char::REPLACEMENT_CHARACTER);
     let span = at.map_or(Span::default(), |at| Span::new(at as u32, at as u32 + 3));
-    codes::DAMAGED
+    codes::UNREADABLE_TEXT
         .at(span, "this text holds bytes that no known encoding reads")
         .label("the first of them")
         .help("save the file as UTF-8")

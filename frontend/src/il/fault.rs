@@ -100,7 +100,7 @@ impl Kind {
                     ),
                 )
                 .label("only X, Y, M and S can be grouped")
-                .help("words are named without a digit count, e.g. `D0`"),
+                .help("words are named without a digit count, e.g. `D0`; between two operands stands a space"),
             Kind::BitNumber => codes::BAD_OPERAND
                 .at(span, format!("`{text}` does not name a bit of a word"))
                 .label("the bit number is one hexadecimal digit, 0 to F")

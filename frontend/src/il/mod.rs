@@ -24,6 +24,10 @@ use smol_str::{SmolStr, ToSmolStr};
 /// Reads an instruction list. `name` is the file's name for diagnostics.
 pub fn read_text(name: &str, text: &str) -> Read {
     let mut reader = Reader::default();
+    reader
+        .program
+        .instrs
+        .reserve(text.bytes().filter(|&b| b == b'\n').count());
     let mut start = 0;
     for line in text.split_inclusive('\n') {
         reader.line(line.trim_end_matches(['\r', '\n']), start);

@@ -61,6 +61,12 @@ super::codes! {
     wrong: "",
     right: "";
 
+    UNREADABLE_TEXT = "E0015" "unreadable-text" Error None,
+    "bytes that no known encoding reads",
+    "Text is read as UTF-8, UTF-16, GBK or Shift-JIS, whichever fits. Here none fits every byte: the file is in another encoding, or damaged. Save it as UTF-8.",
+    wrong: "",
+    right: "";
+
     UNKNOWN_INSTRUCTION = "E0033" "unknown-instruction" Error Some(6506),
     "no model has this instruction",
     "The mnemonic is none that the catalogue knows, in no spelling. If a similar one exists, the help names it.",
