@@ -17,6 +17,7 @@ mod grammar;
 use crate::Read;
 use crate::text::{append, clean};
 use chumsky::Parser;
+use fault::Fault;
 use fold::Folded;
 use rungc_syntax::{Device, Diagnostics, Instr, Program, Source, SourceKind, Span};
 use smol_str::{SmolStr, ToSmolStr};
@@ -29,9 +30,18 @@ pub fn read_text(name: &str, text: &str) -> Read {
         .instrs
         .reserve(text.bytes().filter(|&b| b == b'\n').count());
     let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        reader.line(line.trim_end_matches(['\r', '\n']), start);
-        start += line.len() as u32;
+    let grammar = grammar::line();
+    for whole in text.split_inclusive('\n') {
+        let line = whole.trim_end_matches(['\r', '\n']);
+        if line.is_ascii() {
+            let found = grammar.parse(line).into_output_errors();
+            reader.take(line, line, found, |span| {
+                Span::new(span.start + start, span.end + start)
+            });
+        } else {
+            reader.wide_line(line, start);
+        }
+        start += whole.len() as u32;
     }
     reader.program.source = Source::new(name, text);
     reader.program.kind = SourceKind::Il;
@@ -51,32 +61,33 @@ struct Reader {
 }
 
 impl Reader {
-    fn line(&mut self, line: &str, start: u32) {
-        if line.is_ascii() {
-            self.parse(line, line, |span| {
-                Span::new(span.start + start, span.end + start)
-            });
-            return;
-        }
+    /// Reads a full-width line, which begins at `start`.
+    fn wide_line(&mut self, line: &str, start: u32) {
         let mut folded = std::mem::take(&mut self.folded);
         folded.fold(line);
-        self.parse(line, &folded.text, |span| {
+        let found = grammar::line().parse(&folded.text).into_output_errors();
+        self.take(line, &folded.text, found, |span| {
             let (first, last) = folded.original(span.start, span.end);
             Span::new(first + start, last + start)
         });
         self.folded = folded;
     }
 
-    /// Reads one line; `place` leads from the folded line to the source.
-    fn parse(&mut self, original: &str, folded: &str, place: impl Fn(Span) -> Span) {
-        let (line, faults) = grammar::line().parse(folded).into_output_errors();
+    /// Takes what the grammar found on a line; `place` leads from the folded line to the source.
+    fn take(
+        &mut self,
+        original: &str,
+        folded: &str,
+        (line, faults): (Option<grammar::Line>, Vec<Fault>),
+        place: impl Fn(Span) -> Span,
+    ) {
         let before = self.program.instrs.len();
         let faulty = !faults.is_empty();
         for fault in faults {
             self.diagnostics.push(fault.diagnostic(folded, &place));
         }
         if let Some(line) = line {
-            self.take(line, original, &place);
+            self.content(line, original, &place);
         }
         if faulty && self.program.instrs.len() == before {
             self.program.unread.push(before as u32);
@@ -84,7 +95,7 @@ impl Reader {
     }
 
     /// Takes what a line holds.
-    fn take(&mut self, line: grammar::Line, original: &str, place: &impl Fn(Span) -> Span) {
+    fn content(&mut self, line: grammar::Line, original: &str, place: &impl Fn(Span) -> Span) {
         let begin = place(Span::default()).start;
         let comment = line.comment.and_then(|at| {
             let at = place(Span::new(at, at)).start - begin;
