@@ -235,7 +235,10 @@ impl Reader {
             _ if operand.is_empty() => {}
             Current::Last => self.operand(operand),
             Current::Unread => _ = self.listing.word(operand),
-            Current::None => self.misplaced(operand, "no instruction stands in this row or above"),
+            Current::None => {
+                self.misplaced(operand, "no instruction stands in this row or above");
+                self.unread();
+            }
             Current::Label => self.misplaced(operand, "a label takes no operands"),
         }
     }
@@ -280,7 +283,7 @@ impl Reader {
         let Some(mnemonic) =
             il::field::mnemonic(self.listing.slice(span), span.start, &mut self.diagnostics)
         else {
-            self.current = Current::Unread;
+            self.unread();
             return;
         };
         self.current = if il::is_label(&mnemonic) {
@@ -313,9 +316,15 @@ impl Reader {
             }
             None => {
                 self.program.instrs.pop();
-                self.current = Current::Unread;
+                self.unread();
             }
         }
+    }
+
+    /// Remembers that an instruction cannot be read; its further operands are passed over.
+    fn unread(&mut self) {
+        self.current = Current::Unread;
+        self.program.unread.push(self.program.instrs.len() as u32);
     }
 
     fn note(&mut self, note: SmolStr) {

@@ -30,7 +30,8 @@ fn findings(read: &Read) -> String {
         .iter()
         .map(ToString::to_string)
         .collect();
-    format!("{all}---\n{}", instrs.join("\n"))
+    let unread = &read.program.unread;
+    format!("{all}---\n{}\nunread: {unread:?}", instrs.join("\n"))
 }
 
 #[test]

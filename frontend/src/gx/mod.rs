@@ -85,6 +85,7 @@ fn no_program(name: &str, bytes: &[u8]) -> Read {
     Read {
         program: Program {
             source: listing.finish(name),
+            unread: vec![0],
             ..Program::default()
         },
         diagnostics,

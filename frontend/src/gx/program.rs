@@ -113,7 +113,7 @@ impl<'b> Reader<'b> {
             return self.unknown(body, at);
         };
         if self.label && !matches!(token, Token::Operand(_)) {
-            self.label = false;
+            self.unread();
             self.report(&codes::DAMAGED, at, body, "a label without its pointer");
         }
         match token {
@@ -173,7 +173,10 @@ impl<'b> Reader<'b> {
         if std::mem::take(&mut self.label) {
             match kind {
                 OperandKind::Device(device, None) => self.instruction(device.to_smolstr()),
-                _ => self.report(&codes::DAMAGED, at, body, "a label whose pointer is none"),
+                _ => {
+                    self.unread();
+                    self.report(&codes::DAMAGED, at, body, "a label whose pointer is none");
+                }
             }
             self.open = false;
             return;
@@ -189,7 +192,15 @@ impl<'b> Reader<'b> {
     fn give_up(&mut self) {
         if std::mem::take(&mut self.open) {
             self.program.instrs.pop();
+            self.unread();
         }
+    }
+
+    /// Remembers that an instruction is missing here; its operands are passed over.
+    fn unread(&mut self) {
+        self.open = false;
+        self.label = false;
+        self.program.unread.push(self.program.instrs.len() as u32);
     }
 
     fn unknown(&mut self, body: &[u8], at: usize) {
@@ -200,7 +211,7 @@ impl<'b> Reader<'b> {
             }
             _ => {
                 self.listing.next_line();
-                self.open = false;
+                self.unread();
                 self.report(&codes::UNKNOWN_BYTES, at, body, "an unknown instruction");
             }
         }
@@ -213,8 +224,7 @@ impl<'b> Reader<'b> {
         if bytes.get(at + 1).is_some_and(|&code| code >= 0x90) {
             self.give_up();
         }
-        self.open = false;
-        self.label = false;
+        self.unread();
         let rest = bytes.get(at..).unwrap_or_default();
         self.listing.next_line();
         let next =
