@@ -22,7 +22,7 @@ fn key_of(cx: &mut Cx, pressed: u32) -> Option<(i32, bool)> {
     let before = state.0[1] as u32;
     state.0[1] = pressed as i32;
     let held = state.0[0] - 1;
-    if held >= 0 && pressed >> held & 1 == 1 {
+    if (0..16).contains(&held) && pressed >> held & 1 == 1 {
         return Some((held, false));
     }
     let fresh = pressed & !before;

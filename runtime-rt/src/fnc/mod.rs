@@ -18,3 +18,6 @@ pub mod rotate;
 pub mod scale;
 pub mod serial;
 pub mod text;
+
+#[cfg(test)]
+mod random_tests;
