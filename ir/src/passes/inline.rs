@@ -1,4 +1,5 @@
-//! Temporaries whose assignment is put off until they are used, so that a single use can take the expression itself.
+//! Temporaries: their assignment is put off until they are used, so that a single use can take the expression itself; and a value
+//! that another temporary already has is not computed again.
 
 use super::effects::{Reads, Writes};
 use super::fold::Arena;
@@ -8,6 +9,8 @@ use crate::node::{Expr, ExprId, TempId};
 const MAX_DEPTH: u8 = 24;
 /// How many assignments are put off at a time.
 const MAX_PENDING: usize = 16;
+/// How many values are remembered at a time.
+const MAX_AVAILABLE: usize = 8;
 
 /// How often temporaries are used and assigned, counted over the module; more than one is many.
 pub(super) struct Counts {
@@ -25,9 +28,19 @@ struct Pending {
     left: u32,
 }
 
+/// A value that a temporary has.
+#[derive(Clone, Debug)]
+pub(super) struct Available {
+    temp: ExprId,
+    value: ExprId,
+    reads: Reads,
+}
+
 /// The temporaries at hand.
 pub(super) struct Temps {
     counts: Counts,
+    /// Values that would be the same if they were computed again here.
+    available: Vec<Available>,
     /// Constants and copies, by temporary.
     known: Vec<Option<ExprId>>,
     pending: Vec<Pending>,
@@ -37,6 +50,7 @@ impl Temps {
     pub(super) fn new(counts: Counts) -> Self {
         Temps {
             known: vec![None; counts.uses.len()],
+            available: Vec::new(),
             counts,
             pending: Vec::new(),
         }
@@ -64,7 +78,7 @@ impl Temps {
     /// Takes note of an assignment; what has to be assigned here and now.
     pub(super) fn assign(
         &mut self,
-        arena: &Arena,
+        arena: &mut Arena,
         temp: TempId,
         value: ExprId,
     ) -> Vec<(TempId, ExprId)> {
@@ -82,7 +96,7 @@ impl Temps {
         }
         let movable = uses == 1 || is_leaf(arena, value);
         if !movable || arena.depth(value) > MAX_DEPTH {
-            return vec![(temp, value)];
+            return self.assign_once(arena, temp, value);
         }
         self.pending.push(Pending {
             temp,
@@ -95,6 +109,42 @@ impl Temps {
             .drain(..excess)
             .map(|p| (p.temp, p.value))
             .collect()
+    }
+
+    /// Assigns a value here and now, unless another temporary has it.
+    fn assign_once(
+        &mut self,
+        arena: &mut Arena,
+        temp: TempId,
+        value: ExprId,
+    ) -> Vec<(TempId, ExprId)> {
+        let before = self
+            .available
+            .iter()
+            .find(|available| arena.same(available.value, value, u8::MAX));
+        if let Some(before) = before {
+            self.known[temp.0 as usize] = Some(before.temp);
+            return Vec::new();
+        }
+        if self.available.len() == MAX_AVAILABLE {
+            self.available.remove(0);
+        }
+        self.available.push(Available {
+            temp: arena.add(Expr::Temp(temp)),
+            value,
+            reads: Reads::of(arena, value),
+        });
+        vec![(temp, value)]
+    }
+
+    /// The values that are known here.
+    pub(super) fn available(&self) -> Vec<Available> {
+        self.available.clone()
+    }
+
+    /// Goes on with what was known before.
+    pub(super) fn set_available(&mut self, available: Vec<Available>) {
+        self.available = available;
     }
 
     /// Whether every temporary in an expression has one value only.
@@ -110,7 +160,14 @@ impl Temps {
 
     /// What has to be assigned in front of a write.
     pub(super) fn before(&mut self, writes: Writes) -> Vec<(TempId, ExprId)> {
+        self.available
+            .retain(|available| !available.reads.disturbed_by(writes));
         self.take(|pending| pending.reads.disturbed_by(writes))
+    }
+
+    /// What has to be assigned in front of a write because it is used behind it, and perhaps in it.
+    pub(super) fn shared_before(&mut self, writes: Writes) -> Vec<(TempId, ExprId)> {
+        self.take(|pending| pending.left > 1 && pending.reads.disturbed_by(writes))
     }
 
     /// What has to be assigned in front of a condition: what is used besides it too.

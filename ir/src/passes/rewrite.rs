@@ -19,6 +19,7 @@ pub(super) fn run(module: &mut Module) {
     for function in &mut functions {
         let body = std::mem::take(&mut function.body);
         rewriter.gotos.clear();
+        rewriter.temps.set_available(Vec::new());
         function.body = rewriter.body(body);
         if function.body.last() == Some(&Stmt::Return) {
             function.body.pop();
@@ -92,7 +93,7 @@ impl Rewriter<'_> {
         match stmt {
             Stmt::Let(temp, value) => {
                 let value = self.expr(value);
-                let now = self.temps.assign(&self.arena, temp, value);
+                let now = self.temps.assign(&mut self.arena, temp, value);
                 assign(now, out);
             }
             Stmt::If {
@@ -103,7 +104,9 @@ impl Rewriter<'_> {
             Stmt::For { count, body } => {
                 let count = self.expr(count);
                 self.settle(out);
+                self.temps.set_available(Vec::new());
                 let body = self.body(body);
+                self.temps.set_available(Vec::new());
                 out.push(Stmt::For { count, body });
             }
             Stmt::Parts(parts) => {
@@ -116,9 +119,12 @@ impl Rewriter<'_> {
                 out.push(stmt);
             }
             mut stmt => {
+                let writes = writes(&stmt);
+                let shared = self.temps.shared_before(writes);
+                assign(shared, out);
                 for_exprs_mut(&mut stmt, &mut |id| *id = self.expr(*id));
-                let first = self.temps.before(writes(&stmt));
-                assign(first, out);
+                let rest = self.temps.before(writes);
+                assign(rest, out);
                 out.push(stmt);
             }
         }
@@ -139,7 +145,11 @@ impl Rewriter<'_> {
             _ => {}
         }
         self.settle(out);
-        let (mut then, mut otherwise) = (self.body(then), self.body(otherwise));
+        let available = self.temps.available();
+        let mut then = self.body(then);
+        self.temps.set_available(available);
+        let mut otherwise = self.body(otherwise);
+        self.temps.set_available(Vec::new());
         if then.is_empty() {
             if otherwise.is_empty() {
                 return;
@@ -185,11 +195,15 @@ impl Rewriter<'_> {
     fn parts(&mut self, parts: Vec<Part>, out: &mut Body) {
         let mut rewritten: Vec<Part> = parts
             .into_iter()
-            .map(|part| Part {
-                body: self.body(part.body),
-                ..part
+            .map(|part| {
+                self.temps.set_available(Vec::new());
+                Part {
+                    body: self.body(part.body),
+                    ..part
+                }
             })
             .collect();
+        self.temps.set_available(Vec::new());
         // A part that nothing jumps to goes on from the one before it, or cannot be reached.
         let mut kept: Vec<Part> = Vec::with_capacity(rewritten.len());
         for part in rewritten.drain(..) {

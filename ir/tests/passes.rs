@@ -1,0 +1,216 @@
+//! What the passes do to lowered programs, and what the validator refuses.
+
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_ir::dump::dump;
+use rungc_ir::node::{Expr, ExprId, LabelId, Place, Stmt, TempId};
+use rungc_ir::validate::validate;
+use rungc_ir::{ModelId, Module};
+use rungc_syntax::DeviceClass;
+
+fn module(text: &str, optimise: bool) -> Module {
+    let read = rungc_frontend::read_text("test.il", text);
+    let options = CompileOptions {
+        model: Some(ModelId::Fx3u),
+        optimise,
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    compiled
+        .module
+        .unwrap_or_else(|| panic!("{text}: {:#?}", compiled.diagnostics))
+}
+
+/// The optimised main program, without the marks of networks.
+fn main_of(text: &str) -> String {
+    let module = module(text, true);
+    assert_eq!(validate(&module), Ok(()));
+    let text = dump(&module);
+    let begin = text.find("main {").map_or(text.len(), |at| at + 7);
+    let end = text[begin..].find("\n}").map_or(0, |at| begin + at);
+    text[begin.min(end)..end]
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.starts_with('#'))
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+#[test]
+fn contacts_that_decide_nothing_vanish() {
+    assert_eq!(main_of("LD X0\nAND M8000\nOUT Y0\nEND\n"), "Y000 := X000");
+    assert_eq!(main_of("LD X0\nANI M8000\nOUT Y0\nEND\n"), "Y000 := off");
+    assert_eq!(main_of("LD X0\nOR X0\nOUT Y0\nEND\n"), "Y000 := X000");
+    assert_eq!(main_of("LD X0\nANI X0\nOUT Y0\nEND\n"), "Y000 := off");
+    assert_eq!(main_of("LD X0\nINV\nINV\nOUT Y0\nEND\n"), "Y000 := X000");
+    assert_eq!(
+        main_of("LD= D0 D1\nINV\nOUT Y0\nEND\n"),
+        "Y000 := (D0 != D1)"
+    );
+}
+
+#[test]
+fn what_is_never_driven_is_removed() {
+    assert_eq!(
+        main_of("LD M8001\nSET Y0\nLD X1\nOUT Y1\nEND\n"),
+        "Y001 := X001"
+    );
+    assert_eq!(
+        main_of("LD M8000\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n"),
+        "Y001 := X001"
+    );
+}
+
+#[test]
+fn a_value_is_not_moved_behind_a_write_that_changes_it() {
+    assert_eq!(
+        main_of("LD M0\nOUT M1\nOUT M0\nOUT M2\nLDI M1\nOUT M3\nEND\n"),
+        "M1 := M0\nt0 = M0\nM0 := t0\nM2 := t0\nM3 := !M1"
+    );
+    assert_eq!(
+        main_of("LD M0\nINV\nOUT M0\nOUT M1\nEND\n"),
+        "t0 = !M0\nM0 := t0\nM1 := t0"
+    );
+    assert_eq!(
+        main_of("LD M8000\nDIV D0 K2 D0\nEND\n"),
+        "t0 = D0\nD0 := (t0 / 2)\nD1 := (t0 % 2)"
+    );
+}
+
+#[test]
+fn branches_with_one_condition_are_joined() {
+    assert_eq!(
+        main_of("LD X0\nSET Y0\nRST Y1\nEND\n"),
+        "if X000 {\nY000 := on\nY001 := off\n}"
+    );
+}
+
+#[test]
+fn a_value_that_is_known_is_not_computed_again() {
+    assert_eq!(
+        main_of("LD X0\nAND X1\nOUT Y0\nOUT Y1\nLD X0\nAND X1\nOUT Y2\nOUT Y3\nEND\n"),
+        "t0 = (X000 & X001)\nY000 := t0\nY001 := t0\nY002 := t0\nY003 := t0"
+    );
+    let written_between =
+        main_of("LD M0\nAND X1\nOUT Y0\nOUT M0\nLD M0\nAND X1\nOUT Y2\nOUT Y3\nEND\n");
+    assert_eq!(written_between.matches("(M0 & X001)").count(), 2);
+}
+
+#[test]
+fn constants_are_folded() {
+    assert_eq!(
+        main_of("LD M8000\nADD K2 K3 D0\nDMUL K100000 K100000 D10\nEND\n"),
+        "D0 := 5\nD10:32 := 1410065408L\nD12:32 := 2L"
+    );
+    assert_eq!(
+        main_of("LD M8000\nDIV D0 K0 D2\nEND\n"),
+        "fault 6706 at step 1"
+    );
+}
+
+#[test]
+fn deep_rungs_are_cut() {
+    let mut text = String::from("LD X0\n");
+    for i in 0..20_000 {
+        text.push_str(&format!("AND M{}\n", i % 7000));
+    }
+    text.push_str("OUT Y0\nEND\n");
+    assert_eq!(validate(&module(&text, true)), Ok(()));
+}
+
+/// A valid module with a statement put in front of its main program.
+fn with(stmt: impl FnOnce(&mut Module) -> Stmt) -> Result<(), String> {
+    let mut module = module("LD X0\nOUT Y0\nEND\n", false);
+    assert_eq!(validate(&module), Ok(()));
+    let stmt = stmt(&mut module);
+    module.functions[1].body.insert(0, stmt);
+    validate(&module)
+}
+
+fn relay(number: u32) -> Place {
+    Place {
+        class: DeviceClass::M,
+        number,
+        index: None,
+    }
+}
+
+#[test]
+fn temporaries_need_a_value() {
+    let error = with(|module| {
+        module.temps.push(rungc_ir::node::Ty::Bit);
+        let temp = module.add(Expr::Temp(TempId(0)));
+        Stmt::If {
+            cond: temp,
+            then: Vec::new(),
+            otherwise: Vec::new(),
+        }
+    });
+    assert!(error.is_err_and(|e| e.contains("not assigned")));
+}
+
+#[test]
+fn a_value_from_one_branch_is_not_enough() {
+    let both = |otherwise: bool| {
+        with(|module| {
+            module.temps.push(rungc_ir::node::Ty::Bit);
+            let on = module.add(Expr::Bit(true));
+            let assign = vec![Stmt::Let(TempId(0), on)];
+            let branch = Stmt::If {
+                cond: on,
+                then: assign.clone(),
+                otherwise: if otherwise { assign } else { Vec::new() },
+            };
+            module.functions[1].body.insert(0, branch);
+            let temp = module.add(Expr::Temp(TempId(0)));
+            module.functions[1].body.push(Stmt::If {
+                cond: temp,
+                then: Vec::new(),
+                otherwise: Vec::new(),
+            });
+            Stmt::Network(0)
+        })
+    };
+    assert_eq!(both(true), Ok(()));
+    assert!(both(false).is_err());
+}
+
+#[test]
+fn devices_must_be_stored() {
+    let error = with(|module| {
+        let on = module.add(Expr::Bit(true));
+        Stmt::WriteBit(relay(5), on)
+    });
+    assert!(error.is_err_and(|e| e.contains("M5 is not stored")));
+}
+
+#[test]
+fn types_must_agree() {
+    let error = with(|module| {
+        let word = module.add(Expr::I16(1));
+        let pair = module.add(Expr::I32(1));
+        let sum = module.add(Expr::Bin(rungc_ir::node::BinOp::Add, word, pair));
+        Stmt::Let(TempId(0), sum)
+    });
+    assert!(error.is_err_and(|e| e.contains("ill typed")));
+}
+
+#[test]
+fn expressions_use_earlier_ones() {
+    let error = with(|module| {
+        let next = ExprId(module.exprs.len() as u32);
+        module.add(Expr::Not(next));
+        Stmt::Network(0)
+    });
+    assert!(error.is_err_and(|e| e.contains("later")));
+}
+
+#[test]
+fn jumps_need_their_part_around_them() {
+    assert!(with(|_| Stmt::Goto(LabelId(1))).is_err_and(|e| e.contains("not around")));
+}
+
+#[test]
+fn functions_do_not_recurse() {
+    assert!(with(|_| Stmt::CallSub(1)).is_err_and(|e| e.contains("circle")));
+    assert!(with(|_| Stmt::CallSub(9)).is_err_and(|e| e.contains("does not exist")));
+}
