@@ -177,7 +177,7 @@ impl Generator<'_> {
             Expr::Not(a) => self.not(a),
             Expr::And(a, b) => Code::binary("&", self.expr(a), self.expr(b)),
             Expr::Or(a, b) => Code::binary("|", self.expr(a), self.expr(b)),
-            Expr::Cmp(op, a, b) => Code::binary(comparison(op), self.typed(a), self.expr(b)),
+            Expr::Cmp(op, a, b) => self.compare(op, a, b),
             Expr::Bin(op, a, b) => self.arithmetic(op, a, b, typed),
             Expr::Complement(a) => {
                 let a = self.code(a, typed).operand_of("!");
@@ -210,6 +210,20 @@ impl Generator<'_> {
         }
     }
 
+    /// A comparison, with a constant on the right.
+    fn compare(&mut self, op: CmpOp, a: ExprId, b: ExprId) -> Code {
+        let is_constant = |id: ExprId| {
+            let expr = self.module.expr(id);
+            matches!(expr, Expr::I16(_) | Expr::I32(_) | Expr::F32(_))
+        };
+        let (op, a, b) = if is_constant(a) && !is_constant(b) {
+            (mirrored(op), b, a)
+        } else {
+            (op, a, b)
+        };
+        Code::binary(comparison(op), self.typed(a), self.expr(b))
+    }
+
     fn temp(&mut self, temp: TempId) -> Code {
         match self.inlined.take_if(|(inlined, _)| *inlined == temp) {
             Some((_, edge)) => Code::atom(edge),
@@ -222,7 +236,7 @@ impl Generator<'_> {
         if let (None, &Expr::Cmp(op, x, y)) = (self.hoisted(a), self.module.expr(a))
             && self.module.ty(x) != Ty::F32
         {
-            return Code::binary(comparison(opposite(op)), self.typed(x), self.expr(y));
+            return self.compare(opposite(op), x, y);
         }
         let a = self.expr(a).operand_of("!");
         Code::shaped(quote!(!#a), Shape::Unary)
@@ -443,6 +457,18 @@ fn comparison(op: CmpOp) -> &'static str {
     }
 }
 
+/// The comparison of `b` with `a` that is the same as this one of `a` with `b`.
+fn mirrored(op: CmpOp) -> CmpOp {
+    match op {
+        CmpOp::Eq | CmpOp::Ne => op,
+        CmpOp::Lt => CmpOp::Gt,
+        CmpOp::Le => CmpOp::Ge,
+        CmpOp::Gt => CmpOp::Lt,
+        CmpOp::Ge => CmpOp::Le,
+    }
+}
+
+/// The comparison that holds when this one does not.
 fn opposite(op: CmpOp) -> CmpOp {
     match op {
         CmpOp::Eq => CmpOp::Ne,

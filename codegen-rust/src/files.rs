@@ -342,7 +342,7 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
 }
 
 /// What clippy would say about programs that say little in many words.
-const LINTS: [&str; 10] = [
+const LINTS: [&str; 11] = [
     "clippy::approx_constant",
     "clippy::collapsible_else_if",
     "clippy::collapsible_if",
@@ -352,6 +352,7 @@ const LINTS: [&str; 10] = [
     "clippy::modulo_one",
     "clippy::neg_cmp_op_on_partial_ord",
     "clippy::nonminimal_bool",
+    "clippy::self_assignment",
     "unused_assignments",
 ];
 

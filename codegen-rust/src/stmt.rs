@@ -200,9 +200,6 @@ impl Generator<'_> {
     /// `target = value;`, or `target |= …;`.
     fn assign(&mut self, target: TokenStream, value: Code, place: Place) -> TokenStream {
         let written = target.to_string();
-        if value.tokens.to_string() == written {
-            return TokenStream::new();
-        }
         let comment = self.end_comment(place.class, place.number);
         if let (Shape::Binary(op), Some((a, b))) = (value.shape, &value.operands) {
             let commutes = matches!(op, "&" | "|" | "^");
@@ -237,7 +234,7 @@ impl Generator<'_> {
         match self.storage.bit(&quote!(plc), place.class, place.number) {
             Some(cell) => self.assign(cell, value, place),
             // A special device that nobody looks at.
-            None => TokenStream::new(),
+            None => quote!(let _ = #value;),
         }
     }
 
@@ -255,7 +252,7 @@ impl Generator<'_> {
         let value = self.expr(value);
         match self.storage.word(&plc, place.class, place.number) {
             Some(cell) => self.assign(cell, value, place),
-            None => TokenStream::new(),
+            None => quote!(let _ = #value;),
         }
     }
 
@@ -271,13 +268,13 @@ impl Generator<'_> {
         }
         match self.storage.word(&quote!(plc), place.class, place.number) {
             Some(cell) => self.assign(cell, value, place),
-            None => TokenStream::new(),
+            None => quote!(let _ = #value;),
         }
     }
 
     /// Writes a pair with the function of `rungc_rt::word` that makes words of the value.
     fn write_pair(&mut self, place: Place, value: ExprId, function: &'static str) -> TokenStream {
-        let value = self.typed(value);
+        let value = self.expr(value);
         if place.index.is_some() {
             let (class, number) = self.indexed(place);
             let method = if function == "words" {
@@ -295,7 +292,7 @@ impl Generator<'_> {
         let low = self.storage.word(&plc, place.class, place.number);
         let high = self.storage.word(&plc, high_class, high);
         if low.is_none() && high.is_none() {
-            return TokenStream::new();
+            return quote!(let _ = #value;);
         }
         let [low, high] = [low, high].map(|cell| cell.unwrap_or_else(|| quote!(_)));
         let function = self.word_function(function);
@@ -333,6 +330,7 @@ impl Generator<'_> {
     /// OUT T and OUT C.
     fn coil(&mut self, stmt: &Stmt) -> TokenStream {
         let plc = quote!(plc);
+        let mut before = TokenStream::new();
         let (class, number, arguments) = match *stmt {
             Stmt::Timer {
                 number,
@@ -341,7 +339,8 @@ impl Generator<'_> {
                 preset,
             } => {
                 let kind = self.timer_kind(kind);
-                let (drive, preset) = (self.expr(drive), self.expr(preset));
+                let drive = named_drive(self.expr(drive), &mut before);
+                let preset = self.expr(preset);
                 let arguments = quote!(#kind, #drive, #preset, plc.sys.now_ms, plc.sys.dt_ms);
                 (DeviceClass::T, number, arguments)
             }
@@ -350,7 +349,8 @@ impl Generator<'_> {
                 drive,
                 preset,
             } => {
-                let (drive, preset) = (self.expr(drive), self.expr(preset));
+                let drive = named_drive(self.expr(drive), &mut before);
+                let preset = self.expr(preset);
                 (DeviceClass::C, number, quote!(#drive, #preset))
             }
             Stmt::Counter32 {
@@ -359,7 +359,8 @@ impl Generator<'_> {
                 down,
                 preset,
             } => {
-                let (drive, down) = (self.expr(drive), self.expr(down));
+                let drive = named_drive(self.expr(drive), &mut before);
+                let down = self.expr(down);
                 let preset = self.expr(preset);
                 (DeviceClass::C, number, quote!(#drive, #down, #preset))
             }
@@ -369,7 +370,7 @@ impl Generator<'_> {
             return TokenStream::new();
         };
         let comment = self.end_comment(class, number);
-        quote!(#cell.run(#arguments); #comment)
+        quote!(#before #cell.run(#arguments); #comment)
     }
 
     fn reset(&mut self, place: Place) -> TokenStream {
@@ -404,7 +405,7 @@ impl Generator<'_> {
         } else if !first.is_empty() {
             quote!(if #code { #first })
         } else if has_effect {
-            quote!(#code;)
+            quote!(let _ = #code;)
         } else {
             TokenStream::new()
         }
@@ -588,6 +589,16 @@ impl Generator<'_> {
         };
         (class, number)
     }
+}
+
+/// A drive that would not fit on a coil's line gets one of its own.
+fn named_drive(drive: Code, before: &mut TokenStream) -> TokenStream {
+    const LONG: usize = 40;
+    if drive.tokens.to_string().len() <= LONG {
+        return drive.tokens;
+    }
+    before.extend(quote!(let drive = #drive;));
+    quote!(drive)
 }
 
 /// Whether the statements jump to one of the parts.

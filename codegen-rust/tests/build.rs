@@ -2,38 +2,10 @@
 
 mod common;
 
-use rungc_codegen_rust::{Options, OutFile, Runtime, batch, emit};
+use common::{cargo, runtime_path, write};
+use rungc_codegen_rust::{Options, Runtime, batch, emit};
 use std::io::Write;
-use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-
-fn runtime_path() -> String {
-    concat!(env!("CARGO_MANIFEST_DIR"), "/../runtime-rt").to_string()
-}
-
-fn write(folder: &Path, files: &[OutFile]) {
-    for file in files {
-        let path = folder.join(&file.path);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, &file.text).unwrap();
-    }
-}
-
-/// Runs cargo in an emitted crate with warnings forbidden; returns the folder of what it built.
-fn cargo(folder: &Path, arguments: &[&str]) -> PathBuf {
-    let target = folder.join("target");
-    let output = Command::new(env!("CARGO"))
-        .args(arguments)
-        .arg("--offline")
-        .current_dir(folder)
-        .env("CARGO_TARGET_DIR", &target)
-        .env("RUSTFLAGS", "-D warnings")
-        .output()
-        .unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "cargo {arguments:?}: {errors}");
-    target
-}
 
 #[test]
 fn a_program_builds_without_warnings() {

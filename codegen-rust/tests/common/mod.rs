@@ -1,10 +1,14 @@
-//! Modules made by hand, so that every shape of the IR can be asked for.
+//! A module made by hand, and what builds emitted crates.
+#![allow(dead_code, reason = "not every test needs all of it")]
 
+use rungc_codegen_rust::OutFile;
 use rungc_ir::layout::{Area, Layout};
 use rungc_ir::node::*;
 use rungc_ir::{Model, ModelId};
 use rungc_rt::TimerKind;
 use rungc_syntax::{DeviceClass, Span};
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 /// A module in the making.
 pub struct Build {
@@ -190,4 +194,34 @@ pub fn motor() -> Module {
         },
     ];
     b.main(body)
+}
+
+/// Where the runtime is.
+pub fn runtime_path() -> String {
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../runtime-rt").to_string()
+}
+
+/// Writes emitted files.
+pub fn write(folder: &Path, files: &[OutFile]) {
+    for file in files {
+        let path = folder.join(&file.path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, &file.text).unwrap();
+    }
+}
+
+/// Runs cargo in an emitted crate with warnings forbidden; returns the folder of what it built.
+pub fn cargo(folder: &Path, arguments: &[&str]) -> PathBuf {
+    let target = folder.join("target");
+    let output = Command::new(env!("CARGO"))
+        .args(arguments)
+        .arg("--offline")
+        .current_dir(folder)
+        .env("CARGO_TARGET_DIR", &target)
+        .env("RUSTFLAGS", "-D warnings")
+        .output()
+        .unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "cargo {arguments:?}: {errors}");
+    target
 }

@@ -1,0 +1,160 @@
+//! Each shape of program as emitted, and all of them built.
+
+mod common;
+
+use rungc_codegen_rust::{Options, Runtime, emit};
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_ir::{ModelId, Module};
+
+/// A shape: its name, and the program.
+type Shape<'a> = (&'a str, &'a str);
+
+const LADDER: Shape<'static> = (
+    "ladder",
+    "LD X0 ; start\nOR M0\nANI X1\nOUT M0 ; motor latch\nLD M0\nOUT T0 K30\nAND T0\nOUT Y0\nLDP X2\nADD D0 K1 D0\n\
+     LD>= D0 K10\nSET Y1\nEND\n",
+);
+const COILS: Shape<'static> = (
+    "coils",
+    "LD X0\nOUT C0 K5\nLD X1\nRST C0\nLD X2\nOUT M8200\nLD X3\nOUT C200 D10\nLD X4\nOUT T246 K20\nLD X5\nRST T246\nLD C200\nPLS M1\n\
+     LDF X6\nPLF M2\nEND\n",
+);
+const WORDS: Shape<'static> = (
+    "words",
+    "LD X0\nDMOV D0 D2\nDADD D0 D2 D4\nDIV D0 D1 D8\nMOV K2M0 D10\nMOV D10 K1Y0\nLDD> D0 K100000\nOUT Y10\nLD X1\nMOV D0Z0 D20\n\
+     WAND D0 HFF D1\nINCP D3\nEND\n",
+);
+const CALLS: Shape<'static> = (
+    "runtime_calls",
+    "LD X0\nBMOV D0 D10 K5\nSUM D0 D1\nDSUM D2 D4\nDEADD D20 E1.5 D22\nFMOV K0 D100Z1 K4\nEND\n",
+);
+const FLOW: Shape<'static> = (
+    "flow",
+    "LD X0\nCALL P1\nFOR K3\nLD X1\nINC D0\nNEXT\nLD X2\nMC N0 M100\nLD X3\nOUT Y0\nMCR N0\nFEND\nP1\nLD X4\nOUT Y1\nSRET\nEND\n",
+);
+const JUMPS: Shape<'static> = (
+    "jumps_that_cross",
+    "LD X0\nCJ P0\nLD X1\nCJ P1\nLD X2\nOUT Y0\nP0\nLD X3\nOUT Y1\nLD X4\nCJ P2\nP1\nLD X5\nOUT Y2\nP2\nLD X6\nOUT Y3\nEND\n",
+);
+const STEPS: Shape<'static> = (
+    "steps",
+    "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSTL S20\nOUT Y0\nLD X1\nOUT S0\nRET\nEND\n",
+);
+
+const SHAPES: [Shape<'static>; 7] = [LADDER, COILS, WORDS, CALLS, FLOW, JUMPS, STEPS];
+
+fn module((name, text): Shape) -> Module {
+    let read = rungc_frontend::read_text("test.il", text);
+    let options = CompileOptions {
+        model: Some(ModelId::H2u),
+        name: Some(name.to_string()),
+        optimise: true,
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    let diagnostics = compiled.diagnostics;
+    compiled
+        .module
+        .unwrap_or_else(|| panic!("{name}: {diagnostics:#?}"))
+}
+
+fn options() -> Options {
+    Options {
+        main: false,
+        runtime: Runtime::At(common::runtime_path()),
+    }
+}
+
+fn program(shape: Shape) -> String {
+    let files = emit(&module(shape), &options());
+    let file = files
+        .into_iter()
+        .find(|file| file.path == "src/program.rs")
+        .unwrap();
+    // What stands before the imports is the same in all.
+    let code = file.text.find("use crate").unwrap_or_default();
+    file.text[code..].to_string()
+}
+
+#[test]
+fn ladder() {
+    insta::assert_snapshot!(program(LADDER));
+}
+
+#[test]
+fn coils() {
+    insta::assert_snapshot!(program(COILS));
+}
+
+#[test]
+fn words() {
+    insta::assert_snapshot!(program(WORDS));
+}
+
+#[test]
+fn runtime_calls() {
+    insta::assert_snapshot!(program(CALLS));
+}
+
+#[test]
+fn flow() {
+    insta::assert_snapshot!(program(FLOW));
+}
+
+#[test]
+fn jumps_that_cross() {
+    insta::assert_snapshot!(program(JUMPS));
+}
+
+#[test]
+fn steps() {
+    insta::assert_snapshot!(program(STEPS));
+}
+
+#[test]
+fn shapes_build_without_warnings() {
+    let folder = tempfile::tempdir().unwrap();
+    let names: Vec<String> = SHAPES.iter().map(|(name, _)| format!("{name:?}")).collect();
+    let workspace = format!(
+        "[workspace]\nresolver = \"3\"\nmembers = [{}]\n",
+        names.join(", ")
+    );
+    std::fs::write(folder.path().join("Cargo.toml"), workspace).unwrap();
+    for shape in SHAPES {
+        let mut files = emit(&module(shape), &options());
+        for file in &mut files {
+            // Here they are members of one workspace, to build the runtime once.
+            file.text = file.text.replace("[workspace]\n", "");
+        }
+        common::write(&folder.path().join(shape.0), &files);
+    }
+    common::cargo(folder.path(), &["clippy", "--workspace"]);
+}
+
+#[test]
+fn long_programs_are_split() {
+    let mut text = String::new();
+    for i in 0..600 {
+        text.push_str(&format!(
+            "LD X0\nMC N0 M100\nLD M{i}\nOUT M{}\nMCR N0\n",
+            i + 1
+        ));
+        text.push_str(&format!("LD M{i}\nADD D0 K{i} D0\n"));
+    }
+    text.push_str("END\n");
+    let files = emit(&module(("long", &text)), &options());
+    let parts: Vec<_> = files
+        .iter()
+        .filter(|file| file.path.starts_with("src/program/part"))
+        .collect();
+    assert!(parts.len() > 3, "{} files", parts.len());
+    for file in files {
+        let lines = file.text.lines().count();
+        let limit = if file.path.starts_with("src/program/") {
+            900
+        } else {
+            5000
+        };
+        assert!(lines < limit, "{}: {lines} lines", file.path);
+    }
+}
