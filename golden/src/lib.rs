@@ -1,1 +1,5 @@
-//! Conformance cases, example programs and the tests that run them on every engine; the crate itself is empty.
+//! Random programs for differential tests; conformance cases and examples stand beside this crate's sources.
+
+pub mod operands;
+pub mod random;
+pub mod rng;

@@ -87,9 +87,9 @@ impl Running {
         writeln!(self.requests, "{request}")
     }
 
-    /// Waits for the answers to all pending requests; the last one is returned.
-    fn answers(&mut self) -> Result<Answer, EngineError> {
-        let mut last = Answer::Ok;
+    /// Waits for the answers to all pending requests; returns those to the ones that ask for values.
+    fn answers(&mut self) -> Result<Vec<Answer>, EngineError> {
+        let mut values = Vec::new();
         let mut missing = None;
         while let Some(request) = self.pending.pop_front() {
             let line = match self.answers.recv_timeout(PATIENCE) {
@@ -102,12 +102,29 @@ impl Running {
             let Some(answer) = Answer::parse(&line) else {
                 return Err(EngineError::Garbled(request, line));
             };
-            if answer == Answer::Missing && !self.pending.is_empty() {
+            if asks_for_value(request) {
+                values.push(answer);
+            } else if answer == Answer::Missing {
                 missing.get_or_insert(EngineError::Missing(request));
             }
-            last = answer;
         }
-        missing.map_or(Ok(last), Err)
+        missing.map_or(Ok(values), Err)
+    }
+
+    /// Sends requests; returns the answers to the pending ones if the last of these asks for a value.
+    fn converse(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
+        for &request in requests {
+            self.send(request)
+                .map_err(|_| EngineError::Ended(request, String::new()))?;
+        }
+        match requests.last() {
+            Some(&last) if asks_for_value(last) => {
+                let flushed = self.requests.flush();
+                flushed.map_err(|_| EngineError::Ended(last, String::new()))?;
+                self.answers()
+            }
+            _ => Ok(Vec::new()),
+        }
     }
 }
 
@@ -128,18 +145,17 @@ impl Engine for Process {
     }
 
     fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
-        if self.running.is_none() {
-            self.running = Some(self.start()?);
-        }
-        let Some(running) = self.running.as_mut() else {
-            return Ok(Answer::Missing);
+        let answers = self.ask_all(&[request])?;
+        Ok(answers.last().copied().unwrap_or(Answer::Ok))
+    }
+
+    fn ask_all(&mut self, requests: &[Request]) -> Result<Vec<Answer>, EngineError> {
+        let mut running = match self.running.take() {
+            Some(running) => running,
+            None => self.start()?,
         };
-        let ended = |_| EngineError::Ended(request, String::new());
-        let mut result = running.send(request).map_err(ended).map(|()| Answer::Ok);
-        if result.is_ok() && asks_for_value(request) {
-            let flushed = running.requests.flush().map_err(ended);
-            result = flushed.and_then(|()| running.answers());
-        }
+        let result = running.converse(requests);
+        self.running = Some(running);
         match result {
             Err(EngineError::Ended(request, _)) => Err(EngineError::Ended(request, self.stop())),
             Err(error @ (EngineError::Silent(_) | EngineError::Garbled(..))) => {

@@ -1,0 +1,329 @@
+//! Random programs: well-formed by construction, drawing on the whole catalogue.
+
+use crate::operands::{Candidate, accepted};
+use crate::rng::Rng;
+use rungc_ir::ModelId;
+use std::collections::BTreeMap;
+
+/// Makes one program.
+struct Writer<'c> {
+    rng: Rng,
+    model: ModelId,
+    candidates: &'c [Candidate],
+    lines: Vec<String>,
+    /// Next pointer to be given away.
+    next_label: u32,
+    /// Subroutines to be written behind FEND.
+    subroutines: Vec<u32>,
+    /// How often instructions with a limit were used.
+    uses: BTreeMap<&'static str, u32>,
+    /// Depth of loops, and of MC.
+    loops: u32,
+    masters: u32,
+}
+
+/// A program of about `rungs` rungs for a model, made of these instructions.
+pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) -> String {
+    let mut writer = Writer {
+        rng: Rng::new(seed),
+        model,
+        candidates,
+        lines: Vec::new(),
+        next_label: 0,
+        subroutines: Vec::new(),
+        uses: BTreeMap::new(),
+        loops: 0,
+        masters: 0,
+    };
+    if writer.rng.percent(25) {
+        writer.steps();
+    }
+    writer.body(rungs, true);
+    if !writer.subroutines.is_empty() {
+        writer.lines.push("FEND".into());
+        for label in std::mem::take(&mut writer.subroutines) {
+            writer.lines.push(format!("P{label}"));
+            writer.body(2, false);
+            writer.lines.push("SRET".into());
+        }
+    }
+    writer.lines.push("END".into());
+    writer.lines.join("\n") + "\n"
+}
+
+impl Writer<'_> {
+    fn line(&mut self, line: impl Into<String>) {
+        self.lines.push(line.into());
+    }
+
+    fn label(&mut self) -> u32 {
+        self.next_label += 1;
+        // P63 means END and is no label.
+        if self.next_label == 63 {
+            self.next_label = 64;
+        }
+        self.next_label - 1
+    }
+
+    /// Rungs and what stands around them; `main` bodies may hold MC zones and calls.
+    fn body(&mut self, rungs: u32, main: bool) {
+        for _ in 0..rungs {
+            match self.rng.below(20) {
+                0 if self.next_label < 60 => self.jump(main),
+                1 if self.loops < 2 => self.repeat(),
+                2 if main && self.loops == 0 && self.masters < 3 => self.master(),
+                3 if main && self.next_label < 60 => self.call(),
+                _ => self.rung(),
+            }
+        }
+    }
+
+    /// CJ over some rungs.
+    fn jump(&mut self, main: bool) {
+        let label = self.label();
+        self.logic(1);
+        self.line(format!("CJ P{label}"));
+        let rungs = 1 + self.rng.below(2);
+        for _ in 0..rungs {
+            if main && self.rng.percent(20) && self.loops < 2 {
+                self.repeat();
+            } else {
+                self.rung();
+            }
+        }
+        self.line(format!("P{label}"));
+    }
+
+    fn repeat(&mut self) {
+        let count = match self.rng.below(4) {
+            // A count that is only known in the run, and small.
+            0 => "K1X000".to_string(),
+            _ => format!("K{}", self.rng.below(4)),
+        };
+        self.line(format!("FOR {count}"));
+        self.loops += 1;
+        let rungs = 1 + self.rng.below(2);
+        self.body(rungs, false);
+        self.loops -= 1;
+        self.line("NEXT");
+    }
+
+    fn master(&mut self) {
+        let level = self.masters;
+        self.logic(1);
+        let number = 60 + self.rng.below(4);
+        self.line(format!("MC N{level} M{number}"));
+        self.masters += 1;
+        let rungs = 1 + self.rng.below(3);
+        self.body(rungs, true);
+        self.masters -= 1;
+        self.line(format!("MCR N{level}"));
+    }
+
+    fn call(&mut self) {
+        let label = match self.rng.pick(&self.subroutines) {
+            Some(label) if self.rng.percent(40) => label,
+            _ => {
+                let label = self.label();
+                self.subroutines.push(label);
+                label
+            }
+        };
+        self.logic(1);
+        self.line(format!("CALL P{label}"));
+    }
+
+    /// A step ladder of a few states that hand on to each other.
+    fn steps(&mut self) {
+        self.line("LD M8002");
+        self.line("SET S0");
+        let count = 2 + self.rng.below(4);
+        for state in 0..count {
+            self.line(format!("STL S{state}"));
+            if self.rng.percent(50) {
+                let coil = self.coil();
+                self.line(coil);
+            }
+            let rungs = self.rng.below(2);
+            (0..rungs).for_each(|_| self.rung());
+            self.logic(1);
+            let verb = if self.rng.percent(70) { "SET" } else { "OUT" };
+            let target = if self.rng.percent(70) {
+                (state + 1) % count
+            } else {
+                self.rng.below(count)
+            };
+            self.line(format!("{verb} S{target}"));
+        }
+        self.line("RET");
+    }
+
+    fn rung(&mut self) {
+        self.logic(2);
+        if self.rng.percent(12) {
+            for stack in ["MPS", "MRD", "MPP"] {
+                if stack == "MRD" && self.rng.percent(50) {
+                    continue;
+                }
+                self.line(stack);
+                let contact = self.contact("AND");
+                self.line(contact);
+                self.output();
+            }
+            return;
+        }
+        let outputs = 1 + self.rng.below(3);
+        (0..outputs).for_each(|_| self.output());
+    }
+
+    /// Contacts in series and parallel.
+    fn logic(&mut self, depth: u32) {
+        let contact = self.contact("LD");
+        self.line(contact);
+        let more = self.rng.below(4);
+        for _ in 0..more {
+            match self.rng.below(10) {
+                0 if depth > 0 => {
+                    self.logic(depth - 1);
+                    let join = self.rng.pick(&["ANB", "ORB"]).unwrap_or("ANB");
+                    self.line(join);
+                }
+                1 => self.line("INV"),
+                2 if accepted("MEP", self.model) => {
+                    let edge = self.rng.pick(&["MEP", "MEF"]).unwrap_or("MEP");
+                    self.line(edge);
+                }
+                3..=5 => {
+                    let contact = self.contact("OR");
+                    self.line(contact);
+                }
+                _ => {
+                    let contact = self.contact("AND");
+                    self.line(contact);
+                }
+            }
+        }
+    }
+
+    fn bit(&mut self) -> String {
+        let n = self.rng.below(16);
+        match self.rng.below(12) {
+            0..=3 => format!("X{n:03o}"),
+            4 => format!("Y{n:03o}"),
+            5..=7 => format!("M{n}"),
+            8 => format!("S{n}"),
+            9 => format!("T{}", n % 6),
+            10 => format!("C{}", [0, 1, 2, 200, 201, 202][n as usize % 6]),
+            _ => {
+                let specials = [
+                    8000, 8001, 8002, 8003, 8011, 8012, 8013, 8014, 8020, 8021, 8022,
+                ];
+                format!("M{}", specials[n as usize % specials.len()])
+            }
+        }
+    }
+
+    /// A contact that joins as `LD`, `AND` or `OR`.
+    fn contact(&mut self, join: &str) -> String {
+        if self.rng.percent(15) {
+            let operator = self
+                .rng
+                .pick(&["=", "<>", "<", "<=", ">", ">="])
+                .unwrap_or("=");
+            let wide = if self.rng.percent(30) { "D" } else { "" };
+            let left = self.word(!wide.is_empty());
+            let right = match self.rng.below(2) {
+                0 => format!("K{}", self.rng.value(16)),
+                _ => self.word(!wide.is_empty()),
+            };
+            return format!("{join}{wide}{operator} {left} {right}");
+        }
+        let bit = self.bit();
+        let verb = match (join, self.rng.below(8)) {
+            ("LD", 0..=1) => "LDI",
+            ("AND", 0..=1) => "ANI",
+            ("OR", 0..=1) => "ORI",
+            ("LD", 2) => "LDP",
+            ("LD", 3) => "LDF",
+            ("AND", 2) => "ANDP",
+            ("AND", 3) => "ANDF",
+            ("OR", 2) => "ORP",
+            ("OR", 3) => "ORF",
+            (join, _) => join,
+        };
+        format!("{verb} {bit}")
+    }
+
+    fn word(&mut self, wide: bool) -> String {
+        match self.rng.below(6) {
+            0 if !wide => format!("T{}", self.rng.below(6)),
+            0 => format!("C{}", 200 + self.rng.below(3)),
+            1 if !wide => format!("C{}", self.rng.below(3)),
+            2 => format!("K{}X{:03o}", 1 + self.rng.below(4), 8 * self.rng.below(2)),
+            3 => format!("D{}Z0", self.rng.below(20)),
+            _ => format!("D{}", self.rng.below(24)),
+        }
+    }
+
+    fn coil(&mut self) -> String {
+        let n = self.rng.below(16);
+        match self.rng.below(3) {
+            0 => format!("OUT Y{n:03o}"),
+            _ => format!("OUT M{n}"),
+        }
+    }
+
+    fn output(&mut self) {
+        let n = self.rng.below(16);
+        let preset = match self.rng.below(4) {
+            0 => format!("D{}", self.rng.below(24)),
+            _ => format!("K{}", self.rng.below(12)),
+        };
+        let line = match self.rng.below(20) {
+            0..=2 => self.coil(),
+            3 => format!("SET M{n}"),
+            4 => format!("RST M{n}"),
+            5 => format!("SET Y{n:03o}"),
+            6 => format!("RST Y{n:03o}"),
+            7 => format!("{} M{n}", self.rng.pick(&["PLS", "PLF"]).unwrap_or("PLS")),
+            8 => format!("OUT T{} {preset}", n % 6),
+            9 => format!("OUT C{} {preset}", n % 3),
+            10 => format!("OUT C{} {preset}", 200 + n % 3),
+            11 => format!(
+                "RST {}",
+                ["T0", "C0", "C1", "C200", "D3", "Z0"][n as usize % 6]
+            ),
+            12 => format!("OUT T{} K{}", [200, 246, 250, 1][n as usize % 4], n),
+            _ => match self.applied() {
+                Some(line) => line,
+                None => self.coil(),
+            },
+        };
+        let line = if accepted(&line, self.model) {
+            line
+        } else {
+            self.coil()
+        };
+        self.line(line);
+    }
+
+    /// An applied instruction of the catalogue.
+    fn applied(&mut self) -> Option<String> {
+        // Index registers with small values keep indexed operands within reach.
+        if self.rng.percent(8) {
+            let value = self.rng.below(9);
+            let register = self.rng.pick(&["Z0", "Z1", "V0", "V1"])?;
+            return Some(format!("MOV K{value} {register}"));
+        }
+        let i = self.rng.below(self.candidates.len() as u32);
+        let candidate = self.candidates.get(i as usize)?;
+        let inst = candidate.inst();
+        let uses = self.uses.entry(inst.name).or_default();
+        if inst.max_uses.is_some_and(|max| *uses >= max) {
+            return None;
+        }
+        let drawn = candidate.draw(&mut self.rng, self.model)?;
+        *uses += 1;
+        Some(drawn)
+    }
+}

@@ -1,0 +1,258 @@
+//! Random programs, with random inputs, must do the same on all engines, optimised and not: every device is compared after each scan.
+//!
+//! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or another one.
+
+use rungc_golden::operands::candidates;
+use rungc_golden::random::program;
+use rungc_golden::rng::Rng;
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_ir::{ModelId, Module};
+use rungc_rt::Class;
+use rungc_sim::engines::{Engine, EngineKind, Interpreter, build};
+use rungc_sim::protocol::{Answer, Request};
+use rungc_syntax::DeviceClass;
+use std::path::Path;
+
+/// The models that programs are made for.
+const MODELS: [ModelId; 5] = [
+    ModelId::H2u,
+    ModelId::Fx3u,
+    ModelId::Hm,
+    ModelId::L01s,
+    ModelId::Fx2n,
+];
+
+/// Devices of a long array that are compared after each scan; the others are compared after the last.
+const HEAD: u32 = 200;
+
+fn setting(name: &str, default: u64) -> u64 {
+    let text = std::env::var(format!("RUNGC_RANDOM_{name}"));
+    text.ok().and_then(|t| t.parse().ok()).unwrap_or(default)
+}
+
+/// A random program and what became of it.
+struct Sample {
+    seed: u64,
+    text: String,
+    optimised: Module,
+    plain: Module,
+}
+
+fn compiled(text: &str, seed: u64, model: ModelId, optimise: bool) -> Result<Module, String> {
+    let read = rungc_frontend::read_text(&format!("random{seed}.il"), text);
+    let options = CompileOptions {
+        model: Some(model),
+        name: Some(format!("random{seed}")),
+        optimise,
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    let messages = || {
+        let found = read.diagnostics.iter().chain(compiled.diagnostics.iter());
+        found.map(|d| d.message.clone()).collect::<Vec<_>>()
+    };
+    match compiled.module {
+        Some(module) if !read.diagnostics.has_errors() => Ok(module),
+        _ => Err(format!("{:?}\n{text}", messages())),
+    }
+}
+
+fn samples(seed: u64, count: u64) -> Vec<Sample> {
+    let pools: Vec<_> = MODELS.map(|model| (model, candidates(model))).into();
+    let mut refused = Vec::new();
+    let mut samples = Vec::new();
+    for i in 0..count {
+        let seed = seed.wrapping_add(i);
+        let (model, pool) = &pools[(i % pools.len() as u64) as usize];
+        let text = program(seed, *model, pool, 8 + (i % 20) as u32);
+        let modules = compiled(&text, seed, *model, true)
+            .and_then(|optimised| Ok((optimised, compiled(&text, seed, *model, false)?)));
+        match modules {
+            Ok((optimised, plain)) => samples.push(Sample {
+                seed,
+                text,
+                optimised,
+                plain,
+            }),
+            Err(why) => refused.push(why),
+        }
+    }
+    assert!(
+        refused.len() as u64 * 10 <= count,
+        "{} of {count} random programs do not compile, e.g. {}",
+        refused.len(),
+        refused[0]
+    );
+    samples
+}
+
+/// A device's value or values as requests.
+fn requests(class: DeviceClass, number: u32) -> Vec<Request> {
+    match class {
+        DeviceClass::X => vec![Request::Bit(Class::X, number)],
+        DeviceClass::Y => vec![Request::Bit(Class::Y, number), Request::Output(number)],
+        DeviceClass::M => vec![Request::Bit(Class::M, number)],
+        DeviceClass::S => vec![Request::Bit(Class::S, number)],
+        DeviceClass::T => vec![
+            Request::Bit(Class::T, number),
+            Request::Word(Class::T, number),
+        ],
+        DeviceClass::C if number >= 200 => {
+            vec![
+                Request::Bit(Class::C, number),
+                Request::Double(Class::C, number),
+            ]
+        }
+        DeviceClass::C => vec![
+            Request::Bit(Class::C, number),
+            Request::Word(Class::C, number),
+        ],
+        DeviceClass::D => vec![Request::Word(Class::D, number)],
+        DeviceClass::R => vec![Request::Word(Class::R, number)],
+        DeviceClass::ER => vec![Request::Word(Class::ER, number)],
+        DeviceClass::V => vec![Request::Word(Class::V, number)],
+        DeviceClass::Z => vec![Request::Word(Class::Z, number)],
+        DeviceClass::P | DeviceClass::I | DeviceClass::N => vec![],
+    }
+}
+
+/// All stored devices, of each area at most so many.
+fn stored(module: &Module, most: u32) -> Vec<Request> {
+    let areas = module.layout.areas.iter();
+    areas
+        .flat_map(|area| {
+            let numbers = area.first..area.first + area.count.min(most);
+            numbers.flat_map(|number| requests(area.class, number))
+        })
+        .collect()
+}
+
+/// What happens to a program before a scan.
+fn events(rng: &mut Rng, module: &Module, first: bool) -> Vec<Request> {
+    let mut events = Vec::new();
+    for area in &module.layout.areas {
+        for number in area.first..area.first + area.count.min(64) {
+            let special = number >= 8000;
+            match area.class {
+                DeviceClass::X if rng.percent(25) => {
+                    events.push(Request::SetBit(Class::X, number, rng.percent(50)));
+                }
+                DeviceClass::D if !special && rng.percent(if first { 60 } else { 2 }) => {
+                    events.push(Request::SetWord(Class::D, number, rng.value(16) as i16));
+                }
+                DeviceClass::M if !special && rng.percent(1) => {
+                    events.push(Request::SetBit(Class::M, number, rng.percent(50)));
+                }
+                _ => {}
+            }
+        }
+    }
+    match rng.below(200) {
+        0 => events.push(Request::Run(false)),
+        1..=6 => events.push(Request::Run(true)),
+        7 => events.push(Request::Power),
+        _ => {}
+    }
+    events
+}
+
+/// Runs one program on an engine; the values of its devices after each scan.
+fn trace(
+    engine: &mut dyn Engine,
+    case: usize,
+    sample: &Sample,
+    scans: u64,
+) -> Result<Vec<Vec<Answer>>, String> {
+    let module = &sample.optimised;
+    let mut rng = Rng::new(sample.seed ^ 0x5CA9);
+    let head = stored(module, HEAD);
+    let all = stored(module, u32::MAX);
+    let mut ask = |requests: &[Request]| engine.ask_all(requests).map_err(|e| e.to_string());
+    ask(&[Request::Case(case)])?;
+    let mut now_ms = 0;
+    let mut values = Vec::new();
+    for scan in 0..scans {
+        let scan_ms = 1 + rng.below(40);
+        let mut requests = events(&mut rng, module, scan == 0);
+        if requests.contains(&Request::Power) {
+            now_ms = 0;
+        }
+        requests.push(Request::Scan {
+            now_ms,
+            scan_us: scan_ms * 1000,
+        });
+        now_ms += scan_ms;
+        ask(&requests)?;
+        values.push(ask(if scan + 1 == scans { &all } else { &head })?);
+    }
+    Ok(values)
+}
+
+/// Where two runs differ first.
+fn difference(
+    sample: &Sample,
+    (name, a): (&str, &Result<Vec<Vec<Answer>>, String>),
+    (other, b): (&str, &Result<Vec<Vec<Answer>>, String>),
+) -> Option<String> {
+    let (a, b) = match (a, b) {
+        (Ok(a), Ok(b)) => (a, b),
+        (Err(error), _) => return Some(format!("{name}: {error}")),
+        (_, Err(error)) => return Some(format!("{other}: {error}")),
+    };
+    let scan = a.iter().zip(b).position(|(a, b)| a != b)?;
+    let asked = stored(
+        &sample.optimised,
+        if scan + 1 == a.len() { u32::MAX } else { HEAD },
+    );
+    let values = a[scan].iter().zip(&b[scan]).zip(&asked);
+    let differing: Vec<_> = values
+        .filter(|((a, b), _)| a != b)
+        .take(6)
+        .map(|((a, b), request)| format!("`{request}`: {a:?} in {name}, {b:?} in {other}"))
+        .collect();
+    Some(format!("scan {}: {}", scan + 1, differing.join("; ")))
+}
+
+#[test]
+fn all_engines_agree_on_random_programs() {
+    let scans = setting("SCANS", 60);
+    let samples = samples(setting("SEED", 1), setting("PROGRAMS", 150));
+    let optimised: Vec<Module> = samples.iter().map(|s| s.optimised.clone()).collect();
+    let plain: Vec<Module> = samples.iter().map(|s| s.plain.clone()).collect();
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("differential");
+    let mut reference = Interpreter::new(&plain);
+    let mut engines: Vec<Box<dyn Engine>> = EngineKind::ALL
+        .into_iter()
+        .map(|kind| build(kind, &optimised, &target).unwrap_or_else(|e| panic!("{e}")))
+        .collect();
+    let mut differences = Vec::new();
+    for (case, sample) in samples.iter().enumerate() {
+        let expected = trace(&mut reference, case, sample, scans);
+        for engine in &mut engines {
+            let actual = trace(&mut **engine, case, sample, scans);
+            let found = difference(
+                sample,
+                ("the unoptimised interpreter", &expected),
+                (engine.name(), &actual),
+            );
+            if let Some(found) = found {
+                let model = sample.optimised.model.name;
+                differences.push(format!("seed {} ({model}): {found}", sample.seed));
+                differences.push(sample.text.clone());
+                break;
+            }
+        }
+    }
+    let steps: u64 = samples.iter().map(|s| u64::from(s.optimised.steps)).sum();
+    println!(
+        "{} programs of {steps} steps ran {scans} scans on {} engines",
+        samples.len(),
+        engines.len() + 1
+    );
+    assert!(
+        differences.is_empty(),
+        "{} programs differ:\n{}",
+        differences.len() / 2,
+        differences.join("\n")
+    );
+}
