@@ -75,8 +75,12 @@ impl Helpers {
             module,
             fields,
         };
-        for &(helper, class) in &self.needed {
-            printer.helper(out, helper, class);
+        // Those of 32-bit values call those of words.
+        let is_long = |helper| matches!(helper, Helper::Get("long") | Helper::Put("long"));
+        for long in [false, true] {
+            for &(helper, class) in self.needed.iter().filter(|(h, _)| is_long(*h) == long) {
+                printer.helper(out, helper, class);
+            }
         }
     }
 }

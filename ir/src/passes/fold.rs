@@ -151,7 +151,10 @@ impl<'m> Arena<'m> {
         let (x, y) = match (self.get(a), self.get(b)) {
             (Expr::I16(x), Expr::I16(y)) => (i32::from(x), i32::from(y)),
             (Expr::I32(x), Expr::I32(y)) => (x, y),
-            _ => return self.push(Expr::Cmp(op, a, b)),
+            (x, y) => {
+                let folded = at_border(op, y).or_else(|| at_border(mirrored(op), x));
+                return self.push(folded.map_or(Expr::Cmp(op, a, b), Expr::Bit));
+            }
         };
         let holds = match op {
             CmpOp::Eq => x == y,
@@ -229,6 +232,33 @@ pub(crate) fn operands(expr: &Expr) -> [Option<ExprId>; 2] {
         | Expr::F32(_)
         | Expr::Temp(_)
         | Expr::Sys(_) => [None, None],
+    }
+}
+
+/// What every value compares to a constant at the end of its type's range, if that is always the same.
+fn at_border(op: CmpOp, constant: Expr) -> Option<bool> {
+    let (lowest, highest) = match constant {
+        Expr::I16(v) => (v == i16::MIN, v == i16::MAX),
+        Expr::I32(v) => (v == i32::MIN, v == i32::MAX),
+        _ => (false, false),
+    };
+    match op {
+        CmpOp::Ge if lowest => Some(true),
+        CmpOp::Lt if lowest => Some(false),
+        CmpOp::Le if highest => Some(true),
+        CmpOp::Gt if highest => Some(false),
+        _ => None,
+    }
+}
+
+/// The operator that says the same with its operands exchanged.
+fn mirrored(op: CmpOp) -> CmpOp {
+    match op {
+        CmpOp::Lt => CmpOp::Gt,
+        CmpOp::Le => CmpOp::Ge,
+        CmpOp::Gt => CmpOp::Lt,
+        CmpOp::Ge => CmpOp::Le,
+        CmpOp::Eq | CmpOp::Ne => op,
     }
 }
 
