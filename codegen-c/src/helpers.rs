@@ -298,7 +298,7 @@ impl Printer<'_> {
                 },
             ));
         }
-        if class == DeviceClass::D {
+        if class == DeviceClass::D && kind.is_none_or(|kind| kind == Kind::Word) {
             // Index registers have numbers among the special registers, too.
             for &(number, class, index) in self.module.model.index_aliases {
                 let mut name = String::new();

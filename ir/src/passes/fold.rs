@@ -151,6 +151,7 @@ impl<'m> Arena<'m> {
         let (x, y) = match (self.get(a), self.get(b)) {
             (Expr::I16(x), Expr::I16(y)) => (i32::from(x), i32::from(y)),
             (Expr::I32(x), Expr::I32(y)) => (x, y),
+            _ if self.ty(a) != Ty::F32 && self.same(a, b, SAME_DEPTH) => (0, 0),
             (x, y) => {
                 let folded = at_border(op, y).or_else(|| at_border(mirrored(op), x));
                 return self.push(folded.map_or(Expr::Cmp(op, a, b), Expr::Bit));
