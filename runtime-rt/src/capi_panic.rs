@@ -21,3 +21,7 @@ fn panic(_: &PanicInfo) -> ! {
         core::hint::spin_loop();
     }
 }
+
+/// The unwinder's hook, which the precompiled `core` names. Nothing unwinds here.
+#[unsafe(no_mangle)]
+extern "C" fn rust_eh_personality() {}

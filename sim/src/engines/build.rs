@@ -136,6 +136,7 @@ fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
     run(Command::new("make")
         .arg(format!("-j{jobs}"))
         .arg(C_FLAGS)
+        .env("CARGO_NET_OFFLINE", "true")
         .current_dir(folder))?;
     Ok(folder.join("batch"))
 }
