@@ -30,7 +30,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
         let path = entry.expect("entry of the folder").path();
         if path.is_dir() {
             found.extend(files(&path));
-        } else if path.extension().is_some_and(|ext| ext == "toml") {
+        } else if path.to_string_lossy().ends_with(".plctest.toml") {
             found.push(path);
         }
     }

@@ -95,3 +95,221 @@ fn right_examples_are_right() {
         assert!(!wrong, "{}:\n{}", code.id, render(&source, &diagnostics));
     }
 }
+
+#[test]
+fn devices_and_operands() {
+    let text = "\
+LD X400
+OUT Y400
+LD D0
+OUT X1
+LD X0
+MOV K5 K10
+MOV M5 D0
+MOV D0V9 D1
+MOV R0 D0
+MOV D0
+ADD
+MOV D0 D1 D2
+BMOV D0 D7990 K20
+DMOV K8M3060 D0
+OUT T0
+OUT Y0 K1
+OUT C0 K32768
+OUT C200 K32768
+SET T0
+MC N8 M100
+MCR N8
+CJ K1
+ROL K2M0 K17
+END
+";
+    insta::assert_snapshot!(shown(ModelId::H2u, text));
+}
+
+#[test]
+fn mnemonics() {
+    let text = "\
+LD X0
+OTU Y0
+MOVPP D0 D1
+ABSD D0 C0 M0 K1
+PIDP D0 D1 D100 D200
+EADD D0 D2 D4
+DHSCS K1 C235 Y0
+FROM K0 K0 D0 K1
+XYZZY D0
+END
+";
+    insta::assert_snapshot!(shown(ModelId::Fx2n, text));
+}
+
+#[test]
+fn labels_out_of_range() {
+    let text = "EI\nLD X0\nCJ P128\nP128\nFEND\nI900\nIRET\nP200\nSRET\nEND\n";
+    insta::assert_snapshot!(shown(ModelId::H2u, text));
+}
+
+#[test]
+fn rungs() {
+    let text = "\
+LD X0
+AND X1
+OUT Y0
+LD X2
+OR X3
+ANB
+OUT Y1
+LD X0
+LD X1
+ORB
+LD X2
+LD X3
+ANB
+OUT Y2
+ANB
+OUT Y3
+LD X4
+MPS
+AND X5
+OUT Y4
+LD X6
+OUT Y5
+MPP
+OUT Y6
+LD X7
+END
+";
+    insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}
+
+#[test]
+fn an_unknown_instruction_causes_nothing_else() {
+    let text = "LDX X0\nMPS\nAND X1\nOUT Y0\nMPP\nFOO Y1\nLD X1\nBAR\nANB\nOUT Y2\nEND\n";
+    insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}
+
+#[test]
+fn structures_that_cross_are_told_once() {
+    let text = "\
+LD X0
+MC N0 M100
+FOR K2
+STL S0
+MCR N0
+NEXT
+RET
+FOR K3
+FEND
+NEXT
+P1
+SRET
+END
+";
+    insta::assert_snapshot!(shown(ModelId::H2u, text));
+}
+
+#[test]
+fn routines_may_go_on_behind_a_return() {
+    let text = "\
+LD X0
+CALL P1
+FEND
+P1
+LD X1
+CJ P2
+LD X2
+OUT Y0
+SRET
+P2
+LD X3
+OUT Y1
+SRET
+END
+";
+    insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}
+
+#[test]
+fn calls_in_a_circle() {
+    let text = "\
+LD X0
+CALL P1
+FEND
+P1
+LD X1
+CALL P2
+SRET
+P2
+LD X1
+CALL P1
+SRET
+END
+";
+    insta::assert_snapshot!(shown(ModelId::H2u, text));
+}
+
+#[test]
+fn coils_in_states_and_under_jumps() {
+    let text = "\
+LD M8002
+SET S0
+STL S0
+OUT Y0
+LD X0
+SET S20
+STL S20
+OUT Y0
+LD X1
+OUT Y1
+LD X2
+OUT Y1
+RET
+LD X10
+CJ P1
+LD X11
+OUT Y2
+P1
+LDI X10
+CJ P2
+LD X12
+OUT Y2
+P2
+LD X13
+OUT Y3
+LD X14
+OUT Y3
+LD X15
+OUT Y3
+END
+";
+    insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}
+
+#[test]
+fn relays_with_one_half() {
+    let text = "\
+LD M1
+OUT M2
+LD T5
+OR C7
+OUT M3
+LD M10
+MOV K1M20 D0
+MOV D0 K2M40
+LD M41
+OUT M21
+LD X0
+RST M50
+LD M50
+OUT Y0
+END
+";
+    insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}
+
+#[test]
+fn an_index_register_may_reach_any_relay() {
+    let text = "LD X0\nMOV K1M0Z0 D0\nOUT M5\nEND\n";
+    insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}

@@ -5,6 +5,7 @@ use super::structure::{NONE, Places, Routine};
 use crate::catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
 
 /// Checks the places of timers.
 pub(super) fn check(code: &Code, places: &Places, out: &mut Diagnostics) {
@@ -62,7 +63,7 @@ fn in_next_states(code: &Code, places: &Places, out: &mut Diagnostics) {
         NONE => None,
         stl => code.device(stl as usize, 0),
     };
-    let mut transitions: FxHashMap<Device, Vec<Device>> = FxHashMap::default();
+    let mut transitions: FxHashMap<Device, BTreeSet<Device>> = FxHashMap::default();
     let mut driven: FxHashMap<(Device, Device), usize> = FxHashMap::default();
     let mut order = Vec::new();
     for i in 0..code.len {
@@ -70,19 +71,21 @@ fn in_next_states(code: &Code, places: &Places, out: &mut Diagnostics) {
             continue;
         };
         if let Some(timer) = timer(code, i) {
-            driven.entry((state, timer)).or_insert(i);
-            order.push((state, timer));
+            driven.entry((state, timer)).or_insert_with(|| {
+                order.push((state, timer));
+                i
+            });
         }
         let target = code
             .device(i, 0)
             .filter(|device| device.class == DeviceClass::S);
         if let (Some(Basic::Out | Basic::Set), Some(target)) = (code.basic(i), target) {
-            transitions.entry(state).or_default().push(target);
+            transitions.entry(state).or_default().insert(target);
         }
     }
     let mut told = FxHashSet::default();
     for (state, timer) in order {
-        for &next in transitions.get(&state).map_or(&[][..], Vec::as_slice) {
+        for &next in transitions.get(&state).into_iter().flatten() {
             let both = (driven.get(&(state, timer)), driven.get(&(next, timer)));
             let (Some(&first), Some(&second)) = both else {
                 continue;

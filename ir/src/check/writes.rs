@@ -1,28 +1,22 @@
-//! Writes that do not last: to inputs, and to special devices that the system maintains.
+//! Writes that do not last, because the system maintains what is written.
 
 use super::Code;
 use super::accesses::Access;
+use crate::catalogue::Role;
 use crate::special;
-use rungc_syntax::{DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Diagnostics, codes};
 
-/// Warns of a write that the system undoes.
+/// Warns of a write to a special device that is there to be read. An operand that is also read (BMOV goes either way) says too little.
 pub(super) fn check(code: &Code, i: usize, access: &Access, out: &mut Diagnostics) {
-    if !access.writes() {
-        return;
-    }
     let device = access.first;
-    let mnemonic = &code.instr(i).mnemonic;
-    if device.class == DeviceClass::X {
-        let diagnostic = codes::WRITES_INPUT
-            .at(access.span, format!("`{mnemonic}` writes inputs"))
-            .label("overwritten by the next input refresh");
-        out.push(diagnostic);
+    if access.role != Role::Write || access.count.is_none() {
         return;
     }
-    let meaning = access
-        .count
-        .and_then(|_| special::find(code.model().id, device.class, device.number));
-    if let Some(special) = meaning.filter(|special| special.access == special::Access::Read) {
+    let Some(special) = special::find(code.model().id, device.class, device.number) else {
+        return;
+    };
+    if special.access == special::Access::Read {
+        let mnemonic = &code.instr(i).mnemonic;
         let message = format!("`{mnemonic}` writes `{device}`, which the system maintains");
         let diagnostic = codes::WRITES_READ_ONLY
             .at(access.span, message)

@@ -130,25 +130,27 @@ impl Finder {
     }
 }
 
-/// The row that a mnemonic would name if its prefix D or suffix P were taken away, with the form that these mean.
+/// The row that a mnemonic would name if its prefix D or suffix P were taken away, with the form that these mean and that the row
+/// does not have.
 fn without_affixes(mnemonic: &str) -> Option<Found> {
+    let without_prefix = mnemonic.strip_prefix('D');
     let shorter = [
-        (mnemonic.strip_prefix('D'), true, false),
+        (without_prefix, true, false),
         (mnemonic.strip_suffix('P'), false, true),
         (
-            mnemonic
-                .strip_prefix('D')
-                .and_then(|rest| rest.strip_suffix('P')),
+            without_prefix.and_then(|rest| rest.strip_suffix('P')),
             true,
             true,
         ),
     ];
     shorter.into_iter().find_map(|(rest, wide, pulse)| {
         let found = catalogue::find(rest?)?;
+        let twice = wide && found.form.wide || pulse && found.form.pulse;
         let form = Form {
             wide: wide || found.form.wide,
             pulse: pulse || found.form.pulse,
         };
-        Some(Found { form, ..found })
+        let new = !twice && found.inst.spelling_of(form).is_none();
+        new.then_some(Found { form, ..found })
     })
 }

@@ -1,7 +1,7 @@
 //! Holds the operands of an instruction to its catalogue row and to the model's devices.
 
 use super::rules;
-use crate::catalogue::{Classes, Extent, Found, Param, Shape};
+use crate::catalogue::{Classes, Extent, Found, Param, Role, Shape};
 use crate::model::Model;
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Index, Instr, Operand, OperandKind, Span, codes,
@@ -398,9 +398,16 @@ fn wrong_class(instr: &Instr, operand: &Operand, param: &Param, classes: Classes
         "`{}` cannot be operand {} of `{}`",
         operand.kind, param.name, instr.mnemonic
     );
+    let kind = Classes::of(&operand.kind);
+    let written = param.role != Role::Read;
+    let label = match kind {
+        Classes::X | Classes::KNX if written => "inputs cannot be written",
+        Classes::K | Classes::H | Classes::E if written => "a constant cannot be written",
+        _ => "not accepted here",
+    };
     codes::OPERAND_CLASS
         .at(operand.span, message)
-        .label("not accepted here")
+        .label(label)
         .help(format!(
             "accepted: {}",
             classes.names().collect::<Vec<_>>().join(", ")

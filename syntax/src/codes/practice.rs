@@ -37,12 +37,6 @@ super::codes! {
     wrong: "LD X0\nDMOV K1 D0\nDMOV K2 D1\nEND\n",
     right: "LD X0\nDMOV K1 D0\nDMOV K2 D2\nEND\n";
 
-    WRITES_INPUT = "W0207" "writes-input" Warning None,
-    "instruction that writes inputs",
-    "The next input refresh overwrites what the program writes to X.",
-    wrong: "",
-    right: "";
-
     WRITES_READ_ONLY = "W0208" "writes-read-only" Warning None,
     "write to a special device that the system maintains",
     "The system writes this special relay or register itself; what the program writes has no lasting effect.",
