@@ -1,6 +1,8 @@
 //! Special devices of HM (hm-motion-controller §5.7). Many numbers mean something else than on the other models.
 
-use super::{FAST, HOST, INTERRUPTS, MAKER, MOTION, POWER, SCOPE, SERIAL, Special, specials};
+use super::{
+    FAST, HOST, INTERRUPTS, MAKER, MOTION, POWER, SCOPE, SERIAL, Special, VIRTUAL, specials,
+};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -26,7 +28,7 @@ pub(super) const HM: &[Special] = specials! {
     M 8080-8087 rw 0 inert(INTERRUPTS) "request of advanced interrupt I900–907: set once (edge) by the ladder, cleared by the system on entry";
     M 8088-8095 rw 0 inert(INTERRUPTS) "process request of I900–907: re-enters an active advanced interrupt at its PROC";
     M 8096-8111 rw 0 inert(MOTION) "switch input of motion instructions in place of X000–017 (used while Bit13 of the axis event word is 0)";
-    M 8160-8163 rw 0 inert(FAST) "state of the virtual inputs X014..X017";
+    M 8160-8163 rw 0 inert(VIRTUAL) "state of the virtual inputs X014..X017";
     M 8200-8234 rw 0 by("OUT C") "count direction of C200..C234: on = down, off = up";
     M 8235 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
     M 8237 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
