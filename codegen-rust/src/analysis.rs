@@ -300,6 +300,25 @@ impl Temps {
     }
 }
 
+/// Whether a module jumps backwards inside a scan, which may keep the scan from ending.
+pub fn jumps_back(module: &Module) -> bool {
+    let mut found = false;
+    for function in &module.functions {
+        walk(&function.body, &mut |stmt| {
+            let Stmt::Parts(parts) = stmt else { return };
+            for (i, part) in parts.iter().enumerate() {
+                walk(&part.body, &mut |stmt| {
+                    if let Stmt::Goto(label) = stmt {
+                        let mut up_to_here = parts.iter().take(i + 1);
+                        found |= up_to_here.any(|part| part.label == Some(*label));
+                    }
+                });
+            }
+        });
+    }
+    found
+}
+
 /// Whether control may leave the statements other than at their end.
 pub fn escapes(stmts: &[Stmt]) -> bool {
     let mut labels: Vec<LabelId> = Vec::new();

@@ -45,7 +45,7 @@ impl Comments {
     }
 }
 
-/// The text of a file. `Err` holds the tokens' text if they are no Rust, which only a fault in the generator can cause.
+/// The text of a file.
 pub fn format(tokens: TokenStream, comments: &Comments) -> String {
     let file = match syn::parse2::<syn::File>(tokens.clone()) {
         Ok(file) => file,

@@ -196,7 +196,7 @@ impl Generator<'_> {
             Some(Stmt::Network(_)) => steps().next(),
             _ => None,
         };
-        let (first, last) = (first.unwrap_or(self.step), steps().last());
+        let (first, last) = (first.unwrap_or(self.step), steps().next_back());
         let doc = match last.filter(|&last| last != first) {
             Some(last) => format!("From step {first} to the network at step {last}."),
             None => format!("At step {first}."),

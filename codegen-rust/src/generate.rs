@@ -70,6 +70,8 @@ pub struct Generator<'m> {
     pub type_name: Ident,
     /// Which functions call what.
     pub calls: Calls,
+    /// Whether a scan may jump backwards.
+    pub jumps_back: bool,
     /// Whether to write comments.
     pub with_comments: bool,
     /// What the item being written needs.
@@ -84,8 +86,8 @@ pub struct Generator<'m> {
     pub declare: HashMap<Position, Vec<TempId>>,
     /// Step of the network being written.
     pub step: u32,
-    /// Loops over parts around the statement being written, by their labels.
-    pub jumps: Vec<Vec<Option<LabelId>>>,
+    /// Loops over parts around the statement being written: the labels, and the number of the part that it is in.
+    pub jumps: Vec<(Vec<Option<LabelId>>, usize)>,
     /// Temporaries assigned so far in the function being written.
     pub assigned: HashSet<TempId>,
     /// An edge that stands for its temporary in the next statement.
@@ -105,6 +107,7 @@ impl<'m> Generator<'m> {
             storage: Storage::new(&module.layout),
             type_name: type_name(&module.name),
             calls: Calls::of(module),
+            jumps_back: analysis::jumps_back(module),
             with_comments,
             uses: Uses::default(),
             comments: Comments::default(),

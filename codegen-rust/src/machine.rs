@@ -144,6 +144,14 @@ impl Generator<'_> {
             quote!([#state::new(); #count]),
             "Private memories of instructions.",
         ));
+        if self.jumps_back {
+            fields.push((
+                format_ident!("jumps_left"),
+                quote!(u32),
+                quote!(MAX_JUMPS_BACK),
+                "Jumps backwards that this scan may still make.",
+            ));
+        }
         fields.push((
             format_ident!("sys"),
             quote!(#sys),
@@ -181,13 +189,20 @@ impl Generator<'_> {
         let clear_latched = (self.clears_latched() || self.module.model.latch_key.is_some())
             .then(|| self.clear(true));
         let forget = self.forget();
+        let jumps = self.jumps_back.then(|| self.watchdog());
+        let max_jumps = self.jumps_back.then(|| {
+            let doc = self.doc("A scan that jumps backwards this often does not end.");
+            quote!(#doc const MAX_JUMPS_BACK: u32 = 1_000_000;)
+        });
         self.item_of(quote! {
+            #max_jumps
             impl #name {
                 #new
                 #preset
                 #clear_general
                 #clear_latched
                 #forget
+                #jumps
             }
             impl Default for #name {
                 fn default() -> Self { Self::new() }
@@ -268,6 +283,25 @@ impl Generator<'_> {
         quote!(#doc fn forget(&mut self) { #out })
     }
 
+    /// What stops a scan that jumps backwards for ever.
+    fn watchdog(&mut self) -> TokenStream {
+        let trip = self.rt("trip_watchdog");
+        let doc = self.doc(
+            "Counts a jump backwards. After too many in one scan the PLC stops as its watchdog would have it, and the jump is not made.",
+        );
+        quote! {
+            #doc
+            pub(crate) fn jumps_for_ever(&mut self) -> bool {
+                self.jumps_left = self.jumps_left.saturating_sub(1);
+                if self.jumps_left == 0 {
+                    self.sys.running = false;
+                    #trip(self);
+                }
+                self.jumps_left == 0
+            }
+        }
+    }
+
     /// The scan.
     pub fn program_impl(&mut self) -> Item {
         self.uses = Default::default();
@@ -310,11 +344,15 @@ impl Generator<'_> {
         );
         let off = off.map(|off| quote!(& !#off));
         let power_cycle = self.power_cycle();
+        let jumps = self
+            .jumps_back
+            .then(|| quote!(self.jumps_left = MAX_JUMPS_BACK;));
         self.uses.plc = false;
         self.item_of(quote! {
             impl #program for #name {
                 fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
                     self.sys.begin_scan(now_ms, scan_us);
+                    #jumps
                     #begin
                     #in_run
                     self.sys.end_scan();

@@ -434,13 +434,16 @@ impl Generator<'_> {
             return parts.iter().map(|part| self.body(&part.body)).collect();
         }
         let depth = self.jumps.len();
-        self.jumps
-            .push(parts.iter().map(|part| part.label).collect());
+        let labels = parts.iter().map(|part| part.label).collect();
+        self.jumps.push((labels, 0));
         let label = jump_label(depth);
         let part_variable = part_variable(depth);
         let mut arms = TokenStream::new();
         for (i, part) in parts.iter().enumerate() {
             let is_last = i + 1 == parts.len();
+            if let Some((_, current)) = self.jumps.last_mut() {
+                *current = i;
+            }
             let pattern = if is_last {
                 quote!(_)
             } else {
@@ -480,12 +483,14 @@ impl Generator<'_> {
     }
 
     fn goto(&mut self, label: LabelId) -> TokenStream {
-        for (depth, labels) in self.jumps.iter().enumerate().rev() {
+        for (depth, (labels, current)) in self.jumps.iter().enumerate().rev() {
             if let Some(part) = labels.iter().position(|l| *l == Some(label)) {
                 let name = jump_label(depth);
                 let variable = part_variable(depth);
+                let guard =
+                    (part <= *current).then(|| quote!(if plc.jumps_for_ever() { break #name; }));
                 let part = Literal::usize_unsuffixed(part);
-                return quote!(#variable = #part; continue #name;);
+                return quote!(#guard #variable = #part; continue #name;);
             }
         }
         TokenStream::new()

@@ -22,7 +22,11 @@ fn a_program_builds_without_warnings() {
 #[test]
 fn a_batch_answers_requests() {
     let folder = tempfile::tempdir().unwrap();
-    write(folder.path(), &batch(&[common::motor(), common::motor()]));
+    let endless = common::compiled("endless", "P0\nLD X0\nCJ P0\nLD X1\nOUT Y0\nEND\n");
+    write(
+        folder.path(),
+        &batch(&[common::motor(), common::motor(), endless]),
+    );
     let target = cargo(folder.path(), &["build"]);
     let mut child = Command::new(target.join("debug/batch"))
         .stdin(Stdio::piped())
@@ -55,7 +59,14 @@ fn a_batch_answers_requests() {
         ("word D 9000 1", "none"),
         ("case 1", "ok"),
         ("getbit M 0", "0"),
-        ("case 2", "none"),
+        ("case 2", "ok"),
+        ("bit X 1 1", "ok"),
+        ("scan 0 0", "ok"),
+        ("out 0", "1"),
+        ("bit X 0 1", "ok"),
+        ("scan 10 0", "ok"),
+        ("out 0", "0"),
+        ("case 3", "none"),
     ];
     let input: Vec<&str> = requests.iter().map(|(request, _)| *request).collect();
     let mut stdin = child.stdin.take().unwrap();

@@ -3,8 +3,7 @@
 mod common;
 
 use rungc_codegen_rust::{Options, Runtime, emit};
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
 
 /// A shape: its name, and the program.
 type Shape<'a> = (&'a str, &'a str);
@@ -44,18 +43,7 @@ const STEPS: Shape<'static> = (
 const SHAPES: [Shape<'static>; 7] = [LADDER, COILS, WORDS, CALLS, FLOW, JUMPS, STEPS];
 
 fn module((name, text): Shape) -> Module {
-    let read = rungc_frontend::read_text("test.il", text);
-    let options = CompileOptions {
-        model: Some(ModelId::H2u),
-        name: Some(name.to_string()),
-        optimise: true,
-        ..CompileOptions::default()
-    };
-    let compiled = compile(&read.program, &options);
-    let diagnostics = compiled.diagnostics;
-    compiled
-        .module
-        .unwrap_or_else(|| panic!("{name}: {diagnostics:#?}"))
+    common::compiled(name, text)
 }
 
 fn options() -> Options {

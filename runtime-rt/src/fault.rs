@@ -36,3 +36,9 @@ pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let _ = plc.set_bit(Class::M, 8004, true);
     let _ = plc.set_word(Class::D, 8004, 8067);
 }
+
+/// Shows that the watchdog has stopped the PLC: M8061, and D8061 = 6105 (h1u-h2u-programming §8.1).
+pub fn trip_watchdog(plc: &mut dyn Plc) {
+    let _ = plc.set_bit(Class::M, 8061, true);
+    let _ = plc.set_word(Class::D, 8061, 6105);
+}

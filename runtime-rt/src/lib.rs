@@ -43,7 +43,7 @@ pub mod word;
 pub use access::Access;
 pub use cx::{Cx, call};
 pub use edge::Edge;
-pub use fault::{Done, Fault, report};
+pub use fault::{Done, Fault, report, trip_watchdog};
 pub use hal::{Clock, Hal, NoHal};
 pub use operand::{Operand, OperandKind, d, h, k, kn};
 pub use plc::{Class, Plc, Site, State, Sys};

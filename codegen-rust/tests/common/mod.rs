@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 use rungc_codegen_rust::OutFile;
+use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::layout::{Area, Layout};
 use rungc_ir::node::*;
 use rungc_ir::{Model, ModelId};
@@ -194,6 +195,22 @@ pub fn motor() -> Module {
         },
     ];
     b.main(body)
+}
+
+/// A list compiled for H2U.
+pub fn compiled(name: &str, text: &str) -> Module {
+    let read = rungc_frontend::read_text("test.il", text);
+    let options = CompileOptions {
+        model: Some(ModelId::H2u),
+        name: Some(name.to_string()),
+        optimise: true,
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    let diagnostics = compiled.diagnostics;
+    compiled
+        .module
+        .unwrap_or_else(|| panic!("{name}: {diagnostics:#?}"))
 }
 
 /// Where the runtime is.
