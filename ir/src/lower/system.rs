@@ -18,6 +18,10 @@ const LEAST_SCAN_TIME: u32 = 8011;
 const MOST_SCAN_TIME: u32 = 8012;
 /// Relays that stand for an error of the run that is over.
 const ERRORS: [u32; 2] = [8004, 8067];
+/// Relay and step of an operation error as the runtime reports it.
+const OPERATION_ERROR: (u32, u32) = (8067, 8069);
+/// Relay and step of a run error of HM.
+const RUN_ERROR: (u32, u32) = (8006, 8006);
 /// Clears the general, the latched devices.
 const CLEAR: [(u32, bool); 2] = [(8031, false), (8032, true)];
 /// Relay and register of the ring counter.
@@ -71,6 +75,7 @@ impl Lowerer<'_> {
         self.body(|this| {
             this.monitor(&STATES);
             this.monitor(&ALARMS);
+            this.run_error();
             for (relay, latched) in CLEAR {
                 if this.keeps(M, relay) {
                     let asked = this.add(Expr::ReadBit(fixed(M, relay)));
@@ -242,6 +247,32 @@ impl Lowerer<'_> {
             Some(Lower::Call(RtFn::TrdShort)) => RtFn::ClockRefreshShort,
             _ => RtFn::ClockRefresh,
         }
+    }
+
+    /// HM shows an operation error in M8006 and D8006. The runtime reports it in the devices that the rest of the family has for it;
+    /// on HM these mask interrupts, so a program that uses them for that is shown no error.
+    fn run_error(&mut self) {
+        let [relay, register] = [(M, RUN_ERROR.0), (D, RUN_ERROR.1)];
+        let (shows, tells) = (
+            self.keeps(relay.0, relay.1),
+            self.keeps(register.0, register.1),
+        );
+        if !shows && !tells || self.specials.has(M, OPERATION_ERROR.0) {
+            return;
+        }
+        self.specials.flags.push((M, OPERATION_ERROR.0));
+        self.specials.flags.push((D, OPERATION_ERROR.1));
+        let error = self.add(Expr::ReadBit(fixed(M, OPERATION_ERROR.0)));
+        self.when(error, |this| {
+            if shows {
+                let on = this.bit_const(true);
+                this.write_device(M, relay.1, on);
+            }
+            if tells {
+                let step = this.add(Expr::ReadWord(fixed(D, OPERATION_ERROR.1)));
+                this.emit(Stmt::WriteWord(fixed(D, register.1), step));
+            }
+        });
     }
 
     /// While it is enabled, lists the lowest active S devices. A register without one keeps its value.
