@@ -12,6 +12,7 @@ pub fn run(args: &ExplainArgs) -> Result {
     let topic = args.topic.trim().to_uppercase();
     let page = codes::find(&args.topic.trim().to_lowercase())
         .map(code_page)
+        .or_else(|| catalogue::explain(&topic))
         .or_else(|| special_page(&topic, args.model));
     let Some(page) = page else {
         let codes = codes::all()

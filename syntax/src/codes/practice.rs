@@ -90,4 +90,10 @@ super::codes! {
     "The source names a CPU type that none of the models goes by. Choose one with `--model`.",
     wrong: "",
     right: "";
+
+    TOO_LONG = "W0503" "too-long" Warning None,
+    "program longer than the model's memory",
+    "The program has more steps than the PLC can hold. Compiled code has no such limit, but the program cannot go back to the PLC.",
+    wrong: "",
+    right: "";
 }

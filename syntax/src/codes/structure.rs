@@ -97,12 +97,6 @@ super::codes! {
     wrong: "LD X0\nOUT Y0\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
-    TOO_LONG = "E0428" "too-long" Error None,
-    "program longer than the model's memory",
-    "The program has more steps than the model can hold.",
-    wrong: "",
-    right: "";
-
     TOO_OFTEN = "E0429" "too-often" Error None,
     "instruction used more often than the model allows",
     "Some instructions own a piece of the hardware or of the system's memory, and a program may hold only one or two of them.",
