@@ -144,10 +144,10 @@ fn default_watch(module: &Module) -> Vec<Target> {
 }
 
 fn column(target: Target) -> Column {
-    let kind = if matches!(target, Target::Bit(..)) {
-        Kind::Bit
-    } else {
-        Kind::Number
+    let kind = match target {
+        Target::Bit(..) => Kind::Bit,
+        Target::Current(DeviceClass::T, _) => Kind::Running,
+        _ => Kind::Number,
     };
     // T0 rather than T0.value: the table shows at once that it is a number.
     let name = match target {

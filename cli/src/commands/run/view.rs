@@ -9,6 +9,8 @@ pub enum Kind {
     Bit,
     /// As a number.
     Number,
+    /// As a number that changes of its own: it makes no row of the table by itself.
+    Running,
 }
 
 /// A column.
@@ -61,7 +63,11 @@ impl View {
                 trace.push((now_ms, on));
             }
         }
-        if self.shown.as_deref() == Some(values) {
+        let same = |shown: &Vec<String>| {
+            let mut columns = self.columns.iter().zip(shown.iter().zip(values));
+            columns.all(|(column, (old, new))| column.kind == Kind::Running || old == new)
+        };
+        if self.shown.as_ref().is_some_and(same) {
             return None;
         }
         let mut line = format!("{:>8} s", format!("{:.3}", now_ms as f64 / 1000.0));
@@ -69,7 +75,7 @@ impl View {
             let text = match (column.kind, value.as_str()) {
                 (Kind::Bit, "0") => "·",
                 (Kind::Bit, _) => "█",
-                (Kind::Number, value) => value,
+                (Kind::Number | Kind::Running, value) => value,
             };
             let _ = write!(line, " {text:>width$}", width = width(column));
         }
