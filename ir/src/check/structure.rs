@@ -229,12 +229,20 @@ impl Walk<'_, '_> {
     }
 
     fn push(&mut self, kind: Kind, at: usize) {
-        self.open.push(Open {
+        self.push_open(Open {
             kind,
             at,
             level: 0,
             reported: false,
         });
+    }
+
+    /// Begins a structure. No good program comes near the limit, which keeps the time linear for bad ones.
+    fn push_open(&mut self, open: Open) {
+        const MAX_OPEN: usize = 256;
+        if self.open.len() < MAX_OPEN {
+            self.open.push(open);
+        }
     }
 
     fn level(&self, i: usize) -> u32 {
@@ -257,7 +265,7 @@ impl Walk<'_, '_> {
                 .help("number nested zones N0, N1, N2 … from outside to inside, and close each with MCR");
             self.report(diagnostic);
         }
-        self.open.push(Open {
+        self.push_open(Open {
             kind: Kind::Mc,
             at: i,
             level,
@@ -347,7 +355,7 @@ impl Walk<'_, '_> {
                 .help("end the main program with FEND and put routines behind it");
             self.report(diagnostic);
         }
-        self.open.push(Open {
+        self.push_open(Open {
             kind,
             at: i,
             level: 0,
