@@ -93,6 +93,12 @@ static inline bool plc_falling(bool *memory, bool input)
     return before & !input;
 }
 
+/* Whether the memory is on; switches it off. */
+static inline bool plc_take(bool *memory)
+{
+    return plc_falling(memory, false);
+}
+
 /* ---- Words ---------------------------------------------------------------------------------------------------------- */
 
 /* The low 16 bits as a signed number. */

@@ -113,6 +113,13 @@ fn function(op: BinOp) -> &'static str {
     }
 }
 
+/// Whether an expression calls a function.
+fn calls_function(text: &str) -> bool {
+    text.as_bytes()
+        .windows(2)
+        .any(|pair| pair[1] == b'(' && (pair[0].is_ascii_alphanumeric() || pair[0] == b'_'))
+}
+
 /// Writes an integer constant; the smallest ones have no literal of their own in C.
 pub fn integer(out: &mut String, value: i32) {
     match value {
@@ -288,14 +295,29 @@ impl Writer<'_, '_> {
         if self.is_not(operands[0]) && !self.is_not(operands[1]) && self.is_compound(operands[1]) {
             operands.swap(0, 1);
         }
-        self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
-            for (i, &operand) in operands.iter().enumerate() {
-                if i > 0 {
-                    let _ = write!(out, " {op} ");
+        let mut texts: Vec<String> = Vec::with_capacity(operands.len());
+        let mut calls = 0;
+        for operand in operands {
+            let mut text = String::new();
+            self.expr(&mut text, operand, Around::Operand(op));
+            if calls_function(&text) {
+                // The same question need not be asked twice.
+                if texts.contains(&text) {
+                    continue;
                 }
-                w.expr(out, operand, Around::Operand(op));
+                calls += 1;
             }
-        });
+            texts.push(text);
+        }
+        // Of several calls only those are made that matter, and clang would suspect a slip.
+        let op = match op {
+            "&" if calls > 1 => " && ",
+            "|" if calls > 1 => " || ",
+            "&" => " & ",
+            _ => " | ",
+        };
+        let enclose = texts.len() > 1 && around.needs_parentheses(op.trim());
+        self.in_parentheses(out, enclose, |_, out| out.push_str(&texts.join(op)));
     }
 
     fn is_not(&self, e: ExprId) -> bool {

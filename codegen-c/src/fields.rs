@@ -277,6 +277,7 @@ impl<'m> Fields<'m> {
             // D100[103 - 100] keeps the device's own number in sight.
             let _ = match field.first {
                 0 => write!(out, "[{number}]"),
+                first if first == number => write!(out, "[0]"),
                 first => write!(out, "[{number} - {first}]"),
             };
         }

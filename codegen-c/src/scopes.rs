@@ -161,7 +161,8 @@ impl Scopes<'_, '_> {
         } else {
             home.block = self.open.last().copied();
         }
-        if known.prefix.is_empty() {
+        // A value at the start of the program belongs to no rung; a later one tells more.
+        if known.prefix.is_empty() || (known.step.is_none() && self.step.is_some()) {
             let ordinal = self.names.entry((prefix, self.step)).or_default();
             known.prefix = prefix;
             known.step = self.step;

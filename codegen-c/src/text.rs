@@ -90,10 +90,11 @@ fn break_at(code: &str, room: usize) -> Option<usize> {
             b'(' | b'{' => depth += 1,
             b')' | b'}' => depth -= 1,
             b'|' | b'&'
-                if i > 0
+                if i > room / 3
                     && bytes[i - 1] == b' '
-                    && bytes.get(i + 1) == Some(&b' ')
-                    && i > room / 3
+                    && bytes
+                        .get(i + 1)
+                        .is_some_and(|&next| next == b' ' || next == b)
                     && best.is_none_or(|(d, _)| depth <= d) =>
             {
                 best = Some((depth, i));

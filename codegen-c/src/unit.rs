@@ -57,7 +57,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     }
 
     let faults = writer.faults;
-    let clears_latched = writer.clears_latched || module.model.latch_key.is_some();
+    let [clears_general, clears_latched] = writer.clears;
     let helpers = std::mem::take(&mut writer.helpers);
     let mut internal = String::new();
     states(&mut internal, &writer, &plan);
@@ -70,7 +70,13 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     if faults {
         printer.fault(&mut internal);
     }
-    printer.clear_functions(&mut internal, clears_latched);
+    // Where the program itself clears devices the functions stand before it, else with those of the API.
+    let clearing = printer.clear_functions(clears_latched || module.model.latch_key.is_some());
+    if clears_general || clears_latched {
+        internal.push_str(&clearing);
+    } else {
+        groups[0].push_str(&clearing);
+    }
     printer.api_functions(&mut groups[0]);
     if runtime {
         table::write(&mut groups[0], module, &fields);
@@ -212,25 +218,33 @@ impl Printer<'_> {
     }
 
     /// Functions that clear devices: general ones (STOP, M8031), and, where a program asks for it, latched ones (M8032).
-    fn clear_functions(&self, out: &mut String, latched_too: bool) {
+    fn clear_functions(&self, latched_too: bool) -> String {
         let name = self.name();
-        let mut general = String::new();
-        self.clear(&mut general, Section::General, |run| run.is_general());
-        let _ = write!(
-            out,
-            "/* Clears all devices but inputs, latched and special ones. */\nstatic inline void {name}_clear_general({name}_plc *plc)\n{{\n{}}}\n\n",
-            or_unused(&general)
+        let mut out = String::new();
+        let mut function = |comment: &str, what: &str, body: &str| {
+            let body = if body.is_empty() {
+                "    (void)plc;\n"
+            } else {
+                body
+            };
+            let _ = write!(
+                out,
+                "/* {comment} */\nstatic inline void {name}_clear_{what}({name}_plc *plc)\n{{\n{body}}}\n\n"
+            );
+        };
+        let mut body = String::new();
+        self.clear(&mut body, Section::General, |run| run.is_general());
+        function(
+            "Clears all devices but inputs, latched and special ones.",
+            "general",
+            &body,
         );
-        if !latched_too {
-            return;
+        if latched_too {
+            body.clear();
+            self.clear(&mut body, Section::Latched, |run| run.is_latched());
+            function("Clears the latched devices.", "latched", &body);
         }
-        let mut latched = String::new();
-        self.clear(&mut latched, Section::Latched, |run| run.is_latched());
-        let _ = write!(
-            out,
-            "/* Clears the latched devices. */\nstatic inline void {name}_clear_latched({name}_plc *plc)\n{{\n{}}}\n\n",
-            or_unused(&latched)
-        );
+        out
     }
 
     /// Writes the clearing of a section and of what mixed arrays hold of its kind.
@@ -425,13 +439,5 @@ impl Printer<'_> {
             let _ = writeln!(out, "    case {}:\n        return {device};", field.first);
         }
         out.push_str("    default:\n        return false;\n    }\n}\n\n");
-    }
-}
-
-fn or_unused(body: &str) -> &str {
-    if body.is_empty() {
-        "    (void)plc;\n"
-    } else {
-        body
     }
 }

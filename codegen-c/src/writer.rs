@@ -25,8 +25,8 @@ pub struct Writer<'a, 'm> {
     pub helpers: Helpers,
     /// Whether [`Stmt::Fault`] occurs where something of it is to be seen.
     pub faults: bool,
-    /// Whether latched devices are cleared.
-    pub clears_latched: bool,
+    /// Whether the program clears the general devices, or the latched ones.
+    pub clears: [bool; 2],
     /// Names of parts of the current statement's expressions.
     pub(crate) named: HashMap<ExprId, String>,
     /// Timers with one coil and a constant preset: taking the preset over makes no difference to them.
@@ -48,7 +48,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             fields,
             helpers: Helpers::default(),
             faults: false,
-            clears_latched: false,
+            clears: [false; 2],
             named: HashMap::new(),
             plain_timers: HashMap::new(),
             function: 0,
@@ -202,6 +202,11 @@ impl<'a, 'm> Writer<'a, 'm> {
         let user = match next {
             Node::If { cond, .. } if is_it(*cond) => *cond,
             Node::Stmt(Stmt::WriteBit(place, e)) if place.index.is_none() && is_it(*e) => *e,
+            Node::Stmt(
+                Stmt::Timer { drive, .. }
+                | Stmt::Counter16 { drive, .. }
+                | Stmt::Counter32 { drive, .. },
+            ) if is_it(*drive) => *drive,
             _ => return false,
         };
         if known.used != 1 || known.field {
@@ -217,6 +222,10 @@ impl<'a, 'm> Writer<'a, 'm> {
     }
 
     fn edge_call(&mut self, out: &mut String, (edge, kind, input): (EdgeId, EdgeKind, ExprId)) {
+        if kind == EdgeKind::Falling && *self.module.expr(input) == Expr::Bit(false) {
+            let _ = write!(out, "plc_take(&plc->edge[{}])", edge.0);
+            return;
+        }
         let function = match kind {
             EdgeKind::Rising => "plc_rising",
             EdgeKind::Falling => "plc_falling",
@@ -355,15 +364,24 @@ impl<'a, 'm> Writer<'a, 'm> {
             return;
         };
         let first = self.state_name(root, first);
+        if let (&[(_, function)], false) = (parts, leaves) {
+            let mut name = String::new();
+            self.function_name(&mut name, &self.plan.functions[function]);
+            let pad = " ".repeat(indent);
+            let _ = writeln!(
+                out,
+                "{pad}/* A jump back repeats it. */\n{pad}while ({name}(plc) == {first}) {{\n{pad}}}"
+            );
+            return;
+        }
         let pad = " ".repeat(indent);
         let _ = writeln!(
             out,
             "{pad}/* The jumps here do not nest, so the stretches between labels are functions: each answers which one is next. */"
         );
-        let _ = writeln!(out, "{pad}int next = {first};");
         let _ = writeln!(
             out,
-            "{pad}while (next != PLC_GO_ON) {{\n{pad}    switch (next) {{"
+            "{pad}for (int next = {first}; next != PLC_GO_ON;) {{\n{pad}    switch (next) {{"
         );
         for &(state, function) in parts {
             let mut name = String::new();
@@ -510,7 +528,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                 );
             }
             Stmt::Clear { latched } => {
-                self.clears_latched |= *latched;
+                self.clears[usize::from(*latched)] = true;
                 let what = if *latched { "latched" } else { "general" };
                 code = format!("{}_clear_{what}(plc);", self.module.name);
             }

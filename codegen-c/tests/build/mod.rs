@@ -1,4 +1,5 @@
 //! Builds small modules by hand, and emitted C with the compilers that are there.
+#![allow(dead_code, reason = "each test file takes what it needs")]
 
 use rungc_codegen_c::{Options, batch, emit};
 use rungc_ir::layout::{Area, Layout};
@@ -307,4 +308,56 @@ pub fn run_batch(modules: &[Module], requests: &str) -> String {
     let output = child.wait_with_output().expect("its answers");
     assert!(output.status.success());
     String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// The C source of a program up to the functions that every program has.
+pub fn program_text(module: &Module) -> String {
+    let files = emit(module, &Options::default());
+    let path = format!("{}.c", module.name);
+    let source = &files
+        .iter()
+        .find(|f| f.path == path)
+        .expect("a source file")
+        .text;
+    let end = source
+        .find("/* Clears all devices")
+        .or_else(|| source.find(&format!("void {}_init(", module.name)));
+    source[..end.expect("the functions of every program")].to_string()
+}
+
+/// Builds a program with its host's `main.c`, types these commands, and returns what it prints within four seconds.
+pub fn run_host(module: &Module, commands: &str) -> String {
+    let folder = tempfile::tempdir().expect("a folder for the C files");
+    for file in emit(module, &Options { main: true }) {
+        std::fs::write(folder.path().join(&file.path), &file.text).expect("writing C");
+    }
+    for cc in compilers() {
+        let flags = format!("CFLAGS={} -O2", STRICT.join(" "));
+        let made = Command::new("make")
+            .current_dir(folder.path())
+            .args(["-B", &flags, &format!("CC={cc}")])
+            .output();
+        let made = made.expect("running make");
+        assert!(
+            made.status.success(),
+            "{cc}: {}",
+            String::from_utf8_lossy(&made.stderr)
+        );
+    }
+    let mut child = Command::new(folder.path().join(&module.name))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("starting the program");
+    let mut stdin = child.stdin.take().expect("its standard input");
+    stdin
+        .write_all(commands.as_bytes())
+        .expect("typing commands");
+    std::thread::sleep(std::time::Duration::from_secs(4));
+    child.kill().expect("stopping the program");
+    let output = child.wait_with_output().expect("its output");
+    [output.stdout, output.stderr]
+        .map(|text| String::from_utf8_lossy(&text).into_owned())
+        .concat()
 }
