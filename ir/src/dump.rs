@@ -8,6 +8,7 @@ use crate::layout::Area;
 use crate::node::{
     Arg, BinOp, Body, EdgeKind, Expr, ExprId, Function, FunctionKind, Module, Place, Stmt, SysValue,
 };
+use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write as _;
 
@@ -161,18 +162,8 @@ impl Out<'_> {
                 drive,
                 preset,
             } => format!(
-                "timer T{number} {}ms{}{} drive {} preset {}",
-                kind.unit_ms,
-                if kind.accumulating {
-                    " accumulating"
-                } else {
-                    ""
-                },
-                if kind.free_running {
-                    " free-running"
-                } else {
-                    ""
-                },
+                "timer T{number} {} drive {} preset {}",
+                timer_text(kind),
                 e(drive),
                 e(preset)
             ),
@@ -315,6 +306,20 @@ impl Out<'_> {
             Expr::InRange { place, count } => format!("in_range({}, {count})", self.place(place)),
         }
     }
+}
+
+fn timer_text(kind: &TimerKind) -> String {
+    let accumulating = if kind.accumulating {
+        " accumulating"
+    } else {
+        ""
+    };
+    let free_running = if kind.free_running {
+        " free-running"
+    } else {
+        ""
+    };
+    format!("{}ms{accumulating}{free_running}", kind.unit_ms)
 }
 
 fn cmp_text(op: CmpOp) -> &'static str {

@@ -161,7 +161,7 @@ impl Checker<'_> {
         let mut missing = None;
         for_exprs(stmt, &mut |id| {
             if missing.is_none() {
-                missing = self.fault_in(id);
+                missing = self.fault_in(*id);
             }
         });
         if let Some(fault) = missing {

@@ -7,9 +7,10 @@ mod effects;
 mod fold;
 mod inline;
 mod rewrite;
+mod visit;
 
 pub(crate) use fold::operands;
-pub(crate) use rewrite::for_exprs;
+pub(crate) use visit::for_exprs;
 
 use crate::node::Module;
 

@@ -3,7 +3,8 @@
 use super::effects::writes;
 use super::fold::{Arena, operands};
 use super::inline::{Counts, Temps};
-use crate::node::{Arg, Body, Expr, ExprId, LabelId, Module, Part, Place, Stmt, TempId};
+use super::visit::{for_bodies, for_exprs, for_exprs_mut};
+use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
 use rustc_hash::FxHashSet;
 
 /// Rewrites every function.
@@ -47,7 +48,7 @@ fn count_body(module: &Module, body: &Body, counts: &mut Counts) {
         if let Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } = stmt {
             counts.assignments[temp.0 as usize] += 1;
         }
-        for_exprs(stmt, &mut |expr| count_uses(module, expr, counts));
+        for_exprs(stmt, &mut |expr| count_uses(module, *expr, counts));
         for_bodies(stmt, &mut |body| count_body(module, body, counts));
     }
 }
@@ -285,135 +286,5 @@ fn ends(body: &Body) -> bool {
             then, otherwise, ..
         }) => ends(then) && ends(otherwise),
         _ => false,
-    }
-}
-
-/// Calls `f` with the bodies inside a statement.
-fn for_bodies(stmt: &Stmt, f: &mut impl FnMut(&Body)) {
-    match stmt {
-        Stmt::If {
-            then, otherwise, ..
-        } => {
-            f(then);
-            f(otherwise);
-        }
-        Stmt::For { body, .. } => f(body),
-        Stmt::Parts(parts) => parts.iter().for_each(|part| f(&part.body)),
-        _ => {}
-    }
-}
-
-/// Calls `f` with the expressions that a statement itself evaluates.
-pub(crate) fn for_exprs(stmt: &Stmt, f: &mut impl FnMut(ExprId)) {
-    let mut place = |place: &Place| {
-        if let Some(index) = place.index {
-            f(index);
-        }
-    };
-    match stmt {
-        Stmt::WriteBit(at, value)
-        | Stmt::WriteWord(at, value)
-        | Stmt::WriteWordBit(at, _, value)
-        | Stmt::WritePair(at, value)
-        | Stmt::WriteFloat(at, value)
-        | Stmt::WriteNibbles {
-            place: at, value, ..
-        } => {
-            place(at);
-            f(*value);
-        }
-        Stmt::Let(_, value) => f(*value),
-        Stmt::Edge { input, .. } => f(*input),
-        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
-            f(*drive);
-            f(*preset);
-        }
-        Stmt::Counter32 {
-            drive,
-            down,
-            preset,
-            ..
-        } => {
-            f(*drive);
-            f(*down);
-            f(*preset);
-        }
-        Stmt::Reset(at) => place(at),
-        Stmt::If { cond, .. } => f(*cond),
-        Stmt::For { count, .. } => f(*count),
-        Stmt::Call { args, drive, .. } => {
-            for arg in args {
-                match arg {
-                    Arg::Const { index, .. } => index.iter().for_each(|index| f(*index)),
-                    Arg::Device { place, .. }
-                    | Arg::Nibbles { place, .. }
-                    | Arg::WordBit { place, .. } => place.index.iter().for_each(|index| f(*index)),
-                    Arg::Float(_) | Arg::Text(_) => {}
-                }
-            }
-            drive.iter().for_each(|drive| f(*drive));
-        }
-        Stmt::Network(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Fault { .. }
-        | Stmt::Clear { .. } => {}
-    }
-}
-
-/// Calls `f` with the expressions that a statement without bodies evaluates, to replace them.
-fn for_exprs_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut ExprId)) {
-    match stmt {
-        Stmt::WriteBit(at, value)
-        | Stmt::WriteWord(at, value)
-        | Stmt::WriteWordBit(at, _, value)
-        | Stmt::WritePair(at, value)
-        | Stmt::WriteFloat(at, value)
-        | Stmt::WriteNibbles {
-            place: at, value, ..
-        } => {
-            at.index.iter_mut().for_each(&mut *f);
-            f(value);
-        }
-        Stmt::Let(_, value) => f(value),
-        Stmt::Edge { input, .. } => f(input),
-        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
-            f(drive);
-            f(preset);
-        }
-        Stmt::Counter32 {
-            drive,
-            down,
-            preset,
-            ..
-        } => {
-            f(drive);
-            f(down);
-            f(preset);
-        }
-        Stmt::Reset(at) => at.index.iter_mut().for_each(f),
-        Stmt::Call { args, drive, .. } => {
-            for arg in args {
-                match arg {
-                    Arg::Const { index, .. } => index.iter_mut().for_each(&mut *f),
-                    Arg::Device { place, .. }
-                    | Arg::Nibbles { place, .. }
-                    | Arg::WordBit { place, .. } => place.index.iter_mut().for_each(&mut *f),
-                    Arg::Float(_) | Arg::Text(_) => {}
-                }
-            }
-            drive.iter_mut().for_each(f);
-        }
-        Stmt::If { cond, .. } => f(cond),
-        Stmt::For { count, .. } => f(count),
-        Stmt::Network(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Fault { .. }
-        | Stmt::Clear { .. } => {}
     }
 }
