@@ -411,26 +411,14 @@ impl Generator<'_> {
     pub fn plc_impl(&mut self) -> Item {
         self.uses = Default::default();
         let name = self.type_name.clone();
-        let (plc, class) = (self.rt("Plc"), self.rt("Class"));
-        let (state, sys) = (self.rt("State"), self.rt("Sys"));
-        let devices = self.devices_const();
-        let bits = self.arms(Access::Bit, false);
-        let set_bits = self.arms(Access::Bit, true);
-        let words = self.arms(Access::Word, false);
-        let set_words = self.arms(Access::Word, true);
-        let counters = self.arms(Access::Counter32, false);
-        let set_counters = self.arms(Access::Counter32, true);
-        let resets = self.reset_arms();
-        let last_state = Literal::usize_unsuffixed(usize::from(self.module.states));
-        let slot = if self.module.states == 0 {
-            quote!(_slot)
+        let (plc, state, sys) = (self.rt("Plc"), self.rt("State"), self.rt("Sys"));
+        let methods = self.access_methods();
+        let last = usize::from(self.module.states);
+        let (slot, cell) = if last == 0 {
+            (quote!(_slot), quote!(0))
         } else {
-            quote!(slot)
-        };
-        let state_cell = if self.module.states == 0 {
-            quote!(&mut self.states[0])
-        } else {
-            quote!(&mut self.states[usize::from(slot).min(#last_state)])
+            let last = Literal::usize_unsuffixed(last);
+            (quote!(slot), quote!(usize::from(slot).min(#last)))
         };
         let text = self.text();
         let pairs = (!self.module.model.z_pairs_with_v).then(|| {
@@ -440,110 +428,69 @@ impl Generator<'_> {
                 }
             )
         });
-        let reader = |name: &str,
-                      parameters: TokenStream,
-                      key: TokenStream,
-                      ty: TokenStream,
-                      arms: TokenStream,
-                      absent: TokenStream| {
-            let name = format_ident!("{}", name);
-            if arms.is_empty() {
-                return quote!(fn #name(&self, #parameters) -> Option<#ty> { #absent });
-            }
-            quote!(fn #name(&self, #parameters) -> Option<#ty> {
-                let value = match #key { #arms _ => return #absent };
-                Some(value)
-            })
-        };
-        let writer = |name: &str,
-                      parameters: TokenStream,
-                      key: TokenStream,
-                      arms: TokenStream,
-                      absent: TokenStream| {
-            let name = format_ident!("{}", name);
-            if arms.is_empty() {
-                return quote!(fn #name(&mut self, #parameters) -> Option<()> { #absent });
-            }
-            quote!(fn #name(&mut self, #parameters) -> Option<()> {
-                match #key { #arms _ => return #absent }
-                Some(())
-            })
-        };
-        let value = |arms: &TokenStream| {
-            if arms.is_empty() {
-                quote!(_value)
-            } else {
-                quote!(value)
-            }
-        };
-        let (bit_value, word_value, counter_value) =
-            (value(&set_bits), value(&set_words), value(&set_counters));
-        let key = quote!((class, number));
-        let device = quote!(class: #class, number: u32);
-        let counter = quote!(number: u32);
-        let methods = [
-            reader(
-                "bit",
-                device.clone(),
-                key.clone(),
-                quote!(bool),
-                bits,
-                quote!(#devices.bit(class, number)),
-            ),
-            writer(
-                "set_bit",
-                quote!(#device, #bit_value: bool),
-                key.clone(),
-                set_bits,
-                quote!(#devices.bit(class, number).map(drop)),
-            ),
-            reader(
-                "word",
-                device.clone(),
-                key.clone(),
-                quote!(i16),
-                words,
-                quote!(#devices.word(class, number)),
-            ),
-            writer(
-                "set_word",
-                quote!(#device, #word_value: i16),
-                key.clone(),
-                set_words,
-                quote!(#devices.word(class, number).map(drop)),
-            ),
-            reader(
-                "counter32",
-                counter.clone(),
-                quote!(number),
-                quote!(i32),
-                counters,
-                quote!(#devices.counter32(number)),
-            ),
-            writer(
-                "set_counter32",
-                quote!(#counter, #counter_value: i32),
-                quote!(number),
-                set_counters,
-                quote!(#devices.counter32(number).map(drop)),
-            ),
-            writer(
-                "reset",
-                device,
-                key,
-                resets,
-                quote!(#devices.reset(class, number)),
-            ),
-        ];
         self.item_of(quote! {
             impl #plc for #name {
                 #(#methods)*
-                fn state(&mut self, #slot: u16) -> &mut #state { #state_cell }
+                fn state(&mut self, #slot: u16) -> &mut #state { &mut self.states[#cell] }
                 fn sys(&self) -> &#sys { &self.sys }
                 #text
                 #pairs
             }
         })
+    }
+
+    /// The methods that find a device by its number.
+    fn access_methods(&mut self) -> Vec<TokenStream> {
+        let class = self.rt("Class");
+        let devices = self.devices_const();
+        let key = quote!((class, number));
+        let device = quote!(class: #class, number: u32);
+        let ways = [
+            (Access::Bit, "bit", quote!(bool), &device, &key),
+            (Access::Word, "word", quote!(i16), &device, &key),
+            (
+                Access::Counter32,
+                "counter32",
+                quote!(i32),
+                &quote!(number: u32),
+                &quote!(number),
+            ),
+        ];
+        let mut methods = Vec::new();
+        for (access, name, ty, parameters, key) in ways {
+            let (read, write) = (format_ident!("{name}"), format_ident!("set_{name}"));
+            let arguments = if access == Access::Counter32 {
+                quote!(number)
+            } else {
+                quote!(class, number)
+            };
+            let absent = quote!(#devices.#read(#arguments));
+            let arms = self.arms(access, false);
+            methods.push(if arms.is_empty() {
+                quote!(fn #read(&self, #parameters) -> Option<#ty> { #absent })
+            } else {
+                quote!(fn #read(&self, #parameters) -> Option<#ty> {
+                    let value = match #key { #arms _ => return #absent };
+                    Some(value)
+                })
+            });
+            let arms = self.arms(access, true);
+            let absent = quote!(#absent.map(drop));
+            methods.push(if arms.is_empty() {
+                quote!(fn #write(&mut self, #parameters, _value: #ty) -> Option<()> { #absent })
+            } else {
+                writer(&write, quote!(#parameters, value: #ty), key, arms, absent)
+            });
+        }
+        let arms = self.reset_arms();
+        let reset = format_ident!("reset");
+        let absent = quote!(#devices.reset(class, number));
+        methods.push(if arms.is_empty() {
+            quote!(fn #reset(&mut self, #device) -> Option<()> { #absent })
+        } else {
+            writer(&reset, device, &key, arms, absent)
+        });
+        methods
     }
 
     /// The numbers of a field's devices as a pattern.
@@ -683,6 +630,20 @@ impl Generator<'_> {
             uses: std::mem::take(&mut self.uses),
         }
     }
+}
+
+/// A method that changes the device that one of the arms finds.
+fn writer(
+    name: &Ident,
+    parameters: TokenStream,
+    key: &TokenStream,
+    arms: TokenStream,
+    absent: TokenStream,
+) -> TokenStream {
+    quote!(fn #name(&mut self, #parameters) -> Option<()> {
+        match #key { #arms _ => return #absent }
+        Some(())
+    })
 }
 
 /// A device number as its class writes it.
