@@ -170,6 +170,12 @@ impl Printer<'_> {
         self.fields.access(&mut name, class, number).then_some(name)
     }
 
+    /// A special relay, if it is stored and means on the model what it means on most.
+    fn special_relay(&self, number: u32) -> Option<String> {
+        let works = self.module.model.special_relay_works(number);
+        self.stored(DeviceClass::M, number).filter(|_| works)
+    }
+
     /// Reports an operation error (see the runtime's `report`), as far as the program looks at it.
     fn fault(&self, out: &mut String) {
         let mut lines = String::new();
@@ -313,7 +319,7 @@ impl Printer<'_> {
                 String::new()
             },
         );
-        let hold = match self.stored(DeviceClass::M, M_KEEP_IN_STOP) {
+        let hold = match self.special_relay(M_KEEP_IN_STOP) {
             Some(hold) => format!(" if (!{hold})"),
             None => String::new(),
         };
@@ -395,11 +401,11 @@ impl Printer<'_> {
 
     fn output(&self, out: &mut String) {
         let name = self.name();
-        let stop = match self.stored(DeviceClass::M, M_KEEP_IN_STOP) {
+        let stop = match self.special_relay(M_KEEP_IN_STOP) {
             Some(keep) => format!("(!plc->sys.running && !{keep})"),
             None => "!plc->sys.running".to_string(),
         };
-        let off = match self.stored(DeviceClass::M, M_OUTPUTS_OFF) {
+        let off = match self.special_relay(M_OUTPUTS_OFF) {
             Some(off) => format!("{stop} || {off}"),
             None => stop.trim_matches(['(', ')']).to_string(),
         };

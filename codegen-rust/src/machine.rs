@@ -326,8 +326,14 @@ impl Generator<'_> {
         let in_run =
             (main.is_some() || end.is_some()).then(|| quote!(if self.sys.running { #main #end }));
         let plc = quote!(self);
-        let keep = self.storage.bit(&plc, DeviceClass::M, M_KEEP_IN_STOP);
-        let off = self.storage.bit(&plc, DeviceClass::M, M_OUTPUTS_OFF);
+        let special = |number| {
+            let works = self.module.model.special_relay_works(number);
+            self.storage
+                .bit(&plc, DeviceClass::M, number)
+                .filter(|_| works)
+        };
+        let keep = special(M_KEEP_IN_STOP);
+        let off = special(M_OUTPUTS_OFF);
         let stop = match &keep {
             Some(keep) => quote!(if !#keep { self.clear_general(); }),
             None => quote!(self.clear_general();),

@@ -176,6 +176,11 @@ impl Model {
             .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
     }
 
+    /// Whether a special relay does on this model what its number does on most of them: M8034 is an interrupt request on HM.
+    pub fn special_relay_works(&self, number: u32) -> bool {
+        special::find(self.id, DeviceClass::M, number).is_some_and(special::Special::works)
+    }
+
     /// The range that holds a device.
     pub fn range(&self, class: DeviceClass, number: u32) -> Option<&'static Range> {
         self.ranges

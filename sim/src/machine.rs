@@ -89,7 +89,8 @@ impl<'m> Machine<'m> {
     }
 
     fn special(&self, number: u32) -> bool {
-        self.devices.bit(Class::M, number).unwrap_or(false)
+        self.module.model.special_relay_works(number)
+            && self.devices.bit(Class::M, number).unwrap_or(false)
     }
 
     /// Runs the function of this kind, if there is one.
