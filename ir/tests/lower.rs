@@ -176,3 +176,57 @@ fn special_devices() {
     };
     insta::assert_snapshot!(both(&options, "LD X0\nOUT M8047\nLD X1\nOUT M8031\nEND\n"));
 }
+
+#[test]
+fn jump_with_an_index() {
+    insta::assert_snapshot!(both(
+        &on(ModelId::Hm),
+        "LD X0\nCJ P10V0\nP10\nLD X1\nOUT Y0\nP11\nLD X2\nOUT Y1\nEND\n"
+    ));
+}
+
+#[test]
+fn buffer_memory() {
+    insta::assert_snapshot!(both(
+        &on(ModelId::Fx3u),
+        "LD X0\nMOV U0\\G5 D0\nDMOV D10 U1\\G20\nEND\n"
+    ));
+}
+
+#[test]
+fn calls_of_the_runtime() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nBMOV D0 D10 K5\nFMOVP K0 D20Z0 K3\nALT M0\nDSUM D30 D40\nLD X1\nRAMP D50 D51 D52 K10\nEND\n"
+    ));
+}
+
+#[test]
+fn clock_and_errors_around_the_program() {
+    insta::assert_snapshot!(lowered("LD X0\nOUT M8015\nLD X1\nMOV D8013 D0\nEND\n"));
+    insta::assert_snapshot!(both(
+        &on(ModelId::Hm),
+        "LD M8006\nMOV D8006 D1000\nDMOV D8008 D1002\nEND\n"
+    ));
+}
+
+#[test]
+fn what_is_not_implemented_is_refused_by_name() {
+    let refused = |text: &str| -> Vec<String> {
+        let read = rungc_frontend::read_text("test.il", text);
+        let compiled = compile(&read.program, &on(ModelId::H2u));
+        assert!(compiled.module.is_none(), "{text}");
+        let errors = compiled.diagnostics.iter();
+        errors
+            .filter(|d| d.severity == rungc_syntax::Severity::Error)
+            .map(|d| format!("{} {}", d.code, d.message))
+            .collect()
+    };
+    assert_eq!(
+        refused("LD X10\nOUT C235 K5\nEND\n"),
+        ["E0036 `OUT C235` is not implemented yet: high-speed counters"]
+    );
+    assert_eq!(
+        refused("EI\nLD X10\nOUT Y0\nFEND\nI001\nLD X1\nOUT Y1\nIRET\nEND\n"),
+        ["E0036 `I001` is not implemented yet: interrupts"]
+    );
+}
