@@ -103,7 +103,8 @@ fn all_engines_pass_all_cases() {
                     "{}, but is listed as one that fails: {why}",
                     outcome.describe(&suite)
                 )),
-                _ => {}
+                (Some(_), Some(why)) => println!("{why}: {}", outcome.describe(&suite)),
+                (None, None) => {}
             }
         }
     }
