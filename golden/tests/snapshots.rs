@@ -1,0 +1,64 @@
+//! What the examples become: IR, C and Rust.
+
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_ir::{ModelId, Module, dump};
+use std::path::Path;
+
+fn module(name: &str, model: ModelId) -> Module {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let read = rungc_frontend::read(&folder.join(format!("{name}.il"))).unwrap();
+    let options = CompileOptions {
+        model: Some(model),
+        optimise: true,
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    let messages: Vec<_> = read
+        .diagnostics
+        .iter()
+        .chain(compiled.diagnostics.iter())
+        .map(|d| &d.message)
+        .collect();
+    assert!(messages.is_empty(), "{messages:?}");
+    compiled.module.unwrap()
+}
+
+/// The files that differ from program to program, one below the other.
+fn joined(files: impl Iterator<Item = (String, String)>) -> String {
+    files
+        .map(|(path, text)| format!("==== {path}\n{text}\n"))
+        .collect()
+}
+
+fn check(name: &str, model: ModelId) {
+    let module = module(name, model);
+    insta::assert_snapshot!(format!("{name}_ir"), dump::dump(&module));
+    let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
+    let c = c.into_iter().map(|f| (f.path, f.text));
+    let own = |path: &str| path.ends_with(".c") || path == format!("{name}.h");
+    insta::assert_snapshot!(format!("{name}_c"), joined(c.filter(|(path, _)| own(path))));
+    let rust = rungc_codegen_rust::emit(&module, &rungc_codegen_rust::Options::default());
+    let rust = rust.into_iter().map(|f| (f.path, f.text));
+    let sources = rust.filter(|(path, _)| path.starts_with("src/"));
+    insta::assert_snapshot!(format!("{name}_rust"), joined(sources));
+}
+
+#[test]
+fn motor() {
+    check("motor", ModelId::Fx2n);
+}
+
+#[test]
+fn traffic_light() {
+    check("traffic_light", ModelId::Fx3u);
+}
+
+#[test]
+fn conveyor() {
+    check("conveyor", ModelId::H2u);
+}
+
+#[test]
+fn jumps() {
+    check("jumps", ModelId::Fx3u);
+}
