@@ -96,51 +96,9 @@ impl Printer<'_> {
         let (name, c) = (self.name, class.prefix());
         // Writing to a String does not fail, here and below.
         let _ = match helper {
-            Helper::Has => {
-                let _ = write!(
-                    out,
-                    "/* Whether `count` {c} from number n on exist. */\n\
-                     static inline bool {name}_has_{c}(int32_t n, int32_t count)\n{{\n    return "
-                );
-                for (i, (first, last)) in self.module.model.runs(class).into_iter().enumerate() {
-                    let or = if i > 0 { "\n        || " } else { "" };
-                    let _ = write!(
-                        out,
-                        "{or}(n >= {first} && n <= {} - count)",
-                        u64::from(last) + 1
-                    );
-                }
-                writeln!(out, ";\n}}\n")
-            }
-            Helper::Get("long") => {
-                let _ = write!(
-                    out,
-                    "/* The 32-bit value of {c} n, which exists. */\n\
-                     static inline int32_t {name}_long_{c}({name}_plc *plc, int32_t n)\n{{\n"
-                );
-                self.each(out, class, Some(Kind::Counter32), |out, device| {
-                    let _ = write!(out, "return {device}.value;");
-                });
-                writeln!(
-                    out,
-                    "    return plc_join({name}_word_{c}(plc, n + 1), {name}_word_{c}(plc, n));\n}}\n"
-                )
-            }
-            Helper::Put("long") => {
-                let _ = write!(
-                    out,
-                    "/* Sets the 32-bit value of {c} n, which exists. */\n\
-                     static inline void {name}_put_long_{c}({name}_plc *plc, int32_t n, int32_t value)\n{{\n"
-                );
-                self.each(out, class, Some(Kind::Counter32), |out, device| {
-                    let _ = write!(out, "{device}.value = value; return;");
-                });
-                writeln!(
-                    out,
-                    "    {name}_put_word_{c}(plc, n, plc_low(value));\n    \
-                     {name}_put_word_{c}(plc, n + 1, plc_high(value));\n}}\n"
-                )
-            }
+            Helper::Has => self.has(out, class),
+            Helper::Get("long") => self.get_long(out, class),
+            Helper::Put("long") => self.put_long(out, class),
             Helper::Get(what) => {
                 self.get(out, class, what == "bit");
                 Ok(())
@@ -176,6 +134,60 @@ impl Printer<'_> {
                 writeln!(out, "}}\n")
             }
         };
+    }
+
+    /// Whether devices exist.
+    fn has(&self, out: &mut String, class: DeviceClass) -> std::fmt::Result {
+        let (name, c) = (self.name, class.prefix());
+        let _ = write!(
+            out,
+            "/* Whether `count` {c} from number n on exist. */\n\
+             static inline bool {name}_has_{c}(int32_t n, int32_t count)\n{{\n    return "
+        );
+        for (i, (first, last)) in self.module.model.runs(class).into_iter().enumerate() {
+            let or = if i > 0 { "\n        || " } else { "" };
+            let _ = write!(
+                out,
+                "{or}(n >= {first} && n <= {} - count)",
+                u64::from(last) + 1
+            );
+        }
+        writeln!(out, ";\n}}\n")
+    }
+
+    /// The 32-bit value of a counter or a pair.
+    fn get_long(&self, out: &mut String, class: DeviceClass) -> std::fmt::Result {
+        let (name, c) = (self.name, class.prefix());
+        let _ = write!(
+            out,
+            "/* The 32-bit value of {c} n, which exists. */\n\
+             static inline int32_t {name}_long_{c}({name}_plc *plc, int32_t n)\n{{\n"
+        );
+        self.each(out, class, Some(Kind::Counter32), |out, device| {
+            let _ = write!(out, "return {device}.value;");
+        });
+        writeln!(
+            out,
+            "    return plc_join({name}_word_{c}(plc, n + 1), {name}_word_{c}(plc, n));\n}}\n"
+        )
+    }
+
+    /// Sets it.
+    fn put_long(&self, out: &mut String, class: DeviceClass) -> std::fmt::Result {
+        let (name, c) = (self.name, class.prefix());
+        let _ = write!(
+            out,
+            "/* Sets the 32-bit value of {c} n, which exists. */\n\
+             static inline void {name}_put_long_{c}({name}_plc *plc, int32_t n, int32_t value)\n{{\n"
+        );
+        self.each(out, class, Some(Kind::Counter32), |out, device| {
+            let _ = write!(out, "{device}.value = value; return;");
+        });
+        writeln!(
+            out,
+            "    {name}_put_word_{c}(plc, n, plc_low(value));\n    \
+             {name}_put_word_{c}(plc, n + 1, plc_high(value));\n}}\n"
+        )
     }
 
     fn get(&self, out: &mut String, class: DeviceClass, bit: bool) {
@@ -235,6 +247,28 @@ impl Printer<'_> {
         }
     }
 
+    /// Index registers that have numbers among the special registers, too.
+    fn aliases(&self, class: DeviceClass, kind: Option<Kind>) -> Vec<(u32, Device)> {
+        if class != DeviceClass::D || kind.is_some_and(|kind| kind != Kind::Word) {
+            return Vec::new();
+        }
+        let aliases = self.module.model.index_aliases.iter();
+        aliases
+            .filter(|(number, ..)| self.fields.find(DeviceClass::D, *number).is_none())
+            .filter_map(|&(number, class, index)| {
+                let mut name = String::new();
+                let stored = self.fields.access(&mut name, class, index);
+                stored.then_some((
+                    number,
+                    Device {
+                        name,
+                        kind: Kind::Word,
+                    },
+                ))
+            })
+            .collect()
+    }
+
     /// Writes what is to be done with the device for each field that may hold it.
     fn each(
         &self,
@@ -286,7 +320,7 @@ impl Printer<'_> {
             );
             out.push_str("    }\n");
         }
-        let mut cases: Vec<(u32, Device)> = Vec::new();
+        let mut cases = self.aliases(class, kind);
         for field in single {
             let mut name = String::from("plc->");
             field.name(&mut name);
@@ -297,23 +331,6 @@ impl Printer<'_> {
                     kind: field.kind,
                 },
             ));
-        }
-        if class == DeviceClass::D && kind.is_none_or(|kind| kind == Kind::Word) {
-            // Index registers have numbers among the special registers, too.
-            for &(number, class, index) in self.module.model.index_aliases {
-                let mut name = String::new();
-                if self.fields.find(DeviceClass::D, number).is_none()
-                    && self.fields.access(&mut name, class, index)
-                {
-                    cases.push((
-                        number,
-                        Device {
-                            name,
-                            kind: Kind::Word,
-                        },
-                    ));
-                }
-            }
         }
         if cases.is_empty() {
             return;

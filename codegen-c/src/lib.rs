@@ -6,6 +6,7 @@
 //! How a program becomes C: [`fields`] decides on the struct, [`plan`] divides the program into functions of bounded size,
 //! [`scopes`] finds where temporaries live, [`writer`] and [`expr`] write statements and expressions, [`unit`] puts it all together.
 
+mod devices;
 mod expr;
 mod fields;
 mod files;

@@ -3,6 +3,14 @@
 //! A program describes its struct of devices once, in a constant [`Layout`] of offsets; a [`Map`] binds it to one such struct. Each
 //! function of the [registry](crate::RtFn) is exported as `rungc_` and its name, so that a linker takes only those that are used.
 //! The header `rungc_rt.h` is made from this file.
+//!
+//! The static library, for the host or with `--target thumbv7em-none-eabihf` (or any other) for a microcontroller:
+//!
+//! ```text
+//! CARGO_PROFILE_RELEASE_PANIC=abort cargo rustc -p rungc-rt --release --crate-type staticlib --features staticlib
+//! ```
+//!
+//! The Makefile beside emitted C that needs it does the same with the sources that are emitted along.
 
 use crate::cx::Cx;
 use crate::fault::{Done, report};

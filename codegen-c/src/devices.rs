@@ -1,0 +1,294 @@
+//! Statements that write to devices, as C.
+
+use crate::expr::Around;
+use crate::helpers::{is_wide_counter, reset_function};
+use crate::writer::Writer;
+use rungc_ir::node::{ExprId, Place, Stmt};
+use rungc_rt::TimerKind;
+use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+
+/// The device that a statement writes, if it is known: its comment stands beside the statement.
+pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
+    match stmt {
+        Stmt::Timer { number, .. } => Some((DeviceClass::T, *number)),
+        Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
+            Some((DeviceClass::C, *number))
+        }
+        Stmt::WriteBit(place, _)
+        | Stmt::WriteWordBit(place, ..)
+        | Stmt::WriteWord(place, _)
+        | Stmt::WritePair(place, _)
+        | Stmt::WriteFloat(place, _)
+        | Stmt::WriteNibbles { place, .. }
+        | Stmt::Reset(place) => place.index.is_none().then_some((place.class, place.number)),
+        _ => None,
+    }
+}
+
+impl Writer<'_, '_> {
+    /// Writes a statement that writes to devices; nothing for any other.
+    pub fn device_stmt(&mut self, code: &mut String, stmt: &Stmt) {
+        match *stmt {
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => self.timer(code, (number, kind), drive, preset),
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => self.counter(code, "plc_count16", number, &[drive, preset]),
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => {
+                self.counter(code, "plc_count32", number, &[drive, down, preset]);
+            }
+            Stmt::WriteBit(place, value) => self.put(code, "bit", &place, value),
+            Stmt::WriteWord(place, value) => self.put(code, "word", &place, value),
+            Stmt::WriteWordBit(place, bit, value) => self.put_word_bit(code, &place, bit, value),
+            Stmt::WritePair(place, value) => self.put_pair(code, &place, value, false),
+            Stmt::WriteFloat(place, value) => self.put_pair(code, &place, value, true),
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => self.put_nibbles(code, &place, digits, value),
+            Stmt::Reset(place) => self.reset(code, &place),
+            _ => {}
+        }
+    }
+
+    fn timer(
+        &mut self,
+        code: &mut String,
+        (number, kind): (u32, TimerKind),
+        drive: ExprId,
+        preset: ExprId,
+    ) {
+        let latches = kind.latches_preset && self.plain_timers.get(&number) != Some(&1);
+        let plain = !latches && !kind.free_running && !kind.overruns;
+        let family = match (plain, kind.unit_ms) {
+            (true, 1 | 10 | 100) if kind.accumulating => {
+                format!("plc_retentive_{}ms", kind.unit_ms)
+            }
+            (true, 1 | 10 | 100) => format!("plc_timer_{}ms", kind.unit_ms),
+            _ => "plc_timer_run".to_string(),
+        };
+        let _ = write!(code, "{family}(&");
+        self.fields.access(code, DeviceClass::T, number);
+        code.push_str(", ");
+        self.expr(code, drive, Around::Exact);
+        code.push_str(", ");
+        self.expr(code, preset, Around::Exact);
+        code.push_str(", &plc->sys");
+        if family == "plc_timer_run" {
+            let options = [
+                (kind.accumulating, "PLC_RETENTIVE"),
+                (kind.free_running, "PLC_FREE_RUNNING"),
+                (latches, "PLC_LATCHES_PRESET"),
+                (kind.overruns, "PLC_OVERRUNS"),
+            ];
+            let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
+            let set = if set.is_empty() {
+                "0u".to_string()
+            } else {
+                set.join(" | ")
+            };
+            let _ = write!(code, ", {}u, {set}", kind.unit_ms.max(1));
+        }
+        code.push_str(");");
+    }
+
+    fn counter(&mut self, code: &mut String, function: &str, number: u32, arguments: &[ExprId]) {
+        let _ = write!(code, "{function}(&");
+        self.fields.access(code, DeviceClass::C, number);
+        for &argument in arguments {
+            code.push_str(", ");
+            self.expr(code, argument, Around::Exact);
+        }
+        code.push_str(");");
+    }
+
+    fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
+        if place.index.is_some() {
+            self.helpers.put(what, place.class);
+            let _ = write!(
+                code,
+                "{}_put_{what}_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
+            self.number(code, place, 0);
+            code.push_str(", ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+            return;
+        }
+        // A device that nobody looks at is not stored.
+        if self.fields.access(code, place.class, place.number) {
+            code.push_str(match (place.class, what) {
+                (DeviceClass::T | DeviceClass::C, "bit") => ".done = ",
+                (DeviceClass::T | DeviceClass::C, _) => ".value = ",
+                _ => " = ",
+            });
+            self.expr(code, value, Around::Exact);
+            code.push(';');
+        }
+    }
+
+    fn put_word_bit(&mut self, code: &mut String, place: &Place, bit: u8, value: ExprId) {
+        if place.index.is_some() {
+            self.helpers.get("word", place.class);
+            self.helpers.put("word", place.class);
+            let (name, class) = (&self.module.name, place.class.prefix());
+            let _ = write!(code, "{name}_put_word_{class}(plc, ");
+            self.number(code, place, 0);
+            let _ = write!(code, ", plc_with_bit({name}_word_{class}(plc, ");
+            self.number(code, place, 0);
+            let _ = write!(code, "), {bit}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str("));");
+            return;
+        }
+        let mut target = String::new();
+        if self.fields.access(&mut target, place.class, place.number) {
+            let _ = write!(code, "plc_put_bit(&{target}, {bit}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+        }
+    }
+
+    fn put_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
+        let wide = is_wide_counter(place.class, place.number);
+        if place.index.is_some() {
+            self.put_indexed_pair(code, place, value, float);
+            return;
+        }
+        let mut text = String::new();
+        if float {
+            text.push_str("plc_float_bits(");
+        }
+        self.expr(&mut text, value, Around::Exact);
+        if float {
+            text.push(')');
+        }
+        if wide {
+            if self.fields.access(code, place.class, place.number) {
+                let _ = write!(code, ".value = {text};");
+            }
+            return;
+        }
+        let (high, plus) = self.high_word(place);
+        let part = if matches!(place.class, DeviceClass::T | DeviceClass::C) {
+            ".value"
+        } else {
+            ""
+        };
+        let (mut low_name, mut high_name) = (String::new(), String::new());
+        let low = self.fields.access(&mut low_name, place.class, place.number);
+        let high = self.fields.access(
+            &mut high_name,
+            high.class,
+            high.number.saturating_add_signed(plus),
+        );
+        let _ = match (low, high) {
+            (true, true) => write!(
+                code,
+                "plc_split(&{high_name}{part}, &{low_name}{part}, {text});"
+            ),
+            (true, false) => write!(code, "{low_name}{part} = plc_low({text});"),
+            (false, true) => write!(code, "{high_name}{part} = plc_high({text});"),
+            (false, false) => Ok(()),
+        };
+    }
+
+    fn put_indexed_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
+        self.helpers.put("long", place.class);
+        let _ = write!(
+            code,
+            "{}_put_long_{}(plc, ",
+            self.module.name,
+            place.class.prefix()
+        );
+        self.number(code, place, 0);
+        code.push_str(if float { ", plc_float_bits(" } else { ", " });
+        self.expr(code, value, Around::Exact);
+        code.push_str(if float { "));" } else { ");" });
+    }
+
+    fn put_nibbles(&mut self, code: &mut String, place: &Place, digits: u8, value: ExprId) {
+        let count = 4 * u32::from(digits);
+        if place.index.is_some() {
+            self.helpers.put_bits(place.class);
+            let _ = write!(
+                code,
+                "{}_put_bits_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
+            self.number(code, place, 0);
+            let _ = write!(code, ", {count}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+        } else if self
+            .fields
+            .array(place.class, place.number, count)
+            .is_some()
+        {
+            code.push_str("plc_put_bits(&");
+            self.fields.access(code, place.class, place.number);
+            let _ = write!(code, ", {count}u, ");
+            self.expr(code, value, Around::Exact);
+            code.push_str(");");
+        } else {
+            self.put_scattered(code, place, count, value);
+        }
+    }
+
+    /// Spreads a number over relays that are no array.
+    fn put_scattered(&mut self, code: &mut String, place: &Place, count: u32, value: ExprId) {
+        code.push_str("plc_scatter((bool *const[]){");
+        for bit in 0..count {
+            code.push_str(if bit > 0 { ", " } else { "" });
+            let mut name = String::new();
+            if self
+                .fields
+                .access(&mut name, place.class, place.number + bit)
+            {
+                let _ = write!(code, "&{name}");
+            } else {
+                code.push_str("NULL");
+            }
+        }
+        let _ = write!(code, "}}, {count}u, ");
+        self.expr(code, value, Around::Exact);
+        code.push_str(");");
+    }
+
+    fn reset(&mut self, code: &mut String, place: &Place) {
+        if place.index.is_some() {
+            self.helpers.reset(place.class);
+            let _ = write!(
+                code,
+                "{}_reset_{}(plc, ",
+                self.module.name,
+                place.class.prefix()
+            );
+            self.number(code, place, 0);
+            code.push_str(");");
+            return;
+        }
+        let mut name = String::new();
+        let Some(field) = self.fields.find(place.class, place.number) else {
+            return;
+        };
+        self.fields.access(&mut name, place.class, place.number);
+        let _ = write!(code, "{}(&{name});", reset_function(field.kind));
+    }
+}
