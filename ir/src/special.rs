@@ -99,6 +99,7 @@ const NETWORK: &str = "network cards are not implemented";
 const ANALOG: &str = "built-in analog channels are not implemented yet";
 const MODULES: &str = "which modules are there is the host's affair";
 const VIRTUAL: &str = "virtual inputs are not implemented yet";
+const ERRORS: &str = "operation errors are shown in M8067 and D8067 here";
 const LOG: &str = "the error log is not kept yet";
 const MOTION: &str = "axis motion is not implemented yet";
 const SCOPE: &str = "the oscilloscope is not implemented yet";

@@ -7,10 +7,14 @@ use crate::special::{self, Access, Status};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example. `None` if no instruction is
-/// spelt so.
-pub fn explain(mnemonic: &str) -> Option<String> {
-    let inst = find(&mnemonic.to_ascii_uppercase())?.inst;
+/// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example; or of a special device
+/// (`M8029`). `None` if nothing is called so.
+pub fn explain(name: &str) -> Option<String> {
+    let name = name.to_ascii_uppercase();
+    let Some(found) = find(&name) else {
+        return special_page(&name);
+    };
+    let inst = found.inst;
     let model = inst.usual_model();
     let params = inst.params_of(&[], Model::get(model));
     let fnc = inst
@@ -29,6 +33,39 @@ pub fn explain(mnemonic: &str) -> Option<String> {
         page.push_str(&section);
     }
     Some(page)
+}
+
+/// What a special device means on each model that has it.
+fn special_page(name: &str) -> Option<String> {
+    let rows: Vec<_> = ModelId::ALL
+        .into_iter()
+        .filter_map(|id| Some((Model::get(id).name, special_of(name, id)?)))
+        .collect();
+    let (_, first) = rows.first()?;
+    let number: u32 = name.get(1..)?.parse().ok()?;
+    let mut page = format!(
+        "# {}\n\n| model | access | at power-on | meaning | |\n|---|---|--:|---|---|\n",
+        first.class.number(number)
+    );
+    for (model, row) in &rows {
+        let _ = writeln!(page, "| {model} | {}", special_cells(row));
+    }
+    Some(page)
+}
+
+/// The cells of a table's row that tell of a special device.
+fn special_cells(row: &special::Special) -> String {
+    let access = match row.access {
+        Access::Read => "read",
+        Access::ReadWrite => "read, write",
+    };
+    let status = match row.status {
+        Status::Scan => "works".to_owned(),
+        Status::Instructions(names) => format!("works with {names}"),
+        Status::Inert(reason) => format!("inert: {reason}"),
+    };
+    let (default, meaning) = (row.default, row.meaning);
+    format!("{access} | {default} | {meaning} | {status} |")
 }
 
 fn operands(params: &[Param], model: &Model) -> String {
@@ -312,20 +349,7 @@ pub fn special_table(model: ModelId) -> String {
             true => first.to_string(),
             false => format!("{first}–{}", row.class.number(row.last)),
         };
-        let access = match row.access {
-            Access::Read => "read",
-            Access::ReadWrite => "read, write",
-        };
-        let status = match row.status {
-            Status::Scan => "works".to_owned(),
-            Status::Instructions(names) => format!("works with {names}"),
-            Status::Inert(reason) => format!("inert: {reason}"),
-        };
-        let _ = writeln!(
-            text,
-            "| {device} | {access} | {} | {} | {status} |",
-            row.default, row.meaning
-        );
+        let _ = writeln!(text, "| {device} | {}", special_cells(row));
     }
     text
 }

@@ -206,7 +206,9 @@ pub(super) const ROWS: &[Inst] = &[
             src("n2", CONSTANTS.or(REGISTERS)).limits(0, 32767),
             coil("D", Classes::M).plain().numbers(&[(DeviceClass::M, 8330, 8334)]),
         ])
-        .flags(&["M8330", "M8331", "M8332", "M8333", "M8334"])
+        .flags(&[
+            "M8330", "M8331", "M8332", "M8333", "M8334", "D8330", "D8331", "D8332", "D8333", "D8334",
+        ])
         .call(RtFn::Duty)
         .text("D, one of M8330–M8334, is on for n1 scans and off for n2 scans, in turn."),
 ];

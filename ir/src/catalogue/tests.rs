@@ -162,7 +162,10 @@ fn pages_and_tables_can_be_made() {
     }
     insta::assert_snapshot!("explain_add", explain("daddp").unwrap_or_default());
     insta::assert_snapshot!("explain_deco", explain("DECO").unwrap_or_default());
+    insta::assert_snapshot!("explain_m8034", explain("m8034").unwrap_or_default());
     assert_eq!(explain("MOVE"), None);
+    assert_eq!(explain("M7000"), None);
+    assert_eq!(explain("Mé"), None);
     let table = support_table();
     for inst in all() {
         assert!(

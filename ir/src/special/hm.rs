@@ -1,7 +1,7 @@
 //! Special devices of HM (hm-motion-controller §5.7). Many numbers mean something else than on the other models.
 
 use super::{
-    FAST, HOST, INTERRUPTS, MAKER, MOTION, POWER, SCOPE, SERIAL, Special, VIRTUAL, specials,
+    ERRORS, FAST, HOST, INTERRUPTS, MAKER, MOTION, POWER, SCOPE, SERIAL, Special, VIRTUAL, specials,
 };
 
 /// Its special devices.
@@ -12,7 +12,7 @@ pub(super) const HM: &[Special] = specials! {
     M 8003 r 0 scan "off in the first ladder scan after start, on in the others";
     M 8004 rw 0 inert(HOST) "run state: on = run, off = stop; writable only with D8004 = HFAC0 and M8005 = off";
     M 8005 rw 0 inert(HOST) "run control source: on = physical switch, off = remote (by M8004)";
-    M 8006 r 0 scan "on when the ladder has a run error";
+    M 8006 r 0 inert(ERRORS) "on when the ladder has a run error";
     M 8007 r 0 inert(POWER) "external RAM check: on = present and working";
     M 8008 r 0 inert(POWER) "power failure detection: on = a power failure happened since power-on";
     M 8022 rw 0 by("ROL, ROR, RCL, RCR, SFWR, SFRD") "carry flag of ROL ROR RCL RCR; set by SFRD/SFWR when the pointer exceeds n";
@@ -34,12 +34,12 @@ pub(super) const HM: &[Special] = specials! {
     M 8237 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
     M 8239-8242 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
     D 8000 rw 200 scan "scan watchdog limit in ms; PLC faults and stops when a scan exceeds it";
-    D 8001 r 0 scan "series number of the instruction set";
-    D 8002 r 0 scan "program capacity";
-    D 8003 r 0 scan "drive series number";
+    D 8001 r 0 inert(MAKER) "series number of the instruction set";
+    D 8002 r 12 scan "program capacity";
+    D 8003 r 0 inert(MAKER) "drive series number";
     D 8004 rw 0 inert(HOST) "HFAC0 = the PLC is under remote control";
     D 8005 rw 0 inert(MAKER) "file write password, internal";
-    D 8006 r 0 scan "step number of the ladder error";
+    D 8006 r 0 inert(ERRORS) "step number of the ladder error";
     D 8007 r 0 inert(FAST) "50 us timer";
     D 8008 r 0 scan "millisecond tick counter, 32 bit with D8009 (low word)";
     D 8009 r 0 scan "high word of the millisecond tick counter";
@@ -81,7 +81,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8200 rw 0 inert(MAKER) "internal function number";
     D 8201 rw 0 inert(MAKER) "internal entry parameter address";
     D 8202 rw 0 inert(MAKER) "internal exit parameter address";
-    D 8253 r 0 scan "drive version";
+    D 8253 r 0 inert(MAKER) "drive version";
     D 8254 rw 0 inert(MAKER) "program lock, written in stop before downloading a different ladder: 12345 = no reading, -11215 = no";
-    D 8255 r 0 scan "kernel version";
+    D 8255 r 0 inert(MAKER) "kernel version";
 };
