@@ -277,6 +277,10 @@ typedef struct rungc_layout {
      * Whether a 32-bit access to Zn takes Vn as its high word.
      */
     bool z_pairs_with_v;
+    /**
+     * Relay that shows an operation error.
+     */
+    uint16_t error_relay;
 } rungc_layout;
 
 /**

@@ -92,6 +92,7 @@ pub fn write(out: &mut String, module: &Module, fields: &Fields) {
     if module.model.z_pairs_with_v {
         layout.push(".z_pairs_with_v = true".to_string());
     }
+    layout.push(format!(".error_relay = {}", module.model.error_relay));
     // Writing to a String does not fail.
     let _ = write!(
         out,

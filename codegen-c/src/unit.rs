@@ -179,8 +179,15 @@ impl Printer<'_> {
     /// Reports an operation error (see the runtime's `report`), as far as the program looks at it.
     fn fault(&self, out: &mut String) {
         let mut lines = String::new();
-        let m = |n| self.stored(DeviceClass::M, n);
-        let d = |n| self.stored(DeviceClass::D, n);
+        let relay = self.module.model.error_relay;
+        // On HM the other numbers are something else.
+        let family = relay == 8067;
+        let stored = |class, n| {
+            let kept = family || n == relay;
+            kept.then(|| self.stored(class, n)).flatten()
+        };
+        let m = |n| stored(DeviceClass::M, n);
+        let d = |n| stored(DeviceClass::D, n);
         let latch = d(8068).map(|d| format!("{d} = step;"));
         match (m(8068), latch) {
             (Some(m), latch) => {
@@ -199,8 +206,8 @@ impl Printer<'_> {
             (None, None) => {}
         }
         let values = [
-            (m(8067), "true"),
-            (d(8067), "code"),
+            (m(relay), "true"),
+            (d(relay), if family { "code" } else { "step" }),
             (d(8069), "step"),
             (m(8004), "true"),
             (d(8004), "8067"),

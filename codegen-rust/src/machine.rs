@@ -434,6 +434,14 @@ impl Generator<'_> {
                 }
             )
         });
+        let relay = self.module.model.error_relay;
+        let errors = (relay != 8067).then(|| {
+            quote!(
+                fn error_relay(&self) -> u32 {
+                    #relay
+                }
+            )
+        });
         self.item_of(quote! {
             impl #plc for #name {
                 #(#methods)*
@@ -441,6 +449,7 @@ impl Generator<'_> {
                 fn sys(&self) -> &#sys { &self.sys }
                 #text
                 #pairs
+                #errors
             }
         })
     }

@@ -140,6 +140,8 @@ pub struct Model {
     pub max_steps: u32,
     /// Whether a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
     pub z_pairs_with_v: bool,
+    /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].
+    pub error_relay: u32,
     /// Notations of operands that it knows, of those that are neither devices nor integers: E, TEXT, WORD_BIT, BUFFER.
     pub notations: Classes,
     /// Whether its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.

@@ -114,6 +114,8 @@ pub struct Layout {
     pub state_count: u16,
     /// Whether a 32-bit access to Zn takes Vn as its high word.
     pub z_pairs_with_v: bool,
+    /// Relay that shows an operation error.
+    pub error_relay: u16,
 }
 
 /// The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
@@ -350,6 +352,10 @@ impl Plc for Map {
 
     fn z_pairs_with_v(&self) -> bool {
         self.layout().z_pairs_with_v
+    }
+
+    fn error_relay(&self) -> u32 {
+        self.layout().error_relay.into()
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {

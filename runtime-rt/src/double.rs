@@ -14,6 +14,8 @@ pub struct Double {
     pub sys: Sys,
     /// Hardware.
     pub hal: VirtualHal,
+    /// Where errors are shown.
+    pub error_relay: u32,
     /// Texts.
     pub texts: Vec<Vec<u8>>,
     /// Form and drive of the next calls.
@@ -45,6 +47,7 @@ impl Double {
                 ..Sys::default()
             },
             hal: VirtualHal::new(),
+            error_relay: 8067,
             texts: Vec::new(),
             site: Site::at(0).slot(1),
         }
@@ -182,6 +185,10 @@ impl Plc for Double {
 
     fn sys(&self) -> &Sys {
         &self.sys
+    }
+
+    fn error_relay(&self) -> u32 {
+        self.error_relay
     }
 
     fn text(&self, index: u32) -> &[u8] {

@@ -21,20 +21,68 @@ impl Fault {
 /// What an instruction returns.
 pub type Done = Result<(), Fault>;
 
+/// The relay of operation errors, but on HM.
+const ERROR: u32 = 8067;
+/// The first of them: latched relay, and its step.
+const FIRST_ERROR: u32 = 8068;
+/// Step of the last one.
+const ERROR_STEP: u32 = 8069;
+/// Relay for any error, and the number of its relay.
+const ANY_ERROR: u32 = 8004;
+
 /// Shows a fault at `step` as h1u-h2u-programming §8.1 says: M8067 and D8067 (code), D8069 (step), the latches M8068 and D8068,
-/// and the summary M8004 with D8004.
+/// and the summary M8004 with D8004. HM has only a relay and, under its number, a register for the step (hm-motion-controller §5.7).
+/// When RUN begins the program clears M8067 and M8004; the latches stay.
 pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let step = step as u16 as i16;
+    let relay = plc.error_relay();
     // Special devices a program does not look at swallow the write, so a `None` here means nothing.
-    if plc.bit(Class::M, 8068) != Some(true) {
-        let _ = plc.set_bit(Class::M, 8068, true);
-        let _ = plc.set_word(Class::D, 8068, step);
+    let _ = plc.set_bit(Class::M, relay, true);
+    if relay != ERROR {
+        let _ = plc.set_word(Class::D, relay, step);
+        return;
     }
-    let _ = plc.set_bit(Class::M, 8067, true);
-    let _ = plc.set_word(Class::D, 8067, fault.0 as i16);
-    let _ = plc.set_word(Class::D, 8069, step);
-    let _ = plc.set_bit(Class::M, 8004, true);
-    let _ = plc.set_word(Class::D, 8004, 8067);
+    if plc.bit(Class::M, FIRST_ERROR) != Some(true) {
+        let _ = plc.set_bit(Class::M, FIRST_ERROR, true);
+        let _ = plc.set_word(Class::D, FIRST_ERROR, step);
+    }
+    let _ = plc.set_word(Class::D, ERROR, fault.0 as i16);
+    let _ = plc.set_word(Class::D, ERROR_STEP, step);
+    let _ = plc.set_bit(Class::M, ANY_ERROR, true);
+    let _ = plc.set_word(Class::D, ANY_ERROR, ERROR as i16);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::double::Double;
+
+    #[test]
+    fn the_first_error_is_latched() {
+        let mut plc = Double::new();
+        report(&mut plc, Fault::DEVICE, 12);
+        report(&mut plc, Fault::VALUE, 30);
+        assert_eq!((plc.m(8067, 2), plc.m(8004, 1)), ("11".into(), "1".into()));
+        assert_eq!(
+            (plc.d(8067, 3), plc.d(8004, 1)),
+            ([6707, 12, 30].to_vec(), [8067].to_vec())
+        );
+    }
+
+    #[test]
+    fn hm_shows_errors_elsewhere() {
+        let mut plc = Double::new();
+        plc.error_relay = 8006;
+        report(&mut plc, Fault::DEVICE, 12);
+        assert_eq!(
+            (plc.m(8006, 1), plc.d(8006, 1)),
+            ("1".into(), [12].to_vec())
+        );
+        assert_eq!(
+            (plc.m(8067, 2), plc.d(8067, 3)),
+            ("00".into(), [0; 3].to_vec())
+        );
+    }
 }
 
 /// Shows that the watchdog has stopped the PLC: M8061, and D8061 = 6105 (h1u-h2u-programming §8.1).

@@ -172,6 +172,10 @@ pub trait Plc {
     fn z_pairs_with_v(&self) -> bool {
         true
     }
+    /// Relay that shows an operation error: M8067 (FX, H1U/H2U, L01S) or M8006 (HM); see [`crate::report`].
+    fn error_relay(&self) -> u32 {
+        8067
+    }
     /// Resets a timer or counter: value 0, contact off (what RST and ZRST do).
     fn reset(&mut self, class: Class, number: u32) -> Option<()>;
 }

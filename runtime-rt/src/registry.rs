@@ -136,8 +136,6 @@ registry! {
     Ans = data::ans(s, m, d) [state, always];
     /// ANR (FNC 47): resets the lowest annunciator.
     Anr = data::anr();
-    /// M8048 and D8049 from the annunciators, once a scan.
-    AnnunciatorMonitor = data::annunciator_monitor();
     /// SQR (FNC 48): square root of an integer.
     Sqr = data::sqr(s, d);
     /// SQR of HM: 0 for a negative number.
@@ -342,6 +340,12 @@ registry! {
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     /// SORT (FNC 69): sorts a table kept by columns.
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
+    /// D8490–D8509 of H1U/H2U, once after each scan's program.
+    ErrorLog = system::error_log() [state, always];
+    /// D8030–D8045 of L01S, once before each scan's program.
+    AnalogInputs = system::analog_inputs() [always, hal];
+    /// FROM of L01S: module 0 is the host's analog inputs if there is no other.
+    FromHost = modules::from_host(m1, m2, d, n) [hal];
     /// REF (FNC 50): refreshes terminals.
     Ref = modules::refresh_terminals(d, n) [hal];
     /// REF of HM: leaves outputs of axes out.

@@ -14,12 +14,6 @@ pub const M_COMPLETE: u32 = 8029;
 pub const M_XCH_BYTES: u32 = 8160;
 /// SMOV moves hexadecimal digits.
 pub const M_SMOV_HEX: u32 = 8168;
-/// Whether an annunciator is on (while the monitor works).
-pub const M_ANNUNCIATOR_ON: u32 = 8048;
-/// Enables the monitor of annunciators.
-pub const M_ANNUNCIATOR_MONITOR: u32 = 8049;
-/// Lowest annunciator that is on.
-pub const D_ANNUNCIATOR: u32 = 8049;
 /// MEAN of H1U/H2U also stores the sum.
 pub const M_MEAN_SUM: u32 = 8490;
 /// Stops the real-time clock; its fall sets the clock from D8013–D8019.

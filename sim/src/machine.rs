@@ -208,6 +208,10 @@ impl Plc for Machine<'_> {
         self.module.model.z_pairs_with_v
     }
 
+    fn error_relay(&self) -> u32 {
+        self.module.model.error_relay
+    }
+
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {
         match class {
             Class::T => self.devices.timer(number)?.reset(),

@@ -162,6 +162,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8164", "D8164"])
         .errors(&[6706, 6709])
         .call(RtFn::From)
+        .lower_on(&[(L01S, Lower::Call(RtFn::FromHost))])
         .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n."),
     io("TO", 79, "Write to a module")
         .on(NOT_HM)

@@ -181,9 +181,10 @@ fn pages_and_tables_can_be_made() {
 #[test]
 fn every_runtime_function_has_a_row() {
     let of_the_scan = [
-        rungc_rt::RtFn::AnnunciatorMonitor,
+        rungc_rt::RtFn::AnalogInputs,
         rungc_rt::RtFn::ClockRefresh,
         rungc_rt::RtFn::ClockRefreshShort,
+        rungc_rt::RtFn::ErrorLog,
     ];
     for function in rungc_rt::RtFn::ALL {
         let calls = |lower: &Lower| matches!(lower, Lower::Call(called) if called == function);

@@ -8,7 +8,7 @@ use crate::catalogue::{self, CmpOp, Lower};
 use crate::node::{BinOp, Body, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use crate::special::{self, Status};
 use rungc_rt::RtFn;
-use rungc_syntax::DeviceClass::{self, D, M, S};
+use rungc_syntax::DeviceClass::{self, D, M, S, X};
 
 /// Clock relays and their periods in milliseconds; on in the second half of each.
 const CLOCKS: [(u32, i32); 4] = [(8011, 10), (8012, 100), (8013, 1000), (8014, 60_000)];
@@ -16,12 +16,16 @@ const CLOCKS: [(u32, i32); 4] = [(8011, 10), (8012, 100), (8013, 1000), (8014, 6
 const SCAN_TIME: u32 = 8010;
 const LEAST_SCAN_TIME: u32 = 8011;
 const MOST_SCAN_TIME: u32 = 8012;
-/// Relays that stand for an error of the run that is over.
-const ERRORS: [u32; 2] = [8004, 8067];
-/// Relay and step of an operation error as the runtime reports it.
-const OPERATION_ERROR: (u32, u32) = (8067, 8069);
-/// Relay and step of a run error of HM.
-const RUN_ERROR: (u32, u32) = (8006, 8006);
+/// Relay for any error of the run.
+const ANY_ERROR: u32 = 8004;
+/// The error log of H1U/H2U: hours and codes, ten each; and the registers that tell which error and where.
+const ERROR_LOG: std::ops::RangeInclusive<u32> = 8490..=8509;
+const LAST_ERROR: [u32; 2] = [8067, 8069];
+/// Values of the built-in analog inputs of L01S, and the register that switches them on.
+const ANALOG_INPUTS: std::ops::RangeInclusive<u32> = 8030..=8045;
+const ANALOG_ENABLE: u32 = 8114;
+/// Relays of HM that are the inputs from X014 on.
+const VIRTUAL_INPUTS: (std::ops::RangeInclusive<u32>, u32) = (8160..=8163, 0o14);
 /// Clears the general, the latched devices.
 const CLEAR: [(u32, bool); 2] = [(8031, false), (8032, true)];
 /// Relay and register of the ring counter.
@@ -67,6 +71,8 @@ impl Lowerer<'_> {
             this.scan_times();
             this.tick();
             this.ring_counter();
+            this.analog_inputs();
+            this.virtual_inputs();
             this.real_time_clock();
         })
     }
@@ -75,7 +81,7 @@ impl Lowerer<'_> {
         self.body(|this| {
             this.monitor(&STATES);
             this.monitor(&ALARMS);
-            this.run_error();
+            this.error_log();
             for (relay, latched) in CLEAR {
                 if this.keeps(M, relay) {
                     let asked = this.add(Expr::ReadBit(fixed(M, relay)));
@@ -114,7 +120,7 @@ impl Lowerer<'_> {
 
     /// The errors of the last run are forgotten when RUN begins; their latches are not.
     fn forget_errors(&mut self) {
-        let errors: Vec<u32> = ERRORS
+        let errors: Vec<u32> = [ANY_ERROR, self.model.error_relay]
             .into_iter()
             .filter(|&relay| self.keeps(M, relay))
             .collect();
@@ -225,20 +231,57 @@ impl Lowerer<'_> {
         if !devices.any(|(class, number)| self.keeps(class, number)) {
             return;
         }
-        // All seven registers make a moment, even if the program looks at one.
+        // All seven registers make a moment.
+        self.call_system(self.clock_function(), CLOCK_REGISTERS);
+    }
+
+    /// Calls a function that keeps special registers. They are all stored, even if the program looks at one.
+    fn call_system(&mut self, function: RtFn, registers: impl Iterator<Item = u32>) {
         self.specials
             .flags
-            .extend(CLOCK_REGISTERS.map(|register| (D, register)));
-        let drive = self.bit_const(true);
-        self.module.states = self.module.states.saturating_add(1);
+            .extend(registers.map(|register| (D, register)));
+        let needs = function.needs();
+        let drive = needs.always.then(|| self.bit_const(true));
+        self.module.states = self.module.states.saturating_add(needs.state.into());
         self.emit(Stmt::Call {
-            function: self.clock_function(),
+            function,
             wide: false,
             args: Vec::new(),
-            drive: Some(drive),
-            slot: self.module.states,
+            drive,
+            slot: if needs.state { self.module.states } else { 0 },
             step: 0,
         });
+    }
+
+    /// D8490 to D8509 (H1U/H2U).
+    fn error_log(&mut self) {
+        if ERROR_LOG
+            .into_iter()
+            .any(|register| self.keeps(D, register))
+        {
+            self.call_system(RtFn::ErrorLog, ERROR_LOG.chain(LAST_ERROR));
+        }
+    }
+
+    /// D8030 to D8045 (L01S).
+    fn analog_inputs(&mut self) {
+        if ANALOG_INPUTS
+            .into_iter()
+            .any(|register| self.keeps(D, register))
+        {
+            self.call_system(RtFn::AnalogInputs, ANALOG_INPUTS.chain([ANALOG_ENABLE]));
+        }
+    }
+
+    /// M8160 to M8163 (HM) stand for inputs without a terminal.
+    fn virtual_inputs(&mut self) {
+        let (relays, input) = VIRTUAL_INPUTS;
+        for (relay, input) in relays.zip(input..) {
+            if self.keeps(M, relay) {
+                let on = self.add(Expr::ReadBit(fixed(M, relay)));
+                self.write_device(X, input, on);
+            }
+        }
     }
 
     /// The year has as many digits as TRD reads.
@@ -247,32 +290,6 @@ impl Lowerer<'_> {
             Some(Lower::Call(RtFn::TrdShort)) => RtFn::ClockRefreshShort,
             _ => RtFn::ClockRefresh,
         }
-    }
-
-    /// HM shows an operation error in M8006 and D8006. The runtime reports it in the devices that the rest of the family has for it;
-    /// on HM these mask interrupts, so a program that uses them for that is shown no error.
-    fn run_error(&mut self) {
-        let [relay, register] = [(M, RUN_ERROR.0), (D, RUN_ERROR.1)];
-        let (shows, tells) = (
-            self.keeps(relay.0, relay.1),
-            self.keeps(register.0, register.1),
-        );
-        if !shows && !tells || self.specials.has(M, OPERATION_ERROR.0) {
-            return;
-        }
-        self.specials.flags.push((M, OPERATION_ERROR.0));
-        self.specials.flags.push((D, OPERATION_ERROR.1));
-        let error = self.add(Expr::ReadBit(fixed(M, OPERATION_ERROR.0)));
-        self.when(error, |this| {
-            if shows {
-                let on = this.bit_const(true);
-                this.write_device(M, relay.1, on);
-            }
-            if tells {
-                let step = this.add(Expr::ReadWord(fixed(D, OPERATION_ERROR.1)));
-                this.emit(Stmt::WriteWord(fixed(D, register.1), step));
-            }
-        });
     }
 
     /// While it is enabled, lists the lowest active S devices. A register without one keeps its value.

@@ -15,6 +15,7 @@ pub(super) const HM: Model = Model {
     latch_key: Some((8020, 2222)),
     max_steps: 12000,
     z_pairs_with_v: false,
+    error_relay: 8006,
     notations: Classes::NONE,
     bare_names: true,
     steps_per_operand: Some((2, 3)),

@@ -19,6 +19,7 @@ pub(super) const FX2N: Model = Model {
     latch_key: None,
     max_steps: 16000,
     z_pairs_with_v: true,
+    error_relay: 8067,
     notations: Classes::TEXT,
     bare_names: true,
     steps_per_operand: None,
@@ -38,6 +39,7 @@ pub(super) const FX3G: Model = Model {
     latch_key: None,
     max_steps: 32000,
     z_pairs_with_v: true,
+    error_relay: 8067,
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,
     steps_per_operand: None,
@@ -57,6 +59,7 @@ pub(super) const FX3U: Model = Model {
     latch_key: None,
     max_steps: 64000,
     z_pairs_with_v: true,
+    error_relay: 8067,
     notations: Classes::E
         .or(Classes::TEXT)
         .or(Classes::WORD_BIT)

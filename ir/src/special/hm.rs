@@ -1,8 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7). Many numbers mean something else than on the other models.
 
-use super::{
-    ERRORS, FAST, HOST, INTERRUPTS, MAKER, MOTION, POWER, SCOPE, SERIAL, Special, VIRTUAL, specials,
-};
+use super::{FAST, HOST, INTERRUPTS, MAKER, MOTION, POWER, SCOPE, SERIAL, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -12,7 +10,7 @@ pub(super) const HM: &[Special] = specials! {
     M 8003 r 0 scan "off in the first ladder scan after start, on in the others";
     M 8004 rw 0 inert(HOST) "run state: on = run, off = stop; writable only with D8004 = HFAC0 and M8005 = off";
     M 8005 rw 0 inert(HOST) "run control source: on = physical switch, off = remote (by M8004)";
-    M 8006 r 0 inert(ERRORS) "on when the ladder has a run error";
+    M 8006 r 0 scan "on when the ladder has a run error";
     M 8007 r 0 inert(POWER) "external RAM check: on = present and working";
     M 8008 r 0 inert(POWER) "power failure detection: on = a power failure happened since power-on";
     M 8022 rw 0 by("ROL, ROR, RCL, RCR, SFWR, SFRD") "carry flag of ROL ROR RCL RCR; set by SFRD/SFWR when the pointer exceeds n";
@@ -28,7 +26,7 @@ pub(super) const HM: &[Special] = specials! {
     M 8080-8087 rw 0 inert(INTERRUPTS) "request of advanced interrupt I900–907: set once (edge) by the ladder, cleared by the system on entry";
     M 8088-8095 rw 0 inert(INTERRUPTS) "process request of I900–907: re-enters an active advanced interrupt at its PROC";
     M 8096-8111 rw 0 inert(MOTION) "switch input of motion instructions in place of X000–017 (used while Bit13 of the axis event word is 0)";
-    M 8160-8163 rw 0 inert(VIRTUAL) "state of the virtual inputs X014..X017";
+    M 8160-8163 rw 0 scan "state of the virtual inputs X014..X017";
     M 8200-8234 rw 0 by("OUT C") "count direction of C200..C234: on = down, off = up";
     M 8235 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
     M 8237 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
@@ -39,7 +37,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8003 r 0 inert(MAKER) "drive series number";
     D 8004 rw 0 inert(HOST) "HFAC0 = the PLC is under remote control";
     D 8005 rw 0 inert(MAKER) "file write password, internal";
-    D 8006 r 0 inert(ERRORS) "step number of the ladder error";
+    D 8006 r 0 scan "step number of the ladder error";
     D 8007 r 0 inert(FAST) "50 us timer";
     D 8008 r 0 scan "millisecond tick counter, 32 bit with D8009 (low word)";
     D 8009 r 0 scan "high word of the millisecond tick counter";

@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use super::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, LOG, MAKER, NETWORK, POWER, PULSES,
-    SERIAL, Special, TRACE, specials,
+    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, MAKER, NETWORK, POWER, PULSES, SERIAL,
+    Special, TRACE, specials,
 };
 
 /// What both have.
@@ -425,8 +425,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8484 rw 4 inert(PULSES) "Y0: output of the clear signal of DSZR (with M8484)";
     D 8485 rw 5 inert(PULSES) "Y1: output of the clear signal of DSZR (with M8485)";
     D 8486 rw 6 inert(PULSES) "Y2: output of the clear signal of DSZR (with M8486)";
-    D 8490-8499 r 0 inert(LOG) "error log: time of error 1–10 in hours";
-    D 8500-8509 r 0 inert(LOG) "error log: code of error 1–10";
+    D 8490-8499 r 0 scan "error log: time of error 1–10 in hours";
+    D 8500-8509 r 0 scan "error log: code of error 1–10";
     D 8510 r 0 inert(HARDWARE) "total running time of the system in s, 32 bits, low word";
     D 8511 r 0 inert(HARDWARE) "high word of D8510";
 };

@@ -148,7 +148,7 @@ pub(super) const L01S: &[Special] = specials! {
     D 8018 rw 0 scan "clock: year (last two digits)";
     D 8019 rw 0 scan "clock: weekday 0=Sunday";
     D 8020 rw 10 by("REFF") "input filter adjustment (ms)";
-    D 8030-8045 r 0 inert(ANALOG) "analog input AD0–15 value";
+    D 8030-8045 r 0 scan "analog input AD0–15 value";
     D 8050-8057 rw 0 inert(ANALOG) "analog output DA0–7 value 0..4000; nonzero starts the conversion, 0 stops it";
     D 8058 rw 0 inert(ANALOG) "current range of the analog outputs";
     D 8059 rw 0 inert(HOST) "constant scan time (ms)";
@@ -182,7 +182,7 @@ pub(super) const L01S: &[Special] = specials! {
     D 8102 r 0 inert(MAKER) "memory capacity: 16 = 16K steps";
     D 8108 r 0 inert(MODULES) "number of connected special/extension modules";
     D 8109 r 0 inert(HARDWARE) "number of the Y at which an output refresh error occurred";
-    D 8114 rw 0 inert(ANALOG) "analog input channel enable: bit n = 1 starts AD n (n=0..7)";
+    D 8114 rw 0 scan "analog input channel enable: bit n = 1 starts AD n (n=0..7)";
     D 8120 rw 0 inert(SERIAL) "port 2 communication parameters: b0 data length 0=7,1=8";
     D 8121 rw 0 inert(SERIAL) "port 2 own station number; as Modbus master must be 255";
     D 8122 r 0 inert(SERIAL) "port 2: remaining bytes to send (RS)";

@@ -4,9 +4,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
 use crate::plc::Class;
-use crate::special::{
-    D_ANNUNCIATOR, M_ANNUNCIATOR_MONITOR, M_ANNUNCIATOR_ON, M_BORROW, M_MEAN_SUM, M_ZERO,
-};
+use crate::special::{M_BORROW, M_MEAN_SUM, M_ZERO};
 
 /// ZRST D1 D2 (FNC 40): clears the devices D1…D2; if D2 lies below D1 only D1.
 pub fn zrst(cx: &mut Cx) -> Done {
@@ -115,11 +113,6 @@ const ANNUNCIATOR_FIRST: u32 = 900;
 /// Last annunciator.
 const ANNUNCIATOR_LAST: u32 = 999;
 
-/// The lowest annunciator that is on.
-fn lowest_annunciator(cx: &Cx) -> Option<u32> {
-    (ANNUNCIATOR_FIRST..=ANNUNCIATOR_LAST).find(|&n| cx.plc.bit(Class::S, n) == Some(true))
-}
-
 /// ANS S m D (FNC 46): sets annunciator D once the drive has been on for m times 100 ms; timer S shows the time and starts over with
 /// each drive. Memory: time driven in milliseconds; whether the last scan drove it.
 pub fn ans(cx: &mut Cx) -> Done {
@@ -149,22 +142,9 @@ pub fn ans(cx: &mut Cx) -> Done {
 
 /// ANR (FNC 47): resets the lowest annunciator that is on.
 pub fn anr(cx: &mut Cx) -> Done {
-    if let Some(n) = lowest_annunciator(cx) {
-        let _ = cx.plc.set_bit(Class::S, n, false);
-    }
-    Ok(())
-}
-
-/// The monitor of annunciators, once a scan: while M8049 is on, M8048 tells whether one is on and D8049 which is the lowest.
-pub fn annunciator_monitor(cx: &mut Cx) -> Done {
-    let lowest = if cx.special(M_ANNUNCIATOR_MONITOR) {
-        lowest_annunciator(cx)
-    } else {
-        None
-    };
-    cx.set_special(M_ANNUNCIATOR_ON, lowest.is_some());
-    if cx.special(M_ANNUNCIATOR_MONITOR) {
-        cx.set_special_word(D_ANNUNCIATOR, lowest.unwrap_or(0) as i16);
+    let on = |&n: &u32| cx.plc.bit(Class::S, n) == Some(true);
+    if let Some(lowest) = (ANNUNCIATOR_FIRST..=ANNUNCIATOR_LAST).find(on) {
+        let _ = cx.plc.set_bit(Class::S, lowest, false);
     }
     Ok(())
 }
@@ -341,21 +321,17 @@ mod tests {
     }
 
     #[test]
-    fn annunciators_are_watched_and_reset_from_the_lowest() {
+    fn annunciators_are_reset_from_the_lowest() {
         let mut plc = Double::new();
-        plc.set_bit(Class::S, 910, true);
-        plc.set_bit(Class::S, 950, true);
-        plc.call(RtFn::AnnunciatorMonitor, &[]).unwrap();
-        assert_eq!(plc.bit(Class::M, 8048), Some(false));
-        plc.set_bit(Class::M, 8049, true);
-        for lowest in [910, 950, 0] {
-            plc.call(RtFn::AnnunciatorMonitor, &[]).unwrap();
-            assert_eq!(
-                (plc.bit(Class::M, 8048), plc.d(8049, 1)),
-                (Some(lowest > 0), [lowest].to_vec())
-            );
-            plc.call(RtFn::Anr, &[]).unwrap();
+        let on = |plc: &Double| [899, 910, 950].map(|n| plc.bit(Class::S, n).unwrap());
+        for n in [899, 910, 950] {
+            plc.set_bit(Class::S, n, true);
         }
+        plc.call(RtFn::Anr, &[]).unwrap();
+        assert_eq!(on(&plc), [true, false, true]);
+        plc.call(RtFn::Anr, &[]).unwrap();
+        plc.call(RtFn::Anr, &[]).unwrap();
+        assert_eq!(on(&plc), [true, false, false]);
     }
 
     #[test]

@@ -17,6 +17,7 @@ pub mod pid_thermal;
 pub mod rotate;
 pub mod scale;
 pub mod serial;
+pub mod system;
 pub mod text;
 
 #[cfg(test)]

@@ -111,6 +111,22 @@ pub fn from(cx: &mut Cx) -> Done {
     Ok(())
 }
 
+/// FROM of L01S: where there is no module 0, that number means the host, whose first words are its analog inputs.
+pub fn from_host(cx: &mut Cx) -> Done {
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
+    if unit != 0 || cx.hal.read_bfm(unit, address).is_some() {
+        return from(cx);
+    }
+    let n = transfer_count(cx)?;
+    cx.check_words(2, n)?;
+    for k in 0..n {
+        let channel = u8::try_from(behind(address, k)?).map_err(|_| Fault::MODULE)?;
+        let value = cx.hal.analog(channel).ok_or(Fault::MODULE)?;
+        cx.set_word(2, k, value)?;
+    }
+    Ok(())
+}
+
 /// TO m1 m2 S n (FNC 79): n words, or pairs, from S on go to module m1 from address m2 on; with M8164 the count is D8164.
 pub fn to(cx: &mut Cx) -> Done {
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
@@ -256,6 +272,24 @@ mod tests {
         plc.set_d(8164, &[3]);
         plc.call(RtFn::From, &[k(5), k(0), reg(0), k(1)]).unwrap();
         assert_eq!(plc.d(0, 1), [1]);
+    }
+
+    #[test]
+    fn module_0_may_be_the_host() {
+        let mut plc = Double::new();
+        plc.hal.set_analog(0, 1000).unwrap();
+        plc.hal.set_analog(1, 3000).unwrap();
+        plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(2)])
+            .unwrap();
+        assert_eq!(plc.d(0, 2), [1000, 3000]);
+        assert_eq!(
+            plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(3)]),
+            Err(Fault::MODULE)
+        );
+        plc.hal.set_bfm(0, 1, 7).unwrap();
+        plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(2)])
+            .unwrap();
+        assert_eq!(plc.d(0, 2), [0, 7]);
     }
 
     #[test]

@@ -34,7 +34,7 @@ fn operand() -> impl Strategy<Value = Operand> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4096))]
+    #![proptest_config(ProptestConfig::with_cases(1024))]
     #[test]
     fn nothing_panics(
         ops in prop::collection::vec(operand(), 0..7),

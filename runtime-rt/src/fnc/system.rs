@@ -1,0 +1,93 @@
+//! What the scan does for special registers besides the program: the error log of H1U/H2U (h1u-h2u-programming §8.2.2) and the built-in
+//! analog inputs of L01S (l01s-programming §6.2).
+
+use crate::cx::Cx;
+use crate::fault::Done;
+use crate::plc::Class;
+
+/// Hours of the logged errors, and their codes, the oldest first.
+const HOURS: u32 = 8490;
+const CODES: u32 = 8500;
+/// How many errors the log holds.
+const ENTRIES: u32 = 10;
+/// Code and step of the last operation error.
+const ERROR_CODE: u32 = 8067;
+const ERROR_STEP: u32 = 8069;
+
+/// The error log, once a scan after the program: a new code of an operation error is added, the oldest of ten making place; one that is
+/// there only takes the new time. Memory: code and step logged last.
+pub fn error_log(cx: &mut Cx) -> Done {
+    let (code, step) = (cx.special_word(ERROR_CODE), cx.special_word(ERROR_STEP));
+    let state = cx.state();
+    let logged = [i32::from(code), i32::from(step)];
+    if code == 0 || state.0[..2] == logged {
+        return Ok(());
+    }
+    [state.0[0], state.0[1]] = logged;
+    let hours = (cx.plc.sys().now_ms / 3_600_000) as i16;
+    let place = (0..ENTRIES).find(|&n| [0, code].contains(&cx.special_word(CODES + n)));
+    if place.is_none() {
+        for n in 0..ENTRIES - 1 {
+            for table in [HOURS, CODES] {
+                let next = cx.special_word(table + n + 1);
+                cx.set_special_word(table + n, next);
+            }
+        }
+    }
+    let place = place.unwrap_or(ENTRIES - 1);
+    cx.set_special_word(HOURS + place, hours);
+    cx.set_special_word(CODES + place, code);
+    Ok(())
+}
+
+/// Values of the analog inputs, and the bits that switch them on: eight of them.
+const ANALOG_VALUES: u32 = 8030;
+const ANALOG_ENABLE: u32 = 8114;
+
+/// D8030 … from the analog inputs that D8114 switches on, once a scan before the program.
+pub fn analog_inputs(cx: &mut Cx) -> Done {
+    let enabled = cx.special_word(ANALOG_ENABLE);
+    for channel in 0..8u8 {
+        if enabled >> channel & 1 == 1
+            && let Some(value) = cx.hal.analog(channel)
+        {
+            let _ = cx
+                .plc
+                .set_word(Class::D, ANALOG_VALUES + u32::from(channel), value);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::RtFn;
+    use crate::double::Double;
+
+    #[test]
+    fn the_log_keeps_ten_codes() {
+        let mut plc = Double::new();
+        plc.scan(3_600_000, true, RtFn::ErrorLog, &[]).unwrap();
+        assert_eq!(plc.d(8500, 1), [0]);
+        for code in (6701..=6711).chain([6705]) {
+            plc.set_d(8067, &[code]);
+            plc.scan(3_600_000, true, RtFn::ErrorLog, &[]).unwrap();
+        }
+        assert_eq!(
+            plc.d(8500, 10),
+            (6702..=6711).collect::<std::vec::Vec<i16>>()
+        );
+        assert_eq!(plc.d(8490, 10), [3, 4, 5, 13, 7, 8, 9, 10, 11, 12]);
+    }
+
+    #[test]
+    fn analog_inputs_work_once_switched_on() {
+        let mut plc = Double::new();
+        plc.hal.set_analog(1, 2000).unwrap();
+        plc.call(RtFn::AnalogInputs, &[]).unwrap();
+        assert_eq!(plc.d(8030, 3), [0; 3]);
+        plc.set_d(8114, &[7]);
+        plc.call(RtFn::AnalogInputs, &[]).unwrap();
+        assert_eq!(plc.d(8030, 3), [0, 2000, 0]);
+    }
+}
