@@ -22,7 +22,10 @@ pub fn explain(name: &str) -> Option<String> {
         .map_or(String::new(), |fnc| format!(" (FNC {fnc})"));
     let mut page = format!("# {}: {}{fnc}\n\n{}\n", inst.name, inst.title, inst.text);
     for section in [
-        operands(params, Model::get(model)),
+        format!(
+            "\n## Operands\n{}",
+            operands(params, &sharing(inst, params))
+        ),
         forms(inst, model),
         differences(inst, model),
         devices(inst, model),
@@ -68,13 +71,30 @@ fn special_cells(row: &special::Special) -> String {
     format!("{access} | {default} | {meaning} | {status} |")
 }
 
-fn operands(params: &[Param], model: &Model) -> String {
+/// The models on which an instruction has these operands.
+fn sharing(inst: &Inst, params: &'static [Param]) -> Vec<&'static Model> {
+    ModelId::ALL
+        .into_iter()
+        .filter(|&id| inst.models.has(id))
+        .map(Model::get)
+        .filter(|model| std::ptr::eq(inst.params_of(&[], model), params))
+        .collect()
+}
+
+/// The table of operands, with the classes that any of the models accepts.
+fn operands(params: &[Param], models: &[&Model]) -> String {
     if params.is_empty() {
-        return "\n## Operands\n\nNone.\n".to_owned();
+        return "\nNone.\n".to_owned();
     }
-    let mut text = "\n## Operands\n\n| name | accepts | means |\n|---|---|---|\n".to_owned();
+    let mut text = "\n| name | accepts | means |\n|---|---|---|\n".to_owned();
+    let mut differ = Classes::NONE;
     for param in params {
-        let classes: Vec<_> = param.classes_on(model).names().collect();
+        let of = |model: &&Model| param.classes_on(model);
+        let any = models.iter().map(of).fold(Classes::NONE, Classes::or);
+        for model in models {
+            differ = differ.or(any.without(param.classes_on(model)));
+        }
+        let classes: Vec<_> = any.names().collect();
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
@@ -83,6 +103,10 @@ fn operands(params: &[Param], model: &Model) -> String {
             classes.join(" "),
             meaning(param, params)
         );
+    }
+    if !differ.is_empty() {
+        let names: Vec<_> = differ.names().collect();
+        let _ = writeln!(text, "\nNot on every model: {}.", names.join(", "));
     }
     text
 }
@@ -201,25 +225,20 @@ fn forms(inst: &Inst, model: ModelId) -> String {
     text
 }
 
-/// Models whose operands are others than those of the page.
+/// The operands on models where they are others than those of the page.
 fn differences(inst: &Inst, shown: ModelId) -> String {
-    let here = inst.params_of(&[], Model::get(shown));
-    let mut seen: Vec<&[Param]> = vec![here];
+    let mut seen = vec![inst.params_of(&[], Model::get(shown))];
     let mut text = String::new();
     for id in ModelId::ALL.into_iter().filter(|&id| inst.models.has(id)) {
-        let there = inst.params_of(&[], Model::get(id));
-        if seen.iter().any(|params| std::ptr::eq(*params, there)) {
+        let params = inst.params_of(&[], Model::get(id));
+        if seen.iter().any(|known| std::ptr::eq(*known, params)) {
             continue;
         }
-        seen.push(there);
-        let names: Vec<_> = ModelId::ALL
-            .into_iter()
-            .filter(|&other| inst.models.has(other))
-            .filter(|&other| std::ptr::eq(inst.params_of(&[], Model::get(other)), there))
-            .map(|other| Model::get(other).name)
-            .collect();
-        let _ = writeln!(text, "\nOn {}:", names.join(", "));
-        text.push_str(&operands(there, Model::get(id)).replace("\n## Operands\n", ""));
+        seen.push(params);
+        let models = sharing(inst, params);
+        let names: Vec<_> = models.iter().map(|model| model.name).collect();
+        let _ = writeln!(text, "\nOperands on {}:", names.join(", "));
+        text.push_str(&operands(params, &models));
     }
     text
 }

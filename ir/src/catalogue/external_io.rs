@@ -145,7 +145,6 @@ pub(super) const ROWS: &[Inst] = &[
     io("PR", 77, "Print text")
         .on(BIG_FX)
         .steps(5, 5)
-        .uses(2)
         .takes(&[src("S", REGISTERS).len(8), coil("D", Classes::Y).len(10)])
         .flags(&["M8027", "M8029"])
         .call(RtFn::Pr)

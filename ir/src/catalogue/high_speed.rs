@@ -155,7 +155,6 @@ pub(super) const ROWS: &[Inst] = &[
     fast("MTR", 52, "Input matrix")
         .steps(9, 9)
         .on(NOT_HM.except(&[ModelId::L01s]))
-        .uses(1)
         .takes(&[
             bit("S", Classes::X).len(8).plain().rules(&[Rule::EndsInZero]),
             coil("D1", Classes::Y).per(3).plain().rules(&[Rule::EndsInZero]),

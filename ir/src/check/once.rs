@@ -1,16 +1,17 @@
-//! Instructions that a program may hold only so often.
+//! Instructions that a program may hold only so often: as their rows say, and with some operands.
 
 use super::Code;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use std::collections::BTreeMap;
 
-/// How often an instruction may stand in a program.
+/// An instruction that may stand only once in a program with some operand.
 struct Limit {
     /// The instruction, by the name of its row.
     inst: &'static str,
-    /// Counted are only those whose operand at this position is …
-    operand: Option<(usize, Which)>,
-    /// How many there may be.
-    max: usize,
+    /// Counted are those whose operand at this position …
+    position: usize,
+    /// … is this.
+    which: Which,
 }
 
 /// Which operands count.
@@ -26,68 +27,79 @@ const fn relay(number: u32) -> Which {
     Which::Exactly(Device { class, number })
 }
 
-const fn limit(inst: &'static str, max: usize) -> Limit {
-    let operand = None;
-    Limit { inst, operand, max }
-}
-
-const fn limit_of(inst: &'static str, position: usize, which: Which, max: usize) -> Limit {
-    let operand = Some((position, which));
-    Limit { inst, operand, max }
+const fn limit(inst: &'static str, position: usize, which: Which) -> Limit {
+    Limit {
+        inst,
+        position,
+        which,
+    }
 }
 
 /// From the descriptions of the instructions (h1u-h2u-programming §4.3).
 const LIMITS: &[Limit] = &[
-    limit("ROTC", 1),
-    limit("SEGL", 2),
-    limit("IST", 1),
-    limit_of("HSZ", 3, relay(8130), 1),
-    limit_of("HSZ", 3, relay(8132), 1),
-    limit_of("HSCS", 2, Which::Each(DeviceClass::I), 1),
+    limit("HSZ", 3, relay(8130)),
+    limit("HSZ", 3, relay(8132)),
+    limit("HSCS", 2, Which::Each(DeviceClass::I)),
 ];
 
 /// Checks how often instructions stand in a program.
 pub(super) fn check(code: &Code, out: &mut Diagnostics) {
-    let mut places: Vec<Vec<(usize, Option<Device>)>> = LIMITS.iter().map(|_| Vec::new()).collect();
+    let mut by_name: BTreeMap<&str, (usize, Vec<usize>)> = BTreeMap::new();
+    let mut by_operand: Vec<Vec<(usize, Device)>> = LIMITS.iter().map(|_| Vec::new()).collect();
     for i in 0..code.len {
         let Some(inst) = code.inst(i).filter(|inst| inst.fnc.is_some()) else {
             continue;
         };
-        for (limit, places) in LIMITS.iter().zip(&mut places) {
+        if let Some(max) = inst.max_uses {
+            let places = by_name.entry(inst.name).or_default();
+            places.0 = max as usize;
+            places.1.push(i);
+        }
+        for (limit, places) in LIMITS.iter().zip(&mut by_operand) {
             if limit.inst != inst.name {
                 continue;
             }
-            let device = limit
-                .operand
-                .as_ref()
-                .and_then(|&(at, _)| code.device(i, at));
-            let counts = match &limit.operand {
-                None => true,
-                Some((_, Which::Exactly(wanted))) => device == Some(*wanted),
-                Some((_, Which::Each(class))) => {
-                    device.is_some_and(|device| device.class == *class)
-                }
-            };
-            if counts {
-                places.push((i, device));
-            }
+            let device = code.device(i, limit.position);
+            places.extend(
+                device
+                    .filter(|one| limit.which.is(*one))
+                    .map(|one| (i, one)),
+            );
         }
     }
-    for (limit, mut places) in LIMITS.iter().zip(places) {
+    for (max, places) in by_name.values() {
+        report(code, *max, places, None, out);
+    }
+    for mut places in by_operand {
         places.sort_by_key(|&(_, device)| device);
         for same in places.chunk_by(|a, b| a.1 == b.1) {
-            report(code, limit, same, out);
+            let at: Vec<_> = same.iter().map(|&(i, _)| i).collect();
+            report(code, 1, &at, same.first().map(|&(_, device)| device), out);
         }
     }
 }
 
-fn report(code: &Code, limit: &Limit, places: &[(usize, Option<Device>)], out: &mut Diagnostics) {
-    let (Some(&(first, _)), Some(&(beyond, device))) = (places.first(), places.get(limit.max))
-    else {
+impl Which {
+    fn is(&self, device: Device) -> bool {
+        match *self {
+            Which::Exactly(wanted) => device == wanted,
+            Which::Each(class) => device.class == class,
+        }
+    }
+}
+
+fn report(
+    code: &Code,
+    max: usize,
+    places: &[usize],
+    device: Option<Device>,
+    out: &mut Diagnostics,
+) {
+    let (Some(&first), Some(&beyond)) = (places.first(), places.get(max)) else {
         return;
     };
     let with = device.map_or_else(String::new, |device| format!(" with `{device}`"));
-    let often = match limit.max {
+    let often = match max {
         1 => "once".to_owned(),
         n => format!("{n} times"),
     };
