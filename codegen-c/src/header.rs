@@ -52,7 +52,12 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
     out.push_str("    /* Private: time, and what the program remembers from scan to scan. */\n    plc_sys sys;\n");
     size.add(16, 4);
     if module.edges > 0 {
-        let _ = writeln!(out, "    bool edge[{}];", module.edges);
+        let line = format!("    bool edge[{}];", module.edges);
+        push_with_comment(
+            &mut out,
+            &line,
+            "last states of edge contacts, pulses and steps",
+        );
         size.add(module.edges, 1);
     }
     for (i, temp) in plan.temps.iter().enumerate().filter(|(_, t)| t.field) {
@@ -60,8 +65,7 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
         let mut line = format!("    {} ", c_type(ty));
         temp.name(&mut line);
         line.push(';');
-        out.push_str(&line);
-        out.push('\n');
+        push_with_comment(&mut out, &line, "found in one function, used in another");
         let bytes = match c_type(ty) {
             "bool" => 1,
             "int16_t" => 2,
