@@ -93,9 +93,13 @@ impl Lowerer<'_> {
 
     /// Whether a special device is one that the scan keeps on this model, and something looks at it.
     fn keeps(&self, class: DeviceClass, number: u32) -> bool {
-        self.specials.has(class, number)
-            && special::find(self.model.id, class, number)
-                .is_some_and(|row| matches!(row.status, Status::Scan))
+        self.specials.has(class, number) && self.scan_has(class, number)
+    }
+
+    /// Whether a special device is one that the scan keeps on this model.
+    fn scan_has(&self, class: DeviceClass, number: u32) -> bool {
+        special::find(self.model.id, class, number)
+            .is_some_and(|row| matches!(row.status, Status::Scan))
     }
 
     /// M8000 to M8003.
@@ -263,11 +267,12 @@ impl Lowerer<'_> {
         }
     }
 
-    /// D8030 to D8045 (L01S).
+    /// D8030 to D8045 (L01S; the other models have other things there, and nothing that switches analog inputs on).
     fn analog_inputs(&mut self) {
-        if ANALOG_INPUTS
-            .into_iter()
-            .any(|register| self.keeps(D, register))
+        if self.scan_has(D, ANALOG_ENABLE)
+            && ANALOG_INPUTS
+                .into_iter()
+                .any(|register| self.keeps(D, register))
         {
             self.call_system(RtFn::AnalogInputs, ANALOG_INPUTS.chain([ANALOG_ENABLE]));
         }
