@@ -43,6 +43,7 @@ pub fn stmt_exprs(stmt: &Stmt, mut f: impl FnMut(ExprId)) {
         | Stmt::Parts(_)
         | Stmt::Goto(_)
         | Stmt::Fault { .. }
+        | Stmt::Stop
         | Stmt::Clear { .. } => {}
         Stmt::Let(_, e) | Stmt::Edge { input: e, .. } => f(*e),
         Stmt::If { cond, .. } => f(*cond),

@@ -499,6 +499,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                     self.module.name, *step as u16 as i16
                 );
             }
+            Stmt::Stop => code = format!("{}_set_running(plc, false);", self.module.name),
             Stmt::Clear { latched } => {
                 self.clears[usize::from(*latched)] = true;
                 let what = if *latched { "latched" } else { "general" };

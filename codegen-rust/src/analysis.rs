@@ -77,6 +77,7 @@ pub fn expressions(stmt: &Stmt) -> Vec<ExprId> {
         | Stmt::Parts(_)
         | Stmt::Goto(_)
         | Stmt::Fault { .. }
+        | Stmt::Stop
         | Stmt::Clear { .. } => {}
     }
     out

@@ -335,12 +335,10 @@ impl Generator<'_> {
         let keep = special(M_KEEP_IN_STOP);
         let off = special(M_OUTPUTS_OFF);
         let stop = match &keep {
-            Some(keep) => quote!(if !#keep { self.clear_general(); }),
-            None => quote!(self.clear_general();),
-        };
-        let stop = match &keep {
-            Some(_) => quote!({ #stop }),
-            None => quote!({ #stop }),
+            Some(keep) => quote!({ if !#keep { self.clear_general(); } }),
+            None => quote!({
+                self.clear_general();
+            }),
         };
         let class = self.class(DeviceClass::Y);
         let plc_trait = self.rt("Plc");

@@ -144,6 +144,10 @@ impl Generator<'_> {
                 );
                 quote!(#report(plc, #fault(#code), #step);)
             }
+            Stmt::Stop => {
+                let program = self.rt("Program");
+                quote!(#program::set_running(plc, false);)
+            }
             Stmt::Clear { latched: false } => quote!(plc.clear_general();),
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
         }

@@ -192,6 +192,7 @@ impl Out<'_> {
             Stmt::Goto(label) => format!("goto L{}", label.0),
             Stmt::Call { .. } => self.call(stmt),
             Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
+            Stmt::Stop => "stop".into(),
             Stmt::Clear { latched: true } => "clear latched".into(),
             Stmt::Clear { latched: false } => "clear general".into(),
             Stmt::Network(_) | Stmt::If { .. } | Stmt::For { .. } | Stmt::Parts(_) => String::new(),

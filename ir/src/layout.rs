@@ -217,6 +217,7 @@ impl<'m> Builder<'m> {
             | Stmt::Return
             | Stmt::Goto(_)
             | Stmt::Fault { .. }
+            | Stmt::Stop
             | Stmt::Clear { .. } => {}
         }
     }

@@ -326,6 +326,8 @@ pub enum Stmt {
         /// Step number.
         step: u32,
     },
+    /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function `End` only.
+    Stop,
     /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices: M8031, M8032.
     Clear {
         /// Which.

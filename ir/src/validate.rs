@@ -359,6 +359,7 @@ impl Checker<'_> {
             | Stmt::Parts(_)
             | Stmt::Goto(_)
             | Stmt::Fault { .. }
+            | Stmt::Stop
             | Stmt::Clear { .. } => (true, None),
         };
         match (well, unstored) {

@@ -268,6 +268,7 @@ impl<'m> Machine<'m> {
                 self.call(*function, args, site, hal);
             }
             Stmt::Fault { code, step } => report(self, Fault(*code), *step),
+            Stmt::Stop => rungc_rt::Program::set_running(self, false),
             Stmt::Clear { latched } => self.devices.clear(*latched),
             _ => self.assign(stmt),
         }

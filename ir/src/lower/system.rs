@@ -28,6 +28,8 @@ const ANALOG_ENABLE: u32 = 8114;
 const VIRTUAL_INPUTS: (std::ops::RangeInclusive<u32>, u32) = (8160..=8163, 0o14);
 /// Clears the general, the latched devices.
 const CLEAR: [(u32, bool); 2] = [(8031, false), (8032, true)];
+/// Puts the PLC in STOP.
+const FORCED_STOP: u32 = 8037;
 /// Relay and register of the ring counter.
 const RING_COUNTER: (u32, u32) = (8099, 8099);
 /// Milliseconds since power-on, low and high word.
@@ -88,7 +90,21 @@ impl Lowerer<'_> {
                     this.when(asked, |this| this.emit(Stmt::Clear { latched }));
                 }
             }
+            this.forced_stop();
         })
+    }
+
+    /// M8037 puts the PLC in STOP and goes off, so that the switch can start it again.
+    fn forced_stop(&mut self) {
+        if !self.keeps(M, FORCED_STOP) {
+            return;
+        }
+        let asked = self.add(Expr::ReadBit(fixed(M, FORCED_STOP)));
+        self.when(asked, |this| {
+            let off = this.bit_const(false);
+            this.write_device(M, FORCED_STOP, off);
+            this.emit(Stmt::Stop);
+        });
     }
 
     /// Whether a special device is one that the scan keeps on this model, and something looks at it.

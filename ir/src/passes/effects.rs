@@ -104,6 +104,7 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         | Stmt::Return
         | Stmt::Goto(_)
         | Stmt::Fault { .. }
+        | Stmt::Stop
         | Stmt::Clear { .. } => Writes::All,
     }
 }

@@ -64,6 +64,7 @@ macro_rules! for_exprs {
                 | Stmt::Parts(_)
                 | Stmt::Goto(_)
                 | Stmt::Fault { .. }
+                | Stmt::Stop
                 | Stmt::Clear { .. } => {}
             }
         }

@@ -40,7 +40,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8034 rw 0 scan "on: all external outputs off";
     M 8035 rw 0 inert(HOST) "forced RUN mode command 1 (enables forced RUN)";
     M 8036 rw 0 inert(HOST) "forced RUN command 2: with M8035 on starts the PLC";
-    M 8037 rw 0 inert(HOST) "forced STOP: on stops the PLC";
+    M 8037 rw 0 scan "forced STOP: on stops the PLC";
     M 8038 rw 0 inert(SERIAL) "communication parameter setting flag";
     M 8039 rw 0 inert(HOST) "constant scan mode: a scan lasts at least D8039 ms";
     M 8040 rw 0 scan "STL transfer inhibited: states do not transfer, outputs of the active state go on";

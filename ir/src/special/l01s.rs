@@ -25,7 +25,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8034 rw 0 scan "on: all outputs disabled (output memory runs on, physical outputs off)";
     M 8035 rw 0 inert(HOST) "forced RUN mode enable";
     M 8036 rw 0 inert(HOST) "forced RUN command";
-    M 8037 rw 0 inert(HOST) "forced STOP command";
+    M 8037 rw 0 scan "forced STOP command";
     M 8045 rw 0 by("IST") "on: suppress reset of all outputs (when the operation mode is switched)";
     M 8046 r 0 scan "on while any STL state is active (with M8047)";
     M 8047 rw 0 scan "on: STL monitoring enabled (M8046; D8040 is an analog input here)";

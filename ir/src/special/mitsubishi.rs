@@ -40,7 +40,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8033 rw 0 scan "devices keep their values in STOP";
     M 8034 rw 0 scan "all outputs are off; their images go on";
     M 8035-8036 rw 0 inert(HOST) "both on: RUN is forced";
-    M 8037 rw 0 inert(HOST) "STOP is forced";
+    M 8037 rw 0 scan "STOP is forced";
     M 8038 rw 0 inert(SERIAL) "communication parameters are set";
     M 8039 rw 0 inert(HOST) "scans last at least D8039";
     M 8040 rw 0 scan "steps do not change";
