@@ -52,6 +52,12 @@ pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let _ = plc.set_word(Class::D, ANY_ERROR, ERROR as i16);
 }
 
+/// Shows that the watchdog has stopped the PLC: M8061, and D8061 = 6105 (h1u-h2u-programming §8.1).
+pub fn trip_watchdog(plc: &mut dyn Plc) {
+    let _ = plc.set_bit(Class::M, 8061, true);
+    let _ = plc.set_word(Class::D, 8061, 6105);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,10 +89,4 @@ mod tests {
             ("00".into(), [0; 3].to_vec())
         );
     }
-}
-
-/// Shows that the watchdog has stopped the PLC: M8061, and D8061 = 6105 (h1u-h2u-programming §8.1).
-pub fn trip_watchdog(plc: &mut dyn Plc) {
-    let _ = plc.set_bit(Class::M, 8061, true);
-    let _ = plc.set_word(Class::D, 8061, 6105);
 }

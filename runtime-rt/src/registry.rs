@@ -160,6 +160,12 @@ registry! {
     Emul = float::emul(s1, s2, d);
     /// EDIV (FNC 123): quotient of floats.
     Ediv = float::ediv(s1, s2, d);
+    /// EADD of HM: no flags.
+    EaddPlain = float::eadd_plain(s1, s2, d);
+    /// ESUB of HM: no flags.
+    EsubPlain = float::esub_plain(s1, s2, d);
+    /// EMUL of HM: no flags.
+    EmulPlain = float::emul_plain(s1, s2, d);
     /// EDIV of HM: a divisor of 0 is no error.
     EdivClamped = float::ediv_clamped(s1, s2, d);
     /// EXP (FNC 124): power of e.
@@ -378,6 +384,10 @@ registry! {
     Rd3a = modules::rd3a(m1, m2, d) [hal];
     /// WR3A (FNC 177): writes an analog module.
     Wr3a = modules::wr3a(m1, m2, s) [hal];
+    /// VRRD (FNC 85): position of a potentiometer.
+    Vrrd = modules::vrrd(s, d) [hal];
+    /// VRSC (FNC 86): position of a potentiometer as a switch.
+    Vrsc = modules::vrsc(s, d) [hal];
     /// RBFM (FNC 278): reads buffer memory in portions.
     Rbfm = modules::rbfm(m1, m2, d, n1, n2) [state, always, hal];
     /// WBFM (FNC 279): writes buffer memory in portions.

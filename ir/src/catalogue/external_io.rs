@@ -196,14 +196,14 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
-        .todo("potentiometers on a board")
+        .call(RtFn::Vrrd)
         .text("D = the position of potentiometer S, 0 to 255."),
     io("VRSC", 86, "Read a potentiometer as a switch")
         .on(FX)
         .forms(W16_P)
         .steps(5, 5)
         .takes(&[src("S", CONSTANTS.or(DATA)).limits(0, 7), dst("D", RESULTS)])
-        .todo("potentiometers on a board")
+        .call(RtFn::Vrsc)
         .text("D = the position of potentiometer S as a number from 0 to 10."),
     io("RBFM", 278, "Read from a module in parts")
         .on(FX3U)

@@ -90,9 +90,14 @@ pub(super) const ROWS: &[Inst] = &[
         .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
         .text("D = S × 10^(S+1): the mantissa S and the power of ten S+1 as a float."),
     operator("EADD", 120, "Add floats", RtFn::Eadd)
-        .text("D = S1 + S2. M8020 is on if the result is 0, M8022 if it is too large, M8021 if too small for a float."),
-    operator("ESUB", 121, "Subtract floats", RtFn::Esub).text("D = S1 - S2. Flags as EADD."),
-    operator("EMUL", 122, "Multiply floats", RtFn::Emul).text("D = S1 × S2. Flags as EADD."),
+        .lower_on(&[(HM, Lower::Call(RtFn::EaddPlain))])
+        .text("D = S1 + S2. M8020 is on if the result is 0, M8022 if it is too large, M8021 if too small for a float. HM has no flags for it."),
+    operator("ESUB", 121, "Subtract floats", RtFn::Esub)
+        .lower_on(&[(HM, Lower::Call(RtFn::EsubPlain))])
+        .text("D = S1 - S2. Flags as EADD."),
+    operator("EMUL", 122, "Multiply floats", RtFn::Emul)
+        .lower_on(&[(HM, Lower::Call(RtFn::EmulPlain))])
+        .text("D = S1 × S2. Flags as EADD."),
     operator("EDIV", 123, "Divide floats", RtFn::Ediv)
         .lower_on(&[(HM, Lower::Call(RtFn::EdivClamped))])
         .text("D = S1 / S2. Flags as EADD. A divisor of 0 is an error; on HM it gives the largest float with the sign of S1."),

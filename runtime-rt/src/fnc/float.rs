@@ -112,23 +112,36 @@ pub fn ebin(cx: &mut Cx) -> Done {
     cx.set_float(1, 0, value)
 }
 
-/// Writes the result of an operation whose exact value (or its nearest double) is `exact`, and the flags: M8020 for 0, M8021 for a value
-/// too small for a float (the smallest is stored), M8022 for one too large (the largest is stored).
-fn write_result(cx: &mut Cx, i: usize, exact: f64) -> Done {
+/// What became of a result that no float is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Fit {
+    Exact,
+    /// The largest float is stored.
+    TooLarge,
+    /// The smallest float is stored.
+    TooSmall,
+}
+
+/// Writes the result of an operation whose exact value (or its nearest double) is `exact`, as near as a float comes.
+fn store_result(cx: &mut Cx, i: usize, exact: f64) -> Result<Fit, Fault> {
     let size = libm::fabs(exact);
-    let too_large = (size as f32).is_infinite();
-    let too_small = size != 0.0 && size < f64::from(f32::MIN_POSITIVE);
-    let value = if too_large {
-        f32::MAX
-    } else if too_small {
-        f32::MIN_POSITIVE
+    let (value, fit) = if (size as f32).is_infinite() {
+        (f32::MAX, Fit::TooLarge)
+    } else if size != 0.0 && size < f64::from(f32::MIN_POSITIVE) {
+        (f32::MIN_POSITIVE, Fit::TooSmall)
     } else {
-        size as f32
+        (size as f32, Fit::Exact)
     };
     cx.set_float(i, 0, libm::copysignf(value, exact as f32))?;
+    Ok(fit)
+}
+
+/// Writes a result and its flags: M8020 for 0, M8021 for a value too small for a float, M8022 for one too large.
+fn write_result(cx: &mut Cx, i: usize, exact: f64) -> Done {
+    let fit = store_result(cx, i, exact)?;
     cx.set_special(M_ZERO, exact == 0.0);
-    cx.set_special(M_BORROW, too_small);
-    cx.set_special(M_CARRY, too_large);
+    cx.set_special(M_BORROW, fit == Fit::TooSmall);
+    cx.set_special(M_CARRY, fit == Fit::TooLarge);
     Ok(())
 }
 
@@ -164,11 +177,29 @@ pub fn ediv(cx: &mut Cx) -> Done {
     write_result(cx, 2, a / b)
 }
 
-/// EDIV of HM: dividing by 0 gives the largest float if S1 is above 0, else the smallest.
+/// EADD of HM, which has no flags for it.
+pub fn eadd_plain(cx: &mut Cx) -> Done {
+    let (a, b) = pair(cx)?;
+    store_result(cx, 2, a + b).map(drop)
+}
+
+/// ESUB of HM, which has no flags for it.
+pub fn esub_plain(cx: &mut Cx) -> Done {
+    let (a, b) = pair(cx)?;
+    store_result(cx, 2, a - b).map(drop)
+}
+
+/// EMUL of HM, which has no flags for it.
+pub fn emul_plain(cx: &mut Cx) -> Done {
+    let (a, b) = pair(cx)?;
+    store_result(cx, 2, a * b).map(drop)
+}
+
+/// EDIV of HM: dividing by 0 gives the largest float if S1 is above 0, else the smallest. No flags.
 pub fn ediv_clamped(cx: &mut Cx) -> Done {
     let (a, b) = pair(cx)?;
     let largest = if a > 0.0 { f32::MAX } else { f32::MIN };
-    write_result(cx, 2, if b == 0.0 { largest.into() } else { a / b })
+    store_result(cx, 2, if b == 0.0 { largest.into() } else { a / b }).map(drop)
 }
 
 /// Writes the value of a function of one float; one that is no float is an error.
@@ -377,6 +408,21 @@ mod tests {
         plc.call(RtFn::Eadd, &[k(7), Operand::float(0.5), reg(4)])
             .unwrap();
         assert_eq!(plc.df(4), 7.5);
+    }
+
+    #[test]
+    fn hm_touches_no_flags() {
+        for (function, value) in [
+            (RtFn::EaddPlain, f32::MAX),
+            (RtFn::EsubPlain, 0.0),
+            (RtFn::EmulPlain, f32::MAX),
+            (RtFn::EdivClamped, 1.0),
+        ] {
+            let mut plc = with(3e38, 3e38);
+            plc.set_m(8020, "111");
+            plc.call(function, &[reg(0), reg(2), reg(4)]).unwrap();
+            assert_eq!((plc.df(4), flags(&plc)), (value, "111".into()));
+        }
     }
 
     #[test]

@@ -173,6 +173,25 @@ pub fn wr3a(cx: &mut Cx) -> Done {
     write(cx, unit, CONTROL, 0)
 }
 
+/// Position of potentiometer S, 0 to 255; it is the analog input of that number.
+fn potentiometer(cx: &mut Cx) -> Result<i16, Fault> {
+    let number = cx.count(0, 0..=7)? as u8;
+    let value = cx.hal.analog(number).ok_or(Fault::MODULE)?;
+    Ok(value.clamp(0, 255))
+}
+
+/// VRRD S D (FNC 85): D takes the position of potentiometer S, 0 to 255.
+pub fn vrrd(cx: &mut Cx) -> Done {
+    let position = potentiometer(cx)?;
+    cx.set_word(1, 0, position)
+}
+
+/// VRSC S D (FNC 86): D takes the position of potentiometer S as one of 0 to 10, the nearest.
+pub fn vrsc(cx: &mut Cx) -> Done {
+    let position = potentiometer(cx)?;
+    cx.set_word(1, 0, (position * 10 + 127) / 255)
+}
+
 /// The next words of a divided transfer: where it stands and how many there are. Memory: words moved; whether it is over.
 fn portion(cx: &mut Cx) -> Result<Option<(i32, i32, i32)>, Fault> {
     if !cx.drive() {
@@ -307,6 +326,26 @@ mod tests {
             plc.call(RtFn::Rd3a, &[k(0), k(3), reg(1)]),
             Err(Fault::VALUE)
         );
+    }
+
+    #[test]
+    fn potentiometers() {
+        let mut plc = Double::new();
+        assert_eq!(plc.call(RtFn::Vrrd, &[k(3), reg(0)]), Err(Fault::MODULE));
+        for (position, switch) in [
+            (0, 0),
+            (12, 0),
+            (13, 1),
+            (128, 5),
+            (242, 9),
+            (243, 10),
+            (300, 10),
+        ] {
+            plc.hal.set_analog(3, position).unwrap();
+            plc.call(RtFn::Vrrd, &[k(3), reg(0)]).unwrap();
+            plc.call(RtFn::Vrsc, &[k(3), reg(1)]).unwrap();
+            assert_eq!(plc.d(0, 2), [position.min(255), switch]);
+        }
     }
 
     #[test]
