@@ -82,7 +82,8 @@ impl Checker {
             return Some(wrong_class(place.instr, operand, param, classes));
         }
         if let Some(index) = index_of(kind)
-            && let Some(diagnostic) = self.index(place, span, index, param)
+            && let Some(diagnostic) =
+                indexes_itself(span, kind).or_else(|| self.index(place, span, index, param))
         {
             return Some(diagnostic);
         }
@@ -445,6 +446,22 @@ fn not_this_number(span: Span, device: Device, allowed: &[&(DeviceClass, u32, u3
 /// How many bits a value of an operand has.
 fn bits(found: Found, param: &Param) -> u32 {
     16 * words(found, param)
+}
+
+/// An index register goes with other devices, not with index registers (h1u-h2u-programming §3.8).
+fn indexes_itself(span: Span, kind: &OperandKind) -> Option<Diagnostic> {
+    let OperandKind::Device(device, Some(index)) = kind else {
+        return None;
+    };
+    matches!(device.class, DeviceClass::V | DeviceClass::Z).then(|| {
+        codes::NOT_INDEXABLE
+            .at(
+                span,
+                format!("`{device}` is an index register and takes none itself"),
+            )
+            .label(format!("`{index}` is not allowed here"))
+            .help("add the registers first, or use a data register")
+    })
 }
 
 /// Whether a group has a digit count that the operand can take; a result of two words may go to eight digits.
