@@ -436,6 +436,7 @@ impl Writer<'_, '_> {
                 let ends = [a0 * b0, a0 * b1, a1 * b0, a1 * b1];
                 (*ends.iter().min()?, *ends.iter().max()?)
             }
+            _ if b0 > 0 => (a0.min(0), a1.max(0)),
             // The divisor is not 0; only MIN / -1 does not fit.
             _ if a0 > I32.0 || b0 > -1 || b1 < -1 => (a0.min(-a1), a1.max(-a0)),
             _ => return None,
@@ -451,6 +452,9 @@ impl Writer<'_, '_> {
             Expr::Widen(a) => self.bounds(a, depth),
             Expr::BitToInt(_) => (0, 1),
             Expr::ReadNibbles { digits, .. } if digits < 4 => (0, (1 << (4 * digits)) - 1),
+            Expr::Bin(BinOp::And, _, mask) if matches!(*self.module.expr(mask), Expr::I32(0..)) => {
+                (0, self.bounds(mask, 0).1)
+            }
             Expr::Bin(op, a, b) if depth > 0 && self.module.ty(e) == Ty::I32 => arithmetic(op)
                 .and_then(|op| {
                     let ((a0, a1), (b0, b1)) =

@@ -522,16 +522,13 @@ impl<'a, 'm> Writer<'a, 'm> {
             out.push('\n');
         }
         let mut line = format!("/* step {}", network.step);
-        let texts = [&network.statement, &network.note];
-        for text in texts
-            .into_iter()
-            .flatten()
-            .map(|t| text::comment(t))
-            .filter(|t| !t.is_empty())
-        {
-            line.push_str(": ");
-            line.push_str(&text);
-        }
+        let tell =
+            |text: &Option<String>| text.as_deref().map(text::comment).filter(|t| !t.is_empty());
+        let _ = match (tell(&network.statement), tell(&network.note)) {
+            (Some(statement), Some(note)) => write!(line, ": {statement} ({note})"),
+            (Some(text), None) | (None, Some(text)) => write!(line, ": {text}"),
+            (None, None) => Ok(()),
+        };
         line.push_str(" */\n");
         text::push_indent(out, indent);
         out.push_str(&line);
