@@ -8,12 +8,6 @@ use rungc_ir::resolve::resolve;
 use rungc_syntax::{Diagnostic, Severity};
 use std::path::{Path, PathBuf};
 
-/// Cases that are judged differently on purpose, with the reason.
-const EXCEPTIONS: &[(&str, &str)] = &[(
-    "h1u-h2u/basic-flow-call/recursion_is_an_error",
-    "the case allows a compiler to reject the program instead of stopping it at run time; this one does, as its output never recurses",
-)];
-
 /// A program of a case and what is expected of it.
 struct Case {
     /// `folder/file/name`.
@@ -127,17 +121,7 @@ fn programs_are_rejected_where_the_cases_say_so() {
     let cases = cases();
     let rejecting = cases.iter().filter(|case| case.rejects.is_some());
     assert!(rejecting.count() >= 400, "the cases are not all there");
-    let mut wrong = Vec::new();
-    for case in &cases {
-        let expected = EXCEPTIONS.iter().any(|(name, _)| *name == case.name);
-        match misjudged(case) {
-            Some(text) if !expected => wrong.push(text),
-            None if expected => {
-                wrong.push(format!("{}: is judged right and no exception", case.name))
-            }
-            _ => {}
-        }
-    }
+    let wrong: Vec<String> = cases.iter().filter_map(misjudged).collect();
     assert!(
         wrong.is_empty(),
         "{} of {} misjudged:\n{}",

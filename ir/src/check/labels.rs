@@ -276,7 +276,8 @@ fn recursion(code: &Code, call: usize, called: Routine) -> rungc_syntax::Diagnos
             code.span(call),
             "this call leads back into its own subroutine",
         )
-        .label("calls itself through this");
+        .label("calls itself through this")
+        .help("this call is not carried out; it reports 6702 when it is reached");
     match called {
         Routine::Sub(label) | Routine::Interrupt(label) => {
             diagnostic.other(code.span(label as usize), "the subroutine begins here")

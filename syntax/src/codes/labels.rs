@@ -37,12 +37,6 @@ super::codes! {
     wrong: "LD X0\nCALL P1\nP2\nFEND\nP1\nLD X1\nCJ P2\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nCJ P2\nLD X2\nOUT Y0\nP2\nSRET\nEND\n";
 
-    RECURSION = "E0436" "recursion" Error None,
-    "subroutine that calls itself",
-    "A subroutine must not call itself, neither directly nor through others.",
-    wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nCALL P1\nSRET\nEND\n",
-    right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nOUT Y0\nSRET\nEND\n";
-
     DEEP_CALL = "E0437" "deep-call" Error Some(6702),
     "calls nested too deep",
     "Calls nest five deep on most models (eight on HM).",

@@ -79,6 +79,12 @@ super::codes! {
     wrong: "LD M8002\nSET S0\nSTL S0\nLD X0\nCJ P1\nLD X1\nOUT Y0\nRET\nP1\nEND\n",
     right: "LD M8002\nSET S0\nSTL S0\nLD X1\nOUT Y0\nRET\nEND\n";
 
+    RECURSION = "W0215" "recursion" Warning Some(6702),
+    "subroutine that calls itself",
+    "A subroutine must not call itself, neither directly nor through others. The PLC accepts the program; the call that closes the circle is not carried out and reports 6702 when it is reached.",
+    wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nCALL P1\nSRET\nEND\n",
+    right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nOUT Y0\nSRET\nEND\n";
+
     STEPS_DIFFER = "W0501" "steps-differ" Warning None,
     "step number that does not fit the instructions before it",
     "The source numbers its steps, and the number differs from what the instructions before it take on this model: the model may be another one, or a row is missing.",
