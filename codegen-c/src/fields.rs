@@ -75,6 +75,8 @@ pub enum Section {
     Latched,
     /// Special relays and registers: power-on values at power-on only.
     Special,
+    /// Special registers that outlast power-off, and that no program clears.
+    Records,
 }
 
 /// A field.
@@ -121,6 +123,7 @@ enum Keep {
     General,
     Latched,
     Special,
+    Record,
 }
 
 /// A run of devices within one field that power-off treats alike.
@@ -296,6 +299,7 @@ fn section(keep: Keep) -> Section {
         Keep::General => Section::General,
         Keep::Latched => Section::Latched,
         Keep::Special => Section::Special,
+        Keep::Record => Section::Records,
     }
 }
 
@@ -317,7 +321,11 @@ fn runs(module: &Module) -> Vec<(DeviceClass, Run, bool)> {
                 let keep = if area.class == DeviceClass::X {
                     Keep::Input
                 } else if special(first) {
-                    Keep::Special
+                    if area.latched {
+                        Keep::Record
+                    } else {
+                        Keep::Special
+                    }
                 } else if area.latched {
                     Keep::Latched
                 } else {

@@ -20,6 +20,7 @@ fn heading(section: Section) -> &'static str {
         Section::Mixed => "Devices of which some are kept over power-off.",
         Section::Latched => "Latched devices: kept over power-off.",
         Section::Special => "Special relays and registers.",
+        Section::Records => "Special registers that are kept over power-off.",
     }
 }
 
