@@ -346,7 +346,7 @@ registry! {
     Rotc = handy::rotc(s, m1, m2, d) [state, always];
     /// SORT (FNC 69): sorts a table kept by columns.
     Sort = handy::sort(s, m1, m2, d, n) [state, always];
-    /// D8490–D8509 of H1U/H2U, once after each scan's program.
+    /// D8490–D8511 of H1U/H2U, once after each scan's program.
     ErrorLog = system::error_log() [state, always];
     /// D8030–D8045 of L01S, once before each scan's program.
     AnalogInputs = system::analog_inputs() [always, hal];

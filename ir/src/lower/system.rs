@@ -18,8 +18,8 @@ const LEAST_SCAN_TIME: u32 = 8011;
 const MOST_SCAN_TIME: u32 = 8012;
 /// Relay for any error of the run.
 const ANY_ERROR: u32 = 8004;
-/// The error log of H1U/H2U: hours and codes, ten each; and the registers that tell which error and where.
-const ERROR_LOG: std::ops::RangeInclusive<u32> = 8490..=8509;
+/// The error log of H1U/H2U: hours and codes, ten each; the running time in seconds; and the registers that tell which error and where.
+const ERROR_LOG: std::ops::RangeInclusive<u32> = 8490..=8511;
 const LAST_ERROR: [u32; 2] = [8067, 8069];
 /// Values of the built-in analog inputs of L01S, and the register that switches them on.
 const ANALOG_INPUTS: std::ops::RangeInclusive<u32> = 8030..=8045;
@@ -273,7 +273,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// D8490 to D8509 (H1U/H2U).
+    /// D8490 to D8511 (H1U/H2U).
     fn error_log(&mut self) {
         if ERROR_LOG
             .into_iter()

@@ -427,8 +427,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8486 rw 6 inert(PULSES) "Y2: output of the clear signal of DSZR (with M8486)";
     D 8490-8499 r 0 scan "error log: time of error 1–10 in hours";
     D 8500-8509 r 0 scan "error log: code of error 1–10";
-    D 8510 r 0 inert(HARDWARE) "total running time of the system in s, 32 bits, low word";
-    D 8511 r 0 inert(HARDWARE) "high word of D8510";
+    D 8510 r 0 scan "total running time of the system in s, 32 bits, low word";
+    D 8511 r 0 scan "high word of D8510";
 };
 
 /// What only H1U has.

@@ -84,15 +84,16 @@ pub fn arws(cx: &mut Cx) -> Done {
             Ok(())
         };
     }
+    if !driven {
+        let state = cx.state();
+        (state.0[0], state.0[1], state.0[2]) = (0, 3, 0);
+    }
     let mode = cx.count(3, 0..=3)?;
     let keys = cx.bits(0, 0, 4)?;
     let mut bcd = shown(cx, 1, 0)?;
     cx.check_bits(2, 8)?;
-    let [scan, digit, before, ..] = if driven {
-        cx.state().0
-    } else {
-        [0, 3, 0, 0, 0, 0, 0, 0]
-    };
+    let [scan, digit, before, ..] = cx.state().0;
+    let scan = scan.rem_euclid(12);
     let fresh = keys & !(before as u32);
     let place = 4 * (digit & 3);
     let old = bcd >> place & 15;
@@ -111,8 +112,8 @@ pub fn arws(cx: &mut Cx) -> Done {
         cx.set_word(1, 0, super::digits::from_nibbles(bcd) as i16)?;
     }
     let state = cx.state();
-    (state.0[0], state.0[1], state.0[2]) = ((scan + 1).rem_euclid(12), digit % 4, keys as i32);
-    refresh(cx, 2, scan.rem_euclid(12), mode, &[bcd])
+    (state.0[0], state.0[1], state.0[2]) = ((scan + 1) % 12, digit % 4, keys as i32);
+    refresh(cx, 2, scan, mode, &[bcd])
 }
 
 /// ASC S D (FNC 76): the first eight characters of the text, filled with spaces, go to four words from D on; with M8161 to eight.

@@ -1,9 +1,10 @@
-//! What the scan does for special registers besides the program: the error log of H1U/H2U (h1u-h2u-programming §8.2.2) and the built-in
+//! What the scan does for special registers besides the program: the running time and error log of H1U/H2U (h1u-h2u-programming §8.2.2) and the built-in
 //! analog inputs of L01S (l01s-programming §6.2).
 
 use crate::cx::Cx;
 use crate::fault::Done;
 use crate::plc::Class;
+use crate::word::{pair, words};
 
 /// Hours of the logged errors, and their codes, the oldest first.
 const HOURS: u32 = 8490;
@@ -14,17 +15,27 @@ const ENTRIES: u32 = 10;
 const ERROR_CODE: u32 = 8067;
 const ERROR_STEP: u32 = 8069;
 
-/// The error log, once a scan after the program: a new code of an operation error is added, the oldest of ten making place; one that is
-/// there only takes the new time. Memory: code and step logged last.
+/// Seconds for which the PLC has run, low word.
+const RUN_TIME: u32 = 8510;
+
+/// The running time and the error log, once a scan after the program. A new code of an operation error is added, the oldest of ten making
+/// place; one that is there only takes the new time. Memory: code and step logged last; milliseconds of the second.
 pub fn error_log(cx: &mut Cx) -> Done {
+    let dt = cx.dt_ms();
+    let ms = cx.state().0[2].saturating_add(dt);
+    cx.state().0[2] = ms % 1000;
+    let [low, high] = [0, 1].map(|n| cx.special_word(RUN_TIME + n));
+    let seconds = pair(low, high).wrapping_add(ms / 1000);
+    for (register, word) in (RUN_TIME..).zip(words(seconds)) {
+        cx.set_special_word(register, word);
+    }
     let (code, step) = (cx.special_word(ERROR_CODE), cx.special_word(ERROR_STEP));
-    let state = cx.state();
     let logged = [i32::from(code), i32::from(step)];
+    let state = cx.state();
     if code == 0 || state.0[..2] == logged {
         return Ok(());
     }
     [state.0[0], state.0[1]] = logged;
-    let hours = (cx.plc.sys().now_ms / 3_600_000) as i16;
     let place = (0..ENTRIES).find(|&n| [0, code].contains(&cx.special_word(CODES + n)));
     if place.is_none() {
         for n in 0..ENTRIES - 1 {
@@ -35,7 +46,7 @@ pub fn error_log(cx: &mut Cx) -> Done {
         }
     }
     let place = place.unwrap_or(ENTRIES - 1);
-    cx.set_special_word(HOURS + place, hours);
+    cx.set_special_word(HOURS + place, (seconds / 3600) as i16);
     cx.set_special_word(CODES + place, code);
     Ok(())
 }
@@ -78,6 +89,7 @@ mod tests {
             (6702..=6711).collect::<std::vec::Vec<i16>>()
         );
         assert_eq!(plc.d(8490, 10), [3, 4, 5, 13, 7, 8, 9, 10, 11, 12]);
+        assert_eq!(plc.dd(8510), 13 * 3600);
     }
 
     #[test]
