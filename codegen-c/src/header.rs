@@ -61,6 +61,14 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
         );
         size.add(module.edges, 1);
     }
+    if plan.jumps() {
+        push_with_comment(
+            &mut out,
+            "    uint32_t jumps_left;",
+            "jumps that this scan may still make",
+        );
+        size.add(4, 4);
+    }
     for (i, temp) in plan.temps.iter().enumerate().filter(|(_, t)| t.field) {
         let ty = module.temps[i];
         let mut line = format!("    {} ", c_type(ty));

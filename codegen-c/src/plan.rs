@@ -133,6 +133,11 @@ pub struct Plan<'m> {
 }
 
 impl<'m> Plan<'m> {
+    /// Whether there are jumps that do not nest, which may go on for ever.
+    pub fn jumps(&self) -> bool {
+        self.state_names.iter().any(|names| !names.is_empty())
+    }
+
     /// Makes it.
     pub fn new(module: &'m Module) -> Self {
         let mut builder = Builder {

@@ -15,6 +15,10 @@ const FILE_WEIGHT: u64 = 60_000;
 
 /// Special relay that keeps memory and outputs in STOP.
 const M_KEEP_IN_STOP: u32 = 8033;
+/// Special relay and register that tell of the watchdog.
+const M_WATCHDOG: u32 = 8061;
+/// Jumps after which a scan does not end.
+const MAX_JUMPS: u32 = 1_000_000;
 /// Special relay that switches all outputs off.
 const M_OUTPUTS_OFF: u32 = 8034;
 
@@ -70,6 +74,9 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     if faults {
         printer.fault(&mut internal);
     }
+    if plan.jumps() {
+        printer.watchdog(&mut internal);
+    }
     // Where the program itself clears devices the functions stand before it, else with those of the API.
     let clearing = printer.clear_functions(clears_latched || module.model.latch_key.is_some());
     if clears_general || clears_latched {
@@ -77,7 +84,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     } else {
         groups[0].push_str(&clearing);
     }
-    printer.api_functions(&mut groups[0]);
+    printer.api_functions(&mut groups[0], plan.jumps());
     if runtime {
         table::write(&mut groups[0], module, &fields);
     }
@@ -230,6 +237,24 @@ impl Printer<'_> {
         );
     }
 
+    /// What stops a scan that jumps for ever.
+    fn watchdog(&self, out: &mut String) {
+        let name = self.name();
+        let mut trip = String::from("        plc->sys.running = false;\n");
+        if let Some(relay) = self.stored(DeviceClass::M, M_WATCHDOG) {
+            let _ = writeln!(trip, "        {relay} = true;");
+        }
+        if let Some(register) = self.stored(DeviceClass::D, M_WATCHDOG) {
+            let _ = writeln!(trip, "        {register} = 6105;");
+        }
+        let _ = write!(
+            out,
+            "/* Counts a jump. After too many in one scan the PLC stops, as its watchdog would have it. */\n\
+             static inline bool {name}_goes_on({name}_plc *plc)\n{{\n    if (plc->jumps_left == 0) {{\n        return false;\n    }}\n    \
+             plc->jumps_left--;\n    if (plc->jumps_left == 0) {{\n{trip}    }}\n    return plc->jumps_left > 0;\n}}\n\n"
+        );
+    }
+
     /// Functions that clear devices: general ones (STOP, M8031), and, where a program asks for it, latched ones (M8032).
     fn clear_functions(&self, latched_too: bool) -> String {
         let name = self.name();
@@ -297,7 +322,7 @@ impl Printer<'_> {
     }
 
     /// The functions that a host calls.
-    fn api_functions(&self, out: &mut String) {
+    fn api_functions(&self, out: &mut String, jumps: bool) {
         let (name, module) = (self.name(), self.module);
         let mut inputs = String::new();
         self.clear(&mut inputs, Section::Inputs, |_| false);
@@ -349,11 +374,15 @@ impl Printer<'_> {
                 format!("{indent}{function}(plc);\n")
             }
         };
+        let jumps = match jumps {
+            true => format!("    plc->jumps_left = {MAX_JUMPS};\n"),
+            false => String::new(),
+        };
         let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
         let _ = write!(
             out,
             "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n    \
-             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
+             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{jumps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
              plc->sys.first_scan = false;\n}}\n\n"
         );
         self.output(out);

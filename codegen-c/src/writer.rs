@@ -369,7 +369,8 @@ impl<'a, 'm> Writer<'a, 'm> {
             let pad = " ".repeat(indent);
             let _ = writeln!(
                 out,
-                "{pad}/* A jump back repeats it. */\n{pad}while ({name}(plc) == {first}) {{\n{pad}}}"
+                "{pad}/* A jump back repeats it. */\n{pad}while ({name}(plc) == {first} && {}_goes_on(plc)) {{\n{pad}}}",
+                self.module.name
             );
             return;
         }
@@ -380,7 +381,8 @@ impl<'a, 'm> Writer<'a, 'm> {
         );
         let _ = writeln!(
             out,
-            "{pad}for (int next = {first}; next != PLC_GO_ON;) {{\n{pad}    switch (next) {{"
+            "{pad}for (int next = {first}; next != PLC_GO_ON && {}_goes_on(plc);) {{\n{pad}    switch (next) {{",
+            self.module.name
         );
         for &(state, function) in parts {
             let mut name = String::new();

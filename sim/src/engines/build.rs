@@ -67,6 +67,8 @@ pub fn build<'m>(
 ) -> Result<Box<dyn Engine + 'm>, BuildError> {
     let folder = folder.join(kind.name());
     let command = match kind {
+        // Nothing will be asked of it: all cases are about programs that do not compile.
+        EngineKind::C | EngineKind::Rust if modules.is_empty() => PathBuf::new(),
         EngineKind::Interp => return Ok(Box::new(Interpreter::new(modules))),
         EngineKind::C => build_c(modules, &folder)?,
         EngineKind::Rust => build_rust(modules, &folder)?,
