@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_ir::ModelId;
+use rungc_syntax::{Severity, codes, diag};
 use std::path::PathBuf;
 
 /// Compiles programs of FX-family PLCs into native Rust and C.
@@ -71,15 +72,16 @@ pub struct Input {
 /// How to report diagnostics.
 #[derive(Args, Debug)]
 pub struct Reporting {
-    /// How to print diagnostics.
+    /// How to print diagnostics: for people to standard error; for tools to standard output, or to standard error where the
+    /// command itself writes to standard output.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     pub format: Format,
     /// Treat warnings as errors.
     #[arg(long)]
     pub deny_warnings: bool,
-    /// Leave out warnings with this code; may be repeated.
-    #[arg(short = 'A', long = "allow", value_name = "CODE")]
-    pub allow: Vec<String>,
+    /// Leave out warnings with this code (W0203) or name (double-coil); may be repeated.
+    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = warning)]
+    pub allow: Vec<&'static str>,
     /// How many diagnostics to print for people at most; 0 prints all.
     #[arg(long, default_value_t = 100, value_name = "N")]
     pub limit: usize,
@@ -131,7 +133,8 @@ pub struct RunArgs {
     /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start); may be repeated or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
-    /// Devices to show; by default the outputs and timers of the program.
+    /// Devices to show; by default the outputs, timers and counters of the program, then its registers and relays, twelve at
+    /// most.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
     /// Keep step with the clock instead of running as fast as possible.
@@ -234,6 +237,23 @@ pub enum EngineChoice {
     Rust,
     /// All three.
     All,
+}
+
+/// The identifier of a warning, given by its code or name.
+fn warning(name: &str) -> Result<&'static str, String> {
+    let code = codes::find(name).ok_or_else(|| {
+        let warnings = codes::all()
+            .into_iter()
+            .filter(|c| c.severity == Severity::Warning);
+        let names = warnings.flat_map(|c| [c.id, c.name]);
+        let near = diag::did_you_mean(&name.to_lowercase(), names);
+        let hint = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+        format!("there is no such warning{hint}")
+    })?;
+    match code.severity {
+        Severity::Warning => Ok(code.id),
+        Severity::Error => Err("an error cannot be left out".to_string()),
+    }
 }
 
 fn model(name: &str) -> Result<ModelId, String> {

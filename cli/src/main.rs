@@ -7,9 +7,9 @@ mod progress;
 mod report;
 mod time;
 
-use args::{Cli, ColorWhen, Command};
+use args::{Cli, ColorWhen, Command, Emit};
 use clap::{CommandFactory, Parser};
-use commands::{Context, Outcome};
+use commands::{Context, Failure, Outcome};
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
@@ -17,6 +17,12 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let cx = Context {
         color: color(cli.color),
+        taken: match &cli.command {
+            Command::Build(args) => args.emit == Emit::Ir && args.output.is_none(),
+            Command::Convert(args) => args.output.is_none(),
+            Command::Run(_) => true,
+            _ => false,
+        },
     };
     let result = match &cli.command {
         Command::Check(args) => commands::check::run(args, cx),
@@ -26,15 +32,18 @@ fn main() -> ExitCode {
         Command::Convert(args) => commands::convert::run(args, cx),
         Command::Explain(args) => commands::explain::run(args),
         Command::Completions { shell } => {
-            clap_complete::generate(*shell, &mut Cli::command(), "rungc", &mut io::stdout());
-            Ok(Outcome::Success)
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Cli::command(), "rungc", &mut script);
+            commands::say(&String::from_utf8_lossy(&script))
+                .map(|()| Outcome::Success)
+                .map_err(Failure::from)
         }
     };
     match result {
-        Ok(Outcome::Success) => ExitCode::SUCCESS,
+        Ok(Outcome::Success) | Err(Failure::Unheard) => ExitCode::SUCCESS,
         Ok(Outcome::Failed) => ExitCode::from(1),
         Err(failure) => {
-            eprintln!("rungc: {failure}");
+            commands::tell(&format!("rungc: {failure}"));
             ExitCode::from(2)
         }
     }

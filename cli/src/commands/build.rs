@@ -1,6 +1,6 @@
 //! `rungc build`.
 
-use super::{Context, Failure, Outcome, Result, conclude, read, stem, write_file};
+use super::{Context, Failure, Outcome, Result, conclude, counted, read, say, stem, write_file};
 use crate::args::{BuildArgs, Emit};
 use crate::progress;
 use crate::report::{self, Findings};
@@ -43,13 +43,13 @@ pub fn run(args: &BuildArgs, cx: Context) -> Result {
     match written {
         Some(path) => conclude(&findings, &args.input.reporting, cx, || {
             format!(
-                "     Emitted {} ({}, {} steps)",
+                "    Emitted {} ({}, {})",
                 path.display(),
-                module.model.name,
-                module.steps
+                module.model.name.to_uppercase(),
+                counted(module.steps as usize, "step")
             )
         }),
-        None => report::print(&findings, &args.input.reporting, cx.color)
+        None => report::print(&findings, &args.input.reporting, cx.color, cx.taken)
             .map(|()| Outcome::Success)
             .map_err(Failure::from),
     }
@@ -66,7 +66,7 @@ fn emit(args: &BuildArgs, module: &Module) -> std::result::Result<Option<PathBuf
         Emit::Ir => {
             let text = dump::dump(module);
             match &args.output {
-                None => print!("{text}"),
+                None => say(&text)?,
                 Some(path) => write_file(path, text.as_bytes(), args.force)?,
             }
             Ok(args.output.clone())
@@ -113,14 +113,16 @@ fn rust_files(module: &Module, main: bool) -> Vec<OutFile> {
 
 /// Writes all files into a new folder, which appears only when complete; with `force` into one that is already there.
 fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::Result<(), Failure> {
-    let at = |path: &Path, error: std::io::Error| Failure(format!("{}: {error}", path.display()));
+    let at = |path: &Path, error: std::io::Error| {
+        Failure::Because(format!("{}: {error}", path.display()))
+    };
     let occupied = folder.exists()
         && fs::read_dir(folder)
             .map_err(|e| at(folder, e))?
             .next()
             .is_some();
     if occupied && !force {
-        return Err(Failure(format!(
+        return Err(Failure::Because(format!(
             "{} is already there and not empty; --force writes into it",
             folder.display()
         )));
@@ -153,7 +155,7 @@ fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::R
 /// Emits C with a main program into a temporary folder, builds it with make, and keeps the executable.
 fn executable(module: &Module, path: &Path, force: bool) -> std::result::Result<(), Failure> {
     if path.exists() && !force {
-        return Err(Failure(format!(
+        return Err(Failure::Because(format!(
             "{} is already there; --force replaces it",
             path.display()
         )));
@@ -165,12 +167,12 @@ fn executable(module: &Module, path: &Path, force: bool) -> std::result::Result<
         Command::new("make").arg("-C").arg(&source).output()
     })
     .map_err(|error| {
-        Failure(format!(
+        Failure::Because(format!(
             "cannot run make: {error}; building an executable needs make and a C compiler"
         ))
     })?;
     if !built.status.success() {
-        return Err(Failure(format!(
+        return Err(Failure::Because(format!(
             "the C compiler failed:\n{}",
             String::from_utf8_lossy(&built.stderr)
         )));
@@ -181,5 +183,5 @@ fn executable(module: &Module, path: &Path, force: bool) -> std::result::Result<
     }
     fs::copy(&binary, path)
         .map(|_| ())
-        .map_err(|error| Failure(format!("{}: {error}", path.display())))
+        .map_err(|error| Failure::Because(format!("{}: {error}", path.display())))
 }

@@ -1,9 +1,11 @@
 //! `rungc check`.
 
-use super::{Context, Result, conclude, read};
+use super::{Context, Result, conclude, counted, read};
 use crate::args::CheckArgs;
 use crate::report::Findings;
 use rungc_ir::compile::{self, CompileOptions};
+use rungc_syntax::{DeviceClass, OperandKind, Program};
+use std::collections::BTreeSet;
 use std::time::Instant;
 
 /// Reports everything that is wrong with a program.
@@ -27,11 +29,28 @@ pub fn run(args: &CheckArgs, cx: Context) -> Result {
     );
     let elapsed = start.elapsed();
     conclude(&findings, &args.input.reporting, cx, || {
-        let (name, model) = (&read.program.source.name, checked.model.name);
         format!(
-            "    Checked {name} ({model}, {} steps) in {} ms",
-            checked.steps,
+            "    Checked {} ({}, {}, {}) in {} ms",
+            read.program.source.name,
+            checked.model.name.to_uppercase(),
+            counted(checked.steps as usize, "step"),
+            counted(devices(&read.program), "device"),
             elapsed.as_millis()
         )
     })
+}
+
+/// How many devices the program names; pointers and nesting levels are none.
+fn devices(program: &Program) -> usize {
+    let operands = program.instrs.iter().flat_map(|instr| &instr.operands);
+    let named: BTreeSet<_> = operands
+        .filter_map(|operand| match operand.kind {
+            OperandKind::Device(device, _)
+            | OperandKind::WordBit(device, ..)
+            | OperandKind::Nibbles(_, device, _) => Some(device),
+            _ => None,
+        })
+        .filter(|d| !matches!(d.class, DeviceClass::P | DeviceClass::I | DeviceClass::N))
+        .collect();
+    named.len()
 }

@@ -18,7 +18,7 @@ pub fn run(args: &ConvertArgs, cx: Context) -> Result {
     if findings.failed() {
         return conclude(&findings, &args.input.reporting, cx, String::new);
     }
-    crate::report::print(&findings, &args.input.reporting, cx.color)?;
+    crate::report::print(&findings, &args.input.reporting, cx.color, cx.taken)?;
     let bytes = match args.to {
         ConvertTo::Il => print::to_il(&read.program).into_bytes(),
         ConvertTo::Csv => print::to_csv(&read.program),

@@ -1,6 +1,6 @@
 //! `rungc explain`.
 
-use super::{Failure, Outcome, Result};
+use super::{Failure, Outcome, Result, say};
 use crate::args::ExplainArgs;
 use rungc_ir::{ModelId, catalogue, special};
 use rungc_syntax::codes::{self, Code};
@@ -12,8 +12,8 @@ pub fn run(args: &ExplainArgs) -> Result {
     let topic = args.topic.trim().to_uppercase();
     let page = codes::find(&args.topic.trim().to_lowercase())
         .map(code_page)
-        .or_else(|| catalogue::explain(&topic))
-        .or_else(|| special_page(&topic, args.model));
+        .or_else(|| special_page(&topic, args.model?))
+        .or_else(|| catalogue::explain(&topic));
     let Some(page) = page else {
         let codes = codes::all()
             .into_iter()
@@ -22,12 +22,12 @@ pub fn run(args: &ExplainArgs) -> Result {
         let hint = diag::did_you_mean(&topic, names)
             .map(|near| format!("; did you mean `{near}`?"))
             .unwrap_or_default();
-        return Err(Failure(format!(
+        return Err(Failure::Because(format!(
             "`{}` is no diagnostic code, instruction or special device{hint}",
             args.topic
         )));
     };
-    println!("{}", page.trim_end());
+    say(&format!("{}\n", page.trim_end()))?;
     Ok(Outcome::Success)
 }
 
@@ -57,23 +57,17 @@ fn code_page(code: &Code) -> String {
     page
 }
 
-/// What a special device means, on the model asked for or on every model that has it.
-fn special_page(topic: &str, model: Option<ModelId>) -> Option<String> {
+/// What a special device means on one model.
+fn special_page(topic: &str, model: ModelId) -> Option<String> {
     let (class, digits) = match topic.split_at_checked(1)? {
         ("M", digits) => (DeviceClass::M, digits),
         ("D", digits) => (DeviceClass::D, digits),
         _ => return None,
     };
     let number: u32 = digits.parse().ok()?;
-    let models: Vec<ModelId> = model.map_or(ModelId::ALL.to_vec(), |model| vec![model]);
-    let mut page = String::new();
-    for id in models {
-        if let Some(special) = special::find(id, class, number) {
-            let title = rungc_ir::Model::get(id).title;
-            let _ = write!(page, "{topic} on {title}: {}\n\n", describe(special));
-        }
-    }
-    (!page.is_empty()).then_some(page)
+    let special = special::find(model, class, number)?;
+    let title = rungc_ir::Model::get(model).title;
+    Some(format!("{topic} on {title}: {}", describe(special)))
 }
 
 fn describe(special: &special::Special) -> String {

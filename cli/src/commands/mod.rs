@@ -9,10 +9,11 @@ pub mod test;
 
 use crate::args::{Format, Input, Reporting};
 use crate::report::{self, Findings};
-use rungc_frontend::Read;
+use rungc_frontend::{Read, ReadError};
+use rungc_syntax::codes;
 use std::fmt;
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// How a command ended.
@@ -24,19 +25,30 @@ pub enum Outcome {
     Failed,
 }
 
-/// Why a command could not do its work: exit code 2.
+/// Why a command could not do its work.
 #[derive(Debug)]
-pub struct Failure(pub String);
+pub enum Failure {
+    /// What stands in the way: exit code 2.
+    Because(String),
+    /// Whoever reads the output, such as `head`, has heard enough: no failure at all.
+    Unheard,
+}
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        match self {
+            Failure::Because(reason) => f.write_str(reason),
+            Failure::Unheard => f.write_str("nobody reads the output"),
+        }
     }
 }
 
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
-        Failure(error.to_string())
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Failure::Unheard,
+            _ => Failure::Because(error.to_string()),
+        }
     }
 }
 
@@ -48,11 +60,51 @@ pub type Result = std::result::Result<Outcome, Failure>;
 pub struct Context {
     /// Whether to colour what goes to standard error.
     pub color: bool,
+    /// Whether standard output is taken by what the command makes, so that a report for tools goes to standard error.
+    pub taken: bool,
 }
 
 /// Reads a program.
 pub fn read(path: &Path) -> std::result::Result<Read, Failure> {
-    rungc_frontend::read(path).map_err(|error| Failure(format!("{}: {error}", path.display())))
+    rungc_frontend::read(path).map_err(|error| {
+        Failure::Because(match error {
+            ReadError::Undecodable { .. } | ReadError::NoProject { .. } => {
+                let code = codes::UNKNOWN_FORMAT.id;
+                format!("error[{code}]: {error}\n       `rungc explain {code}` tells more")
+            }
+            ReadError::Io { .. } | ReadError::TooLarge { .. } => error.to_string(),
+        })
+    })
+}
+
+/// Writes a text to standard output.
+pub fn say(text: &str) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()
+}
+
+/// Tells people something on standard error; that nobody listens there is no reason to stop.
+pub fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// A number with its noun: `1 case`, `2 431 steps`.
+pub fn counted(n: usize, what: &str) -> String {
+    format!("{} {what}{}", grouped(n), if n == 1 { "" } else { "s" })
+}
+
+/// A number with its thousands set apart.
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
 }
 
 /// Prints findings, and for people a closing line that says `done` (what was accomplished) or that errors prevented it.
@@ -62,9 +114,9 @@ pub fn conclude(
     cx: Context,
     done: impl FnOnce() -> String,
 ) -> Result {
-    report::print(findings, reporting, cx.color)?;
+    report::print(findings, reporting, cx.color, cx.taken)?;
     if reporting.format == Format::Human {
-        eprintln!("{}", summary(findings, done));
+        tell(&summary(findings, done));
     }
     Ok(if findings.failed() {
         Outcome::Failed
@@ -75,7 +127,6 @@ pub fn conclude(
 
 fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
     use rungc_syntax::Severity::{Error, Warning};
-    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let counts = format!(
         "{}, {}",
         counted(findings.count(Error), "error"),
@@ -90,9 +141,9 @@ fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
 
 /// Writes a file whole or not at all; refuses to replace one unless `force`.
 pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Result<(), Failure> {
-    let at = |error: io::Error| Failure(format!("{}: {error}", path.display()));
+    let at = |error: io::Error| Failure::Because(format!("{}: {error}", path.display()));
     if path.exists() && !force {
-        return Err(Failure(format!(
+        return Err(Failure::Because(format!(
             "{} is already there; --force replaces it",
             path.display()
         )));
@@ -103,7 +154,7 @@ pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Res
         .unwrap_or(Path::new("."));
     fs::create_dir_all(folder).map_err(at)?;
     let mut file = tempfile::NamedTempFile::new_in(folder).map_err(at)?;
-    io::Write::write_all(&mut file, contents).map_err(at)?;
+    file.write_all(contents).map_err(at)?;
     file.persist(path).map_err(|error| at(error.error))?;
     Ok(())
 }

@@ -27,10 +27,18 @@ struct Setting {
 /// How many devices are shown when none are asked for.
 const DEFAULT_COLUMNS: usize = 12;
 
+/// Special relays and registers have numbers from here on; they are shown only when asked for.
+const SPECIAL_FIRST: u32 = 8000;
+
+/// How many characters of a text are shown at most.
+const TEXT_LENGTH: usize = 64;
+
 /// Runs a program in the interpreter, showing the watched devices.
 pub fn run(args: &RunArgs, cx: Context) -> Result {
     if args.scan == 0 {
-        return Err(Failure("--scan: a scan takes at least 1 ms".to_string()));
+        return Err(Failure::Because(
+            "--scan: a scan takes at least 1 ms".to_string(),
+        ));
     }
     let mut settings = args
         .set
@@ -44,9 +52,11 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         .map(|name| target(name))
         .collect::<std::result::Result<Vec<_>, _>>()?;
     let read = read(&args.input.file)?;
+    let used = settings.iter().map(|s| s.target).chain(watched.clone());
     let options = CompileOptions {
         model: args.input.model,
         name: Some(stem(&args.input, &read)),
+        observe: used.flat_map(observed).collect(),
         ..CompileOptions::default()
     };
     let compiled = compile(&read.program, &options);
@@ -62,7 +72,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, &args.input.reporting, cx, String::new),
     };
-    report::print(&findings, &args.input.reporting, cx.color)?;
+    report::print(&findings, &args.input.reporting, cx.color, cx.taken)?;
     let watched = if watched.is_empty() {
         default_watch(&module)
     } else {
@@ -73,8 +83,8 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
 
 fn target(name: &str) -> std::result::Result<Target, Failure> {
     let upper = upper(name);
-    match Target::parse(&upper).map_err(Failure)? {
-        Target::Pulses(_) | Target::Frequency(_) => Err(Failure(format!(
+    match Target::parse(&upper).map_err(Failure::Because)? {
+        Target::Pulses(_) | Target::Frequency(_) => Err(Failure::Because(format!(
             "`{name}`: pulse outputs cannot be watched yet"
         ))),
         // A timer or counter is watched by its current value.
@@ -96,7 +106,7 @@ fn upper(name: &str) -> String {
 }
 
 fn setting(text: &str) -> std::result::Result<Setting, Failure> {
-    let wrong = |why: String| Failure(format!("--set {text}: {why}"));
+    let wrong = |why: String| Failure::Because(format!("--set {text}: {why}"));
     let (name, rest) = text
         .split_once('=')
         .ok_or_else(|| wrong("write DEVICE=VALUE, for example X000=1@200ms".to_string()))?;
@@ -104,7 +114,7 @@ fn setting(text: &str) -> std::result::Result<Setting, Failure> {
         .split_once('@')
         .map_or((rest, None), |(value, at)| (value, Some(at)));
     let at_ms = at.map_or(Ok(0), crate::time::parse).map_err(wrong)?;
-    let target = target(name).map_err(|Failure(why)| wrong(why))?;
+    let target = target(name).map_err(|error| wrong(error.to_string()))?;
     let value: f64 = value
         .trim()
         .parse()
@@ -127,7 +137,13 @@ fn setting(text: &str) -> std::result::Result<Setting, Failure> {
     }
 }
 
-/// The outputs, timers and counters that the program uses, as far as a line holds them.
+/// A watched or set device is kept though the program may not use it.
+fn observed(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
+    let (class, first, count) = target.devices(TEXT_LENGTH);
+    (first..first.saturating_add(count)).map(move |n| (class, n))
+}
+
+/// The outputs, timers and counters that the program uses, then its registers and relays, as far as a line holds them.
 fn default_watch(module: &Module) -> Vec<Target> {
     let of = |class| {
         let areas = module.layout.areas.iter().filter(move |a| a.class == class);
@@ -136,9 +152,14 @@ fn default_watch(module: &Module) -> Vec<Target> {
     let outputs = of(DeviceClass::Y).map(|n| Target::Bit(DeviceClass::Y, n));
     let timers = of(DeviceClass::T).map(|n| Target::Current(DeviceClass::T, n));
     let counters = of(DeviceClass::C).map(|n| Target::Current(DeviceClass::C, n));
+    let special = |n: &u32| *n >= SPECIAL_FIRST;
+    let registers = of(DeviceClass::D).filter(move |n| !special(n));
+    let relays = of(DeviceClass::M).filter(move |n| !special(n));
     outputs
         .chain(timers)
         .chain(counters)
+        .chain(registers.map(|n| Target::Word(DeviceClass::D, n)))
+        .chain(relays.map(|n| Target::Bit(DeviceClass::M, n)))
         .take(DEFAULT_COLUMNS)
         .collect()
 }
@@ -157,24 +178,28 @@ fn column(target: Target) -> Column {
     Column { name, kind }
 }
 
+fn missing(target: Target, module: &Module) -> Failure {
+    let model = module.model.title;
+    Failure::Because(format!("`{target}` does not exist on {model}"))
+}
+
 fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Target]) -> Result {
     let mut machine = Machine::new(module);
     let mut hal = VirtualHal::new();
     let mut view = View::new(watched.iter().map(|&t| column(t)).collect());
     let mut pending = settings.iter().peekable();
+    // What does not exist is said before anything is shown.
+    for target in settings.iter().map(|s| s.target).chain(watched.to_vec()) {
+        device::get(&machine, target).ok_or_else(|| missing(target, module))?;
+    }
     let mut out = io::stdout().lock();
     writeln!(out, "{}", view.heading())?;
     let begin = Instant::now();
     let mut now = 0;
     while now <= args.duration {
         while let Some(setting) = pending.next_if(|s| s.at_ms <= now) {
-            let missing = || {
-                Failure(format!(
-                    "`{}` does not exist on {}",
-                    setting.target, module.model.title
-                ))
-            };
-            device::set(&mut machine, setting.target, setting.value).ok_or_else(missing)?;
+            device::set(&mut machine, setting.target, setting.value)
+                .ok_or_else(|| missing(setting.target, module))?;
         }
         hal.advance_to(now as u32);
         rungc_rt::Program::scan(
@@ -185,17 +210,13 @@ fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Ta
         );
         let values = watched
             .iter()
-            .map(|&t| {
-                device::get(&machine, t).ok_or_else(|| {
-                    Failure(format!("`{t}` does not exist on {}", module.model.title))
-                })
-            })
+            .map(|&t| device::get(&machine, t).ok_or_else(|| missing(t, module)))
             .collect::<std::result::Result<Vec<_>, _>>()?;
         if let Some(row) = view.scan(now, &values) {
             writeln!(out, "{row}")?;
         }
         if machine.watchdog_tripped() {
-            return Err(Failure(format!(
+            return Err(Failure::Because(format!(
                 "at {now} ms: a scan does not end (watchdog, D8061 = 6105)"
             )));
         }
@@ -284,7 +305,9 @@ mod device {
             }
             Target::Text(class, n) => {
                 let class = class_of(class)?;
-                let words = (n..).map_while(|n| machine.word(class, n)).take(32);
+                let words = (n..)
+                    .map_while(|n| machine.word(class, n))
+                    .take(super::TEXT_LENGTH / 2);
                 let bytes = words
                     .flat_map(i16::to_le_bytes)
                     .take_while(|&b| b != 0)

@@ -1,6 +1,6 @@
 //! `rungc test`.
 
-use super::{Context, Failure, Outcome, Result};
+use super::{Context, Failure, Outcome, Result, counted, say, tell};
 use crate::args::{EngineChoice, TestArgs};
 use crate::progress;
 use rungc_sim::engines::{EngineKind, build};
@@ -18,15 +18,12 @@ pub fn run(args: &TestArgs, _cx: Context) -> Result {
     let files = load(&args.files, args.only.as_deref())?;
     let suite = progress::spin("compiling the cases", || Suite::compile(files));
     if suite.is_empty() {
-        return Err(Failure("no case to run".to_string()));
+        return Err(Failure::Because("no case to run".to_string()));
     }
     let kinds = engines(args.engine);
     let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
-    eprintln!(
-        "     Running {} on {}",
-        counted(suite.len(), "case"),
-        names.join(", ")
-    );
+    let cases = counted(suite.len(), "case");
+    tell(&format!("     Running {cases} on {}", names.join(", ")));
     let folder = tempfile::tempdir()?;
     let mut report = Report::default();
     for kind in kinds {
@@ -36,29 +33,25 @@ pub fn run(args: &TestArgs, _cx: Context) -> Result {
             "building the engine"
         };
         let built = progress::spin(what, || build(kind, suite.modules(), folder.path()));
-        let mut engine = built.map_err(|error| Failure(error.to_string()))?;
+        let mut engine = built.map_err(|error| Failure::Because(error.to_string()))?;
         let bar = progress::bar(suite.len() as u64).with_message(kind.name());
         report.extend(plctest::run(&suite, engine.as_mut(), &mut |_| bar.inc(1)));
         bar.finish_and_clear();
     }
     for failed in report.failures() {
-        println!("{}", failed.describe(&suite));
+        say(&format!("{}\n", failed.describe(&suite)))?;
     }
     let failed = report.failures().count();
-    println!(
-        "{} passed, {failed} failed ({:.1} s)",
+    say(&format!(
+        "{} passed, {failed} failed ({:.1} s)\n",
         report.passed(),
         start.elapsed().as_secs_f64()
-    );
+    ))?;
     Ok(if report.is_success() {
         Outcome::Success
     } else {
         Outcome::Failed
     })
-}
-
-fn counted(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 fn engines(choice: EngineChoice) -> Vec<EngineKind> {
@@ -91,7 +84,7 @@ fn load(paths: &[PathBuf], only: Option<&str>) -> std::result::Result<Vec<TestFi
         }
     }
     if !problems.is_empty() {
-        return Err(Failure(problems.join("\n")));
+        return Err(Failure::Because(problems.join("\n")));
     }
     if let Some(only) = only {
         for file in &mut files {
@@ -105,7 +98,7 @@ fn load(paths: &[PathBuf], only: Option<&str>) -> std::result::Result<Vec<TestFi
 }
 
 fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Failure> {
-    let at = |error: std::io::Error| Failure(format!("{}: {error}", folder.display()));
+    let at = |error: std::io::Error| Failure::Because(format!("{}: {error}", folder.display()));
     for entry in fs::read_dir(folder).map_err(at)? {
         let path = entry.map_err(at)?.path();
         if path.is_dir() {

@@ -23,9 +23,17 @@ pub fn print(
         limit
     };
     for diagnostic in findings.diagnostics.iter().take(shown) {
-        report(diagnostic, name, findings.program.source.text.len(), color)
-            .write((name, &source), &mut *out)?;
-        writeln!(out)?;
+        let mut drawn = Vec::new();
+        let heading = match diagnostic.severity {
+            Severity::Error => format!("error[{}]", diagnostic.code),
+            Severity::Warning => format!("warning[{}]", diagnostic.code),
+        };
+        let length = findings.program.source.text.len();
+        report(diagnostic, &heading, name, length, color).write((name, &source), &mut drawn)?;
+        let drawn = String::from_utf8_lossy(&drawn);
+        // The library colours the heading even where colours are off.
+        let drawn = if color { drawn } else { plain(&drawn).into() };
+        writeln!(out, "{}", tidy(&drawn))?;
     }
     let hidden = findings.diagnostics.len().saturating_sub(shown);
     if hidden > 0 {
@@ -36,6 +44,7 @@ pub fn print(
 
 fn report<'a>(
     d: &Diagnostic,
+    heading: &'a str,
     name: &'a str,
     length: usize,
     color: bool,
@@ -47,31 +56,29 @@ fn report<'a>(
             range.start.min(length)..range.end.min(length).max(range.start.min(length)),
         )
     };
-    let (kind, main_color) = match d.severity {
-        Severity::Error => (ReportKind::Custom("error", Color::Red), Color::Red),
-        Severity::Warning => (ReportKind::Custom("warning", Color::Yellow), Color::Yellow),
+    let main_color = match d.severity {
+        Severity::Error => Color::Red,
+        Severity::Warning => Color::Yellow,
     };
-    let main = Label::new(place(d.span)).with_color(main_color);
+    let kind = ReportKind::Custom(heading, main_color);
+    let text = if d.label.is_empty() { "here" } else { &d.label };
+    let label = |span, text: &str, color| {
+        let label = Label::new(place(span)).with_message(text);
+        (span.start, label.with_color(color))
+    };
+    let others = d.others.iter().map(|o| label(o.span, &o.text, Color::Blue));
+    // In order of place, or the library draws the source once for each.
+    let mut labels: Vec<_> = others.collect();
+    labels.push(label(d.span, text, main_color));
+    labels.sort_by_key(|(start, _)| *start);
     let config = Config::default()
         .with_color(color)
         .with_index_type(IndexType::Byte)
         .with_char_set(CharSet::Unicode);
     let mut report = Report::build(kind, place(d.span))
         .with_config(config)
-        .with_code(d.code)
         .with_message(&d.message)
-        .with_label(if d.label.is_empty() {
-            main.with_message("here")
-        } else {
-            main.with_message(&d.label)
-        });
-    for other in &d.others {
-        report = report.with_label(
-            Label::new(place(other.span))
-                .with_message(&other.text)
-                .with_color(Color::Blue),
-        );
-    }
+        .with_labels(labels.into_iter().map(|(_, label)| label));
     if let Some(help) = &d.help {
         report = report.with_help(help);
     }
@@ -82,4 +89,32 @@ fn report<'a>(
     report
         .with_note(format!("{plc}`rungc explain {}` tells more", d.code))
         .finish()
+}
+
+/// A text without the escape sequences that set colours.
+fn plain(text: &str) -> String {
+    let mut parts = text.split("\u{1b}[");
+    let mut plain = parts.next().unwrap_or_default().to_string();
+    for part in parts {
+        plain.push_str(part.split_once('m').map_or(part, |(_, rest)| rest));
+    }
+    plain
+}
+
+/// Lines without spaces at their ends.
+fn tidy(text: &str) -> String {
+    text.lines()
+        .map(|line| format!("{}\n", line.trim_end()))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn colours_are_removed() {
+        assert_eq!(plain("\u{1b}[31merror:\u{1b}[0m no"), "error: no");
+        assert_eq!(plain("nothing to do"), "nothing to do");
+    }
 }

@@ -1,7 +1,7 @@
 //! Diagnostics as one JSON object.
 
 use super::Findings;
-use rungc_syntax::{Severity, Span};
+use rungc_syntax::{Severity, Span, codes};
 use serde::Serialize;
 use std::io;
 
@@ -16,6 +16,7 @@ struct Output<'a> {
 #[derive(Serialize)]
 struct Item<'a> {
     code: &'a str,
+    name: &'a str,
     severity: &'static str,
     message: &'a str,
     #[serde(flatten)]
@@ -71,6 +72,7 @@ pub fn render(findings: &Findings) -> io::Result<String> {
             .iter()
             .map(|d| Item {
                 code: d.code,
+                name: codes::find(d.code).map_or("", |code| code.name),
                 severity: if d.severity == Severity::Error {
                     "error"
                 } else {

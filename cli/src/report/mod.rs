@@ -28,12 +28,7 @@ impl<'a> Findings<'a> {
         reporting: &Reporting,
     ) -> Self {
         let mut diagnostics = diagnostics.sorted();
-        let allowed = |d: &Diagnostic| {
-            reporting
-                .allow
-                .iter()
-                .any(|code| code.eq_ignore_ascii_case(d.code))
-        };
+        let allowed = |d: &Diagnostic| reporting.allow.contains(&d.code);
         diagnostics.retain(|d| d.severity == Severity::Error || !allowed(d));
         if reporting.deny_warnings {
             diagnostics
@@ -68,11 +63,29 @@ impl<'a> Findings<'a> {
     }
 }
 
-/// Prints the findings: JSON and SARIF to standard output, text for people to standard error.
-pub fn print(findings: &Findings, reporting: &Reporting, color: bool) -> io::Result<()> {
-    match reporting.format {
-        Format::Human => human::print(findings, reporting.limit, color, &mut io::stderr().lock()),
-        Format::Json => writeln!(io::stdout(), "{}", json::render(findings)?),
-        Format::Sarif => writeln!(io::stdout(), "{}", sarif::render(findings)?),
+/// Prints the findings: text for people to standard error; JSON and SARIF to standard output, or to standard error as well if
+/// standard output is `taken` by what the command makes.
+pub fn print(
+    findings: &Findings,
+    reporting: &Reporting,
+    color: bool,
+    taken: bool,
+) -> io::Result<()> {
+    let object = match reporting.format {
+        Format::Human => {
+            // That nobody reads it is no reason to stop.
+            return human::print(findings, reporting.limit, color, &mut io::stderr().lock())
+                .or_else(|error| match error.kind() {
+                    io::ErrorKind::BrokenPipe => Ok(()),
+                    _ => Err(error),
+                });
+        }
+        Format::Json => json::render(findings)?,
+        Format::Sarif => sarif::render(findings)?,
+    };
+    if taken {
+        writeln!(io::stderr(), "{object}")
+    } else {
+        writeln!(io::stdout(), "{object}")
     }
 }

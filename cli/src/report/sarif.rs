@@ -1,20 +1,22 @@
 //! Diagnostics as SARIF 2.1.0, for code scanning services.
 
 use super::Findings;
+use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Diagnostic, Severity, Span};
 use serde_sarif::sarif::{
-    ArtifactLocation, Location, Message, PhysicalLocation, Region, ReportingDescriptor,
-    Result as Item, ResultLevel, Run, Sarif, Tool, ToolComponent, Version,
+    ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation, Region,
+    ReportingDescriptor, Result as Item, ResultLevel, Run, Sarif, Tool, ToolComponent, Version,
 };
 use std::collections::BTreeSet;
 use std::io;
 
 /// The log as pretty-printed text.
 pub fn render(findings: &Findings) -> io::Result<String> {
-    let codes: BTreeSet<&str> = findings.diagnostics.iter().map(|d| d.code).collect();
-    let rules: Vec<ReportingDescriptor> = codes
+    let used: BTreeSet<&str> = findings.diagnostics.iter().map(|d| d.code).collect();
+    let rules: Vec<ReportingDescriptor> = codes::all()
         .into_iter()
-        .map(|code| ReportingDescriptor::builder().id(code).build())
+        .filter(|code| used.contains(code.id))
+        .map(rule)
         .collect();
     let driver = ToolComponent::builder()
         .name("rungc")
@@ -38,6 +40,24 @@ pub fn render(findings: &Findings) -> io::Result<String> {
     Ok(serde_json::to_string_pretty(&log)?)
 }
 
+/// What a code means, for those who see only the log.
+fn rule(code: &Code) -> ReportingDescriptor {
+    let text = |text: &str| MultiformatMessageString::builder().text(text).build();
+    let mut help = code.text.to_string();
+    for (title, list) in [("Wrong", code.wrong), ("Right", code.right)] {
+        if !list.is_empty() {
+            help = format!("{help}\n\n{title}:\n\n{}", list.trim_end());
+        }
+    }
+    ReportingDescriptor::builder()
+        .id(code.id)
+        .name(code.name)
+        .short_description(text(code.title))
+        .full_description(text(code.text))
+        .help(text(&help))
+        .build()
+}
+
 fn item(findings: &Findings, d: &Diagnostic) -> Item {
     let level = match d.severity {
         Severity::Error => ResultLevel::Error,
@@ -45,7 +65,7 @@ fn item(findings: &Findings, d: &Diagnostic) -> Item {
     };
     let mut text = d.message.clone();
     if let Some(help) = &d.help {
-        text = format!("{text}. {help}");
+        text = format!("{text}\n\nHelp: {help}");
     }
     let related: Vec<Location> = d
         .others

@@ -152,8 +152,14 @@ impl<'a> Code<'a> {
     /// Whether there is an END, and something behind it.
     fn end(&self, out: &mut Diagnostics) {
         let instrs = &self.resolved.program.instrs;
+        let unread = self.resolved.program.unread.last();
+        if unread.is_some_and(|&before| before as usize >= instrs.len()) {
+            // What could not be read may have been END.
+            return;
+        }
         let Some(last) = self.len.checked_sub(1) else {
-            out.push(codes::NO_END.at(Span::default(), "the program is empty"));
+            let empty = codes::NO_END.at(Span::default(), "the program is empty");
+            out.push(empty.help("a program holds at least END"));
             return;
         };
         if self.basic(last) != Some(Basic::End) {

@@ -26,6 +26,9 @@ pub enum Target {
     Frequency(u32),
 }
 
+/// No device of any model has a higher number.
+const LAST: u32 = 999_999;
+
 const BITS: [DeviceClass; 4] = [
     DeviceClass::X,
     DeviceClass::Y,
@@ -87,7 +90,7 @@ impl Target {
     }
 
     /// The devices it covers, as (class, first, count); a text covers `text_len` bytes.
-    pub(crate) fn devices(self, text_len: usize) -> (DeviceClass, u32, u32) {
+    pub fn devices(self, text_len: usize) -> (DeviceClass, u32, u32) {
         match self {
             Target::Bit(class, n) | Target::Word(class, n) | Target::Current(class, n) => {
                 (class, n, 1)
@@ -120,6 +123,9 @@ fn device_of(device: &str, name: &str) -> Result<(DeviceClass, u32), String> {
         let kind = if radix == 8 { "an octal" } else { "a decimal" };
         format!("`{name}`: `{letters}` is followed by {kind} number")
     })?;
+    if number > LAST {
+        return Err(format!("`{name}`: no model has so many devices"));
+    }
     Ok((class, number))
 }
 
@@ -162,8 +168,20 @@ mod tests {
     #[test]
     fn wrong_names_are_errors() {
         for name in [
-            "", "Q0", "X008", "D", "D0.i16", "K9M0", "K4D0", "M0.i32", "P0", "D0.value",
-            "K4M0.i32", "D-1", "T0.hz",
+            "",
+            "Q0",
+            "X008",
+            "D",
+            "D0.i16",
+            "K9M0",
+            "K4D0",
+            "M0.i32",
+            "P0",
+            "D0.value",
+            "K4M0.i32",
+            "D-1",
+            "T0.hz",
+            "D4294967295.i32",
         ] {
             assert!(Target::parse(name).is_err(), "{name}");
         }

@@ -1,0 +1,452 @@
+//! The command line as its user sees it: what is printed where, what is written, and the exit code.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+/// A start-stop circuit with a timer and a counted edge.
+const MOTOR: &str = "\
+LD X000      ; start
+OR M0
+ANI X001     ; stop
+OUT M0       ; motor latch
+LD M0
+OUT T0 K3
+LD T0
+OUT Y000     ; main contactor
+LDP X002
+ADD D0 K1 D0
+LD>= D0 K10
+SET Y001
+END
+";
+
+/// Three errors and a double coil.
+const BAD: &str = "LD X000\nOUT Y000\nLD X009\nMOVE D0 D1\nADD D0 K1\nOUT Y000\nEND\n";
+
+/// Correct, with a double coil.
+const DOUBLE: &str = "LD X000\nOUT Y000\nLD X001\nOUT Y000\nEND\n";
+
+/// A folder of its own with these files.
+fn folder(files: &[(&str, &[u8])]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content) in files {
+        fs::write(folder.path().join(name), content).unwrap();
+    }
+    folder
+}
+
+fn rungc(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Times differ from run to run, paths and numbers of errors from system to system.
+fn normal(text: &str, folder: &Path) -> String {
+    let text = text.replace(&folder.display().to_string(), "FOLDER");
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let mut line = line.to_owned();
+        if let Some((before, rest)) = line.split_once(") in ") {
+            let rest = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+            line = format!("{before}) in …{rest}");
+        }
+        if let Some((before, _)) = line.split_once(" failed (") {
+            line = format!("{before} failed (… s)");
+        }
+        lines.push(line);
+    }
+    lines.join("\n")
+}
+
+/// What was called, what it printed and how it ended.
+fn shown(folder: &Path, args: &[&str]) -> String {
+    let output = rungc(folder, args);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    for printed in [&out, &err] {
+        assert!(
+            !printed.contains('\u{1b}'),
+            "colours without a terminal: {printed}"
+        );
+        assert!(!printed.contains("panicked"), "{printed}");
+    }
+    let code = output.status.code().unwrap();
+    let args = args.join(" ");
+    format!(
+        "$ rungc {args}\n{}\n--- standard error\n{}\n--- exit code {code}",
+        normal(&out, folder),
+        normal(&err, folder)
+    )
+}
+
+fn code(folder: &Path, args: &[&str]) -> i32 {
+    rungc(folder, args).status.code().unwrap()
+}
+
+/// A `MAIN.wpg` for FX3U: LD X000, OUT Y000, END.
+fn wpg() -> Vec<u8> {
+    let mut bytes = vec![0x40, 0x00, 0x22, 0x01];
+    bytes.resize(0x24, b' ');
+    bytes.extend([0x04, 0x02, 0x08, 0x02]);
+    bytes.resize(0x40, 0xFF);
+    bytes.extend([0x04, 0x00, 0xFF, 0xFF]);
+    bytes.extend([3, 0x00, 3, 4, 0x9C, 0, 4]);
+    bytes.extend([3, 0x20, 3, 4, 0x9D, 0, 4]);
+    bytes.extend([3, 0x34, 3]);
+    bytes.extend([0x02; 64]);
+    bytes
+}
+
+#[test]
+fn check_for_people() {
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("bad.il", BAD.as_bytes()),
+        ("MAIN.wpg", &wpg()),
+    ]);
+    insta::assert_snapshot!("check_good", shown(folder.path(), &["check", "motor.il"]));
+    insta::assert_snapshot!("check_bad", shown(folder.path(), &["check", "bad.il"]));
+    insta::assert_snapshot!(
+        "check_project",
+        shown(folder.path(), &["check", "MAIN.wpg"])
+    );
+    insta::assert_snapshot!(
+        "check_limit",
+        shown(folder.path(), &["check", "bad.il", "--limit", "1"])
+    );
+}
+
+#[test]
+fn check_for_tools() {
+    let folder = folder(&[("bad.il", BAD.as_bytes()), ("motor.il", MOTOR.as_bytes())]);
+    for format in ["json", "sarif"] {
+        let args = ["check", "bad.il", "--format", format];
+        insta::assert_snapshot!(format!("check_{format}"), shown(folder.path(), &args));
+        for file in ["bad.il", "motor.il"] {
+            let output = rungc(folder.path(), &["check", file, "--format", format]);
+            let read: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert!(read.is_object());
+            assert!(output.stderr.is_empty(), "{}", text(&output.stderr));
+        }
+    }
+}
+
+/// What a command makes and what it reports do not mix on standard output.
+#[test]
+fn reports_for_tools_leave_standard_output_clean() {
+    let folder = folder(&[("double.il", DOUBLE.as_bytes())]);
+    let args = ["build", "double.il", "--emit", "c", "--format", "json"];
+    let output = rungc(folder.path(), &args);
+    let read: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(read["warnings"], 1);
+    assert_eq!(output.status.code(), Some(0));
+    for args in [
+        &["build", "double.il", "--emit", "ir"][..],
+        &["run", "double.il"],
+        &["convert", "double.il", "--to", "il"],
+    ] {
+        let plain = rungc(folder.path(), args);
+        let output = rungc(folder.path(), &[args, &["--format", "json"]].concat());
+        assert_eq!(output.stdout, plain.stdout, "{args:?}");
+        let read: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
+        assert!(read["diagnostics"].is_array(), "{args:?}");
+    }
+}
+
+#[test]
+fn warnings_can_be_denied_or_allowed() {
+    let folder = folder(&[("double.il", DOUBLE.as_bytes())]);
+    let check = |args: &[&str]| code(folder.path(), &[&["check", "double.il"], args].concat());
+    assert_eq!(check(&[]), 0);
+    assert_eq!(check(&["--deny-warnings"]), 1);
+    assert_eq!(check(&["--deny-warnings", "-A", "w0203"]), 0);
+    assert_eq!(check(&["--deny-warnings", "-A", "double-coil"]), 0);
+    assert_eq!(check(&["--deny-warnings", "-A", "W0201"]), 1);
+    assert_eq!(check(&["-A", "W9999"]), 2);
+    insta::assert_snapshot!(
+        "allow_unknown",
+        shown(folder.path(), &["check", "double.il", "-A", "W9999"])
+    );
+}
+
+#[test]
+fn run_shows_a_table_and_a_diagram() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let args = [
+        "run",
+        "motor.il",
+        "--set",
+        "X000=1@200ms,X002=1@300ms",
+        "--set",
+        "x001=1@800ms",
+        "--watch",
+        "Y000,T0,D0",
+        "--for",
+        "1s",
+    ];
+    insta::assert_snapshot!("run_watch", shown(folder.path(), &args));
+    let args = ["run", "motor.il", "--set", "X0=1", "--for", "400ms"];
+    insta::assert_snapshot!("run_default", shown(folder.path(), &args));
+    // A clock relay that the program does not use.
+    let args = ["run", "motor.il", "--watch", "M8013", "--for", "1s"];
+    insta::assert_snapshot!("run_clock", shown(folder.path(), &args));
+    for wrong in [
+        &["--set", "X008=1"],
+        &["--set", "D0"],
+        &["--watch", "Q1"],
+        &["--watch", "D70000"],
+        &["--for", "soon"],
+        &["--scan", "0"],
+        &["--watch", "D4294967295.i32"],
+        &["--set", "K8M4294967295=1"],
+    ] {
+        let args = [&["run", "motor.il"], &wrong[..]].concat();
+        assert_eq!(code(folder.path(), &args), 2, "{wrong:?}");
+    }
+    insta::assert_snapshot!(
+        "run_wrong_set",
+        shown(folder.path(), &["run", "motor.il", "--set", "X000=2"])
+    );
+    insta::assert_snapshot!(
+        "run_wrong_watch",
+        shown(folder.path(), &["run", "motor.il", "--watch", "D70000"])
+    );
+}
+
+#[test]
+fn convert_there_and_back() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes()), ("MAIN.wpg", &wpg())]);
+    let path = folder.path();
+    let list = rungc(path, &["convert", "motor.il", "--to", "il"]).stdout;
+    assert_eq!(
+        code(
+            path,
+            &["convert", "motor.il", "--to", "csv", "-o", "out.csv"]
+        ),
+        0
+    );
+    assert_eq!(
+        code(
+            path,
+            &["convert", "motor.il", "--to", "csv", "-o", "out.csv"]
+        ),
+        2
+    );
+    assert_eq!(
+        code(
+            path,
+            &[
+                "convert", "motor.il", "--to", "csv", "-o", "out.csv", "--force"
+            ]
+        ),
+        0
+    );
+    let bytes = fs::read(path.join("out.csv")).unwrap();
+    assert_eq!(bytes[..2], [0xFF, 0xFE], "UTF-16 with its mark");
+    let back = rungc(path, &["convert", "out.csv", "--to", "il"]);
+    let instructions = |bytes: &[u8]| -> Vec<String> {
+        let text = text(bytes);
+        let lines = text
+            .lines()
+            .map(|l| l.split(';').next().unwrap_or("").trim().to_owned());
+        lines.filter(|l| !l.is_empty()).collect()
+    };
+    assert_eq!(instructions(&back.stdout), instructions(&list));
+    insta::assert_snapshot!(
+        "convert_il",
+        shown(path, &["convert", "out.csv", "--to", "il"])
+    );
+    insta::assert_snapshot!(
+        "convert_project",
+        shown(path, &["convert", "MAIN.wpg", "--to", "il"])
+    );
+}
+
+#[test]
+fn explain_topics() {
+    let folder = folder(&[]);
+    for topic in ["E0106", "double-coil", "LD>=", "M8013", "nonsense", "MOVE"] {
+        let name = format!("explain_{}", topic.replace(">=", "_ge"));
+        insta::assert_snapshot!(name, shown(folder.path(), &["explain", topic]));
+    }
+    let add = rungc(folder.path(), &["explain", "add"]);
+    assert!(text(&add.stdout).contains("ADD"));
+    assert_eq!(add.status.code(), Some(0));
+    let args = ["explain", "M8013", "--model", "h2u"];
+    insta::assert_snapshot!("explain_special_on_model", shown(folder.path(), &args));
+}
+
+#[test]
+fn wrong_usage() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    for args in [
+        &[][..],
+        &["frobnicate"],
+        &["check"],
+        &["check", "motor.il", "--model", "s7"],
+        &["build", "motor.il"],
+        &["build", "motor.il", "--emit", "pascal"],
+        &["convert", "motor.il"],
+        &["test"],
+        &["test", "nowhere.plctest.toml"],
+        &["explain"],
+    ] {
+        assert_eq!(code(folder.path(), args), 2, "{args:?}");
+    }
+    assert_eq!(code(folder.path(), &["--help"]), 0);
+    assert_eq!(code(folder.path(), &["run", "--help"]), 0);
+    assert_eq!(code(folder.path(), &["completions", "bash"]), 0);
+    let args = ["check", "motor.il", "--model", "s7"];
+    insta::assert_snapshot!("unknown_model", shown(folder.path(), &args));
+}
+
+#[test]
+fn inputs_that_are_no_program() {
+    let junk: Vec<u8> = (0..400_u32)
+        .map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8)
+        .collect();
+    let mut cut = wpg();
+    cut.truncate(0x4A);
+    let folder = folder(&[("empty.il", b""), ("junk.bin", &junk), ("cut.wpg", &cut)]);
+    fs::create_dir(folder.path().join("nothing")).unwrap();
+    for (name, file) in [
+        ("missing", "missing.il"),
+        ("directory", "nothing"),
+        ("empty", "empty.il"),
+        ("junk", "junk.bin"),
+        ("cut", "cut.wpg"),
+    ] {
+        insta::assert_snapshot!(
+            format!("input_{name}"),
+            shown(folder.path(), &["check", file])
+        );
+        let build = code(folder.path(), &["build", file, "--emit", "ir"]);
+        assert!(build == 1 || build == 2, "{file}");
+    }
+}
+
+#[test]
+fn build_writes_and_does_not_overwrite() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes()), ("bad.il", BAD.as_bytes())]);
+    let path = folder.path();
+    insta::assert_snapshot!(
+        "build_ir",
+        shown(path, &["build", "motor.il", "--emit", "ir"])
+    );
+    for (emit, file) in [("c", "motor.c"), ("rust", "Cargo.toml")] {
+        let args = ["build", "motor.il", "--emit", emit, "-o", emit];
+        insta::assert_snapshot!(format!("build_{emit}"), shown(path, &args));
+        assert!(path.join(emit).join(file).is_file());
+        insta::assert_snapshot!(format!("build_{emit}_again"), shown(path, &args));
+        let forced = [&args[..], &["--force"]].concat();
+        assert_eq!(code(path, &forced), 0);
+    }
+    assert_eq!(
+        code(path, &["build", "bad.il", "--emit", "c", "-o", "none"]),
+        1
+    );
+    assert!(
+        !path.join("none").exists(),
+        "a program with errors is not emitted"
+    );
+}
+
+#[test]
+fn build_makes_an_executable_that_scans() {
+    for tool in ["cc", "make"] {
+        if Command::new(tool).arg("--version").output().is_err() {
+            println!("skipped: there is no {tool}");
+            return;
+        }
+    }
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    let args = ["build", "motor.il", "--emit", "bin", "-o", "motor"];
+    insta::assert_snapshot!("build_bin", shown(path, &args));
+    assert_eq!(code(path, &args), 2, "it is there already");
+    let mut running = Command::new(path.join("motor"))
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    // It scans until it is stopped, or ends when its input does; it does not crash.
+    match running.try_wait().unwrap() {
+        Some(status) => assert_eq!(status.code(), Some(0)),
+        None => running.kill().unwrap(),
+    }
+    running.wait().unwrap();
+}
+
+/// Whoever reads may stop reading: `rungc explain ADD | head -1`.
+#[test]
+fn closed_output_is_no_error() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes()), ("bad.il", BAD.as_bytes())]);
+    for args in [
+        &["explain", "ADD"][..],
+        &["completions", "bash"],
+        &["build", "motor.il", "--emit", "ir"],
+        &["check", "motor.il", "--format", "json"],
+        &["convert", "motor.il", "--to", "il"],
+        &["run", "motor.il", "--for", "20s", "--watch", "M8011"],
+    ] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+            .args(args)
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let mut said = String::new();
+        child
+            .stderr
+            .take()
+            .unwrap()
+            .read_to_string(&mut said)
+            .unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{args:?}: {said}");
+        assert!(
+            !said.contains("panicked") && !said.contains("pipe"),
+            "{args:?}: {said}"
+        );
+    }
+}
+
+#[test]
+fn test_files_pass_and_fail() {
+    let suite = |expected: u8| {
+        format!(
+            "model = \"h2u\"\ntopic = \"OUT\"\n\n[[case]]\nname = \"follows\"\nprogram = \"\"\"\nLD X000\nOUT Y000\nEND\n\"\"\"\n\
+             [[case.step]]\nset = {{ X000 = 1 }}\nexpect = {{ Y000 = {expected} }}\n"
+        )
+    };
+    let folder = folder(&[
+        ("good.plctest.toml", suite(1).as_bytes()),
+        ("bad.plctest.toml", suite(0).as_bytes()),
+        ("odd.plctest.toml", b"model = \"h2u\"\ncolour = 3\n"),
+    ]);
+    for name in ["good", "bad", "odd"] {
+        let file = format!("{name}.plctest.toml");
+        insta::assert_snapshot!(
+            format!("test_{name}"),
+            shown(folder.path(), &["test", &file])
+        );
+    }
+}
+
+#[test]
+fn colours_when_asked_for() {
+    let folder = folder(&[("bad.il", BAD.as_bytes())]);
+    let output = rungc(folder.path(), &["check", "bad.il", "--color", "always"]);
+    assert!(text(&output.stderr).contains("\u{1b}["));
+}
