@@ -90,10 +90,7 @@ fn emit(args: &BuildArgs, module: &Module) -> std::result::Result<Option<PathBuf
 }
 
 fn c_files(module: &Module, main: bool) -> Vec<OutFile> {
-    let options = rungc_codegen_c::Options {
-        main,
-        ..Default::default()
-    };
+    let options = rungc_codegen_c::Options { main };
     rungc_codegen_c::emit(module, &options)
         .into_iter()
         .map(|f| (f.path, f.text))

@@ -1,0 +1,67 @@
+//! What the documents show is what the command line does.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The fenced blocks of a page that begin like this, without their fences.
+fn blocks(page: &str, fence: &str, start: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut rest = page;
+    while let Some((_, after)) = rest.split_once(&format!("\n```{fence}\n")) {
+        let (block, behind) = after.split_once("\n```").expect("the fence is closed");
+        if block.starts_with(start) {
+            found.push(block.to_owned());
+        }
+        rest = behind;
+    }
+    found
+}
+
+/// Lines without the times that differ from run to run.
+fn lines(text: &str) -> Vec<String> {
+    let timeless = |line: &str| match line.split_once(") in ") {
+        Some((before, rest)) => {
+            let counts = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+            format!("{before}) in{counts}")
+        }
+        None => line.to_owned(),
+    };
+    let filled = text.lines().filter(|line| !line.trim().is_empty());
+    filled.map(timeless).collect()
+}
+
+fn rungc(folder: &Path, args: &[&str]) -> (String, bool) {
+    let output = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (text.concat(), output.status.success())
+}
+
+#[test]
+fn readme_shows_what_happens() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let example = fs::read_to_string(root().join("golden/examples/motor.il")).unwrap();
+    assert_eq!(blocks(&readme, "", "; A motor")[0].trim(), example.trim());
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir_all(folder.path().join("golden/examples")).unwrap();
+    fs::write(folder.path().join("golden/examples/motor.il"), &example).unwrap();
+    let console = blocks(&readme, "", "$ rungc");
+    for part in console[0].split("$ rungc ").skip(1) {
+        let (command, expected) = part.split_once('\n').unwrap();
+        let args: Vec<_> = command.split_whitespace().collect();
+        let (printed, succeeded) = rungc(folder.path(), &args);
+        assert!(succeeded, "{command}");
+        assert_eq!(lines(&printed), lines(expected), "{command}");
+    }
+    let emitted = fs::read_to_string(folder.path().join("firmware/plc/motor.c")).unwrap();
+    let heart = blocks(&readme, "c", "    /* step 0");
+    assert!(emitted.contains(&heart[0]), "motor.c is now:\n{emitted}");
+}
