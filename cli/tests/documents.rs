@@ -8,18 +8,20 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The fenced blocks of a page that begin like this, without their fences.
-fn blocks(page: &str, fence: &str, start: &str) -> Vec<String> {
+/// The fenced blocks of a page in this language that begin like this, without their fences.
+fn blocks(page: &str, language: &str, start: &str) -> Vec<String> {
     let mut found = Vec::new();
-    let mut rest = page;
-    while let Some((_, after)) = rest.split_once(&format!("\n```{fence}\n")) {
-        let (block, behind) = after.split_once("\n```").expect("the fence is closed");
-        if block.starts_with(start) {
-            found.push(block.to_owned());
+    let mut open: Option<(bool, String)> = None;
+    for line in page.lines() {
+        match (open.as_mut(), line.strip_prefix("```")) {
+            (None, Some(fence)) => open = Some((fence == language, String::new())),
+            (Some((_, text)), None) => *text += &format!("{line}\n"),
+            (Some(_), Some(_)) => found.extend(open.take()),
+            (None, None) => {}
         }
-        rest = behind;
     }
-    found
+    let wanted = |(fits, text): (bool, String)| (fits && text.starts_with(start)).then_some(text);
+    found.into_iter().filter_map(wanted).collect()
 }
 
 /// Lines without the times that differ from run to run.
