@@ -95,6 +95,9 @@ impl Rewriter<'_> {
             Stmt::Let(temp, value) => {
                 let value = self.expr(value);
                 let now = self.temps.assign(&mut self.arena, temp, value);
+                if !now.is_empty() && !self.reads_temp(value, temp) {
+                    drop_overwritten(temp, out);
+                }
                 assign(now, out);
             }
             Stmt::If {
@@ -129,6 +132,12 @@ impl Rewriter<'_> {
                 out.push(stmt);
             }
         }
+    }
+
+    fn reads_temp(&self, value: ExprId, temp: TempId) -> bool {
+        let expr = self.arena.get(value);
+        let mut parts = operands(&expr).into_iter().flatten();
+        expr == Expr::Temp(temp) || parts.any(|part| self.reads_temp(part, temp))
     }
 
     fn settle(&mut self, out: &mut Body) {
@@ -286,5 +295,19 @@ fn ends(body: &Body) -> bool {
             then, otherwise, ..
         }) => ends(then) && ends(otherwise),
         _ => false,
+    }
+}
+
+/// Takes back the assignment to `temp` at the end of `out`, which the next one makes useless.
+fn drop_overwritten(temp: TempId, out: &mut Body) {
+    let behind = out
+        .iter()
+        .rev()
+        .take_while(|stmt| matches!(stmt, Stmt::Network(_)));
+    let at = out.len() - behind.count();
+    if let Some(last) = at.checked_sub(1)
+        && matches!(out.get(last), Some(Stmt::Let(before, _)) if *before == temp)
+    {
+        out.remove(last);
     }
 }
