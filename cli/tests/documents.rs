@@ -67,3 +67,14 @@ fn readme_shows_what_happens() {
     let heart = blocks(&readme, "c", "    /* step 0");
     assert!(emitted.contains(&heart[0]), "motor.c is now:\n{emitted}");
 }
+
+#[test]
+fn the_example_of_test_files_passes() {
+    let page = fs::read_to_string(root().join("docs/test-files.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("lamp.plctest.toml");
+    fs::write(&file, &blocks(&page, "toml", "model")[0]).unwrap();
+    let (printed, succeeded) = rungc(folder.path(), &["test", "lamp.plctest.toml"]);
+    assert!(succeeded, "{printed}");
+    assert!(printed.contains("3 passed, 0 failed"), "{printed}");
+}
