@@ -391,7 +391,7 @@ fn spellings() -> Vec<(String, &'static Inst)> {
 fn random_lines() {
     let spellings = spellings();
     let first = setting("SEED", 1);
-    let trials = (first..first + setting("PROGRAMS", 150)).map(|seed| {
+    let trials = (first..first + setting("PROGRAMS", 80)).map(|seed| {
         let model = ModelId::ALL[(seed % ModelId::ALL.len() as u64) as usize];
         Trial {
             name: format!("soup {seed}"),
@@ -403,12 +403,41 @@ fn random_lines() {
     survive(trials.collect());
 }
 
+/// Long rungs: no stage may need more stack for a longer one.
+#[test]
+fn long_rungs() {
+    const LENGTH: usize = 5000;
+    let repeated = |lines: &str| format!("LD X0\n{}OUT Y0\nEND\n", lines.repeat(LENGTH));
+    let trials = [
+        "OR M1\n",
+        "AND M1\nOR M2\n",
+        "INV\n",
+        "ANI M1\nINV\n",
+        "LD M1\nANI M2\nORB\n",
+        "ANDP M1\nMEP\n",
+        "OR>= D0 K5\n",
+        "OUT M1\n",
+        "AND M1\nOUT T0 K5\n",
+        "INC D0\nMOV D0 D1\n",
+        "MPS\nAND M1\nOUT M2\nMPP\n",
+    ];
+    let trials = trials.iter().zip(0..).map(|(lines, seed)| Trial {
+        name: lines.replace('\n', "; "),
+        text: repeated(lines),
+        models: vec![ModelId::Fx3u],
+        seed,
+    });
+    survive(trials.collect());
+}
+
 #[test]
 fn damaged_programs() {
     let spellings = spellings();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance/h1u-h2u");
-    let mut paths: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("conformance");
+    let parts = ["h1u-h2u", "hm", "l01s"].map(|part| std::fs::read_dir(folder.join(part)).unwrap());
+    let mut paths: Vec<_> = parts
+        .into_iter()
+        .flatten()
         .map(|e| e.unwrap().path())
         .collect();
     paths.sort();
@@ -417,7 +446,7 @@ fn damaged_programs() {
         .map(|path| plctest::load(path).unwrap_or_else(|e| panic!("{e}")));
     let cases: Vec<_> = files.flat_map(|file| file.cases).collect();
     let first = setting("SEED", 1);
-    let trials = (first..first + setting("PROGRAMS", 300)).map(|seed| {
+    let trials = (first..first + setting("PROGRAMS", 200)).map(|seed| {
         let case = &cases[Rng::new(seed).below(cases.len() as u32) as usize];
         Trial {
             name: format!("{} {seed}", case.name),

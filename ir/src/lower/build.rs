@@ -47,6 +47,7 @@ impl Lowerer<'_> {
     }
 
     pub(super) fn not(&mut self, a: ExprId) -> ExprId {
+        let a = self.shallow(a);
         self.add(Expr::Not(a))
     }
 
