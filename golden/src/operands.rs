@@ -1,7 +1,7 @@
 //! Random applied instructions: operands as the catalogue's rows allow them.
 
 use crate::rng::Rng;
-use rungc_ir::catalogue::{self, Classes, Drive, Inst, Lower, Param, Role, Shape};
+use rungc_ir::catalogue::{self, Classes, Drive, Forms, Inst, Lower, Param, Role, Shape};
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::resolve::Form;
 use rungc_ir::{Model, ModelId};
@@ -30,12 +30,20 @@ pub fn candidates(model: ModelId) -> Vec<Candidate> {
             !matches!(lower, Lower::Basic(_) | Lower::Compare(..) | Lower::Todo(_))
         })
         .flat_map(|inst| {
-            let forms = inst.spellings().into_iter();
-            forms.map(move |(spelling, form)| Candidate {
-                spelling,
-                form,
-                inst,
-            })
+            let has = inst.forms_on(model);
+            let spellings = inst.spellings().into_iter();
+            spellings
+                .filter(move |(spelling, form)| {
+                    let width = if form.wide { Forms::W32 } else { Forms::W16 };
+                    // A spelling without its D is another name on some models only.
+                    let bare = catalogue::find(spelling).is_none_or(|found| found.bare);
+                    has.has(width) && (!form.pulse || has.has(Forms::PULSE)) && !bare
+                })
+                .map(move |(spelling, form)| Candidate {
+                    spelling,
+                    form,
+                    inst,
+                })
         })
         .collect()
 }
@@ -153,4 +161,25 @@ fn device(rng: &mut Rng, param: &Param, class: Classes, wide: bool) -> Option<St
         _ => rng.below(CROWD),
     };
     Some(letters.number(number).to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Rng, candidates};
+    use rungc_ir::ModelId;
+
+    #[test]
+    fn every_implemented_instruction_is_drawn() {
+        let mut rng = Rng::new(1);
+        let mut never = Vec::new();
+        for model in ModelId::ALL {
+            for candidate in candidates(model) {
+                let drawn = (0..60).find_map(|_| candidate.draw(&mut rng, model));
+                if drawn.is_none() {
+                    never.push(format!("{model:?} {}", candidate.spelling));
+                }
+            }
+        }
+        assert!(never.is_empty(), "{never:?}");
+    }
 }

@@ -13,15 +13,6 @@ use rungc_sim::protocol::{Answer, Request};
 use rungc_syntax::DeviceClass;
 use std::path::Path;
 
-/// The models that programs are made for.
-const MODELS: [ModelId; 5] = [
-    ModelId::H2u,
-    ModelId::Fx3u,
-    ModelId::Hm,
-    ModelId::L01s,
-    ModelId::Fx2n,
-];
-
 /// Devices of a long array that are compared after each scan; the others are compared after the last.
 const HEAD: u32 = 200;
 
@@ -58,7 +49,7 @@ fn compiled(text: &str, seed: u64, model: ModelId, optimise: bool) -> Result<Mod
 }
 
 fn samples(seed: u64, count: u64) -> Vec<Sample> {
-    let pools: Vec<_> = MODELS.map(|model| (model, candidates(model))).into();
+    let pools: Vec<_> = ModelId::ALL.map(|model| (model, candidates(model))).into();
     let mut refused = Vec::new();
     let mut samples = Vec::new();
     for i in 0..count {
@@ -243,11 +234,12 @@ fn all_engines_agree_on_random_programs() {
             }
         }
     }
-    let steps: u64 = samples.iter().map(|s| u64::from(s.optimised.steps)).sum();
+    let lines: usize = samples.iter().map(|s| s.text.lines().count()).sum();
     println!(
-        "{} programs of {steps} steps ran {scans} scans on {} engines",
+        "{} programs of {lines} instructions ran {scans} scans on each of {} engines: {} instructions each",
         samples.len(),
-        engines.len() + 1
+        engines.len() + 1,
+        lines as u64 * scans
     );
     assert!(
         differences.is_empty(),
