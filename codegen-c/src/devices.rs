@@ -1,9 +1,10 @@
 //! Statements that write to devices, as C.
 
 use crate::expr::Around;
-use crate::helpers::{is_wide_counter, reset_function};
+use crate::helpers::reset_function;
 use crate::writer::Writer;
 use rungc_ir::node::{ExprId, Place, Stmt};
+use rungc_ir::runs::is_counter32;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -165,7 +166,7 @@ impl Writer<'_, '_> {
     }
 
     fn put_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
-        let wide = is_wide_counter(place.class, place.number);
+        let wide = is_counter32(place.class, place.number);
         if place.index.is_some() {
             self.put_indexed_pair(code, place, value, float);
             return;

@@ -2,6 +2,7 @@
 
 use crate::writer::Writer;
 use rungc_ir::node::{BinOp, CmpOp, Expr, ExprId, Place, SysValue, Ty};
+use rungc_ir::runs::is_counter32;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -39,40 +40,6 @@ type Bounds = (i64, i64);
 
 const I16: Bounds = (i16::MIN as i64, i16::MAX as i64);
 const I32: Bounds = (i32::MIN as i64, i32::MAX as i64);
-
-fn op_text(op: CmpOp) -> &'static str {
-    match op {
-        CmpOp::Eq => "==",
-        CmpOp::Ne => "!=",
-        CmpOp::Lt => "<",
-        CmpOp::Le => "<=",
-        CmpOp::Gt => ">",
-        CmpOp::Ge => ">=",
-    }
-}
-
-/// The operator that says the same with its sides exchanged.
-fn mirrored(op: CmpOp) -> CmpOp {
-    match op {
-        CmpOp::Eq | CmpOp::Ne => op,
-        CmpOp::Lt => CmpOp::Gt,
-        CmpOp::Le => CmpOp::Ge,
-        CmpOp::Gt => CmpOp::Lt,
-        CmpOp::Ge => CmpOp::Le,
-    }
-}
-
-/// The operator that says the opposite.
-fn negated(op: CmpOp) -> CmpOp {
-    match op {
-        CmpOp::Eq => CmpOp::Ne,
-        CmpOp::Ne => CmpOp::Eq,
-        CmpOp::Lt => CmpOp::Ge,
-        CmpOp::Le => CmpOp::Gt,
-        CmpOp::Gt => CmpOp::Le,
-        CmpOp::Ge => CmpOp::Lt,
-    }
-}
 
 /// The infix operator of a bitwise operation.
 fn bitwise(op: BinOp) -> Option<&'static str> {
@@ -230,7 +197,7 @@ impl Writer<'_, '_> {
         match *self.module.expr(a) {
             // Floats: not (a < b) is not a >= b for NaN.
             Expr::Cmp(op, l, r) if self.module.ty(l) != Ty::F32 && !self.named.contains_key(&a) => {
-                self.compare(out, negated(op), l, r, around);
+                self.compare(out, op.opposite(), l, r, around);
             }
             _ => {
                 out.push('!');
@@ -242,11 +209,11 @@ impl Writer<'_, '_> {
     fn compare(&mut self, out: &mut String, op: CmpOp, a: ExprId, b: ExprId, around: Around) {
         // Constants stand on the right, wherever the list has them.
         let (op, a, b) = if self.is_constant(a) && !self.is_constant(b) {
-            (mirrored(op), b, a)
+            (op.mirrored(), b, a)
         } else {
             (op, a, b)
         };
-        let op = op_text(op);
+        let op = op.symbol();
         self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
             w.expr(out, a, Around::Operand(op));
             let _ = write!(out, " {op} ");
@@ -584,7 +551,7 @@ impl Writer<'_, '_> {
         if place.index.is_some() && place.class == DeviceClass::C {
             return self.indexed_call(out, "long", place, 0);
         }
-        if place.class == DeviceClass::C && place.number >= crate::fields::COUNTER32_FIRST {
+        if is_counter32(place.class, place.number) {
             return self.word(out, place, 0);
         }
         let (high, plus) = self.high_word(place);

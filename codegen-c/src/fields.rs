@@ -1,14 +1,10 @@
 //! The program's struct: which field holds a device.
 
 use rungc_ir::Module;
+use rungc_ir::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 use std::fmt::Write;
-
-/// First special relay and register.
-const SPECIAL_FIRST: u32 = 8000;
-/// First 32-bit counter.
-pub const COUNTER32_FIRST: u32 = 200;
 
 /// What a device is stored as.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,8 +28,8 @@ impl Kind {
         Some(match class {
             X | Y | M | S => Kind::Bit,
             T => Kind::Timer,
-            C if number < COUNTER32_FIRST => Kind::Counter16,
-            C => Kind::Counter32,
+            C if is_counter32(class, number) => Kind::Counter32,
+            C => Kind::Counter16,
             D | R | ER | V | Z => Kind::Word,
             P | I | N => return None,
         })
@@ -309,12 +305,11 @@ fn runs(module: &Module) -> Vec<(DeviceClass, Run, bool)> {
     for area in &module.layout.areas {
         let (first, end) = (area.first, area.first + area.count);
         let cut = match area.class {
-            DeviceClass::C => COUNTER32_FIRST,
-            DeviceClass::M | DeviceClass::D => SPECIAL_FIRST,
+            DeviceClass::C => FIRST_COUNTER32,
+            DeviceClass::M | DeviceClass::D => FIRST_SPECIAL,
             _ => end,
         };
-        let special =
-            |n: u32| matches!(area.class, DeviceClass::M | DeviceClass::D) && n >= SPECIAL_FIRST;
+        let special = |n: u32| is_special(area.class, n);
         let cut = cut.clamp(first, end);
         for (first, end) in [(first, cut), (cut, end)] {
             if first < end {

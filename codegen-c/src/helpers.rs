@@ -1,6 +1,6 @@
 //! Functions of a program for devices whose number is only known at run time, emitted where the program indexes.
 
-use crate::fields::{COUNTER32_FIRST, Field, Fields, Kind};
+use crate::fields::{Field, Fields, Kind};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
@@ -364,9 +364,4 @@ pub fn reset_function(kind: Kind) -> &'static str {
         Kind::Counter32 => "plc_count32_reset",
         _ => "plc_count16_reset",
     }
-}
-
-/// Whether a counter of this number has 32 bits.
-pub fn is_wide_counter(class: DeviceClass, number: u32) -> bool {
-    class == DeviceClass::C && number >= COUNTER32_FIRST
 }

@@ -3,8 +3,8 @@
 //! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all programs share, and,
 //! only if the program calls the runtime, the runtime's sources. [`batch`] makes one executable of many programs, for tests.
 //!
-//! How a program becomes C: [`fields`] decides on the struct, [`plan`] divides the program into functions of bounded size,
-//! [`scopes`] finds where temporaries live, [`writer`] and [`expr`] write statements and expressions, [`unit`] puts it all together.
+//! How a program becomes C: `fields` decides on the struct, `plan` divides the program into functions of bounded size,
+//! `scopes` finds where temporaries live, `writer` and `expr` write statements and expressions, `unit` puts it all together.
 
 mod devices;
 mod expr;

@@ -1,9 +1,10 @@
 //! Divides a module into C functions of bounded size, and finds where temporaries live.
 
 use crate::scopes::{self, Temp};
-use crate::walk::{self, Sizes};
+use crate::walk::Sizes;
 use rungc_ir::Module;
 use rungc_ir::node::{Body, ExprId, LabelId, Part, Stmt};
+use rungc_ir::walk::{called_functions, for_exprs};
 use std::collections::{BTreeSet, HashMap};
 
 /// About how many operations a C function may hold: what a reader can take in and every compiler optimises in linear time.
@@ -150,7 +151,7 @@ impl<'m> Plan<'m> {
             },
             stretches: vec![0; module.functions.len()],
         };
-        let called = walk::called_functions(module);
+        let called = called_functions(module);
         for (root, function) in module
             .functions
             .iter()
@@ -195,7 +196,7 @@ impl<'m> Builder<'m> {
     fn stmt(&mut self, stmt: &'m Stmt, root: usize, nesting: u32) -> Item<'m> {
         let mut leaves = Leaves::default();
         let mut weight = 1;
-        walk::stmt_exprs(stmt, |e| weight += self.plan.sizes.size(e));
+        for_exprs(stmt, &mut |&e| weight += self.plan.sizes.size(e));
         let mut inner = |body: &'m Body| {
             let closed = self.inner(body, root, nesting + 1);
             weight += closed.weight;

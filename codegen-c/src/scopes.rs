@@ -4,6 +4,7 @@ use crate::plan::{Node, Plan};
 use crate::walk;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeKind, ExprId, Stmt, TempId, Ty};
+use rungc_ir::walk::for_exprs;
 use std::collections::HashMap;
 use std::fmt::Write;
 
@@ -117,7 +118,7 @@ impl Scopes<'_, '_> {
         if let Stmt::Network(network) = stmt {
             self.step = self.module.networks.get(*network as usize).map(|n| n.step);
         }
-        walk::stmt_exprs(stmt, |e| self.uses(e));
+        for_exprs(stmt, &mut |&e| self.uses(e));
         match stmt {
             Stmt::Let(temp, _) => {
                 let prefix = match self.module.temps.get(temp.0 as usize) {

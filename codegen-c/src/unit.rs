@@ -7,6 +7,7 @@ use crate::table;
 use crate::writer::{Writer, function_name};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, Stmt};
+use rungc_ir::walk::statements;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -105,18 +106,13 @@ fn is_empty(module: &Module, root: usize) -> bool {
 
 /// Whether a module calls the runtime.
 pub fn uses_runtime(module: &Module) -> bool {
-    fn body(stmts: &[Stmt]) -> bool {
-        stmts.iter().any(|stmt| match stmt {
-            Stmt::Call { .. } => true,
-            Stmt::If {
-                then, otherwise, ..
-            } => body(then) || body(otherwise),
-            Stmt::For { body: inner, .. } => body(inner),
-            Stmt::Parts(parts) => parts.iter().any(|p| body(&p.body)),
-            _ => false,
-        })
+    let mut uses = false;
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            uses |= matches!(stmt, Stmt::Call { .. })
+        });
     }
-    module.functions.iter().any(|f| body(&f.body))
+    uses
 }
 
 /// The states of parts.

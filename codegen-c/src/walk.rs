@@ -1,95 +1,8 @@
-//! Looks at expressions and the statements they stand in.
+//! Measures expressions, and looks at what is below them.
 
 use rungc_ir::Module;
-use rungc_ir::node::{Arg, Expr, ExprId, Function, FunctionKind, Place, Stmt, TempId};
-
-/// Calls `f` with each operand of an expression.
-pub fn operands(expr: &Expr, mut f: impl FnMut(ExprId)) {
-    let mut place = |p: &Place| p.index.into_iter().for_each(&mut f);
-    match expr {
-        Expr::Bit(_)
-        | Expr::I16(_)
-        | Expr::I32(_)
-        | Expr::F32(_)
-        | Expr::Temp(_)
-        | Expr::Sys(_) => {}
-        Expr::ReadBit(p)
-        | Expr::ReadWordBit(p, _)
-        | Expr::ReadWord(p)
-        | Expr::ReadPair(p)
-        | Expr::ReadFloat(p)
-        | Expr::ReadNibbles { place: p, .. }
-        | Expr::InRange { place: p, .. } => place(p),
-        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
-            f(*a);
-            f(*b);
-        }
-        Expr::Not(a)
-        | Expr::Complement(a)
-        | Expr::Neg(a)
-        | Expr::Widen(a)
-        | Expr::Narrow(a)
-        | Expr::HighWord(a)
-        | Expr::BitToInt(a) => f(*a),
-    }
-}
-
-/// Calls `f` with each expression of a statement itself, without the bodies in it.
-pub fn stmt_exprs(stmt: &Stmt, mut f: impl FnMut(ExprId)) {
-    match stmt {
-        Stmt::Network(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Fault { .. }
-        | Stmt::Stop
-        | Stmt::Clear { .. } => {}
-        Stmt::Let(_, e) | Stmt::Edge { input: e, .. } => f(*e),
-        Stmt::If { cond, .. } => f(*cond),
-        Stmt::For { count, .. } => f(*count),
-        Stmt::WriteBit(p, e)
-        | Stmt::WriteWordBit(p, _, e)
-        | Stmt::WriteWord(p, e)
-        | Stmt::WritePair(p, e)
-        | Stmt::WriteFloat(p, e)
-        | Stmt::WriteNibbles {
-            place: p, value: e, ..
-        } => {
-            p.index.into_iter().for_each(&mut f);
-            f(*e);
-        }
-        Stmt::Reset(p) => p.index.into_iter().for_each(f),
-        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
-            f(*drive);
-            f(*preset);
-        }
-        Stmt::Counter32 {
-            drive,
-            down,
-            preset,
-            ..
-        } => {
-            f(*drive);
-            f(*down);
-            f(*preset);
-        }
-        Stmt::Call { args, drive, .. } => {
-            for arg in args {
-                match arg {
-                    Arg::Const { index, .. } => index.iter().for_each(|&i| f(i)),
-                    Arg::Device { place, .. }
-                    | Arg::Nibbles { place, .. }
-                    | Arg::WordBit { place, .. } => {
-                        place.index.into_iter().for_each(&mut f);
-                    }
-                    Arg::Float(_) | Arg::Text(_) => {}
-                }
-            }
-            drive.iter().for_each(|&d| f(d));
-        }
-    }
-}
+use rungc_ir::node::{Expr, ExprId, TempId};
+use rungc_ir::walk::operands;
 
 /// Size and depth of every expression as it is written out.
 pub struct Sizes {
@@ -109,13 +22,13 @@ impl Sizes {
         };
         for expr in &module.exprs {
             let (mut size, mut depth) = (1u32, 0);
-            operands(expr, |e| {
+            for e in operands(expr) {
                 size = size.saturating_add(sizes.size[e.0 as usize]);
                 // Chains of one operator are written side by side.
                 let same = std::mem::discriminant(expr) == std::mem::discriminant(module.expr(e));
                 let chain = same && matches!(expr, Expr::And(..) | Expr::Or(..));
                 depth = depth.max(sizes.depth[e.0 as usize] + u32::from(!chain));
-            });
+            }
             sizes.size.push(size);
             sizes.depth.push(depth);
         }
@@ -146,7 +59,7 @@ pub fn below(module: &Module, expr: ExprId, found: &mut Vec<ExprId>) {
     while let Some(e) = todo.pop() {
         if seen.insert(e) {
             found.push(e);
-            operands(module.expr(e), |o| todo.push(o));
+            todo.extend(operands(module.expr(e)));
         }
     }
     found.sort_unstable();
@@ -175,44 +88,6 @@ pub fn temps(
         if let Expr::Temp(temp) = *module.expr(e) {
             f(temp);
         }
-        operands(module.expr(e), |o| buffer.push(o));
-    }
-}
-
-/// Which functions the scan cycle calls. Subroutines that nothing calls are left out of the emitted code.
-pub fn called_functions(module: &Module) -> Vec<bool> {
-    let cyclic = |f: &Function| {
-        matches!(
-            f.kind,
-            FunctionKind::Begin | FunctionKind::Main | FunctionKind::End
-        )
-    };
-    let mut called = vec![false; module.functions.len()];
-    let mut todo: Vec<usize> = (0..called.len())
-        .filter(|&i| cyclic(&module.functions[i]))
-        .collect();
-    while let Some(i) = todo.pop() {
-        if let Some(known) = called.get_mut(i).filter(|known| !**known) {
-            *known = true;
-            calls(&module.functions[i].body, &mut todo);
-        }
-    }
-    called
-}
-
-fn calls(body: &[Stmt], found: &mut Vec<usize>) {
-    for stmt in body {
-        match stmt {
-            Stmt::CallSub(function) => found.push(*function as usize),
-            Stmt::If {
-                then, otherwise, ..
-            } => {
-                calls(then, found);
-                calls(otherwise, found);
-            }
-            Stmt::For { body, .. } => calls(body, found),
-            Stmt::Parts(parts) => parts.iter().for_each(|part| calls(&part.body, found)),
-            _ => {}
-        }
+        buffer.extend(operands(module.expr(e)));
     }
 }

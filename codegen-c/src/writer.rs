@@ -9,6 +9,7 @@ use crate::text;
 use crate::walk;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeId, EdgeKind, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
+use rungc_ir::walk::{for_exprs, operands};
 use std::collections::HashMap;
 use std::fmt::Write;
 
@@ -237,7 +238,7 @@ impl<'a, 'm> Writer<'a, 'm> {
     fn node(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
         let mut roots = Vec::new();
         match node {
-            Node::Stmt(stmt) => walk::stmt_exprs(stmt, |e| roots.push(e)),
+            Node::Stmt(stmt) => for_exprs(stmt, &mut |&e| roots.push(e)),
             Node::If { cond, .. } => roots.push(*cond),
             Node::For { count, .. } => roots.push(*count),
             Node::Parts { .. } | Node::Stretch(_) => {}
@@ -258,17 +259,19 @@ impl<'a, 'm> Writer<'a, 'm> {
             walk::below(self.module, root, &mut below);
             let mut parents: HashMap<ExprId, u32> = HashMap::new();
             for &e in &below {
-                walk::operands(self.module.expr(e), |o| *parents.entry(o).or_default() += 1);
+                for o in operands(self.module.expr(e)) {
+                    *parents.entry(o).or_default() += 1;
+                }
             }
             let mut depth: HashMap<ExprId, u32> = HashMap::new();
             for &e in below.iter().filter(|&&e| e != root) {
                 let expr = self.module.expr(e);
                 let mut own = 0;
-                walk::operands(expr, |o| {
+                for o in operands(expr) {
                     let same =
                         std::mem::discriminant(expr) == std::mem::discriminant(self.module.expr(o));
                     own = own.max(depth.get(&o).copied().unwrap_or(0) + u32::from(!same));
-                });
+                }
                 let shared = parents.get(&e).is_some_and(|&n| n > 1) && plan.sizes.size(e) > 8;
                 if own < MAX_DEPTH && !shared {
                     depth.insert(e, own);

@@ -1,7 +1,8 @@
 //! What the generator must know before it writes a function: where temporaries live, what calls what, how long code will be.
 
 use rungc_ir::Module;
-use rungc_ir::node::{Arg, Body, Expr, ExprId, LabelId, Place, Stmt, TempId};
+use rungc_ir::node::{Expr, ExprId, LabelId, Stmt, TempId};
+use rungc_ir::walk::{bodies, called_functions, callees, for_exprs, operands, statements};
 use std::collections::HashMap;
 
 /// A body, by where its statements lie in memory while the module is borrowed.
@@ -15,101 +16,11 @@ pub fn key(body: &[Stmt]) -> BodyKey {
     body.as_ptr()
 }
 
-/// The bodies directly in a statement.
-pub fn bodies(stmt: &Stmt) -> Vec<&Body> {
-    match stmt {
-        Stmt::If {
-            then, otherwise, ..
-        } => vec![then, otherwise],
-        Stmt::For { body, .. } => vec![body],
-        Stmt::Parts(parts) => parts.iter().map(|part| &part.body).collect(),
-        _ => Vec::new(),
-    }
-}
-
-fn place_index(place: Place, out: &mut Vec<ExprId>) {
-    out.extend(place.index);
-}
-
 /// The expressions that a statement itself evaluates (not those of its bodies).
 pub fn expressions(stmt: &Stmt) -> Vec<ExprId> {
-    let mut out = Vec::new();
-    match stmt {
-        Stmt::Let(_, e) | Stmt::Edge { input: e, .. } => out.push(*e),
-        Stmt::WriteBit(place, e)
-        | Stmt::WriteWordBit(place, _, e)
-        | Stmt::WriteWord(place, e)
-        | Stmt::WritePair(place, e)
-        | Stmt::WriteFloat(place, e)
-        | Stmt::WriteNibbles {
-            place, value: e, ..
-        } => {
-            place_index(*place, &mut out);
-            out.push(*e);
-        }
-        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
-            out.extend([*drive, *preset]);
-        }
-        Stmt::Counter32 {
-            drive,
-            down,
-            preset,
-            ..
-        } => out.extend([*drive, *down, *preset]),
-        Stmt::Reset(place) => place_index(*place, &mut out),
-        Stmt::If { cond, .. } => out.push(*cond),
-        Stmt::For { count, .. } => out.push(*count),
-        Stmt::Call { args, drive, .. } => {
-            for arg in args {
-                match *arg {
-                    Arg::Const { index, .. } => out.extend(index),
-                    Arg::Device { place, .. }
-                    | Arg::Nibbles { place, .. }
-                    | Arg::WordBit { place, .. } => place_index(place, &mut out),
-                    Arg::Float(_) | Arg::Text(_) => {}
-                }
-            }
-            out.extend(*drive);
-        }
-        Stmt::Network(_)
-        | Stmt::CallSub(_)
-        | Stmt::Return
-        | Stmt::Parts(_)
-        | Stmt::Goto(_)
-        | Stmt::Fault { .. }
-        | Stmt::Stop
-        | Stmt::Clear { .. } => {}
-    }
-    out
-}
-
-/// The operands of an expression.
-pub fn operands(expr: &Expr) -> [Option<ExprId>; 2] {
-    match *expr {
-        Expr::ReadBit(place)
-        | Expr::ReadWordBit(place, _)
-        | Expr::ReadWord(place)
-        | Expr::ReadPair(place)
-        | Expr::ReadFloat(place)
-        | Expr::ReadNibbles { place, .. }
-        | Expr::InRange { place, .. } => [place.index, None],
-        Expr::Not(a)
-        | Expr::Complement(a)
-        | Expr::Neg(a)
-        | Expr::Widen(a)
-        | Expr::Narrow(a)
-        | Expr::HighWord(a)
-        | Expr::BitToInt(a) => [Some(a), None],
-        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
-            [Some(a), Some(b)]
-        }
-        Expr::Bit(_)
-        | Expr::I16(_)
-        | Expr::I32(_)
-        | Expr::F32(_)
-        | Expr::Temp(_)
-        | Expr::Sys(_) => [None, None],
-    }
+    let mut found = Vec::new();
+    for_exprs(stmt, &mut |&id| found.push(id));
+    found
 }
 
 /// The expressions below `roots`, each once, operands first.
@@ -120,7 +31,7 @@ pub fn reachable(module: &Module, roots: &[ExprId]) -> Vec<ExprId> {
     while let Some(id) = open.pop() {
         if seen.insert(id) {
             found.push(id);
-            open.extend(operands(module.expr(id)).into_iter().flatten());
+            open.extend(operands(module.expr(id)));
         }
     }
     // Operands have lower handles.
@@ -160,7 +71,7 @@ pub fn reads_once(module: &Module, roots: &[ExprId], temp: TempId) -> bool {
         if *module.expr(id) == Expr::Temp(temp) {
             reads = reads.saturating_add(here);
         }
-        for operand in operands(module.expr(id)).into_iter().flatten() {
+        for operand in operands(module.expr(id)) {
             let count = times.entry(operand).or_default();
             *count = count.saturating_add(here);
         }
@@ -180,7 +91,7 @@ pub struct Count {
 /// The temporaries of some statements, bodies included, in a fixed order.
 pub fn count(module: &Module, stmts: &[Stmt]) -> std::collections::BTreeMap<TempId, Count> {
     let mut counts = std::collections::BTreeMap::new();
-    walk(stmts, &mut |stmt| {
+    statements(stmts, &mut |stmt| {
         if let Some(temp) = assigned(stmt) {
             counts.entry(temp).or_insert(Count::default()).assigned += 1;
         }
@@ -189,16 +100,6 @@ pub fn count(module: &Module, stmts: &[Stmt]) -> std::collections::BTreeMap<Temp
         }
     });
     counts
-}
-
-/// Calls `visit` with every statement, bodies included.
-pub fn walk<'a>(stmts: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
-    for stmt in stmts {
-        visit(stmt);
-        for body in bodies(stmt) {
-            walk(body, visit);
-        }
-    }
 }
 
 /// Where a temporary is declared.
@@ -305,10 +206,10 @@ impl Temps {
 pub fn jumps_back(module: &Module) -> bool {
     let mut found = false;
     for function in &module.functions {
-        walk(&function.body, &mut |stmt| {
+        statements(&function.body, &mut |stmt| {
             let Stmt::Parts(parts) = stmt else { return };
             for (i, part) in parts.iter().enumerate() {
-                walk(&part.body, &mut |stmt| {
+                statements(&part.body, &mut |stmt| {
                     if let Stmt::Goto(label) = stmt {
                         let mut up_to_here = parts.iter().take(i + 1);
                         found |= up_to_here.any(|part| part.label == Some(*label));
@@ -325,7 +226,7 @@ pub fn escapes(stmts: &[Stmt]) -> bool {
     let mut labels: Vec<LabelId> = Vec::new();
     let mut gotos = Vec::new();
     let mut returns = false;
-    walk(stmts, &mut |stmt| match stmt {
+    statements(stmts, &mut |stmt| match stmt {
         Stmt::Return => returns = true,
         Stmt::Goto(label) => gotos.push(*label),
         Stmt::Parts(parts) => labels.extend(parts.iter().filter_map(|part| part.label)),
@@ -341,9 +242,17 @@ pub fn weight(module: &Module, stmt: &Stmt) -> usize {
         _ => 1 + reachable(module, &expressions(stmt)).len() / 12,
     };
     own + bodies(stmt)
-        .into_iter()
         .map(|body| 1 + body.iter().map(|stmt| weight(module, stmt)).sum::<usize>())
         .sum::<usize>()
+}
+
+/// Whether statements call the runtime.
+fn calls_runtime(stmts: &[Stmt]) -> bool {
+    let mut found = false;
+    statements(stmts, &mut |stmt| {
+        found |= matches!(stmt, Stmt::Call { .. })
+    });
+    found
 }
 
 /// Which functions the scan reaches, and which of them hand the hardware on.
@@ -355,30 +264,14 @@ pub struct Calls {
 }
 
 impl Calls {
-    /// Analyses a module. The first three functions are the scan's.
+    /// Analyses a module.
     pub fn of(module: &Module) -> Self {
-        let mut callees = Vec::new();
-        let mut needs_hal = Vec::new();
-        for function in &module.functions {
-            let mut called = Vec::new();
-            let mut direct = false;
-            walk(&function.body, &mut |stmt| match stmt {
-                Stmt::CallSub(n) => called.push(*n as usize),
-                Stmt::Call { .. } => direct = true,
-                _ => {}
-            });
-            callees.push(called);
-            needs_hal.push(direct);
-        }
-        let mut reached = vec![false; callees.len()];
-        let mut open: Vec<usize> = (0..callees.len().min(3)).collect();
-        while let Some(n) = open.pop() {
-            if let Some(seen) = reached.get_mut(n)
-                && !std::mem::replace(seen, true)
-            {
-                open.extend(&callees[n]);
-            }
-        }
+        let callees: Vec<_> = module.functions.iter().map(|f| callees(&f.body)).collect();
+        let mut needs_hal: Vec<_> = module
+            .functions
+            .iter()
+            .map(|f| calls_runtime(&f.body))
+            .collect();
         // Calls do not recurse, so this ends after as many rounds as calls nest.
         loop {
             let before = needs_hal.clone();
@@ -391,17 +284,15 @@ impl Calls {
                 break;
             }
         }
-        Calls { reached, needs_hal }
+        Calls {
+            reached: called_functions(module),
+            needs_hal,
+        }
     }
 
     /// Whether the statements hand the hardware on.
     pub fn stmts_need_hal(&self, stmts: &[Stmt]) -> bool {
-        let mut needs = false;
-        walk(stmts, &mut |stmt| match stmt {
-            Stmt::Call { .. } => needs = true,
-            Stmt::CallSub(n) => needs |= self.needs_hal.get(*n as usize).copied().unwrap_or(false),
-            _ => {}
-        });
-        needs
+        let hands_on = |n: usize| self.needs_hal.get(n).copied().unwrap_or(false);
+        calls_runtime(stmts) || callees(stmts).into_iter().any(hands_on)
     }
 }

@@ -217,11 +217,11 @@ impl Generator<'_> {
             matches!(expr, Expr::I16(_) | Expr::I32(_) | Expr::F32(_))
         };
         let (op, a, b) = if is_constant(a) && !is_constant(b) {
-            (mirrored(op), b, a)
+            (op.mirrored(), b, a)
         } else {
             (op, a, b)
         };
-        Code::binary(comparison(op), self.typed(a), self.expr(b))
+        Code::binary(op.symbol(), self.typed(a), self.expr(b))
     }
 
     fn temp(&mut self, temp: TempId) -> Code {
@@ -236,7 +236,7 @@ impl Generator<'_> {
         if let (None, &Expr::Cmp(op, x, y)) = (self.hoisted(a), self.module.expr(a))
             && self.module.ty(x) != Ty::F32
         {
-            return self.compare(opposite(op), x, y);
+            return self.compare(op.opposite(), x, y);
         }
         let a = self.expr(a).operand_of("!");
         Code::shaped(quote!(!#a), Shape::Unary)
@@ -443,39 +443,5 @@ fn sys_value(value: SysValue) -> Code {
         SysValue::FirstScan => Code::atom(quote!(plc.sys.first_scan)),
         SysValue::NowMs => Code::shaped(quote!(plc.sys.now_ms as i32), Shape::Cast),
         SysValue::Scan100us => Code::shaped(quote!((plc.sys.scan_us / 100) as i32), Shape::Cast),
-    }
-}
-
-fn comparison(op: CmpOp) -> &'static str {
-    match op {
-        CmpOp::Eq => "==",
-        CmpOp::Ne => "!=",
-        CmpOp::Lt => "<",
-        CmpOp::Le => "<=",
-        CmpOp::Gt => ">",
-        CmpOp::Ge => ">=",
-    }
-}
-
-/// The comparison of `b` with `a` that is the same as this one of `a` with `b`.
-fn mirrored(op: CmpOp) -> CmpOp {
-    match op {
-        CmpOp::Eq | CmpOp::Ne => op,
-        CmpOp::Lt => CmpOp::Gt,
-        CmpOp::Le => CmpOp::Ge,
-        CmpOp::Gt => CmpOp::Lt,
-        CmpOp::Ge => CmpOp::Le,
-    }
-}
-
-/// The comparison that holds when this one does not.
-fn opposite(op: CmpOp) -> CmpOp {
-    match op {
-        CmpOp::Eq => CmpOp::Ne,
-        CmpOp::Ne => CmpOp::Eq,
-        CmpOp::Lt => CmpOp::Ge,
-        CmpOp::Ge => CmpOp::Lt,
-        CmpOp::Gt => CmpOp::Le,
-        CmpOp::Le => CmpOp::Gt,
     }
 }

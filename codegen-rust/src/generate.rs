@@ -7,6 +7,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::Module;
 use rungc_ir::node::{ExprId, Function, FunctionKind, LabelId, TempId, Ty};
+use rungc_ir::walk::operands;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
@@ -224,8 +225,7 @@ impl<'m> Generator<'m> {
         }
         let mut uses: HashMap<ExprId, u32> = HashMap::new();
         for id in &ids {
-            let operands = analysis::operands(self.module.expr(*id));
-            for operand in operands.into_iter().flatten() {
+            for operand in operands(self.module.expr(*id)) {
                 *uses.entry(operand).or_default() += 1;
             }
         }
@@ -233,10 +233,9 @@ impl<'m> Generator<'m> {
         let mut shape: HashMap<ExprId, (u32, u32)> = HashMap::new();
         let mut lets = Vec::new();
         for id in ids {
-            let operands = analysis::operands(self.module.expr(id));
             let mut depth = 0;
             let mut size = 1;
-            for operand in operands.into_iter().flatten() {
+            for operand in operands(self.module.expr(id)) {
                 let (d, s) = shape.get(&operand).copied().unwrap_or_default();
                 depth = depth.max(d + 1);
                 size += s;

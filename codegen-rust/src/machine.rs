@@ -226,7 +226,7 @@ impl Generator<'_> {
     fn clears_latched(&self) -> bool {
         let mut found = false;
         for function in &self.module.functions {
-            crate::analysis::walk(&function.body, &mut |stmt| {
+            rungc_ir::walk::statements(&function.body, &mut |stmt| {
                 found |= matches!(stmt, Stmt::Clear { latched: true });
             });
         }

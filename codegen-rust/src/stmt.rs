@@ -613,7 +613,7 @@ fn named_drive(drive: Code, before: &mut TokenStream) -> TokenStream {
 /// Whether the statements jump to one of the parts.
 fn jumps_to(stmts: &[Stmt], parts: &[Part]) -> bool {
     let mut found = false;
-    analysis::walk(stmts, &mut |stmt| {
+    rungc_ir::walk::statements(stmts, &mut |stmt| {
         if let Stmt::Goto(label) = stmt {
             found |= parts.iter().any(|part| part.label == Some(*label));
         }

@@ -3,10 +3,8 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use rungc_ir::layout::{Area, Layout};
+use rungc_ir::runs::FIRST_COUNTER32;
 use rungc_syntax::DeviceClass;
-
-/// First 32-bit counter.
-const COUNTER32_FIRST: u32 = 200;
 
 /// What a field holds per device.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,7 +36,7 @@ impl Elem {
     fn of(class: DeviceClass, number: u32) -> Self {
         match class {
             DeviceClass::T => Elem::Timer,
-            DeviceClass::C if number < COUNTER32_FIRST => Elem::Counter16,
+            DeviceClass::C if number < FIRST_COUNTER32 => Elem::Counter16,
             DeviceClass::C => Elem::Counter32,
             DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S => Elem::Bit,
             _ => Elem::Word,
@@ -102,7 +100,7 @@ impl Storage {
             }
             // An array has one element type: counters part at C200.
             let wide_from = if area.class == DeviceClass::C {
-                COUNTER32_FIRST.clamp(area.first, area.first + area.count)
+                FIRST_COUNTER32.clamp(area.first, area.first + area.count)
             } else {
                 area.first
             };

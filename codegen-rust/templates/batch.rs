@@ -3,12 +3,9 @@
 mod cases;
 mod models;
 
-use rungc_rt::{Class, Clock, Program, VirtualHal, word};
+use rungc_rt::{Class, Clock, FIRST_COUNTER32, Program, VirtualHal, word};
 use std::io::{self, BufRead, BufReader, BufWriter, Write};
 use std::str::{FromStr, SplitAsciiWhitespace};
-
-/// First 32-bit counter.
-const COUNTER32_FIRST: u32 = 200;
 
 /// A program and its hardware.
 struct Bench {
@@ -121,7 +118,7 @@ fn device(words: &mut SplitAsciiWhitespace) -> Option<(Class, u32)> {
 }
 
 fn double(program: &dyn Program, class: Class, number: u32) -> Option<i32> {
-    if class == Class::C && number >= COUNTER32_FIRST {
+    if class == Class::C && number >= FIRST_COUNTER32 {
         return program.counter32(number);
     }
     let (high_class, high) = high_word(program, class, number);
@@ -132,7 +129,7 @@ fn double(program: &dyn Program, class: Class, number: u32) -> Option<i32> {
 }
 
 fn set_double(program: &mut dyn Program, class: Class, number: u32, value: i32) -> Option<()> {
-    if class == Class::C && number >= COUNTER32_FIRST {
+    if class == Class::C && number >= FIRST_COUNTER32 {
         return program.set_counter32(number, value);
     }
     let (high_class, high) = high_word(program, class, number);

@@ -3,7 +3,6 @@
 //! One line a statement; temporaries are `t0`, edge memories `e0`, devices have their names, pairs and floats `D0:32`, `D0:f`, an
 //! index is added in brackets: `D[10 + t0]`.
 
-use crate::catalogue::CmpOp;
 use crate::layout::Area;
 use crate::node::{
     Arg, BinOp, Body, EdgeKind, Expr, ExprId, Function, FunctionKind, Module, Place, Stmt, SysValue,
@@ -296,7 +295,7 @@ impl Out<'_> {
             Expr::Not(a) => format!("!{}", self.expr(*a)),
             Expr::And(a, b) => two(a, "&", b),
             Expr::Or(a, b) => two(a, "|", b),
-            Expr::Cmp(op, a, b) => two(a, cmp_text(*op), b),
+            Expr::Cmp(op, a, b) => two(a, op.symbol(), b),
             Expr::Bin(op, a, b) => two(a, bin_text(*op), b),
             Expr::Complement(a) => format!("~{}", self.expr(*a)),
             Expr::Neg(a) => format!("-{}", self.expr(*a)),
@@ -321,17 +320,6 @@ fn timer_text(kind: &TimerKind) -> String {
         ""
     };
     format!("{}ms{accumulating}{free_running}", kind.unit_ms)
-}
-
-fn cmp_text(op: CmpOp) -> &'static str {
-    match op {
-        CmpOp::Eq => "==",
-        CmpOp::Ne => "!=",
-        CmpOp::Lt => "<",
-        CmpOp::Le => "<=",
-        CmpOp::Gt => ">",
-        CmpOp::Ge => ">=",
-    }
 }
 
 fn bin_text(op: BinOp) -> &'static str {

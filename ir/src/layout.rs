@@ -6,6 +6,7 @@
 use crate::lower::LowerOptions;
 use crate::model::Model;
 use crate::node::{Arg, Body, Expr, Module, Place, Stmt};
+use crate::runs::{is_counter32, is_special};
 use rungc_syntax::DeviceClass;
 
 /// A run of stored devices.
@@ -23,16 +24,12 @@ pub struct Area {
     pub latched: bool,
 }
 
-/// First special relay and first special register.
-const FIRST_SPECIAL: u32 = 8000;
-
 impl Area {
     /// Whether M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Stmt::Clear`]); what M8031 clears, going to STOP
     /// clears as well. Inputs and special devices are never cleared (h1u-h2u-programming §8.9). Cleared timers and counters
     /// forget their coil, too.
     pub fn is_cleared(&self, latched: bool) -> bool {
-        let special =
-            matches!(self.class, DeviceClass::M | DeviceClass::D) && self.first >= FIRST_SPECIAL;
+        let special = is_special(self.class, self.first);
         self.class != DeviceClass::X && !special && self.latched == latched
     }
 }
@@ -150,7 +147,7 @@ impl<'m> Builder<'m> {
 
     /// A pair is two words that stand for themselves; that of Z is V and Z on some models.
     fn pair(&mut self, place: Place) {
-        let counter32 = place.class == DeviceClass::C && place.number >= 200;
+        let counter32 = is_counter32(place.class, place.number);
         let with_v = place.class == DeviceClass::Z && self.module.model.z_pairs_with_v;
         self.place(place, 1);
         if place.index.is_some() {

@@ -1,7 +1,7 @@
 //! The catalogue of instructions and devices per model, the typed IR, structure checks, lowering and passes.
 //!
 //! The way through: [`resolve`] finds each instruction's catalogue row and step number, [`check`] looks at the program as a
-//! whole, [`lower`] makes a [`Module`](node::Module), [`passes`] simplify it, [`validate`] holds it to the rules of [`node`].
+//! whole, [`lower`] makes a [`Module`], [`passes`] simplify it, [`validate`] holds it to the rules of [`node`].
 //! No output language and no file format is known here.
 
 pub mod catalogue;
@@ -14,9 +14,10 @@ pub mod model;
 pub mod node;
 pub mod passes;
 pub mod resolve;
-mod runs;
+pub mod runs;
 pub mod special;
 pub mod validate;
+pub mod walk;
 
 pub use model::{Model, ModelId, ModelSet};
 pub use node::Module;

@@ -1,16 +1,27 @@
 //! Runs of devices: where an index or a block may go without leaving the devices it began in.
 
 use crate::model::Model;
+pub use rungc_rt::{FIRST_COUNTER32, FIRST_SPECIAL};
 use rungc_syntax::DeviceClass;
 
 /// Whether a run ends before device `number` of `class` although the model goes on: the special devices and the 32-bit counters
 /// are apart from what stands before them.
 fn is_border(class: DeviceClass, number: u32) -> bool {
     match class {
-        DeviceClass::M | DeviceClass::D => number == 8000,
-        DeviceClass::C => number == 200,
+        DeviceClass::M | DeviceClass::D => number == FIRST_SPECIAL,
+        DeviceClass::C => number == FIRST_COUNTER32,
         _ => false,
     }
+}
+
+/// Whether a device is a special relay or register.
+pub fn is_special(class: DeviceClass, number: u32) -> bool {
+    matches!(class, DeviceClass::M | DeviceClass::D) && number >= FIRST_SPECIAL
+}
+
+/// Whether a device is a 32-bit counter.
+pub fn is_counter32(class: DeviceClass, number: u32) -> bool {
+    class == DeviceClass::C && number >= FIRST_COUNTER32
 }
 
 impl Model {

@@ -4,7 +4,8 @@ use crate::node::{
     Arg, BinOp, Body, Expr, ExprId, FunctionKind, LabelId, Module, Place, Stmt, SysValue, TempId,
     Ty,
 };
-use crate::passes::{for_exprs, operands};
+use crate::runs::is_counter32;
+use crate::walk::{callees, for_exprs, operands};
 use rungc_syntax::DeviceClass;
 
 /// Checks every rule; the first one that is broken.
@@ -33,7 +34,7 @@ pub fn validate(module: &Module) -> Result<(), String> {
 }
 
 fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
-    for operand in operands(expr).into_iter().flatten() {
+    for operand in operands(expr) {
         if operand.0 as usize >= at {
             return Err(format!("expression {at} ({expr:?}) uses a later one"));
         }
@@ -89,41 +90,24 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
 
 /// Functions call no function that is running.
 fn no_recursion(module: &Module) -> Result<(), String> {
-    fn calls(body: &Body, found: &mut Vec<usize>) {
-        for stmt in body {
-            match stmt {
-                Stmt::CallSub(n) => found.push(*n as usize),
-                Stmt::If {
-                    then, otherwise, ..
-                } => {
-                    calls(then, found);
-                    calls(otherwise, found);
-                }
-                Stmt::For { body, .. } => calls(body, found),
-                Stmt::Parts(parts) => parts.iter().for_each(|part| calls(&part.body, found)),
-                _ => {}
-            }
-        }
-    }
     let mut callers = vec![0u32; module.functions.len()];
-    let mut callees = Vec::with_capacity(module.functions.len());
+    let mut called = Vec::with_capacity(module.functions.len());
     for function in &module.functions {
-        let mut found = Vec::new();
-        calls(&function.body, &mut found);
+        let found = callees(&function.body);
         for &callee in &found {
             match callers.get_mut(callee) {
                 Some(count) => *count += 1,
                 None => return Err(format!("function {callee} does not exist")),
             }
         }
-        callees.push(found);
+        called.push(found);
     }
     // Functions that none left calls are taken away until none is left, or only those in a circle.
     let mut free: Vec<usize> = (0..callers.len()).filter(|&i| callers[i] == 0).collect();
     let mut taken = 0;
     while let Some(function) = free.pop() {
         taken += 1;
-        for &callee in &callees[function] {
+        for &callee in &called[function] {
             callers[callee] -= 1;
             if callers[callee] == 0 {
                 free.push(callee);
@@ -264,12 +248,7 @@ impl Checker<'_> {
             Expr::ReadNibbles { place, digits, .. } => self.unstored(place, 4 * u32::from(digits)),
             _ => None,
         };
-        here.or_else(|| {
-            operands(expr)
-                .into_iter()
-                .flatten()
-                .find_map(|operand| self.fault_in(operand))
-        })
+        here.or_else(|| operands(expr).find_map(|operand| self.fault_in(operand)))
     }
 
     /// The first of `count` devices from a place on that the model has and the layout lacks.
@@ -294,7 +273,7 @@ impl Checker<'_> {
                 };
                 self.unstored(place, 1).or_else(|| self.unstored(high, 1))
             }
-            DeviceClass::C if place.number >= 200 => self.unstored(place, 1),
+            class if is_counter32(class, place.number) => self.unstored(place, 1),
             _ => self.unstored(place, 2),
         }
     }

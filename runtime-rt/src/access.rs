@@ -1,10 +1,12 @@
 //! Access to a device by a number that is only known at run time.
 
 use crate::plc::{Class, Plc};
+use crate::runs::FIRST_COUNTER32;
 use crate::word;
 
-/// First 32-bit counter.
-const COUNTER32_FIRST: i32 = 200;
+fn is_counter32(class: Class, number: i32) -> bool {
+    class == Class::C && number >= FIRST_COUNTER32 as i32
+}
 
 /// What emitted Rust does with indexed devices. It asks whether they exist before; where one does not, a read gives 0 and a write is lost.
 pub trait Access: Plc {
@@ -20,7 +22,7 @@ pub trait Access: Plc {
 
     /// Value of a word device; of a 32-bit counter the low word.
     fn word_at(&self, class: Class, number: i32) -> i16 {
-        if class == Class::C && number >= COUNTER32_FIRST {
+        if is_counter32(class, number) {
             return self.counter32(number as u32).unwrap_or(0) as i16;
         }
         self.word(class, number as u32).unwrap_or(0)
@@ -28,7 +30,7 @@ pub trait Access: Plc {
 
     /// Sets a word device; a 32-bit counter takes the sign-extended word.
     fn set_word_at(&mut self, class: Class, number: i32, value: i16) {
-        if class == Class::C && number >= COUNTER32_FIRST {
+        if is_counter32(class, number) {
             let _ = self.set_counter32(number as u32, value.into());
             return;
         }
@@ -42,7 +44,7 @@ pub trait Access: Plc {
 
     /// Value of a pair or a 32-bit counter.
     fn pair_at(&self, class: Class, number: i32) -> i32 {
-        if class == Class::C && number >= COUNTER32_FIRST {
+        if is_counter32(class, number) {
             return self.counter32(number as u32).unwrap_or(0);
         }
         let (high_class, high) = self.high_word(class, number);
@@ -51,7 +53,7 @@ pub trait Access: Plc {
 
     /// Sets a pair or a 32-bit counter.
     fn set_pair_at(&mut self, class: Class, number: i32, value: i32) {
-        if class == Class::C && number >= COUNTER32_FIRST {
+        if is_counter32(class, number) {
             let _ = self.set_counter32(number as u32, value);
             return;
         }

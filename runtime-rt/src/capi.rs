@@ -17,6 +17,7 @@ use crate::fault::{Done, report};
 use crate::hal::{Clock, Hal};
 use crate::operand::Operand;
 use crate::plc::{Class, Plc, Site, State, Sys};
+use crate::runs::FIRST_COUNTER32;
 use crate::timing::{Counter16, Counter32, Timer};
 use core::ffi::c_void;
 
@@ -312,7 +313,7 @@ impl Plc for Map {
     fn counter32(&self, number: u32) -> Option<i32> {
         match self.find(Class::C, number) {
             Found::At(Kind::Counters32, at) => Some(read::<Counter32>(at).value),
-            Found::Elsewhere if number >= COUNTER32_FIRST => Some(0),
+            Found::Elsewhere if number >= FIRST_COUNTER32 => Some(0),
             _ => None,
         }
     }
@@ -322,7 +323,7 @@ impl Plc for Map {
             Found::At(Kind::Counters32, at) => {
                 change(at, |counter: &mut Counter32| counter.value = value)
             }
-            Found::Elsewhere if number >= COUNTER32_FIRST => Some(()),
+            Found::Elsewhere if number >= FIRST_COUNTER32 => Some(()),
             _ => None,
         }
     }
@@ -369,9 +370,6 @@ impl Plc for Map {
     }
 }
 
-/// First 32-bit counter.
-const COUNTER32_FIRST: u32 = 200;
-
 /// Whether devices of a class have a state.
 fn is_bit(class: Class) -> bool {
     matches!(
@@ -383,7 +381,7 @@ fn is_bit(class: Class) -> bool {
 /// Whether a device has a 16-bit value.
 fn is_word(class: Class, number: u32) -> bool {
     match class {
-        Class::C => number < COUNTER32_FIRST,
+        Class::C => number < FIRST_COUNTER32,
         Class::X | Class::Y | Class::M | Class::S => false,
         _ => true,
     }

@@ -4,9 +4,7 @@ use crate::fault::{Done, Fault, report};
 use crate::hal::Hal;
 use crate::operand::{Operand, OperandKind};
 use crate::plc::{Class, Plc, Site, State};
-
-/// First 32-bit counter.
-const COUNTER32_FIRST: u32 = 200;
+use crate::runs::FIRST_COUNTER32;
 
 /// What an instruction works on. Operands are named by position, from 0; offsets count devices from the named one.
 pub struct Cx<'a> {
@@ -108,7 +106,7 @@ impl Cx<'_> {
             OperandKind::Const | OperandKind::Float => Ok(op.value as i16),
             OperandKind::Device => {
                 let n = at(op, offset)?;
-                if op.class == Class::C && n >= COUNTER32_FIRST {
+                if op.class == Class::C && n >= FIRST_COUNTER32 {
                     return self.plc.counter32(n).map(|v| v as i16).ok_or(Fault::DEVICE);
                 }
                 self.plc.word(op.class, n).ok_or(Fault::DEVICE)
@@ -124,7 +122,7 @@ impl Cx<'_> {
         match op.kind {
             OperandKind::Device => {
                 let n = at(op, offset)?;
-                if op.class == Class::C && n >= COUNTER32_FIRST {
+                if op.class == Class::C && n >= FIRST_COUNTER32 {
                     return self
                         .plc
                         .set_counter32(n, i32::from(value))
@@ -146,7 +144,7 @@ impl Cx<'_> {
             OperandKind::Nibbles => self.group(op, offset, 8),
             OperandKind::Device => {
                 let n = at(op, offset)?;
-                if op.class == Class::C && n >= COUNTER32_FIRST {
+                if op.class == Class::C && n >= FIRST_COUNTER32 {
                     return self.plc.counter32(n).ok_or(Fault::DEVICE);
                 }
                 let (class, high) = self.high_word(op.class, n);
@@ -165,7 +163,7 @@ impl Cx<'_> {
             OperandKind::Nibbles => self.set_group(op, offset, 8, value),
             OperandKind::Device => {
                 let n = at(op, offset)?;
-                if op.class == Class::C && n >= COUNTER32_FIRST {
+                if op.class == Class::C && n >= FIRST_COUNTER32 {
                     return self.plc.set_counter32(n, value).ok_or(Fault::DEVICE);
                 }
                 let (class, high) = self.high_word(op.class, n);
@@ -353,7 +351,7 @@ impl Cx<'_> {
         let op = self.op(i)?;
         let pairs = self.site.wide
             && op.kind == OperandKind::Device
-            && !(op.class == Class::C && op.value >= COUNTER32_FIRST as i32);
+            && !(op.class == Class::C && op.value >= FIRST_COUNTER32 as i32);
         Ok(if pairs { n.saturating_mul(2) } else { n })
     }
 

@@ -49,6 +49,6 @@ pub use operand::{Operand, OperandKind, d, h, k, kn};
 pub use plc::{Class, Plc, Site, State, Sys};
 pub use program::Program;
 pub use registry::{Needs, RtFn};
-pub use runs::Runs;
+pub use runs::{FIRST_COUNTER32, FIRST_SPECIAL, Runs};
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
 pub use virtual_hal::VirtualHal;

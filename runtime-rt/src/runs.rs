@@ -2,8 +2,11 @@
 
 use crate::plc::Class;
 
+/// First special relay and first special register.
+pub const FIRST_SPECIAL: u32 = 8000;
+
 /// First 32-bit counter.
-const COUNTER32_FIRST: u32 = 200;
+pub const FIRST_COUNTER32: u32 = 200;
 
 /// Runs of devices that lie next to each other: class, first and last number.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +41,7 @@ impl Runs {
     pub fn word(self, class: Class, number: u32) -> Option<i16> {
         let is_word = match class {
             Class::X | Class::Y | Class::M | Class::S => false,
-            Class::C => number < COUNTER32_FIRST,
+            Class::C => number < FIRST_COUNTER32,
             Class::T | Class::D | Class::R | Class::V | Class::Z | Class::ER => true,
         };
         (is_word && self.has(class, number)).then_some(0)
@@ -46,7 +49,7 @@ impl Runs {
 
     /// What [`crate::Plc::counter32`] says of a counter that is not stored: 0 if the model has it.
     pub fn counter32(self, number: u32) -> Option<i32> {
-        (number >= COUNTER32_FIRST && self.has(Class::C, number)).then_some(0)
+        (number >= FIRST_COUNTER32 && self.has(Class::C, number)).then_some(0)
     }
 
     /// What [`crate::Plc::reset`] says of a timer or counter that is not stored.

@@ -1,14 +1,9 @@
 //! Where the interpreter keeps devices: every device of the model, whether the program uses it or not.
 
 use rungc_ir::Model;
-use rungc_rt::{Class, Counter16, Counter32, Timer};
+use rungc_ir::runs::is_special;
+use rungc_rt::{Class, Counter16, Counter32, FIRST_COUNTER32, FIRST_SPECIAL, Timer};
 use rungc_syntax::DeviceClass;
-
-/// The first special relay and the first special register.
-const FIRST_SPECIAL: u32 = 8000;
-
-/// The first 32-bit counter.
-const FIRST_COUNTER32: u32 = 200;
 
 /// The class as the runtime numbers it; `None` for pointers and nesting levels, which are no storage.
 pub fn rt_class(class: DeviceClass) -> Option<Class> {
@@ -47,8 +42,7 @@ impl<T: Clone + Default> Bank<T> {
     fn new(model: &'static Model, class: DeviceClass, wanted: impl Fn(u32) -> bool) -> Self {
         let mut presence = Vec::new();
         for range in model.ranges_of(class) {
-            let special =
-                matches!(class, DeviceClass::M | DeviceClass::D) && range.first >= FIRST_SPECIAL;
+            let special = is_special(class, range.first);
             for number in (range.first..=range.last).filter(|&n| wanted(n)) {
                 let i = number as usize;
                 if presence.len() <= i {

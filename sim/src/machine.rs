@@ -1,7 +1,7 @@
 //! The reference interpreter: the machine that a [`Module`] runs on, and its scan cycle.
 //!
 //! It has every device of the model, so it answers for devices that compiled code leaves out. What statements and expressions
-//! mean is in [`exec`](crate::exec), word for word as [`rungc_ir::node`] specifies it.
+//! mean is in `exec`, word for word as [`rungc_ir::node`] specifies it.
 
 use crate::devices::Devices;
 use crate::exec::{Flow, Value};

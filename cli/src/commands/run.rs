@@ -231,17 +231,11 @@ fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Ta
 
 /// Devices of the machine by their names.
 mod device {
+    use rungc_ir::runs::is_counter32;
     use rungc_rt::{Class, Plc};
     use rungc_sim::Machine;
     use rungc_sim::plctest::Target;
     use rungc_sim::rt_class as class_of;
-    use rungc_syntax::DeviceClass;
-
-    const COUNTER32_FIRST: u32 = 200;
-
-    fn wide_counter(class: DeviceClass, number: u32) -> bool {
-        class == DeviceClass::C && number >= COUNTER32_FIRST
-    }
 
     fn pair(machine: &Machine, class: Class, number: u32) -> Option<i32> {
         let low = machine.word(class, number)? as u16;
@@ -259,7 +253,7 @@ mod device {
         let integer = value as i64;
         match target {
             Target::Bit(class, n) => machine.set_bit(class_of(class)?, n, value != 0.0),
-            Target::Current(class, n) if wide_counter(class, n) => {
+            Target::Current(class, n) if is_counter32(class, n) => {
                 machine.set_counter32(n, integer as i32)
             }
             Target::Word(class, n) | Target::Current(class, n) => {
@@ -285,7 +279,7 @@ mod device {
     pub fn get(machine: &Machine, target: Target) -> Option<String> {
         Some(match target {
             Target::Bit(class, n) => u8::from(machine.bit(class_of(class)?, n)?).to_string(),
-            Target::Current(class, n) if wide_counter(class, n) => {
+            Target::Current(class, n) if is_counter32(class, n) => {
                 machine.counter32(n)?.to_string()
             }
             Target::Word(class, n) | Target::Current(class, n) => {

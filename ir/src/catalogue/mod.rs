@@ -2,7 +2,7 @@
 //! backends read the row; nothing about an instruction's operands or forms is written anywhere else.
 //!
 //! To add an instruction: a row in the file of its family, its runtime function (or IR operator), conformance cases.
-//! [`row`] is the notation that the rows are written in.
+//! The private module `row` is the notation that the rows are written in.
 
 mod arith;
 mod basic;
@@ -228,7 +228,7 @@ pub enum Extent {
 /// Something more that an operand must obey. A rule about constants says nothing of an operand that is none (or is indexed).
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
-    /// In the 32-bit form a constant lies between these instead of [`Param::limits`].
+    /// In the 32-bit form a constant lies between these instead of those of the parameter.
     WideLimits(i64, i64),
     /// A constant does not lie between these, inclusive.
     Not(i64, i64),
@@ -366,6 +366,43 @@ pub enum CmpOp {
     Le,
     Gt,
     Ge,
+}
+
+impl CmpOp {
+    /// As C and Rust write it.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            CmpOp::Eq => "==",
+            CmpOp::Ne => "!=",
+            CmpOp::Lt => "<",
+            CmpOp::Le => "<=",
+            CmpOp::Gt => ">",
+            CmpOp::Ge => ">=",
+        }
+    }
+
+    /// The comparison of `b` with `a` that is the same as this one of `a` with `b`.
+    pub const fn mirrored(self) -> Self {
+        match self {
+            CmpOp::Eq | CmpOp::Ne => self,
+            CmpOp::Lt => CmpOp::Gt,
+            CmpOp::Le => CmpOp::Ge,
+            CmpOp::Gt => CmpOp::Lt,
+            CmpOp::Ge => CmpOp::Le,
+        }
+    }
+
+    /// The comparison that holds when this one does not (of integers: no comparison with NaN holds but `Ne`).
+    pub const fn opposite(self) -> Self {
+        match self {
+            CmpOp::Eq => CmpOp::Ne,
+            CmpOp::Ne => CmpOp::Eq,
+            CmpOp::Lt => CmpOp::Ge,
+            CmpOp::Ge => CmpOp::Lt,
+            CmpOp::Gt => CmpOp::Le,
+            CmpOp::Le => CmpOp::Gt,
+        }
+    }
 }
 
 /// Integer arithmetic of FNC 20–29.

@@ -1,11 +1,9 @@
 //! 32-bit values in registers that overlap by one word.
 
 use super::accesses::Access;
+use crate::runs::is_special;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
-
-/// Special registers begin here; which of them are pairs is the system's affair.
-const FIRST_SPECIAL: u32 = 8000;
 
 /// The 32-bit values of a program, by their first registers.
 #[derive(Default)]
@@ -23,7 +21,7 @@ impl Pairs {
     pub(super) fn note(&mut self, access: &Access) {
         let class = access.first.class;
         let register = matches!(class, DeviceClass::D | DeviceClass::R);
-        let special = class == DeviceClass::D && access.first.number >= FIRST_SPECIAL;
+        let special = is_special(class, access.first.number);
         if !register || special || access.each != 2 || access.count != Some(2) {
             return;
         }

@@ -4,15 +4,13 @@ use super::Code;
 use super::accesses::Access;
 use super::coils::MAX_PLACES;
 use crate::catalogue::Basic;
+use crate::runs::is_special;
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use rustc_hash::FxHashSet;
 
 /// The classes that are looked at. States are not: step ladders use them in many ways.
 const CLASSES: [DeviceClass; 3] = [DeviceClass::M, DeviceClass::T, DeviceClass::C];
-/// From here on relays are special, which the system reads and writes.
-const FIRST_SPECIAL: u32 = 8000;
-
 /// What is known of the devices of one class.
 #[derive(Default)]
 struct Class {
@@ -69,7 +67,9 @@ impl<'a, 'p> Unused<'a, 'p> {
         if access.reads() {
             self.classes[at].add(access, false);
         }
-        if access.first.class == DeviceClass::M && access.first.number >= FIRST_SPECIAL {
+        if access.first.class == DeviceClass::M
+            && is_special(access.first.class, access.first.number)
+        {
             return;
         }
         match basic {

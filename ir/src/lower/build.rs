@@ -3,6 +3,7 @@
 use super::Lowerer;
 use super::parts::Item;
 use crate::node::{Body, EdgeId, EdgeKind, Expr, ExprId, Stmt, TempId, Ty};
+use crate::walk::operands;
 
 /// Trees of contacts deeper than this are cut by a temporary, so that no rung is too deep for what reads the IR, or for a
 /// compiler of the emitted code.
@@ -12,19 +13,10 @@ impl Lowerer<'_> {
     /// Adds an expression.
     pub(super) fn add(&mut self, expr: Expr) -> ExprId {
         let of = |id: ExprId| self.depths.get(id.0 as usize).copied().unwrap_or(0);
-        let depth = match expr {
-            Expr::And(a, b) | Expr::Or(a, b) | Expr::Bin(_, a, b) | Expr::Cmp(_, a, b) => {
-                of(a).max(of(b)).saturating_add(1)
-            }
-            Expr::Not(a)
-            | Expr::Complement(a)
-            | Expr::Neg(a)
-            | Expr::Widen(a)
-            | Expr::Narrow(a)
-            | Expr::HighWord(a)
-            | Expr::BitToInt(a) => of(a).saturating_add(1),
-            _ => 0,
-        };
+        let depth = operands(&expr)
+            .map(|id| of(id).saturating_add(1))
+            .max()
+            .unwrap_or(0);
         self.depths.push(depth);
         self.module.add(expr)
     }

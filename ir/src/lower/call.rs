@@ -1,12 +1,12 @@
 //! Calls of the runtime.
 
 use super::Lowerer;
-use super::operand::FIRST_COUNTER32;
 use crate::catalogue::{Extent, Inst, Param, Shape};
 use crate::node::{Arg, EdgeKind, Place, Stmt};
 use crate::resolve::Form;
+use crate::runs::is_counter32;
 use rungc_rt::RtFn;
-use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
+use rungc_syntax::{Device, Index, Operand, OperandKind, codes};
 
 impl Lowerer<'_> {
     pub(super) fn call(&mut self, inst: &Inst, function: RtFn) {
@@ -219,11 +219,7 @@ fn elements(param: &Param, constants: &[Option<i64>]) -> Option<u32> {
 fn unit(param: &Param, operand: &OperandKind, form: Form) -> u32 {
     match *operand {
         OperandKind::Nibbles(digits, ..) => 4 * u32::from(digits),
-        OperandKind::Device(device, _)
-            if device.class == DeviceClass::C && device.number >= FIRST_COUNTER32 =>
-        {
-            1
-        }
+        OperandKind::Device(device, _) if is_counter32(device.class, device.number) => 1,
         _ => match param.shape {
             Shape::Value if form.wide => 2,
             Shape::Pair | Shape::Float => 2,

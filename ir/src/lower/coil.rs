@@ -1,9 +1,10 @@
 //! Coils, SET, RST, pulses, master control.
 
 use super::Lowerer;
-use super::operand::{BitTarget, FIRST_COUNTER32, Guards, fixed};
+use super::operand::{BitTarget, Guards, fixed};
 use crate::catalogue::Basic;
 use crate::node::{EdgeKind, Expr, ExprId, Stmt};
+use crate::runs::FIRST_COUNTER32;
 use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
 
 /// Last counter that the program counts; those above count pulses of inputs.

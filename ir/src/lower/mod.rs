@@ -1,8 +1,8 @@
 //! Lowering: from instructions to the IR of [`crate::node`].
 //!
-//! One walk over the instructions. Contact logic is collected as an expression ([`logic`]) until an instruction consumes it;
-//! operands become expressions and places with the conditions under which they exist ([`operand`]). Jumps and loops are collected
-//! as items and made into structured statements when their body ends ([`flow`]). What the layout stores is found last.
+//! One walk over the instructions. Contact logic is collected as an expression (`logic`) until an instruction consumes it;
+//! operands become expressions and places with the conditions under which they exist (`operand`). Jumps and loops are collected
+//! as items and made into structured statements when their body ends (`flow`). What the layout stores is found last.
 
 mod arith;
 mod build;

@@ -2,10 +2,9 @@
 
 use super::Lowerer;
 use crate::node::{BinOp, Expr, ExprId, Place, Stmt, SysValue};
+use crate::runs::is_counter32;
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind, codes};
 
-/// First counter of 32 bits.
-pub(super) const FIRST_COUNTER32: u32 = 200;
 /// A device lies outside the model's range.
 const OUT_OF_RANGE: u16 = 6706;
 
@@ -272,7 +271,7 @@ impl Lowerer<'_> {
         guards: &mut Guards,
     ) -> Target {
         let own = self.canonical(device);
-        let counter32 = own.class == DeviceClass::C && own.number >= FIRST_COUNTER32;
+        let counter32 = is_counter32(own.class, own.number);
         if counter32 {
             return Target::Pair(self.place(device, index, 1, wide_index, guards));
         }
@@ -313,7 +312,7 @@ impl Lowerer<'_> {
     ) -> Target {
         match *operand {
             OperandKind::Device(device, index) => {
-                let counter32 = device.class == DeviceClass::C && device.number >= FIRST_COUNTER32;
+                let counter32 = is_counter32(device.class, device.number);
                 let width = if wide && !counter32 { 2 } else { 1 };
                 let device = Device {
                     number: device.number.saturating_add(element * width),

@@ -4,10 +4,9 @@ use super::LowerOptions;
 use super::call::extents;
 use crate::catalogue::{Drive, Lower, Role};
 use crate::resolve::Resolved;
+use crate::runs::FIRST_SPECIAL;
 use rungc_syntax::{DeviceClass, OperandKind};
 
-/// First special relay and register.
-const FIRST: u32 = 8000;
 /// More than any model has.
 const COUNT: usize = 1000;
 /// M8000 to M8003: in RUN, not in RUN, first scan, not the first scan.
@@ -58,7 +57,7 @@ impl Specials {
             _ => return false,
         };
         number
-            .checked_sub(FIRST)
+            .checked_sub(FIRST_SPECIAL)
             .and_then(|i| set.get(i as usize))
             .copied()
             .unwrap_or(false)
@@ -70,7 +69,7 @@ impl Specials {
             DeviceClass::D => &mut self.registers,
             _ => return,
         };
-        let Some(first) = number.checked_sub(FIRST) else {
+        let Some(first) = number.checked_sub(FIRST_SPECIAL) else {
             return;
         };
         let end = count.map_or(COUNT, |count| {
@@ -98,7 +97,7 @@ impl Specials {
         let special = |operand: &OperandKind| {
             matches!(operand,
             OperandKind::Device(d, _) | OperandKind::Nibbles(_, d, _) | OperandKind::WordBit(d, ..)
-            if matches!(d.class, DeviceClass::M | DeviceClass::D) && d.number >= FIRST)
+            if matches!(d.class, DeviceClass::M | DeviceClass::D) && d.number >= FIRST_SPECIAL)
         };
         if !instr.operands.iter().any(|operand| special(&operand.kind)) {
             return;
@@ -116,8 +115,8 @@ impl Specials {
                 OperandKind::WordBit(device, _, index) => (device, index),
                 _ => continue,
             };
-            if index.is_some() && device.number >= FIRST {
-                self.mark(device.class, FIRST, None);
+            if index.is_some() && device.number >= FIRST_SPECIAL {
+                self.mark(device.class, FIRST_SPECIAL, None);
             } else {
                 self.mark(device.class, device.number, extent);
             }
@@ -125,7 +124,7 @@ impl Specials {
             let reads = params.get(i).is_some_and(|param| param.role == Role::Read);
             self.writes_run_flags |= !reads
                 && device.class == DeviceClass::M
-                && device.number >= FIRST
+                && device.number >= FIRST_SPECIAL
                 && (index.is_some()
                     || RUN_FLAGS.clone().any(|n| (device.number..end).contains(&n)));
         }
@@ -142,7 +141,7 @@ fn run_flag_contact(resolved: &Resolved, i: usize) -> Option<usize> {
                 && device.class == DeviceClass::M
                 && RUN_FLAGS.contains(&device.number) =>
         {
-            Some((device.number - FIRST) as usize)
+            Some((device.number - FIRST_SPECIAL) as usize)
         }
         _ => None,
     }

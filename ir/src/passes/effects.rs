@@ -1,7 +1,9 @@
 //! What expressions read and statements write, and whether a read may be moved behind a write.
 
-use super::fold::{Arena, operands};
+use super::fold::Arena;
 use crate::node::{Expr, ExprId, Place, Stmt};
+use crate::runs::is_special;
+use crate::walk::operands;
 use rungc_syntax::DeviceClass;
 
 /// The devices that an expression reads: runs of (class, first, last).
@@ -31,7 +33,7 @@ impl Reads {
 
     fn collect(&mut self, arena: &Arena, id: ExprId) {
         let expr = arena.get(id);
-        for operand in operands(&expr).into_iter().flatten() {
+        for operand in operands(&expr) {
             self.collect(arena, operand);
         }
         let (place, count) = match expr {
@@ -76,7 +78,10 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
             return Writes::Index;
         }
         // An index may lead from the special registers to those that are names of index registers.
-        if place.index.is_some() && place.class == DeviceClass::D && place.number >= 8000 {
+        if place.index.is_some()
+            && place.class == DeviceClass::D
+            && is_special(place.class, place.number)
+        {
             return Writes::All;
         }
         let (first, last) = run(place, count);

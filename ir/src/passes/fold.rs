@@ -3,6 +3,7 @@
 use crate::catalogue::CmpOp;
 use crate::model::Model;
 use crate::node::{BinOp, Expr, ExprId, TempId, Ty};
+use crate::walk::operands;
 
 /// An arena of expressions that are simplified as they are added.
 pub(super) struct Arena<'m> {
@@ -50,8 +51,6 @@ impl<'m> Arena<'m> {
 
     fn push(&mut self, expr: Expr) -> ExprId {
         let deepest = operands(&expr)
-            .into_iter()
-            .flatten()
             .map(|id| self.depth(id).saturating_add(1))
             .max();
         self.exprs.push(expr);
@@ -124,7 +123,7 @@ impl<'m> Arena<'m> {
             Expr::Not(inner) => inner,
             // A comparison of floats with NaN is false both ways.
             Expr::Cmp(op, x, y) if self.ty(x) != Ty::F32 => {
-                self.push(Expr::Cmp(opposite(op), x, y))
+                self.push(Expr::Cmp(op.opposite(), x, y))
             }
             _ => self.push(Expr::Not(a)),
         }
@@ -153,7 +152,7 @@ impl<'m> Arena<'m> {
             (Expr::I32(x), Expr::I32(y)) => (x, y),
             _ if self.ty(a) != Ty::F32 && self.same(a, b, SAME_DEPTH) => (0, 0),
             (x, y) => {
-                let folded = at_border(op, y).or_else(|| at_border(mirrored(op), x));
+                let folded = at_border(op, y).or_else(|| at_border(op.mirrored(), x));
                 return self.push(folded.map_or(Expr::Cmp(op, a, b), Expr::Bit));
             }
         };
@@ -202,37 +201,8 @@ impl<'m> Arena<'m> {
             (Expr::Not(x), Expr::Not(y)) | (Expr::Widen(x), Expr::Widen(y)) => {
                 self.same(x, y, depth)
             }
-            (x, y) => x == y && operands(&x).iter().all(Option::is_none),
+            (x, y) => x == y && operands(&x).next().is_none(),
         }
-    }
-}
-
-/// The expressions that an expression evaluates.
-pub(crate) fn operands(expr: &Expr) -> [Option<ExprId>; 2] {
-    match *expr {
-        Expr::Not(a)
-        | Expr::Complement(a)
-        | Expr::Neg(a)
-        | Expr::Widen(a)
-        | Expr::Narrow(a)
-        | Expr::HighWord(a)
-        | Expr::BitToInt(a) => [Some(a), None],
-        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
-            [Some(a), Some(b)]
-        }
-        Expr::ReadBit(place)
-        | Expr::ReadWordBit(place, _)
-        | Expr::ReadWord(place)
-        | Expr::ReadPair(place)
-        | Expr::ReadFloat(place)
-        | Expr::ReadNibbles { place, .. }
-        | Expr::InRange { place, .. } => [place.index, None],
-        Expr::Bit(_)
-        | Expr::I16(_)
-        | Expr::I32(_)
-        | Expr::F32(_)
-        | Expr::Temp(_)
-        | Expr::Sys(_) => [None, None],
     }
 }
 
@@ -249,28 +219,6 @@ fn at_border(op: CmpOp, constant: Expr) -> Option<bool> {
         CmpOp::Le if highest => Some(true),
         CmpOp::Gt if highest => Some(false),
         _ => None,
-    }
-}
-
-/// The operator that says the same with its operands exchanged.
-fn mirrored(op: CmpOp) -> CmpOp {
-    match op {
-        CmpOp::Lt => CmpOp::Gt,
-        CmpOp::Le => CmpOp::Ge,
-        CmpOp::Gt => CmpOp::Lt,
-        CmpOp::Ge => CmpOp::Le,
-        CmpOp::Eq | CmpOp::Ne => op,
-    }
-}
-
-fn opposite(op: CmpOp) -> CmpOp {
-    match op {
-        CmpOp::Eq => CmpOp::Ne,
-        CmpOp::Ne => CmpOp::Eq,
-        CmpOp::Lt => CmpOp::Ge,
-        CmpOp::Ge => CmpOp::Lt,
-        CmpOp::Gt => CmpOp::Le,
-        CmpOp::Le => CmpOp::Gt,
     }
 }
 

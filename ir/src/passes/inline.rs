@@ -4,6 +4,7 @@
 use super::effects::{Reads, Writes};
 use super::fold::Arena;
 use crate::node::{Expr, ExprId, TempId};
+use crate::walk::operands;
 
 /// Expressions deeper than this are not put into others.
 const MAX_DEPTH: u8 = 24;
@@ -152,10 +153,7 @@ impl Temps {
         if let Expr::Temp(temp) = arena.get(value) {
             return self.is_fixed(temp);
         }
-        super::fold::operands(&arena.get(value))
-            .into_iter()
-            .flatten()
-            .all(|operand| self.uses_only_fixed(arena, operand))
+        operands(&arena.get(value)).all(|operand| self.uses_only_fixed(arena, operand))
     }
 
     /// What has to be assigned in front of a write.

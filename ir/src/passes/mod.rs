@@ -7,10 +7,6 @@ mod effects;
 mod fold;
 mod inline;
 mod rewrite;
-mod visit;
-
-pub(crate) use fold::operands;
-pub(crate) use visit::for_exprs;
 
 use crate::node::Module;
 

@@ -1,10 +1,10 @@
 //! The walk that rewrites a module.
 
 use super::effects::writes;
-use super::fold::{Arena, operands};
+use super::fold::Arena;
 use super::inline::{Counts, Temps};
-use super::visit::{for_bodies, for_exprs, for_exprs_mut};
 use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
+use crate::walk::{bodies, for_exprs, for_exprs_mut, operands};
 use rustc_hash::FxHashSet;
 
 /// Rewrites every function.
@@ -49,7 +49,9 @@ fn count_body(module: &Module, body: &Body, counts: &mut Counts) {
             counts.assignments[temp.0 as usize] += 1;
         }
         for_exprs(stmt, &mut |expr| count_uses(module, *expr, counts));
-        for_bodies(stmt, &mut |body| count_body(module, body, counts));
+        for inner in bodies(stmt) {
+            count_body(module, inner, counts);
+        }
     }
 }
 
@@ -58,7 +60,7 @@ fn count_uses(module: &Module, id: ExprId, counts: &mut Counts) {
     if let Expr::Temp(temp) = expr {
         counts.uses[temp.0 as usize] += 1;
     }
-    for operand in operands(expr).into_iter().flatten() {
+    for operand in operands(expr) {
         count_uses(module, operand, counts);
     }
 }

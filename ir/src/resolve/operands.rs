@@ -3,6 +3,7 @@
 use super::rules;
 use crate::catalogue::{Classes, Extent, Found, Param, Role, Shape};
 use crate::model::Model;
+use crate::runs::is_counter32;
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Index, Instr, Operand, OperandKind, Span, codes,
 };
@@ -25,7 +26,7 @@ impl Checker {
     pub(super) fn new(model: &'static Model) -> Self {
         let runs = DeviceClass::ALL
             .into_iter()
-            .map(|class| joined(model, class))
+            .map(|class| model.runs(class))
             .collect();
         Checker { model, runs }
     }
@@ -199,7 +200,7 @@ impl Checker {
         device: Device,
         param: &Param,
     ) -> Option<Diagnostic> {
-        if device.class != DeviceClass::C || device.number < FIRST_WIDE_COUNTER {
+        if !is_counter32(device.class, device.number) {
             return None;
         }
         let narrow = match param.shape {
@@ -247,7 +248,7 @@ impl Checker {
         let each = match class {
             _ if each > 1 => each,
             DeviceClass::V | DeviceClass::Z if self.model.z_pairs_with_v => 1,
-            DeviceClass::C if device.number >= FIRST_WIDE_COUNTER => 1,
+            class if is_counter32(class, device.number) => 1,
             _ => words(place.found, param),
         };
         let count = values.saturating_mul(each);
@@ -274,26 +275,6 @@ impl Checker {
             }
         })
     }
-}
-
-/// From this number on counters hold 32 bits.
-pub(super) const FIRST_WIDE_COUNTER: u32 = 200;
-
-/// The ranges of a class, adjoining ones joined unless they are of a different nature: special devices from 8000, 32-bit counters.
-fn joined(model: &Model, class: DeviceClass) -> Vec<(u32, u32)> {
-    let border = match class {
-        DeviceClass::M | DeviceClass::D => 8000,
-        DeviceClass::C => FIRST_WIDE_COUNTER,
-        _ => 0,
-    };
-    let mut runs: Vec<(u32, u32)> = Vec::new();
-    for range in model.ranges_of(class) {
-        match runs.last_mut() {
-            Some(run) if run.1 + 1 == range.first && range.first != border => run.1 = range.last,
-            _ => runs.push((range.first, range.last)),
-        }
-    }
-    runs
 }
 
 fn index_of(kind: &OperandKind) -> Option<Index> {

@@ -1,7 +1,8 @@
 //! What an operand must obey besides its class and limits: the [`Rule`]s of the catalogue.
 
-use super::operands::{FIRST_WIDE_COUNTER, constant_value};
+use super::operands::constant_value;
 use crate::catalogue::{Classes, Param, Rule};
+use crate::runs::FIRST_COUNTER32;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
 
 /// What is wrong with operand `at` of an instruction by the rules of its parameter, if anything.
@@ -78,7 +79,7 @@ pub(super) fn broken(
         }
         Rule::WideCounter => {
             let device = device_of(&operand.kind)?;
-            let narrow = device.class == DeviceClass::C && device.number < FIRST_WIDE_COUNTER;
+            let narrow = device.class == DeviceClass::C && device.number < FIRST_COUNTER32;
             (wide && narrow).then(|| narrow_counter(operand))
         }
         Rule::Holds(holds, demand) => (!holds(operands)).then(|| {

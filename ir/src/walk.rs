@@ -1,0 +1,145 @@
+//! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
+
+use crate::node::{Arg, Body, Expr, ExprId, Module, Part, Stmt};
+
+/// The expressions that an expression evaluates.
+pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
+    let pair = match *expr {
+        Expr::Not(a)
+        | Expr::Complement(a)
+        | Expr::Neg(a)
+        | Expr::Widen(a)
+        | Expr::Narrow(a)
+        | Expr::HighWord(a)
+        | Expr::BitToInt(a) => [Some(a), None],
+        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
+            [Some(a), Some(b)]
+        }
+        Expr::ReadBit(place)
+        | Expr::ReadWordBit(place, _)
+        | Expr::ReadWord(place)
+        | Expr::ReadPair(place)
+        | Expr::ReadFloat(place)
+        | Expr::ReadNibbles { place, .. }
+        | Expr::InRange { place, .. } => [place.index, None],
+        Expr::Bit(_)
+        | Expr::I16(_)
+        | Expr::I32(_)
+        | Expr::F32(_)
+        | Expr::Temp(_)
+        | Expr::Sys(_) => [None, None],
+    };
+    pair.into_iter().flatten()
+}
+
+/// A function over the expressions that a statement evaluates, to look at them or to replace them.
+macro_rules! for_exprs {
+    ($(#[$doc:meta])* $name:ident, $iter:ident $(, $mutable:tt)?) => {
+        $(#[$doc])*
+        pub fn $name(stmt: &$($mutable)? Stmt, f: &mut impl FnMut(&$($mutable)? ExprId)) {
+            match stmt {
+                Stmt::WriteBit(place, value)
+                | Stmt::WriteWord(place, value)
+                | Stmt::WriteWordBit(place, _, value)
+                | Stmt::WritePair(place, value)
+                | Stmt::WriteFloat(place, value)
+                | Stmt::WriteNibbles { place, value, .. } => {
+                    place.index.$iter().for_each(&mut *f);
+                    f(value);
+                }
+                Stmt::Let(_, value) => f(value),
+                Stmt::Edge { input, .. } => f(input),
+                Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+                    f(drive);
+                    f(preset);
+                }
+                Stmt::Counter32 { drive, down, preset, .. } => {
+                    f(drive);
+                    f(down);
+                    f(preset);
+                }
+                Stmt::Reset(place) => place.index.$iter().for_each(f),
+                Stmt::If { cond, .. } => f(cond),
+                Stmt::For { count, .. } => f(count),
+                Stmt::Call { args, drive, .. } => {
+                    for arg in args {
+                        match arg {
+                            Arg::Const { index, .. } => index.$iter().for_each(&mut *f),
+                            Arg::Device { place, .. }
+                            | Arg::Nibbles { place, .. }
+                            | Arg::WordBit { place, .. } => place.index.$iter().for_each(&mut *f),
+                            Arg::Float(_) | Arg::Text(_) => {}
+                        }
+                    }
+                    drive.$iter().for_each(f);
+                }
+                Stmt::Network(_)
+                | Stmt::CallSub(_)
+                | Stmt::Return
+                | Stmt::Parts(_)
+                | Stmt::Goto(_)
+                | Stmt::Fault { .. }
+                | Stmt::Stop
+                | Stmt::Clear { .. } => {}
+            }
+        }
+    };
+}
+
+for_exprs! {
+    /// Calls `f` with the expressions that a statement itself evaluates, without those of the bodies inside it.
+    for_exprs, iter
+}
+for_exprs! {
+    /// Calls `f` with the expressions that a statement itself evaluates, to replace them.
+    for_exprs_mut, iter_mut, mut
+}
+
+/// The bodies directly inside a statement.
+pub fn bodies(stmt: &Stmt) -> impl Iterator<Item = &Body> {
+    let (own, parts): ([Option<&Body>; 2], &[Part]) = match stmt {
+        Stmt::If {
+            then, otherwise, ..
+        } => ([Some(then), Some(otherwise)], &[]),
+        Stmt::For { body, .. } => ([Some(body), None], &[]),
+        Stmt::Parts(parts) => ([None, None], parts),
+        _ => ([None, None], &[]),
+    };
+    let parts = parts.iter().map(|part| &part.body);
+    own.into_iter().flatten().chain(parts)
+}
+
+/// Calls `visit` with every statement, those of the bodies inside it after it.
+pub fn statements<'a>(body: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
+    for stmt in body {
+        visit(stmt);
+        for inner in bodies(stmt) {
+            statements(inner, visit);
+        }
+    }
+}
+
+/// Numbers of the functions that statements call.
+pub fn callees(body: &[Stmt]) -> Vec<usize> {
+    let mut found = Vec::new();
+    statements(body, &mut |stmt| {
+        if let Stmt::CallSub(function) = stmt {
+            found.push(*function as usize);
+        }
+    });
+    found
+}
+
+/// Which functions the scan cycle calls, by number. Subroutines that nothing calls are left out of emitted code.
+pub fn called_functions(module: &Module) -> Vec<bool> {
+    let mut called = vec![false; module.functions.len()];
+    // `Begin`, `Main` and `End` come first.
+    let mut open: Vec<usize> = (0..called.len().min(3)).collect();
+    while let Some(i) = open.pop() {
+        if let Some(known) = called.get_mut(i).filter(|known| !**known) {
+            *known = true;
+            open.extend(callees(&module.functions[i].body));
+        }
+    }
+    called
+}
