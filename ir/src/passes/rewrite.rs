@@ -138,7 +138,7 @@ impl Rewriter<'_> {
 
     fn reads_temp(&self, value: ExprId, temp: TempId) -> bool {
         let expr = self.arena.get(value);
-        let mut parts = operands(&expr).into_iter().flatten();
+        let mut parts = operands(&expr);
         expr == Expr::Temp(temp) || parts.any(|part| self.reads_temp(part, temp))
     }
 
