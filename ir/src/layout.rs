@@ -7,6 +7,7 @@ use crate::lower::LowerOptions;
 use crate::model::Model;
 use crate::node::{Arg, Body, Expr, Module, Place, Stmt};
 use crate::runs::{is_counter32, is_special};
+use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
 /// A run of stored devices.
@@ -206,7 +207,14 @@ impl<'m> Builder<'m> {
             }
             Stmt::For { body, .. } => self.body(body),
             Stmt::Parts(parts) => parts.iter().for_each(|part| self.body(&part.body)),
-            Stmt::Call { args, .. } => args.iter().for_each(|arg| self.arg(arg)),
+            Stmt::Call { function, args, .. } => {
+                args.iter().for_each(|arg| self.arg(arg));
+                // These save and restore all index registers, whether the program names them or not.
+                if matches!(function, RtFn::Zpush | RtFn::Zpop) {
+                    self.mark_run(DeviceClass::V, 0, false);
+                    self.mark_run(DeviceClass::Z, 0, false);
+                }
+            }
             Stmt::Network(_)
             | Stmt::Let(..)
             | Stmt::Edge { .. }
