@@ -223,6 +223,13 @@ fn run_shows_a_table_and_a_diagram() {
 }
 
 #[test]
+fn a_scan_that_does_not_end_is_the_programs_fault() {
+    let folder = folder(&[("endless.il", b"P0\nLD M8000\nCJ P0\nEND\n")]);
+    let args = ["run", "endless.il"];
+    insta::assert_snapshot!("run_endless", shown(folder.path(), &args));
+}
+
+#[test]
 fn convert_there_and_back() {
     let folder = folder(&[("motor.il", MOTOR.as_bytes()), ("MAIN.wpg", &wpg())]);
     let path = folder.path();
@@ -358,6 +365,21 @@ fn build_writes_and_does_not_overwrite() {
         !path.join("none").exists(),
         "a program with errors is not emitted"
     );
+}
+
+/// The host's main program stands in `main.c`, beside what a `MAIN.csv` or `main.il` becomes.
+#[test]
+fn a_program_may_be_called_main() {
+    let folder = folder(&[("main.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    assert_eq!(
+        code(
+            path,
+            &["build", "main.il", "--emit", "c", "--main", "-o", "out"]
+        ),
+        0
+    );
+    assert!(path.join("out/main.c").is_file() && path.join("out/plc_main.c").is_file());
 }
 
 #[test]

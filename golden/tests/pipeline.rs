@@ -430,6 +430,23 @@ fn long_rungs() {
     survive(trials.collect());
 }
 
+/// Loops that would take years are cut short by the watchdog, whether they do anything or not.
+#[test]
+fn endless_loops() {
+    let texts = [
+        "FOR K32767\nFOR K32767\nFOR K32767\nNEXT\nNEXT\nNEXT\nEND\n",
+        "FOR K32767\nFOR K32767\nLD M8000\nINC D0\nNEXT\nNEXT\nEND\n",
+        "P0\nLD M8000\nCJ P0\nEND\n",
+    ];
+    let trials = texts.iter().zip(0..).map(|(text, seed)| Trial {
+        name: "endless loop".to_owned(),
+        text: (*text).to_owned(),
+        models: vec![ModelId::H2u],
+        seed,
+    });
+    survive(trials.collect());
+}
+
 #[test]
 fn damaged_programs() {
     let spellings = spellings();

@@ -210,16 +210,22 @@ impl<'m> Machine<'m> {
     /// Executes a body.
     pub(crate) fn run(&mut self, body: &'m [Stmt], hal: &mut dyn Hal) -> Flow {
         for stmt in body {
-            let Some(budget) = self.budget.checked_sub(1) else {
+            if !self.spend() {
                 return Flow::OutOfTime;
-            };
-            self.budget = budget;
+            }
             let flow = self.step(stmt, hal);
             if flow != Flow::Next {
                 return flow;
             }
         }
         Flow::Next
+    }
+
+    /// Takes one statement from the scan's budget; false if it is used up.
+    fn spend(&mut self) -> bool {
+        let left = self.budget.checked_sub(1);
+        self.budget = left.unwrap_or(0);
+        left.is_some()
     }
 
     fn step(&mut self, stmt: &'m Stmt, hal: &mut dyn Hal) -> Flow {
@@ -234,6 +240,10 @@ impl<'m> Machine<'m> {
             }
             Stmt::For { count, body } => {
                 for _ in 0..int(self.eval(*count)).max(1) {
+                    // A round costs as much as a statement, so that an empty loop ends too.
+                    if !self.spend() {
+                        return Flow::OutOfTime;
+                    }
                     let flow = self.run(body, hal);
                     if flow != Flow::Next {
                         return flow;
@@ -282,10 +292,7 @@ impl<'m> Machine<'m> {
                 Flow::Next => next + 1,
                 Flow::Goto(label) => match parts.iter().position(|p| p.label == Some(label)) {
                     // A jump costs as much as a statement, so that an empty loop ends too.
-                    Some(target) if self.budget > 0 => {
-                        self.budget -= 1;
-                        target
-                    }
+                    Some(target) if self.spend() => target,
                     Some(_) => return Flow::OutOfTime,
                     None => return Flow::Goto(label),
                 },

@@ -2,7 +2,7 @@
 
 mod view;
 
-use super::{Context, Failure, Outcome, Result, conclude, read, stem};
+use super::{Context, Failure, Outcome, Result, conclude, read, stem, tell};
 use crate::args::RunArgs;
 use crate::report::{self, Findings};
 use rungc_ir::Module;
@@ -216,9 +216,10 @@ fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Ta
             writeln!(out, "{row}")?;
         }
         if machine.watchdog_tripped() {
-            return Err(Failure::Because(format!(
-                "at {now} ms: a scan does not end (watchdog, D8061 = 6105)"
-            )));
+            tell(&format!(
+                "rungc: at {now} ms: a scan does not end (watchdog, D8061 = 6105)"
+            ));
+            return Ok(Outcome::Failed);
         }
         now += args.scan;
         if args.real_time {

@@ -307,5 +307,9 @@ fn module_name(source: &str) -> String {
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
         name.insert_str(0, "plc");
     }
+    // Files of these names stand beside the module's in emitted C.
+    if ["main", "rungc"].contains(&name.as_str()) {
+        name.insert_str(0, "plc_");
+    }
     name
 }
