@@ -8,21 +8,15 @@ use crate::writer::{Writer, function_name};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, Stmt};
 use rungc_ir::walk::statements;
+use rungc_rt::special::{D_WATCHDOG, M_KEEP_IN_STOP, M_OUTPUTS_OFF, M_WATCHDOG, WATCHDOG_CODE};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 /// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to divide.
 const FILE_WEIGHT: u64 = 60_000;
 
-/// Special relay that keeps memory and outputs in STOP.
-const M_KEEP_IN_STOP: u32 = 8033;
-/// Special relay and register that tell of the watchdog.
-const M_WATCHDOG: u32 = 8061;
 /// Jumps after which a scan does not end.
 const MAX_JUMPS: u32 = 1_000_000;
-/// Special relay that switches all outputs off.
-const M_OUTPUTS_OFF: u32 = 8034;
-
 /// A module's C text.
 pub struct Unit {
     /// Struct and prototypes of the API, for the header.
@@ -240,8 +234,8 @@ impl Printer<'_> {
         if let Some(relay) = self.stored(DeviceClass::M, M_WATCHDOG) {
             let _ = writeln!(trip, "        {relay} = true;");
         }
-        if let Some(register) = self.stored(DeviceClass::D, M_WATCHDOG) {
-            let _ = writeln!(trip, "        {register} = 6105;");
+        if let Some(register) = self.stored(DeviceClass::D, D_WATCHDOG) {
+            let _ = writeln!(trip, "        {register} = {WATCHDOG_CODE};");
         }
         let _ = write!(
             out,

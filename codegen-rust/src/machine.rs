@@ -6,12 +6,8 @@ use crate::{expr::literal32, format};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::node::{FunctionKind, Stmt};
+use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_syntax::DeviceClass;
-
-/// Special relay that keeps memory and outputs in STOP.
-const M_KEEP_IN_STOP: u32 = 8033;
-/// Special relay that switches all outputs off.
-const M_OUTPUTS_OFF: u32 = 8034;
 
 /// One way of access by number.
 #[derive(Clone, Copy, PartialEq, Eq)]

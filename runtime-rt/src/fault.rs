@@ -1,6 +1,7 @@
 //! Operation errors: the instruction is skipped, the error is shown in the special devices, the scan goes on.
 
 use crate::plc::{Class, Plc};
+use crate::special;
 
 /// An operation error with the PLC's code for it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -52,10 +53,10 @@ pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let _ = plc.set_word(Class::D, ANY_ERROR, ERROR as i16);
 }
 
-/// Shows that the watchdog has stopped the PLC: M8061, and D8061 = 6105 (h1u-h2u-programming §8.1).
+/// Shows that the watchdog has stopped the PLC: M8061, and its code in D8061.
 pub fn trip_watchdog(plc: &mut dyn Plc) {
-    let _ = plc.set_bit(Class::M, 8061, true);
-    let _ = plc.set_word(Class::D, 8061, 6105);
+    let _ = plc.set_bit(Class::M, special::M_WATCHDOG, true);
+    let _ = plc.set_word(Class::D, special::D_WATCHDOG, special::WATCHDOG_CODE);
 }
 
 #[cfg(test)]

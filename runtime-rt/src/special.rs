@@ -1,5 +1,17 @@
 //! Numbers of the special relays and registers that instructions touch; the catalogue tells the rest of their story.
 
+/// Keeps memory and outputs in STOP.
+pub const M_KEEP_IN_STOP: u32 = 8033;
+/// Switches all outputs off.
+pub const M_OUTPUTS_OFF: u32 = 8034;
+/// Longest time that a scan may take, in milliseconds.
+pub const D_WATCHDOG_MS: u32 = 8000;
+/// The watchdog has stopped the PLC.
+pub const M_WATCHDOG: u32 = 8061;
+/// Code of what stopped the PLC.
+pub const D_WATCHDOG: u32 = 8061;
+/// That code for the watchdog (h1u-h2u-programming §8.1, error codes of D8061).
+pub const WATCHDOG_CODE: i16 = 6105;
 /// Zero flag.
 pub const M_ZERO: u32 = 8020;
 /// Borrow flag.

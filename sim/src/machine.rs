@@ -7,20 +7,9 @@ use crate::devices::Devices;
 use crate::exec::{Flow, Value};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, Ty};
+use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_rt::{Class, Hal, Operand, Plc, Program, State, Sys};
 
-/// Special relay that keeps memory and outputs in STOP.
-const M_KEEP_IN_STOP: u32 = 8033;
-/// Special relay that switches all outputs off.
-const M_OUTPUTS_OFF: u32 = 8034;
-/// PLC hardware error: set when the watchdog stops the PLC.
-const M_HARDWARE_ERROR: u32 = 8061;
-/// Its code.
-const D_HARDWARE_ERROR: u32 = 8061;
-/// The watchdog's code (h1u-h2u-programming §8.1, error codes of D8061).
-const WATCHDOG_ERROR: i16 = 6105;
-/// The longest time a scan may take, in milliseconds.
-const D_WATCHDOG_MS: u32 = 8000;
 /// How many statements the machine takes a PLC to execute in a millisecond, when virtual time stands still and only their
 /// number can tell that a scan does not end.
 const STATEMENTS_PER_MS: u64 = 10_000;
@@ -103,8 +92,7 @@ impl<'m> Machine<'m> {
 
     fn trip_watchdog(&mut self) {
         self.watchdog_tripped = true;
-        let _ = self.set_bit(Class::M, M_HARDWARE_ERROR, true);
-        let _ = self.set_word(Class::D, D_HARDWARE_ERROR, WATCHDOG_ERROR);
+        rungc_rt::trip_watchdog(self);
         self.sys.running = false;
     }
 }

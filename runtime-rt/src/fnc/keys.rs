@@ -36,7 +36,7 @@ fn key_of(cx: &mut Cx, pressed: u32) -> Option<(i32, bool)> {
 }
 
 /// TKY S D1 D2 (FNC 70): S…S+9 are the keys 0 to 9. A newly pressed one is appended to D1; D2…D2+9 show the key that counts, D2+10
-/// that one is pressed. Memory: see [`key_of`]; whether the last scan drove it.
+/// that one is pressed. Memory: see `key_of`; whether the last scan drove it.
 pub fn tky(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(2);
     if !cx.drive() {
@@ -62,7 +62,7 @@ pub fn tky(cx: &mut Cx) -> Done {
 /// inputs S…S+3. 0 to 9 are appended to D2; A to F switch D3…D3+5 on, until another one does; D3+6 and D3+7 tell that one of A to F, or
 /// of 0 to 9, is pressed. With M8167 all are hexadecimal digits. M8029 tells that all keys have been read.
 ///
-/// Memory: see [`key_of`]; the scan of the eight; the keys read so far; whether the last scan drove it.
+/// Memory: see `key_of`; the scan of the eight; the keys read so far; whether the last scan drove it.
 pub fn hky(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(4);
     if !cx.drive() {
