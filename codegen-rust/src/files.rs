@@ -70,20 +70,10 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     files
 }
 
-/// A name that cargo takes, which no crate it needs has.
-fn crate_name(module: &str) -> String {
-    let name: String = module
-        .chars()
-        .map(|c| {
-            if c.is_ascii_alphanumeric() {
-                c.to_ascii_lowercase()
-            } else {
-                '_'
-            }
-        })
-        .collect();
+/// A module's name, or one like it if cargo does not take that or a crate it needs has it.
+fn crate_name(name: &str) -> String {
     let is_taken = matches!(
-        name.as_str(),
+        name,
         "" | "rungc_rt"
             | "libm"
             | "core"
@@ -99,11 +89,11 @@ fn crate_name(module: &str) -> String {
             | "crate"
             | "_"
     );
-    let is_keyword = syn::parse_str::<syn::Ident>(&name).is_err();
+    let is_keyword = syn::parse_str::<syn::Ident>(name).is_err();
     if is_taken || is_keyword || name.starts_with(|c: char| c.is_ascii_digit()) {
         format!("plc_{name}")
     } else {
-        name
+        name.to_string()
     }
 }
 

@@ -424,6 +424,32 @@ pub struct Module {
 }
 
 impl Module {
+    /// A program of no instructions, whose three functions do nothing. `name` is an identifier in lower case.
+    pub fn empty(name: String, source_name: String, model: &'static Model) -> Self {
+        let function = |kind| Function {
+            kind,
+            body: Body::new(),
+        };
+        Module {
+            name,
+            source_name,
+            steps: 0,
+            model,
+            exprs: Vec::new(),
+            temps: Vec::new(),
+            edges: 0,
+            states: 0,
+            texts: Vec::new(),
+            functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
+                .map(function)
+                .into(),
+            networks: Vec::new(),
+            comments: Vec::new(),
+            layout: Layout::default(),
+            initial_words: Vec::new(),
+        }
+    }
+
     /// The expression behind a handle.
     pub fn expr(&self, id: ExprId) -> &Expr {
         &self.exprs[id.0 as usize]

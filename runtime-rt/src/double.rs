@@ -1,6 +1,6 @@
 //! A PLC for the tests of this crate: all devices, no layout.
 
-use crate::{Class, Cx, Done, Hal, Operand, Plc, RtFn, Site, State, Sys, VirtualHal};
+use crate::{Class, Cx, Done, Hal, Operand, Plc, RtFn, Site, State, Sys, VirtualHal, d};
 use std::collections::HashMap;
 use std::vec::Vec;
 
@@ -20,6 +20,16 @@ pub struct Double {
     pub texts: Vec<Vec<u8>>,
     /// Form and drive of the next calls.
     pub site: Site,
+}
+
+/// A register as an operand.
+pub fn reg(n: i32) -> Operand {
+    d(Class::D, n)
+}
+
+/// A relay as an operand.
+pub fn relay(n: i32) -> Operand {
+    d(Class::M, n)
 }
 
 /// How many devices a class has.

@@ -349,6 +349,20 @@ impl<'m> Machine<'m> {
                 let value = int(self.eval(value));
                 self.write_nibbles(place, digits, value);
             }
+            Stmt::Reset(place) => {
+                if let Some((class, number)) = self.device(place) {
+                    let _ = self.reset(class, number);
+                }
+            }
+            Stmt::Timer { .. } | Stmt::Counter16 { .. } | Stmt::Counter32 { .. } => self.coil(stmt),
+            // Stmt::Network marks a place; all others are control flow, which `step` handles.
+            _ => {}
+        }
+    }
+
+    /// OUT T and OUT C.
+    fn coil(&mut self, stmt: &Stmt) {
+        match *stmt {
             Stmt::Timer {
                 number,
                 kind,
@@ -382,12 +396,6 @@ impl<'m> Machine<'m> {
                     counter.run(drive, down, preset);
                 }
             }
-            Stmt::Reset(place) => {
-                if let Some((class, number)) = self.device(place) {
-                    let _ = self.reset(class, number);
-                }
-            }
-            // Stmt::Network marks a place; all others are control flow, which `step` handles.
             _ => {}
         }
     }

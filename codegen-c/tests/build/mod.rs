@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
 use rungc_codegen_c::{Options, batch, emit};
-use rungc_ir::layout::{Area, Layout};
+use rungc_ir::layout::Area;
 use rungc_ir::node::*;
 use rungc_ir::{Model, ModelId, Module};
 use rungc_rt::TimerKind;
@@ -21,30 +21,11 @@ pub struct Builder {
 
 impl Builder {
     pub fn new(name: &str) -> Self {
-        let function = |kind| Function {
-            kind,
-            body: Vec::new(),
-        };
+        let model = Model::get(ModelId::Fx2n);
         Builder {
             module: Module {
-                name: name.to_string(),
-                source_name: format!("{name}.csv"),
                 steps: 26,
-                model: Model::get(ModelId::Fx2n),
-                exprs: Vec::new(),
-                temps: Vec::new(),
-                edges: 0,
-                states: 0,
-                texts: Vec::new(),
-                functions: vec![
-                    function(FunctionKind::Begin),
-                    function(FunctionKind::Main),
-                    function(FunctionKind::End),
-                ],
-                networks: Vec::new(),
-                comments: Vec::new(),
-                layout: Layout::default(),
-                initial_words: Vec::new(),
+                ..Module::empty(name.to_string(), format!("{name}.csv"), model)
             },
             body: Vec::new(),
             used: BTreeSet::new(),

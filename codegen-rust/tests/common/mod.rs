@@ -3,7 +3,7 @@
 
 use rungc_codegen_rust::OutFile;
 use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::layout::{Area, Layout};
+use rungc_ir::layout::Area;
 use rungc_ir::node::*;
 use rungc_ir::{Model, ModelId};
 use rungc_rt::TimerKind;
@@ -20,29 +20,10 @@ pub struct Build {
 impl Build {
     /// An empty program for FX2N.
     pub fn new(name: &str) -> Self {
-        let function = |kind| Function {
-            kind,
-            body: Vec::new(),
-        };
+        let model = Model::get(ModelId::Fx2n);
         let module = Module {
-            name: name.to_string(),
-            source_name: "MAIN.csv".to_string(),
             steps: 26,
-            model: Model::get(ModelId::Fx2n),
-            exprs: Vec::new(),
-            temps: Vec::new(),
-            edges: 0,
-            states: 0,
-            texts: Vec::new(),
-            functions: vec![
-                function(FunctionKind::Begin),
-                function(FunctionKind::Main),
-                function(FunctionKind::End),
-            ],
-            networks: Vec::new(),
-            comments: Vec::new(),
-            layout: Layout::default(),
-            initial_words: Vec::new(),
+            ..Module::empty(name.to_string(), "MAIN.csv".to_string(), model)
         };
         Build { module }
     }

@@ -26,31 +26,26 @@ pub(super) fn broken(
             (of != 0 && value % of != 0).then(|| no_multiple(operand, of))
         }
         Rule::AtMost(other) => {
-            let other = operands.get(other)?;
+            let wrong = |value, bound| value > bound;
             compare(
                 operand,
-                other,
-                |value, bound| value > bound,
+                operands.get(other)?,
+                wrong,
                 "must not be greater than",
             )
         }
         Rule::AtLeast(other) => {
-            let other = operands.get(other)?;
+            let wrong = |value, bound| value < bound;
             compare(
                 operand,
-                other,
-                |value, bound| value < bound,
+                operands.get(other)?,
+                wrong,
                 "must not be smaller than",
             )
         }
         Rule::Below(other) => {
-            let other = operands.get(other)?;
-            compare(
-                operand,
-                other,
-                |value, bound| value >= bound,
-                "must be smaller than",
-            )
+            let wrong = |value, bound| value >= bound;
+            compare(operand, operands.get(other)?, wrong, "must be smaller than")
         }
         Rule::EndsInZero => {
             let device = device_of(&operand.kind)?;

@@ -333,12 +333,8 @@ pub fn duty(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
-    use crate::{Class, Fault, Operand, Plc, RtFn, d, k};
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
+    use crate::double::{Double, reg};
+    use crate::{Class, Fault, Plc, RtFn, d, k};
 
     #[test]
     fn blocks_add_wrap_and_take_constants() {

@@ -294,14 +294,10 @@ pub fn hour(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
+    use crate::double::{Double, reg};
     use crate::hal::{Clock, Hal};
-    use crate::{Class, Fault, Operand, RtFn, d, k};
+    use crate::{Class, Fault, RtFn, d, k};
     use proptest::prelude::*;
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
 
     #[test]
     fn comparisons_of_times() {

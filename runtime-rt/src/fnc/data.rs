@@ -172,16 +172,8 @@ pub fn sqr_clamped(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
-    use crate::{Class, Fault, Operand, Plc, RtFn, State, d, k, kn};
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
-
-    fn relay(n: i32) -> Operand {
-        d(Class::M, n)
-    }
+    use crate::double::{Double, reg, relay};
+    use crate::{Class, Fault, Plc, RtFn, State, d, k, kn};
 
     #[test]
     fn zrst_clears_a_run() {

@@ -175,14 +175,10 @@ pub fn pr(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
+    use crate::double::{Double, reg};
     use crate::{Class, Fault, Operand, Plc, RtFn, d, k};
     use std::string::String;
     use std::vec::Vec;
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
 
     fn outputs(plc: &Double) -> u32 {
         (0..16)

@@ -345,13 +345,9 @@ pub fn tanh(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
+    use crate::double::{Double, reg};
     use crate::{Class, Fault, Operand, Plc, RtFn, d, k};
     use proptest::prelude::*;
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
 
     /// M8020, M8021, M8022 as characters.
     fn flags(plc: &Double) -> std::string::String {

@@ -360,17 +360,9 @@ fn end_states(cx: &mut Cx, states: core::ops::RangeInclusive<i32>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
-    use crate::{Class, Fault, Operand, Plc, RtFn, d, k};
+    use crate::double::{Double, reg, relay};
+    use crate::{Class, Fault, Plc, RtFn, d, k};
     use proptest::prelude::*;
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
-
-    fn relay(n: i32) -> Operand {
-        d(Class::M, n)
-    }
 
     fn complete(plc: &Double) -> bool {
         plc.bit(Class::M, 8029).unwrap()

@@ -195,7 +195,7 @@ pub fn mtr(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
+    use crate::double::{Double, relay};
     use crate::{Class, Operand, Plc, RtFn, d, k};
 
     fn input(n: i32) -> Operand {
@@ -204,10 +204,6 @@ mod tests {
 
     fn output(n: i32) -> Operand {
         d(Class::Y, n)
-    }
-
-    fn relay(n: i32) -> Operand {
-        d(Class::M, n)
     }
 
     fn press(plc: &mut Double, n: u32, on: bool) {

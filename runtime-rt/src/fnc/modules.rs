@@ -240,12 +240,8 @@ pub fn wbfm(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
+    use crate::double::{Double, reg};
     use crate::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, d, k, kn};
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
 
     #[test]
     fn words_and_pairs_from_and_to_a_module() {

@@ -128,13 +128,9 @@ pub fn bin_unchecked(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
+    use crate::double::{Double, reg};
     use crate::{Class, Fault, Plc, RtFn, d, k, kn};
     use proptest::prelude::*;
-
-    fn reg(n: i32) -> crate::Operand {
-        d(Class::D, n)
-    }
 
     #[test]
     fn smov_moves_decimal_and_hexadecimal_digits() {

@@ -240,13 +240,9 @@ pub fn pop(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
-    use crate::{Class, Fault, Operand, Plc, RtFn, d, k, kn};
+    use crate::double::{Double, reg};
+    use crate::{Class, Fault, Plc, RtFn, d, k, kn};
     use proptest::prelude::*;
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
 
     fn carry(plc: &Double) -> bool {
         plc.bit(Class::M, 8022).unwrap()

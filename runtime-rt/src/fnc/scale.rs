@@ -104,12 +104,8 @@ pub fn scl2(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
-    use crate::{Class, Fault, Operand, RtFn, d, k};
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
+    use crate::double::{Double, reg};
+    use crate::{Fault, RtFn, k};
 
     fn apply(function: RtFn, a: i32, b: i32, c: i32) -> Result<i16, Fault> {
         let mut plc = Double::new();

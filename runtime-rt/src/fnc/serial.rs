@@ -142,13 +142,9 @@ pub fn crc(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
-    use crate::{Class, Fault, Operand, Plc, RtFn, d, k, kn};
+    use crate::double::{Double, reg};
+    use crate::{Class, Fault, Operand, Plc, RtFn, k, kn};
     use proptest::prelude::*;
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
 
     fn byte_mode(plc: &mut Double, on: bool) {
         plc.set_bit(Class::M, 8161, on);

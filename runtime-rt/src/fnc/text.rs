@@ -457,14 +457,10 @@ pub fn eval(cx: &mut Cx) -> Done {
 
 #[cfg(test)]
 mod tests {
-    use crate::double::Double;
-    use crate::{Class, Fault, Operand, RtFn, d, k};
+    use crate::double::{Double, reg};
+    use crate::{Fault, RtFn, k};
     use std::string::{String, ToString};
     use std::vec::Vec;
-
-    fn reg(n: i32) -> Operand {
-        d(Class::D, n)
-    }
 
     fn put(plc: &mut Double, first: u32, text: &str) {
         let mut bytes = text.as_bytes().to_vec();
