@@ -17,6 +17,7 @@ const FILE_WEIGHT: u64 = 60_000;
 
 /// Jumps after which a scan does not end.
 const MAX_JUMPS: u32 = 1_000_000;
+
 /// A module's C text.
 pub struct Unit {
     /// Struct and prototypes of the API, for the header.

@@ -13,6 +13,9 @@ pub(super) fn broken(
     wide: bool,
 ) -> Option<Diagnostic> {
     let operand = operands.get(at)?;
+    let against = |other: usize, wrong: fn(i64, i64) -> bool, demand| {
+        compare(operand, operands.get(other)?, wrong, demand)
+    };
     param.rules.iter().find_map(|rule| match *rule {
         Rule::WideLimits(..) => None,
         Rule::Not(min, max) => {
@@ -25,28 +28,9 @@ pub(super) fn broken(
             let value = constant_value(&operand.kind)?;
             (of != 0 && value % of != 0).then(|| no_multiple(operand, of))
         }
-        Rule::AtMost(other) => {
-            let wrong = |value, bound| value > bound;
-            compare(
-                operand,
-                operands.get(other)?,
-                wrong,
-                "must not be greater than",
-            )
-        }
-        Rule::AtLeast(other) => {
-            let wrong = |value, bound| value < bound;
-            compare(
-                operand,
-                operands.get(other)?,
-                wrong,
-                "must not be smaller than",
-            )
-        }
-        Rule::Below(other) => {
-            let wrong = |value, bound| value >= bound;
-            compare(operand, operands.get(other)?, wrong, "must be smaller than")
-        }
+        Rule::AtMost(other) => against(other, |v, bound| v > bound, "must not be greater than"),
+        Rule::AtLeast(other) => against(other, |v, bound| v < bound, "must not be smaller than"),
+        Rule::Below(other) => against(other, |v, bound| v >= bound, "must be smaller than"),
         Rule::EndsInZero => {
             let device = device_of(&operand.kind)?;
             let base = if device.class.is_octal() { 8 } else { 10 };
