@@ -400,6 +400,16 @@ registry! {
     PidHm = pid::pid_hm(s1, s2, s3, d);
     /// PID of L01S: for temperatures.
     PidThermal = pid_thermal::pid_thermal(s1, s2, s3, d) [state];
+    /// LOADR (FNC 290): ER to R.
+    Loadr = cassette::loadr(s, n, er);
+    /// SAVER (FNC 291): a sector of R to ER in portions.
+    Saver = cassette::saver(s, n, d, er) [state, always];
+    /// INITR (FNC 292): erases R and ER.
+    Initr = cassette::initr(s, n, er);
+    /// RWER (FNC 294): R to ER.
+    Rwer = cassette::rwer(s, n, er);
+    /// INITER (FNC 295): erases ER.
+    Initer = cassette::initer(s, n, er);
 }
 
 #[cfg(test)]

@@ -592,6 +592,8 @@ pub struct Inst {
     pub errors: &'static [u16],
     /// Models that have it.
     pub models: ModelSet,
+    /// A class whose devices with the numbers of the first operand it works on too: the runtime takes them as one more operand.
+    pub twin: Option<DeviceClass>,
     /// What implements it.
     pub lower: Lower,
     /// Models on which something else implements it.

@@ -94,6 +94,7 @@ pub(super) const fn row(name: &'static str, title: &'static str, source: &'stati
         max_uses: None,
         errors: &[],
         models: ModelSet::ALL,
+        twin: None,
         lower: Lower::Todo(UNSAID),
         lower_on: &[],
     }
@@ -145,6 +146,11 @@ impl Inst {
 
     pub(super) const fn flags(self, flags: &'static [&'static str]) -> Self {
         Inst { flags, ..self }
+    }
+
+    pub(super) const fn twin(self, class: DeviceClass) -> Self {
+        let twin = Some(class);
+        Inst { twin, ..self }
     }
 
     pub(super) const fn errors(self, errors: &'static [u16]) -> Self {

@@ -4,7 +4,7 @@ use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
 use crate::model::ModelId;
 use rungc_rt::RtFn;
-use rungc_syntax::OperandKind;
+use rungc_syntax::{DeviceClass, OperandKind};
 
 const SERIAL: &str = "serial communication";
 const CAN: &str = "CAN communication";
@@ -299,13 +299,19 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8029"])
         .todo(SERIAL),
     cassette("LOADR", 290, "Load from extension file registers", "Copies n words from ER to R, from number S on.")
-        .takes(&[dst("S", Classes::R).per(1), number("n", 32767)]),
+        .takes(&[dst("S", Classes::R).per(1), number("n", 32767)])
+        .twin(DeviceClass::ER)
+        .call(RtFn::Loadr),
     cassette("SAVER", 291, "Save to extension file registers", "Writes 2048 words from S on to ER, n words in each scan; D counts.")
         .steps(7, 7)
         .takes(&[src("S", Classes::R).len(2048), number("n", 2048), dst("D", Classes::D)])
-        .flags(&["M8029"]),
+        .flags(&["M8029"])
+        .twin(DeviceClass::ER)
+        .call(RtFn::Saver),
     cassette("INITR", 292, "Clear extension registers", "Sets n sectors of 2048 words of R and ER from S on to -1.")
-        .takes(&[dst("S", Classes::R).open_ended(), number("n", 16)]),
+        .takes(&[dst("S", Classes::R).open_ended(), number("n", 16)])
+        .twin(DeviceClass::ER)
+        .call(RtFn::Initr),
     cassette("LOGR", 293, "Log values", "Appends the m values from S on to the log of n sectors at D1; D2 is the next place in it.")
         .steps(11, 11)
         .takes(&[
@@ -317,9 +323,13 @@ pub(super) const ROWS: &[Inst] = &[
         ]),
     cassette("RWER", 294, "Rewrite extension file registers", "Writes n words of R from S on to ER.")
         .on(FX3)
-        .takes(&[src("S", Classes::R).per(1), number("n", 32767)]),
+        .takes(&[src("S", Classes::R).per(1), number("n", 32767)])
+        .twin(DeviceClass::ER)
+        .call(RtFn::Rwer),
     cassette("INITER", 295, "Clear extension file registers", "Sets n sectors of ER from S on to -1.")
-        .takes(&[dst("S", Classes::R).open_ended(), number("n", 16)]),
+        .takes(&[dst("S", Classes::R).open_ended(), number("n", 16)])
+        .twin(DeviceClass::ER)
+        .call(RtFn::Initer),
     cassette("FLCRT", 300, "Create a file", "Creates or checks a file of the data logger: name S1, settings S2, S3.")
         .steps(7, 7)
         .takes(&[text("S1", DATA.or(CONSTANTS)), src("S2", DATA).open_ended(), any("S3")]),

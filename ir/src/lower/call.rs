@@ -101,11 +101,16 @@ impl Lowerer<'_> {
     fn args(&mut self, inst: &Inst, form: Form) -> Vec<Arg> {
         let operands = &self.instr().operands;
         let extents = extents(inst, form, operands, self.model);
-        operands
+        let mut args: Vec<Arg> = operands
             .iter()
             .zip(extents)
             .map(|(operand, extent)| self.arg(operand, extent, form.wide))
-            .collect()
+            .collect();
+        if let (Some(class), Some(&Arg::Device { place, extent })) = (inst.twin, args.first()) {
+            let place = Place { class, ..place };
+            args.push(Arg::Device { place, extent });
+        }
+        args
     }
 
     fn arg(&mut self, operand: &Operand, extent: Option<u32>, wide: bool) -> Arg {

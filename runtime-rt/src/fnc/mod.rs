@@ -3,6 +3,7 @@
 mod digits;
 
 pub mod block;
+pub mod cassette;
 pub mod clock;
 pub mod data;
 pub mod display;
