@@ -281,6 +281,10 @@ typedef struct rungc_layout {
      * Relay that shows an operation error.
      */
     uint16_t error_relay;
+    /**
+     * Code of an error in an operand's value.
+     */
+    uint16_t value_error;
 } rungc_layout;
 
 /**

@@ -93,6 +93,7 @@ pub fn write(out: &mut String, module: &Module, fields: &Fields) {
         layout.push(".z_pairs_with_v = true".to_string());
     }
     layout.push(format!(".error_relay = {}", module.model.error_relay));
+    layout.push(format!(".value_error = {}", module.model.value_error));
     // Writing to a String does not fail.
     let _ = write!(
         out,

@@ -436,6 +436,14 @@ impl Generator<'_> {
                 }
             )
         });
+        let value = self.module.model.value_error;
+        let values = (value != 6707).then(|| {
+            quote!(
+                fn value_error(&self) -> u16 {
+                    #value
+                }
+            )
+        });
         self.item_of(quote! {
             impl #plc for #name {
                 #(#methods)*
@@ -444,6 +452,7 @@ impl Generator<'_> {
                 #text
                 #pairs
                 #errors
+                #values
             }
         })
     }

@@ -142,6 +142,9 @@ pub struct Model {
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].
     pub error_relay: u32,
+    /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes know only 6706, for
+    /// devices and values.
+    pub value_error: u16,
     /// Notations of operands that it knows, of those that are neither devices nor integers: E, TEXT, WORD_BIT, BUFFER.
     pub notations: Classes,
     /// Whether its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.

@@ -117,6 +117,8 @@ pub struct Layout {
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error.
     pub error_relay: u16,
+    /// Code of an error in an operand's value.
+    pub value_error: u16,
 }
 
 /// The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
@@ -357,6 +359,10 @@ impl Plc for Map {
 
     fn error_relay(&self) -> u32 {
         self.layout().error_relay.into()
+    }
+
+    fn value_error(&self) -> u16 {
+        self.layout().value_error
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {

@@ -16,6 +16,8 @@ pub struct Double {
     pub hal: VirtualHal,
     /// Where errors are shown.
     pub error_relay: u32,
+    /// Code of an error in a value.
+    pub value_error: u16,
     /// Texts.
     pub texts: Vec<Vec<u8>>,
     /// Form and drive of the next calls.
@@ -58,6 +60,7 @@ impl Double {
             },
             hal: VirtualHal::new(),
             error_relay: 8067,
+            value_error: 6707,
             texts: Vec::new(),
             site: Site::at(0).slot(1),
         }
@@ -199,6 +202,10 @@ impl Plc for Double {
 
     fn error_relay(&self) -> u32 {
         self.error_relay
+    }
+
+    fn value_error(&self) -> u16 {
+        self.value_error
     }
 
     fn text(&self, index: u32) -> &[u8] {

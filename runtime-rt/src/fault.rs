@@ -13,7 +13,7 @@ impl Fault {
     pub const DEVICE: Fault = Fault(6706);
     /// An argument lies outside a floating-point function's domain, or its value is no float; the manuals give the code of [`Fault::DEVICE`].
     pub const DOMAIN: Fault = Fault(6706);
-    /// A value lies outside what the instruction takes.
+    /// A value lies outside what the instruction takes; models show it as [`Plc::value_error`].
     pub const VALUE: Fault = Fault(6707);
     /// A module is not there, or has no such buffer memory.
     pub const MODULE: Fault = Fault(6750);
@@ -47,7 +47,11 @@ pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
         let _ = plc.set_bit(Class::M, FIRST_ERROR, true);
         let _ = plc.set_word(Class::D, FIRST_ERROR, step);
     }
-    let _ = plc.set_word(Class::D, ERROR, fault.0 as i16);
+    let code = match fault {
+        Fault::VALUE => plc.value_error(),
+        Fault(code) => code,
+    };
+    let _ = plc.set_word(Class::D, ERROR, code as i16);
     let _ = plc.set_word(Class::D, ERROR_STEP, step);
     let _ = plc.set_bit(Class::M, ANY_ERROR, true);
     let _ = plc.set_word(Class::D, ANY_ERROR, ERROR as i16);
@@ -74,6 +78,16 @@ mod tests {
             (plc.d(8067, 3), plc.d(8004, 1)),
             ([6707, 12, 30].to_vec(), [8067].to_vec())
         );
+    }
+
+    #[test]
+    fn some_models_have_one_code_for_devices_and_values() {
+        let mut plc = Double::new();
+        plc.value_error = 6706;
+        report(&mut plc, Fault::VALUE, 0);
+        assert_eq!(plc.d(8067, 1), [6706]);
+        report(&mut plc, Fault::MODULE, 0);
+        assert_eq!(plc.d(8067, 1), [6750]);
     }
 
     #[test]

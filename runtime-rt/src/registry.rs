@@ -259,7 +259,7 @@ registry! {
     /// DIS (FNC 144): parts nibbles.
     Dis = block::dis(s, d, n);
     /// SORT2 (FNC 149): sorts rows.
-    Sort2 = block::sort2(s, m1, m2, d, n) [state, always];
+    Sort2 = handy::sort2(s, m1, m2, d, n) [state, always];
     /// RND (FNC 184): random number.
     Rnd = block::rnd(d);
     /// DUTY (FNC 186): timing by scans.

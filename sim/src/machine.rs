@@ -200,6 +200,10 @@ impl Plc for Machine<'_> {
         self.module.model.error_relay
     }
 
+    fn value_error(&self) -> u16 {
+        self.module.model.value_error
+    }
+
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {
         match class {
             Class::T => self.devices.timer(number)?.reset(),

@@ -85,7 +85,11 @@ pub(super) const ROWS: &[Inst] = &[
     block("FINS", 211, "Insert into a table")
         .forms(W16_P)
         .steps(7, 7)
-        .takes(TABLE)
+        .takes(&[
+            src("S", CONSTANTS.or(REGISTERS)),
+            both("D", REGISTERS).open_ended(),
+            src("n", CONSTANTS.or(DATA)),
+        ])
         .call(RtFn::Fins)
         .text("Puts S into the table at D, whose first word is its length, as entry n; the ones behind move down."),
     block("LIMIT", 256, "Limit")

@@ -172,7 +172,8 @@ pub(super) const FX3: &[Special] = specials! {
     M 8398 rw 0 inert(FAST) "starts the ring counter D8398";
     M 8401-8429 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
     M 8460-8467 rw 0 inert(PULSES) "interrupt and clear signals of positioning";
-    D 8310-8311 rw 0 by("RND") "state of RND";
+    D 8310 rw 1 by("RND") "state of RND, low word";
+    D 8311 rw 0 by("RND") "state of RND, high word";
     D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";
     D 8336 rw 0 inert(PULSES) "interrupt inputs of DVIT";
     D 8340-8349 rw 0 inert(PULSES) "positioning with Y000";

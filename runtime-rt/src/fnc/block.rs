@@ -2,13 +2,10 @@
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
-use crate::special::M_COMPLETE;
 use core::cmp::Ordering;
 
 /// On when every comparison of a block comparison held.
 const M_BLOCK_COMPARE: u32 = 8090;
-/// SORT2 sorts in descending order.
-const M_DESCENDING: u32 = 8165;
 /// Seed of RND, low word; the high word follows.
 const D_RANDOM: u32 = 8310;
 
@@ -208,59 +205,6 @@ pub fn fins(cx: &mut Cx) -> Done {
     }
     cx.set_word(1, n, value)?;
     cx.set_word(1, 0, (count + 1) as i16)
-}
-
-/// Most rows and columns of SORT2.
-const SORT_ROWS: usize = 32;
-const SORT_COLUMNS: usize = 6;
-
-/// SORT2 S m1 m2 D n (FNC 149): sorts m1 rows of m2 columns, stored row by row, by column n into D; M8165 turns the order. Equal
-/// rows keep their order. Here the whole table is sorted in the scan of the off-to-on change; M8029 follows.
-pub fn sort2(cx: &mut Cx) -> Done {
-    if !cx.drive() {
-        cx.state().0[0] = 0;
-        return Ok(());
-    }
-    if cx.state().0[0] != 0 {
-        return Ok(());
-    }
-    let rows = cx.count(1, 1..=SORT_ROWS as i32)? as usize;
-    let columns = cx.count(2, 1..=SORT_COLUMNS as i32)? as usize;
-    let key = cx.count(4, 1..=columns as i32)? as usize - 1;
-    cx.check_elems(3, (rows * columns) as i32)?;
-    let mut table = [[0i32; SORT_COLUMNS]; SORT_ROWS];
-    for (r, row) in table.iter_mut().take(rows).enumerate() {
-        for (c, value) in row.iter_mut().take(columns).enumerate() {
-            *value = cx.elem(0, (r * columns + c) as i32)?;
-        }
-    }
-    let descending = cx.special(M_DESCENDING);
-    insertion_sort(table.get_mut(..rows).unwrap_or_default(), |a, b| {
-        let order = a.get(key).cmp(&b.get(key));
-        if descending { order.reverse() } else { order }
-    });
-    for (r, row) in table.iter().take(rows).enumerate() {
-        for (c, &value) in row.iter().take(columns).enumerate() {
-            cx.set_elem(3, (r * columns + c) as i32, value)?;
-        }
-    }
-    cx.state().0[0] = 1;
-    cx.set_special(M_COMPLETE, true);
-    Ok(())
-}
-
-/// Sorts a short slice, keeping the order of equals (the stable sort of `alloc` is not to be had here).
-fn insertion_sort<T: Copy>(items: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
-    for end in 1..items.len() {
-        let mut i = end;
-        while let Some([a, b]) = i.checked_sub(1).and_then(|j| items.get_mut(j..=i)) {
-            if order(a, b).is_le() {
-                break;
-            }
-            core::mem::swap(a, b);
-            i -= 1;
-        }
-    }
 }
 
 /// Index registers that ZPUSH saves: V0–V7 and Z0–Z7.

@@ -1,4 +1,4 @@
-//! Handy instructions: FNC 61–68, h1u-h2u-programming §4.3.7. What its lost figures showed is as in the FX family.
+//! Handy instructions: FNC 61–69 and 149, h1u-h2u-programming §4.3.7. What its lost figures showed is as in the FX family.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -236,10 +236,30 @@ pub fn rotc(cx: &mut Cx) -> Done {
     (3..8).try_for_each(|bit| cx.set_bit(3, bit, bit == way))
 }
 
-/// SORT S m1 m2 D n (FNC 69): copies the m1 rows of m2 columns, kept column by column, from S to D and sorts them there by column n,
-/// smallest first, one row a scan; M8029 tells the end. Memory: how many rows are sorted, plus one; the drive must go off before it sorts
-/// again.
+/// SORT2 sorts in descending order.
+const M_DESCENDING: u32 = 8165;
+
+/// Where a cell stands in a table.
+type Place = fn(row: i32, column: i32, rows: i32, columns: i32) -> i32;
+
+/// SORT S m1 m2 D n (FNC 69): sorts the m1 rows of m2 columns, kept column by column, by column n, smallest first.
 pub fn sort(cx: &mut Cx) -> Done {
+    sort_table(cx, |row, column, rows, _| column * rows + row, false)
+}
+
+/// SORT2 S m1 m2 D n (FNC 149): sorts the m1 rows of m2 columns, kept row by row, by column n; M8165 turns the order.
+pub fn sort2(cx: &mut Cx) -> Done {
+    let descending = cx.special(M_DESCENDING);
+    sort_table(
+        cx,
+        |row, column, _, columns| row * columns + column,
+        descending,
+    )
+}
+
+/// Copies a table from S to D and sorts it there, one row a scan; equal rows keep their order; M8029 tells the end. Memory: how many rows
+/// are sorted, plus one; the drive must go off before it sorts again.
+fn sort_table(cx: &mut Cx, place: Place, descending: bool) -> Done {
     if !cx.drive() {
         cx.state().0[0] = 0;
         return Ok(());
@@ -247,27 +267,33 @@ pub fn sort(cx: &mut Cx) -> Done {
     let (rows, columns) = (cx.count(1, 1..=32)?, cx.count(2, 1..=6)?);
     let key = cx.count(4, 1..=columns)? - 1;
     let cells = rows * columns;
-    cx.check_words(0, cells)?;
-    cx.check_words(3, cells)?;
+    cx.check_elems(0, cells)?;
+    cx.check_elems(3, cells)?;
     let sorted = cx.state().0[0] - 1;
     if sorted < 0 {
         for k in 0..cells {
-            let value = cx.word(0, k)?;
-            cx.set_word(3, k, value)?;
+            let value = cx.elem(0, k)?;
+            cx.set_elem(3, k, value)?;
         }
     }
     let mut row = sorted.max(0);
     let next = row + 1;
     while (1..rows).contains(&row) {
-        let of_key = key * rows + row;
-        if cx.word(3, of_key - 1)? <= cx.word(3, of_key)? {
+        let keys = [row - 1, row].map(|row| cx.elem(3, place(row, key, rows, columns)));
+        let (above, this) = (keys[0]?, keys[1]?);
+        let in_order = if descending {
+            above >= this
+        } else {
+            above <= this
+        };
+        if in_order {
             break;
         }
         for column in 0..columns {
-            let this = column * rows + row;
-            let (above, value) = (cx.word(3, this - 1)?, cx.word(3, this)?);
-            cx.set_word(3, this - 1, value)?;
-            cx.set_word(3, this, above)?;
+            let cells = [row - 1, row].map(|row| place(row, column, rows, columns));
+            let (above, value) = (cx.elem(3, cells[0])?, cx.elem(3, cells[1])?);
+            cx.set_elem(3, cells[0], value)?;
+            cx.set_elem(3, cells[1], above)?;
         }
         row -= 1;
     }

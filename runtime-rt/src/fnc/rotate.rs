@@ -54,9 +54,9 @@ pub fn rcl(cx: &mut Cx) -> Done {
     rotate_through_carry(cx, false)
 }
 
-/// SFR D n (FNC 213): shifts D right, zeros entering; the last bit out goes to the carry flag. n counts modulo 16.
+/// SFR D n (FNC 213): shifts D right, zeros entering; the last bit out goes to the carry flag. n counts modulo 16; a negative one is an error.
 pub fn sfr(cx: &mut Cx) -> Done {
-    let n = cx.word(1, 0)?.rem_euclid(16) as u32;
+    let n = cx.count(1, 0..=i16::MAX.into())? % 16;
     let value = u64::from(cx.word(0, 0)? as u16) << 1;
     let shifted = value >> n;
     cx.set_word(0, 0, (shifted >> 1) as i16)?;
@@ -64,9 +64,9 @@ pub fn sfr(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// SFL D n (FNC 214): shifts D left, zeros entering; the last bit out goes to the carry flag. n counts modulo 16.
+/// SFL D n (FNC 214): shifts D left, zeros entering; the last bit out goes to the carry flag. n counts modulo 16; a negative one is an error.
 pub fn sfl(cx: &mut Cx) -> Done {
-    let n = cx.word(1, 0)?.rem_euclid(16) as u32;
+    let n = cx.count(1, 0..=i16::MAX.into())? % 16;
     let shifted = u32::from(cx.word(0, 0)? as u16) << n;
     cx.set_word(0, 0, shifted as i16)?;
     cx.set_special(M_CARRY, shifted >> 16 & 1 == 1);

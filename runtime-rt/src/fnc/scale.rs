@@ -48,7 +48,8 @@ pub fn zone(cx: &mut Cx) -> Done {
 /// Where the coordinates of point `i` (from 0) of `count` stand in the table, as elements after its head.
 type Place = fn(i: i32, count: i32) -> (i32, i32);
 
-/// D = the line through the table's points at x = S1, rounded half away from zero. The table's head counts its points, whose x must not fall.
+/// D = the line through the table's points at x = S1, rounded half away from zero. The table's head counts its points. It is searched from
+/// its beginning, so that only x that fall before S1 is reached are an error; of points that share an x the second counts.
 fn interpolate(cx: &mut Cx, place: Place) -> Done {
     let x = cx.read(0)?;
     let count = cx.elem(1, 0)?;
@@ -59,27 +60,24 @@ fn interpolate(cx: &mut Cx, place: Place) -> Done {
         let (x, y) = place(i, count);
         Ok((cx.elem(1, x)?, cx.elem(1, y)?))
     };
-    let mut result = None;
     let mut left = point(cx, 0)?;
-    if left.0 == x {
-        result = Some(left.1);
-    }
     for i in 1..count {
         let right = point(cx, i)?;
+        if left.0 == x {
+            return cx.write(2, if right.0 == x { right.1 } else { left.1 });
+        }
         if right.0 < left.0 {
             return Err(Fault::DEVICE);
         }
-        if right.0 == x {
-            // Where several points share an x the last one counts.
-            result = Some(right.1);
-        } else if left.0 < x && x < right.0 {
-            result = Some(on_line(left, right, x));
+        if left.0 < x && x < right.0 {
+            return cx.write(2, on_line(left, right, x));
         }
         left = right;
     }
-    match result {
-        Some(y) => cx.write(2, y),
-        None => Err(Fault::DEVICE),
+    if left.0 == x {
+        cx.write(2, left.1)
+    } else {
+        Err(Fault::DEVICE)
     }
 }
 
