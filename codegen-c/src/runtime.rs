@@ -68,7 +68,7 @@ impl Writer<'_, '_> {
                 self.device(code, place);
                 code.push(')');
             }
-            Arg::WordBit { place, bit } => {
+            Arg::WordBit { place, bit, .. } => {
                 code.push_str("rungc_bit_of(");
                 self.device(code, place);
                 let _ = write!(code, ", {bit})");

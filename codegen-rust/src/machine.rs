@@ -437,7 +437,7 @@ impl Generator<'_> {
             )
         });
         let value = self.module.model.value_error;
-        let values = (value != 6707).then(|| {
+        let values = (value != 6706).then(|| {
             quote!(
                 fn value_error(&self) -> u16 {
                     #value

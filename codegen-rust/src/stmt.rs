@@ -575,7 +575,7 @@ impl Generator<'_> {
                 let (class, number) = self.operand_place(place);
                 quote!(#kn(#digits, #class, #number))
             }
-            Arg::WordBit { place, bit } => {
+            Arg::WordBit { place, bit, .. } => {
                 let operand = self.rt("Operand");
                 let bit = Literal::u8_unsuffixed(bit);
                 let (class, number) = self.operand_place(place);

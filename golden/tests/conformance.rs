@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Folders of conformance files.
-const PARTS: [&str; 3] = ["h1u-h2u", "hm", "l01s"];
+const PARTS: [&str; 5] = ["fx2n", "fx3u", "h1u-h2u", "hm", "l01s"];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

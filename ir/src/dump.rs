@@ -246,7 +246,7 @@ impl Out<'_> {
                 digits,
                 extent,
             } => format!("K{digits}{}{}", self.place(place), count(extent)),
-            Arg::WordBit { place, bit } => format!("{}.{bit:X}", self.place(place)),
+            Arg::WordBit { place, bit, .. } => format!("{}.{bit:X}", self.place(place)),
             Arg::Text(n) => format!("{:?}", self.module.texts[*n as usize]),
         }
     }

@@ -6,7 +6,7 @@
 use crate::lower::LowerOptions;
 use crate::model::Model;
 use crate::node::{Arg, Body, Expr, Module, Place, Stmt};
-use crate::runs::{is_counter32, is_special};
+use crate::runs::{is_counter32, is_special, words_of_bits};
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
@@ -232,7 +232,9 @@ impl<'m> Builder<'m> {
             Arg::Device { place, extent } | Arg::Nibbles { place, extent, .. } => {
                 self.extent(place, extent)
             }
-            Arg::WordBit { place, .. } => self.place(place, 1),
+            Arg::WordBit { place, bit, extent } => {
+                self.extent(place, extent.map(|bits| words_of_bits(bit, bits)));
+            }
             Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) => {}
         }
     }

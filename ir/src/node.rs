@@ -204,6 +204,8 @@ pub enum Arg {
         place: Place,
         /// Bit 0 to 15.
         bit: u8,
+        /// How many bits may be accessed; they go on in the next words.
+        extent: Option<u32>,
     },
     /// Text number in [`Module::texts`].
     Text(u32),

@@ -24,6 +24,11 @@ pub fn is_counter32(class: DeviceClass, number: u32) -> bool {
     class == DeviceClass::C && number >= FIRST_COUNTER32
 }
 
+/// How many words hold `count` bits from bit number `bit` of a word on.
+pub(crate) fn words_of_bits(bit: u8, count: u32) -> u32 {
+    u32::from(bit).saturating_add(count.max(1)).div_ceil(16)
+}
+
 impl Model {
     /// The runs of a class as (first, last), in order: its ranges, general and latched neighbours joined.
     pub fn runs(&self, class: DeviceClass) -> Vec<(u32, u32)> {

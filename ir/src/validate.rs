@@ -355,7 +355,7 @@ impl Checker<'_> {
         match arg {
             Arg::Const { index: at, .. } => index(at),
             Arg::Device { place, .. } | Arg::Nibbles { place, .. } => index(&place.index),
-            Arg::WordBit { place, bit } => *bit < 16 && index(&place.index),
+            Arg::WordBit { place, bit, .. } => *bit < 16 && index(&place.index),
             Arg::Text(n) => (*n as usize) < self.module.texts.len(),
             Arg::Float(_) => true,
         }

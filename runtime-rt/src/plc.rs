@@ -178,7 +178,7 @@ pub trait Plc {
     }
     /// Code of [`crate::Fault::VALUE`]: 6707 (H1U/H2U) or 6706, which on FX and L01S stands for devices and values.
     fn value_error(&self) -> u16 {
-        crate::Fault::VALUE.0
+        crate::Fault::DEVICE.0
     }
     /// Resets a timer or counter: value 0, contact off (what RST and ZRST do).
     fn reset(&mut self, class: Class, number: u32) -> Option<()>;

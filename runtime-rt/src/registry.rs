@@ -350,6 +350,8 @@ registry! {
     ErrorLog = system::error_log() [state, always];
     /// D8030–D8045 of L01S, once before each scan's program.
     AnalogInputs = system::analog_inputs() [always, hal];
+    /// D8398 and D8399 of FX3G, FX3U and L01S, once before each scan's program.
+    RingCounter = system::ring_counter() [always];
     /// FROM of L01S: module 0 is the host's analog inputs if there is no other.
     FromHost = modules::from_host(m1, m2, d, n) [hal];
     /// REF (FNC 50): refreshes terminals.

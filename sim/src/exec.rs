@@ -474,7 +474,7 @@ impl<'m> Machine<'m> {
             Arg::Nibbles { place, digits, .. } => {
                 Operand::nibbles(digits, class(place), indexed(place))
             }
-            Arg::WordBit { place, bit } => Operand::word_bit(class(place), indexed(place), bit),
+            Arg::WordBit { place, bit, .. } => Operand::word_bit(class(place), indexed(place), bit),
             Arg::Text(index) => Operand::text(index as i32),
         }
     }

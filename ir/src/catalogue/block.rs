@@ -13,7 +13,7 @@ const BLOCK: &[Param] = &[
 const COMPARE_BLOCK: &[Param] = &[
     src("S1", REGISTERS.or(CONSTANTS)).per(3),
     src("S2", REGISTERS).per(3),
-    coil("D", COILS).per(3),
+    coil("D", RESULT_BITS).per(3),
     src("n", CONSTANTS.or(DATA)),
 ];
 const THREE: &[Param] = &[

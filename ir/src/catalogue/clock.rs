@@ -25,7 +25,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("S2", VALUES).limits(0, 59),
             src("S3", VALUES).limits(0, 59),
             TIME,
-            coil("D", COILS).len(3),
+            coil("D", RESULT_BITS).len(3),
         ])
         .call(RtFn::Tcmp)
         .text(
@@ -38,7 +38,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("S1", REGISTERS).len(3),
             src("S2", REGISTERS).len(3),
             TIME,
-            coil("D", COILS).len(3),
+            coil("D", RESULT_BITS).len(3),
         ])
         .call(RtFn::Tzcp)
         .text("Tells where the time at S lies: D is on before S1, D+1 from S1 to S2, D+2 after S2. Each is hour, minute, second."),
@@ -93,7 +93,7 @@ pub(super) const ROWS: &[Inst] = &[
     clock("HOUR", 169, "Hour meter")
         .forms(W16_W32)
         .steps(7, 13)
-        .takes(&[src("S", VALUES), dst("D1", DATA).changed().len(2), coil("D2", COILS)])
+        .takes(&[src("S", VALUES), dst("D1", DATA).changed().len(2), coil("D2", RESULT_BITS)])
         .call(RtFn::Hour)
         .text(
             "Adds up how long it is driven: D1 full hours (32-bit: a pair), behind it the seconds of the running hour. D2 is on from S \

@@ -43,7 +43,7 @@ pub(super) const ROWS: &[Inst] = &[
         .fnc(10)
         .forms(ALL_FORMS)
         .steps(7, 13)
-        .takes(&[src("S1", VALUES), src("S2", VALUES), coil("D", COILS).len(3)])
+        .takes(&[src("S1", VALUES), src("S2", VALUES), coil("D", RESULT_BITS).len(3)])
         .errors(&[6706])
         .lower(Lower::Cmp)
         .text(
@@ -54,7 +54,7 @@ pub(super) const ROWS: &[Inst] = &[
         .fnc(11)
         .forms(ALL_FORMS)
         .steps(9, 17)
-        .takes(&[src("S1", VALUES), src("S2", VALUES), src("S", VALUES), coil("D", COILS).len(3)])
+        .takes(&[src("S1", VALUES), src("S2", VALUES), src("S", VALUES), coil("D", RESULT_BITS).len(3)])
         .errors(&[6706])
         .lower(Lower::Zcp)
         .text(

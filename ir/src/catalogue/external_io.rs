@@ -61,7 +61,7 @@ pub(super) const ROWS: &[Inst] = &[
     io("TKY", 70, "Ten-key input")
         .forms(W16_W32)
         .steps(7, 13)
-        .takes(&[bit("S", BITS).len(10), both("D1", RESULTS), coil("D2", COILS).len(11).changed()])
+        .takes(&[bit("S", SOURCE_BITS).len(10), both("D1", RESULTS), coil("D2", RESULT_BITS).len(11).changed()])
         .call(RtFn::Tky)
         .text(
             "S … S+9 are the keys 0 to 9. A newly pressed one is appended to the decimal number in D1, which keeps its last 4 (32-bit: \
@@ -74,7 +74,7 @@ pub(super) const ROWS: &[Inst] = &[
             bit("S", Classes::X).len(4),
             coil("D1", Classes::Y).len(4),
             both("D2", REGISTERS.or(INDEX)),
-            coil("D3", COILS).len(8).changed(),
+            coil("D3", RESULT_BITS).len(8).changed(),
         ])
         .flags(&["M8029", "M8167"])
         .call(RtFn::Hky)
@@ -122,7 +122,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(BIG_FX)
         .steps(9, 9)
         .takes(&[
-            bit("S", BITS).len(4),
+            bit("S", SOURCE_BITS).len(4),
             both("D1", REGISTERS.or(INDEX)),
             coil("D2", Classes::Y).len(8),
             count("n", 0, 3),

@@ -52,12 +52,12 @@ const WITHOUT_SMALL_FX_HM: ModelSet = NOT_HM.except(&[ModelId::Fx2n, ModelId::Fx
 pub(super) const ROWS: &[Inst] = &[
     float("ECMP", 110, "Compare floats", RtFn::Ecmp)
         .steps(13, 13)
-        .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), coil("D", COILS).len(3)])
+        .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), coil("D", RESULT_BITS).len(3)])
         .text("Compares floats: D is on if S1 > S2, D+1 if they are equal, D+2 if S1 < S2. Integer constants become floats."),
     float("EZCP", 111, "Zone compare of floats", RtFn::Ezcp)
         .steps(17, 17)
         .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
-        .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), real("S", NUMBERS), coil("D", COILS).len(3)])
+        .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), real("S", NUMBERS), coil("D", RESULT_BITS).len(3)])
         .text("Tells where the float S lies: D is on below S1, D+1 from S1 to S2, D+2 above S2."),
     float("EMOV", 112, "Move a float", RtFn::Emov)
         .on(NOT_HM.except(&[ModelId::Fx2n]))

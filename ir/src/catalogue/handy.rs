@@ -67,7 +67,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             src("S1", GROUPS.or(REGISTERS)).len_of(pairs_of_n).rules(&[Rule::WholeGroup]),
             src("S2", Classes::C).rules(&[Rule::WideCounter]),
-            coil("D", COILS).per(3),
+            coil("D", RESULT_BITS).per(3),
             count("n", 1, 64),
         ])
         .call(RtFn::Absd)
@@ -80,7 +80,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             src("S1", GROUPS.or(REGISTERS)).per(3).rules(&[Rule::WholeGroup]),
             both("S2", Classes::C).len(2).numbers(&[(DeviceClass::C, 0, 198)]),
-            coil("D", COILS).per(3),
+            coil("D", RESULT_BITS).per(3),
             count("n", 1, 64),
         ])
         .flags(&["M8029"])
@@ -101,7 +101,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[
             dst("S", Classes::T).word().changed().plain().numbers(&[(DeviceClass::T, 0, 199)]),
             count("m", 1, 32767).also_on(LIKE_FX3, DATA),
-            coil("D", COILS).len(4),
+            coil("D", RESULT_BITS).len(4),
         ])
         .call(RtFn::Stmr)
         .text(
@@ -113,7 +113,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(ModelSet::ALL)
         .variants(&[on(HM).forms(W16).takes(&[coil("D", COILS).changed().plain()])])
         .steps(3, 3)
-        .takes(&[coil("D", COILS).changed()])
+        .takes(&[coil("D", RESULT_BITS).changed()])
         .call(RtFn::Alt)
         .text("Inverts D at each execution."),
     handy("RAMP", 67, "Ramp")
@@ -136,7 +136,7 @@ pub(super) const ROWS: &[Inst] = &[
             both("S", DATA).len(3),
             count("m1", 2, 32767),
             count("m2", 0, 32767).rules(&[Rule::AtMost(1)]),
-            coil("D", COILS).len(8).changed(),
+            coil("D", RESULT_BITS).len(8).changed(),
         ])
         .call(RtFn::Rotc)
         .text(

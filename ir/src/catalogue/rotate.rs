@@ -18,7 +18,7 @@ const ROTATE_CARRY_HM: &[Param] = &[ROTATED, count("n", 1, 15).rules(&[Rule::Wid
 
 const fn shift_bits(n1: Param, n2: Param) -> [Param; 4] {
     [
-        bit("S", BITS).per(3),
+        bit("S", SOURCE_BITS).per(3),
         coil("D", COILS).per(2).changed(),
         n1,
         n2,

@@ -49,6 +49,10 @@ pub(super) const RESULTS: Classes = RESULT_GROUPS.or(REGISTERS).or(INDEX).or(Cla
 pub(super) const COILS: Classes = Classes::Y.or(Classes::M).or(Classes::S);
 /// Bits that can be read, but for contacts of timers and counters.
 pub(super) const BITS: Classes = Classes::X.or(COILS);
+/// Bits that a result can go to: also those of words, on the models that write them.
+pub(super) const RESULT_BITS: Classes = COILS.or(Classes::WORD_BIT);
+/// Bits that can be taken: also those of words.
+pub(super) const SOURCE_BITS: Classes = BITS.or(Classes::WORD_BIT);
 /// Everything that has a contact.
 pub(super) const CONTACTS: Classes = BITS.or(Classes::T).or(Classes::C);
 

@@ -10,6 +10,9 @@ use rungc_syntax::{DeviceClass, OperandKind};
 const ZERO: u32 = 8020;
 const BORROW: u32 = 8021;
 const CARRY: u32 = 8022;
+/// On if a product or a quotient is 0, if a quotient is too large (FX3G, FX3U).
+const ZERO_PRODUCT: u32 = 8304;
+const LARGE_QUOTIENT: u32 = 8306;
 /// Division by zero.
 const DIVISION: u16 = 6706;
 
@@ -236,6 +239,27 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Sets a flag of MUL and DIV, if the model has it and something looks at it, by `value`, and returns the value to go on with.
+    fn flag_of(
+        &mut self,
+        flag: u32,
+        value: ExprId,
+        on: impl FnOnce(&mut Self, ExprId) -> ExprId,
+    ) -> ExprId {
+        if !self.specials.has(DeviceClass::M, flag) || !self.model.special_relay_works(flag) {
+            return value;
+        }
+        let value = self.settled(value);
+        let on = on(self, value);
+        self.write_device(DeviceClass::M, flag, on);
+        value
+    }
+
+    fn is_int(&mut self, value: ExprId, int: i32, wide: bool) -> ExprId {
+        let int = self.int(int, wide);
+        self.add(Expr::Cmp(CmpOp::Eq, value, int))
+    }
+
     fn multiply(&mut self) {
         let mut guards = Guards::default();
         let a = self.source(0, &mut guards);
@@ -243,7 +267,12 @@ impl Lowerer<'_> {
         let target = self.result_element(2, 0, true, &mut guards);
         let (a, b) = (self.add(Expr::Widen(a)), self.add(Expr::Widen(b)));
         let product = self.add(Expr::Bin(BinOp::Mul, a, b));
-        self.guarded(guards, |this| this.store(target, product));
+        self.guarded(guards, |this| {
+            let product = this.flag_of(ZERO_PRODUCT, product, |this, product| {
+                this.is_int(product, 0, true)
+            });
+            this.store(target, product);
+        });
     }
 
     fn multiply_wide(&mut self) {
@@ -253,13 +282,21 @@ impl Lowerer<'_> {
         let low_target = self.result_element(2, 0, true, &mut guards);
         if self.is_group(2) {
             let low = self.add(Expr::Bin(BinOp::Mul, a, b));
-            return self.guarded(guards, |this| this.store(low_target, low));
+            return self.guarded(guards, |this| {
+                let low = this.flag_of(ZERO_PRODUCT, low, |this, low| this.is_int(low, 0, true));
+                this.store(low_target, low);
+            });
         }
         let high_target = self.result_element(2, 1, true, &mut guards);
         self.guarded(guards, |this| {
             let (a, b) = (this.settled(a), this.settled(b));
             let low = this.add(Expr::Bin(BinOp::Mul, a, b));
             let high = this.add(Expr::Bin(BinOp::MulHigh, a, b));
+            // A product is 0 only if a factor is.
+            this.flag_of(ZERO_PRODUCT, low, |this, _| {
+                let zero = [a, b].map(|factor| this.is_int(factor, 0, true));
+                this.or(zero[0], zero[1])
+            });
             this.store(low_target, low);
             this.store(high_target, high);
         });
@@ -286,6 +323,15 @@ impl Lowerer<'_> {
             let cond = this.add(Expr::Cmp(CmpOp::Ne, b, zero));
             let then = this.body(|this| {
                 let quotient = this.add(Expr::Bin(BinOp::Div, a, b));
+                let quotient = this.flag_of(ZERO_PRODUCT, quotient, |this, quotient| {
+                    this.is_int(quotient, 0, wide)
+                });
+                this.flag_of(LARGE_QUOTIENT, quotient, |this, _| {
+                    let least = if wide { i32::MIN } else { i16::MIN.into() };
+                    let (least, minus_one) =
+                        (this.is_int(a, least, wide), this.is_int(b, -1, wide));
+                    this.and(least, minus_one)
+                });
                 let remainder = this.add(Expr::Bin(BinOp::Rem, a, b));
                 this.store(quotient_target, quotient);
                 this.store(remainder_target, remainder);

@@ -130,6 +130,7 @@ impl Lowerer<'_> {
             OperandKind::WordBit(device, bit, index) => Arg::WordBit {
                 place: self.arg_place(device, index, wide),
                 bit: bit & 15,
+                extent,
             },
             OperandKind::Text(ref text) => {
                 self.module.texts.push(text.to_string());

@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use crate::node::{BinOp, Expr, ExprId, Place, Stmt, SysValue};
-use crate::runs::is_counter32;
+use crate::runs::{is_counter32, words_of_bits};
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind, codes};
 
 /// A device lies outside the model's range.
@@ -368,7 +368,8 @@ impl Lowerer<'_> {
                 Some(BitTarget::Device(place))
             }
             OperandKind::WordBit(device, bit, index) => {
-                let place = self.place(device, index, 1, wide, guards);
+                let words = words_of_bits(bit & 15, count);
+                let place = self.place(device, index, words, wide, guards);
                 Some(BitTarget::OfWord(place, bit & 15))
             }
             _ => {
@@ -389,7 +390,9 @@ impl Lowerer<'_> {
                 value,
             ),
             BitTarget::OfWord(place, bit) => {
-                Stmt::WriteWordBit(place, bit.saturating_add(offset as u8).min(15), value)
+                let bit = u32::from(bit) + offset;
+                let number = place.number + bit / 16;
+                Stmt::WriteWordBit(Place { number, ..place }, (bit % 16) as u8, value)
             }
         });
     }

@@ -32,6 +32,8 @@ const CLEAR: [(u32, bool); 2] = [(8031, false), (8032, true)];
 const FORCED_STOP: u32 = 8037;
 /// Relay and register of the ring counter.
 const RING_COUNTER: (u32, u32) = (8099, 8099);
+/// Relay and registers of the ring counter of milliseconds; L01S has only the registers.
+const SLOW_RING_COUNTER: (u32, [u32; 2]) = (8398, [8398, 8399]);
 /// Milliseconds since power-on, low and high word.
 const TICK: [u32; 2] = [8008, 8009];
 /// Second, minute, hour, day, month, year, weekday.
@@ -73,6 +75,7 @@ impl Lowerer<'_> {
             this.scan_times();
             this.tick();
             this.ring_counter();
+            this.slow_ring_counter();
             this.analog_inputs();
             this.virtual_inputs();
             this.real_time_clock();
@@ -238,6 +241,21 @@ impl Lowerer<'_> {
             let count = this.add(Expr::Bin(BinOp::And, count, mask));
             this.emit(Stmt::WriteWord(fixed(D, register), count));
         });
+    }
+
+    /// D8398 and D8399 count milliseconds; on the models that have M8398, while it is on.
+    fn slow_ring_counter(&mut self) {
+        let (relay, registers) = SLOW_RING_COUNTER;
+        if !registers.iter().any(|&register| self.keeps(D, register)) {
+            return;
+        }
+        let count = |this: &mut Self| this.call_system(RtFn::RingCounter, registers.into_iter());
+        if !self.scan_has(M, relay) {
+            count(self);
+        } else if self.keeps(M, relay) {
+            let counts = self.add(Expr::ReadBit(fixed(M, relay)));
+            self.when(counts, count);
+        }
     }
 
     /// M8015 to M8019 and D8013 to D8019.

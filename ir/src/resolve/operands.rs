@@ -3,7 +3,7 @@
 use super::rules;
 use crate::catalogue::{Classes, Extent, Found, Param, Role, Shape};
 use crate::model::Model;
-use crate::runs::is_counter32;
+use crate::runs::{is_counter32, words_of_bits};
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Index, Instr, Operand, OperandKind, Span, codes,
 };
@@ -94,7 +94,9 @@ impl Checker {
                 .or_else(|| self.counter(place, span, *device, param))
                 .or_else(|| numbers(span, *device, param))
                 .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
-            OperandKind::WordBit(device, ..) => self.existing(span, *device),
+            OperandKind::WordBit(device, bit, index) => self
+                .existing(span, *device)
+                .or_else(|| self.bits_of_words(place, span, (*device, *bit), *index, param)),
             OperandKind::Nibbles(digits, device, index) => digits_fit(place, span, *digits, param)
                 .or_else(|| self.existing(span, *device))
                 .or_else(|| numbers(span, *device, param))
@@ -273,6 +275,32 @@ impl Checker {
                 }
                 None => diagnostic,
             }
+        })
+    }
+
+    /// As [`Self::reach`], of a bit of a word: the bits after it go on in the next words.
+    fn bits_of_words(
+        &self,
+        place: &Place,
+        span: Span,
+        (device, bit): (Device, u8),
+        index: Option<Index>,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        let bits = extent(place.kinds, param);
+        let words = words_of_bits(bit & 15, bits);
+        let end = self.end_of_run(device.class, device.number)?;
+        let last = device.number.saturating_add(words - 1);
+        (index.is_none() && last > end).then(|| {
+            let message = format!(
+                "operand {} of `{}` takes {bits} bits from `{device}.{bit:X}` on, but the last word is `{}`",
+                param.name,
+                place.instr.mnemonic,
+                device.class.number(end)
+            );
+            codes::PAST_THE_END
+                .at(span, message)
+                .label(format!("up to `{}`", device.class.number(last)))
         })
     }
 }

@@ -262,8 +262,8 @@ pub(super) const L01S: &[Special] = specials! {
     D 8379 rw 100 inert(PULSES) "Y003: deceleration time in ms, range 50..5000";
     D 8395 rw 0 inert(SERIAL) "network function flag";
     D 8397 rw 0 inert(SERIAL) "serial port of ADPRW: 0 = port 2, 1 = port 3";
-    D 8398 rw 0 inert(FAST) "32-bit ring counter 0..2147483647, 1 ms steps, low word";
-    D 8399 rw 0 inert(FAST) "32-bit ring counter 1 ms, high word";
+    D 8398 rw 0 scan "32-bit ring counter 0..2147483647, 1 ms steps, low word";
+    D 8399 rw 0 scan "32-bit ring counter 1 ms, high word";
     D 8400 rw 0 inert(SERIAL) "port 3 communication parameters: b0 data length, b1-b2 parity";
     D 8401 rw 0 inert(SERIAL) "port 3 mode: H0 RS2 free; H11 Modbus RTU slave";
     D 8406 rw 12 inert(SERIAL) "port 3 gap in scans between RD3A/WR3A telegrams";

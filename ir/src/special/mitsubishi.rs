@@ -160,8 +160,8 @@ pub(super) const FX3: &[Special] = specials! {
     M 8151-8159 r 0 inert(SERIAL) "inverter communication";
     M 8176-8177 rw 0 inert(INTERRUPTS) "a pulse came at X006, X007";
     M 8198-8199 rw 0 inert(FAST) "four counts a cycle for C251, C252 and C253–C255";
-    M 8304 r 0 inert(MAKER) "zero flag of multiplication and division";
-    M 8306 r 0 inert(MAKER) "carry flag of multiplication and division";
+    M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
+    M 8306 r 0 by("DIV") "carry flag of division";
     M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
     M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
     M 8338 rw 0 inert(PULSES) "PLSV with ramps";
@@ -169,7 +169,7 @@ pub(super) const FX3: &[Special] = specials! {
     M 8350-8359 rw 0 inert(PULSES) "positioning with Y001";
     M 8360-8369 rw 0 inert(PULSES) "positioning with Y002";
     M 8370-8379 rw 0 inert(PULSES) "positioning with Y003";
-    M 8398 rw 0 inert(FAST) "starts the ring counter D8398";
+    M 8398 rw 0 scan "starts the ring counter D8398";
     M 8401-8429 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
     M 8460-8467 rw 0 inert(PULSES) "interrupt and clear signals of positioning";
     D 8310 rw 1 by("RND") "state of RND, low word";
@@ -181,7 +181,7 @@ pub(super) const FX3: &[Special] = specials! {
     D 8360-8369 rw 0 inert(PULSES) "positioning with Y002";
     D 8370-8379 rw 0 inert(PULSES) "positioning with Y003";
     D 8393 rw 0 inert(FAST) "delay time of input interrupts in ms";
-    D 8398-8399 rw 0 inert(FAST) "ring counter of 1 ms";
+    D 8398-8399 rw 0 scan "ring counter of 1 ms, 0 to 2147483647";
     D 8400-8439 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
     D 8464-8467 rw 0 inert(PULSES) "outputs for the clear signal of positioning";
 };

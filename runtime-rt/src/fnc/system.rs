@@ -70,6 +70,20 @@ pub fn analog_inputs(cx: &mut Cx) -> Done {
     Ok(())
 }
 
+/// The ring counter of milliseconds.
+const RING_COUNTER: u32 = 8398;
+
+/// D8398 and D8399 count the milliseconds, once a scan before the program, up to 2147483647 and from 0 again.
+pub fn ring_counter(cx: &mut Cx) -> Done {
+    let low = cx.special_word(RING_COUNTER) as u16;
+    let high = cx.special_word(RING_COUNTER + 1) as u16;
+    let count = u32::from(high) << 16 | u32::from(low);
+    let count = count.wrapping_add(cx.dt_ms() as u32) & 0x7fff_ffff;
+    cx.set_special_word(RING_COUNTER, count as i16);
+    cx.set_special_word(RING_COUNTER + 1, (count >> 16) as i16);
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use crate::RtFn;
