@@ -34,62 +34,8 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
         "/* All devices that the program uses, by their names in the PLC (X and Y are numbered in octal). */\n\
          typedef struct {name}_plc {{\n"
     );
-    let mut section = None;
-    for field in fields.in_struct_order() {
-        if section != Some(field.section) {
-            if section.is_some() {
-                out.push('\n');
-            }
-            let _ = writeln!(out, "    /* {} */", heading(field.section));
-            section = Some(field.section);
-        }
-        let (bytes, align) = field.kind.size();
-        size.add(bytes * field.count, align);
-        field_line(&mut out, fields, field);
-    }
-    if section.is_some() {
-        out.push('\n');
-    }
-    out.push_str("    /* Private: time, and what the program remembers from scan to scan. */\n    plc_sys sys;\n");
-    size.add(16, 4);
-    if module.edges > 0 {
-        let line = format!("    bool edge[{}];", module.edges);
-        push_with_comment(
-            &mut out,
-            &line,
-            "last states of edge contacts, pulses and steps",
-        );
-        size.add(module.edges, 1);
-    }
-    if plan.jumps() {
-        push_with_comment(
-            &mut out,
-            "    uint32_t jumps_left;",
-            "jumps that this scan may still make",
-        );
-        size.add(4, 4);
-    }
-    for (i, temp) in plan.temps.iter().enumerate().filter(|(_, t)| t.field) {
-        let ty = module.temps[i];
-        let mut line = format!("    {} ", c_type(ty));
-        temp.name(&mut line);
-        line.push(';');
-        push_with_comment(&mut out, &line, "found in one function, used in another");
-        let bytes = match c_type(ty) {
-            "bool" => 1,
-            "int16_t" => 2,
-            _ => 4,
-        };
-        size.add(bytes, bytes);
-    }
-    if module.states > 0 {
-        let _ = writeln!(
-            out,
-            "    rungc_state state[{}]; /* of instructions that work over several scans */",
-            module.states
-        );
-        size.add(32 * u32::from(module.states), 4);
-    }
+    devices(&mut out, &mut size, fields);
+    private(&mut out, &mut size, module, plan);
     if runtime {
         out.push_str("    const rungc_hal *hal; /* hardware that instructions ask; NULL: nothing fitted */\n");
         size.add(4, 4);
@@ -108,6 +54,66 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
         );
     }
     out
+}
+
+/// The fields of devices, by sections.
+fn devices(out: &mut String, size: &mut Size, fields: &Fields) {
+    let mut section = None;
+    for field in fields.in_struct_order() {
+        if section != Some(field.section) {
+            if section.is_some() {
+                out.push('\n');
+            }
+            let _ = writeln!(out, "    /* {} */", heading(field.section));
+            section = Some(field.section);
+        }
+        let (bytes, align) = field.kind.size();
+        size.add(bytes * field.count, align);
+        field_line(out, fields, field);
+    }
+    if section.is_some() {
+        out.push('\n');
+    }
+}
+
+/// What the host has no business with.
+fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
+    out.push_str("    /* Private: time, and what the program remembers from scan to scan. */\n    plc_sys sys;\n");
+    size.add(16, 4);
+    if module.edges > 0 {
+        let line = format!("    bool edge[{}];", module.edges);
+        push_with_comment(out, &line, "last states of edge contacts, pulses and steps");
+        size.add(module.edges, 1);
+    }
+    if plan.jumps() {
+        push_with_comment(
+            out,
+            "    uint32_t jumps_left;",
+            "jumps that this scan may still make",
+        );
+        size.add(4, 4);
+    }
+    for (i, temp) in plan.temps.iter().enumerate().filter(|(_, t)| t.field) {
+        let ty = module.temps[i];
+        let mut line = format!("    {} ", c_type(ty));
+        temp.name(&mut line);
+        line.push(';');
+        push_with_comment(out, &line, "found in one function, used in another");
+        let bytes = match c_type(ty) {
+            "bool" => 1,
+            "int16_t" => 2,
+            _ => 4,
+        };
+        size.add(bytes, bytes);
+    }
+    if module.states > 0 {
+        let _ = writeln!(
+            out,
+            "    rungc_state state[{}]; /* of instructions that work over several scans */",
+            module.states
+        );
+        size.add(32 * u32::from(module.states), 4);
+    }
 }
 
 /// Size of the struct as it grows.

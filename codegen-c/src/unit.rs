@@ -6,7 +6,7 @@ use crate::plan::Plan;
 use crate::table;
 use crate::writer::{Writer, function_name};
 use rungc_ir::Module;
-use rungc_ir::node::{FunctionKind, Stmt};
+use rungc_ir::node::{FunctionKind, MAX_JUMPS, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::special::{D_WATCHDOG, M_KEEP_IN_STOP, M_OUTPUTS_OFF, M_WATCHDOG, WATCHDOG_CODE};
 use rungc_syntax::DeviceClass;
@@ -14,9 +14,6 @@ use std::fmt::Write;
 
 /// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to divide.
 const FILE_WEIGHT: u64 = 60_000;
-
-/// Jumps after which a scan does not end.
-const MAX_JUMPS: u32 = 1_000_000;
 
 /// A module's C text.
 pub struct Unit {

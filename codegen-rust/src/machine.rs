@@ -5,7 +5,7 @@ use crate::storage::{Elem, Field};
 use crate::{expr::literal32, format};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{FunctionKind, Stmt};
+use rungc_ir::node::{FunctionKind, MAX_JUMPS, Stmt};
 use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_syntax::DeviceClass;
 
@@ -188,7 +188,8 @@ impl Generator<'_> {
         let jumps = self.jumps_back.then(|| self.watchdog());
         let max_jumps = self.jumps_back.then(|| {
             let doc = self.doc("A scan that jumps backwards this often does not end.");
-            quote!(#doc const MAX_JUMPS_BACK: u32 = 1_000_000;)
+            let most = Literal::u32_unsuffixed(MAX_JUMPS);
+            quote!(#doc const MAX_JUMPS_BACK: u32 = #most;)
         });
         self.item_of(quote! {
             #max_jumps

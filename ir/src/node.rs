@@ -337,6 +337,10 @@ pub enum Stmt {
     },
 }
 
+/// How many jumps ([`Stmt::Goto`]) a scan of emitted code may make. It counts those that could keep it from ending; after the
+/// last one the PLC stops, as its watchdog would have it ([`rungc_rt::trip_watchdog`]).
+pub const MAX_JUMPS: u32 = 1_000_000;
+
 /// Label of a part, unique in its function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct LabelId(pub u32);

@@ -1,6 +1,8 @@
 //! A PLC for the tests of this crate: all devices, no layout.
 
-use crate::{Class, Cx, Done, Hal, Operand, Plc, RtFn, Site, State, Sys, VirtualHal, d};
+use crate::{
+    Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, RtFn, Site, State, Sys, VirtualHal, d,
+};
 use std::collections::HashMap;
 use std::vec::Vec;
 
@@ -181,7 +183,7 @@ impl Plc for Double {
     }
 
     fn counter32(&self, number: u32) -> Option<i32> {
-        (200..256)
+        (FIRST_COUNTER32..256)
             .contains(&number)
             .then(|| self.counters.get(&number).copied().unwrap_or(0))
     }
@@ -214,7 +216,7 @@ impl Plc for Double {
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {
         self.set_bit(class, number, false)?;
-        if class == Class::C && number >= 200 {
+        if class == Class::C && number >= FIRST_COUNTER32 {
             self.set_counter32(number, 0)
         } else {
             self.set_word(class, number, 0)

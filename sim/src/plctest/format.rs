@@ -2,7 +2,7 @@
 
 use super::{Basis, Case, Check, Problem, Rejects, Run, Setting, Step, Target, TestFile, Value};
 use rungc_ir::ModelId;
-use rungc_rt::Clock;
+use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::Source;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -385,7 +385,7 @@ impl Value {
                 Scalar::Integer(v @ 0..=1) => Ok(Value::Int(*v as i32)),
                 _ => Err("0 or 1"),
             },
-            Target::Current(rungc_syntax::DeviceClass::C, 200..) => {
+            Target::Current(rungc_syntax::DeviceClass::C, FIRST_COUNTER32..) => {
                 double().ok_or("a 32-bit integer")
             }
             Target::Word(..) | Target::Current(..) | Target::Nibbles(1..=4, ..) => {

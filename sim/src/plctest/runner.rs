@@ -5,7 +5,7 @@ use super::{Check, Failure, Outcome, Rejects, Report, Run, Setting, Step, Suite,
 use crate::devices::rt_class;
 use crate::engines::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
-use rungc_rt::Class;
+use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
@@ -228,7 +228,7 @@ impl Running<'_> {
         match target {
             Target::Bit(DeviceClass::Y, n) => self.value(target, Request::Output(n)).map(int),
             Target::Bit(c, n) => self.value(target, Request::Bit(class(c), n)).map(int),
-            Target::Current(DeviceClass::C, n @ 200..) => {
+            Target::Current(DeviceClass::C, n @ FIRST_COUNTER32..) => {
                 self.value(target, Request::Double(Class::C, n)).map(int)
             }
             Target::Word(c, n) | Target::Current(c, n) => {
@@ -278,7 +278,7 @@ fn requests(setting: &Setting) -> Vec<Request> {
     let class = rt_class(class).unwrap_or(Class::D);
     match (setting.target, &setting.value) {
         (Target::Bit(..), Value::Int(v)) => vec![Request::SetBit(class, number, *v != 0)],
-        (Target::Current(DeviceClass::C, 200..) | Target::Pair(..), Value::Int(v)) => {
+        (Target::Current(DeviceClass::C, FIRST_COUNTER32..) | Target::Pair(..), Value::Int(v)) => {
             vec![Request::SetDouble(class, number, *v)]
         }
         (Target::Word(..) | Target::Current(..), Value::Int(v)) => {
