@@ -4,7 +4,19 @@ use crate::node::{Arg, Body, Expr, ExprId, Module, Part, Stmt};
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
-    let pair = match *expr {
+    operand_slots(&mut { *expr })
+        .map(|slot| slot.copied())
+        .into_iter()
+        .flatten()
+}
+
+/// The expressions that an expression evaluates, to replace them.
+pub fn operands_mut(expr: &mut Expr) -> impl Iterator<Item = &mut ExprId> {
+    operand_slots(expr).into_iter().flatten()
+}
+
+fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
+    match expr {
         Expr::Not(a)
         | Expr::Complement(a)
         | Expr::Neg(a)
@@ -21,15 +33,14 @@ pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
         | Expr::ReadPair(place)
         | Expr::ReadFloat(place)
         | Expr::ReadNibbles { place, .. }
-        | Expr::InRange { place, .. } => [place.index, None],
+        | Expr::InRange { place, .. } => [place.index.as_mut(), None],
         Expr::Bit(_)
         | Expr::I16(_)
         | Expr::I32(_)
         | Expr::F32(_)
         | Expr::Temp(_)
         | Expr::Sys(_) => [None, None],
-    };
-    pair.into_iter().flatten()
+    }
 }
 
 /// A function over the expressions that a statement evaluates, to look at them or to replace them.

@@ -1,9 +1,11 @@
 //! `rungc build`.
 
-use super::{Context, Failure, Outcome, Result, conclude, counted, read, say, stem, write_file};
+use super::{
+    Context, Failure, Outcome, Result, conclude, counted, findings, read, say, stem, write_file,
+};
 use crate::args::{BuildArgs, Emit};
 use crate::progress;
-use crate::report::{self, Findings};
+use crate::report;
 use rungc_ir::compile::{self, CompileOptions};
 use rungc_ir::{Module, dump};
 use std::fs;
@@ -27,14 +29,7 @@ pub fn run(args: &BuildArgs, cx: Context) -> Result {
         ..CompileOptions::default()
     };
     let compiled = progress::spin("compiling", || compile::compile(&read.program, &options));
-    let mut diagnostics = read.diagnostics;
-    diagnostics.extend(compiled.diagnostics.iter().cloned());
-    let findings = Findings::new(
-        &args.input.file,
-        &read.program,
-        diagnostics,
-        &args.input.reporting,
-    );
+    let findings = findings(&args.input, &read, &compiled);
     let module = match compiled.module {
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, &args.input.reporting, cx, String::new),

@@ -1,8 +1,7 @@
 //! `rungc check`.
 
-use super::{Context, Result, conclude, counted, read};
+use super::{Context, Result, conclude, counted, findings, read};
 use crate::args::CheckArgs;
-use crate::report::Findings;
 use rungc_ir::compile::{self, CompileOptions};
 use rungc_syntax::{DeviceClass, OperandKind, Program};
 use std::collections::BTreeSet;
@@ -19,14 +18,7 @@ pub fn run(args: &CheckArgs, cx: Context) -> Result {
             ..CompileOptions::default()
         },
     );
-    let mut diagnostics = read.diagnostics;
-    diagnostics.extend(checked.diagnostics.iter().cloned());
-    let findings = Findings::new(
-        &args.input.file,
-        &read.program,
-        diagnostics,
-        &args.input.reporting,
-    );
+    let findings = findings(&args.input, &read, &checked);
     let elapsed = start.elapsed();
     conclude(&findings, &args.input.reporting, cx, || {
         format!(

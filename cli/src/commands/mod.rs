@@ -10,6 +10,7 @@ pub mod test;
 use crate::args::{Format, Input, Reporting};
 use crate::report::{self, Findings};
 use rungc_frontend::{Read, ReadError};
+use rungc_ir::compile::Compiled;
 use rungc_syntax::codes;
 use std::fmt;
 use std::fs;
@@ -105,6 +106,13 @@ fn grouped(n: usize) -> String {
         text.push(digit);
     }
     text
+}
+
+/// What reading and compiling a program found.
+pub fn findings<'a>(input: &'a Input, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
+    let mut diagnostics = read.diagnostics.clone();
+    diagnostics.extend(compiled.diagnostics.iter().cloned());
+    Findings::new(&input.file, &read.program, diagnostics, &input.reporting)
 }
 
 /// Prints findings, and for people a closing line that says `done` (what was accomplished) or that errors prevented it.

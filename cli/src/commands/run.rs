@@ -2,9 +2,9 @@
 
 mod view;
 
-use super::{Context, Failure, Outcome, Result, conclude, read, stem, tell};
+use super::{Context, Failure, Outcome, Result, conclude, findings, read, stem, tell};
 use crate::args::RunArgs;
-use crate::report::{self, Findings};
+use crate::report;
 use rungc_ir::Module;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_rt::VirtualHal;
@@ -60,14 +60,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         ..CompileOptions::default()
     };
     let compiled = compile(&read.program, &options);
-    let mut diagnostics = read.diagnostics;
-    diagnostics.extend(compiled.diagnostics.iter().cloned());
-    let findings = Findings::new(
-        &args.input.file,
-        &read.program,
-        diagnostics,
-        &args.input.reporting,
-    );
+    let findings = findings(&args.input, &read, &compiled);
     let module = match compiled.module {
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, &args.input.reporting, cx, String::new),

@@ -4,7 +4,7 @@ use super::effects::writes;
 use super::fold::Arena;
 use super::inline::{Counts, Temps};
 use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
-use crate::walk::{bodies, for_exprs, for_exprs_mut, operands};
+use crate::walk::{bodies, for_exprs, for_exprs_mut, operands, operands_mut};
 use rustc_hash::FxHashSet;
 
 /// Rewrites every function.
@@ -205,7 +205,7 @@ impl Rewriter<'_> {
     }
 
     fn parts(&mut self, parts: Vec<Part>, out: &mut Body) {
-        let mut rewritten: Vec<Part> = parts
+        let rewritten: Vec<Part> = parts
             .into_iter()
             .map(|part| {
                 self.temps.set_available(Vec::new());
@@ -218,7 +218,7 @@ impl Rewriter<'_> {
         self.temps.set_available(Vec::new());
         // A part that nothing jumps to goes on from the one before it, or cannot be reached.
         let mut kept: Vec<Part> = Vec::with_capacity(rewritten.len());
-        for part in rewritten.drain(..) {
+        for part in rewritten {
             let reached = part.label.is_some_and(|label| self.gotos.contains(&label));
             match kept.last_mut() {
                 Some(before) if !reached => {
@@ -240,48 +240,17 @@ impl Rewriter<'_> {
     }
 
     fn expr(&mut self, id: ExprId) -> ExprId {
-        let expr = self.old[id.0 as usize];
+        let mut expr = self.old[id.0 as usize];
         if let Expr::Temp(temp) = expr {
             return match self.temps.value(temp) {
                 Some(value) => value,
                 None => self.arena.add(expr),
             };
         }
-        let mut e = |id| self.expr(id);
-        let expr = match expr {
-            Expr::Not(a) => Expr::Not(e(a)),
-            Expr::Complement(a) => Expr::Complement(e(a)),
-            Expr::Neg(a) => Expr::Neg(e(a)),
-            Expr::Widen(a) => Expr::Widen(e(a)),
-            Expr::Narrow(a) => Expr::Narrow(e(a)),
-            Expr::HighWord(a) => Expr::HighWord(e(a)),
-            Expr::BitToInt(a) => Expr::BitToInt(e(a)),
-            Expr::And(a, b) => Expr::And(e(a), e(b)),
-            Expr::Or(a, b) => Expr::Or(e(a), e(b)),
-            Expr::Cmp(op, a, b) => Expr::Cmp(op, e(a), e(b)),
-            Expr::Bin(op, a, b) => Expr::Bin(op, e(a), e(b)),
-            mut other => {
-                if let Some(index) = index_mut(&mut other) {
-                    *index = e(*index);
-                }
-                other
-            }
-        };
+        for operand in operands_mut(&mut expr) {
+            *operand = self.expr(*operand);
+        }
         self.arena.add(expr)
-    }
-}
-
-/// The index of the place that an expression reads.
-fn index_mut(expr: &mut Expr) -> Option<&mut ExprId> {
-    match expr {
-        Expr::ReadBit(place)
-        | Expr::ReadWordBit(place, _)
-        | Expr::ReadWord(place)
-        | Expr::ReadPair(place)
-        | Expr::ReadFloat(place)
-        | Expr::ReadNibbles { place, .. }
-        | Expr::InRange { place, .. } => place.index.as_mut(),
-        _ => None,
     }
 }
 
