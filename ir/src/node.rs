@@ -77,6 +77,36 @@ pub enum BinOp {
     SatSub,
 }
 
+impl BinOp {
+    /// The result of two `I16`; `None` where the divisor is 0, and of the operator that there is for `I32` only.
+    pub fn of_i16(self, a: i16, b: i16) -> Option<i16> {
+        match self {
+            BinOp::MulHigh => None,
+            BinOp::SatAdd => Some(a.saturating_add(b)),
+            BinOp::SatSub => Some(a.saturating_sub(b)),
+            _ => self.of_i32(a.into(), b.into()).map(|wide| wide as i16),
+        }
+    }
+
+    /// The result of two `I32`; `None` where the divisor is 0.
+    pub fn of_i32(self, a: i32, b: i32) -> Option<i32> {
+        Some(match self {
+            BinOp::Add => a.wrapping_add(b),
+            BinOp::Sub => a.wrapping_sub(b),
+            BinOp::Mul => a.wrapping_mul(b),
+            BinOp::MulHigh => ((i64::from(a) * i64::from(b)) >> 32) as i32,
+            BinOp::Div | BinOp::Rem if b == 0 => return None,
+            BinOp::Div => a.wrapping_div(b),
+            BinOp::Rem => a.wrapping_rem(b),
+            BinOp::And => a & b,
+            BinOp::Or => a | b,
+            BinOp::Xor => a ^ b,
+            BinOp::SatAdd => a.saturating_add(b),
+            BinOp::SatSub => a.saturating_sub(b),
+        })
+    }
+}
+
 /// Comparison operators; signed for integers.
 pub use crate::catalogue::CmpOp;
 
@@ -502,5 +532,31 @@ pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
         Expr::Sys(SysValue::NowMs | SysValue::Scan100us) => Ty::I32,
         Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => type_of(exprs, temps, a),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::BinOp;
+
+    #[test]
+    fn results_of_16_bits_wrap_at_16_bits() {
+        let of = |op: BinOp, a, b| op.of_i16(a, b);
+        assert_eq!(of(BinOp::Add, i16::MAX, 1), Some(i16::MIN));
+        assert_eq!(of(BinOp::Mul, i16::MIN, i16::MIN), Some(0));
+        assert_eq!(of(BinOp::Div, i16::MIN, -1), Some(i16::MIN));
+        assert_eq!(of(BinOp::Rem, i16::MIN, -1), Some(0));
+        assert_eq!(of(BinOp::Xor, -1, i16::MAX), Some(i16::MIN));
+        assert_eq!(of(BinOp::SatAdd, i16::MAX, 1), Some(i16::MAX));
+        assert_eq!(of(BinOp::SatSub, i16::MIN, 1), Some(i16::MIN));
+    }
+
+    #[test]
+    fn nothing_is_divided_by_0() {
+        for op in [BinOp::Div, BinOp::Rem] {
+            assert_eq!(op.of_i16(5, 0), None);
+            assert_eq!(op.of_i32(5, 0), None);
+        }
+        assert_eq!(BinOp::Div.of_i32(i32::MIN, -1), Some(i32::MIN));
     }
 }

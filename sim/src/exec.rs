@@ -2,9 +2,7 @@
 
 use crate::devices::rt_class;
 use crate::machine::Machine;
-use rungc_ir::node::{
-    Arg, BinOp, CmpOp, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue,
-};
+use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue};
 use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, report};
 
 /// Value of an expression or temporary.
@@ -37,36 +35,6 @@ fn int(value: Value) -> i32 {
         Value::Bit(v) => v.into(),
         Value::F32(_) => 0,
     }
-}
-
-fn compare<T: PartialOrd>(op: CmpOp, a: T, b: T) -> bool {
-    match op {
-        CmpOp::Eq => a == b,
-        CmpOp::Ne => a != b,
-        CmpOp::Lt => a < b,
-        CmpOp::Le => a <= b,
-        CmpOp::Gt => a > b,
-        CmpOp::Ge => a >= b,
-    }
-}
-
-macro_rules! binary {
-    ($op:expr, $a:expr, $b:expr) => {
-        match $op {
-            BinOp::Add => $a.wrapping_add($b),
-            BinOp::Sub => $a.wrapping_sub($b),
-            BinOp::Mul => $a.wrapping_mul($b),
-            // A divisor of 0 is excluded by a condition around the statement, so its result is of no consequence.
-            BinOp::Div => $a.checked_div($b).unwrap_or($a.wrapping_neg()),
-            BinOp::Rem => $a.checked_rem($b).unwrap_or(0),
-            BinOp::And => $a & $b,
-            BinOp::Or => $a | $b,
-            BinOp::Xor => $a ^ $b,
-            BinOp::SatAdd => $a.saturating_add($b),
-            BinOp::SatSub => $a.saturating_sub($b),
-            BinOp::MulHigh => (i64::from($a) * i64::from($b) >> 32) as _,
-        }
-    };
 }
 
 /// Expressions. A device that does not exist reads as 0 and swallows writes; a validated module reaches none.
@@ -105,15 +73,13 @@ impl<'m> Machine<'m> {
             Expr::And(a, b) => Value::Bit(self.on(a) & self.on(b)),
             Expr::Or(a, b) => Value::Bit(self.on(a) | self.on(b)),
             Expr::Cmp(op, a, b) => Value::Bit(match (self.eval(a), self.eval(b)) {
-                (Value::F32(a), Value::F32(b)) => compare(op, a, b),
-                (a, b) => compare(op, int(a), int(b)),
+                (Value::F32(a), Value::F32(b)) => op.holds(a, b),
+                (a, b) => op.holds(int(a), int(b)),
             }),
+            // A divisor of 0 is excluded by a condition around the statement, so its result is of no consequence.
             Expr::Bin(op, a, b) => match (self.eval(a), self.eval(b)) {
-                (Value::I16(a), Value::I16(b)) => Value::I16(binary!(op, a, b)),
-                (a, b) => {
-                    let (a, b) = (int(a), int(b));
-                    Value::I32(binary!(op, a, b))
-                }
+                (Value::I16(a), Value::I16(b)) => Value::I16(op.of_i16(a, b).unwrap_or(0)),
+                (a, b) => Value::I32(op.of_i32(int(a), int(b)).unwrap_or(0)),
             },
             Expr::Complement(a) => match self.eval(a) {
                 Value::I16(v) => Value::I16(!v),

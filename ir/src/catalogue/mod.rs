@@ -369,6 +369,18 @@ pub enum CmpOp {
 }
 
 impl CmpOp {
+    /// Whether it holds. No comparison with NaN does, but `Ne`.
+    pub fn holds<T: PartialOrd>(self, a: T, b: T) -> bool {
+        match self {
+            CmpOp::Eq => a == b,
+            CmpOp::Ne => a != b,
+            CmpOp::Lt => a < b,
+            CmpOp::Le => a <= b,
+            CmpOp::Gt => a > b,
+            CmpOp::Ge => a >= b,
+        }
+    }
+
     /// As C and Rust write it.
     pub const fn symbol(self) -> &'static str {
         match self {
@@ -392,7 +404,7 @@ impl CmpOp {
         }
     }
 
-    /// The comparison that holds when this one does not (of integers: no comparison with NaN holds but `Ne`).
+    /// The comparison of integers that holds when this one does not; with NaN both may fail.
     pub const fn opposite(self) -> Self {
         match self {
             CmpOp::Eq => CmpOp::Ne,

@@ -156,21 +156,13 @@ impl<'m> Arena<'m> {
                 return self.push(folded.map_or(Expr::Cmp(op, a, b), Expr::Bit));
             }
         };
-        let holds = match op {
-            CmpOp::Eq => x == y,
-            CmpOp::Ne => x != y,
-            CmpOp::Lt => x < y,
-            CmpOp::Le => x <= y,
-            CmpOp::Gt => x > y,
-            CmpOp::Ge => x >= y,
-        };
-        self.push(Expr::Bit(holds))
+        self.push(Expr::Bit(op.holds(x, y)))
     }
 
     fn bin(&mut self, op: BinOp, a: ExprId, b: ExprId) -> ExprId {
         let folded = match (self.get(a), self.get(b)) {
-            (Expr::I16(x), Expr::I16(y)) => fold16(op, x, y).map(Expr::I16),
-            (Expr::I32(x), Expr::I32(y)) => fold32(op, x, y).map(Expr::I32),
+            (Expr::I16(x), Expr::I16(y)) => op.of_i16(x, y).map(Expr::I16),
+            (Expr::I32(x), Expr::I32(y)) => op.of_i32(x, y).map(Expr::I32),
             (Expr::I16(0) | Expr::I32(0), _) if op == BinOp::Add => return b,
             (_, Expr::I16(0) | Expr::I32(0)) if matches!(op, BinOp::Add | BinOp::Sub) => return a,
             _ => None,
@@ -220,40 +212,4 @@ fn at_border(op: CmpOp, constant: Expr) -> Option<bool> {
         CmpOp::Gt if highest => Some(false),
         _ => None,
     }
-}
-
-fn fold16(op: BinOp, a: i16, b: i16) -> Option<i16> {
-    Some(match op {
-        BinOp::Add => a.wrapping_add(b),
-        BinOp::Sub => a.wrapping_sub(b),
-        BinOp::Mul => a.wrapping_mul(b),
-        BinOp::MulHigh => return None,
-        BinOp::Div if b == 0 => return None,
-        BinOp::Div => a.wrapping_div(b),
-        BinOp::Rem if b == 0 => return None,
-        BinOp::Rem => a.wrapping_rem(b),
-        BinOp::And => a & b,
-        BinOp::Or => a | b,
-        BinOp::Xor => a ^ b,
-        BinOp::SatAdd => a.saturating_add(b),
-        BinOp::SatSub => a.saturating_sub(b),
-    })
-}
-
-fn fold32(op: BinOp, a: i32, b: i32) -> Option<i32> {
-    Some(match op {
-        BinOp::Add => a.wrapping_add(b),
-        BinOp::Sub => a.wrapping_sub(b),
-        BinOp::Mul => a.wrapping_mul(b),
-        BinOp::MulHigh => ((i64::from(a) * i64::from(b)) >> 32) as i32,
-        BinOp::Div if b == 0 => return None,
-        BinOp::Div => a.wrapping_div(b),
-        BinOp::Rem if b == 0 => return None,
-        BinOp::Rem => a.wrapping_rem(b),
-        BinOp::And => a & b,
-        BinOp::Or => a | b,
-        BinOp::Xor => a ^ b,
-        BinOp::SatAdd => a.saturating_add(b),
-        BinOp::SatSub => a.saturating_sub(b),
-    })
 }
