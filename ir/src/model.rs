@@ -142,6 +142,8 @@ pub struct Model {
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].
     pub error_relay: u32,
+    /// Whether that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than with RUN.
+    pub errors_last_a_scan: bool,
     /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes know only 6706, for
     /// devices and values.
     pub value_error: u16,

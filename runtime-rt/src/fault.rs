@@ -33,7 +33,7 @@ const ANY_ERROR: u32 = 8004;
 
 /// Shows a fault at `step` as h1u-h2u-programming §8.1 says: M8067 and D8067 (code), D8069 (step), the latches M8068 and D8068,
 /// and the summary M8004 with D8004. HM has only a relay and, under its number, a register for the step (hm-motion-controller §5.7).
-/// When RUN begins the program clears M8067 and M8004; the latches stay.
+/// The program clears M8067 and M8004 when RUN begins, on FX and L01S in each scan; the latches stay.
 pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let step = step as u16 as i16;
     let relay = plc.error_relay();

@@ -150,13 +150,17 @@ impl Lowerer<'_> {
         if errors.is_empty() {
             return;
         }
-        let first = self.add(Expr::Sys(SysValue::FirstScan));
-        self.when(first, |this| {
+        let forget = |this: &mut Self| {
             let off = this.bit_const(false);
             for relay in errors {
                 this.write_device(M, relay, off);
             }
-        });
+        };
+        if self.model.errors_last_a_scan {
+            return forget(self);
+        }
+        let first = self.add(Expr::Sys(SysValue::FirstScan));
+        self.when(first, forget);
     }
 
     /// M8011 to M8014: the time since power-on, without its sign bit, tells where in its period each is.

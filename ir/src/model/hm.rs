@@ -16,6 +16,7 @@ pub(super) const HM: Model = Model {
     max_steps: 12000,
     z_pairs_with_v: false,
     error_relay: 8006,
+    errors_last_a_scan: false,
     value_error: 6707,
     notations: Classes::NONE,
     bare_names: true,

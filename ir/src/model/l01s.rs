@@ -16,6 +16,7 @@ pub(super) const L01S: Model = Model {
     max_steps: 30000,
     z_pairs_with_v: true,
     error_relay: 8067,
+    errors_last_a_scan: true,
     value_error: 6706,
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,

@@ -20,6 +20,7 @@ pub(super) const FX2N: Model = Model {
     max_steps: 16000,
     z_pairs_with_v: true,
     error_relay: 8067,
+    errors_last_a_scan: true,
     value_error: 6706,
     notations: Classes::TEXT,
     bare_names: true,
@@ -41,6 +42,7 @@ pub(super) const FX3G: Model = Model {
     max_steps: 32000,
     z_pairs_with_v: true,
     error_relay: 8067,
+    errors_last_a_scan: true,
     value_error: 6706,
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,
@@ -62,6 +64,7 @@ pub(super) const FX3U: Model = Model {
     max_steps: 64000,
     z_pairs_with_v: true,
     error_relay: 8067,
+    errors_last_a_scan: true,
     value_error: 6706,
     notations: Classes::E
         .or(Classes::TEXT)

@@ -32,7 +32,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8025 rw 0 inert(FAST) "comparisons of high-speed counters act at an external reset too";
     M 8026 rw 0 by("RAMP") "RAMP holds the final value";
     M 8027 rw 0 by("PR") "PR sends up to 16 characters";
-    M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO (FX2N: T32–T62 count 10 ms)";
+    M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO";
     M 8029 r 0 by("instructions that take several scans") "an instruction is complete";
     M 8030 rw 0 inert(POWER) "the lamp for a low battery stays off";
     M 8031 rw 0 scan "clears what is not latched";
@@ -80,7 +80,6 @@ pub(super) const ALL: &[Special] = specials! {
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8162 rw 0 inert(LINK) "fast mode of the parallel link";
     M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
-    M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
     M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
     M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
     M 8170-8175 rw 0 inert(INTERRUPTS) "a pulse came at X000–X005";
@@ -154,16 +153,12 @@ pub(super) const FX2N: &[Special] = specials! {
 
 /// What FX3G and FX3U have besides.
 pub(super) const FX3: &[Special] = specials! {
-    M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
-    M 8091 rw 0 by("COMRD, BINDA") "no zero behind the characters";
     M 8136-8139 rw 0 inert(FAST) "table comparison of high-speed counters";
     M 8151-8159 r 0 inert(SERIAL) "inverter communication";
     M 8176-8177 rw 0 inert(INTERRUPTS) "a pulse came at X006, X007";
     M 8198-8199 rw 0 inert(FAST) "four counts a cycle for C251, C252 and C253–C255";
     M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
     M 8306 r 0 by("DIV") "carry flag of division";
-    M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
-    M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
     M 8338 rw 0 inert(PULSES) "PLSV with ramps";
     M 8340-8349 rw 0 inert(PULSES) "positioning with Y000";
     M 8350-8359 rw 0 inert(PULSES) "positioning with Y001";
@@ -172,9 +167,6 @@ pub(super) const FX3: &[Special] = specials! {
     M 8398 rw 0 scan "starts the ring counter D8398";
     M 8401-8429 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
     M 8460-8467 rw 0 inert(PULSES) "interrupt and clear signals of positioning";
-    D 8310 rw 1 by("RND") "state of RND, low word";
-    D 8311 rw 0 by("RND") "state of RND, high word";
-    D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";
     D 8336 rw 0 inert(PULSES) "interrupt inputs of DVIT";
     D 8340-8349 rw 0 inert(PULSES) "positioning with Y000";
     D 8350-8359 rw 0 inert(PULSES) "positioning with Y001";
@@ -188,6 +180,7 @@ pub(super) const FX3: &[Special] = specials! {
 
 /// FX3G: version 2.00, 32 k steps.
 pub(super) const FX3G: &[Special] = specials! {
+    M 8329 r 0 inert(PULSES) "an instruction ended abnormally";
     D 8001 r 26200 scan "model and version";
     D 8002 r 32 scan "program capacity in k steps";
     D 8030-8031 r 0 inert(MODULES) "potentiometers VR1, VR2";
@@ -196,8 +189,16 @@ pub(super) const FX3G: &[Special] = specials! {
 
 /// FX3U: version 3.20, 64 k steps.
 pub(super) const FX3U: &[Special] = specials! {
+    M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
+    M 8091 rw 0 by("BINDA") "no zero behind the characters";
+    M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
+    M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
+    M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
     M 8380-8392 rw 0 inert(FAST) "inputs and modes of high-speed counters";
     D 8001 r 24320 scan "model and version";
     D 8002 r 64 scan "program capacity in k steps";
     D 8101 r 16320 scan "model and version";
+    D 8310 rw 1 by("RND") "state of RND, low word";
+    D 8311 rw 0 by("RND") "state of RND, high word";
+    D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";
 };
