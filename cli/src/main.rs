@@ -1,4 +1,4 @@
-//! The rungc command line.
+//! The rungc command line: arguments, reports and exit codes. What a command does is in the crates that it calls.
 #![deny(missing_docs)]
 
 mod args;
