@@ -399,7 +399,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
             let type_name = case(module, number, &mut out);
             let _ = writeln!(
                 arms,
-                "        {number} => Box::new(cases{n}::case{number}::{type_name}::new()),"
+                "        {number} => boxed(cases{n}::case{number}::{type_name}::new),"
             );
         }
         let _ = writeln!(cases, "mod cases{n};");
@@ -408,7 +408,9 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     let _ = write!(
         cases,
         "\n/// A program, freshly powered on.\npub fn program(number: usize) -> Option<Box<dyn rungc_rt::Program>> {{\n    \
-         Some(match number {{\n{arms}        _ => return None,\n    }})\n}}\n"
+         Some(match number {{\n{arms}        _ => return None,\n    }})\n}}\n\n\
+         /// A function of its own for each program: in one, the stack would hold all of them.\n\
+         fn boxed<T: rungc_rt::Program + 'static>(new: fn() -> T) -> Box<dyn rungc_rt::Program> {{\n    Box::new(new())\n}}\n"
     );
     files.push(file("src/cases/mod.rs", cases));
     let mut tables = String::from(

@@ -53,9 +53,10 @@ fn samples(seed: u64, count: u64) -> Vec<Sample> {
     let mut refused = Vec::new();
     let mut samples = Vec::new();
     for i in 0..count {
+        // All of a program follows from its seed, so that one program can be run again alone.
         let seed = seed.wrapping_add(i);
-        let (model, pool) = &pools[(i % pools.len() as u64) as usize];
-        let text = program(seed, *model, pool, 8 + (i % 20) as u32);
+        let (model, pool) = &pools[(seed % pools.len() as u64) as usize];
+        let text = program(seed, *model, pool, 8 + (seed % 20) as u32);
         let modules = compiled(&text, seed, *model, true)
             .and_then(|optimised| Ok((optimised, compiled(&text, seed, *model, false)?)));
         match modules {

@@ -146,10 +146,15 @@ impl<'m> Builder<'m> {
         }
     }
 
+    /// Whether the high word of a pair at this place is V.
+    fn pairs_with_v(&self, place: Place) -> bool {
+        place.class == DeviceClass::Z && self.module.model.z_pairs_with_v
+    }
+
     /// A pair is two words that stand for themselves; that of Z is V and Z on some models.
     fn pair(&mut self, place: Place) {
         let counter32 = is_counter32(place.class, place.number);
-        let with_v = place.class == DeviceClass::Z && self.module.model.z_pairs_with_v;
+        let with_v = self.pairs_with_v(place);
         self.place(place, 1);
         if place.index.is_some() {
             if with_v {
@@ -207,8 +212,13 @@ impl<'m> Builder<'m> {
             }
             Stmt::For { body, .. } => self.body(body),
             Stmt::Parts(parts) => parts.iter().for_each(|part| self.body(&part.body)),
-            Stmt::Call { function, args, .. } => {
-                args.iter().for_each(|arg| self.arg(arg));
+            Stmt::Call {
+                function,
+                wide,
+                args,
+                ..
+            } => {
+                args.iter().for_each(|arg| self.arg(arg, *wide));
                 // These save and restore all index registers, whether the program names them or not.
                 if matches!(function, RtFn::Zpush | RtFn::Zpop) {
                     self.mark_run(DeviceClass::V, 0, false);
@@ -227,11 +237,16 @@ impl<'m> Builder<'m> {
         }
     }
 
-    fn arg(&mut self, arg: &Arg) {
+    fn arg(&mut self, arg: &Arg, wide: bool) {
         match *arg {
-            Arg::Device { place, extent } | Arg::Nibbles { place, extent, .. } => {
-                self.extent(place, extent)
+            Arg::Device { place, extent } => {
+                self.extent(place, extent);
+                if wide && self.pairs_with_v(place) {
+                    let class = DeviceClass::V;
+                    self.extent(Place { class, ..place }, extent);
+                }
             }
+            Arg::Nibbles { place, extent, .. } => self.extent(place, extent),
             Arg::WordBit { place, bit, extent } => {
                 self.extent(place, extent.map(|bits| words_of_bits(bit, bits)));
             }
