@@ -144,6 +144,8 @@ pub struct Model {
     pub error_relay: u32,
     /// Whether that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than with RUN.
     pub errors_last_a_scan: bool,
+    /// Whether M8046 shows active annunciators as well as states.
+    pub annunciators_are_states: bool,
     /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes know only 6706, for
     /// devices and values.
     pub value_error: u16,

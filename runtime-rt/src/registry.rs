@@ -350,10 +350,14 @@ registry! {
     ErrorLog = system::error_log() [state, always];
     /// D8030–D8045 of L01S, once before each scan's program.
     AnalogInputs = system::analog_inputs() [always, hal];
+    /// D8030 and D8031 of FX3G, once before each scan's program.
+    Potentiometers = system::potentiometers() [always, hal];
     /// D8398 and D8399 of FX3G, FX3U and L01S, once before each scan's program.
     RingCounter = system::ring_counter() [always];
     /// FROM of L01S: module 0 is the host's analog inputs if there is no other.
     FromHost = modules::from_host(m1, m2, d, n) [hal];
+    /// TO of L01S: module 0 is the host's analog outputs if there is no other.
+    ToHost = modules::to_host(m1, m2, s, n) [hal];
     /// REF (FNC 50): refreshes terminals.
     Ref = modules::refresh_terminals(d, n) [hal];
     /// REF of HM: leaves outputs of axes out.

@@ -172,6 +172,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8164", "D8164"])
         .errors(&[6706, 6709])
         .call(RtFn::To)
+        .lower_on(&[(L01S, Lower::Call(RtFn::ToHost))])
         .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n."),
     io("RD3A", 176, "Read an analog module")
         .on(NOT_HM)

@@ -182,6 +182,7 @@ fn pages_and_tables_can_be_made() {
 fn every_runtime_function_has_a_row() {
     let of_the_scan = [
         rungc_rt::RtFn::AnalogInputs,
+        rungc_rt::RtFn::Potentiometers,
         rungc_rt::RtFn::RingCounter,
         rungc_rt::RtFn::ClockRefresh,
         rungc_rt::RtFn::ClockRefreshShort,

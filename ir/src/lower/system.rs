@@ -24,6 +24,8 @@ const LAST_ERROR: [u32; 2] = [8067, 8069];
 /// Values of the built-in analog inputs of L01S, and the register that switches them on.
 const ANALOG_INPUTS: std::ops::RangeInclusive<u32> = 8030..=8045;
 const ANALOG_ENABLE: u32 = 8114;
+/// Positions of the potentiometers of FX3G.
+const POTENTIOMETERS: std::ops::RangeInclusive<u32> = 8030..=8031;
 /// Relays of HM that are the inputs from X014 on.
 const VIRTUAL_INPUTS: (std::ops::RangeInclusive<u32>, u32) = (8160..=8163, 0o14);
 /// Clears the general, the latched devices.
@@ -305,14 +307,16 @@ impl Lowerer<'_> {
         }
     }
 
-    /// D8030 to D8045 (L01S; the other models have other things there, and nothing that switches analog inputs on).
+    /// D8030 to D8045: analog inputs where something switches them on (L01S), else potentiometers (FX3G).
     fn analog_inputs(&mut self) {
-        if self.scan_has(D, ANALOG_ENABLE)
-            && ANALOG_INPUTS
-                .into_iter()
-                .any(|register| self.keeps(D, register))
-        {
+        let mut registers = ANALOG_INPUTS;
+        if !registers.any(|register| self.keeps(D, register)) {
+            return;
+        }
+        if self.scan_has(D, ANALOG_ENABLE) {
             self.call_system(RtFn::AnalogInputs, ANALOG_INPUTS.chain([ANALOG_ENABLE]));
+        } else {
+            self.call_system(RtFn::Potentiometers, POTENTIOMETERS);
         }
     }
 
@@ -361,6 +365,9 @@ impl Lowerer<'_> {
                 this.list_active(first, last, found, &registers);
             }
             if any {
+                for (first, last) in this.also_active(monitor) {
+                    this.list_active(first, last, found, &[]);
+                }
                 let found = this.add(Expr::Temp(found));
                 let some = this.add(Expr::Cmp(CmpOp::Gt, found, zero));
                 this.write_device(M, monitor.any, some);
@@ -375,7 +382,16 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The runs of S devices that a monitor looks at.
+    /// The runs of S devices that a monitor's relay shows but its registers do not list.
+    fn also_active(&self, monitor: &Monitor) -> Vec<(u32, u32)> {
+        if monitor.enable == STATES.enable && self.model.annunciators_are_states {
+            self.monitored(&ALARMS)
+        } else {
+            Vec::new()
+        }
+    }
+
+    /// The runs of S devices that a monitor lists.
     fn monitored(&self, monitor: &Monitor) -> Vec<(u32, u32)> {
         let (from, to) = (*ANNUNCIATORS.start(), *ANNUNCIATORS.end());
         let mut runs = Vec::new();

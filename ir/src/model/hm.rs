@@ -17,6 +17,7 @@ pub(super) const HM: Model = Model {
     z_pairs_with_v: false,
     error_relay: 8006,
     errors_last_a_scan: false,
+    annunciators_are_states: false,
     value_error: 6707,
     notations: Classes::NONE,
     bare_names: true,

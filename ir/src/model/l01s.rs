@@ -17,6 +17,7 @@ pub(super) const L01S: Model = Model {
     z_pairs_with_v: true,
     error_relay: 8067,
     errors_last_a_scan: true,
+    annunciators_are_states: false,
     value_error: 6706,
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,

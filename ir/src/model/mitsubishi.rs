@@ -21,6 +21,7 @@ pub(super) const FX2N: Model = Model {
     z_pairs_with_v: true,
     error_relay: 8067,
     errors_last_a_scan: true,
+    annunciators_are_states: false,
     value_error: 6706,
     notations: Classes::TEXT,
     bare_names: true,
@@ -43,6 +44,7 @@ pub(super) const FX3G: Model = Model {
     z_pairs_with_v: true,
     error_relay: 8067,
     errors_last_a_scan: true,
+    annunciators_are_states: false,
     value_error: 6706,
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,
@@ -65,6 +67,7 @@ pub(super) const FX3U: Model = Model {
     z_pairs_with_v: true,
     error_relay: 8067,
     errors_last_a_scan: true,
+    annunciators_are_states: false,
     value_error: 6706,
     notations: Classes::E
         .or(Classes::TEXT)

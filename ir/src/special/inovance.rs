@@ -1,7 +1,7 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use super::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, MAKER, NETWORK, POWER, PULSES, SERIAL,
+    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATCHES, LINK, NETWORK, POWER, PULSES, SERIAL,
     Special, TRACE, specials,
 };
 
@@ -58,8 +58,8 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8059 rw 0 inert(INTERRUPTS) "on: high-speed counter interrupts I010-I060 disabled";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error; error lamp off, PLC keeps running; detail D8060";
     M 8061 r 0 inert(HARDWARE) "PLC hardware error; lamp flashes, PLC stops; code D8061";
-    M 8062 r 0 inert(HARDWARE) "PLC/programming-device communication error; lamp off, keeps running; code D8062";
-    M 8063 r 0 inert(HARDWARE) "link / general communication error; lamp off, keeps running; code D8063";
+    M 8062 r 0 inert(SERIAL) "PLC/programming-device communication error; lamp off, keeps running; code D8062";
+    M 8063 r 0 inert(SERIAL) "link / general communication error; lamp off, keeps running; code D8063";
     M 8064 r 0 inert(CHECKED) "parameter error; lamp flashes, PLC stops; code D8064";
     M 8065 r 0 inert(CHECKED) "syntax error; lamp flashes, PLC stops; code D8065";
     M 8066 r 0 inert(CHECKED) "circuit error; lamp flashes, PLC stops; code D8066";
@@ -228,8 +228,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8055 rw 1 inert(PULSES) "high word of D8054";
     D 8060 r 0 inert(HARDWARE) "I/O configuration error: number of the missing I/O (1xxx = X, 0xxx = Y)";
     D 8061 r 0 inert(HARDWARE) "PLC hardware error code";
-    D 8062 r 0 inert(HARDWARE) "PLC communication error code";
-    D 8063 r 0 inert(HARDWARE) "link/communication error code";
+    D 8062 r 0 inert(SERIAL) "PLC communication error code";
+    D 8063 r 0 inert(SERIAL) "link/communication error code";
     D 8064 r 0 inert(CHECKED) "parameter error code";
     D 8065 r 0 inert(CHECKED) "syntax error code";
     D 8066 r 0 inert(CHECKED) "circuit error code";
@@ -246,7 +246,6 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8080-8081 rw 0 inert(TRACE) "sampling trace: bit device No.0–1";
     D 8096-8098 rw 0 inert(TRACE) "sampling trace: word device No.0–2";
     D 8099 rw 0 scan "high-speed ring counter 0-32767, +1 each 0.1 ms while M8099 is on";
-    D 8102 r 0 inert(MAKER) "program capacity given to the user program";
     D 8104-8106 rw 100 inert(PULSES) "acceleration time of DRVI/DRVA on Y0–2 (ms) when M8135–8137 is on";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8110 rw 0 inert(SERIAL) "COM0: communication format";
@@ -436,14 +435,16 @@ pub(super) const H1U: &[Special] = specials! {
     D 8001 r 26120 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps";
     D 8101 r 26120 scan "model and version";
+    D 8102 r 8 scan "capacity given to the user program in k steps";
     D 8198 r 10226 inert(CAN) "identification as a CANlink remote device";
 };
 
 /// What only H2U has.
 pub(super) const H2U: &[Special] = specials! {
-    M 8309 rw 0 inert(HARDWARE) "lets the fixed latched area become changeable";
+    M 8309 rw 0 inert(LATCHES) "lets the fixed latched area become changeable";
     D 8001 r 24120 scan "model and version";
     D 8002 r 24 scan "program capacity in k steps";
     D 8101 r 24120 scan "model and version";
+    D 8102 r 24 scan "capacity given to the user program in k steps";
     D 8198 r 10224 inert(CAN) "identification as a CANlink remote device";
 };

@@ -1,7 +1,7 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use super::{
-    ANALOG, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, MAKER, MODULES, PULSES, SERIAL, Special,
+    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, MAKER, MODULES, PULSES, RAW, SERIAL, Special,
     TRACE, specials,
 };
 
@@ -18,6 +18,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8021 r 0 by("arithmetic") "borrow flag: on when a result is below the type minimum";
     M 8022 r 0 by("arithmetic") "carry flag: on when a result exceeds the type maximum; shifted-out bit of ROR/ROL/RCR/RCL/SFR/SFL";
     M 8024 rw 0 by("BMOV") "selects the direction of BMOV (on: copies from D to S, off: S to D)";
+    M 8028 rw 0 inert(INTERRUPTS) "on: interrupts may break an instruction that executes";
     M 8029 r 0 by("instructions that take several scans") "an instruction is complete";
     M 8031 rw 0 scan "write on: clear all non-latched memory";
     M 8032 rw 0 scan "write on: clear all latched memory";
@@ -42,6 +43,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8066 r 0 inert(CHECKED) "circuit (ladder) error";
     M 8067 r 0 scan "operation error; set when an instruction of the current scan fails, cleared otherwise";
     M 8068 rw 0 scan "operation error latched (first error kept)";
+    M 8069 rw 0 inert(HARDWARE) "checks the I/O bus";
     M 8075 rw 0 inert(TRACE) "sampling trace: prepare-to-start command";
     M 8076 rw 0 inert(TRACE) "sampling trace: start command";
     M 8077 r 0 inert(TRACE) "sampling trace executing";
@@ -110,7 +112,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8377 rw 0 inert(PULSES) "Y003: interrupt signal logic inverted";
     M 8378 r 0 inert(PULSES) "Y003: positioning instruction being driven";
     M 8379 rw 0 inert(PULSES) "Y003: pulse stop command: on stops pulse output";
-    M 8396 rw 0 inert(SERIAL) "phase of the inputs assigned to C254";
+    M 8396 rw 0 inert(FAST) "phase of the inputs assigned to C254";
     M 8401 r 0 inert(SERIAL) "port 3: RS2 waiting to send";
     M 8402 rw 0 inert(SERIAL) "port 3: RS2 send request: program sets it on";
     M 8403 rw 0 inert(SERIAL) "port 3: RS2 reception complete; must be reset by program";
@@ -124,19 +126,19 @@ pub(super) const L01S: &[Special] = specials! {
     M 8424 rw 0 inert(SERIAL) "RS2 data being received";
     M 8425 rw 0 inert(SERIAL) "RS2 data sent";
     M 8426 rw 0 inert(SERIAL) "RS master/slave and multi-drop mode";
-    M 8427 rw 0 inert(SERIAL) "CAN standard/extended frame";
-    M 8428 rw 0 inert(SERIAL) "CAN Modbus reply correct";
+    M 8427 rw 0 inert(CAN) "CAN standard/extended frame";
+    M 8428 rw 0 inert(CAN) "CAN Modbus reply correct";
     M 8429 rw 0 inert(SERIAL) "communication timeout";
-    M 8432-8433 rw 0 inert(SERIAL) "interpolation mode";
-    M 8434 rw 0 inert(SERIAL) "interpolation relative/absolute";
-    M 8435 rw 0 inert(SERIAL) "interpolation clockwise/counter-clockwise";
+    M 8432-8433 rw 0 inert(PULSES) "interpolation mode";
+    M 8434 rw 0 inert(PULSES) "interpolation relative/absolute";
+    M 8435 rw 0 inert(PULSES) "interpolation clockwise/counter-clockwise";
     M 8450-8453 rw 0 inert(PULSES) "pulse stop for axis 5–8";
     M 8464-8467 rw 0 inert(PULSES) "Y000–003: clear-signal device designation enabled";
     M 8473-8476 rw 0 inert(PULSES) "PWM: Y000–003 output signal inverted";
     D 8000 rw 200 scan "watchdog timer (ms)";
-    D 8001 r 0 scan "PLC type and system version";
-    D 8002 r 0 scan "memory capacity in K steps: 8 = 8K; for 16K and above this reads 8 and D8102 holds 16 or 32";
-    D 8003 r 0 scan "memory kind: 10H = built-in memory";
+    D 8001 r 26232 scan "PLC type and system version";
+    D 8002 r 8 scan "memory capacity in k steps; 8 where it is 16 k or more, which D8102 tells";
+    D 8003 r 16 scan "memory kind: 10H = built-in memory";
     D 8010 r 0 scan "current scan time";
     D 8011 r 0 scan "minimum scan time";
     D 8012 r 0 scan "maximum scan time";
@@ -149,10 +151,10 @@ pub(super) const L01S: &[Special] = specials! {
     D 8019 rw 0 scan "clock: weekday 0=Sunday";
     D 8020 rw 10 by("REFF") "input filter adjustment (ms)";
     D 8030-8045 r 0 scan "analog input AD0–15 value";
-    D 8050-8057 rw 0 inert(ANALOG) "analog output DA0–7 value 0..4000; nonzero starts the conversion, 0 stops it";
-    D 8058 rw 0 inert(ANALOG) "current range of the analog outputs";
+    D 8050-8057 rw 0 by("TO") "analog output DA0–7 value 0..4000; nonzero starts the conversion, 0 stops it";
+    D 8058 rw 0 inert(RAW) "current range of the analog outputs";
     D 8059 rw 0 inert(HOST) "constant scan time (ms)";
-    D 8073 rw 7 inert(ANALOG) "analog input sampling period in scans, 0..7; change takes effect after restart; =1 samples once per scan";
+    D 8073 rw 7 inert(RAW) "analog input sampling period in scans, 0..7; change takes effect after restart; =1 samples once per scan";
     D 8074 r 0 inert(FAST) "X000: rising-edge ring counter value, low word [1/6 us]";
     D 8075 r 0 inert(FAST) "X000: rising-edge ring counter value, high word [1/6 us]";
     D 8076 r 0 inert(FAST) "X000: falling-edge ring counter value, low word [1/6 us]";
@@ -177,9 +179,9 @@ pub(super) const L01S: &[Special] = specials! {
     D 8095 r 0 inert(FAST) "X004: falling-edge ring counter value, high word [1/6 us]";
     D 8096 r 0 inert(FAST) "X004: pulse width / pulse period, low word [10 us]";
     D 8097 r 0 inert(FAST) "X004: pulse width / pulse period, high word [10 us]";
-    D 8100 rw 5 inert(ANALOG) "analog input filter period, 0..32767";
-    D 8101 r 0 scan "PLC type and system version";
-    D 8102 r 0 inert(MAKER) "memory capacity: 16 = 16K steps";
+    D 8100 rw 5 inert(RAW) "analog input filter period, 0..32767";
+    D 8101 r 26232 scan "PLC type and system version";
+    D 8102 r 32 scan "memory capacity in k steps: 16 or 32";
     D 8108 r 0 inert(MODULES) "number of connected special/extension modules";
     D 8109 r 0 inert(HARDWARE) "number of the Y at which an output refresh error occurred";
     D 8114 rw 0 scan "analog input channel enable: bit n = 1 starts AD n (n=0..7)";
@@ -187,8 +189,8 @@ pub(super) const L01S: &[Special] = specials! {
     D 8121 rw 0 inert(SERIAL) "port 2 own station number; as Modbus master must be 255";
     D 8122 r 0 inert(SERIAL) "port 2: remaining bytes to send (RS)";
     D 8123 r 0 inert(SERIAL) "port 2: number of bytes received (RS)";
-    D 8124 rw 0 inert(SERIAL) "port 2: RS header";
-    D 8125 rw 0 inert(SERIAL) "port 2: RS terminator";
+    D 8124 rw 2 inert(SERIAL) "port 2: RS header";
+    D 8125 rw 3 inert(SERIAL) "port 2: RS terminator";
     D 8126 rw 10 inert(SERIAL) "port 2: gap in scans between RD3A/WR3A telegrams; with ADPRW it must be 0";
     D 8127 rw 0 inert(SERIAL) "start number for slave-side communication request";
     D 8128 rw 0 inert(SERIAL) "data count for slave-side communication request";
@@ -268,8 +270,10 @@ pub(super) const L01S: &[Special] = specials! {
     D 8401 rw 0 inert(SERIAL) "port 3 mode: H0 RS2 free; H11 Modbus RTU slave";
     D 8406 rw 12 inert(SERIAL) "port 3 gap in scans between RD3A/WR3A telegrams";
     D 8409 rw 0 inert(SERIAL) "port 3 timeout [ms] of RD3A/WR3A; same recommendation as D8129";
-    D 8410-8411 rw 0 inert(SERIAL) "port 3 RS2 headers 1–3,2–4";
-    D 8412-8413 rw 0 inert(SERIAL) "port 3 RS2 terminators 1–3,2–4";
+    D 8410 rw 2 inert(SERIAL) "port 3 RS2 headers 1, 2";
+    D 8411 rw 0 inert(SERIAL) "port 3 RS2 headers 3, 4";
+    D 8412 rw 3 inert(SERIAL) "port 3 RS2 terminators 1, 2";
+    D 8413 rw 0 inert(SERIAL) "port 3 RS2 terminators 3, 4";
     D 8414 rw 0 inert(SERIAL) "port 3 own station number; as master must be 255";
     D 8415 r 0 inert(SERIAL) "port 3 RS2: computed receive checksum";
     D 8416 r 0 inert(SERIAL) "port 3 RS2: sent checksum";
@@ -277,8 +281,10 @@ pub(super) const L01S: &[Special] = specials! {
     D 8421 rw 0 inert(SERIAL) "communication mode";
     D 8426 rw 0 inert(SERIAL) "gap in scans";
     D 8429 rw 0 inert(SERIAL) "timeout";
-    D 8430-8431 rw 0 inert(SERIAL) "RS2 headers 1–3,2–4";
-    D 8432-8433 rw 0 inert(SERIAL) "RS2 terminators 1–3,2–4";
+    D 8430 rw 2 inert(SERIAL) "RS2 headers 1, 2";
+    D 8431 rw 0 inert(SERIAL) "RS2 headers 3, 4";
+    D 8432 rw 3 inert(SERIAL) "RS2 terminators 1, 2";
+    D 8433 rw 0 inert(SERIAL) "RS2 terminators 3, 4";
     D 8434 rw 0 inert(SERIAL) "RS2 received checksum";
     D 8435 rw 0 inert(SERIAL) "RS2 computed checksum";
     D 8436 rw 0 inert(SERIAL) "RS2 sent checksum";

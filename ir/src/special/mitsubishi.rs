@@ -1,8 +1,8 @@
 //! Special devices of FX2N, FX3G and FX3U, from public knowledge of their programming manuals.
 
 use super::{
-    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, MAKER, MODULES, POWER, PULSES, SERIAL,
-    Special, TRACE, specials,
+    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, POWER, PULSES, SERIAL, Special, TRACE,
+    specials,
 };
 
 /// What all three have.
@@ -119,7 +119,6 @@ pub(super) const ALL: &[Special] = specials! {
     D 8070 rw 500 inert(LINK) "error time of the parallel link in ms";
     D 8074-8098 rw 0 inert(TRACE) "sampling trace";
     D 8099 rw 0 scan "ring counter of 0.1 ms";
-    D 8102 r 0 inert(MAKER) "program capacity";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
     D 8130-8135 r 0 inert(FAST) "HSZ by a table, and PLSY by HSZ";
@@ -149,6 +148,7 @@ pub(super) const ALL: &[Special] = specials! {
 pub(super) const FX2N: &[Special] = specials! {
     D 8001 r 24310 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps";
+    D 8102 r 8 scan "program capacity in k steps";
 };
 
 /// What FX3G and FX3U have besides.
@@ -182,9 +182,10 @@ pub(super) const FX3: &[Special] = specials! {
 pub(super) const FX3G: &[Special] = specials! {
     M 8329 r 0 inert(PULSES) "an instruction ended abnormally";
     D 8001 r 26200 scan "model and version";
-    D 8002 r 32 scan "program capacity in k steps";
-    D 8030-8031 r 0 inert(MODULES) "potentiometers VR1, VR2";
+    D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
+    D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
     D 8101 r 26200 scan "model and version";
+    D 8102 r 32 scan "program capacity in k steps";
 };
 
 /// FX3U: version 3.20, 64 k steps.
@@ -196,8 +197,9 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
     M 8380-8392 rw 0 inert(FAST) "inputs and modes of high-speed counters";
     D 8001 r 24320 scan "model and version";
-    D 8002 r 64 scan "program capacity in k steps";
+    D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
     D 8101 r 16320 scan "model and version";
+    D 8102 r 64 scan "program capacity in k steps";
     D 8310 rw 1 by("RND") "state of RND, low word";
     D 8311 rw 0 by("RND") "state of RND, high word";
     D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";

@@ -145,6 +145,28 @@ pub fn to(cx: &mut Cx) -> Done {
     Ok(())
 }
 
+/// Values of the built-in analog outputs of L01S.
+const ANALOG_OUTPUTS: u32 = 8050;
+const ANALOG_OUTPUT_CHANNELS: i32 = 8;
+
+/// TO of L01S: where there is no module 0, that number means the host, whose first words are its analog outputs (D8050 …).
+pub fn to_host(cx: &mut Cx) -> Done {
+    let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
+    if unit != 0 || cx.hal.read_bfm(unit, address).is_some() {
+        return to(cx);
+    }
+    let n = transfer_count(cx)?;
+    cx.check_words(2, n)?;
+    if i32::from(address) + n > ANALOG_OUTPUT_CHANNELS {
+        return Err(Fault::MODULE);
+    }
+    for (k, register) in (0..n).zip(ANALOG_OUTPUTS + u32::from(address)..) {
+        let value = cx.word(2, k)?;
+        cx.set_special_word(register, value);
+    }
+    Ok(())
+}
+
 /// Buffer memory of an FX0N-3A: converted value, value to convert, control.
 const INPUT_VALUE: u16 = 0;
 const OUTPUT_VALUE: u16 = 16;
@@ -299,6 +321,12 @@ mod tests {
         assert_eq!(plc.d(0, 2), [1000, 3000]);
         assert_eq!(
             plc.call(RtFn::FromHost, &[k(0), k(0), reg(0), k(3)]),
+            Err(Fault::MODULE)
+        );
+        plc.call(RtFn::ToHost, &[k(0), k(1), reg(0), k(2)]).unwrap();
+        assert_eq!(plc.d(8050, 3), [0, 1000, 3000]);
+        assert_eq!(
+            plc.call(RtFn::ToHost, &[k(0), k(7), reg(0), k(2)]),
             Err(Fault::MODULE)
         );
         plc.hal.set_bfm(0, 1, 7).unwrap();

@@ -1,9 +1,8 @@
 //! What the scan does for special registers besides the program: the running time and error log of H1U/H2U (h1u-h2u-programming §8.2.2) and the built-in
-//! analog inputs of L01S (l01s-programming §6.2).
+//! analog inputs of L01S (l01s-programming §5.1) and potentiometers of FX3G.
 
 use crate::cx::Cx;
 use crate::fault::Done;
-use crate::plc::Class;
 use crate::word::{pair, words};
 
 /// Hours of the logged errors, and their codes, the oldest first.
@@ -62,9 +61,17 @@ pub fn analog_inputs(cx: &mut Cx) -> Done {
         if enabled >> channel & 1 == 1
             && let Some(value) = cx.hal.analog(channel)
         {
-            let _ = cx
-                .plc
-                .set_word(Class::D, ANALOG_VALUES + u32::from(channel), value);
+            cx.set_special_word(ANALOG_VALUES + u32::from(channel), value);
+        }
+    }
+    Ok(())
+}
+
+/// D8030 and D8031 from the two potentiometers, which are the first analog inputs, once a scan before the program.
+pub fn potentiometers(cx: &mut Cx) -> Done {
+    for channel in 0..2u8 {
+        if let Some(value) = cx.hal.analog(channel) {
+            cx.set_special_word(ANALOG_VALUES + u32::from(channel), value.clamp(0, 255));
         }
     }
     Ok(())
@@ -115,5 +122,13 @@ mod tests {
         plc.set_d(8114, &[7]);
         plc.call(RtFn::AnalogInputs, &[]).unwrap();
         assert_eq!(plc.d(8030, 3), [0, 2000, 0]);
+    }
+
+    #[test]
+    fn potentiometers_are_always_read() {
+        let mut plc = Double::new();
+        plc.hal.set_analog(1, 300).unwrap();
+        plc.call(RtFn::Potentiometers, &[]).unwrap();
+        assert_eq!(plc.d(8030, 2), [0, 255]);
     }
 }
