@@ -124,7 +124,7 @@ pub struct BuildArgs {
 pub struct RunArgs {
     #[command(flatten)]
     pub input: Input,
-    /// How much virtual time to run.
+    /// How much virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds.
     #[arg(long = "for", default_value = "1s", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: u64,
     /// Virtual time from scan to scan.

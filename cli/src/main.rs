@@ -42,6 +42,7 @@ fn main() -> ExitCode {
     match result {
         Ok(Outcome::Success) | Err(Failure::Unheard) => ExitCode::SUCCESS,
         Ok(Outcome::Failed) => ExitCode::from(1),
+        Err(Failure::Reported) => ExitCode::from(2),
         Err(failure) => {
             commands::tell(&format!("rungc: {failure}"));
             ExitCode::from(2)

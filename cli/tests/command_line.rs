@@ -178,6 +178,32 @@ fn warnings_can_be_denied_or_allowed() {
     );
 }
 
+/// Tools get an object for what is no program, too, and exit code 2 beside it.
+#[test]
+fn unreadable_input_for_tools() {
+    let folder = folder(&[("junk.bin", &[0, 159, 146, 150, 0, 1, 2, 3])]);
+    for format in ["json", "sarif"] {
+        let args = ["check", "missing.il", "--format", format];
+        insta::assert_snapshot!(format!("unreadable_{format}"), shown(folder.path(), &args));
+    }
+    let args = ["build", "junk.bin", "--emit", "ir", "--format", "json"];
+    let output = rungc(folder.path(), &args);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty(), "taken by the IR");
+    let read: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
+    assert_eq!(read["errors"], 1);
+    assert_eq!(read["diagnostics"][0]["code"], "E0010");
+}
+
+#[test]
+fn settings_behind_the_end_are_told() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let args = ["run", "motor.il", "--set", "X000=1@2s", "--for", "1s"];
+    let output = rungc(folder.path(), &args);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(text(&output.stderr).contains("`X000` was not set"));
+}
+
 #[test]
 fn run_shows_a_table_and_a_diagram() {
     let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
@@ -364,6 +390,46 @@ fn build_writes_and_does_not_overwrite() {
     assert!(
         !path.join("none").exists(),
         "a program with errors is not emitted"
+    );
+}
+
+/// What is emitted can be read by whom the user's mask lets read, as what an editor writes.
+#[cfg(unix)]
+#[test]
+fn files_have_the_permissions_of_new_files() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    let mode = |file: &str| fs::metadata(path.join(file)).unwrap().permissions().mode() & 0o777;
+    fs::write(path.join("usual"), "").unwrap();
+    for args in [
+        &["build", "motor.il", "--emit", "c", "-o", "c"][..],
+        &["convert", "motor.il", "--to", "csv", "-o", "motor.csv"],
+    ] {
+        assert_eq!(code(path, args), 0);
+    }
+    assert_eq!(mode("c/motor.c"), mode("usual"));
+    assert_eq!(mode("motor.csv"), mode("usual"));
+}
+
+#[test]
+fn build_writes_into_a_folder_that_is_there() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let out = folder.path().join("out");
+    fs::create_dir(&out).unwrap();
+    let args = ["build", "../motor.il", "--emit", "rust", "-o", "."];
+    assert_eq!(code(&out, &args), 0, "an empty folder");
+    assert_eq!(code(&out, &args), 2, "not empty any more");
+    fs::write(out.join("src/lib.rs"), "old").unwrap();
+    fs::write(out.join("notes.txt"), "kept").unwrap();
+    let forced = [&args[..], &["--force"]].concat();
+    assert_eq!(code(&out, &forced), 0);
+    assert!(fs::read_to_string(out.join("src/lib.rs")).unwrap().len() > 3);
+    assert!(out.join("notes.txt").is_file());
+    let left = fs::read_dir(&out).unwrap().flatten().map(|e| e.file_name());
+    assert!(
+        left.into_iter()
+            .all(|name| !name.to_string_lossy().starts_with(".rungc"))
     );
 }
 

@@ -2,7 +2,8 @@
 
 use encoding_rs::{Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
-/// Decodes a text file; nothing if it is no text. The flag tells whether some bytes had to be replaced.
+/// Decodes a text file; nothing if it is no text. The flag tells whether some bytes had to be replaced. Where lines end with
+/// a carriage return alone, they end with a line feed afterwards.
 pub(crate) fn decode(bytes: &[u8]) -> Option<(String, bool)> {
     let encoding = Encoding::for_bom(bytes).map_or_else(|| guess(bytes), |(encoding, _)| encoding);
     let (text, replaced) = encoding.decode_with_bom_removal(bytes);
@@ -11,7 +12,11 @@ pub(crate) fn decode(bytes: &[u8]) -> Option<(String, bool)> {
         .filter(|c| c.is_control() && !c.is_whitespace() || *c == char::REPLACEMENT_CHARACTER)
         .count();
     // Text holds a stray control character at most; a binary file is full of them.
-    (controls * 16 <= text.chars().count()).then(|| (text.into_owned(), replaced))
+    let text = match text.contains('\r') && !text.contains('\n') {
+        true => text.replace('\r', "\n"),
+        false => text.into_owned(),
+    };
+    (controls * 16 <= text.chars().count()).then_some((text, replaced))
 }
 
 /// Decodes short texts of one project, which share a code page, all at once.
@@ -101,6 +106,13 @@ mod tests {
         let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
         assert_eq!(decode(&little), Some((text.to_owned(), false)));
         assert_eq!(decode(&big), Some((text.to_owned(), false)));
+    }
+
+    #[test]
+    fn a_carriage_return_alone_ends_lines() {
+        let read = |text: &str| decode(text.as_bytes()).unwrap().0;
+        assert_eq!(read("LD X0\rEND\r"), "LD X0\nEND\n");
+        assert_eq!(read("LD X0\r\nEND\r\n"), "LD X0\r\nEND\r\n");
     }
 
     #[test]

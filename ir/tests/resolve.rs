@@ -36,6 +36,21 @@ fn numbers_of_the_source_are_kept() {
 }
 
 #[test]
+fn bits_of_words_are_bits_of_data_registers() {
+    for (list, code) in [
+        ("LD D0.F\nOUT D5.0\nEND\n", None),
+        ("LD M0.1\nOUT Y0\nEND\n", Some("E0101")),
+        ("LD R0.1\nOUT Y0\nEND\n", Some("E0101")),
+        ("LD D0.1Z0\nOUT Y0\nEND\n", Some("E0103")),
+    ] {
+        let read = read_text("test", list);
+        let (_, diagnostics) = resolve(&read.program, Model::get(ModelId::Fx3u));
+        let found = diagnostics.iter().map(|diagnostic| diagnostic.code).next();
+        assert_eq!(found, code, "{list}");
+    }
+}
+
+#[test]
 fn labels_are_known() {
     let read = read_text("test", "LD X0\nCJ P1\nP1\nEND\n");
     let (resolved, _) = resolve(&read.program, Model::get(ModelId::H2u));

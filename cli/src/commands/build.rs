@@ -1,7 +1,8 @@
 //! `rungc build`.
 
 use super::{
-    Context, Failure, Outcome, Result, conclude, counted, findings, read, say, stem, write_file,
+    Context, Failure, Outcome, Result, conclude, counted, findings, holder, read, say, stem,
+    write_executable, write_file,
 };
 use crate::args::{BuildArgs, Emit};
 use crate::progress;
@@ -17,7 +18,7 @@ type OutFile = (String, String);
 
 /// Compiles a program. Nothing is written if it has errors.
 pub fn run(args: &BuildArgs, cx: Context) -> Result {
-    let read = read(&args.input.file)?;
+    let read = read(&args.input, cx)?;
     let name = args
         .name
         .clone()
@@ -103,12 +104,14 @@ fn rust_files(module: &Module, main: bool) -> Vec<OutFile> {
         .collect()
 }
 
-/// Writes all files into a new folder, which appears only when complete; with `force` into one that is already there.
+/// Writes all files into a folder: a new one appears only when complete, in one that is there (not empty only with `force`) they
+/// take their places when all of them are written.
 fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::Result<(), Failure> {
     let at = |path: &Path, error: std::io::Error| {
         Failure::Because(format!("{}: {error}", path.display()))
     };
-    let occupied = folder.exists()
+    let there = folder.exists();
+    let occupied = there
         && fs::read_dir(folder)
             .map_err(|e| at(folder, e))?
             .next()
@@ -119,29 +122,29 @@ fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::R
             folder.display()
         )));
     }
-    if occupied {
-        return files
-            .iter()
-            .try_for_each(|(path, text)| write_file(&folder.join(path), text.as_bytes(), true));
-    }
-    let parent = folder
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    fs::create_dir_all(parent).map_err(|e| at(parent, e))?;
+    let beside = match there {
+        true => folder,
+        false => holder(folder),
+    };
+    fs::create_dir_all(beside).map_err(|e| at(beside, e))?;
     let fresh = tempfile::Builder::new()
         .prefix(".rungc-")
-        .tempdir_in(parent)
-        .map_err(|e| at(parent, e))?;
+        .tempdir_in(beside)
+        .map_err(|e| at(beside, e))?;
     let inside = fresh.path().join("out");
     fs::create_dir(&inside).map_err(|e| at(&inside, e))?;
     for (path, text) in files {
         write_file(&inside.join(path), text.as_bytes(), false)?;
     }
-    if folder.exists() {
-        fs::remove_dir(folder).map_err(|e| at(folder, e))?;
+    if !there {
+        return fs::rename(&inside, folder).map_err(|e| at(folder, e));
     }
-    fs::rename(&inside, folder).map_err(|e| at(folder, e))
+    for (path, _) in files {
+        let to = folder.join(path);
+        fs::create_dir_all(holder(&to)).map_err(|e| at(&to, e))?;
+        fs::rename(inside.join(path), &to).map_err(|e| at(&to, e))?;
+    }
+    Ok(())
 }
 
 /// Emits C with a main program into a temporary folder, builds it with make, and keeps the executable.
@@ -170,10 +173,6 @@ fn executable(module: &Module, path: &Path, force: bool) -> std::result::Result<
         )));
     }
     let binary = source.join(&module.name);
-    if let Some(parent) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
-        fs::create_dir_all(parent)?;
-    }
-    fs::copy(&binary, path)
-        .map(|_| ())
-        .map_err(|error| Failure::Because(format!("{}: {error}", path.display())))
+    let program = fs::read(&binary)?;
+    write_executable(path, &program, force)
 }

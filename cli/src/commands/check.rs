@@ -10,7 +10,7 @@ use std::time::Instant;
 /// Reports everything that is wrong with a program.
 pub fn run(args: &CheckArgs, cx: Context) -> Result {
     let start = Instant::now();
-    let read = read(&args.input.file)?;
+    let read = read(&args.input, cx)?;
     let checked = compile::check(
         &read.program,
         &CompileOptions {

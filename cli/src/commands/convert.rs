@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 /// Rewrites a program. Nothing is written if the input could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
-    let read = read(&args.input.file)?;
+    let read = read(&args.input, cx)?;
     let findings = Findings::new(
         &args.input.file,
         &read.program,

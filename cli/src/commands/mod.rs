@@ -11,7 +11,7 @@ use crate::args::{Format, Input, Reporting};
 use crate::report::{self, Findings};
 use rungc_frontend::{Read, ReadError};
 use rungc_ir::compile::Compiled;
-use rungc_syntax::codes;
+use rungc_syntax::{Span, codes};
 use std::fmt;
 use std::fs;
 use std::io::{self, Write};
@@ -31,6 +31,8 @@ pub enum Outcome {
 pub enum Failure {
     /// What stands in the way: exit code 2.
     Because(String),
+    /// The same, where the report already says it.
+    Reported,
     /// Whoever reads the output, such as `head`, has heard enough: no failure at all.
     Unheard,
 }
@@ -39,6 +41,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Failure::Because(reason) => f.write_str(reason),
+            Failure::Reported => f.write_str("the input cannot be read"),
             Failure::Unheard => f.write_str("nobody reads the output"),
         }
     }
@@ -65,16 +68,22 @@ pub struct Context {
     pub taken: bool,
 }
 
-/// Reads a program.
-pub fn read(path: &Path) -> std::result::Result<Read, Failure> {
-    rungc_frontend::read(path).map_err(|error| {
-        Failure::Because(match error {
-            ReadError::Undecodable { .. } | ReadError::NoProject { .. } => {
-                let code = codes::UNKNOWN_FORMAT.id;
-                format!("error[{code}]: {error}\n       `rungc explain {code}` tells more")
-            }
-            ReadError::Io { .. } | ReadError::TooLarge { .. } => error.to_string(),
-        })
+/// Reads a program. That it cannot be read is an object too, for tools.
+pub fn read(input: &Input, cx: Context) -> std::result::Result<Read, Failure> {
+    rungc_frontend::read(&input.file).or_else(|error| {
+        let code = match error {
+            ReadError::Undecodable { .. } | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
+            ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,
+        };
+        let id = code.id;
+        if input.reporting.format == Format::Human {
+            let text = format!("error[{id}]: {error}\n       `rungc explain {id}` tells more");
+            return Err(Failure::Because(text));
+        }
+        let why = code.at(Span::default(), error.to_string());
+        let findings = Findings::unread(&input.file, why);
+        report::print(&findings, &input.reporting, cx.color, cx.taken)?;
+        Err(Failure::Reported)
     })
 }
 
@@ -112,7 +121,10 @@ fn grouped(n: usize) -> String {
 pub fn findings<'a>(input: &'a Input, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
     let mut diagnostics = read.diagnostics.clone();
     diagnostics.extend(compiled.diagnostics.iter().cloned());
-    Findings::new(&input.file, &read.program, diagnostics, &input.reporting)
+    Findings {
+        size: Some(compiled.into()),
+        ..Findings::new(&input.file, &read.program, diagnostics, &input.reporting)
+    }
 }
 
 /// Prints findings, and for people a closing line that says `done` (what was accomplished) or that errors prevented it.
@@ -141,7 +153,8 @@ fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
         counted(findings.count(Warning), "warning")
     );
     if findings.failed() {
-        format!("      Failed {}: {counts}", findings.program.source.name)
+        let name = findings.program.map_or("", |program| &program.source.name);
+        format!("      Failed {name}: {counts}")
     } else {
         format!("{}: {counts}", done())
     }
@@ -149,6 +162,25 @@ fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
 
 /// Writes a file whole or not at all; refuses to replace one unless `force`.
 pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Result<(), Failure> {
+    write_whole(path, contents, force, 0o666)
+}
+
+/// As [`write_file`], of a program that can be started.
+pub fn write_executable(
+    path: &Path,
+    contents: &[u8],
+    force: bool,
+) -> std::result::Result<(), Failure> {
+    write_whole(path, contents, force, 0o777)
+}
+
+/// Of `mode`, the permissions where the system has them, the user's mask takes its part away.
+fn write_whole(
+    path: &Path,
+    contents: &[u8],
+    force: bool,
+    mode: u32,
+) -> std::result::Result<(), Failure> {
     let at = |error: io::Error| Failure::Because(format!("{}: {error}", path.display()));
     if path.exists() && !force {
         return Err(Failure::Because(format!(
@@ -156,15 +188,24 @@ pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Res
             path.display()
         )));
     }
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let folder = holder(path);
     fs::create_dir_all(folder).map_err(at)?;
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(at)?;
+    let mut fresh = tempfile::Builder::new();
+    #[cfg(unix)]
+    fresh.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+    #[cfg(not(unix))]
+    let _ = mode;
+    let mut file = fresh.tempfile_in(folder).map_err(at)?;
     file.write_all(contents).map_err(at)?;
     file.persist(path).map_err(|error| at(error.error))?;
     Ok(())
+}
+
+/// The folder that a path lies in.
+pub fn holder(path: &Path) -> &Path {
+    path.parent()
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
 }
 
 /// The name of a file without folder and extension; of a project folder's `MAIN.wpg` or of `MAIN.csv` the project's.

@@ -51,7 +51,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         .iter()
         .map(|name| target(name))
         .collect::<std::result::Result<Vec<_>, _>>()?;
-    let read = read(&args.input.file)?;
+    let read = read(&args.input, cx)?;
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
     let options = CompileOptions {
         model: args.input.model,
@@ -220,6 +220,12 @@ fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Ta
         }
     }
     write!(out, "\n{}", view.diagram(args.duration))?;
+    for late in pending {
+        tell(&format!(
+            "rungc: `{}` was not set: its time, {} ms, lies behind the last scan",
+            late.target, late.at_ms
+        ));
+    }
     Ok(Outcome::Success)
 }
 

@@ -12,11 +12,14 @@ pub fn print(
     color: bool,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    if findings.diagnostics.is_empty() {
+    let Some(program) = findings
+        .program
+        .filter(|_| !findings.diagnostics.is_empty())
+    else {
         return Ok(());
-    }
-    let name = findings.program.source.name.as_str();
-    let source = Source::from(findings.program.source.text.as_str());
+    };
+    let name = program.source.name.as_str();
+    let source = Source::from(one_break(&program.source.text));
     let shown = if limit == 0 {
         findings.diagnostics.len()
     } else {
@@ -28,7 +31,7 @@ pub fn print(
             Severity::Error => format!("error[{}]", diagnostic.code),
             Severity::Warning => format!("warning[{}]", diagnostic.code),
         };
-        let length = findings.program.source.text.len();
+        let length = program.source.text.len();
         report(diagnostic, &heading, name, length, color).write((name, &source), &mut drawn)?;
         let drawn = String::from_utf8_lossy(&drawn);
         // The library colours the heading even where colours are off.
@@ -40,6 +43,25 @@ pub fn print(
         writeln!(out, "… and {hidden} more (--limit 0 prints all)\n")?;
     }
     Ok(())
+}
+
+/// The text with line feeds as its only ends of lines, every byte in its place: the library would end lines at other characters
+/// as well, and count on from there.
+fn one_break(text: &str) -> String {
+    let mut chars = text.chars().peekable();
+    let mut same = String::with_capacity(text.len());
+    while let Some(c) = chars.next() {
+        let breaks = match c {
+            '\r' => chars.peek() != Some(&'\n'),
+            '\u{B}' | '\u{C}' | '\u{85}' | '\u{2028}' | '\u{2029}' => true,
+            _ => false,
+        };
+        match breaks {
+            true => same.extend(std::iter::repeat_n(' ', c.len_utf8())),
+            false => same.push(c),
+        }
+    }
+    same
 }
 
 fn report<'a>(
@@ -110,7 +132,15 @@ fn tidy(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::plain;
+    use super::{one_break, plain};
+
+    #[test]
+    fn lines_end_at_line_feeds_only() {
+        let text = "LD X0 ; a\u{C}b\u{2028}c\r\nEND\r";
+        let same = one_break(text);
+        assert_eq!(same, "LD X0 ; a b   c\r\nEND ");
+        assert_eq!(same.len(), text.len());
+    }
 
     #[test]
     fn colours_are_removed() {

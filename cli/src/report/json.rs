@@ -8,6 +8,10 @@ use std::io;
 #[derive(Serialize)]
 struct Output<'a> {
     file: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steps: Option<u32>,
     errors: usize,
     warnings: usize,
     diagnostics: Vec<Item<'a>>,
@@ -20,7 +24,7 @@ struct Item<'a> {
     severity: &'static str,
     message: &'a str,
     #[serde(flatten)]
-    place: Place,
+    place: Option<Place>,
     #[serde(skip_serializing_if = "str::is_empty")]
     label: &'a str,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -35,7 +39,7 @@ struct Item<'a> {
 struct Related<'a> {
     message: &'a str,
     #[serde(flatten)]
-    place: Place,
+    place: Option<Place>,
 }
 
 /// 1-based lines and columns (in characters), the end column past the last character; the step where the source states it.
@@ -49,22 +53,26 @@ struct Place {
     step: Option<u32>,
 }
 
-fn place(findings: &Findings, span: Span) -> Place {
-    let (line, column) = findings.program.source.line_col(span.start);
-    let (end_line, end_column) = findings.program.source.line_col(span.end);
-    Place {
+/// `None` if the file could not be read.
+fn place(findings: &Findings, span: Span) -> Option<Place> {
+    let source = &findings.program?.source;
+    let (line, column) = source.line_col(span.start);
+    let (end_line, end_column) = source.line_col(span.end);
+    Some(Place {
         line,
         column,
         end_line,
         end_column,
         step: findings.step_at(span.start),
-    }
+    })
 }
 
 /// The object as pretty-printed text.
 pub fn render(findings: &Findings) -> io::Result<String> {
     let output = Output {
         file: findings.path.display().to_string(),
+        model: findings.size.map(|size| size.model),
+        steps: findings.size.map(|size| size.steps),
         errors: findings.count(Severity::Error),
         warnings: findings.count(Severity::Warning),
         diagnostics: findings

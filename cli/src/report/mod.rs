@@ -5,6 +5,7 @@ mod json;
 mod sarif;
 
 use crate::args::{Format, Reporting};
+use rungc_ir::compile::Compiled;
 use rungc_syntax::{Diagnostic, Diagnostics, Program, Severity};
 use std::io::{self, Write};
 use std::path::Path;
@@ -13,10 +14,30 @@ use std::path::Path;
 pub struct Findings<'a> {
     /// The file as named on the command line.
     pub path: &'a Path,
-    /// The program, for its source text and steps.
-    pub program: &'a Program,
+    /// The program, for its source text and steps; `None` if nothing could be read.
+    pub program: Option<&'a Program>,
+    /// What was compiled or checked, if it came to that.
+    pub size: Option<Size>,
     /// The findings that count, ordered by place.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What a program is for, and how long it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Size {
+    /// Name of the model.
+    pub model: &'static str,
+    /// Length in steps.
+    pub steps: u32,
+}
+
+impl From<&Compiled> for Size {
+    fn from(compiled: &Compiled) -> Self {
+        Size {
+            model: compiled.model.name,
+            steps: compiled.steps,
+        }
+    }
 }
 
 impl<'a> Findings<'a> {
@@ -37,8 +58,19 @@ impl<'a> Findings<'a> {
         }
         Findings {
             path,
-            program,
+            program: Some(program),
+            size: None,
             diagnostics,
+        }
+    }
+
+    /// Of a file that could not be read at all, and why.
+    pub fn unread(path: &'a Path, why: Diagnostic) -> Self {
+        Findings {
+            path,
+            program: None,
+            size: None,
+            diagnostics: vec![why],
         }
     }
 
@@ -57,7 +89,7 @@ impl<'a> Findings<'a> {
 
     /// Step number of the instruction that holds a place in the source, where the source states steps.
     fn step_at(&self, offset: u32) -> Option<u32> {
-        let instrs = &self.program.instrs;
+        let instrs = &self.program?.instrs;
         let next = instrs.partition_point(|instr| instr.span.start <= offset);
         instrs.get(next.checked_sub(1)?)?.step
     }

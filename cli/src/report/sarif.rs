@@ -2,13 +2,15 @@
 
 use super::Findings;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Diagnostic, Severity, Span};
+use rungc_syntax::{Diagnostic, Severity, Source, Span};
 use serde_sarif::sarif::{
     ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation, Region,
-    ReportingDescriptor, Result as Item, ResultLevel, Run, Sarif, Tool, ToolComponent, Version,
+    ReportingDescriptor, Result as Item, ResultColumnKind, ResultLevel, Run, Sarif, Tool,
+    ToolComponent, Version,
 };
 use std::collections::BTreeSet;
 use std::io;
+use std::path::Path;
 
 /// The log as pretty-printed text.
 pub fn render(findings: &Findings) -> io::Result<String> {
@@ -31,6 +33,7 @@ pub fn render(findings: &Findings) -> io::Result<String> {
     let run = Run::builder()
         .tool(Tool::builder().driver(driver).build())
         .results(results)
+        .column_kind(serde_json::to_value(ResultColumnKind::UnicodeCodePoints)?)
         .build();
     let log = Sarif::builder()
         .schema("https://json.schemastore.org/sarif-2.1.0.json")
@@ -86,25 +89,50 @@ fn message(text: &str) -> Message {
 }
 
 fn location(findings: &Findings, span: Span, text: Option<&str>) -> Location {
-    let (line, column) = findings.program.source.line_col(span.start);
-    let (end_line, end_column) = findings.program.source.line_col(span.end);
-    let region = Region::builder()
-        .start_line(i64::from(line))
-        .start_column(i64::from(column))
-        .end_line(i64::from(end_line))
-        .end_column(i64::from(end_column))
-        .build();
-    let uri = findings.path.to_string_lossy().replace('\\', "/");
-    let artifact = ArtifactLocation::builder().uri(uri).build();
-    let physical = PhysicalLocation::builder()
-        .artifact_location(artifact)
-        .region(region)
-        .build();
+    let artifact = ArtifactLocation::builder().uri(uri(findings.path)).build();
+    let file = PhysicalLocation::builder().artifact_location(artifact);
+    let physical = match findings.program {
+        Some(program) => file.region(region(&program.source, span)).build(),
+        None => file.build(),
+    };
     match text {
         Some(text) => Location::builder()
             .physical_location(physical)
             .message(message(text))
             .build(),
         None => Location::builder().physical_location(physical).build(),
+    }
+}
+
+fn region(source: &Source, span: Span) -> Region {
+    let (line, column) = source.line_col(span.start);
+    let (end_line, end_column) = source.line_col(span.end);
+    Region::builder()
+        .start_line(i64::from(line))
+        .start_column(i64::from(column))
+        .end_line(i64::from(end_line))
+        .end_column(i64::from(end_column))
+        .build()
+}
+
+/// A path as a URI reference: its separators as they are on the web, and everything escaped that has a meaning there or none.
+fn uri(path: &Path) -> String {
+    let path = path.to_string_lossy().replace('\\', "/");
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._~".contains(&byte);
+    path.bytes().fold(String::new(), |uri, byte| match byte {
+        _ if plain(byte) => format!("{uri}{}", char::from(byte)),
+        _ => format!("{uri}%{byte:02X}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::uri;
+    use std::path::Path;
+
+    #[test]
+    fn paths_are_escaped() {
+        assert_eq!(uri(Path::new("a b/电.il")), "a%20b/%E7%94%B5.il");
+        assert_eq!(uri(Path::new("/plc/MAIN.wpg")), "/plc/MAIN.wpg");
     }
 }

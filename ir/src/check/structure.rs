@@ -143,6 +143,8 @@ struct Walk<'a, 'p> {
     after_fend: bool,
     /// A label behind FEND that nothing names, since the last end of a routine.
     unused_label: bool,
+    /// The routine that FEND has cut off from its end, which is still to come.
+    cut: Option<Kind>,
     /// STL in a row so far.
     stl_row: u32,
     state: u32,
@@ -163,6 +165,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> 
         routine: Routine::Main,
         after_fend: false,
         unused_label: false,
+        cut: None,
         stl_row: 0,
         state: NONE,
         loops: Vec::new(),
@@ -353,7 +356,12 @@ impl Walk<'_, '_> {
                 .at(self.code.span(i), message)
                 .label("begins before FEND")
                 .help("end the main program with FEND and put routines behind it");
-            self.report(diagnostic);
+            let across = self.ends_behind_fend(i, kind);
+            self.report(match kind {
+                // The nesting table has a number of its own for this (§8.8, row 0-FEND).
+                Kind::Sub if across => diagnostic.plc_error(6709),
+                _ => diagnostic,
+            });
         }
         self.push_open(Open {
             kind,
@@ -426,9 +434,11 @@ impl Walk<'_, '_> {
         match begin {
             Some(begin) => self.close(begin, i),
             None if kind == Kind::Sub && self.unused_label => {}
+            None if self.cut == Some(kind) => {}
             None => self.lone_return(i, kind),
         }
         self.unused_label = false;
+        self.cut = None;
         self.routine = match self.after_fend {
             true => Routine::Nothing,
             false => Routine::Main,
@@ -451,10 +461,15 @@ impl Walk<'_, '_> {
     }
 
     fn fend(&mut self, i: usize) {
+        self.cut = None;
         for open in std::mem::take(&mut self.open) {
             let routine = matches!(open.kind, Kind::Sub | Kind::Interrupt);
+            let cut = routine && self.returns_next(i, open.kind);
+            if cut {
+                self.cut = Some(open.kind);
+            }
             if !open.reported {
-                self.report(match routine {
+                self.report(match routine && !cut {
                     true => self.open_routine(&open),
                     false => self.fend_inside(&open, i),
                 });
@@ -471,16 +486,42 @@ impl Walk<'_, '_> {
         self.state = NONE;
     }
 
+    /// Whether the next end of a routine behind instruction `i`, before any other begins, is one of this kind.
+    fn returns_next(&self, i: usize, kind: Kind) -> bool {
+        let ends = |at: usize| match self.code.basic(at) {
+            Some(Basic::Sret) => Some(kind == Kind::Sub),
+            Some(Basic::Iret) => Some(kind == Kind::Interrupt),
+            Some(Basic::Label | Basic::Fend) => Some(false),
+            _ => None,
+        };
+        (i + 1..self.code.len).find_map(ends).unwrap_or(false)
+    }
+
+    /// Whether a routine that begins at `i`, in the main program, has FEND between it and its end.
+    fn ends_behind_fend(&self, i: usize, kind: Kind) -> bool {
+        let fend = (i + 1..self.code.len).find_map(|at| match self.code.basic(at) {
+            Some(Basic::Fend) => Some(Some(at)),
+            Some(Basic::Label | Basic::Sret | Basic::Iret) => Some(None),
+            _ => None,
+        });
+        fend.flatten()
+            .is_some_and(|fend| self.returns_next(fend, kind))
+    }
+
     fn fend_inside(&self, open: &Open, i: usize) -> Diagnostic {
         let plc_error = match open.kind {
             Kind::Mc => 6608,
             Kind::For => 6607,
             Kind::Stl => 6605,
-            Kind::Sub | Kind::Interrupt => 6606,
+            Kind::Sub => 6709,
+            Kind::Interrupt => 6606,
         };
         let (name, end) = (open.kind.name(), open.kind.end());
         codes::FEND_INSIDE
-            .at(self.code.span(i), format!("FEND inside a {name}"))
+            .at(
+                self.code.span(i),
+                format!("FEND inside a {name}").replace("a interrupt", "an interrupt"),
+            )
             .label("the main program ends here …")
             .other(
                 self.code.span(open.at),

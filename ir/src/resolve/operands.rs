@@ -94,8 +94,8 @@ impl Checker {
                 .or_else(|| self.counter(place, span, *device, param))
                 .or_else(|| numbers(span, *device, param))
                 .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
-            OperandKind::WordBit(device, bit, index) => self
-                .existing(span, *device)
+            OperandKind::WordBit(device, bit, index) => bit_of_register(span, *device, *index)
+                .or_else(|| self.existing(span, *device))
                 .or_else(|| self.bits_of_words(place, span, (*device, *bit), *index, param)),
             OperandKind::Nibbles(digits, device, index) => digits_fit(place, span, *digits, param)
                 .or_else(|| self.existing(span, *device))
@@ -471,6 +471,21 @@ fn indexes_itself(span: Span, kind: &OperandKind) -> Option<Diagnostic> {
             .label(format!("`{index}` is not allowed here"))
             .help("add the registers first, or use a data register")
     })
+}
+
+/// The notation `D0.F` is one of data registers, and takes no index register (FX3 manual, the note to every `D□.b`).
+fn bit_of_register(span: Span, device: Device, index: Option<Index>) -> Option<Diagnostic> {
+    if device.class != DeviceClass::D {
+        let message = format!("`{device}` has no bits that can be named so");
+        let diagnostic = codes::OPERAND_CLASS.at(span, message);
+        return Some(diagnostic.label("only a data register has: `D0.F`"));
+    }
+    let index = index?;
+    let diagnostic = codes::NOT_INDEXABLE
+        .at(span, "a bit of a register cannot take an index register")
+        .label(format!("`{index}` is not allowed here"))
+        .help("move the register into a group of relays first: `MOV D0Z0 K4M0`");
+    Some(diagnostic)
 }
 
 /// Whether a group has a digit count that the operand can take; a result of two words may go to eight digits.

@@ -67,6 +67,12 @@ super::codes! {
     wrong: "",
     right: "";
 
+    UNREADABLE_FILE = "E0016" "unreadable-file" Error None,
+    "the file cannot be read at all",
+    "There is no such file or folder, it may not be read, or it is larger than any program. The message says what the system says.",
+    wrong: "",
+    right: "";
+
     UNKNOWN_INSTRUCTION = "E0033" "unknown-instruction" Error Some(6506),
     "no model has this instruction",
     "The mnemonic is none that the catalogue knows, in no spelling. If a similar one exists, the help names it.",
