@@ -2,11 +2,30 @@
 
 use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
+use crate::model::{ModelId, ModelSet};
+use crate::runs::is_counter32;
 use rungc_rt::RtFn;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, OperandKind};
 
 const RESETTABLE: Classes = COILS.or(REGISTERS);
 const VALUE_OR_BITS: Classes = BITS.or(REGISTERS).or(INDEX);
+
+/// Counters of 16 and of 32 bits do not stand in one range.
+const COUNTERS_ALIKE: Rule = Rule::Holds(
+    |operands| {
+        let mut wide = operands.iter().filter_map(|operand| match operand.kind {
+            OperandKind::Device(device, _) if device.class == DeviceClass::C => {
+                Some(is_counter32(device.class, device.number))
+            }
+            _ => None,
+        });
+        wide.next()
+            .is_none_or(|first| wide.all(|other| other == first))
+    },
+    "both counters have 16 bits, or both 32",
+);
+/// Models whose DECO also takes a constant.
+const DECODES_CONSTANTS: ModelSet = FX.and(&[ModelId::L01s]);
 
 const MEAN: &[Param] = &[
     src("S", WORDS).per(2),
@@ -47,7 +66,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .takes(&[
             mixed_out("D1", RESETTABLE).through(1),
-            mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0)]),
+            mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), COUNTERS_ALIKE]),
         ])
         .call(RtFn::Zrst)
         .text("Switches D1 … D2 off, or sets them to 0; timers and counters also open their contacts. Both are of one class."),
@@ -56,7 +75,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .on(NOT_HM)
         .takes(&[
-            mixed("S", VALUE_OR_BITS.or(CONSTANTS)).per(2),
+            mixed("S", VALUE_OR_BITS).also_on(DECODES_CONSTANTS, CONSTANTS).per(2),
             mixed_out("D", COILS.or(REGISTERS)).len_of(bits_of_n),
             src("n", CONSTANTS).word(),
         ])

@@ -152,6 +152,9 @@ fn meaning(param: &Param, params: &[Param]) -> String {
             Rule::EndsInZero => "; its number ends in 0".to_owned(),
             Rule::Aligned(of) => format!("; its number is a multiple of {of}"),
             Rule::WholeGroup => "; a group has K4, in the 32-bit form K8".to_owned(),
+            Rule::WideAligned(of) => {
+                format!("; in the 32-bit form a group begins at a multiple of {of}")
+            }
             Rule::SameDigits(i) => format!("; a group has as many digits as {}", name(i)),
             Rule::GroupLike(i) => format!("; a group exactly if {} is one", name(i)),
             Rule::ClassLike(i) => format!("; of the same class as {}", name(i)),

@@ -4,7 +4,10 @@ use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
 use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
+use rungc_syntax::OperandKind;
 
+const H1U: ModelSet = ModelSet::of(&[ModelId::H1u]);
+const H2U: ModelSet = ModelSet::of(&[ModelId::H2u]);
 const H1U_H2U_FX: ModelSet = INOVANCE.and(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
 const NOT_FX3G: ModelSet = NOT_HM.except(&[ModelId::Fx3g]);
 const BIG_FX: ModelSet = H1U_H2U_FX.except(&[ModelId::Fx3g]);
@@ -29,7 +32,13 @@ const MODULE: Param = count("m1", 0, 162).rules(&[Rule::Not(8, 99)]);
 const ADDRESS: Param = count("m2", 0, 32767);
 const NUMBER: Param = count("n", 1, 32767);
 const FROM: &[Param] = &[MODULE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
-const TO: &[Param] = &[MODULE, ADDRESS, src("S", VALUES).per(3), NUMBER];
+const TO: &[Param] = &[MODULE, ADDRESS, src("S", WRITTEN).per(3), NUMBER];
+/// What H1U and H2U write to a module: constants stand in the worked examples, groups of inputs nowhere.
+const WRITTEN: Classes = VALUES.without(Classes::KNX);
+/// H1U has only remote modules.
+const REMOTE: Param = count("m1", 100, 162);
+const FROM_H1U: &[Param] = &[REMOTE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
+const TO_H1U: &[Param] = &[REMOTE, ADDRESS, src("S", WRITTEN).per(3), NUMBER];
 const MODULE_FX: Param = count("m1", 0, 7).also(DATA);
 const FROM_FX: &[Param] = &[
     MODULE_FX,
@@ -49,6 +58,26 @@ const READ_MODBUS: &[Param] = &[
     src("m2", VALUES),
     both("D", DATA).open_ended(),
 ];
+
+/// The FX0N-3A has two inputs and one output.
+const RD3A_INOVANCE: &[Param] = &[
+    src("m1", VALUES).limits(0, 7),
+    src("m2", VALUES).limits(1, 2),
+    dst("D", RESULTS),
+];
+const WR3A_INOVANCE: &[Param] = &[
+    src("m1", VALUES).limits(0, 7),
+    src("m2", VALUES).limits(1, 1),
+    src("S", RESULTS),
+];
+/// A text constant fits in eight characters.
+const SHORT_TEXT: Rule = Rule::Holds(
+    |operands| match operands.first().map(|operand| &operand.kind) {
+        Some(OperandKind::Text(text)) => text.len() <= 8,
+        _ => true,
+    },
+    "at most 8 characters",
+);
 
 const fn io(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.8")
@@ -134,7 +163,7 @@ pub(super) const ROWS: &[Inst] = &[
     io("ASC", 76, "Text constant")
         .on(BIG_FX)
         .steps(11, 11)
-        .takes(&[text("S", Classes::TEXT), text_out("D", REGISTERS).len(8)])
+        .takes(&[text("S", Classes::TEXT).rules(&[SHORT_TEXT]), text_out("D", REGISTERS).len(8)])
         .flags(&["M8161"])
         .example("LD X000\nASC \"STOPPED\" D0")
         .call(RtFn::Asc)
@@ -157,7 +186,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(9, 17)
         .takes(FROM_FX)
-        .variants(&[on(INOVANCE).takes(FROM)])
+        .variants(&[on(H1U).takes(FROM_H1U), on(H2U).takes(FROM)])
         .flags(&["M8164", "D8164"])
         .errors(&[6706, 6709])
         .call(RtFn::From)
@@ -168,7 +197,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(ALL_FORMS)
         .steps(9, 17)
         .takes(TO_FX)
-        .variants(&[on(INOVANCE).takes(TO)])
+        .variants(&[on(H1U).takes(TO_H1U), on(H2U).takes(TO)])
         .flags(&["M8164", "D8164"])
         .errors(&[6706, 6709])
         .call(RtFn::To)
@@ -179,7 +208,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), dst("D", RESULTS)])
-        .variants(&[on(L01S).takes(READ_MODBUS)])
+        .variants(&[on(L01S).takes(READ_MODBUS), on(INOVANCE).takes(RD3A_INOVANCE)])
         .call(RtFn::Rd3a)
         .lower_on(&[(L01S, Lower::Todo("serial communication"))])
         .text("Reads channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it reads registers by Modbus."),
@@ -188,7 +217,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), src("S", WORDS).also_on(FX, CONSTANTS)])
-        .variants(&[on(L01S).takes(READ_MODBUS)])
+        .variants(&[on(L01S).takes(READ_MODBUS), on(INOVANCE).takes(WR3A_INOVANCE)])
         .call(RtFn::Wr3a)
         .lower_on(&[(L01S, Lower::Todo("serial communication"))])
         .text("Writes S to channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it writes registers by Modbus."),

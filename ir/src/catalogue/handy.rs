@@ -28,6 +28,15 @@ const SEARCH: &[Param] = &[
         .rules(&[Rule::WideLimits(1, 128)]),
 ];
 
+const ABSOLUTE_DRUM: &[Param] = &[
+    src("S1", GROUPS.or(REGISTERS))
+        .len_of(pairs_of_n)
+        .rules(&[Rule::WholeGroup, Rule::WideAligned(8)]),
+    src("S2", Classes::C).rules(&[Rule::WideCounter]),
+    coil("D", RESULT_BITS).per(3),
+    count("n", 1, 64),
+];
+
 const fn handy(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.7")
         .fnc(fnc)
@@ -64,12 +73,7 @@ pub(super) const ROWS: &[Inst] = &[
     handy("ABSD", 62, "Absolute drum")
         .forms(W16_W32)
         .on(H1U_H2U_FX)
-        .takes(&[
-            src("S1", GROUPS.or(REGISTERS)).len_of(pairs_of_n).rules(&[Rule::WholeGroup]),
-            src("S2", Classes::C).rules(&[Rule::WideCounter]),
-            coil("D", RESULT_BITS).per(3),
-            count("n", 1, 64),
-        ])
+        .takes(ABSOLUTE_DRUM)
         .call(RtFn::Absd)
         .text(
             "Bit D+i is on while counter S2 is from the value S1+2i up to below S1+2i+1; a pair in falling order means the range round \

@@ -246,6 +246,8 @@ pub enum Rule {
     Aligned(u32),
     /// A group has as many bits as the form: K4, in the 32-bit form K8.
     WholeGroup,
+    /// In the 32-bit form a group begins at a multiple of this.
+    WideAligned(u32),
     /// If it is a group and operand `i` too, both have as many digits.
     SameDigits(usize),
     /// It is a group exactly if operand `i` is one.

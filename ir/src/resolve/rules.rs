@@ -45,6 +45,11 @@ pub(super) fn broken(
             let digits = digits(operand)?;
             (digits != whole).then(|| partial_group(operand, whole))
         }
+        Rule::WideAligned(of) => {
+            digits(operand).filter(|_| wide)?;
+            let device = device_of(&operand.kind)?;
+            unaligned(operand, device, of, &format!("is not a multiple of {of}"))
+        }
         Rule::SameDigits(other) => {
             let other = operands.get(other)?;
             let differ = digits(operand)? != digits(other)?;

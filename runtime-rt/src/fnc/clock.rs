@@ -17,6 +17,17 @@ const DAY: i32 = 86_400;
 /// Years of the clock where it shows four digits.
 const YEARS: core::ops::RangeInclusive<i16> = 2000..=2099;
 
+/// D8018…D8013 and D8019, in TRD's order.
+const REGISTERS: [u32; 7] = [
+    D_SECOND + 5,
+    D_SECOND + 4,
+    D_SECOND + 3,
+    D_SECOND + 2,
+    D_SECOND + 1,
+    D_SECOND,
+    D_WEEKDAY,
+];
+
 /// The three words from operand `i` on.
 fn triple(cx: &Cx, i: usize) -> Result<(i16, i16, i16), Fault> {
     Ok((cx.word(i, 0)?, cx.word(i, 1)?, cx.word(i, 2)?))
@@ -89,8 +100,21 @@ pub fn stoh(cx: &mut Cx) -> Done {
     set_triple(cx, 1, seconds)
 }
 
+/// What the registers show while M8015 stops the clock.
+fn stopped(cx: &Cx) -> Option<[i16; 7]> {
+    cx.special(M_CLOCK_STOP)
+        .then(|| shown(cx))
+        .filter(|words| *words != [0; 7])
+}
+
 /// Writes year, month, day, hour, minute, second, weekday.
 fn read_clock(cx: &mut Cx, year: fn(u16) -> u16) -> Done {
+    if let Some(held) = stopped(cx) {
+        cx.check_words(0, 7)?;
+        return (0..)
+            .zip(held)
+            .try_for_each(|(offset, word)| cx.set_word(0, offset, word));
+    }
     let clock = cx.hal.clock().ok_or(Fault::DEVICE)?;
     cx.check_words(0, 7)?;
     cx.set_word(0, 0, year(clock.year) as i16)?;
@@ -157,10 +181,16 @@ fn write_clock(cx: &mut Cx, short: bool) -> Done {
     }
     let clock = moment(words, short);
     cx.set_special(M_CLOCK_ERROR, clock.is_none());
-    match clock {
-        Some(clock) => cx.hal.set_clock(clock).ok_or(Fault::DEVICE),
-        None => Ok(()),
+    let Some(clock) = clock else {
+        return Ok(());
+    };
+    if cx.special(M_CLOCK_STOP) {
+        // They set the clock when it goes on.
+        for (register, word) in REGISTERS.into_iter().zip(words) {
+            cx.set_special_word(register, word);
+        }
     }
+    cx.hal.set_clock(clock).ok_or(Fault::DEVICE)
 }
 
 /// TWR S (FNC 167): sets the clock from seven words in TRD's order; words that are no moment are ignored.
@@ -240,16 +270,9 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
     Ok(())
 }
 
-/// D8018…D8013 and D8019 in TRD's order.
+/// What the clock's registers show, in TRD's order.
 fn shown(cx: &Cx) -> [i16; 7] {
-    let mut words = [0; 7];
-    for (word, register) in words
-        .iter_mut()
-        .zip((D_SECOND..D_WEEKDAY).rev().chain([D_WEEKDAY]))
-    {
-        *word = cx.special_word(register);
-    }
-    words
+    REGISTERS.map(|register| cx.special_word(register))
 }
 
 /// The clock's registers and relays, once a scan before the program.

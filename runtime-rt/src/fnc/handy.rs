@@ -261,7 +261,10 @@ pub fn sort2(cx: &mut Cx) -> Done {
 /// are sorted, plus one; the drive must go off before it sorts again.
 fn sort_table(cx: &mut Cx, place: Place, descending: bool) -> Done {
     if !cx.drive() {
-        cx.state().0[0] = 0;
+        if cx.state().0[0] != 0 {
+            cx.state().0[0] = 0;
+            cx.set_special(M_COMPLETE, false);
+        }
         return Ok(());
     }
     let (rows, columns) = (cx.count(1, 1..=32)?, cx.count(2, 1..=6)?);
