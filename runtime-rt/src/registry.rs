@@ -176,6 +176,8 @@ registry! {
     Log10 = float::log10(s, d);
     /// ESQR (FNC 127): square root of a float.
     Esqr = float::esqr(s, d);
+    /// ESQR of HM: 0 for what is no finite number, no flag.
+    EsqrClamped = float::esqr_clamped(s, d);
     /// ENEG (FNC 128): turns a float's sign.
     Eneg = float::eneg(d);
     /// INT (FNC 129): integer part of a float.

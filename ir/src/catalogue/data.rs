@@ -68,6 +68,10 @@ pub(super) const ROWS: &[Inst] = &[
             mixed_out("D1", RESETTABLE).through(1),
             mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), COUNTERS_ALIKE]),
         ])
+        .variants(&[on(HM).takes(&[
+            mixed_out("D1", RESETTABLE).through(1),
+            mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), Rule::NotBefore(0)]),
+        ])])
         .call(RtFn::Zrst)
         .text("Switches D1 … D2 off, or sets them to 0; timers and counters also open their contacts. Both are of one class."),
     data("DECO", 41, "Decode")

@@ -157,6 +157,9 @@ fn meaning(param: &Param, params: &[Param]) -> String {
             }
             Rule::SameDigits(i) => format!("; a group has as many digits as {}", name(i)),
             Rule::GroupLike(i) => format!("; a group exactly if {} is one", name(i)),
+            Rule::WordsWith(i) => format!("; a group has K4 unless {} is one", name(i)),
+            Rule::GroupAtMost(i, max) => format!("; at most {max} if {} is a group", name(i)),
+            Rule::NotBefore(i) => format!("; not before {}", name(i)),
             Rule::ClassLike(i) => format!("; of the same class as {}", name(i)),
             Rule::Holds(_, demand) => format!("; {demand}"),
             Rule::WideCounter => "; in the 32-bit form from C200 on".to_owned(),

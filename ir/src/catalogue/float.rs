@@ -114,7 +114,8 @@ pub(super) const ROWS: &[Inst] = &[
     float("ESQR", 127, "Square root of a float", RtFn::Esqr)
         .takes(&[real("S", NUMBERS), real_out("D", DATA)])
         .flags(&["M8020"])
-        .text("D = the square root of S. M8020 is on if it is 0. A negative S is an error."),
+        .lower_on(&[(HM, Lower::Call(RtFn::EsqrClamped))])
+        .text("D = the square root of S. M8020 is on if it is 0 (not on HM). A negative S is an error; on HM what is no finite number gives 0."),
     float("ENEG", 128, "Negate a float", RtFn::Eneg)
         .steps(5, 5)
         .on(FX3U_L01S)

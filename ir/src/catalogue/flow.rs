@@ -34,6 +34,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .takes(LABEL)
+        .variants(&[on(HM).takes(INDEXED_LABEL)])
         .errors(&[6701, 6702])
         .example("LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET")
         .text("Runs the subroutine at the label up to SRET while driven, then goes on behind the CALL."),
@@ -64,6 +65,7 @@ pub(super) const ROWS: &[Inst] = &[
     flow("FOR", 8, "Loop", Basic::For)
         .steps(3, 3)
         .takes(&[src("S", VALUES)])
+        .variants(&[on(HM).takes(&[src("S", CONSTANTS.or(GROUPS).or(DATA))])])
         .drive(Drive::Alone)
         .errors(&[6607])
         .example("FOR K4\nLD M8000\nADD D0 K1 D0\nNEXT")

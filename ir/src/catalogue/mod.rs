@@ -252,10 +252,16 @@ pub enum Rule {
     SameDigits(usize),
     /// It is a group exactly if operand `i` is one.
     GroupLike(usize),
+    /// A group of fewer digits means one of four if operand `i` is no group. Nothing is refused.
+    WordsWith(usize),
+    /// If operand `.0` is a group, a constant is at most `.1`.
+    GroupAtMost(usize, i64),
     /// In the 32-bit form a counter is a 32-bit one.
     WideCounter,
     /// A device of the same class as operand `i`.
     ClassLike(usize),
+    /// A device that does not stand before operand `i`, both of them or none a special one.
+    NotBefore(usize),
     /// What this function finds in all operands; the text says what is demanded.
     Holds(fn(&[Operand]) -> bool, &'static str),
 }

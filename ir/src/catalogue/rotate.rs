@@ -14,6 +14,12 @@ const ROTATE: &[Param] = &[
         .also(DATA)
         .rules(&[Rule::WideLimits(0, 32)]),
 ];
+const ROTATE_HM: &[Param] = &[
+    ROTATED,
+    count("n", 1, 16)
+        .also(DATA)
+        .rules(&[Rule::WideLimits(1, 32)]),
+];
 const ROTATE_CARRY_HM: &[Param] = &[ROTATED, count("n", 1, 15).rules(&[Rule::WideLimits(1, 31)])];
 
 const fn shift_bits(n1: Param, n2: Param) -> [Param; 4] {
@@ -54,6 +60,15 @@ const fn shift_words(max: i64) -> [Param; 4] {
 const SHIFT_WORDS: &[Param] = &shift_words(2048);
 const SHIFT_WORDS_FX: &[Param] = &shift_words(512);
 
+const SHIFT_WORDS_HM: &[Param] = &[
+    src("S", GROUPS.or(REGISTERS)).per(3),
+    both("D", RESULT_GROUPS.or(REGISTERS))
+        .per(2)
+        .rules(&[Rule::SameDigits(0), Rule::WordsWith(0)]),
+    count("n1", 1, 512).rules(&[Rule::GroupAtMost(1, 64)]),
+    count("n2", 1, 512).rules(&[Rule::AtMost(2)]),
+];
+
 const fn enqueue(max: i64, rules: &'static [Rule]) -> [Param; 3] {
     [
         src("S", WORDS).also_on(FX.and(&[ModelId::L01s]), CONSTANTS),
@@ -71,10 +86,20 @@ const fn dequeue(max: i64, rules: &'static [Rule]) -> [Param; 3] {
 }
 
 const ENQUEUE: &[Param] = &enqueue(2048, &[Rule::SameDigits(0)]);
-const ENQUEUE_HM: &[Param] = &enqueue(512, &[Rule::SameDigits(0), Rule::GroupLike(0)]);
+const ENQUEUE_HM: &[Param] = &[
+    src("S", GROUPS.or(REGISTERS)),
+    both("D", RESULT_GROUPS.or(REGISTERS))
+        .per_and(2, 1)
+        .rules(&[Rule::SameDigits(0), Rule::GroupLike(0)]),
+    count("n", 2, 512).rules(&[Rule::GroupAtMost(1, 64)]),
+];
 const ENQUEUE_FX: &[Param] = &enqueue(512, &[]);
 const DEQUEUE: &[Param] = &dequeue(2048, &[Rule::SameDigits(0)]);
-const DEQUEUE_HM: &[Param] = &dequeue(512, &[Rule::SameDigits(0), Rule::GroupLike(0)]);
+const DEQUEUE_HM: &[Param] = &[
+    both("S", GROUPS.or(REGISTERS)).per_and(2, 1),
+    dst("D", RESULT_GROUPS.or(REGISTERS)).rules(&[Rule::SameDigits(0), Rule::GroupLike(0)]),
+    count("n", 2, 512).rules(&[Rule::GroupAtMost(0, 64)]),
+];
 const DEQUEUE_FX: &[Param] = &dequeue(512, &[]);
 const LIKE_FX: ModelSet = FX.and(&[ModelId::L01s]);
 
@@ -104,8 +129,10 @@ const fn queue(name: &'static str, fnc: u16, title: &'static str, function: RtFn
 
 pub(super) const ROWS: &[Inst] = &[
     rotate("ROR", 30, "Rotate right", RtFn::Ror)
+        .variants(&[on(HM).takes(ROTATE_HM)])
         .text("Rotates D right by n bits. The bit that left last is also in M8022."),
     rotate("ROL", 31, "Rotate left", RtFn::Rol)
+        .variants(&[on(HM).takes(ROTATE_HM)])
         .text("Rotates D left by n bits. The bit that left last is also in M8022."),
     rotate("RCR", 32, "Rotate right with carry", RtFn::Rcr)
         .variants(&[on(HM).takes(ROTATE_CARRY_HM)])
@@ -123,14 +150,14 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Moves the n1 bits from D on by n2 places to higher numbers; the n2 bits from S on enter at D."),
     shift("WSFR", 36, "Shift words right", RtFn::Wsfr)
         .takes(SHIFT_WORDS)
-        .variants(&[on(LIKE_FX.and(&[ModelId::Hm])).takes(SHIFT_WORDS_FX)])
+        .variants(&[on(HM).takes(SHIFT_WORDS_HM), on(LIKE_FX).takes(SHIFT_WORDS_FX)])
         .text(
             "Moves the n1 words from D on by n2 places to lower numbers; the n2 words from S on enter at the top. Groups of bits are \
              words of their length.",
         ),
     shift("WSFL", 37, "Shift words left", RtFn::Wsfl)
         .takes(SHIFT_WORDS)
-        .variants(&[on(LIKE_FX.and(&[ModelId::Hm])).takes(SHIFT_WORDS_FX)])
+        .variants(&[on(HM).takes(SHIFT_WORDS_HM), on(LIKE_FX).takes(SHIFT_WORDS_FX)])
         .text(
             "Moves the n1 words from D on by n2 places to higher numbers; the n2 words from S on enter at D. Groups of bits are words \
              of their length.",

@@ -279,6 +279,12 @@ impl Param {
         Param { extent, ..self }
     }
 
+    /// It occupies as many devices as operand `i` says, and `extra`.
+    pub(super) const fn per_and(self, i: usize, extra: i32) -> Self {
+        let extent = Extent::Operand { i, extra };
+        Param { extent, ..self }
+    }
+
     /// It occupies as many devices as this function of the operands' constants says.
     pub(super) const fn len_of(self, count: fn(&[Option<i64>]) -> Option<u32>) -> Self {
         let extent = Extent::Of(count);

@@ -38,6 +38,8 @@ pub(super) struct Pointers {
     order: Vec<Device>,
     /// Whether a jump or call names its label with an index register, so that any label may be meant.
     indexed: bool,
+    /// Whether a call does.
+    indexed_call: bool,
 }
 
 impl Pointers {
@@ -46,6 +48,7 @@ impl Pointers {
             map: FxHashMap::default(),
             order: Vec::new(),
             indexed: false,
+            indexed_call: false,
         };
         for i in 0..code.len {
             if let Some(label) = code.label(i) {
@@ -61,6 +64,7 @@ impl Pointers {
                 }
                 if index.is_some() {
                     pointers.indexed = true;
+                    pointers.indexed_call |= code.basic(i) == Some(Basic::Call);
                     continue;
                 }
                 let pointer = pointers.entry(device);
@@ -97,6 +101,11 @@ impl Pointers {
     pub(super) fn is_called(&self, label: Device) -> bool {
         self.get(label)
             .is_some_and(|pointer| !pointer.calls.is_empty())
+    }
+
+    /// Whether a call with an index register may mean this label, if it stands behind FEND: any that no jump names.
+    pub(super) fn may_be_called(&self, label: Device) -> bool {
+        self.indexed_call && !self.is_jumped_to(label)
     }
 
     /// Whether something jumps to this label.

@@ -320,6 +320,9 @@ impl Walk<'_, '_> {
             {
                 self.begin_routine(i, Kind::Sub);
             }
+            _ if self.after_fend && self.pointers.may_be_called(label) => {
+                self.begin_routine(i, Kind::Sub);
+            }
             _ => self.jump_label(i, label),
         }
     }

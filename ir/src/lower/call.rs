@@ -1,12 +1,14 @@
 //! Calls of the runtime.
 
 use super::Lowerer;
-use crate::catalogue::{Extent, Inst, Param, Shape};
+use crate::Model;
+use crate::catalogue::{Extent, Inst, Param, Rule, Shape};
 use crate::node::{Arg, EdgeKind, Place, Stmt};
 use crate::resolve::Form;
 use crate::runs::is_counter32;
 use rungc_rt::RtFn;
 use rungc_syntax::{Device, Index, Operand, OperandKind, codes};
+use std::borrow::Cow;
 
 impl Lowerer<'_> {
     pub(super) fn call(&mut self, inst: &Inst, function: RtFn) {
@@ -99,8 +101,8 @@ impl Lowerer<'_> {
     }
 
     fn args(&mut self, inst: &Inst, form: Form) -> Vec<Arg> {
-        let operands = &self.instr().operands;
-        let extents = extents(inst, form, operands, self.model);
+        let operands = in_words(inst, &self.instr().operands, self.model);
+        let extents = extents(inst, form, &operands, self.model);
         let mut args: Vec<Arg> = operands
             .iter()
             .zip(extents)
@@ -170,12 +172,29 @@ impl Lowerer<'_> {
     }
 }
 
+/// The operands, with groups that [`Rule::WordsWith`] makes words.
+fn in_words<'o>(inst: &Inst, operands: &'o [Operand], model: &Model) -> Cow<'o, [Operand]> {
+    let mut operands = Cow::Borrowed(operands);
+    let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
+    for (i, param) in inst.params_of(&kinds, model).iter().enumerate() {
+        let word = |other: usize| !matches!(kinds.get(other), Some(OperandKind::Nibbles(..)));
+        let widens = |rule: &Rule| matches!(*rule, Rule::WordsWith(other) if word(other));
+        if let Some(OperandKind::Nibbles(digits @ ..4, device, index)) = kinds.get(i)
+            && param.rules.iter().any(widens)
+        {
+            let digits = (*digits).max(4);
+            operands.to_mut()[i].kind = OperandKind::Nibbles(digits, *device, *index);
+        }
+    }
+    operands
+}
+
 /// How many devices (bits of a group) each operand occupies from the named one on; `None`: to the end of its class.
 pub(super) fn extents<'o>(
     inst: &Inst,
     form: Form,
     operands: &'o [Operand],
-    model: &crate::Model,
+    model: &Model,
 ) -> impl Iterator<Item = Option<u32>> + use<'o> {
     let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
     let params = inst.params_of(&kinds, model);

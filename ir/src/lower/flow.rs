@@ -68,13 +68,28 @@ impl Flow {
                 .filter_map(|i| pointer(resolved, i))
                 .collect()
         };
-        let (called, mut jumped_to) = (pointers(Basic::Call), pointers(Basic::Cj));
-        // An index may lead to any label.
-        if (0..count).any(|i| {
-            basic_of(resolved, i) == Some(Basic::Cj) && pointer_index(resolved, i).is_some()
-        }) {
-            let labels = resolved.instrs.iter().filter_map(|instr| instr.label);
-            jumped_to.extend(labels.map(|label| label.number));
+        let indexed = |basic: Basic| {
+            (0..count).any(|i| {
+                basic_of(resolved, i) == Some(basic) && pointer_index(resolved, i).is_some()
+            })
+        };
+        let labels_from = |first: usize| {
+            let labels = resolved.instrs[first..]
+                .iter()
+                .filter_map(|instr| instr.label);
+            labels
+                .filter(|label| label.class == DeviceClass::P)
+                .map(|label| label.number)
+        };
+        let (mut called, mut jumped_to) = (pointers(Basic::Call), pointers(Basic::Cj));
+        // An index may lead to any label; those that are called stand behind FEND.
+        if indexed(Basic::Call) {
+            let fend = (0..count).find(|&i| basic_of(resolved, i) == Some(Basic::Fend));
+            let subroutines = labels_from(fend.unwrap_or(count));
+            called.extend(subroutines.filter(|label| !jumped_to.contains(label)));
+        }
+        if indexed(Basic::Cj) {
+            jumped_to.extend(labels_from(0));
         }
         let mut flow = Flow {
             regions: vec![Region {
@@ -218,7 +233,10 @@ impl Flow {
         let mut calls: Vec<usize> = self
             .instructions(region)
             .filter(|&i| basic_of(resolved, i) == Some(Basic::Call))
-            .filter_map(|i| pointer(resolved, i))
+            .flat_map(|i| match pointer_index(resolved, i) {
+                Some(_) => self.subroutines.keys().copied().collect(),
+                None => Vec::from_iter(pointer(resolved, i)),
+            })
             .chain(region.runs_into)
             .filter_map(|pointer| self.subroutines.get(&pointer).copied())
             .collect();
@@ -456,12 +474,33 @@ impl Lowerer<'_> {
         let Some(pointer) = pointer(self.resolved, self.at) else {
             return;
         };
-        if pointer_index(self.resolved, self.at).is_some() {
-            let span = self.instr().span;
-            let message = "CALL with an index register is not implemented yet";
-            return self.report(codes::NOT_IMPLEMENTED.at(span, message));
+        match pointer_index(self.resolved, self.at) {
+            Some(index) => self.driven(|this| this.indexed_call(pointer, index)),
+            None => self.driven(|this| this.emit_call(pointer)),
         }
-        self.driven(|this| this.emit_call(pointer));
+    }
+
+    /// Calls the subroutine whose number is `base` and the index (HM): that one of them all.
+    fn indexed_call(&mut self, base: u32, index: Index) {
+        let index = self.index(index, false);
+        let index = self.settled(index);
+        let mut pointers: Vec<u32> = self.flow.subroutines.keys().copied().collect();
+        pointers.sort_unstable();
+        let mut none = self.bit_const(true);
+        for pointer in pointers {
+            let offset = self.add(Expr::I32(pointer as i32 - base as i32));
+            let meant = self.add(Expr::Cmp(CmpOp::Eq, index, offset));
+            self.when(meant, |this| this.emit_call(pointer));
+            let other = self.not(meant);
+            none = self.and(none, other);
+        }
+        let step = self.step();
+        self.when(none, |this| {
+            this.emit(Stmt::Fault {
+                code: NO_LABEL,
+                step,
+            })
+        });
     }
 
     /// Calls a subroutine; a call that would recurse is the PLC's error for calls nested too deep.

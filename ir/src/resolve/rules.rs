@@ -2,7 +2,7 @@
 
 use super::operands::constant_value;
 use crate::catalogue::{Classes, Param, Rule};
-use crate::runs::FIRST_COUNTER32;
+use crate::runs::{FIRST_COUNTER32, is_special};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
 
 /// What is wrong with operand `at` of an instruction by the rules of its parameter, if anything.
@@ -17,7 +17,7 @@ pub(super) fn broken(
         compare(operand, operands.get(other)?, wrong, demand)
     };
     param.rules.iter().find_map(|rule| match *rule {
-        Rule::WideLimits(..) => None,
+        Rule::WideLimits(..) | Rule::WordsWith(_) => None,
         Rule::Not(min, max) => {
             let value = constant_value(&operand.kind)?;
             (min..=max)
@@ -60,6 +60,24 @@ pub(super) fn broken(
             device_of(&operand.kind).and(device_of(&other.kind))?;
             let differ = digits(operand).is_some() != digits(other).is_some();
             differ.then(|| disagree(operand, other, "does not go with"))
+        }
+        Rule::GroupAtMost(other, max) => {
+            digits(operands.get(other)?)?;
+            let value = constant_value(&operand.kind)?;
+            (value > max).then(|| {
+                let message = format!("`{}` is too many groups of bits", operand.kind);
+                codes::LIMITS
+                    .at(operand.span, message)
+                    .label(format!("at most K{max} with a group"))
+            })
+        }
+        Rule::NotBefore(other) => {
+            let other = operands.get(other)?;
+            let (last, first) = (unindexed(&operand.kind)?, unindexed(&other.kind)?);
+            let apart =
+                is_special(first.class, first.number) != is_special(last.class, last.number);
+            (first.class == last.class && (apart || last.number < first.number))
+                .then(|| disagree(operand, other, "must be in one run with, and not before,"))
         }
         Rule::WideCounter => {
             let device = device_of(&operand.kind)?;
@@ -154,6 +172,14 @@ fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
 fn device_of(kind: &OperandKind) -> Option<Device> {
     match *kind {
         OperandKind::Device(device, _) | OperandKind::Nibbles(_, device, _) => Some(device),
+        _ => None,
+    }
+}
+
+/// The device that an operand without an index register names.
+fn unindexed(kind: &OperandKind) -> Option<Device> {
+    match *kind {
+        OperandKind::Device(device, None) => Some(device),
         _ => None,
     }
 }

@@ -240,6 +240,20 @@ pub fn esqr(cx: &mut Cx) -> Done {
     Ok(())
 }
 
+/// ESQR of HM: beyond the range of floats the root is 0. No flag.
+pub fn esqr_clamped(cx: &mut Cx) -> Done {
+    let value = cx.float(0, 0)?;
+    if value.is_finite() && value < 0.0 {
+        return Err(Fault::DOMAIN);
+    }
+    let root = if value.is_finite() {
+        libm::sqrtf(value)
+    } else {
+        0.0
+    };
+    cx.set_float(1, 0, root)
+}
+
 /// ENEG D (FNC 128): turns the sign.
 pub fn eneg(cx: &mut Cx) -> Done {
     let bits = cx.float_bits(0)?;
