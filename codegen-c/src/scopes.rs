@@ -3,7 +3,7 @@
 use crate::plan::{Node, Plan};
 use crate::walk;
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeKind, ExprId, Stmt, TempId, Ty};
+use rungc_ir::node::{EdgeKind, Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::for_exprs;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -128,10 +128,13 @@ impl Scopes<'_, '_> {
                 };
                 self.assigns(*temp, prefix);
             }
-            Stmt::Edge { kind, out, .. } => self.assigns(
+            Stmt::Edge {
+                kind, input, out, ..
+            } => self.assigns(
                 *out,
                 match kind {
                     EdgeKind::Rising => "rising",
+                    EdgeKind::Falling if *self.module.expr(*input) == Expr::Bit(false) => "taken",
                     EdgeKind::Falling => "falling",
                 },
             ),
