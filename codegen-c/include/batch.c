@@ -22,6 +22,9 @@ typedef struct {
     void (*set_running)(bool running);
     void (*power_cycle)(void);
     bool (*output)(unsigned terminal);
+    void (*input_edge)(unsigned terminal, bool on); /* this and the next two: NULL if the program takes no notice */
+    void (*tick)(uint32_t now_ms);
+    void (*take_interrupts)(void);
     rungc_map (*map)(void);
 } program;
 
@@ -52,13 +55,30 @@ typedef struct {
         return case##n##_map(&memory.case##n);                                                                         \
     }
 
-#define ENTRY(n) {init##n, scan##n, set_running##n, power_cycle##n, output##n, map##n}
+#define EVENTS(n)                                                                                                      \
+    static void input_edge##n(unsigned terminal, bool on)                                                              \
+    {                                                                                                                  \
+        case##n##_input_edge(&memory.case##n, terminal, on);                                                           \
+    }                                                                                                                  \
+    static void tick##n(uint32_t now_ms)                                                                               \
+    {                                                                                                                  \
+        case##n##_tick(&memory.case##n, now_ms);                                                                       \
+    }                                                                                                                  \
+    static void take_interrupts##n(void)                                                                               \
+    {                                                                                                                  \
+        case##n##_take_interrupts(&memory.case##n);                                                                    \
+    }
+
+#define ENTRY(n) {init##n, scan##n, set_running##n, power_cycle##n, output##n, NULL, NULL, NULL, map##n}
+
+#define ENTRY_WITH_EVENTS(n)                                                                                           \
+    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, take_interrupts##n, map##n}
 
 /* CASES */
 
 static const program programs[] = {
     /* ENTRIES */
-    {NULL, NULL, NULL, NULL, NULL, NULL},
+    {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL},
 };
 
 /* The class that a name means. */
@@ -129,6 +149,21 @@ static bool machine_request(const program *program, const char *verb, const long
         done(true);
     } else if (strcmp(verb, "out") == 0) {
         value(true, program->output((unsigned)number[0]));
+    } else if (strcmp(verb, "edge") == 0) {
+        if (program->input_edge != NULL) {
+            program->input_edge((unsigned)number[0], number[1] != 0);
+        }
+        done(true);
+    } else if (strcmp(verb, "tick") == 0) {
+        if (program->tick != NULL) {
+            program->tick((uint32_t)number[0]);
+        }
+        done(true);
+    } else if (strcmp(verb, "interrupts") == 0) {
+        if (program->take_interrupts != NULL) {
+            program->take_interrupts();
+        }
+        done(true);
     } else if (strcmp(verb, "run") == 0) {
         program->set_running(number[0] != 0);
         done(true);

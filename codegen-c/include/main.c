@@ -54,6 +54,12 @@ static uint64_t microseconds(void)
     return (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
 }
 
+static void sleep_until(uint64_t moment_us)
+{
+    const struct timespec until = {.tv_sec = (time_t)(moment_us / 1000000u), .tv_nsec = (long)(moment_us % 1000000u) * 1000L};
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
+}
+
 /* Takes commands like X12=1 (octal) from standard input, without waiting for them. */
 static void read_commands(PROGRAM_plc *plc)
 {
@@ -122,8 +128,7 @@ int main(void)
         scan_us = (uint32_t)(microseconds() - begin);
 
         next += SCAN_MS * 1000u;
-        const struct timespec until = {.tv_sec = (time_t)(next / 1000000u), .tv_nsec = (long)(next % 1000000u) * 1000L};
-        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
+        /* WAIT */
     }
     return 0;
 }

@@ -128,6 +128,10 @@ impl Writer<'_, '_> {
             | Expr::ReadPair(_)
             | Expr::ReadFloat(_)
             | Expr::ReadNibbles { .. } => self.read(out, id, around),
+            Expr::Flag(flag) => {
+                out.push_str("plc->");
+                out.push_str(&module.flags[flag.0 as usize].name);
+            }
             Expr::Sys(value) => out.push_str(match value {
                 SysValue::Running => "plc->sys.running",
                 SysValue::FirstScan => "plc->sys.first_scan",

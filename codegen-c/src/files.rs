@@ -1,5 +1,6 @@
 //! Puts units into files.
 
+use crate::events;
 use crate::fields::Fields;
 use crate::header;
 use crate::text;
@@ -196,8 +197,13 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         let unit = unit::unit(&module, true);
         api.push_str(&unit.api);
         api.push('\n');
-        let _ = writeln!(table, "CASE({i})");
-        let _ = writeln!(members, "    ENTRY({i}),");
+        if events::has_events(&module) {
+            let _ = writeln!(table, "CASE({i})\nEVENTS({i})");
+            let _ = writeln!(members, "    ENTRY_WITH_EVENTS({i}),");
+        } else {
+            let _ = writeln!(table, "CASE({i})");
+            let _ = writeln!(members, "    ENTRY({i}),");
+        }
         let size = sources.last().map_or(usize::MAX, String::len);
         let length: usize =
             unit.internal.len() + unit.groups.iter().map(String::len).sum::<usize>();

@@ -1,5 +1,6 @@
 //! The header of a program: its struct, field by field, and its functions.
 
+use crate::events;
 use crate::fields::{Field, Fields, Section};
 use crate::plan::Plan;
 use crate::text;
@@ -46,6 +47,9 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
         size.total()
     );
     prototypes(&mut out, name);
+    if events::has_events(module) {
+        out.push_str(&events::prototypes(module));
+    }
     if runtime {
         let _ = write!(
             out,
@@ -84,6 +88,10 @@ fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
         let line = format!("    bool edge[{}];", module.edges);
         push_with_comment(out, &line, "last states of edge contacts, pulses and steps");
         size.add(module.edges, 1);
+    }
+    for (line, comment, bytes) in events::fields(module) {
+        push_with_comment(out, &format!("    {line}"), &comment);
+        size.add(bytes, bytes);
     }
     if plan.jumps() {
         push_with_comment(

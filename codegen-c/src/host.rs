@@ -1,23 +1,33 @@
 //! The host program for Linux: scans in real time.
 
+use crate::events;
 use crate::fields::Fields;
 use crate::text;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What stands around the tables of terminals.
 const MAIN_C: &str = include_str!("../include/main.c");
+
+/// How a program waits for its next scan that may be interrupted.
+const WAIT_WITH_EVENTS: &str = "\
+for (uint64_t now = microseconds(); now < next && !stopped; now = microseconds()) {
+            sleep_until(now + 1000u < next ? now + 1000u : next);
+            PROGRAM_tick(plc, (uint32_t)((microseconds() - start) / 1000u));
+            PROGRAM_take_interrupts(plc);
+        }";
 
 /// `main.c` for a program.
 pub fn main_file(module: &Module) -> String {
     let fields = Fields::new(module);
     let name = &module.name;
     let mut inputs = String::new();
-    for (number, access) in terminals(&fields, DeviceClass::X) {
+    for (number, statements) in inputs_of(module, &fields) {
         let _ = writeln!(
             inputs,
-            "    case {number}:\n        {access} = on;\n        return true;"
+            "    case {number}:\n{statements}        return true;"
         );
     }
     let mut outputs = String::new();
@@ -33,10 +43,29 @@ pub fn main_file(module: &Module) -> String {
             text::string_literal(&text)
         );
     }
+    let wait = if events::has_events(module) {
+        WAIT_WITH_EVENTS
+    } else {
+        "sleep_until(next);"
+    };
     MAIN_C
+        .replace("/* WAIT */", wait)
         .replace("    /* INPUTS */\n", &inputs)
         .replace("    /* OUTPUTS */\n", &outputs)
         .replace("PROGRAM", name)
+}
+
+/// The input terminals, and what it means to each that it goes on or off.
+fn inputs_of(module: &Module, fields: &Fields) -> BTreeMap<u32, String> {
+    let mut inputs: BTreeMap<u32, String> = BTreeMap::new();
+    for (number, access) in terminals(fields, DeviceClass::X) {
+        inputs.insert(number, format!("        {access} = on;\n"));
+    }
+    for number in events::inputs(module) {
+        let edge = format!("        {}_input_edge(plc, {number}, on);\n", module.name);
+        inputs.entry(number).or_default().push_str(&edge);
+    }
+    inputs
 }
 
 fn terminals(fields: &Fields, class: DeviceClass) -> Vec<(u32, String)> {

@@ -7,6 +7,7 @@
 //! `scopes` finds where temporaries live, `writer` and `expr` write statements and expressions, `unit` puts it all together.
 
 mod devices;
+mod events;
 mod expr;
 mod fields;
 mod files;

@@ -1,5 +1,6 @@
 //! One module as C text: declarations, and functions in groups of bounded size.
 
+use crate::events;
 use crate::fields::{Field, Fields, Section};
 use crate::header;
 use crate::plan::Plan;
@@ -78,6 +79,9 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
         groups[0].push_str(&clearing);
     }
     printer.api_functions(&mut groups[0], plan.jumps());
+    if events::has_events(module) {
+        groups[0].push_str(&events::functions(module));
+    }
     if runtime {
         table::write(&mut groups[0], module, &fields);
     }
@@ -135,7 +139,11 @@ fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
         let subroutine = function.suffix.is_empty()
             && matches!(
                 writer.module.functions.get(function.root).map(|f| &f.kind),
-                Some(FunctionKind::Subroutine(_) | FunctionKind::Interrupt(_))
+                Some(
+                    FunctionKind::Subroutine(_)
+                        | FunctionKind::Interrupt(_)
+                        | FunctionKind::TakeInterrupts
+                )
             );
         if !single || subroutine {
             let storage = if single { "static " } else { "" };
@@ -321,6 +329,11 @@ impl Printer<'_> {
                 let _ = writeln!(special, "    {device} = {value};");
             }
         }
+        for &number in &module.initial_bits {
+            if let Some(device) = self.stored(DeviceClass::M, number) {
+                let _ = writeln!(special, "    {device} = true;");
+            }
+        }
         let forget = self.forget(out);
         let states = if module.states > 0 {
             "    memset(plc->state, 0, sizeof plc->state);\n"
@@ -383,6 +396,7 @@ impl Printer<'_> {
         if self.module.edges > 0 {
             body.push_str("    memset(plc->edge, 0, sizeof plc->edge);\n");
         }
+        body.push_str(&events::forget(self.module));
         for class in [DeviceClass::T, DeviceClass::C] {
             for field in self.fields.of_class(class) {
                 let mut device = String::from("plc->");

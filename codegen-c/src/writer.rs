@@ -481,6 +481,10 @@ impl<'a, 'm> Writer<'a, 'm> {
                 }
                 code.push(';');
             }
+            Stmt::SetFlag(flag, on) => {
+                let flag = &self.module.flags[flag.0 as usize].name;
+                code = format!("plc->{flag} = {on};");
+            }
             Stmt::CallSub(function) => {
                 function_name(&mut code, self.module, *function as usize);
                 code.push_str("(plc);");
@@ -548,6 +552,7 @@ pub fn function_name(out: &mut String, module: &Module, function: usize) {
         Some(FunctionKind::End) => write!(out, "{name}_end"),
         Some(FunctionKind::Subroutine(p)) => write!(out, "{name}_P{p}"),
         Some(FunctionKind::Interrupt(i)) => write!(out, "{name}_I{i:03}"),
+        Some(FunctionKind::TakeInterrupts) => write!(out, "{name}_interrupts"),
         Some(FunctionKind::Main) | None => write!(out, "{name}_program"),
     };
 }

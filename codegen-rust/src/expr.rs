@@ -173,6 +173,10 @@ impl Generator<'_> {
                 digits,
                 wide,
             } => self.read_nibbles(place, digits, wide),
+            Expr::Flag(flag) => {
+                let flag = self.flag(flag);
+                Code::atom(quote!(plc.#flag))
+            }
             Expr::Sys(value) => sys_value(value),
             Expr::Not(a) => self.not(a),
             Expr::And(a, b) => Code::binary("&", self.expr(a), self.expr(b)),

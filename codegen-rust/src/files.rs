@@ -369,11 +369,29 @@ fn host(generator: &Generator, crate_name: &str) -> String {
     if !table.is_empty() {
         table.push('\n');
     }
+    let wait = if generator.module.flags.is_empty() {
+        WAIT
+    } else {
+        WAIT_WITH_EVENTS
+    };
     include_str!("../templates/host.rs")
         .replace("OUTPUT_TABLE", &table)
+        .replace("        WAIT;\n", wait)
         .replace("CRATE", crate_name)
         .replace("TYPE", &generator.type_name.to_string())
 }
+
+/// How a host waits for the next scan.
+const WAIT: &str = "        std::thread::sleep(next.saturating_duration_since(Instant::now()));\n";
+
+/// How a host waits that may be interrupted.
+const WAIT_WITH_EVENTS: &str = "\
+        while Instant::now() < next {
+            std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
+            plc.tick(start.elapsed().as_millis() as u32);
+            plc.take_interrupts(&mut hal);
+        }
+";
 
 /// A crate for many programs.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {

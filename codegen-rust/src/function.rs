@@ -48,6 +48,9 @@ impl Generator<'_> {
             FunctionKind::Main => "The program.".to_string(),
             FunctionKind::End => "END processing.".to_string(),
             FunctionKind::Subroutine(p) => self.pointer_doc("Subroutine", DeviceClass::P, p),
+            FunctionKind::TakeInterrupts => {
+                "Runs the interrupt routines that are requested.".to_string()
+            }
             FunctionKind::Interrupt(i) => self.pointer_doc("Interrupt routine", DeviceClass::I, i),
         };
         let name = self.unique_name(function_name(function));

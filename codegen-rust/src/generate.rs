@@ -261,6 +261,7 @@ pub fn function_name(function: &Function) -> String {
         FunctionKind::Main => "program".to_string(),
         FunctionKind::End => "end_scan".to_string(),
         FunctionKind::Subroutine(n) => format!("subroutine_p{n}"),
+        FunctionKind::TakeInterrupts => "interrupts".to_string(),
         FunctionKind::Interrupt(n) => format!("interrupt_i{n:03}"),
     }
 }

@@ -8,6 +8,7 @@
 //! length.
 
 mod analysis;
+mod events;
 mod expr;
 mod files;
 mod format;

@@ -1,5 +1,6 @@
 //! The struct that holds the devices, and what it implements: access by number, and the scan.
 
+use crate::events::Hidden;
 use crate::generate::{Generator, Item, function_name};
 use crate::storage::{Elem, Field};
 use crate::{expr::literal32, format};
@@ -118,7 +119,7 @@ impl Generator<'_> {
     }
 
     /// What is no device: name, type, value at power-on, meaning.
-    fn hidden_fields(&mut self) -> Vec<(Ident, TokenStream, TokenStream, &'static str)> {
+    fn hidden_fields(&mut self) -> Vec<Hidden> {
         let (edge, state, sys) = (self.rt("Edge"), self.rt("State"), self.rt("Sys"));
         let mut fields = Vec::new();
         if self.module.edges > 0 {
@@ -140,6 +141,7 @@ impl Generator<'_> {
             quote!([#state::new(); #count]),
             "Private memories of instructions.",
         ));
+        fields.extend(self.flag_fields());
         if self.jumps_back {
             fields.push((
                 format_ident!("jumps_left"),
@@ -211,12 +213,17 @@ impl Generator<'_> {
     fn preset(&mut self) -> TokenStream {
         let plc = quote!(self);
         let words = self.module.initial_words.iter();
+        let bits = self.module.initial_bits.iter().filter_map(|&number| {
+            let cell = self.storage.bit(&plc, DeviceClass::M, number)?;
+            Some(quote!(#cell = true;))
+        });
         words
             .filter_map(|&(number, value)| {
                 let cell = self.storage.word(&plc, DeviceClass::D, number)?;
                 let value = literal32(i32::from(value), false);
                 Some(quote!(#cell = #value;))
             })
+            .chain(bits)
             .collect()
     }
 
@@ -265,6 +272,7 @@ impl Generator<'_> {
             let count = Literal::u32_unsuffixed(self.module.edges);
             out.extend(quote!(self.edges = [#edge(false); #count];));
         }
+        out.extend(self.forget_flags());
         for field in &self.storage.fields {
             if matches!(field.elem, Elem::Bit | Elem::Word) {
                 continue;
@@ -345,6 +353,7 @@ impl Generator<'_> {
         );
         let off = off.map(|off| quote!(& !#off));
         let power_cycle = self.power_cycle();
+        let events = self.event_methods();
         let jumps = self
             .jumps_back
             .then(|| quote!(self.jumps_left = MAX_JUMPS_BACK;));
@@ -358,6 +367,7 @@ impl Generator<'_> {
                     #in_run
                     self.sys.end_scan();
                 }
+                #events
                 fn set_running(&mut self, running: bool) {
                     if !self.sys.set_running(running) { return; }
                     if running { self.forget(); } else #stop
@@ -391,9 +401,10 @@ impl Generator<'_> {
         let others = self.zeroing(|field| !kept(field));
         let preset = (!self.preset().is_empty()).then(|| quote!(self.preset();));
         let hidden = self.hidden_fields();
+        let forgotten: Vec<Ident> = self.flag_fields().into_iter().map(|f| f.0).collect();
         let hidden = hidden
             .iter()
-            .filter(|f| f.0 != "edges")
+            .filter(|f| f.0 != "edges" && !forgotten.contains(&f.0))
             .map(|(name, _, value, _)| quote!(self.#name = #value;));
         let hidden: TokenStream = hidden.collect();
         quote! {
@@ -402,8 +413,8 @@ impl Generator<'_> {
                 self.clear_general();
                 #others
                 #preset
-                self.forget();
                 #hidden
+                self.forget();
             }
         }
     }

@@ -107,6 +107,10 @@ impl Generator<'_> {
                 value,
             } => self.write_nibbles(*place, *digits, *value),
             Stmt::Timer { .. } | Stmt::Counter16 { .. } | Stmt::Counter32 { .. } => self.coil(stmt),
+            Stmt::SetFlag(flag, on) => {
+                let flag = self.flag(*flag);
+                quote!(plc.#flag = #on;)
+            }
             Stmt::Reset(place) => self.reset(*place),
             Stmt::If {
                 cond,

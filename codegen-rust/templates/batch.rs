@@ -76,6 +76,9 @@ fn answer(bench: &mut Option<Bench>, request: &str, mut words: SplitAsciiWhitesp
             hal.advance_to(now_ms);
             program.scan(hal, now_ms, next(words)?);
         }
+        "edge" => program.input_edge(next(words)?, next::<i64>(words)? != 0),
+        "tick" => program.tick(next(words)?),
+        "interrupts" => program.take_interrupts(hal),
         "out" => return Some(u8::from(program.output(next(words)?)).to_string()),
         "run" => program.set_running(next::<i64>(words)? != 0),
         "power" => {

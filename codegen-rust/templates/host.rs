@@ -43,7 +43,7 @@ fn main() {
         }
         scan_us = begin.elapsed().as_micros() as u32;
         next += SCAN;
-        std::thread::sleep(next.saturating_duration_since(Instant::now()));
+        WAIT;
     }
 }
 
@@ -70,5 +70,7 @@ fn set_input(plc: &mut TYPE, line: &str) -> Option<()> {
         "1" => true,
         _ => return None,
     };
-    plc.set_bit(Class::X, number, on)
+    plc.set_bit(Class::X, number, on)?;
+    plc.input_edge(number, on);
+    Some(())
 }

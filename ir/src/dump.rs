@@ -5,7 +5,8 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Arg, BinOp, Body, EdgeKind, Expr, ExprId, Function, FunctionKind, Module, Place, Stmt, SysValue,
+    Arg, BinOp, Body, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Module, Place, Stmt,
+    SysValue,
 };
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -78,6 +79,7 @@ impl Out<'_> {
             FunctionKind::End => "end".to_string(),
             FunctionKind::Subroutine(pointer) => format!("subroutine P{pointer}"),
             FunctionKind::Interrupt(pointer) => format!("interrupt I{pointer:03}"),
+            FunctionKind::TakeInterrupts => "take interrupts".to_string(),
         };
         self.block(&head, &function.body);
     }
@@ -185,17 +187,28 @@ impl Out<'_> {
             Stmt::Reset(place) => format!("reset {}", self.place(place)),
             Stmt::CallSub(n) => match self.module.functions.get(*n as usize).map(|f| &f.kind) {
                 Some(FunctionKind::Subroutine(pointer)) => format!("call P{pointer}"),
+                Some(FunctionKind::Interrupt(pointer)) => format!("call I{pointer:03}"),
+                Some(FunctionKind::TakeInterrupts) => "take interrupts".into(),
                 _ => format!("call function {n}"),
             },
             Stmt::Return => "return".into(),
             Stmt::Goto(label) => format!("goto L{}", label.0),
             Stmt::Call { .. } => self.call(stmt),
             Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
+            Stmt::SetFlag(flag, on) => {
+                format!("{} := {}", self.flag(*flag), if *on { "on" } else { "off" })
+            }
             Stmt::Stop => "stop".into(),
             Stmt::Clear { latched: true } => "clear latched".into(),
             Stmt::Clear { latched: false } => "clear general".into(),
             Stmt::Network(_) | Stmt::If { .. } | Stmt::For { .. } | Stmt::Parts(_) => String::new(),
         }
+    }
+
+    fn flag(&self, flag: FlagId) -> String {
+        let flags = &self.module.flags;
+        let name = flags.get(flag.0 as usize).map_or("?", |flag| &flag.name);
+        format!("flag {name}")
     }
 
     fn call(&self, stmt: &Stmt) -> String {
@@ -288,6 +301,7 @@ impl Out<'_> {
                 let wide = if *wide { ":32" } else { "" };
                 format!("K{digits}{}{wide}", self.place(place))
             }
+            Expr::Flag(flag) => self.flag(*flag),
             Expr::Sys(SysValue::Running) => "running".into(),
             Expr::Sys(SysValue::FirstScan) => "first_scan".into(),
             Expr::Sys(SysValue::NowMs) => "now_ms".into(),

@@ -233,6 +233,7 @@ impl<'m> Builder<'m> {
             | Stmt::Goto(_)
             | Stmt::Fault { .. }
             | Stmt::Stop
+            | Stmt::SetFlag(..)
             | Stmt::Clear { .. } => {}
         }
     }

@@ -185,9 +185,17 @@ impl Model {
             .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
     }
 
+    /// Special relays that are on at power-on.
+    pub fn special_bits(&self) -> impl Iterator<Item = u32> + use<> {
+        special::all(self.id)
+            .filter(|row| row.class == DeviceClass::M && row.default != 0)
+            .flat_map(|row| row.first..=row.last)
+    }
+
     /// Whether a special relay does on this model what its number does on most of them: M8034 is an interrupt request on HM.
     pub fn special_relay_works(&self, number: u32) -> bool {
-        special::find(self.id, DeviceClass::M, number).is_some_and(special::Special::works)
+        special::find(self.id, DeviceClass::M, number)
+            .is_some_and(special::Special::is_kept_by_scan)
     }
 
     /// The range that holds a device.

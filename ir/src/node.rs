@@ -37,6 +37,36 @@ pub struct TempId(pub u32);
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct EdgeId(pub u32);
 
+/// Handle of a [`Flag`] in [`Module::flags`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct FlagId(pub u32);
+
+/// A private bit with a name; off at power-on and when RUN begins. One with a source is set from outside the scan.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Flag {
+    /// An identifier in lower case, unique in the module: `x000_rose`.
+    pub name: String,
+    /// What sets it besides the program; `None`: nothing.
+    pub source: Option<Source>,
+}
+
+/// What happens outside the scan. It only sets a flag, at any time between two statements; what follows from it is the program's.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum Source {
+    /// An input terminal changes ([`rungc_rt::Program::input_edge`]).
+    Input {
+        /// Terminal X, a plain number.
+        number: u32,
+        /// Which change.
+        kind: EdgeKind,
+    },
+    /// So many milliseconds of RUN have passed since the last time, or since RUN began ([`rungc_rt::Program::tick`]).
+    Period {
+        /// Period, at least 1.
+        ms: u32,
+    },
+}
+
 /// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub struct Place {
@@ -157,6 +187,8 @@ pub enum Expr {
     },
     /// A value of the scan driver.
     Sys(SysValue),
+    /// State of a flag.
+    Flag(FlagId),
     /// Not, of a `Bit`.
     Not(ExprId),
     /// And, of two `Bit`s; both are evaluated (they have no effects).
@@ -259,6 +291,8 @@ pub enum Stmt {
         /// Receives the result.
         out: TempId,
     },
+    /// Sets or resets a flag.
+    SetFlag(FlagId, bool),
     /// Writes a bit device (Y, M, S, or X by force only).
     WriteBit(Place, ExprId),
     /// Writes bit 0–15 of a word device.
@@ -415,6 +449,10 @@ pub enum FunctionKind {
     Subroutine(u32),
     /// An interrupt routine, by its pointer number.
     Interrupt(u32),
+    /// Runs the interrupt routines that are requested. `Main` calls it at the begin of each network, `End` at its begin, and a host
+    /// may between two scans ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt
+    /// routine is itself.
+    TakeInterrupts,
 }
 
 /// A function: no parameters, no result, no recursion.
@@ -447,7 +485,10 @@ pub struct Module {
     pub states: u16,
     /// Texts.
     pub texts: Vec<String>,
-    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines.
+    /// Private bits.
+    pub flags: Vec<Flag>,
+    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, and `TakeInterrupts` if there
+    /// are any of these.
     pub functions: Vec<Function>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
@@ -457,6 +498,8 @@ pub struct Module {
     pub layout: Layout,
     /// Special registers' values at power-on, of those stored.
     pub initial_words: Vec<(u32, i16)>,
+    /// Special relays that are on at power-on, of those stored.
+    pub initial_bits: Vec<u32>,
 }
 
 impl Module {
@@ -476,6 +519,7 @@ impl Module {
             edges: 0,
             states: 0,
             texts: Vec::new(),
+            flags: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),
@@ -483,6 +527,7 @@ impl Module {
             comments: Vec::new(),
             layout: Layout::default(),
             initial_words: Vec::new(),
+            initial_bits: Vec::new(),
         }
     }
 
@@ -513,6 +558,7 @@ pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         | Expr::And(..)
         | Expr::Or(..)
         | Expr::Cmp(..)
+        | Expr::Flag(_)
         | Expr::InRange { .. } => Ty::Bit,
         Expr::I16(_)
         | Expr::ReadWord(_)

@@ -50,9 +50,9 @@ pub struct Special {
 }
 
 impl Special {
-    /// Whether it does what it means.
-    pub fn works(&self) -> bool {
-        !matches!(self.status, Status::Inert(_))
+    /// Whether the scan driver keeps it.
+    pub fn is_kept_by_scan(&self) -> bool {
+        matches!(self.status, Status::Scan)
     }
 }
 
@@ -94,7 +94,7 @@ const SERIAL: &str = "serial communication is not implemented yet";
 const CAN: &str = "CAN communication is not implemented yet";
 const LINK: &str = "links between PLCs are not implemented yet";
 const TRACE: &str = "sampling traces are a matter of the editor";
-const INTERRUPTS: &str = "interrupts are not implemented yet";
+const INTERRUPTS: &str = "interrupts of this kind are not implemented yet";
 const NETWORK: &str = "network cards are not implemented";
 const RAW: &str = "analog channels show the raw values of the host, each scan";
 const LATCHES: &str = "the latched ranges are the manual's and do not change";
@@ -167,9 +167,11 @@ mod tests {
 
     #[test]
     fn rows_are_found_by_model() {
-        let of = |id, class, number| find(id, class, number).map(|row| (row.access, row.works()));
+        let of = |id, class, number| {
+            find(id, class, number).map(|row| (row.access, row.is_kept_by_scan()))
+        };
         assert_eq!(of(ModelId::H2u, M, 8000), Some((Access::Read, true)));
-        assert_eq!(of(ModelId::H2u, M, 8210), Some((Access::ReadWrite, true)));
+        assert_eq!(of(ModelId::H2u, M, 8210), Some((Access::ReadWrite, false)));
         assert_eq!(of(ModelId::H2u, M, 8010), None);
         assert_eq!(of(ModelId::Hm, M, 8034), Some((Access::ReadWrite, false)));
         assert_eq!(of(ModelId::Fx3u, M, 8034), Some((Access::ReadWrite, true)));

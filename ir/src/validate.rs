@@ -58,6 +58,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::ReadNibbles { digits, wide, .. } => (1..=if wide { 8 } else { 4 }).contains(&digits),
         Expr::ReadWordBit(_, bit) => bit < 16,
         Expr::InRange { count, .. } => count > 0,
+        Expr::Flag(flag) => (flag.0 as usize) < module.flags.len(),
         Expr::Sys(
             SysValue::Running | SysValue::FirstScan | SysValue::NowMs | SysValue::Scan100us,
         )
@@ -333,6 +334,7 @@ impl Checker<'_> {
                     && args.iter().all(|arg| self.arg(arg)),
                 None,
             ),
+            Stmt::SetFlag(flag, _) => ((flag.0 as usize) < module.flags.len(), None),
             Stmt::CallSub(_)
             | Stmt::Return
             | Stmt::Parts(_)

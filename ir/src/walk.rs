@@ -1,6 +1,6 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
-use crate::node::{Arg, Body, Expr, ExprId, Module, Part, Stmt};
+use crate::node::{Arg, Body, Expr, ExprId, Function, FunctionKind, Module, Part, Stmt};
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
@@ -39,7 +39,8 @@ fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
         | Expr::I32(_)
         | Expr::F32(_)
         | Expr::Temp(_)
-        | Expr::Sys(_) => [None, None],
+        | Expr::Sys(_)
+        | Expr::Flag(_) => [None, None],
     }
 }
 
@@ -85,6 +86,7 @@ macro_rules! for_exprs {
                     drive.$iter().for_each(f);
                 }
                 Stmt::Network(_)
+                | Stmt::SetFlag(..)
                 | Stmt::CallSub(_)
                 | Stmt::Return
                 | Stmt::Parts(_)
@@ -145,7 +147,9 @@ pub fn callees(body: &[Stmt]) -> Vec<usize> {
 pub fn called_functions(module: &Module) -> Vec<bool> {
     let mut called = vec![false; module.functions.len()];
     // `Begin`, `Main` and `End` come first.
-    let mut open: Vec<usize> = (0..called.len().min(3)).collect();
+    let by_host = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
+    let interrupts = module.functions.iter().position(by_host);
+    let mut open: Vec<usize> = (0..called.len().min(3)).chain(interrupts).collect();
     while let Some(i) = open.pop() {
         if let Some(known) = called.get_mut(i).filter(|known| !**known) {
             *known = true;

@@ -226,7 +226,7 @@ fn what_is_not_implemented_is_refused_by_name() {
         ["E0036 `OUT C235` is not implemented yet: high-speed counters"]
     );
     assert_eq!(
-        refused("EI\nLD X10\nOUT Y0\nFEND\nI001\nLD X1\nOUT Y1\nIRET\nEND\n"),
-        ["E0036 `I001` is not implemented yet: interrupts"]
+        refused("EI\nLD X10\nOUT Y0\nFEND\nI010\nLD X1\nOUT Y1\nIRET\nEND\n"),
+        ["E0036 `I010` is not implemented yet: what requests it"]
     );
 }

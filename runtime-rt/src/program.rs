@@ -10,6 +10,22 @@ pub trait Program: Plc {
     /// special relays that run from power-on (the clocks) are brought up to date.
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
 
+    /// Input terminal X `number` goes on or off. Only programs with interrupts and pulse catch take notice of it; others see their
+    /// inputs as X shows them to a scan. Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
+    fn input_edge(&mut self, number: u32, level: bool) {
+        let _ = (number, level);
+    }
+
+    /// Time goes on: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as those of inputs.
+    fn tick(&mut self, now_ms: u32) {
+        let _ = now_ms;
+    }
+
+    /// Runs the interrupt routines that are requested, between two scans. In a scan they run in front of each network.
+    fn take_interrupts(&mut self, hal: &mut dyn Hal) {
+        let _ = hal;
+    }
+
     /// The RUN/STOP switch. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;
     /// going to RUN makes the next scan the first one (M8002) and forgets all edges, the coils of timers and counters included.
     /// Setting the mode that it is in changes nothing. A program is in RUN at power-on.

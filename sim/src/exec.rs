@@ -65,6 +65,7 @@ impl<'m> Machine<'m> {
                     Value::I16(value as i16)
                 }
             }
+            Expr::Flag(flag) => Value::Bit(self.flags[flag.0 as usize]),
             Expr::Sys(SysValue::Running) => Value::Bit(self.sys.running),
             Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
             Expr::Sys(SysValue::NowMs) => Value::I32(self.sys.now_ms as i32),
@@ -285,6 +286,7 @@ impl<'m> Machine<'m> {
                     EdgeKind::Falling => before && !now,
                 });
             }
+            Stmt::SetFlag(flag, on) => self.flags[flag.0 as usize] = on,
             Stmt::WriteBit(place, value) => {
                 let on = self.on(value);
                 self.write_bit(place, on);

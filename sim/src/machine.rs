@@ -6,7 +6,7 @@
 use crate::devices::Devices;
 use crate::exec::{Flow, Value};
 use rungc_ir::Module;
-use rungc_ir::node::{FunctionKind, Ty};
+use rungc_ir::node::{EdgeKind, FunctionKind, Source, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_rt::{Class, Hal, Operand, Plc, Program, State, Sys};
 
@@ -24,6 +24,9 @@ pub struct Machine<'m> {
     pub(crate) devices: Devices,
     pub(crate) temps: Vec<Value>,
     pub(crate) edges: Vec<bool>,
+    pub(crate) flags: Vec<bool>,
+    /// When the period of each flag that has one began.
+    periods: Vec<u32>,
     pub(crate) sys: Sys,
     /// Statements that this scan may still execute.
     pub(crate) budget: u64,
@@ -41,6 +44,8 @@ impl<'m> Machine<'m> {
             devices: Devices::new(module.model),
             temps: module.temps.iter().map(|&ty| Value::zero(ty)).collect(),
             edges: vec![false; module.edges as usize],
+            flags: vec![false; module.flags.len()],
+            periods: vec![0; module.flags.len()],
             sys: Sys::power_on(),
             budget: 0,
             operands: Vec::new(),
@@ -66,6 +71,9 @@ impl<'m> Machine<'m> {
             // A model's table names only devices that it has.
             let _ = self.set_word(Class::D, number, value);
         }
+        for number in self.module.model.special_bits() {
+            let _ = self.set_bit(Class::M, number, true);
+        }
         self.states.fill(State::default());
         self.sys = Sys::power_on();
         self.watchdog_tripped = false;
@@ -74,6 +82,8 @@ impl<'m> Machine<'m> {
 
     fn begin_run(&mut self) {
         self.edges.fill(false);
+        self.flags.fill(false);
+        self.periods.fill(self.sys.now_ms);
         self.devices.forget_coils();
     }
 
@@ -90,6 +100,11 @@ impl<'m> Machine<'m> {
         }
     }
 
+    fn restart_watchdog(&mut self) {
+        let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS).unwrap_or(0).max(1);
+        self.budget = watchdog_ms as u64 * STATEMENTS_PER_MS;
+    }
+
     fn trip_watchdog(&mut self) {
         self.watchdog_tripped = true;
         rungc_rt::trip_watchdog(self);
@@ -100,8 +115,7 @@ impl<'m> Machine<'m> {
 impl Program for Machine<'_> {
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
         self.sys.begin_scan(now_ms, scan_us);
-        let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS).unwrap_or(0).max(1);
-        self.budget = watchdog_ms as u64 * STATEMENTS_PER_MS;
+        self.restart_watchdog();
 
         let functions: &[FunctionKind] = if self.sys.running {
             &[FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
@@ -115,6 +129,39 @@ impl Program for Machine<'_> {
             }
         }
         self.sys.end_scan();
+    }
+
+    fn input_edge(&mut self, number: u32, level: bool) {
+        let kind = if level {
+            EdgeKind::Rising
+        } else {
+            EdgeKind::Falling
+        };
+        for (flag, state) in self.module.flags.iter().zip(&mut self.flags) {
+            *state |= flag.source == Some(Source::Input { number, kind });
+        }
+    }
+
+    fn tick(&mut self, now_ms: u32) {
+        let states = self.flags.iter_mut().zip(&mut self.periods);
+        for (flag, (state, last)) in self.module.flags.iter().zip(states) {
+            if let Some(Source::Period { ms }) = flag.source
+                && now_ms.wrapping_sub(*last) >= ms
+            {
+                *last = last.wrapping_add(ms);
+                *state = true;
+            }
+        }
+    }
+
+    fn take_interrupts(&mut self, hal: &mut dyn Hal) {
+        if !self.sys.running {
+            return;
+        }
+        self.restart_watchdog();
+        if self.run_function(hal, &FunctionKind::TakeInterrupts) == Flow::OutOfTime {
+            self.trip_watchdog();
+        }
     }
 
     fn set_running(&mut self, running: bool) {

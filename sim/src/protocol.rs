@@ -30,6 +30,12 @@ pub enum Request {
         /// Duration of the scan before, in microseconds.
         scan_us: u32,
     },
+    /// An input terminal goes on or off.
+    Edge(u32, bool),
+    /// So many milliseconds have passed since power-on.
+    Tick(u32),
+    /// Runs the interrupts that are requested.
+    Interrupts,
     /// Asks for the state of an output terminal.
     Output(u32),
     /// The RUN/STOP switch.
@@ -108,6 +114,9 @@ impl fmt::Display for Request {
             Request::Word(c, n) => write!(f, "getword {} {n}", letters(c)),
             Request::Double(c, n) => write!(f, "getdword {} {n}", letters(c)),
             Request::Scan { now_ms, scan_us } => write!(f, "scan {now_ms} {scan_us}"),
+            Request::Edge(n, level) => write!(f, "edge {n} {}", u8::from(level)),
+            Request::Tick(now_ms) => write!(f, "tick {now_ms}"),
+            Request::Interrupts => write!(f, "interrupts"),
             Request::Output(n) => write!(f, "out {n}"),
             Request::Run(run) => write!(f, "run {}", u8::from(run)),
             Request::Power => write!(f, "power"),

@@ -3,7 +3,9 @@
 use super::Code;
 use super::pointers::Pointers;
 use crate::catalogue::Basic;
+use crate::interrupts;
 use crate::model::{ModelId, ModelSet};
+use crate::node::Source;
 use rungc_syntax::{DeviceClass, Diagnostics, codes};
 
 /// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
@@ -11,7 +13,7 @@ const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::of(&[ModelId::Hm]);
 
 /// Checks who uses the fast inputs.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
-    let interrupts = interrupts(pointers);
+    let interrupts = interrupts(code.model().id, pointers);
     let counters = counters(code);
     one_pointer_per_source(code, &interrupts, out);
     inputs_shared(code, &interrupts, &counters, out);
@@ -25,30 +27,36 @@ struct Interrupt {
     number: u32,
     /// Where it begins.
     label: usize,
+    /// The input that requests it.
+    input: Option<u32>,
 }
 
 impl Interrupt {
-    /// The input that requests it: I000, I001 X000; I100, I101 X001; … I501 X005.
-    fn input(&self) -> Option<u32> {
-        (self.number % 100 <= 1 && self.number / 100 <= 5).then_some(self.number / 100)
-    }
-
     /// What it must not share with another: an input, or one of the timers I6, I7, I8.
-    fn source(&self) -> Option<u32> {
+    fn source(&self) -> Option<(bool, u32)> {
         let timer = (601..=899).contains(&self.number);
-        self.input().or(timer.then_some(self.number / 100))
+        let timer = timer.then_some((true, self.number / 100));
+        self.input.map(|input| (false, input)).or(timer)
     }
 }
 
 /// The interrupt routines in the order of the program.
-fn interrupts(pointers: &Pointers) -> Vec<Interrupt> {
+fn interrupts(model: ModelId, pointers: &Pointers) -> Vec<Interrupt> {
     let mut found: Vec<_> = pointers
         .iter()
         .filter(|(device, _)| device.class == DeviceClass::I)
         .filter_map(|(device, pointer)| {
             let number = device.number;
             let label = *pointer.labels.first()?;
-            Some(Interrupt { number, label })
+            let input = match interrupts::find(model, number).and_then(|known| known.source) {
+                Some(Source::Input { number, .. }) => Some(number),
+                _ => None,
+            };
+            Some(Interrupt {
+                number,
+                label,
+                input,
+            })
         })
         .collect();
     found.sort_unstable_by_key(|interrupt| interrupt.label);
@@ -65,7 +73,7 @@ fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagn
         let Some(first) = interrupts[..n].iter().find(same) else {
             continue;
         };
-        let message = match second.input() {
+        let message = match second.input {
             Some(input) => format!("both edges of `{}` interrupt", DeviceClass::X.number(input)),
             None => format!("timer interrupt I{} has two periods", second.number / 100),
         };
@@ -182,7 +190,7 @@ fn inputs_shared(
     out: &mut Diagnostics,
 ) {
     for interrupt in interrupts {
-        let Some(input) = interrupt.input() else {
+        let Some(input) = interrupt.input else {
             continue;
         };
         for counter in counters

@@ -28,6 +28,16 @@ pub(super) struct Region {
     runs_into: Option<u32>,
 }
 
+/// An interrupt routine.
+pub(super) struct Routine {
+    /// Its pointer's number.
+    pub(super) number: u32,
+    /// Its index in [`crate::node::Module::functions`].
+    pub(super) function: u32,
+    /// Its pointer's instruction.
+    pub(super) start: usize,
+}
+
 /// Where functions begin and end and what is jumped to.
 pub(super) struct Flow {
     /// The main program first.
@@ -191,6 +201,24 @@ impl Flow {
         end
     }
 
+    /// The interrupt routines.
+    pub(super) fn interrupts(&self) -> Vec<Routine> {
+        let routine = |region: &Region| match region.kind {
+            FunctionKind::Interrupt(number) => Some(Routine {
+                number,
+                function: region.function,
+                start: region.start,
+            }),
+            _ => None,
+        };
+        self.regions.iter().filter_map(routine).collect()
+    }
+
+    /// Whether the function at hand is the main program.
+    pub(super) fn in_main(&self) -> bool {
+        self.current == 0
+    }
+
     /// Finds the calls that lead back to a subroutine that is running: depth first over the calls.
     fn find_recursion(&mut self, resolved: &Resolved) {
         let calls: Vec<Vec<usize>> = self
@@ -295,12 +323,6 @@ impl Lowerer<'_> {
                 continue;
             }
             self.flow.dead = false;
-            if matches!(self.resolved.instrs[i].label, Some(label) if label.class == DeviceClass::I)
-            {
-                let span = self.instr().span;
-                let message = format!("`{}` is not implemented yet: interrupts", self.instr());
-                self.report(codes::NOT_IMPLEMENTED.at(span, message));
-            }
             self.instruction();
         }
         while !self.open.is_empty() {

@@ -9,6 +9,7 @@ mod build;
 mod call;
 mod coil;
 mod flow;
+mod interrupt;
 mod logic;
 mod operand;
 mod parts;
@@ -63,6 +64,11 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
         .special_words()
         .filter(|&(number, _)| module.layout.area(DeviceClass::D, number).is_some())
         .collect();
+    module.initial_bits = module
+        .model
+        .special_bits()
+        .filter(|&number| module.layout.area(DeviceClass::M, number).is_some())
+        .collect();
     debug_assert_eq!(crate::validate::validate(&module), Ok(()));
     Ok(module)
 }
@@ -87,6 +93,7 @@ struct Lowerer<'a> {
     open: Vec<Open>,
     logic: logic::Logic,
     steps: stl::Steps,
+    interrupts: interrupt::Interrupts,
     /// Statement above a network that has not begun yet.
     heading: Option<String>,
 }
@@ -113,6 +120,7 @@ impl<'a> Lowerer<'a> {
             specials: Specials::of(resolved, options),
             logic: logic::Logic::of(resolved),
             steps: stl::Steps::of(resolved),
+            interrupts: interrupt::Interrupts::default(),
             flow,
             diagnostics: Diagnostics::new(),
             at: 0,
@@ -138,6 +146,7 @@ impl<'a> Lowerer<'a> {
                 });
             }
         }
+        self.find_interrupts();
         for region in 0..self.flow.regions.len() {
             let body = self.region(region);
             let function = self.flow.regions[region].function as usize;
@@ -145,6 +154,7 @@ impl<'a> Lowerer<'a> {
         }
         self.module.functions[0].body = self.begin_function();
         self.module.functions[2].body = self.end_function();
+        self.take_interrupts();
     }
 
     fn instr(&self) -> &'a Instr {
@@ -177,12 +187,20 @@ impl<'a> Lowerer<'a> {
             self.heading = Some(statement.to_string());
         }
         let lower = inst.lower_on_model(self.model.id);
-        if self.begins_network(lower) {
+        let is_label = matches!(lower, Lower::Basic(Basic::Label));
+        if is_label {
+            // What is said of a label is said of what follows it.
+            if self.heading.is_none() {
+                self.heading = instr.note.as_ref().map(ToString::to_string);
+            }
+        } else if self.begins_network(lower) {
             self.begin_network();
         } else if let Some(network) = self.module.networks.last_mut() {
             network.span = network.span.to(instr.span);
         }
-        if let (Some(network), Some(note)) = (self.module.networks.last_mut(), &instr.note) {
+        if !is_label
+            && let (Some(network), Some(note)) = (self.module.networks.last_mut(), &instr.note)
+        {
             network.note.get_or_insert_with(|| note.to_string());
         }
         match lower {
@@ -221,6 +239,9 @@ impl<'a> Lowerer<'a> {
         }
         self.emit(Stmt::Network(self.module.networks.len() as u32));
         self.module.networks.push(network);
+        if self.flow.in_main() {
+            self.interruptible();
+        }
     }
 
     fn instr_is(&self, basic: Basic) -> bool {
@@ -257,8 +278,9 @@ impl<'a> Lowerer<'a> {
             Basic::Call => self.call_subroutine(),
             Basic::Label => self.label(),
             Basic::Fend | Basic::End | Basic::Sret | Basic::Iret => self.return_here(),
-            // The watchdog belongs to the host; interrupt routines are refused before.
-            Basic::Nop | Basic::Ei | Basic::Di => {}
+            Basic::Ei | Basic::Di => self.enable_interrupts(basic == Basic::Ei),
+            Basic::Nop => {}
+            // The watchdog belongs to the host.
             Basic::Wdt => {
                 self.drive();
             }

@@ -160,8 +160,8 @@ impl Lowerer<'_> {
     /// SET or OUT of a state in a block.
     pub(super) fn transition(&mut self, target: u32) {
         let mut drive = self.drive_of_form();
-        let works =
-            special::find(self.model.id, DeviceClass::M, HOLD).is_some_and(|row| row.works());
+        let works = special::find(self.model.id, DeviceClass::M, HOLD)
+            .is_some_and(|row| row.is_kept_by_scan());
         if works && self.specials.has(DeviceClass::M, HOLD) {
             let held = self.add(Expr::ReadBit(fixed(DeviceClass::M, HOLD)));
             let free = self.not(held);

@@ -6,7 +6,7 @@ use super::operand::fixed;
 use super::stl::ANNUNCIATORS;
 use crate::catalogue::{self, CmpOp, Lower};
 use crate::node::{BinOp, Body, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
-use crate::special::{self, Status};
+use crate::special;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass::{self, D, M, S, X};
 
@@ -72,6 +72,7 @@ impl Lowerer<'_> {
     pub(super) fn begin_function(&mut self) -> Body {
         self.body(|this| {
             this.run_flags();
+            this.clear_masks();
             this.forget_errors();
             this.clocks();
             this.scan_times();
@@ -86,6 +87,7 @@ impl Lowerer<'_> {
 
     pub(super) fn end_function(&mut self) -> Body {
         self.body(|this| {
+            this.interruptible();
             this.monitor(&STATES);
             this.monitor(&ALARMS);
             this.error_log();
@@ -113,14 +115,13 @@ impl Lowerer<'_> {
     }
 
     /// Whether a special device is one that the scan keeps on this model, and something looks at it.
-    fn keeps(&self, class: DeviceClass, number: u32) -> bool {
+    pub(super) fn keeps(&self, class: DeviceClass, number: u32) -> bool {
         self.specials.has(class, number) && self.scan_has(class, number)
     }
 
     /// Whether a special device is one that the scan keeps on this model.
     fn scan_has(&self, class: DeviceClass, number: u32) -> bool {
-        special::find(self.model.id, class, number)
-            .is_some_and(|row| matches!(row.status, Status::Scan))
+        special::find(self.model.id, class, number).is_some_and(special::Special::is_kept_by_scan)
     }
 
     /// M8000 to M8003.

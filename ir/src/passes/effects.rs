@@ -110,6 +110,7 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         | Stmt::Goto(_)
         | Stmt::Fault { .. }
         | Stmt::Stop
+        | Stmt::SetFlag(..)
         | Stmt::Clear { .. } => Writes::All,
     }
 }

@@ -53,8 +53,8 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8047 rw 0 scan "STL monitor: enables D8040-D8047 and M8046";
     M 8048 r 0 scan "with M8049 on: on while any annunciator S900-S999 is on";
     M 8049 rw 0 scan "annunciator monitor: enables D8049 and M8048";
-    M 8050-8055 rw 0 inert(INTERRUPTS) "on: input interrupts I000–500/I001–501 (X0–5) disabled";
-    M 8056-8058 rw 0 inert(INTERRUPTS) "on: timed interrupt I6–8xx disabled";
+    M 8050-8055 rw 0 scan "on: input interrupts I000–500/I001–501 (X0–5) disabled";
+    M 8056-8058 rw 0 scan "on: timed interrupt I6–8xx disabled";
     M 8059 rw 0 inert(INTERRUPTS) "on: high-speed counter interrupts I010-I060 disabled";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error; error lamp off, PLC keeps running; detail D8060";
     M 8061 r 0 inert(HARDWARE) "PLC hardware error; lamp flashes, PLC stops; code D8061";
@@ -109,8 +109,8 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8167 rw 0 by("HKY") "HKY hexadecimal mode";
     M 8168 rw 0 by("SMOV") "SMOV hexadecimal mode";
     M 8169 rw 0 inert(FAST) "high-speed counters: reset through X terminals disabled altogether (level and edge)";
-    M 8170 rw 0 inert(INTERRUPTS) "X000 pulse catch: set by a rising edge after EI; the program resets it";
-    M 8171-8175 rw 0 inert(INTERRUPTS) "X001–005 pulse catch";
+    M 8170 rw 0 scan "X000 pulse catch: set by a rising edge after EI; the program resets it";
+    M 8171-8175 rw 0 scan "X001–005 pulse catch";
     M 8183 r 0 inert(LINK) "N:N link: master transfer error";
     M 8184-8190 r 0 inert(LINK) "N:N link: slave 1–7 transfer error";
     M 8191 r 0 inert(LINK) "N:N link: transfer in progress";

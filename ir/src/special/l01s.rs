@@ -32,8 +32,8 @@ pub(super) const L01S: &[Special] = specials! {
     M 8047 rw 0 scan "on: STL monitoring enabled (M8046; D8040 is an analog input here)";
     M 8048 r 0 scan "on when an annunciator S900-S999 is active and M8049 is on";
     M 8049 rw 0 scan "on: annunciator monitoring enabled";
-    M 8050-8055 rw 0 inert(INTERRUPTS) "on: input interrupt I00–50x (input X000–005) disabled; cleared on the change from RUN to STOP";
-    M 8056-8058 rw 0 inert(INTERRUPTS) "on: timer interrupt I600–800-I699–899 disabled (base 1 ms); cleared on the change from RUN to STOP";
+    M 8050-8055 rw 0 scan "on: input interrupt I00–50x (input X000–005) disabled; cleared on the change from RUN to STOP";
+    M 8056-8058 rw 0 scan "on: timer interrupt I600–800-I699–899 disabled (base 1 ms); cleared on the change from RUN to STOP";
     M 8059 rw 0 inert(INTERRUPTS) "on: all high-speed-counter interrupts disabled (I010-I060)";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error";
     M 8061 r 0 inert(HARDWARE) "PLC hardware error";
@@ -60,7 +60,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8151-8154 r 0 inert(PULSES) "busy monitor of pulse axis 5–8";
     M 8160 rw 0 by("XCH") "XCH works as byte swap when on";
     M 8161 rw 0 by("ASCI, HEX, CCD") "8-bit mode for RS/RS2 (and ASCI, HEX, CCD, CRC ...): only the low byte of each register is used";
-    M 8170-8177 rw 0 inert(INTERRUPTS) "pulse catch of input X000–007: set on its rising edge";
+    M 8170-8177 rw 0 scan "pulse catch of input X000–007: set on its rising edge";
     M 8192 rw 0 inert(SERIAL) "port 3 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port";
     M 8196 rw 0 inert(SERIAL) "port 2 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port/BD/Modbus";
     M 8198 rw 0 inert(FAST) "4-fold counting for C251, C252, C254 (off = 1-fold)";

@@ -53,8 +53,8 @@ pub(super) const ALL: &[Special] = specials! {
     M 8047 rw 0 scan "D8040–D8047 and M8046 show the steps";
     M 8048 r 0 scan "an annunciator is on (with M8049)";
     M 8049 rw 0 scan "D8049 and M8048 show the annunciators";
-    M 8050-8055 rw 0 inert(INTERRUPTS) "forbids the interrupts of X000–X005";
-    M 8056-8058 rw 0 inert(INTERRUPTS) "forbids the timer interrupts I6–I8";
+    M 8050-8055 rw 0 scan "forbids the interrupts of X000–X005";
+    M 8056-8058 rw 0 scan "forbids the timer interrupts I6–I8";
     M 8059 rw 0 inert(INTERRUPTS) "forbids the interrupts of counters";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error, code in D8060";
     M 8061 r 0 inert(HARDWARE) "hardware error, code in D8061";
@@ -82,7 +82,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
     M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
     M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
-    M 8170-8175 rw 0 inert(INTERRUPTS) "a pulse came at X000–X005";
+    M 8170-8175 rw 0 scan "a pulse came at X000–X005";
     M 8183-8191 r 0 inert(LINK) "N:N link";
     M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
     M 8235-8245 rw 0 inert(FAST) "C235–C245 count down";
@@ -155,7 +155,7 @@ pub(super) const FX2N: &[Special] = specials! {
 pub(super) const FX3: &[Special] = specials! {
     M 8136-8139 rw 0 inert(FAST) "table comparison of high-speed counters";
     M 8151-8159 r 0 inert(SERIAL) "inverter communication";
-    M 8176-8177 rw 0 inert(INTERRUPTS) "a pulse came at X006, X007";
+    M 8176-8177 rw 0 scan "a pulse came at X006, X007";
     M 8198-8199 rw 0 inert(FAST) "four counts a cycle for C251, C252 and C253–C255";
     M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
     M 8306 r 0 by("DIV") "carry flag of division";

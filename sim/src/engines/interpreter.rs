@@ -72,6 +72,18 @@ impl Engine for Interpreter<'_> {
                 machine.scan(hal, now_ms, scan_us);
                 Answer::Ok
             }
+            Request::Edge(n, level) => {
+                machine.input_edge(n, level);
+                Answer::Ok
+            }
+            Request::Tick(now_ms) => {
+                machine.tick(now_ms);
+                Answer::Ok
+            }
+            Request::Interrupts => {
+                machine.take_interrupts(hal);
+                Answer::Ok
+            }
             Request::Output(n) => Answer::value(Some(machine.output(n))),
             Request::Run(running) => {
                 machine.set_running(running);

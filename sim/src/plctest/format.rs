@@ -1,9 +1,10 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
+use super::wire::Signal;
 use super::{Basis, Case, Check, Problem, Rejects, Run, Setting, Step, Target, TestFile, Value};
 use rungc_ir::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
-use rungc_syntax::Source;
+use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -77,28 +78,20 @@ enum RawMode {
     Stop,
 }
 
-/// Pulses at an input; read so that mistakes in them are noticed.
+/// Pulses at an input.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(
-    dead_code,
-    reason = "no engine has pulse inputs; the keys are only checked"
-)]
 struct RawPulses {
     count: u32,
     hz: f64,
 }
 
-/// An encoder's cycles; read so that mistakes in them are noticed.
+/// An encoder's cycles.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-#[expect(
-    dead_code,
-    reason = "no engine has encoder inputs; the keys are only checked"
-)]
 struct RawEncoder {
-    a: String,
-    b: String,
+    a: Spanned<String>,
+    b: Spanned<String>,
     count: i32,
     hz: f64,
 }
@@ -240,11 +233,7 @@ impl Reader<'_> {
             ms => ms.map_or(10, Spanned::into_inner),
         };
         let mut needs = Vec::new();
-        for (used, what) in [
-            (raw.pulses.is_some(), "pulse inputs"),
-            (raw.encoder.is_some(), "encoder inputs"),
-            (raw.rx.is_some() || raw.expect_tx.is_some(), "serial ports"),
-        ] {
+        for (used, what) in [(raw.rx.is_some() || raw.expect_tx.is_some(), "serial ports")] {
             if used {
                 needs.push(what);
             }
@@ -267,12 +256,57 @@ impl Reader<'_> {
             bfm: self.buffer(raw.bfm),
             analog: self.analog(raw.analog),
             set: self.settings(raw.set),
+            signals: self.signals(raw.pulses.unwrap_or_default(), raw.encoder),
             run,
             scan_ms,
             expect: self.settings(raw.expect),
             expect_bfm: self.buffer(raw.expect_bfm),
             needs,
         }
+    }
+
+    /// What comes in at input terminals.
+    fn signals(&mut self, pulses: Map<RawPulses>, encoder: Option<RawEncoder>) -> Vec<Signal> {
+        let mut signals = Vec::new();
+        for (name, RawPulses { count, hz }) in pulses {
+            if let Some(input) = self.terminal(&name)
+                && self.frequency(&name, hz)
+            {
+                signals.push(Signal::Pulses { input, count, hz });
+            }
+        }
+        if let Some(RawEncoder { a, b, count, hz }) = encoder
+            && let (Some(first), Some(second)) = (self.terminal(&a), self.terminal(&b))
+            && self.frequency(&a, hz)
+        {
+            signals.push(Signal::Encoder {
+                a: first,
+                b: second,
+                count,
+                hz,
+            });
+        }
+        signals
+    }
+
+    fn terminal(&mut self, name: &Spanned<String>) -> Option<u32> {
+        match Target::parse(name.get_ref()) {
+            Ok(Target::Bit(DeviceClass::X, number)) => Some(number),
+            _ => {
+                let message = format!("`{}` is no input terminal", name.get_ref());
+                self.report(name.span().start, message);
+                None
+            }
+        }
+    }
+
+    fn frequency(&mut self, name: &Spanned<String>, hz: f64) -> bool {
+        let fits = (0.001..=1_000_000.0).contains(&hz);
+        if !fits {
+            let message = "`hz` is 0.001 to 1000000".to_string();
+            self.report(name.span().start, message);
+        }
+        fits
     }
 
     fn settings(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {

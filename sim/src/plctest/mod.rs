@@ -7,11 +7,13 @@ mod name;
 mod report;
 mod runner;
 mod suite;
+mod wire;
 
 pub use name::Target;
 pub use report::{Failure, Outcome, Report};
 pub use runner::run;
 pub use suite::{Id, Suite};
+pub use wire::Signal;
 
 use rungc_ir::ModelId;
 use rungc_rt::Clock;
@@ -106,6 +108,8 @@ pub struct Step {
     pub analog: Vec<(u8, i16)>,
     /// Sets devices.
     pub set: Vec<Setting>,
+    /// What comes in at input terminals.
+    pub signals: Vec<Signal>,
     /// How many scans run.
     pub run: Run,
     /// Virtual milliseconds that a scan takes.

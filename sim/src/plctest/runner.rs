@@ -1,6 +1,7 @@
 //! Runs the cases of a suite on an engine.
 
 use super::suite::Built;
+use super::wire;
 use super::{Check, Failure, Outcome, Rejects, Report, Run, Setting, Step, Suite, Target, Value};
 use crate::devices::rt_class;
 use crate::engines::{Engine, EngineError};
@@ -22,7 +23,7 @@ pub fn run(suite: &Suite, engine: &mut dyn Engine, progress: &mut dyn FnMut(&Out
                 errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
             )),
             (Check::Steps { init, steps }, Built::Module(module)) => {
-                run_case(engine, *module, init, steps)
+                run_case(engine, *module, suite.takes_events(*module), init, steps)
             }
         };
         let outcome = Outcome {
@@ -74,11 +75,16 @@ struct Running<'e> {
     now_ms: u32,
     /// State of the input terminals, which a power cycle does not change.
     inputs: BTreeMap<u32, bool>,
+    /// Whether the program takes notice of what happens outside its scan.
+    takes_events: bool,
+    /// Whether a scan has run since power-on.
+    scanned: bool,
 }
 
 fn run_case(
     engine: &mut dyn Engine,
     module: usize,
+    takes_events: bool,
     init: &[Setting],
     steps: &[Step],
 ) -> Result<(), Failure> {
@@ -95,6 +101,8 @@ fn run_case(
         step: 0,
         now_ms: 0,
         inputs: BTreeMap::new(),
+        takes_events,
+        scanned: false,
     };
     running.ask(Request::Case(module))?;
     running.set_all(init)?;
@@ -131,6 +139,7 @@ impl Running<'_> {
         if step.power_cycle {
             self.ask(Request::Power)?;
             self.now_ms = 0;
+            self.scanned = false;
             for (number, on) in self.inputs.clone() {
                 self.ask(Request::SetBit(Class::X, number, on))?;
             }
@@ -152,12 +161,33 @@ impl Running<'_> {
             Run::Scans(scans) => scans,
             Run::Ms(ms) => ms.div_ceil(step.scan_ms),
         };
+        // A signal goes on to its end.
+        let signals = step.signals.iter().map(|signal| signal.duration_us());
+        let signals = signals.max().unwrap_or(0).div_ceil(1000);
+        let needed = signals.div_ceil(step.scan_ms.into()).try_into();
+        let scans = scans.max(needed.unwrap_or(u32::MAX));
+        let changes = wire::changes(&step.signals);
+        let mut changes = changes.iter().peekable();
+        let begin_ms = self.now_ms;
         for _ in 0..scans {
             self.ask(Request::Scan {
                 now_ms: self.now_ms,
                 scan_us: step.scan_ms.saturating_mul(1000),
             })?;
-            self.now_ms = self.now_ms.wrapping_add(step.scan_ms);
+            self.scanned = true;
+            for _ in 0..step.scan_ms {
+                self.now_ms = self.now_ms.wrapping_add(1);
+                let now_us = u64::from(self.now_ms.wrapping_sub(begin_ms)) * 1000;
+                while let Some(change) = changes.next_if(|change| change.at_us < now_us) {
+                    self.ask(Request::SetBit(Class::X, change.input, change.on))?;
+                    self.input(change.input, change.on)?;
+                    self.interrupts()?;
+                }
+                if self.takes_events {
+                    self.ask(Request::Tick(self.now_ms))?;
+                    self.interrupts()?;
+                }
+            }
         }
         self.check(step)
     }
@@ -197,11 +227,29 @@ impl Running<'_> {
     fn set(&mut self, setting: &Setting) -> Result<(), Failure> {
         for request in requests(setting) {
             if let Request::SetBit(Class::X, number, on) = request {
-                self.inputs.insert(number, on);
+                self.input(number, on)?;
             }
             if self.ask(request)? == Answer::Missing {
                 return Err(self.no_device(setting.target));
             }
+        }
+        Ok(())
+    }
+
+    /// An input terminal is on or off from now.
+    fn input(&mut self, number: u32, on: bool) -> Result<(), Failure> {
+        let before = self.inputs.insert(number, on).unwrap_or(false);
+        // What is on at power-on has not gone on.
+        if self.takes_events && self.scanned && on != before {
+            self.ask(Request::Edge(number, on))?;
+        }
+        Ok(())
+    }
+
+    /// Interrupts are taken between two scans.
+    fn interrupts(&mut self) -> Result<(), Failure> {
+        if self.takes_events {
+            self.ask(Request::Interrupts)?;
         }
         Ok(())
     }

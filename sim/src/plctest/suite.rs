@@ -82,6 +82,13 @@ impl Suite {
         self.len() == 0
     }
 
+    /// Whether a module takes notice of what happens outside its scan.
+    pub(super) fn takes_events(&self, module: usize) -> bool {
+        self.modules
+            .get(module)
+            .is_some_and(|m| !m.flags.is_empty())
+    }
+
     pub(super) fn built(&self, id: Id) -> &Built {
         &self.built[id.file][id.case]
     }

@@ -1,0 +1,137 @@
+//! Interrupt pointers as data: what requests each, and what keeps it from running.
+
+use crate::model::{ModelId, ModelSet};
+use crate::node::{EdgeKind, Source};
+
+/// An interrupt routine's own conditions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Interrupt {
+    /// What requests it; `None`: only its request relay.
+    pub source: Option<Source>,
+    /// The relay that keeps the request, and may be set by the program (HM); it goes off when the routine begins.
+    pub request: Option<u32>,
+    /// The relay that forbids it while on. A request that is not kept in a relay is lost then.
+    pub mask: u32,
+}
+
+/// The relays that catch a rising edge of an input once EI was executed.
+pub struct PulseCatch {
+    models: ModelSet,
+    /// Relay of X000; those of the next inputs follow.
+    pub first: u32,
+    /// How many inputs.
+    pub inputs: u32,
+}
+
+const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
+/// Models that clear the relays that forbid interrupts when they go from RUN to STOP (l01s-programming §6.4).
+pub const MASKS_CLEARED_IN_STOP: ModelSet =
+    ModelSet::of(&[ModelId::L01s, ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
+/// The relays that forbid interrupts on those models.
+pub const MASKS: std::ops::RangeInclusive<u32> = 8050..=8059;
+
+/// Pulse catch (h1u-h2u-programming §3.8).
+const PULSE_CATCH: &[PulseCatch] = &[
+    PulseCatch {
+        models: ModelSet::of(&[ModelId::H1u, ModelId::H2u, ModelId::Fx2n, ModelId::Fx3g]),
+        first: 8170,
+        inputs: 6,
+    },
+    PulseCatch {
+        models: ModelSet::of(&[ModelId::L01s, ModelId::Fx3u]),
+        first: 8170,
+        inputs: 8,
+    },
+];
+
+/// The pulse catch relays of a model.
+pub fn pulse_catch(model: ModelId) -> Option<&'static PulseCatch> {
+    PULSE_CATCH.iter().find(|row| row.models.has(model))
+}
+
+/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests: counters, pulse outputs, HM's advanced
+/// interrupts.
+pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
+    if HM.has(model) {
+        return find_hm(number);
+    }
+    let (group, rest) = (number / 100, number % 100);
+    let source = match (group, rest) {
+        (0..=5, 0 | 1) => Source::Input {
+            number: group,
+            kind: edge(rest),
+        },
+        (6..=8, 1..) => Source::Period { ms: rest },
+        _ => return None,
+    };
+    Some(Interrupt {
+        source: Some(source),
+        request: None,
+        mask: MASKS.start() + group,
+    })
+}
+
+/// HM's pointers (hm-motion-controller §5.5.5 to §5.5.7).
+fn find_hm(number: u32) -> Option<Interrupt> {
+    let (group, rest) = (number / 100, number % 100);
+    let (source, request, mask) = match (group, rest) {
+        // X004 and X006 interrupt with one edge, X005 and X007 with both; I001 and I201 have only their relay.
+        (0..=3, 0 | 1) => {
+            let input = Source::Input {
+                number: 4 + group,
+                kind: edge(rest),
+            };
+            let has_input = rest == 0 || group % 2 == 1;
+            let n = 2 * group + rest;
+            (has_input.then_some(input), 8032 + n, 8048 + n)
+        }
+        (6..=8, _) => {
+            let ms = if rest == 0 { 100 } else { rest };
+            let n = group - 6;
+            (Some(Source::Period { ms }), 8040 + n, 8056 + n)
+        }
+        // I010 is requested by the system each millisecond, I020 to I050 by the program.
+        (0, 10 | 20 | 30 | 40 | 50) => {
+            let n = rest / 10 - 1;
+            let source = (n == 0).then_some(Source::Period { ms: 1 });
+            (source, 8043 + n, 8059 + n)
+        }
+        _ => return None,
+    };
+    Some(Interrupt {
+        source,
+        request: Some(request),
+        mask,
+    })
+}
+
+/// The last digit of an input's pointer.
+fn edge(digit: u32) -> EdgeKind {
+    if digit == 1 {
+        EdgeKind::Rising
+    } else {
+        EdgeKind::Falling
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pointers_name_inputs_and_periods() {
+        let h2u = |number| find(ModelId::H2u, number).map(|found| (found.source, found.mask));
+        let input = |number, kind| Some(Source::Input { number, kind });
+        let period = |ms| Some(Source::Period { ms });
+        assert_eq!(h2u(101), Some((input(1, EdgeKind::Rising), 8051)));
+        assert_eq!(h2u(500), Some((input(5, EdgeKind::Falling), 8055)));
+        assert_eq!(h2u(899), Some((period(99), 8058)));
+        assert_eq!((h2u(600), h2u(10), h2u(502)), (None, None, None));
+        let hm = |number| find(ModelId::Hm, number).map(|found| (found.source, found.request));
+        assert_eq!(hm(1), Some((None, Some(8033))));
+        assert_eq!(hm(301), Some((input(7, EdgeKind::Rising), Some(8039))));
+        assert_eq!(hm(700), Some((period(100), Some(8041))));
+        assert_eq!(hm(10), Some((period(1), Some(8043))));
+        assert_eq!((hm(50), hm(900)), (Some((None, Some(8047))), None));
+    }
+}

@@ -1,0 +1,268 @@
+//! Interrupt routines: which there are, and when they run.
+
+use super::Lowerer;
+use super::operand::fixed;
+use crate::catalogue::Basic;
+use crate::interrupts::{self, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch};
+use crate::node::{
+    Body, EdgeKind, Expr, Flag, FlagId, Function, FunctionKind, Source, Stmt, SysValue,
+};
+use rungc_syntax::{DeviceClass::M, codes};
+
+/// Name of the flag that EI sets.
+const ENABLED: &str = "interrupts_enabled";
+
+/// What requests one thing to be done.
+struct Request {
+    source: Option<Source>,
+    what: What,
+}
+
+/// What is done on request.
+enum What {
+    /// A routine runs.
+    Routine { function: u32, interrupt: Interrupt },
+    /// A relay catches the pulse.
+    Catch(u32),
+}
+
+/// The interrupts of a program.
+#[derive(Default)]
+pub(super) struct Interrupts {
+    requests: Vec<Request>,
+    /// The flag that EI sets, and the function that takes interrupts; `None` if there is nothing to take.
+    function: Option<(FlagId, u32)>,
+}
+
+impl Lowerer<'_> {
+    /// Finds the interrupts, when all functions but the one that takes them are there.
+    pub(super) fn find_interrupts(&mut self) {
+        let mut requests = Vec::new();
+        for region in self.flow.interrupts() {
+            match interrupts::find(self.model.id, region.number) {
+                Some(interrupt) => requests.push(Request {
+                    source: interrupt.source,
+                    what: What::Routine {
+                        function: region.function,
+                        interrupt,
+                    },
+                }),
+                None => {
+                    let instr = &self.resolved.program.instrs[region.start];
+                    let message = format!("`{instr}` is not implemented yet: what requests it");
+                    self.report(codes::NOT_IMPLEMENTED.at(instr.span, message));
+                }
+            }
+        }
+        if let Some(catch) = interrupts::pulse_catch(self.model.id) {
+            requests.extend(self.caught(catch));
+        }
+        if requests.is_empty() {
+            return;
+        }
+        let enabled = self.flag(ENABLED.to_string(), None);
+        let function = self.module.functions.len() as u32;
+        self.module.functions.push(Function {
+            kind: FunctionKind::TakeInterrupts,
+            body: Body::new(),
+        });
+        self.interrupts = Interrupts {
+            requests,
+            function: Some((enabled, function)),
+        };
+    }
+
+    /// The pulse catch relays that something looks at.
+    fn caught(&self, catch: &PulseCatch) -> Vec<Request> {
+        let enables = (0..self.resolved.instrs.len()).any(|i| self.basic_at(i) == Some(Basic::Ei));
+        let relays = (0..catch.inputs).map(|number| (number, catch.first + number));
+        relays
+            .filter(|&(_, relay)| enables && self.specials.has(M, relay))
+            .map(|(number, relay)| Request {
+                source: Some(Source::Input {
+                    number,
+                    kind: EdgeKind::Rising,
+                }),
+                what: What::Catch(relay),
+            })
+            .collect()
+    }
+
+    fn flag(&mut self, name: String, source: Option<Source>) -> FlagId {
+        self.module.flags.push(Flag { name, source });
+        FlagId(self.module.flags.len() as u32 - 1)
+    }
+
+    /// EI, DI.
+    pub(super) fn enable_interrupts(&mut self, on: bool) {
+        if let Some((enabled, _)) = self.interrupts.function {
+            self.emit(Stmt::SetFlag(enabled, on));
+        }
+    }
+
+    /// Here interrupts are taken.
+    pub(super) fn interruptible(&mut self) {
+        if let Some((_, function)) = self.interrupts.function {
+            self.emit(Stmt::CallSub(function));
+        }
+    }
+
+    /// The body of the function that takes interrupts: requests of one source in the order of their routines.
+    pub(super) fn take_interrupts(&mut self) {
+        let Some((enabled, function)) = self.interrupts.function else {
+            return;
+        };
+        let requests = std::mem::take(&mut self.interrupts.requests);
+        let mut sources: Vec<Source> = Vec::new();
+        for source in requests.iter().filter_map(|request| request.source) {
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        let flags: Vec<(Source, FlagId)> = sources
+            .into_iter()
+            .map(|source| (source, self.flag(flag_name(source), Some(source))))
+            .collect();
+        let body = self.body(|this| {
+            for &(source, flag) in &flags {
+                this.keep_requests(&requests, source, flag);
+            }
+            let on = this.add(Expr::Flag(enabled));
+            this.when(on, |this| {
+                for &(source, flag) in &flags {
+                    this.serve_source(&requests, source, flag);
+                }
+                for request in &requests {
+                    this.serve_relay(request);
+                }
+            });
+        });
+        self.module.functions[function as usize].body = body;
+    }
+
+    /// Relays keep the requests of a source, whether interrupts are enabled or not.
+    fn keep_requests(&mut self, requests: &[Request], source: Source, flag: FlagId) {
+        let relays: Vec<u32> = of(requests, source)
+            .filter_map(|request| match request.what {
+                What::Routine { interrupt, .. } => interrupt.request,
+                What::Catch(_) => None,
+            })
+            .collect();
+        if relays.is_empty() {
+            return;
+        }
+        let asked = self.add(Expr::Flag(flag));
+        self.when(asked, |this| {
+            this.emit(Stmt::SetFlag(flag, false));
+            for relay in relays {
+                let on = this.bit_const(true);
+                this.write_device(M, relay, on);
+            }
+        });
+    }
+
+    /// Does what a source requests directly.
+    fn serve_source(&mut self, requests: &[Request], source: Source, flag: FlagId) {
+        let direct: Vec<&What> = of(requests, source)
+            .map(|request| &request.what)
+            .filter(|what| {
+                !matches!(what, What::Routine { interrupt, .. } if interrupt.request.is_some())
+            })
+            .collect();
+        if direct.is_empty() {
+            return;
+        }
+        let asked = self.add(Expr::Flag(flag));
+        self.when(asked, |this| {
+            this.emit(Stmt::SetFlag(flag, false));
+            for what in direct {
+                match *what {
+                    What::Catch(relay) => {
+                        let on = this.bit_const(true);
+                        this.write_device(M, relay, on);
+                    }
+                    What::Routine {
+                        function,
+                        interrupt,
+                    } => {
+                        let allowed = this.allowed(interrupt.mask);
+                        this.when(allowed, |this| this.emit(Stmt::CallSub(function)));
+                    }
+                }
+            }
+        });
+    }
+
+    /// Runs a routine whose request a relay keeps.
+    fn serve_relay(&mut self, request: &Request) {
+        let What::Routine {
+            function,
+            interrupt,
+        } = request.what
+        else {
+            return;
+        };
+        let Some(relay) = interrupt.request else {
+            return;
+        };
+        let asked = self.add(Expr::ReadBit(fixed(M, relay)));
+        let allowed = self.allowed(interrupt.mask);
+        let runs = self.and(asked, allowed);
+        self.when(runs, |this| {
+            let off = this.bit_const(false);
+            this.write_device(M, relay, off);
+            this.emit(Stmt::CallSub(function));
+        });
+    }
+
+    /// Whether a mask lets the routine run; one that nothing looks at stays as it is at power-on.
+    fn allowed(&mut self, mask: u32) -> crate::node::ExprId {
+        if self.specials.has(M, mask) {
+            let mask = self.add(Expr::ReadBit(fixed(M, mask)));
+            self.not(mask)
+        } else {
+            let on = self.model.special_bits().any(|relay| relay == mask);
+            self.bit_const(!on)
+        }
+    }
+
+    /// Models that clear the masks in STOP do so before the next scan.
+    pub(super) fn clear_masks(&mut self) {
+        if !MASKS_CLEARED_IN_STOP.has(self.model.id) {
+            return;
+        }
+        let masks: Vec<u32> = MASKS.filter(|&mask| self.keeps(M, mask)).collect();
+        if masks.is_empty() {
+            return;
+        }
+        let running = self.add(Expr::Sys(SysValue::Running));
+        let stopped = self.not(running);
+        self.when(stopped, |this| {
+            for mask in masks {
+                let off = this.bit_const(false);
+                this.write_device(M, mask, off);
+            }
+        });
+    }
+}
+
+/// What a source requests.
+fn of(requests: &[Request], source: Source) -> impl Iterator<Item = &Request> {
+    requests
+        .iter()
+        .filter(move |request| request.source == Some(source))
+}
+
+/// `x000_rose`, `passed_10ms`.
+fn flag_name(source: Source) -> String {
+    match source {
+        Source::Input { number, kind } => {
+            let what = match kind {
+                EdgeKind::Rising => "rose",
+                EdgeKind::Falling => "fell",
+            };
+            format!("x{number:03o}_{what}")
+        }
+        Source::Period { ms } => format!("passed_{ms}ms"),
+    }
+}
