@@ -28,6 +28,11 @@ pub fn inputs(module: &Module) -> BTreeSet<u32> {
     module.flags.iter().filter_map(number).collect()
 }
 
+/// Whether some flag is set each time a period has passed.
+pub fn has_periods(module: &Module) -> bool {
+    periods(module).next().is_some()
+}
+
 /// The fields of the flags: declaration, comment, size in bytes.
 pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
     let name = &module.name;
@@ -87,7 +92,7 @@ pub fn functions(module: &Module) -> String {
             "    if (now_ms - plc->{flag}_since >= {ms}u) {{\n        plc->{flag}_since += {ms}u;\n        plc->{flag} = true;\n    }}\n"
         );
     }
-    if periods(module).next().is_none() {
+    if !has_periods(module) {
         out.push_str("    (void)plc;\n    (void)now_ms;\n");
     }
     let mut function = String::new();

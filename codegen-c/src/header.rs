@@ -257,6 +257,18 @@ pub fn embedding(module: &Module, fields: &Fields) -> String {
             ),
         );
     }
+    for number in events::inputs(module) {
+        lines.push((
+            format!("{name}_input_edge(&plc, {number}, on);"),
+            "in the interrupt handler of this pin",
+        ));
+    }
+    if events::has_periods(module) {
+        lines.push((
+            format!("{name}_tick(&plc, millis());"),
+            "in a handler that runs each millisecond",
+        ));
+    }
     let column = lines.iter().map(|(code, _)| code.len()).max().unwrap_or(0) + 2;
     let mut out = String::from(" * How to embed it:\n *\n");
     for (code, text) in lines {

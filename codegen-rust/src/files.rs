@@ -189,6 +189,13 @@ fn exported(text: &str, visibility: &str) -> String {
     out
 }
 
+/// What a host of a program with interrupts has to know besides.
+const EVENTS_DOC: &str = "\
+//!
+//! Interrupts: tell the program of edges of input terminals ([`Program::input_edge`]) and, each millisecond, of time
+//! ([`Program::tick`]); its routines run in the next scan in front of each network, or at once in [`Program::take_interrupts`].
+";
+
 fn library(generator: &mut Generator, functions: &[Item]) -> String {
     let module = generator.module;
     let machine = generator.machine_struct();
@@ -218,11 +225,16 @@ fn library(generator: &mut Generator, functions: &[Item]) -> String {
          //!\n\
          //! Timers are as exact as scans are frequent: scan every 10 ms or faster. All memory is in [`{name}`]. Devices marked\n\
          //! \"latched\" keep their values over power-off on the PLC; a host that wants that stores these fields.\n\
-         #![no_std]\n#![forbid(unsafe_code)]\n",
+         {events}#![no_std]\n#![forbid(unsafe_code)]\n",
         version = env!("CARGO_PKG_VERSION"),
         source = one_line(&module.source_name),
         title = module.model.title,
         steps = module.steps,
+        events = if module.flags.is_empty() {
+            ""
+        } else {
+            EVENTS_DOC
+        },
     );
     out.push_str("\nmod devices;\n");
     if !functions.is_empty() {

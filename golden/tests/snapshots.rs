@@ -59,6 +59,11 @@ fn conveyor() {
 }
 
 #[test]
+fn packer() {
+    check("packer", ModelId::H2u);
+}
+
+#[test]
 fn jumps() {
     check("jumps", ModelId::Fx3u);
 }
