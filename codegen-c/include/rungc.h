@@ -307,7 +307,8 @@ enum {
     PLC_RETENTIVE = 1u,      /* keeps its value while it is not driven; only RST clears it */
     PLC_FREE_RUNNING = 2u,   /* goes on timing in scans that jump over its coil */
     PLC_LATCHES_PRESET = 4u, /* takes the preset over when timing begins */
-    PLC_OVERRUNS = 8u        /* goes on counting after the preset is reached */
+    PLC_OVERRUNS = 8u,       /* goes on counting after the preset is reached */
+    PLC_STEPWISE = 16u       /* advances by at most one unit a scan */
 };
 
 /* OUT T. In the scan in which the coil comes on the value stays as it is; each later scan adds the time since the scan before. */
@@ -327,6 +328,9 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
         elapsed = ((options & PLC_FREE_RUNNING) != 0u) ? sys->now_ms - timer->last_ms : sys->dt_ms;
     } else {
         timer->preset = preset;
+    }
+    if ((options & PLC_STEPWISE) != 0u && elapsed > unit_ms) {
+        elapsed = unit_ms;
     }
     timer->coil = true;
     timer->last_ms = sys->now_ms;

@@ -73,7 +73,7 @@ impl Writer<'_, '_> {
         preset: ExprId,
     ) {
         let latches = kind.latches_preset && self.plain_timers.get(&number) != Some(&1);
-        let plain = !latches && !kind.free_running && !kind.overruns;
+        let plain = !latches && !kind.free_running && !kind.overruns && !kind.stepwise;
         let family = match (plain, kind.unit_ms) {
             (true, 1 | 10 | 100) if kind.accumulating => {
                 format!("plc_retentive_{}ms", kind.unit_ms)
@@ -94,6 +94,7 @@ impl Writer<'_, '_> {
                 (kind.free_running, "PLC_FREE_RUNNING"),
                 (latches, "PLC_LATCHES_PRESET"),
                 (kind.overruns, "PLC_OVERRUNS"),
+                (kind.stepwise, "PLC_STEPWISE"),
             ];
             let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
             let set = if set.is_empty() {

@@ -159,11 +159,12 @@ fn timer_constants(timers: &BTreeMap<String, TimerKind>, visibility: &str) -> St
             free_running,
             latches_preset,
             overruns,
+            stepwise,
         } = kind;
         let _ = write!(
             out,
             "\n{visibility}const {name}: TimerKind = TimerKind {{\n    unit_ms: {unit_ms},\n    accumulating: {accumulating},\n    \
-             free_running: {free_running},\n    latches_preset: {latches_preset},\n    overruns: {overruns},\n}};\n"
+             free_running: {free_running},\n    latches_preset: {latches_preset},\n    overruns: {overruns},\n    stepwise: {stepwise},\n}};\n"
         );
     }
     out

@@ -172,6 +172,7 @@ impl<'m> Generator<'m> {
             (kind.free_running, "_FREE_RUNNING"),
             (kind.latches_preset, "_PRESET_AT_START"),
             (kind.overruns, "_OVERRUNNING"),
+            (kind.stepwise, "_STEPWISE"),
         ];
         for (is, suffix) in traits {
             if is {

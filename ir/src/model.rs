@@ -253,6 +253,7 @@ const fn timers(first: u32, last: u32, unit_ms: u16) -> Timers {
             free_running: false,
             latches_preset: false,
             overruns: false,
+            stepwise: false,
         },
     }
 }
@@ -282,6 +283,13 @@ impl Timers {
     const fn overrunning(self) -> Self {
         self.with(TimerKind {
             overruns: true,
+            ..self.kind
+        })
+    }
+
+    const fn stepwise(self) -> Self {
+        self.with(TimerKind {
+            stepwise: true,
             ..self.kind
         })
     }

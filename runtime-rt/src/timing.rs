@@ -14,6 +14,8 @@ pub struct TimerKind {
     pub latches_preset: bool,
     /// Goes on counting up to 32767 after the preset is reached (HM).
     pub overruns: bool,
+    /// Advances by at most one unit a scan, so scans longer than its unit make it slow (10 ms timers of L01S).
+    pub stepwise: bool,
 }
 
 /// A timer, zero at power-on.
@@ -83,6 +85,12 @@ impl Timer {
         } else {
             dt_ms
         };
+        let unit = u32::from(kind.unit_ms.max(1));
+        let elapsed = if kind.stepwise {
+            elapsed.min(unit)
+        } else {
+            elapsed
+        };
         if !self.coil {
             self.preset = preset;
         }
@@ -94,7 +102,6 @@ impl Timer {
             preset
         };
         if !self.done || kind.overruns {
-            let unit = u32::from(kind.unit_ms.max(1));
             let limit = if kind.overruns {
                 i16::MAX
             } else {

@@ -126,6 +126,7 @@ impl Builder {
             free_running: false,
             latches_preset: false,
             overruns: false,
+            stepwise: false,
         };
         self.body.push(Stmt::Timer {
             number,

@@ -112,6 +112,7 @@ pub const TIMER: TimerKind = TimerKind {
     free_running: false,
     latches_preset: false,
     overruns: false,
+    stepwise: false,
 };
 
 /// The program of the design's target picture.

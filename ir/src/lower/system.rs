@@ -340,7 +340,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// While it is enabled, lists the lowest active S devices. A register without one keeps its value.
+    /// While it is enabled, lists the lowest active S devices. A register without one is 0.
     fn monitor(&mut self, monitor: &Monitor) {
         let registers: Vec<u32> = monitor
             .registers
@@ -362,6 +362,10 @@ impl Lowerer<'_> {
             let zero = this.add(Expr::I32(0));
             let found = this.temp(Ty::I32);
             this.emit(Stmt::Let(found, zero));
+            let none = this.int(0, false);
+            for &register in registers.iter().filter(|&&register| register != 0) {
+                this.emit(Stmt::WriteWord(fixed(D, register), none));
+            }
             for (first, last) in runs {
                 this.list_active(first, last, found, &registers);
             }

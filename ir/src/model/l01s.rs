@@ -71,7 +71,7 @@ const RANGES: &[Range] = &[
 const TIMERS: &[Timers] = &[
     timers(0, 191, 100),
     timers(192, 199, 100).free_running(),
-    timers(200, 245, 10),
+    timers(200, 245, 10).stepwise(),
     timers(246, 249, 1).accumulating(),
     timers(250, 255, 100).accumulating(),
     timers(256, 319, 1),
