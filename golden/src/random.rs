@@ -35,12 +35,22 @@ pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) 
         loops: 0,
         masters: 0,
     };
+    let interrupts = if writer.rng.percent(25) {
+        writer.enable_interrupts()
+    } else {
+        Vec::new()
+    };
     if writer.rng.percent(25) {
         writer.steps();
     }
     writer.body(rungs, true);
-    if !writer.subroutines.is_empty() {
+    if !writer.subroutines.is_empty() || !interrupts.is_empty() {
         writer.lines.push("FEND".into());
+        for pointer in interrupts {
+            writer.lines.push(format!("I{pointer:03}"));
+            writer.body(2, false);
+            writer.lines.push("IRET".into());
+        }
         for label in std::mem::take(&mut writer.subroutines) {
             writer.lines.push(format!("P{label}"));
             writer.body(2, false);
@@ -54,6 +64,20 @@ pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) 
 impl Writer<'_> {
     fn line(&mut self, line: impl Into<String>) {
         self.lines.push(line.into());
+    }
+
+    /// EI, and whatever else the pointers need that it gives.
+    fn enable_interrupts(&mut self) -> Vec<u32> {
+        self.line("EI");
+        let (edges, masks) = if self.model == ModelId::Hm {
+            ([0, 200], [8048, 8052, 8056, 8057])
+        } else {
+            ([1, 100], [8050, 8051, 8056, 8057])
+        };
+        let all = [edges[0], edges[1], 607, 710];
+        self.line("LD M8002");
+        masks.map(|mask| self.line(format!("RST M{mask}")));
+        all.into_iter().filter(|_| self.rng.percent(60)).collect()
     }
 
     fn label(&mut self) -> u32 {

@@ -173,6 +173,17 @@ fn trace(
             now_ms,
             scan_us: scan_ms * 1000,
         });
+        if !module.flags.is_empty() {
+            for ms in 1..=scan_ms {
+                requests.push(Request::Tick(now_ms + ms));
+                if rng.percent(10) {
+                    requests.push(Request::Edge(rng.below(8), rng.percent(50)));
+                }
+                if rng.percent(80) {
+                    requests.push(Request::Interrupts);
+                }
+            }
+        }
         now_ms += scan_ms;
         ask(&requests)?;
         values.push(ask(if scan + 1 == scans { &all } else { &head })?);
