@@ -7,7 +7,7 @@ use crate::args::RunArgs;
 use crate::report;
 use rungc_ir::Module;
 use rungc_ir::compile::{CompileOptions, compile};
-use rungc_rt::VirtualHal;
+use rungc_rt::{Program, VirtualHal};
 use rungc_sim::Machine;
 use rungc_sim::plctest::Target;
 use rungc_syntax::DeviceClass;
@@ -189,18 +189,14 @@ fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Ta
     writeln!(out, "{}", view.heading())?;
     let begin = Instant::now();
     let mut now = 0;
-    while now <= args.duration {
-        while let Some(setting) = pending.next_if(|s| s.at_ms <= now) {
-            device::set(&mut machine, setting.target, setting.value)
-                .ok_or_else(|| missing(setting.target, module))?;
-        }
+    while let Some(setting) = pending.next_if(|s| s.at_ms == 0) {
+        device::set(&mut machine, setting.target, setting.value)
+            .ok_or_else(|| missing(setting.target, module))?;
+    }
+    loop {
         hal.advance_to(now as u32);
-        rungc_rt::Program::scan(
-            &mut machine,
-            &mut hal,
-            now as u32,
-            (args.scan * 1000).min(u64::from(u32::MAX)) as u32,
-        );
+        let scan_us = (args.scan * 1000).min(u64::from(u32::MAX)) as u32;
+        machine.scan(&mut hal, now as u32, scan_us);
         let values = watched
             .iter()
             .map(|&t| device::get(&machine, t).ok_or_else(|| missing(t, module)))
@@ -214,7 +210,21 @@ fn simulate(args: &RunArgs, module: &Module, settings: &[Setting], watched: &[Ta
             ));
             return Ok(Outcome::Failed);
         }
-        now += args.scan;
+        if now + args.scan > args.duration {
+            break;
+        }
+        for _ in 0..args.scan {
+            now += 1;
+            machine.tick(now as u32);
+            while let Some(setting) = pending.next_if(|s| s.at_ms == now) {
+                device::set(&mut machine, setting.target, setting.value)
+                    .ok_or_else(|| missing(setting.target, module))?;
+                if let Target::Bit(DeviceClass::X, number) = setting.target {
+                    machine.input_edge(number, setting.value != 0.0);
+                }
+            }
+            machine.take_interrupts(&mut hal);
+        }
         if args.real_time {
             thread::sleep(Duration::from_millis(now).saturating_sub(begin.elapsed()));
         }
