@@ -196,6 +196,15 @@ fn unreadable_input_for_tools() {
 }
 
 #[test]
+fn what_an_export_cannot_hold_is_told() {
+    let list = format!(";! X000 = start button\n{MOTOR}");
+    let folder = folder(&[("motor.il", list.as_bytes())]);
+    let said = |to| text(&rungc(folder.path(), &["convert", "motor.il", "--to", to]).stderr);
+    assert!(said("csv").contains("1 device comment left out"));
+    assert!(said("il").is_empty());
+}
+
+#[test]
 fn settings_behind_the_end_are_told() {
     let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
     let args = ["run", "motor.il", "--set", "X000=1@2s", "--for", "1s"];

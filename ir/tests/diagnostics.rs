@@ -231,6 +231,21 @@ END
 }
 
 #[test]
+fn a_missing_label_is_shown_where_it_is_named() {
+    let places = |text: &str| -> Vec<_> {
+        let (source, diagnostics) = findings(ModelId::H2u, text);
+        let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error);
+        errors
+            .map(|d| (d.code, source.slice(d.span).to_owned()))
+            .collect()
+    };
+    let call = "LD X0\nCALL P3\nEND\n";
+    assert_eq!(places(call), [("E0430", "P3".to_owned())]);
+    let jump = "LD X0\nCJ P1 P2\nP1\nEND\n";
+    assert_eq!(places(jump), [("E0302", "P2".to_owned())]);
+}
+
+#[test]
 fn calls_in_a_circle() {
     let text = "\
 LD X0

@@ -1,6 +1,6 @@
 //! `rungc convert`.
 
-use super::{Context, Outcome, Result, conclude, read, write_file};
+use super::{Context, Outcome, Result, conclude, counted, read, tell, write_file};
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::Findings;
 use rungc_frontend::print;
@@ -23,6 +23,13 @@ pub fn run(args: &ConvertArgs, cx: Context) -> Result {
         ConvertTo::Il => print::to_il(&read.program).into_bytes(),
         ConvertTo::Csv => print::to_csv(&read.program),
     };
+    let comments = read.program.comments.len();
+    if args.to == ConvertTo::Csv && comments > 0 {
+        let what = counted(comments, "device comment");
+        tell(&format!(
+            "rungc: {what} left out, which a list export has no place for; `--to il` keeps them"
+        ));
+    }
     match &args.output {
         Some(path) => write_file(path, &bytes, args.force)?,
         None => io::stdout().write_all(&bytes)?,

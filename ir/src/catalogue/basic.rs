@@ -104,6 +104,9 @@ const KD: Classes = Classes::K.or(Classes::D);
 const KDR: Classes = KD.or(Classes::R);
 const KHDR: Classes = KDR.or(Classes::H);
 
+/// Beyond the last of a class: what does not exist is told as such, and its other operands are taken for what they are meant to be.
+const ANY: u32 = u32::MAX;
+
 const OUT: &[Variant] = &[
     first(LIKE_FX2N, T)
         .steps(3, 3)
@@ -123,13 +126,13 @@ const OUT: &[Variant] = &[
     first_in(HM, C, 0, 199)
         .steps(5, 5)
         .takes(&[coil("D", C).plain(), preset(KHDR).plain()]),
-    first_in(LIKE_FX2N, C, 200, 255)
+    first_in(LIKE_FX2N, C, 200, ANY)
         .steps(5, 5)
         .takes(&[coil("D", C).plain(), preset_32(KD).plain()]),
-    first_in(LIKE_FX3, C, 200, 255)
+    first_in(LIKE_FX3, C, 200, ANY)
         .steps(5, 5)
         .takes(&[coil("D", C), preset_32(KDR)]),
-    first_in(HM, C, 200, 255)
+    first_in(HM, C, 200, ANY)
         .steps(7, 7)
         .takes(&[coil("D", C).plain(), preset_32(KHDR).plain()]),
     on(FX3U).takes(&[coil("D", COILS.or(BIT_OF_WORD))]),

@@ -1,6 +1,8 @@
 //! Pages and tables that are made from the catalogue: `rungc explain ADD`, and the tables of the documentation.
 
-use super::{Classes, Drive, Extent, Forms, Inst, Lower, Param, Role, Rule, Shape, all, find};
+use super::{
+    Classes, Drive, Extent, Forms, Inst, Lower, Param, Role, Rule, Shape, When, all, find,
+};
 use crate::model::{Model, ModelId};
 use crate::resolve::Form;
 use crate::special::{self, Access, Status};
@@ -26,6 +28,7 @@ pub fn explain(name: &str) -> Option<String> {
             "\n## Operands\n{}",
             operands(params, &sharing(inst, params))
         ),
+        by_first(inst, model),
         forms(inst, model),
         differences(inst, model),
         devices(inst, model),
@@ -227,6 +230,28 @@ fn forms(inst: &Inst, model: ModelId) -> String {
     });
     if let Some(uses) = inst.max_uses {
         let _ = writeln!(text, "A program may have it {uses} times at most.");
+    }
+    text
+}
+
+/// The operands where they depend on what the first one is: `OUT T0 K30`.
+fn by_first(inst: &Inst, model: ModelId) -> String {
+    let mut text = String::new();
+    for variant in inst.variants.iter().filter(|v| v.models.has(model)) {
+        let (When::First(classes, first, last), Some(params)) = (variant.when, variant.params)
+        else {
+            continue;
+        };
+        let names: Vec<_> = classes.names().collect();
+        let mut numbers = String::new();
+        if first > 0 {
+            let _ = write!(numbers, " from {first}");
+        }
+        if last < u32::MAX {
+            let _ = write!(numbers, " up to {last}");
+        }
+        let _ = writeln!(text, "\nIf the first is {}{numbers}:", names.join(" "));
+        text.push_str(&operands(params, &[Model::get(model)]));
     }
     text
 }

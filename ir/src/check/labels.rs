@@ -3,7 +3,7 @@
 use super::Code;
 use super::pointers::{Pointer, Pointers};
 use super::structure::{NONE, Places, Routine};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Operand, OperandKind, codes};
 use rustc_hash::FxHashMap;
 
 /// Checks all pointers of a program.
@@ -99,11 +99,9 @@ fn missing(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics
         .chain(&pointer.calls)
         .chain(&pointer.others)
     {
-        let span = code
-            .instr(i)
-            .operands
-            .first()
-            .map_or(code.span(i), |operand| operand.span);
+        let names = |operand: &&Operand| matches!(operand.kind, OperandKind::Device(named, _) if named == device);
+        let operand = code.instr(i).operands.iter().find(names);
+        let span = operand.map_or(code.span(i), |operand| operand.span);
         let diagnostic = codes::NO_LABEL
             .at(span, format!("there is no label `{device}`"))
             .label("leads nowhere")

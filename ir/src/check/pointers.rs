@@ -55,11 +55,13 @@ impl Pointers {
                 pointers.entry(label).labels.push(i);
                 continue;
             }
-            for operand in &code.instr(i).operands {
+            for (at, operand) in code.instr(i).operands.iter().enumerate() {
                 let OperandKind::Device(device, index) = operand.kind else {
                     continue;
                 };
-                if !matches!(device.class, DeviceClass::P | DeviceClass::I) {
+                let pointer = matches!(device.class, DeviceClass::P | DeviceClass::I);
+                // An operand too many is wrong in itself.
+                if !pointer || at >= code.params(i).len() {
                     continue;
                 }
                 if index.is_some() {
