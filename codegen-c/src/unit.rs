@@ -389,7 +389,7 @@ impl Printer<'_> {
         self.output(out);
     }
 
-    /// The function that forgets edges and the coils of timers and counters when RUN begins; false if there are none.
+    /// The function that forgets edges, memories and the coils of timers and counters when RUN begins; false if there are none.
     fn forget(&self, out: &mut String) -> bool {
         let name = self.name();
         let mut body = String::new();
@@ -397,6 +397,13 @@ impl Printer<'_> {
             body.push_str("    memset(plc->edge, 0, sizeof plc->edge);\n");
         }
         body.push_str(&events::forget(self.module));
+        if self.module.run_states > 0 {
+            let _ = writeln!(
+                body,
+                "    memset(plc->state, 0, {} * sizeof plc->state[0]);",
+                self.module.run_states
+            );
+        }
         for class in [DeviceClass::T, DeviceClass::C] {
             for field in self.fields.of_class(class) {
                 let mut device = String::from("plc->");
@@ -414,7 +421,7 @@ impl Printer<'_> {
         if !body.is_empty() {
             let _ = write!(
                 out,
-                "/* RUN begins: edges, and the coils of timers and counters, are seen anew. */\n\
+                "/* RUN begins: edges, the coils of timers and counters and what takes several scans begin anew. */\n\
                  static void {name}_forget({name}_plc *plc)\n{{\n{body}}}\n\n"
             );
         }

@@ -273,6 +273,11 @@ impl Generator<'_> {
             out.extend(quote!(self.edges = [#edge(false); #count];));
         }
         out.extend(self.forget_flags());
+        if self.module.run_states > 0 {
+            let state = self.rt("State");
+            let last = Literal::usize_unsuffixed(self.module.run_states.into());
+            out.extend(quote!(self.states[1..=#last].fill(#state::new());));
+        }
         for field in &self.storage.fields {
             if matches!(field.elem, Elem::Bit | Elem::Word) {
                 continue;
@@ -284,7 +289,7 @@ impl Generator<'_> {
                 quote!(self.#name.coil = false;)
             });
         }
-        let doc = self.doc("Forgets that edges and the coils of timers and counters were on.");
+        let doc = self.doc("Forgets that edges and the coils of timers and counters were on, and what instructions remember.");
         quote!(#doc fn forget(&mut self) { #out })
     }
 

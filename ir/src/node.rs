@@ -483,6 +483,8 @@ pub struct Module {
     pub edges: u32,
     /// How many private memories there are; slots 1..=states are used.
     pub states: u16,
+    /// Slots 1..=run_states are those of the program's instructions, which RUN begins anew; the others last until power-off.
+    pub run_states: u16,
     /// Texts.
     pub texts: Vec<String>,
     /// Private bits.
@@ -518,6 +520,7 @@ impl Module {
             temps: Vec::new(),
             edges: 0,
             states: 0,
+            run_states: 0,
             texts: Vec::new(),
             flags: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]

@@ -27,7 +27,8 @@ pub trait Program: Plc {
     }
 
     /// The RUN/STOP switch. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;
-    /// going to RUN makes the next scan the first one (M8002) and forgets all edges, the coils of timers and counters included.
+    /// going to RUN makes the next scan the first one (M8002) and forgets all edges, the coils of timers and counters and the
+    /// private memories of instructions included.
     /// Setting the mode that it is in changes nothing. A program is in RUN at power-on.
     fn set_running(&mut self, running: bool);
 

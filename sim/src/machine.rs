@@ -84,6 +84,10 @@ impl<'m> Machine<'m> {
         self.edges.fill(false);
         self.flags.fill(false);
         self.periods.fill(self.sys.now_ms);
+        let of_program = 1..=usize::from(self.module.run_states);
+        if let Some(states) = self.states.get_mut(of_program) {
+            states.fill(State::default());
+        }
         self.devices.forget_coils();
     }
 

@@ -152,6 +152,7 @@ impl<'a> Lowerer<'a> {
             let function = self.flow.regions[region].function as usize;
             self.module.functions[function].body = body;
         }
+        self.module.run_states = self.module.states;
         self.module.functions[0].body = self.begin_function();
         self.module.functions[2].body = self.end_function();
         self.take_interrupts();
