@@ -174,7 +174,7 @@ mod tests {
         let mut never = Vec::new();
         for model in ModelId::ALL {
             for candidate in candidates(model) {
-                let drawn = (0..60).find_map(|_| candidate.draw(&mut rng, model));
+                let drawn = (0..200).find_map(|_| candidate.draw(&mut rng, model));
                 if drawn.is_none() {
                     never.push(format!("{model:?} {}", candidate.spelling));
                 }
