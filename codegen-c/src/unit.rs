@@ -9,7 +9,10 @@ use crate::writer::{Writer, function_name};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, MAX_JUMPS, Stmt};
 use rungc_ir::walk::statements;
-use rungc_rt::special::{D_WATCHDOG, M_KEEP_IN_STOP, M_OUTPUTS_OFF, M_WATCHDOG, WATCHDOG_CODE};
+use rungc_rt::special::{
+    D_ANY_ERROR, D_WATCHDOG, M_ANY_ERROR, M_KEEP_IN_STOP, M_OPERATION_ERROR, M_OUTPUTS_OFF,
+    M_WATCHDOG, OPERATION_ERROR_BCD, WATCHDOG_BCD, WATCHDOG_CODE,
+};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -184,7 +187,7 @@ impl Printer<'_> {
         let mut lines = String::new();
         let relay = self.module.model.error_relay;
         // On HM the other numbers are something else.
-        let family = relay == 8067;
+        let family = relay == M_OPERATION_ERROR;
         let stored = |class, n| {
             let kept = family || n == relay;
             kept.then(|| self.stored(class, n)).flatten()
@@ -208,12 +211,13 @@ impl Printer<'_> {
             }
             (None, None) => {}
         }
+        let shown = OPERATION_ERROR_BCD.to_string();
         let values = [
             (m(relay), "true"),
             (d(relay), if family { "code" } else { "step" }),
             (d(8069), "step"),
-            (m(8004), "true"),
-            (d(8004), "8067"),
+            (m(M_ANY_ERROR), "true"),
+            (d(D_ANY_ERROR), &shown),
         ];
         for (device, value) in values {
             if let Some(device) = device {
@@ -237,11 +241,24 @@ impl Printer<'_> {
     fn watchdog(&self, out: &mut String) {
         let name = self.name();
         let mut trip = String::from("        plc->sys.running = false;\n");
-        if let Some(relay) = self.stored(DeviceClass::M, M_WATCHDOG) {
-            let _ = writeln!(trip, "        {relay} = true;");
+        let relay = self.module.model.error_relay;
+        let (relays, registers): (&[u32], &[(u32, i16)]) = if relay == M_OPERATION_ERROR {
+            (
+                &[M_WATCHDOG, M_ANY_ERROR],
+                &[(D_WATCHDOG, WATCHDOG_CODE), (D_ANY_ERROR, WATCHDOG_BCD)],
+            )
+        } else {
+            (&[relay], &[])
+        };
+        for &relay in relays {
+            if let Some(relay) = self.stored(DeviceClass::M, relay) {
+                let _ = writeln!(trip, "        {relay} = true;");
+            }
         }
-        if let Some(register) = self.stored(DeviceClass::D, D_WATCHDOG) {
-            let _ = writeln!(trip, "        {register} = {WATCHDOG_CODE};");
+        for &(register, value) in registers {
+            if let Some(register) = self.stored(DeviceClass::D, register) {
+                let _ = writeln!(trip, "        {register} = {value};");
+            }
         }
         let _ = write!(
             out,

@@ -22,14 +22,12 @@ impl Fault {
 /// What an instruction returns.
 pub type Done = Result<(), Fault>;
 
-/// The relay of operation errors, but on HM.
-const ERROR: u32 = 8067;
+/// The relay of operation errors, but on HM, and their code.
+const ERROR: u32 = special::M_OPERATION_ERROR;
 /// The first of them: latched relay, and its step.
 const FIRST_ERROR: u32 = 8068;
 /// Step of the last one.
 const ERROR_STEP: u32 = 8069;
-/// Relay for any error, and the number of its relay.
-const ANY_ERROR: u32 = 8004;
 
 /// Shows a fault at `step` as h1u-h2u-programming §8.1 says: M8067 and D8067 (code), D8069 (step), the latches M8068 and D8068,
 /// and the summary M8004 with D8004. HM has only a relay and, under its number, a register for the step (hm-motion-controller §5.7).
@@ -53,14 +51,25 @@ pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     };
     let _ = plc.set_word(Class::D, ERROR, code as i16);
     let _ = plc.set_word(Class::D, ERROR_STEP, step);
-    let _ = plc.set_bit(Class::M, ANY_ERROR, true);
-    let _ = plc.set_word(Class::D, ANY_ERROR, ERROR as i16);
+    summarise(plc, special::OPERATION_ERROR_BCD);
 }
 
-/// Shows that the watchdog has stopped the PLC: M8061, and its code in D8061.
+/// M8004 and D8004: which error relay is on.
+fn summarise(plc: &mut dyn Plc, relay_bcd: i16) {
+    let _ = plc.set_bit(Class::M, special::M_ANY_ERROR, true);
+    let _ = plc.set_word(Class::D, special::D_ANY_ERROR, relay_bcd);
+}
+
+/// Shows that the watchdog has stopped the PLC: M8061, its code in D8061, and the summary; on HM its only error relay.
 pub fn trip_watchdog(plc: &mut dyn Plc) {
+    let relay = plc.error_relay();
+    if relay != ERROR {
+        let _ = plc.set_bit(Class::M, relay, true);
+        return;
+    }
     let _ = plc.set_bit(Class::M, special::M_WATCHDOG, true);
     let _ = plc.set_word(Class::D, special::D_WATCHDOG, special::WATCHDOG_CODE);
+    summarise(plc, special::WATCHDOG_BCD);
 }
 
 #[cfg(test)]
@@ -76,7 +85,7 @@ mod tests {
         assert_eq!((plc.m(8067, 2), plc.m(8004, 1)), ("11".into(), "1".into()));
         assert_eq!(
             (plc.d(8067, 3), plc.d(8004, 1)),
-            ([6707, 12, 30].to_vec(), [8067].to_vec())
+            ([6707, 12, 30].to_vec(), [0x8067_u16 as i16].to_vec())
         );
     }
 

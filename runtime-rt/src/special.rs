@@ -12,6 +12,16 @@ pub const M_WATCHDOG: u32 = 8061;
 pub const D_WATCHDOG: u32 = 8061;
 /// That code for the watchdog (h1u-h2u-programming §8.1, error codes of D8061).
 pub const WATCHDOG_CODE: i16 = 6105;
+/// Relay of operation errors, but on HM.
+pub const M_OPERATION_ERROR: u32 = 8067;
+/// Relay for any error.
+pub const M_ANY_ERROR: u32 = 8004;
+/// Number of the error relay that is on, in BCD.
+pub const D_ANY_ERROR: u32 = 8004;
+/// What D8004 shows of M8067, an operation error.
+pub const OPERATION_ERROR_BCD: i16 = 0x8067_u16 as i16;
+/// What D8004 shows of M8061, which the watchdog switches on.
+pub const WATCHDOG_BCD: i16 = 0x8061_u16 as i16;
 /// Zero flag.
 pub const M_ZERO: u32 = 8020;
 /// Borrow flag.

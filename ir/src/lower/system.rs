@@ -16,7 +16,7 @@ const CLOCKS: [(u32, i32); 4] = [(8011, 10), (8012, 100), (8013, 1000), (8014, 6
 const SCAN_TIME: u32 = 8010;
 const LEAST_SCAN_TIME: u32 = 8011;
 const MOST_SCAN_TIME: u32 = 8012;
-/// Relay for any error of the run.
+/// Relay for any error of the run, and the register that tells which.
 const ANY_ERROR: u32 = 8004;
 /// The error log of H1U/H2U: hours and codes, ten each; the running time in seconds; and the registers that tell which error and where.
 const ERROR_LOG: std::ops::RangeInclusive<u32> = 8490..=8511;
@@ -150,7 +150,8 @@ impl Lowerer<'_> {
             .into_iter()
             .filter(|&relay| self.keeps(M, relay))
             .collect();
-        if errors.is_empty() {
+        let summary = self.keeps(D, ANY_ERROR);
+        if errors.is_empty() && !summary {
             return;
         }
         let forget = |this: &mut Self| {
@@ -158,12 +159,18 @@ impl Lowerer<'_> {
             for relay in errors {
                 this.write_device(M, relay, off);
             }
+            if summary {
+                let none = this.int(0, false);
+                this.emit(Stmt::WriteWord(fixed(D, ANY_ERROR), none));
+            }
         };
-        if self.model.errors_last_a_scan {
-            return forget(self);
-        }
-        let first = self.add(Expr::Sys(SysValue::FirstScan));
-        self.when(first, forget);
+        let when = if self.model.errors_last_a_scan {
+            SysValue::Running
+        } else {
+            SysValue::FirstScan
+        };
+        let when = self.add(Expr::Sys(when));
+        self.when(when, forget);
     }
 
     /// M8011 to M8014: the time since power-on, without its sign bit, tells where in its period each is.

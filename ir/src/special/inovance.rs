@@ -57,7 +57,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8056-8058 rw 0 scan "on: timed interrupt I6–8xx disabled";
     M 8059 rw 0 inert(INTERRUPTS) "on: high-speed counter interrupts I010-I060 disabled";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error; error lamp off, PLC keeps running; detail D8060";
-    M 8061 r 0 inert(HARDWARE) "PLC hardware error; lamp flashes, PLC stops; code D8061";
+    M 8061 r 0 scan "PLC error, here of the watchdog; lamp flashes, PLC stops; code D8061";
     M 8062 r 0 inert(SERIAL) "PLC/programming-device communication error; lamp off, keeps running; code D8062";
     M 8063 r 0 inert(SERIAL) "link / general communication error; lamp off, keeps running; code D8063";
     M 8064 r 0 inert(CHECKED) "parameter error; lamp flashes, PLC stops; code D8064";
@@ -227,7 +227,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8054 rw -31072 inert(PULSES) "DRVI/DRVA maximum speed of Y2, low word, used when M8137 is on";
     D 8055 rw 1 inert(PULSES) "high word of D8054";
     D 8060 r 0 inert(HARDWARE) "I/O configuration error: number of the missing I/O (1xxx = X, 0xxx = Y)";
-    D 8061 r 0 inert(HARDWARE) "PLC hardware error code";
+    D 8061 r 0 scan "code of the PLC error: 6105 of the watchdog";
     D 8062 r 0 inert(SERIAL) "PLC communication error code";
     D 8063 r 0 inert(SERIAL) "link/communication error code";
     D 8064 r 0 inert(CHECKED) "parameter error code";

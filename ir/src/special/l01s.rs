@@ -36,7 +36,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8056-8058 rw 0 scan "on: timer interrupt I600–800-I699–899 disabled (base 1 ms); cleared on the change from RUN to STOP";
     M 8059 rw 0 inert(INTERRUPTS) "on: all high-speed-counter interrupts disabled (I010-I060)";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error";
-    M 8061 r 0 inert(HARDWARE) "PLC hardware error";
+    M 8061 r 0 scan "PLC error, here of the watchdog";
     M 8062-8063 r 0 inert(SERIAL) "serial communication error 0–1";
     M 8064 r 0 inert(CHECKED) "parameter error";
     M 8065 r 0 inert(CHECKED) "syntax error";

@@ -57,7 +57,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8056-8058 rw 0 scan "forbids the timer interrupts I6–I8";
     M 8059 rw 0 inert(INTERRUPTS) "forbids the interrupts of counters";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error, code in D8060";
-    M 8061 r 0 inert(HARDWARE) "hardware error, code in D8061";
+    M 8061 r 0 scan "hardware error, here of the watchdog, code in D8061";
     M 8062-8063 r 0 inert(SERIAL) "communication error, code in D8062 and D8063";
     M 8064 r 0 inert(CHECKED) "parameter error, code in D8064";
     M 8065 r 0 inert(CHECKED) "syntax error, code in D8065";
@@ -108,7 +108,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8040-8047 r 0 scan "the lowest eight steps that are on (with M8047)";
     D 8049 r 0 scan "the lowest annunciator that is on (with M8049)";
     D 8060 r 0 inert(HARDWARE) "number of the missing input or output";
-    D 8061 r 0 inert(HARDWARE) "code of the hardware error";
+    D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
     D 8062-8063 r 0 inert(SERIAL) "code of the communication error";
     D 8064 r 0 inert(CHECKED) "code of the parameter error";
     D 8065 r 0 inert(CHECKED) "code of the syntax error";
