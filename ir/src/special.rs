@@ -50,6 +50,11 @@ pub struct Special {
 }
 
 impl Special {
+    /// Whether it does what it means.
+    pub fn works(&self) -> bool {
+        !matches!(self.status, Status::Inert(_))
+    }
+
     /// Whether the scan driver keeps it.
     pub fn is_kept_by_scan(&self) -> bool {
         matches!(self.status, Status::Scan)

@@ -4,6 +4,7 @@ use super::Lowerer;
 use super::operand::{Guards, Target};
 use crate::catalogue::{ArithOp, CmpOp, Inst, Lower};
 use crate::node::{BinOp, Expr, ExprId, Stmt};
+use crate::special::{self, Special};
 use rungc_syntax::{DeviceClass, OperandKind};
 
 /// Zero, borrow and carry.
@@ -246,7 +247,8 @@ impl Lowerer<'_> {
         value: ExprId,
         on: impl FnOnce(&mut Self, ExprId) -> ExprId,
     ) -> ExprId {
-        if !self.specials.has(DeviceClass::M, flag) || !self.model.special_relay_works(flag) {
+        let works = special::find(self.model.id, DeviceClass::M, flag).is_some_and(Special::works);
+        if !works || !self.specials.has(DeviceClass::M, flag) {
             return value;
         }
         let value = self.settled(value);
