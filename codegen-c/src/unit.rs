@@ -351,6 +351,9 @@ impl Printer<'_> {
                 let _ = writeln!(special, "    {device} = true;");
             }
         }
+        if !module.model.keeps_contacts {
+            self.each_timer_and_counter(&mut special, "done = false");
+        }
         let forget = self.forget(out);
         let states = if module.states > 0 {
             "    memset(plc->state, 0, sizeof plc->state);\n"
@@ -421,20 +424,7 @@ impl Printer<'_> {
                 self.module.run_states
             );
         }
-        for class in [DeviceClass::T, DeviceClass::C] {
-            for field in self.fields.of_class(class) {
-                let mut device = String::from("plc->");
-                field.name(&mut device);
-                let _ = match field.array {
-                    true => write!(
-                        body,
-                        "    for (int i = 0; i < {}; i++) {{\n        {device}[i].coil = false;\n    }}\n",
-                        field.count
-                    ),
-                    false => writeln!(body, "    {device}.coil = false;"),
-                };
-            }
-        }
+        self.each_timer_and_counter(&mut body, "coil = false");
         if !body.is_empty() {
             let _ = write!(
                 out,
@@ -443,6 +433,24 @@ impl Printer<'_> {
             );
         }
         !body.is_empty()
+    }
+
+    /// Does the same with a member of each timer and counter.
+    fn each_timer_and_counter(&self, out: &mut String, what: &str) {
+        for class in [DeviceClass::T, DeviceClass::C] {
+            for field in self.fields.of_class(class) {
+                let mut device = String::from("plc->");
+                field.name(&mut device);
+                let _ = match field.array {
+                    true => write!(
+                        out,
+                        "    for (int i = 0; i < {}; i++) {{\n        {device}[i].{what};\n    }}\n",
+                        field.count
+                    ),
+                    false => writeln!(out, "    {device}.{what};"),
+                };
+            }
+        }
     }
 
     /// Latched devices that a model keeps only while a special register holds a key.

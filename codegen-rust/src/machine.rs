@@ -180,7 +180,7 @@ impl Generator<'_> {
             quote!(#doc pub const fn new() -> Self { let mut plc = #value; plc.preset(); plc })
         };
         let preset = (!preset.is_empty()).then(|| {
-            let doc = self.doc("Gives special registers the values that they have at power-on.");
+            let doc = self.doc("Gives special devices the values that they have at power-on.");
             quote!(#doc const fn preset(&mut self) { #preset })
         });
         let clear_general = self.clear(false);
@@ -278,19 +278,25 @@ impl Generator<'_> {
             let last = Literal::usize_unsuffixed(self.module.run_states.into());
             out.extend(quote!(self.states[1..=#last].fill(#state::new());));
         }
-        for field in &self.storage.fields {
-            if matches!(field.elem, Elem::Bit | Elem::Word) {
-                continue;
-            }
-            let name = &field.name;
-            out.extend(if field.area.array {
-                quote!(for device in &mut self.#name { device.coil = false; })
-            } else {
-                quote!(self.#name.coil = false;)
-            });
-        }
+        out.extend(self.each_timer_and_counter(&quote!(coil)));
         let doc = self.doc("Forgets that edges and the coils of timers and counters were on, and what instructions remember.");
         quote!(#doc fn forget(&mut self) { #out })
+    }
+
+    /// Switches a member of each timer and counter off.
+    fn each_timer_and_counter(&self, member: &TokenStream) -> TokenStream {
+        let fields = self.storage.fields.iter();
+        fields
+            .filter(|field| !matches!(field.elem, Elem::Bit | Elem::Word))
+            .map(|field| {
+                let name = &field.name;
+                if field.area.array {
+                    quote!(for device in &mut self.#name { device.#member = false; })
+                } else {
+                    quote!(self.#name.#member = false;)
+                }
+            })
+            .collect()
     }
 
     /// What stops a scan that jumps backwards for ever.
@@ -405,6 +411,8 @@ impl Generator<'_> {
         let kept = |field: &Field| field.area.latched || field.area.is_cleared(false);
         let others = self.zeroing(|field| !kept(field));
         let preset = (!self.preset().is_empty()).then(|| quote!(self.preset();));
+        let contacts =
+            (!self.module.model.keeps_contacts).then(|| self.each_timer_and_counter(&quote!(done)));
         let hidden = self.hidden_fields();
         let forgotten: Vec<Ident> = self.flag_fields().into_iter().map(|f| f.0).collect();
         let hidden = hidden
@@ -418,6 +426,7 @@ impl Generator<'_> {
                 self.clear_general();
                 #others
                 #preset
+                #contacts
                 #hidden
                 self.forget();
             }

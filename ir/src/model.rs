@@ -136,6 +136,10 @@ pub struct Model {
     pub timers: &'static [Timers],
     /// Latched devices are kept over power-off only while this special register holds this value (HM); `None`: always.
     pub latch_key: Option<(u32, i16)>,
+    /// Whether latched timers and counters keep their contacts over power-off, not only their values.
+    pub keeps_contacts: bool,
+    /// The pointer that is END: CJ to it ends the scan, and it is no label.
+    pub end_pointer: Option<u32>,
     /// Program capacity in steps.
     pub max_steps: u32,
     /// Whether a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.

@@ -227,6 +227,19 @@ impl Devices {
         self.forget_coils();
     }
 
+    /// Opens the contacts of timers and counters.
+    pub(crate) fn open_contacts(&mut self) {
+        self.timers.cells.iter_mut().for_each(|t| t.done = false);
+        self.counters16
+            .cells
+            .iter_mut()
+            .for_each(|c| c.done = false);
+        self.counters32
+            .cells
+            .iter_mut()
+            .for_each(|c| c.done = false);
+    }
+
     fn each_clear(&mut self, pick: impl Fn(Presence) -> bool + Copy) {
         for bits in [&mut self.y, &mut self.m, &mut self.s] {
             bits.clear(pick);

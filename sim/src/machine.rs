@@ -186,6 +186,9 @@ impl Program for Machine<'_> {
             None => true,
         };
         self.devices.power_off(keeps_latched);
+        if !self.module.model.keeps_contacts {
+            self.devices.open_contacts();
+        }
         self.power_on();
     }
 

@@ -13,7 +13,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
         if device.class != DeviceClass::P {
             continue;
         }
-        if device.number == END_POINTER {
+        if code.model().end_pointer == Some(device.number) {
             end_pointer(code, pointer, out);
             continue;
         }
@@ -34,9 +34,6 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
     }
     Calls::new(pointers, places).check(code, out);
 }
-
-/// P63 means the end of the program.
-const END_POINTER: u32 = 63;
 
 fn defined_once(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics) {
     let Some((&first, again)) = pointer.labels.split_first() else {

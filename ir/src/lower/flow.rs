@@ -9,8 +9,6 @@ use crate::resolve::Resolved;
 use rungc_syntax::{DeviceClass, Index, OperandKind, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// The pointer that is END.
-const END_POINTER: u32 = 63;
 /// A jump leads nowhere.
 const NO_LABEL: u16 = 6701;
 /// CALL nested too deep.
@@ -457,7 +455,9 @@ impl Lowerer<'_> {
         };
         match pointer_index(self.resolved, self.at) {
             Some(index) => self.indexed_jump(cond, target, index),
-            None if target == END_POINTER => self.when(cond, |this| this.emit(Stmt::Return)),
+            None if self.model.end_pointer == Some(target) => {
+                self.when(cond, |this| this.emit(Stmt::Return))
+            }
             None => self.push_jump(cond, target),
         }
     }

@@ -13,6 +13,8 @@ pub(super) const HM: Model = Model {
     ranges: RANGES,
     timers: TIMERS,
     latch_key: Some((8020, 2222)),
+    keeps_contacts: false,
+    end_pointer: None,
     max_steps: 12000,
     z_pairs_with_v: false,
     error_relay: 8006,

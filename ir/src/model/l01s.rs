@@ -13,6 +13,8 @@ pub(super) const L01S: Model = Model {
     ranges: RANGES,
     timers: TIMERS,
     latch_key: None,
+    keeps_contacts: true,
+    end_pointer: Some(63),
     max_steps: 30000,
     z_pairs_with_v: true,
     error_relay: 8067,
