@@ -326,7 +326,8 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
     uint32_t elapsed = 0;
     if (timer->coil) {
         elapsed = ((options & PLC_FREE_RUNNING) != 0u) ? sys->now_ms - timer->last_ms : sys->dt_ms;
-    } else {
+    }
+    if (!timer->coil || (options & PLC_LATCHES_PRESET) == 0u) {
         timer->preset = preset;
     }
     if ((options & PLC_STEPWISE) != 0u && elapsed > unit_ms) {
@@ -347,6 +348,14 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
         timer->part_ms = part % unit_ms;
         timer->value = plc_int16((uint32_t)timer->value + ((units < room) ? units : room));
         timer->done = timer->done || timer->value >= preset;
+    }
+}
+
+/* What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it. */
+static inline void plc_timer_go_on(plc_timer *timer, const plc_sys *sys, uint32_t unit_ms, unsigned options)
+{
+    if (timer->coil) {
+        plc_timer_run(timer, true, timer->preset, sys, unit_ms, options);
     }
 }
 

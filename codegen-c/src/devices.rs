@@ -12,7 +12,9 @@ use std::fmt::Write;
 /// The device that a statement writes, if it is known: its comment stands beside the statement.
 pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
     match stmt {
-        Stmt::Timer { number, .. } => Some((DeviceClass::T, *number)),
+        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+            Some((DeviceClass::T, *number))
+        }
         Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
             Some((DeviceClass::C, *number))
         }
@@ -37,6 +39,13 @@ impl Writer<'_, '_> {
                 drive,
                 preset,
             } => self.timer(code, (number, kind), drive, preset),
+            Stmt::TimerGoesOn { number, kind } => {
+                code.push_str("plc_timer_go_on(&");
+                self.fields.access(code, DeviceClass::T, number);
+                let _ = write!(code, ", &plc->sys, {}u, ", kind.unit_ms.max(1));
+                self.timer_options(code, number, kind);
+                code.push_str(");");
+            }
             Stmt::Counter16 {
                 number,
                 drive,
@@ -72,7 +81,7 @@ impl Writer<'_, '_> {
         drive: ExprId,
         preset: ExprId,
     ) {
-        let latches = kind.latches_preset && self.plain_timers.get(&number) != Some(&1);
+        let latches = self.latches(number, kind);
         let plain = !latches && !kind.free_running && !kind.overruns && !kind.stepwise;
         let family = match (plain, kind.unit_ms) {
             (true, 1 | 10 | 100) if kind.accumulating => {
@@ -89,22 +98,31 @@ impl Writer<'_, '_> {
         self.expr(code, preset, Around::Exact);
         code.push_str(", &plc->sys");
         if family == "plc_timer_run" {
-            let options = [
-                (kind.accumulating, "PLC_RETENTIVE"),
-                (kind.free_running, "PLC_FREE_RUNNING"),
-                (latches, "PLC_LATCHES_PRESET"),
-                (kind.overruns, "PLC_OVERRUNS"),
-                (kind.stepwise, "PLC_STEPWISE"),
-            ];
-            let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
-            let set = if set.is_empty() {
-                "0u".to_string()
-            } else {
-                set.join(" | ")
-            };
-            let _ = write!(code, ", {}u, {set}", kind.unit_ms.max(1));
+            let _ = write!(code, ", {}u, ", kind.unit_ms.max(1));
+            self.timer_options(code, number, kind);
         }
         code.push_str(");");
+    }
+
+    /// Whether a timer has to remember the preset with which it began: a constant that only one coil names cannot change.
+    fn latches(&self, number: u32, kind: TimerKind) -> bool {
+        kind.latches_preset && self.plain_timers.get(&number) != Some(&1)
+    }
+
+    fn timer_options(&self, code: &mut String, number: u32, kind: TimerKind) {
+        let options = [
+            (kind.accumulating, "PLC_RETENTIVE"),
+            (kind.free_running, "PLC_FREE_RUNNING"),
+            (self.latches(number, kind), "PLC_LATCHES_PRESET"),
+            (kind.overruns, "PLC_OVERRUNS"),
+            (kind.stepwise, "PLC_STEPWISE"),
+        ];
+        let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
+        if set.is_empty() {
+            code.push_str("0u");
+        } else {
+            code.push_str(&set.join(" | "));
+        }
     }
 
     fn counter(&mut self, code: &mut String, function: &str, number: u32, arguments: &[ExprId]) {

@@ -106,6 +106,13 @@ impl Generator<'_> {
                 digits,
                 value,
             } => self.write_nibbles(*place, *digits, *value),
+            Stmt::TimerGoesOn { number, kind } => {
+                let kind = self.timer_kind(*kind);
+                match self.storage.cell(&quote!(plc), DeviceClass::T, *number) {
+                    Some(cell) => quote!(#cell.go_on(#kind, plc.sys.now_ms);),
+                    None => TokenStream::new(),
+                }
+            }
             Stmt::Timer { .. } | Stmt::Counter16 { .. } | Stmt::Counter32 { .. } => self.coil(stmt),
             Stmt::SetFlag(flag, on) => {
                 let flag = self.flag(*flag);

@@ -168,6 +168,9 @@ impl Out<'_> {
                 e(drive),
                 e(preset)
             ),
+            Stmt::TimerGoesOn { number, kind } => {
+                format!("timer T{number} {} goes on", timer_text(kind))
+            }
             Stmt::Counter16 {
                 number,
                 drive,

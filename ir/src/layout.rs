@@ -200,7 +200,9 @@ impl<'m> Builder<'m> {
             | Stmt::Reset(place) => self.place(*place, 1),
             Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.pair(*place),
             Stmt::WriteNibbles { place, digits, .. } => self.place(*place, 4 * u32::from(*digits)),
-            Stmt::Timer { number, .. } => self.mark(DeviceClass::T, *number, 1, false),
+            Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+                self.mark(DeviceClass::T, *number, 1, false)
+            }
             Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
                 self.mark(DeviceClass::C, *number, 1, false)
             }

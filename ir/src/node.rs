@@ -323,6 +323,13 @@ pub enum Stmt {
         /// `I16`.
         preset: ExprId,
     },
+    /// END processing of a timer that goes on in scans that jump over its coil: [`rungc_rt::Timer::go_on`].
+    TimerGoesOn {
+        /// Number.
+        number: u32,
+        /// Behaviour.
+        kind: TimerKind,
+    },
     /// OUT C0–C199: [`rungc_rt::Counter16::run`].
     Counter16 {
         /// Number.

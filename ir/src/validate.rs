@@ -337,6 +337,7 @@ impl Checker<'_> {
             Stmt::SetFlag(flag, _) => ((flag.0 as usize) < module.flags.len(), None),
             Stmt::CallSub(_)
             | Stmt::Return
+            | Stmt::TimerGoesOn { .. }
             | Stmt::Parts(_)
             | Stmt::Goto(_)
             | Stmt::Fault { .. }

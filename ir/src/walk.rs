@@ -89,6 +89,7 @@ macro_rules! for_exprs {
                 | Stmt::SetFlag(..)
                 | Stmt::CallSub(_)
                 | Stmt::Return
+                | Stmt::TimerGoesOn { .. }
                 | Stmt::Parts(_)
                 | Stmt::Goto(_)
                 | Stmt::Fault { .. }

@@ -24,11 +24,11 @@ pub struct TimerKind {
 pub struct Timer {
     /// Time since the last whole unit, in milliseconds.
     pub part_ms: u32,
-    /// When it was last executed, for a free-running timer.
+    /// When it was last executed or went on, for a free-running timer.
     pub last_ms: u32,
     /// Current value in units.
     pub value: i16,
-    /// Preset taken over at the start of timing.
+    /// Preset taken over at the start of timing, or else the last one.
     pub preset: i16,
     /// Whether its coil was on at the last execution.
     pub coil: bool,
@@ -91,7 +91,7 @@ impl Timer {
         } else {
             elapsed
         };
-        if !self.coil {
+        if !self.coil || !kind.latches_preset {
             self.preset = preset;
         }
         self.coil = true;
@@ -114,6 +114,13 @@ impl Timer {
             self.done |= self.value >= preset;
         }
         self.done
+    }
+
+    /// What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it.
+    pub fn go_on(&mut self, kind: TimerKind, now_ms: u32) {
+        if self.coil {
+            self.run(kind, true, self.preset, now_ms, 0);
+        }
     }
 }
 

@@ -322,6 +322,12 @@ impl<'m> Machine<'m> {
                     let _ = self.reset(class, number);
                 }
             }
+            Stmt::TimerGoesOn { number, kind } => {
+                let now = self.sys.now_ms;
+                if let Some(timer) = self.devices.timer(number) {
+                    timer.go_on(kind, now);
+                }
+            }
             Stmt::Timer { .. } | Stmt::Counter16 { .. } | Stmt::Counter32 { .. } => self.coil(stmt),
             // Stmt::Network marks a place; all others are control flow, which `step` handles.
             _ => {}

@@ -62,13 +62,18 @@ const fn data(name: &'static str, fnc: u16, title: &'static str) -> Inst {
 }
 
 pub(super) const ROWS: &[Inst] = &[
-    data("ZRST", 40, "Reset a range", )
+    data("ZRST", 40, "Reset a range")
         .forms(W16_P)
         .takes(&[
             mixed_out("D1", RESETTABLE).through(1),
             mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), COUNTERS_ALIKE]),
         ])
-        .variants(&[on(HM).takes(&[
+        .variants(&[
+            on(INOVANCE).takes(&[
+                mixed_out("D1", RESETTABLE).through(1),
+                mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), COUNTERS_ALIKE, Rule::NotBefore(0)]),
+            ]),
+            on(HM).takes(&[
             mixed_out("D1", RESETTABLE).through(1),
             mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), Rule::NotBefore(0)]),
         ])])

@@ -11,7 +11,7 @@ const ROTATED: Param = both("D", RESULTS).rules(&[Rule::WholeGroup]);
 const ROTATE: &[Param] = &[
     ROTATED,
     count("n", 0, 16)
-        .also(DATA)
+        .also_on(LIKE_FX3, DATA)
         .rules(&[Rule::WideLimits(0, 32)]),
 ];
 const ROTATE_HM: &[Param] = &[
@@ -20,6 +20,7 @@ const ROTATE_HM: &[Param] = &[
         .also(DATA)
         .rules(&[Rule::WideLimits(1, 32)]),
 ];
+const ROTATE_INOVANCE: &[Param] = &[ROTATED, count("n", 1, 16).rules(&[Rule::WideLimits(1, 32)])];
 const ROTATE_CARRY_HM: &[Param] = &[ROTATED, count("n", 1, 15).rules(&[Rule::WideLimits(1, 31)])];
 
 const fn shift_bits(n1: Param, n2: Param) -> [Param; 4] {
@@ -129,16 +130,16 @@ const fn queue(name: &'static str, fnc: u16, title: &'static str, function: RtFn
 
 pub(super) const ROWS: &[Inst] = &[
     rotate("ROR", 30, "Rotate right", RtFn::Ror)
-        .variants(&[on(HM).takes(ROTATE_HM)])
+        .variants(&[on(HM).takes(ROTATE_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates D right by n bits. The bit that left last is also in M8022."),
     rotate("ROL", 31, "Rotate left", RtFn::Rol)
-        .variants(&[on(HM).takes(ROTATE_HM)])
+        .variants(&[on(HM).takes(ROTATE_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates D left by n bits. The bit that left last is also in M8022."),
     rotate("RCR", 32, "Rotate right with carry", RtFn::Rcr)
-        .variants(&[on(HM).takes(ROTATE_CARRY_HM)])
+        .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates the ring of D and M8022 right by n bits: bit 0 goes to M8022, M8022 to the top."),
     rotate("RCL", 33, "Rotate left with carry", RtFn::Rcl)
-        .variants(&[on(HM).takes(ROTATE_CARRY_HM)])
+        .variants(&[on(HM).takes(ROTATE_CARRY_HM), on(INOVANCE).takes(ROTATE_INOVANCE)])
         .text("Rotates the ring of D and M8022 left by n bits: the top bit goes to M8022, M8022 to bit 0."),
     shift("SFTR", 34, "Shift bits right", RtFn::Sftr)
         .takes(SHIFT_BITS)

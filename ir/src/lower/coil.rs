@@ -45,6 +45,9 @@ impl Lowerer<'_> {
         let Some(kind) = self.model.timer(number) else {
             return;
         };
+        if kind.free_running && self.flow.skips() {
+            self.free_running.insert(number, kind);
+        }
         let drive = self.drive();
         self.with_preset(false, |this, preset| {
             this.emit(Stmt::Timer {

@@ -136,6 +136,11 @@ impl Flow {
         flow
     }
 
+    /// Whether there are coils that not every scan executes: routines or jumps.
+    pub(super) fn skips(&self) -> bool {
+        self.regions.len() > 1 || !self.jumped_to.is_empty()
+    }
+
     /// Adds the routine that begins at `start`; where it ends.
     fn add_routine(
         &mut self,

@@ -24,8 +24,10 @@ use crate::node::{Function, FunctionKind, Module, Network, Stmt};
 use crate::resolve::{Resolution, Resolved};
 use flow::{Flow, Open};
 use parts::Item;
+use rungc_rt::TimerKind;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, codes};
 use special::Specials;
+use std::collections::BTreeMap;
 
 /// What to know besides the program.
 #[derive(Clone, Debug, Default)]
@@ -94,6 +96,8 @@ struct Lowerer<'a> {
     logic: logic::Logic,
     steps: stl::Steps,
     interrupts: interrupt::Interrupts,
+    /// Timers that go on in scans that do not execute their coils.
+    free_running: BTreeMap<u32, TimerKind>,
     /// Statement above a network that has not begun yet.
     heading: Option<String>,
 }
@@ -121,6 +125,7 @@ impl<'a> Lowerer<'a> {
             logic: logic::Logic::of(resolved),
             steps: stl::Steps::of(resolved),
             interrupts: interrupt::Interrupts::default(),
+            free_running: BTreeMap::new(),
             flow,
             diagnostics: Diagnostics::new(),
             at: 0,

@@ -88,6 +88,9 @@ impl Lowerer<'_> {
     pub(super) fn end_function(&mut self) -> Body {
         self.body(|this| {
             this.interruptible();
+            for (number, kind) in std::mem::take(&mut this.free_running) {
+                this.emit(Stmt::TimerGoesOn { number, kind });
+            }
             this.monitor(&STATES);
             this.monitor(&ALARMS);
             this.error_log();

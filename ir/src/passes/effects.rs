@@ -97,7 +97,9 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         Stmt::WriteNibbles {
             place: at, digits, ..
         } => place(at, 4 * u32::from(digits)),
-        Stmt::Timer { number, .. } => Writes::Run(DeviceClass::T, number, number),
+        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+            Writes::Run(DeviceClass::T, number, number)
+        }
         Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
             Writes::Run(DeviceClass::C, number, number)
         }

@@ -92,6 +92,7 @@ impl Checker {
             OperandKind::Device(device, index) => self
                 .existing(span, *device)
                 .or_else(|| self.counter(place, span, *device, param))
+                .or_else(|| self.upper_half(place, span, *device, param))
                 .or_else(|| numbers(span, *device, param))
                 .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
             OperandKind::WordBit(device, bit, index) => bit_of_register(span, *device, *index)
@@ -229,6 +230,25 @@ impl Checker {
                 Some(name) => diagnostic.help(format!("use the 32-bit form `{name}`")),
                 None => diagnostic,
             }
+        })
+    }
+
+    /// V as a 32-bit value: the pair of V and Z is named by its Z.
+    fn upper_half(
+        &self,
+        place: &Place,
+        span: Span,
+        device: Device,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        let half = device.class == DeviceClass::V && self.model.z_pairs_with_v;
+        (half && words(place.found, param) == 2).then(|| {
+            let mnemonic = &place.instr.mnemonic;
+            let message = format!("`{device}` is only the upper half of what `{mnemonic}` takes");
+            codes::INDEX_WIDTH
+                .at(span, message)
+                .label("here V and Z are a pair, named by its Z")
+                .help(format!("use `Z{}`", device.number))
         })
     }
 

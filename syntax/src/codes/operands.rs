@@ -21,8 +21,8 @@ super::codes! {
     right: "LD M8000\nMOV K1M0Z0 K1M10\nLD M10\nOUT Y0\nEND\n";
 
     INDEX_WIDTH = "E0104" "index-width" Error Some(6503),
-    "V as the index of a 32-bit instruction",
-    "In a 32-bit instruction the index is the pair of V (upper word) and Z (lower word), which is named by Z.",
+    "V in a 32-bit instruction",
+    "In a 32-bit instruction V (upper word) and Z (lower word) are a pair, which is named by Z, as an index and as an operand.",
     model: "h2u",
     wrong: "LD X0\nDMOV D0V0 D20\nEND\n",
     right: "LD X0\nDMOV D0Z0 D20\nEND\n";
