@@ -22,8 +22,8 @@ typedef struct {
     void (*set_running)(bool running);
     void (*power_cycle)(void);
     bool (*output)(unsigned terminal);
-    void (*input_edge)(unsigned terminal, bool on); /* this and the next two: NULL if the program takes no notice */
-    void (*tick)(uint32_t now_ms);
+    void (*input_edge)(unsigned terminal, bool on); /* NULL if the program takes no notice of edges */
+    void (*tick)(uint32_t now_ms); /* NULL, as the next, if it has no interrupts */
     void (*take_interrupts)(void);
     rungc_map (*map)(void);
 } program;
@@ -59,7 +59,9 @@ typedef struct {
     static void input_edge##n(unsigned terminal, bool on)                                                              \
     {                                                                                                                  \
         case##n##_input_edge(&memory.case##n, terminal, on);                                                           \
-    }                                                                                                                  \
+    }
+
+#define INTERRUPTS(n)                                                                                                  \
     static void tick##n(uint32_t now_ms)                                                                               \
     {                                                                                                                  \
         case##n##_tick(&memory.case##n, now_ms);                                                                       \
@@ -72,6 +74,9 @@ typedef struct {
 #define ENTRY(n) {init##n, scan##n, set_running##n, power_cycle##n, output##n, NULL, NULL, NULL, map##n}
 
 #define ENTRY_WITH_EVENTS(n)                                                                                           \
+    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, NULL, NULL, map##n}
+
+#define ENTRY_WITH_INTERRUPTS(n)                                                                                       \
     {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, take_interrupts##n, map##n}
 
 /* CASES */

@@ -412,18 +412,24 @@ static inline void plc_count16(plc_counter16 *counter, bool drive, int16_t prese
     counter->coil = drive;
 }
 
-/* OUT C200 and up: counts an off-to-on change of its coil up or down, wrapping. The contact closes when the value reaches the
- * preset upwards and opens when it leaves it downwards. */
+/* Counts once, up or down, wrapping. The contact closes when the value reaches the preset upwards and opens when it leaves it
+ * downwards. */
+static inline void plc_count32_once(plc_counter32 *counter, bool down, int32_t preset)
+{
+    const int32_t before = counter->value;
+    counter->value = plc_add32(before, down ? -1 : 1);
+    if (!down && counter->value == preset) {
+        counter->done = true;
+    } else if (down && before == preset) {
+        counter->done = false;
+    }
+}
+
+/* OUT C200 and up: counts an off-to-on change of its coil. */
 static inline void plc_count32(plc_counter32 *counter, bool drive, bool down, int32_t preset)
 {
     if (drive && !counter->coil) {
-        const int32_t before = counter->value;
-        counter->value = plc_add32(before, down ? -1 : 1);
-        if (!down && counter->value == preset) {
-            counter->done = true;
-        } else if (down && before == preset) {
-            counter->done = false;
-        }
+        plc_count32_once(counter, down, preset);
     }
     counter->coil = drive;
 }

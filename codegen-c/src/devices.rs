@@ -15,9 +15,9 @@ pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
         Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
             Some((DeviceClass::T, *number))
         }
-        Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
-            Some((DeviceClass::C, *number))
-        }
+        Stmt::Counter16 { number, .. }
+        | Stmt::Counter32 { number, .. }
+        | Stmt::Count { number, .. } => Some((DeviceClass::C, *number)),
         Stmt::WriteBit(place, _)
         | Stmt::WriteWordBit(place, ..)
         | Stmt::WriteWord(place, _)
@@ -59,6 +59,11 @@ impl Writer<'_, '_> {
             } => {
                 self.counter(code, "plc_count32", number, &[drive, down, preset]);
             }
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => self.counter(code, "plc_count32_once", number, &[down, preset]),
             Stmt::WriteBit(place, value) => self.put(code, "bit", &place, value),
             Stmt::WriteWord(place, value) => self.put(code, "word", &place, value),
             Stmt::WriteWordBit(place, bit, value) => self.put_word_bit(code, &place, bit, value),

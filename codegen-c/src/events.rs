@@ -1,31 +1,30 @@
-//! What happens outside the scan: flags that a host's interrupts set, and the functions that it calls for that.
+//! What happens outside the scan: the functions that a host calls for it, and the private fields that they use.
 
 use crate::writer::function_name;
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeKind, Flag, FunctionKind, Source};
+use rungc_ir::node::{EdgeKind, Flag, FunctionKind, Stmt};
+use rungc_ir::walk::statements;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Whether a program takes notice of what happens outside its scan.
-pub fn has_events(module: &Module) -> bool {
-    !module.flags.is_empty()
-}
-
 /// The flags with a period, and their periods in milliseconds.
 fn periods(module: &Module) -> impl Iterator<Item = (&Flag, u32)> {
-    module.flags.iter().filter_map(|flag| match flag.source {
-        Some(Source::Period { ms }) => Some((flag, ms)),
+    let flags = module.flags.iter();
+    flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
+}
+
+/// The edges that mean something: function number, terminal, which.
+fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
+    let functions = module.functions.iter().enumerate();
+    functions.filter_map(|(at, function)| match function.kind {
+        FunctionKind::InputEdge { input, kind } => Some((at, input, kind)),
         _ => None,
     })
 }
 
-/// The input terminals whose edges a program takes notice of, each once.
+/// The input terminals whose edges mean something, each once.
 pub fn inputs(module: &Module) -> BTreeSet<u32> {
-    let number = |flag: &Flag| match flag.source {
-        Some(Source::Input { number, .. }) => Some(number),
-        _ => None,
-    };
-    module.flags.iter().filter_map(number).collect()
+    edges(module).map(|(_, input, _)| input).collect()
 }
 
 /// Whether some flag is set each time a period has passed.
@@ -33,22 +32,57 @@ pub fn has_periods(module: &Module) -> bool {
     periods(module).next().is_some()
 }
 
-/// The fields of the flags: declaration, comment, size in bytes.
+/// The flags that are set outside the scan, perhaps in an interrupt handler.
+fn set_outside(module: &Module) -> BTreeSet<usize> {
+    let mut found: BTreeSet<usize> = BTreeSet::new();
+    for (at, _, _) in edges(module) {
+        statements(&module.functions[at].body, &mut |stmt| {
+            if let Stmt::SetFlag(flag, _) = stmt {
+                found.insert(flag.0 as usize);
+            }
+        });
+    }
+    let flags = module.flags.iter().enumerate();
+    found.extend(
+        flags
+            .filter(|(_, flag)| flag.period_ms.is_some())
+            .map(|(i, _)| i),
+    );
+    found
+}
+
+/// Whether edges do no more than set flags, so that they may come at any time.
+fn edges_only_note(module: &Module) -> bool {
+    let mut only = true;
+    for (at, _, _) in edges(module) {
+        statements(&module.functions[at].body, &mut |stmt| {
+            only &= matches!(stmt, Stmt::SetFlag(..) | Stmt::If { .. });
+        });
+    }
+    only
+}
+
+/// The fields of flags and cells: declaration, comment, size in bytes.
 pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
-    let name = &module.name;
-    let flags = module.flags.iter().map(|flag| {
-        let (volatile, comment) = match flag.source {
-            Some(Source::Input { .. }) => ("volatile ", format!("set by {name}_input_edge")),
-            Some(Source::Period { .. }) => ("volatile ", format!("set by {name}_tick")),
-            None => ("", "EI was executed".to_string()),
+    let outside = set_outside(module);
+    let flags = module.flags.iter().enumerate().map(|(i, flag)| {
+        let volatile = if outside.contains(&i) {
+            "volatile "
+        } else {
+            ""
         };
-        (format!("{volatile}bool {};", flag.name), comment, 1)
+        let declaration = format!("{volatile}bool {};", flag.name);
+        (declaration, flag.meaning.to_string(), 1)
     });
     let since = periods(module).map(|(flag, _)| {
         let comment = "when this period began".to_string();
         (format!("uint32_t {}_since;", flag.name), comment, 4)
     });
-    flags.chain(since).collect()
+    let cells = module.cells.iter().map(|cell| {
+        let declaration = format!("int32_t {};", cell.name);
+        (declaration, cell.meaning.to_string(), 4)
+    });
+    flags.chain(since).chain(cells).collect()
 }
 
 /// The statements that forget what happened, when RUN begins.
@@ -64,23 +98,51 @@ pub fn forget(module: &Module) -> String {
     out
 }
 
+/// The statements that clear cells at power-on.
+pub fn clear_cells(module: &Module) -> String {
+    let cells = module.cells.iter();
+    cells
+        .map(|cell| format!("    plc->{} = 0;\n", cell.name))
+        .collect()
+}
+
 /// Prototypes of the functions that a host calls.
 pub fn prototypes(module: &Module) -> String {
     let name = &module.name;
-    format!(
-        "\n/* An input terminal X (a plain number: 8 is X010) goes on or off. Safe in an interrupt handler: it only notes the edge. */\n\
-         void {name}_input_edge({name}_plc *plc, unsigned terminal, bool on);\n\n\
-         /* Time goes on: call it each millisecond, in an interrupt handler or the main loop, for timer interrupts to be on time. */\n\
-         void {name}_tick({name}_plc *plc, uint32_t now_ms);\n\n\
-         /* Runs the interrupt routines that are requested. A scan does so in front of each network; call it while waiting for the next. */\n\
-         void {name}_take_interrupts({name}_plc *plc);\n"
-    )
+    let when = if edges_only_note(module) {
+        "Safe in an interrupt handler: it only notes the edge."
+    } else {
+        "Not while a scan runs: it counts at once."
+    };
+    let mut out = format!(
+        "\n/* An input terminal X (a plain number: 8 is X010) goes on or off. {when} */\n\
+         void {name}_input_edge({name}_plc *plc, unsigned terminal, bool on);\n"
+    );
+    if interrupts(module).is_some() {
+        let _ = write!(
+            out,
+            "\n/* Time goes on: call it each millisecond, in an interrupt handler or the main loop, for timer interrupts to be on time. */\n\
+             void {name}_tick({name}_plc *plc, uint32_t now_ms);\n\n\
+             /* Runs the interrupt routines that are requested. A scan does so in front of each network; call it while waiting for the next. */\n\
+             void {name}_take_interrupts({name}_plc *plc);\n"
+        );
+    }
+    out
+}
+
+/// The function that takes interrupts.
+pub fn interrupts(module: &Module) -> Option<usize> {
+    let mut functions = module.functions.iter();
+    functions.position(|f| f.kind == FunctionKind::TakeInterrupts)
 }
 
 /// The functions that a host calls.
 pub fn functions(module: &Module) -> String {
     let name = &module.name;
     let mut out = input_edge(module);
+    let Some(at) = interrupts(module) else {
+        return out;
+    };
     let _ = write!(
         out,
         "void {name}_tick({name}_plc *plc, uint32_t now_ms)\n{{\n"
@@ -96,13 +158,7 @@ pub fn functions(module: &Module) -> String {
         out.push_str("    (void)plc;\n    (void)now_ms;\n");
     }
     let mut function = String::new();
-    let kinds = module.functions.iter().map(|f| &f.kind);
-    if let Some(at) = kinds
-        .into_iter()
-        .position(|kind| *kind == FunctionKind::TakeInterrupts)
-    {
-        function_name(&mut function, module, at);
-    }
+    function_name(&mut function, module, at);
     let _ = write!(
         out,
         "}}\n\nvoid {name}_take_interrupts({name}_plc *plc)\n{{\n    if (plc->sys.running) {{\n        {function}(plc);\n    }}\n}}\n\n"
@@ -114,25 +170,19 @@ fn input_edge(module: &Module) -> String {
     let name = &module.name;
     let mut out =
         format!("void {name}_input_edge({name}_plc *plc, unsigned terminal, bool on)\n{{\n");
-    let inputs: Vec<_> = module
-        .flags
-        .iter()
-        .filter_map(|flag| match flag.source {
-            Some(Source::Input { number, kind }) => Some((&flag.name, number, kind)),
-            _ => None,
-        })
-        .collect();
-    for &(flag, number, kind) in &inputs {
+    for (at, input, kind) in edges(module) {
         let level = match kind {
             EdgeKind::Rising => "on",
             EdgeKind::Falling => "!on",
         };
+        let mut function = String::new();
+        function_name(&mut function, module, at);
         let _ = write!(
             out,
-            "    if (terminal == {number}u && {level}) {{\n        plc->{flag} = true;\n    }}\n"
+            "    if (terminal == {input}u && {level}) {{\n        {function}(plc);\n    }}\n"
         );
     }
-    if inputs.is_empty() {
+    if edges(module).next().is_none() {
         out.push_str("    (void)plc;\n    (void)terminal;\n    (void)on;\n");
     }
     out.push_str("}\n\n");

@@ -128,6 +128,10 @@ impl Writer<'_, '_> {
             | Expr::ReadPair(_)
             | Expr::ReadFloat(_)
             | Expr::ReadNibbles { .. } => self.read(out, id, around),
+            Expr::Cell(cell) => {
+                out.push_str("plc->");
+                out.push_str(&module.cells[cell.0 as usize].name);
+            }
             Expr::Flag(flag) => {
                 out.push_str("plc->");
                 out.push_str(&module.flags[flag.0 as usize].name);

@@ -197,13 +197,21 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         let unit = unit::unit(&module, true);
         api.push_str(&unit.api);
         api.push('\n');
-        if events::has_events(&module) {
-            let _ = writeln!(table, "CASE({i})\nEVENTS({i})");
-            let _ = writeln!(members, "    ENTRY_WITH_EVENTS({i}),");
-        } else {
-            let _ = writeln!(table, "CASE({i})");
-            let _ = writeln!(members, "    ENTRY({i}),");
-        }
+        let entry = match (module.takes_events(), events::interrupts(&module)) {
+            (true, Some(_)) => {
+                let _ = writeln!(table, "CASE({i})\nEVENTS({i})\nINTERRUPTS({i})");
+                "ENTRY_WITH_INTERRUPTS"
+            }
+            (true, None) => {
+                let _ = writeln!(table, "CASE({i})\nEVENTS({i})");
+                "ENTRY_WITH_EVENTS"
+            }
+            (false, _) => {
+                let _ = writeln!(table, "CASE({i})");
+                "ENTRY"
+            }
+        };
+        let _ = writeln!(members, "    {entry}({i}),");
         let size = sources.last().map_or(usize::MAX, String::len);
         let length: usize =
             unit.internal.len() + unit.groups.iter().map(String::len).sum::<usize>();

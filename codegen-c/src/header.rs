@@ -47,7 +47,7 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
         size.total()
     );
     prototypes(&mut out, name);
-    if events::has_events(module) {
+    if module.takes_events() {
         out.push_str(&events::prototypes(module));
     }
     if runtime {

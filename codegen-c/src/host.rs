@@ -12,7 +12,7 @@ use std::fmt::Write;
 const MAIN_C: &str = include_str!("../include/main.c");
 
 /// How a program waits for its next scan that may be interrupted.
-const WAIT_WITH_EVENTS: &str = "\
+const WAIT_WITH_INTERRUPTS: &str = "\
 for (uint64_t now = microseconds(); now < next && !stopped; now = microseconds()) {
             sleep_until(now + 1000u < next ? now + 1000u : next);
             PROGRAM_tick(plc, (uint32_t)((microseconds() - start) / 1000u));
@@ -43,8 +43,8 @@ pub fn main_file(module: &Module) -> String {
             text::string_literal(&text)
         );
     }
-    let wait = if events::has_events(module) {
-        WAIT_WITH_EVENTS
+    let wait = if events::interrupts(module).is_some() {
+        WAIT_WITH_INTERRUPTS
     } else {
         "sleep_until(next);"
     };

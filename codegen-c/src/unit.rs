@@ -82,7 +82,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
         groups[0].push_str(&clearing);
     }
     printer.api_functions(&mut groups[0], plan.jumps());
-    if events::has_events(module) {
+    if module.takes_events() {
         groups[0].push_str(&events::functions(module));
     }
     if runtime {
@@ -146,6 +146,7 @@ fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
                     FunctionKind::Subroutine(_)
                         | FunctionKind::Interrupt(_)
                         | FunctionKind::TakeInterrupts
+                        | FunctionKind::InputEdge { .. }
                 )
             );
         if !single || subroutine {
@@ -360,10 +361,11 @@ impl Printer<'_> {
         } else {
             ""
         };
+        let cells = events::clear_cells(module);
         let _ = write!(
             out,
             "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n    {name}_power_cycle(plc);\n}}\n\n\
-             void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}    \
+             void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}{cells}    \
              plc_power_on(&plc->sys);\n{}}}\n\n",
             self.lost_latches(),
             if forget {

@@ -481,6 +481,11 @@ impl<'a, 'm> Writer<'a, 'm> {
                 }
                 code.push(';');
             }
+            Stmt::SetCell(cell, value) => {
+                code = format!("plc->{} = ", self.module.cells[cell.0 as usize].name);
+                self.expr(&mut code, *value, Around::Exact);
+                code.push(';');
+            }
             Stmt::SetFlag(flag, on) => {
                 let flag = &self.module.flags[flag.0 as usize].name;
                 code = format!("plc->{flag} = {on};");
@@ -552,6 +557,13 @@ pub fn function_name(out: &mut String, module: &Module, function: usize) {
         Some(FunctionKind::End) => write!(out, "{name}_end"),
         Some(FunctionKind::Subroutine(p)) => write!(out, "{name}_P{p}"),
         Some(FunctionKind::Interrupt(i)) => write!(out, "{name}_I{i:03}"),
+        Some(FunctionKind::InputEdge { input, kind }) => {
+            let what = match kind {
+                EdgeKind::Rising => "rises",
+                EdgeKind::Falling => "falls",
+            };
+            write!(out, "{name}_X{input:03o}_{what}")
+        }
         Some(FunctionKind::TakeInterrupts) => write!(out, "{name}_interrupts"),
         Some(FunctionKind::Main) | None => write!(out, "{name}_program"),
     };

@@ -3,13 +3,12 @@
 use crate::generate::{Generator, function_name};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{EdgeKind, Flag, FlagId, FunctionKind, Source};
+use rungc_ir::node::{CellId, EdgeKind, Flag, FlagId, FunctionKind};
 
 /// A private field: name, type, value at power-on, meaning.
 pub type Hidden = (Ident, TokenStream, TokenStream, &'static str);
 
-/// The field of a flag.
-pub fn flag_field(flag: &Flag) -> Ident {
+fn flag_field(flag: &Flag) -> Ident {
     format_ident!("{}", flag.name)
 }
 
@@ -24,32 +23,37 @@ impl Generator<'_> {
         flag_field(&self.module.flags[flag.0 as usize])
     }
 
-    /// The flags with a period, and their periods in milliseconds.
-    fn periods(&self) -> impl Iterator<Item = (&Flag, u32)> {
-        self.module
-            .flags
-            .iter()
-            .filter_map(|flag| match flag.source {
-                Some(Source::Period { ms }) => Some((flag, ms)),
-                _ => None,
-            })
+    /// The field of a cell.
+    pub fn cell(&self, cell: CellId) -> Ident {
+        format_ident!("{}", self.module.cells[cell.0 as usize].name)
     }
 
-    /// The fields that flags need.
+    /// The flags with a period, and their periods in milliseconds.
+    fn periods(&self) -> impl Iterator<Item = (&Flag, u32)> {
+        let flags = self.module.flags.iter();
+        flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
+    }
+
+    /// The fields that flags need; RUN begins with them as at power-on.
     pub fn flag_fields(&self) -> Vec<Hidden> {
-        let flags = self.module.flags.iter().map(|flag| {
-            let meaning = match flag.source {
-                Some(Source::Input { .. }) => "Set by `input_edge`.",
-                Some(Source::Period { .. }) => "Set by `tick`.",
-                None => "EI was executed.",
-            };
-            (flag_field(flag), quote!(bool), quote!(false), meaning)
-        });
+        let flags = self.module.flags.iter();
+        let flags = flags.map(|f| (flag_field(f), quote!(bool), quote!(false), f.meaning));
         let since = self.periods().map(|(flag, _)| {
-            let meaning = "When this period began.";
+            let meaning = "when this period began";
             (since_field(flag), quote!(u32), quote!(0), meaning)
         });
         flags.chain(since).collect()
+    }
+
+    /// The fields of cells.
+    pub fn cell_fields(&self) -> Vec<Hidden> {
+        let cells = self.module.cells.iter();
+        cells
+            .map(|cell| {
+                let name = format_ident!("{}", cell.name);
+                (name, quote!(i32), quote!(0), cell.meaning)
+            })
+            .collect()
     }
 
     /// Forgets what happened, when RUN begins.
@@ -67,34 +71,12 @@ impl Generator<'_> {
 
     /// The methods that a host calls; nothing if the program takes no notice of anything outside its scan.
     pub fn event_methods(&mut self) -> TokenStream {
+        let edge = self.input_edge();
         let module = self.module;
-        let kinds = module.functions.iter().map(|f| &f.kind);
-        let Some(at) = kinds
-            .into_iter()
-            .position(|kind| *kind == FunctionKind::TakeInterrupts)
-        else {
-            return TokenStream::new();
+        let mut functions = module.functions.iter();
+        let Some(at) = functions.position(|f| f.kind == FunctionKind::TakeInterrupts) else {
+            return edge;
         };
-        let edges: Vec<TokenStream> = module
-            .flags
-            .iter()
-            .filter_map(|flag| match flag.source {
-                Some(Source::Input { number, kind }) => {
-                    let (field, number) = (flag_field(flag), Literal::u32_unsuffixed(number));
-                    let level = match kind {
-                        EdgeKind::Rising => quote!(level),
-                        EdgeKind::Falling => quote!(!level),
-                    };
-                    Some(quote!(if number == #number && #level { self.#field = true; }))
-                }
-                _ => None,
-            })
-            .collect();
-        let edge = (!edges.is_empty()).then(|| {
-            quote! {
-                fn input_edge(&mut self, number: u32, level: bool) { #(#edges)* }
-            }
-        });
         let periods: Vec<TokenStream> = self
             .periods()
             .map(|(flag, ms)| {
@@ -127,6 +109,32 @@ impl Generator<'_> {
             fn take_interrupts(&mut self, #parameter: &mut dyn #hal) {
                 if self.sys.running { program::#function(self #argument); }
             }
+        }
+    }
+
+    fn input_edge(&self) -> TokenStream {
+        let edges: Vec<TokenStream> = self
+            .module
+            .functions
+            .iter()
+            .filter_map(|function| match function.kind {
+                FunctionKind::InputEdge { input, kind } => {
+                    let input = Literal::u32_unsuffixed(input);
+                    let level = match kind {
+                        EdgeKind::Rising => quote!(level),
+                        EdgeKind::Falling => quote!(!level),
+                    };
+                    let name = format_ident!("{}", function_name(function));
+                    Some(quote!(if number == #input && #level { program::#name(self); }))
+                }
+                _ => None,
+            })
+            .collect();
+        if edges.is_empty() {
+            return TokenStream::new();
+        }
+        quote! {
+            fn input_edge(&mut self, number: u32, level: bool) { #(#edges)* }
         }
     }
 }

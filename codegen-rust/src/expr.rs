@@ -173,6 +173,10 @@ impl Generator<'_> {
                 digits,
                 wide,
             } => self.read_nibbles(place, digits, wide),
+            Expr::Cell(cell) => {
+                let cell = self.cell(cell);
+                Code::atom(quote!(plc.#cell))
+            }
             Expr::Flag(flag) => {
                 let flag = self.flag(flag);
                 Code::atom(quote!(plc.#flag))

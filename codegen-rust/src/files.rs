@@ -231,7 +231,7 @@ fn library(generator: &mut Generator, functions: &[Item]) -> String {
         source = one_line(&module.source_name),
         title = module.model.title,
         steps = module.steps,
-        events = if module.flags.is_empty() {
+        events = if !module.takes_events() {
             ""
         } else {
             EVENTS_DOC
@@ -382,7 +382,7 @@ fn host(generator: &Generator, crate_name: &str) -> String {
     if !table.is_empty() {
         table.push('\n');
     }
-    let wait = if generator.module.flags.is_empty() {
+    let wait = if !generator.module.takes_events() {
         WAIT
     } else {
         WAIT_WITH_EVENTS

@@ -5,7 +5,7 @@ use crate::format;
 use crate::generate::{Generator, Item, function_name};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
-use rungc_ir::node::{Function, FunctionKind, Stmt, TempId};
+use rungc_ir::node::{EdgeKind, Function, FunctionKind, Stmt, TempId};
 use rungc_syntax::DeviceClass;
 
 /// A body of more lines than this is split.
@@ -48,6 +48,13 @@ impl Generator<'_> {
             FunctionKind::Main => "The program.".to_string(),
             FunctionKind::End => "END processing.".to_string(),
             FunctionKind::Subroutine(p) => self.pointer_doc("Subroutine", DeviceClass::P, p),
+            FunctionKind::InputEdge { input, kind } => {
+                let what = match kind {
+                    EdgeKind::Rising => "on",
+                    EdgeKind::Falling => "off",
+                };
+                format!("Input terminal X{input:03o} goes {what}.")
+            }
             FunctionKind::TakeInterrupts => {
                 "Runs the interrupt routines that are requested.".to_string()
             }

@@ -142,6 +142,7 @@ impl Generator<'_> {
             "Private memories of instructions.",
         ));
         fields.extend(self.flag_fields());
+        fields.extend(self.cell_fields());
         if self.jumps_back {
             fields.push((
                 format_ident!("jumps_left"),

@@ -113,7 +113,14 @@ impl Generator<'_> {
                     None => TokenStream::new(),
                 }
             }
-            Stmt::Timer { .. } | Stmt::Counter16 { .. } | Stmt::Counter32 { .. } => self.coil(stmt),
+            Stmt::SetCell(cell, value) => {
+                let (cell, value) = (self.cell(*cell), self.expr(*value));
+                quote!(plc.#cell = #value;)
+            }
+            Stmt::Timer { .. }
+            | Stmt::Counter16 { .. }
+            | Stmt::Counter32 { .. }
+            | Stmt::Count { .. } => self.coil(stmt),
             Stmt::SetFlag(flag, on) => {
                 let flag = self.flag(*flag);
                 quote!(plc.#flag = #on;)
@@ -346,6 +353,7 @@ impl Generator<'_> {
     fn coil(&mut self, stmt: &Stmt) -> TokenStream {
         let plc = quote!(plc);
         let mut before = TokenStream::new();
+        let mut method = format_ident!("run");
         let (class, number, arguments) = match *stmt {
             Stmt::Timer {
                 number,
@@ -379,13 +387,22 @@ impl Generator<'_> {
                 let preset = self.expr(preset);
                 (DeviceClass::C, number, quote!(#drive, #down, #preset))
             }
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => {
+                let (down, preset) = (self.expr(down), self.expr(preset));
+                method = format_ident!("count");
+                (DeviceClass::C, number, quote!(#down, #preset))
+            }
             _ => return TokenStream::new(),
         };
         let Some(cell) = self.storage.cell(&plc, class, number) else {
             return TokenStream::new();
         };
         let comment = self.end_comment(class, number);
-        quote!(#before #cell.run(#arguments); #comment)
+        quote!(#before #cell.#method(#arguments); #comment)
     }
 
     fn reset(&mut self, place: Place) -> TokenStream {

@@ -173,7 +173,7 @@ fn trace(
             now_ms,
             scan_us: scan_ms * 1000,
         });
-        if !module.flags.is_empty() {
+        if module.takes_events() {
             for ms in 1..=scan_ms {
                 requests.push(Request::Tick(now_ms + ms));
                 if rng.percent(10) {

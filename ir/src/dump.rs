@@ -5,8 +5,8 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Arg, BinOp, Body, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Module, Place, Stmt,
-    SysValue,
+    Arg, BinOp, Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Module,
+    Place, Stmt, SysValue,
 };
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -79,6 +79,13 @@ impl Out<'_> {
             FunctionKind::End => "end".to_string(),
             FunctionKind::Subroutine(pointer) => format!("subroutine P{pointer}"),
             FunctionKind::Interrupt(pointer) => format!("interrupt I{pointer:03}"),
+            FunctionKind::InputEdge { input, kind } => {
+                let kind = match kind {
+                    EdgeKind::Rising => "rises",
+                    EdgeKind::Falling => "falls",
+                };
+                format!("X{input:03o} {kind}")
+            }
             FunctionKind::TakeInterrupts => "take interrupts".to_string(),
         };
         self.block(&head, &function.body);
@@ -198,6 +205,12 @@ impl Out<'_> {
             Stmt::Goto(label) => format!("goto L{}", label.0),
             Stmt::Call { .. } => self.call(stmt),
             Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
+            Stmt::SetCell(cell, value) => format!("{} := {}", self.cell(*cell), e(value)),
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => format!("count C{number} down {} preset {}", e(down), e(preset)),
             Stmt::SetFlag(flag, on) => {
                 format!("{} := {}", self.flag(*flag), if *on { "on" } else { "off" })
             }
@@ -206,6 +219,12 @@ impl Out<'_> {
             Stmt::Clear { latched: false } => "clear general".into(),
             Stmt::Network(_) | Stmt::If { .. } | Stmt::For { .. } | Stmt::Parts(_) => String::new(),
         }
+    }
+
+    fn cell(&self, cell: CellId) -> String {
+        let cells = &self.module.cells;
+        let name = cells.get(cell.0 as usize).map_or("?", |cell| &cell.name);
+        format!("cell {name}")
     }
 
     fn flag(&self, flag: FlagId) -> String {
@@ -304,6 +323,7 @@ impl Out<'_> {
                 let wide = if *wide { ":32" } else { "" };
                 format!("K{digits}{}{wide}", self.place(place))
             }
+            Expr::Cell(cell) => self.cell(*cell),
             Expr::Flag(flag) => self.flag(*flag),
             Expr::Sys(SysValue::Running) => "running".into(),
             Expr::Sys(SysValue::FirstScan) => "first_scan".into(),

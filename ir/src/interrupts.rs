@@ -1,7 +1,29 @@
 //! Interrupt pointers as data: what requests each, and what keeps it from running.
 
 use crate::model::{ModelId, ModelSet};
-use crate::node::{EdgeKind, Source};
+use crate::node::EdgeKind;
+
+/// What requests an interrupt.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum Source {
+    /// An edge of an input terminal.
+    Input {
+        /// Terminal X, a plain number.
+        number: u32,
+        /// Which change.
+        kind: EdgeKind,
+    },
+    /// So many milliseconds of RUN have passed.
+    Period {
+        /// Period, at least 1.
+        ms: u32,
+    },
+    /// A comparison of a high-speed counter (HSCS with this pointer).
+    Comparison {
+        /// Pointer I.
+        pointer: u32,
+    },
+}
 
 /// An interrupt routine's own conditions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -49,7 +71,7 @@ pub fn pulse_catch(model: ModelId) -> Option<&'static PulseCatch> {
     PULSE_CATCH.iter().find(|row| row.models.has(model))
 }
 
-/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests: counters, pulse outputs, HM's advanced
+/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests: pulse outputs, HM's advanced
 /// interrupts.
 pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
     if HM.has(model) {
@@ -62,6 +84,13 @@ pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
             kind: edge(rest),
         },
         (6..=8, 1..) => Source::Period { ms: rest },
+        (0, 10 | 20 | 30 | 40 | 50 | 60) => {
+            return Some(Interrupt {
+                source: Some(Source::Comparison { pointer: number }),
+                request: None,
+                mask: *MASKS.end(),
+            });
+        }
         _ => return None,
     };
     Some(Interrupt {
@@ -126,7 +155,9 @@ mod tests {
         assert_eq!(h2u(101), Some((input(1, EdgeKind::Rising), 8051)));
         assert_eq!(h2u(500), Some((input(5, EdgeKind::Falling), 8055)));
         assert_eq!(h2u(899), Some((period(99), 8058)));
-        assert_eq!((h2u(600), h2u(10), h2u(502)), (None, None, None));
+        let counter = Some(Source::Comparison { pointer: 10 });
+        assert_eq!(h2u(10), Some((counter, 8059)));
+        assert_eq!((h2u(600), h2u(502)), (None, None));
         let hm = |number| find(ModelId::Hm, number).map(|found| (found.source, found.request));
         assert_eq!(hm(1), Some((None, Some(8033))));
         assert_eq!(hm(301), Some((input(7, EdgeKind::Rising), Some(8039))));

@@ -203,9 +203,9 @@ impl<'m> Builder<'m> {
             Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
                 self.mark(DeviceClass::T, *number, 1, false)
             }
-            Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
-                self.mark(DeviceClass::C, *number, 1, false)
-            }
+            Stmt::Counter16 { number, .. }
+            | Stmt::Counter32 { number, .. }
+            | Stmt::Count { number, .. } => self.mark(DeviceClass::C, *number, 1, false),
             Stmt::If {
                 then, otherwise, ..
             } => {
@@ -236,6 +236,7 @@ impl<'m> Builder<'m> {
             | Stmt::Fault { .. }
             | Stmt::Stop
             | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
             | Stmt::Clear { .. } => {}
         }
     }

@@ -8,6 +8,7 @@ pub mod catalogue;
 pub mod check;
 pub mod compile;
 pub mod dump;
+pub mod high_speed;
 pub mod interrupts;
 pub mod layout;
 pub mod lower;

@@ -41,30 +41,29 @@ pub struct EdgeId(pub u32);
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct FlagId(pub u32);
 
-/// A private bit with a name; off at power-on and when RUN begins. One with a source is set from outside the scan.
+/// A private bit with a name; off at power-on and when RUN begins.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Flag {
     /// An identifier in lower case, unique in the module: `x000_rose`.
     pub name: String,
-    /// What sets it besides the program; `None`: nothing.
-    pub source: Option<Source>,
+    /// What it means, for a comment.
+    pub meaning: &'static str,
+    /// Set each time that so many milliseconds of RUN have passed since the last time, or since RUN began
+    /// ([`rungc_rt::Program::tick`]); `None`: by the program only.
+    pub period_ms: Option<u32>,
 }
 
-/// What happens outside the scan. It only sets a flag, at any time between two statements; what follows from it is the program's.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
-pub enum Source {
-    /// An input terminal changes ([`rungc_rt::Program::input_edge`]).
-    Input {
-        /// Terminal X, a plain number.
-        number: u32,
-        /// Which change.
-        kind: EdgeKind,
-    },
-    /// So many milliseconds of RUN have passed since the last time, or since RUN began ([`rungc_rt::Program::tick`]).
-    Period {
-        /// Period, at least 1.
-        ms: u32,
-    },
+/// Handle of a [`Cell`] in [`Module::cells`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct CellId(pub u32);
+
+/// A private `I32` with a name; 0 at power-on.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Cell {
+    /// An identifier in lower case, unique in the module: `c235_preset`.
+    pub name: String,
+    /// What it means, for a comment.
+    pub meaning: &'static str,
 }
 
 /// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression).
@@ -189,6 +188,8 @@ pub enum Expr {
     Sys(SysValue),
     /// State of a flag.
     Flag(FlagId),
+    /// `I32`: value of a cell.
+    Cell(CellId),
     /// Not, of a `Bit`.
     Not(ExprId),
     /// And, of two `Bit`s; both are evaluated (they have no effects).
@@ -293,6 +294,8 @@ pub enum Stmt {
     },
     /// Sets or resets a flag.
     SetFlag(FlagId, bool),
+    /// Writes a cell (`I32`).
+    SetCell(CellId, ExprId),
     /// Writes a bit device (Y, M, S, or X by force only).
     WriteBit(Place, ExprId),
     /// Writes bit 0–15 of a word device.
@@ -345,6 +348,15 @@ pub enum Stmt {
         number: u32,
         /// `Bit`.
         drive: ExprId,
+        /// `Bit`: counts down.
+        down: ExprId,
+        /// `I32`.
+        preset: ExprId,
+    },
+    /// A count of a high-speed counter: [`rungc_rt::Counter32::count`].
+    Count {
+        /// Number.
+        number: u32,
         /// `Bit`: counts down.
         down: ExprId,
         /// `I32`.
@@ -460,6 +472,13 @@ pub enum FunctionKind {
     /// may between two scans ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt
     /// routine is itself.
     TakeInterrupts,
+    /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.
+    InputEdge {
+        /// Terminal X, a plain number.
+        input: u32,
+        /// Which change.
+        kind: EdgeKind,
+    },
 }
 
 /// A function: no parameters, no result, no recursion.
@@ -496,8 +515,10 @@ pub struct Module {
     pub texts: Vec<String>,
     /// Private bits.
     pub flags: Vec<Flag>,
-    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, and `TakeInterrupts` if there
-    /// are any of these.
+    /// Private numbers.
+    pub cells: Vec<Cell>,
+    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, `TakeInterrupts` if there
+    /// are any of these, and one for each edge that means something.
     pub functions: Vec<Function>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
@@ -530,6 +551,7 @@ impl Module {
             run_states: 0,
             texts: Vec::new(),
             flags: Vec::new(),
+            cells: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),
@@ -544,6 +566,17 @@ impl Module {
     /// The expression behind a handle.
     pub fn expr(&self, id: ExprId) -> &Expr {
         &self.exprs[id.0 as usize]
+    }
+
+    /// Whether a host has to tell it of edges of inputs and of time.
+    pub fn takes_events(&self) -> bool {
+        let by_host = |f: &Function| {
+            matches!(
+                f.kind,
+                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
+            )
+        };
+        self.functions.iter().any(by_host)
     }
 
     /// Adds an expression.
@@ -575,7 +608,7 @@ pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         | Expr::Narrow(_)
         | Expr::HighWord(_)
         | Expr::BitToInt(_) => Ty::I16,
-        Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) => Ty::I32,
+        Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) | Expr::Cell(_) => Ty::I32,
         Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
         Expr::Temp(temp) => temps[temp.0 as usize],
         Expr::ReadNibbles { wide, .. } => {

@@ -58,6 +58,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::ReadNibbles { digits, wide, .. } => (1..=if wide { 8 } else { 4 }).contains(&digits),
         Expr::ReadWordBit(_, bit) => bit < 16,
         Expr::InRange { count, .. } => count > 0,
+        Expr::Cell(cell) => (cell.0 as usize) < module.cells.len(),
         Expr::Flag(flag) => (flag.0 as usize) < module.flags.len(),
         Expr::Sys(
             SysValue::Running | SysValue::FirstScan | SysValue::NowMs | SysValue::Scan100us,
@@ -334,6 +335,23 @@ impl Checker<'_> {
                     && args.iter().all(|arg| self.arg(arg)),
                 None,
             ),
+            Stmt::SetCell(cell, value) => (
+                (cell.0 as usize) < module.cells.len() && is(value, Ty::I32),
+                None,
+            ),
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => {
+                let place = Place {
+                    class: DeviceClass::C,
+                    number,
+                    index: None,
+                };
+                let typed = is(down, Ty::Bit) && is(preset, Ty::I32);
+                (typed, self.unstored(place, 1))
+            }
             Stmt::SetFlag(flag, _) => ((flag.0 as usize) < module.flags.len(), None),
             Stmt::CallSub(_)
             | Stmt::Return

@@ -1,6 +1,6 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
-use crate::node::{Arg, Body, Expr, ExprId, Function, FunctionKind, Module, Part, Stmt};
+use crate::node::{Arg, Body, Expr, ExprId, FunctionKind, Module, Part, Stmt};
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
@@ -40,7 +40,8 @@ fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
         | Expr::F32(_)
         | Expr::Temp(_)
         | Expr::Sys(_)
-        | Expr::Flag(_) => [None, None],
+        | Expr::Flag(_)
+        | Expr::Cell(_) => [None, None],
     }
 }
 
@@ -59,7 +60,11 @@ macro_rules! for_exprs {
                     place.index.$iter().for_each(&mut *f);
                     f(value);
                 }
-                Stmt::Let(_, value) => f(value),
+                Stmt::Let(_, value) | Stmt::SetCell(_, value) => f(value),
+                Stmt::Count { down, preset, .. } => {
+                    f(down);
+                    f(preset);
+                }
                 Stmt::Edge { input, .. } => f(input),
                 Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
                     f(drive);
@@ -148,9 +153,15 @@ pub fn callees(body: &[Stmt]) -> Vec<usize> {
 pub fn called_functions(module: &Module) -> Vec<bool> {
     let mut called = vec![false; module.functions.len()];
     // `Begin`, `Main` and `End` come first.
-    let by_host = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
-    let interrupts = module.functions.iter().position(by_host);
-    let mut open: Vec<usize> = (0..called.len().min(3)).chain(interrupts).collect();
+    let by_host = |&i: &usize| {
+        let kind = module.functions.get(i).map(|function| &function.kind);
+        i < 3
+            || matches!(
+                kind,
+                Some(FunctionKind::TakeInterrupts | FunctionKind::InputEdge { .. })
+            )
+    };
+    let mut open: Vec<usize> = (0..called.len()).filter(by_host).collect();
     while let Some(i) = open.pop() {
         if let Some(known) = called.get_mut(i).filter(|known| !**known) {
             *known = true;

@@ -201,15 +201,21 @@ impl Counter32 {
     /// closes when the value reaches the preset upwards and opens when it leaves it downwards.
     pub fn run(&mut self, drive: bool, down: bool, preset: i32) -> bool {
         if drive && !self.coil {
-            let before = self.value;
-            self.value = before.wrapping_add(if down { -1 } else { 1 });
-            if !down && self.value == preset {
-                self.done = true;
-            } else if down && before == preset {
-                self.done = false;
-            }
+            self.count(down, preset);
         }
         self.coil = drive;
         self.done
+    }
+
+    /// Counts once, up or down, wrapping. The contact closes when the value reaches the preset upwards and opens when it leaves it
+    /// downwards.
+    pub fn count(&mut self, down: bool, preset: i32) {
+        let before = self.value;
+        self.value = before.wrapping_add(if down { -1 } else { 1 });
+        if !down && self.value == preset {
+            self.done = true;
+        } else if down && before == preset {
+            self.done = false;
+        }
     }
 }

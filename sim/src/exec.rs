@@ -65,6 +65,7 @@ impl<'m> Machine<'m> {
                     Value::I16(value as i16)
                 }
             }
+            Expr::Cell(cell) => Value::I32(self.cells[cell.0 as usize]),
             Expr::Flag(flag) => Value::Bit(self.flags[flag.0 as usize]),
             Expr::Sys(SysValue::Running) => Value::Bit(self.sys.running),
             Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
@@ -286,6 +287,7 @@ impl<'m> Machine<'m> {
                     EdgeKind::Falling => before && !now,
                 });
             }
+            Stmt::SetCell(cell, value) => self.cells[cell.0 as usize] = int(self.eval(value)),
             Stmt::SetFlag(flag, on) => self.flags[flag.0 as usize] = on,
             Stmt::WriteBit(place, value) => {
                 let on = self.on(value);
@@ -328,7 +330,10 @@ impl<'m> Machine<'m> {
                     timer.go_on(kind, now);
                 }
             }
-            Stmt::Timer { .. } | Stmt::Counter16 { .. } | Stmt::Counter32 { .. } => self.coil(stmt),
+            Stmt::Timer { .. }
+            | Stmt::Counter16 { .. }
+            | Stmt::Counter32 { .. }
+            | Stmt::Count { .. } => self.coil(stmt),
             // Stmt::Network marks a place; all others are control flow, which `step` handles.
             _ => {}
         }
@@ -368,6 +373,16 @@ impl<'m> Machine<'m> {
                 let (drive, down, preset) = (self.on(drive), self.on(down), int(self.eval(preset)));
                 if let Some(counter) = self.devices.counter32_mut(number) {
                     counter.run(drive, down, preset);
+                }
+            }
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => {
+                let (down, preset) = (self.on(down), int(self.eval(preset)));
+                if let Some(counter) = self.devices.counter32_mut(number) {
+                    counter.count(down, preset);
                 }
             }
             _ => {}

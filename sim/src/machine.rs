@@ -6,9 +6,9 @@
 use crate::devices::Devices;
 use crate::exec::{Flow, Value};
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeKind, FunctionKind, Source, Ty};
+use rungc_ir::node::{EdgeKind, FunctionKind, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
-use rungc_rt::{Class, Hal, Operand, Plc, Program, State, Sys};
+use rungc_rt::{Class, Hal, NoHal, Operand, Plc, Program, State, Sys};
 
 /// How many statements the machine takes a PLC to execute in a millisecond, when virtual time stands still and only their
 /// number can tell that a scan does not end.
@@ -27,6 +27,7 @@ pub struct Machine<'m> {
     pub(crate) flags: Vec<bool>,
     /// When the period of each flag that has one began.
     periods: Vec<u32>,
+    pub(crate) cells: Vec<i32>,
     pub(crate) sys: Sys,
     /// Statements that this scan may still execute.
     pub(crate) budget: u64,
@@ -46,6 +47,7 @@ impl<'m> Machine<'m> {
             edges: vec![false; module.edges as usize],
             flags: vec![false; module.flags.len()],
             periods: vec![0; module.flags.len()],
+            cells: vec![0; module.cells.len()],
             sys: Sys::power_on(),
             budget: 0,
             operands: Vec::new(),
@@ -75,6 +77,7 @@ impl<'m> Machine<'m> {
             let _ = self.set_bit(Class::M, number, true);
         }
         self.states.fill(State::default());
+        self.cells.fill(0);
         self.sys = Sys::power_on();
         self.watchdog_tripped = false;
         self.begin_run();
@@ -141,15 +144,16 @@ impl Program for Machine<'_> {
         } else {
             EdgeKind::Falling
         };
-        for (flag, state) in self.module.flags.iter().zip(&mut self.flags) {
-            *state |= flag.source == Some(Source::Input { number, kind });
-        }
+        let input = number;
+        self.restart_watchdog();
+        // It holds no loop, so it comes to its end.
+        self.run_function(&mut NoHal, &FunctionKind::InputEdge { input, kind });
     }
 
     fn tick(&mut self, now_ms: u32) {
         let states = self.flags.iter_mut().zip(&mut self.periods);
         for (flag, (state, last)) in self.module.flags.iter().zip(states) {
-            if let Some(Source::Period { ms }) = flag.source
+            if let Some(ms) = flag.period_ms
                 && now_ms.wrapping_sub(*last) >= ms
             {
                 *last = last.wrapping_add(ms);

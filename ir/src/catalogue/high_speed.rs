@@ -1,7 +1,7 @@
 //! High-speed inputs and outputs, FNC 50–59, 189 and 280.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Rule, Variant};
+use super::{Classes, Comparison, Inst, Lower, Param, Rule, Variant};
 use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
@@ -126,13 +126,19 @@ const fn fast(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.6").fnc(fnc)
 }
 
-const fn compare(name: &'static str, fnc: u16, title: &'static str) -> Inst {
+const fn compare(
+    name: &'static str,
+    fnc: u16,
+    title: &'static str,
+    comparison: Comparison,
+) -> Inst {
     fast(name, fnc, title)
         .forms(W32)
         .steps(13, 13)
         .flags(&["M8025"])
         .errors(&[6760])
-        .todo(COUNTERS)
+        .lower(Lower::HighSpeed(comparison))
+        .lower_on(&[(HM, Lower::Todo(COUNTERS))])
 }
 
 pub(super) const ROWS: &[Inst] = &[
@@ -170,15 +176,15 @@ pub(super) const ROWS: &[Inst] = &[
             "Reads a matrix of 8 × n keys: output D1+k selects row k, whose eight bits come in at S and go to D2 and ten times k. M8029 \
              is on after each reading.",
         ),
-    compare("HSCS", 53, "Set by high-speed counter")
+    compare("HSCS", 53, "Set by high-speed counter", Comparison::Set)
         .takes(SET)
         .variants(&[on(HM).takes(HM_BIT)])
         .text("Switches D on, or runs an interrupt routine, at the moment when counter S2 reaches S1."),
-    compare("HSCR", 54, "Reset by high-speed counter")
+    compare("HSCR", 54, "Reset by high-speed counter", Comparison::Reset)
         .takes(RESET)
         .variants(&[on(HM).takes(HM_BIT), on(LIKE_FX).takes(RESET_FX)])
         .text("Switches D off at the moment when counter S2 reaches S1."),
-    compare("HSZ", 55, "Zone compare by high-speed counter")
+    compare("HSZ", 55, "Zone compare by high-speed counter", Comparison::Zone)
         .steps(17, 17)
         .takes(ZONE)
         .variants(&[on(HM).takes(HM_ZONE_COMPARE)])

@@ -517,10 +517,23 @@ pub enum Lower {
     Arith(ArithOp),
     /// Arithmetic that saturates (HM).
     ArithSaturating(ArithOp),
+    /// A comparison that acts at the count of a high-speed counter.
+    HighSpeed(Comparison),
     /// A runtime function.
     Call(RtFn),
     /// Not there yet: a compile error names the instruction and this reason.
     Todo(&'static str),
+}
+
+/// A comparison at the count.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Comparison {
+    /// HSCS: switches on, or requests an interrupt.
+    Set,
+    /// HSCR: switches off.
+    Reset,
+    /// HSZ: shows in three bits whether the count is below, in or above a zone.
+    Zone,
 }
 
 /// When a [`Variant`] holds.

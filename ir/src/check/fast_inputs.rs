@@ -3,9 +3,9 @@
 use super::Code;
 use super::pointers::Pointers;
 use crate::catalogue::Basic;
-use crate::interrupts;
+use crate::high_speed;
+use crate::interrupts::{self, Source};
 use crate::model::{ModelId, ModelSet};
-use crate::node::Source;
 use rungc_syntax::{DeviceClass, Diagnostics, codes};
 
 /// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
@@ -85,79 +85,18 @@ fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagn
     }
 }
 
-/// The inputs that a high-speed counter counts, resets and starts by.
-struct CounterInputs {
-    models: ModelSet,
-    /// Counter and its inputs, as values (X010 is 8).
-    counters: &'static [(u32, &'static [u32])],
-}
-
-/// The FX family's assignment (h1u-h2u-programming §3.6) and that of HM (hm-programming §4.6).
-const COUNTERS: &[CounterInputs] = &[
-    CounterInputs {
-        models: ModelSet::ALL.except(&[ModelId::Hm]),
-        counters: &[
-            (235, &[0]),
-            (236, &[1]),
-            (237, &[2]),
-            (238, &[3]),
-            (239, &[4]),
-            (240, &[5]),
-            (241, &[0, 1]),
-            (242, &[2, 3]),
-            (243, &[4, 5]),
-            (244, &[0, 1, 6]),
-            (245, &[2, 3, 7]),
-            (246, &[0, 1]),
-            (247, &[0, 1, 2]),
-            (248, &[3, 4, 5]),
-            (249, &[0, 1, 2, 6]),
-            (250, &[3, 4, 5, 7]),
-            (251, &[0, 1]),
-            (252, &[0, 1, 2]),
-            (253, &[3, 4, 5]),
-            (254, &[0, 1, 2, 6]),
-            (255, &[3, 4, 5, 7]),
-        ],
-    },
-    CounterInputs {
-        models: ModelSet::of(&[ModelId::Hm]),
-        counters: &[
-            (235, &[0o0]),
-            (237, &[0o2]),
-            (239, &[0o0, 0o10]),
-            (240, &[0o2, 0o11]),
-            (241, &[0o0, 0o10, 0o12]),
-            (242, &[0o2, 0o11, 0o13]),
-            (244, &[0o0, 0o1]),
-            (245, &[0o2, 0o3]),
-            (246, &[0o0, 0o1, 0o10]),
-            (247, &[0o2, 0o3, 0o11]),
-            (248, &[0o0, 0o1, 0o10, 0o12]),
-            (249, &[0o2, 0o3, 0o11, 0o13]),
-            (250, &[0o0, 0o1]),
-            (251, &[0o2, 0o3]),
-            (252, &[0o0, 0o1, 0o10]),
-            (253, &[0o2, 0o3, 0o11]),
-            (254, &[0o0, 0o1, 0o10, 0o12]),
-            (255, &[0o2, 0o3, 0o11, 0o13]),
-        ],
-    },
-];
-
 /// A high-speed counter that the program drives.
 struct Counter {
     number: u32,
-    inputs: &'static [u32],
+    /// What it counts, resets and starts by.
+    inputs: Vec<u32>,
     /// Its first coil.
     coil: usize,
 }
 
 /// The high-speed counters that the program drives, each once.
 fn counters(code: &Code) -> Vec<Counter> {
-    let model = code.model().id;
-    let tables = COUNTERS.iter().filter(|table| table.models.has(model));
-    let table: Vec<_> = tables.flat_map(|table| table.counters).collect();
+    let table = high_speed::counters(code.model().id);
     let mut found: Vec<Counter> = Vec::new();
     for i in 0..code.len {
         let Some(device) = code
@@ -171,12 +110,11 @@ fn counters(code: &Code) -> Vec<Counter> {
         if device.class != DeviceClass::C || known {
             continue;
         }
-        if let Some(&&(_, inputs)) = table.iter().find(|(of, _)| *of == number) {
-            let coil = i;
+        if let Some(counter) = table.iter().find(|counter| counter.number == number) {
             found.push(Counter {
                 number,
-                inputs,
-                coil,
+                inputs: counter.inputs().collect(),
+                coil: i,
             });
         }
     }

@@ -35,7 +35,11 @@ impl Lowerer<'_> {
             Lower::Zcp => self.compare_zone(),
             Lower::Arith(op) => self.arith(op, false),
             Lower::ArithSaturating(op) => self.arith(op, true),
-            Lower::Basic(_) | Lower::Compare(..) | Lower::Call(_) | Lower::Todo(_) => {}
+            Lower::Basic(_)
+            | Lower::Compare(..)
+            | Lower::HighSpeed(_)
+            | Lower::Call(_)
+            | Lower::Todo(_) => {}
         }
     }
 

@@ -33,7 +33,7 @@ impl Lowerer<'_> {
     }
 
     /// Writes the bit that an operand names.
-    fn write_bits(&mut self, operand: &OperandKind, value: ExprId) {
+    pub(super) fn write_bits(&mut self, operand: &OperandKind, value: ExprId) {
         let mut guards = Guards::default();
         if let Some(target) = self.bit_target(operand, 1, false, &mut guards) {
             self.guarded(guards, |this| this.store_bit(target, 0, value));
@@ -62,9 +62,7 @@ impl Lowerer<'_> {
     fn counter(&mut self, device: Device) {
         let number = device.number;
         if number > LAST_COUNTER32 {
-            let span = self.instr().span;
-            let message = format!("`OUT {device}` is not implemented yet: high-speed counters");
-            return self.report(codes::NOT_IMPLEMENTED.at(span, message));
+            return self.high_speed_coil(device);
         }
         let drive = self.drive();
         if number < FIRST_COUNTER32 {
@@ -92,7 +90,7 @@ impl Lowerer<'_> {
         });
     }
 
-    fn with_preset(&mut self, wide: bool, make: impl FnOnce(&mut Self, ExprId)) {
+    pub(super) fn with_preset(&mut self, wide: bool, make: impl FnOnce(&mut Self, ExprId)) {
         let Some(operand) = self.operand(1) else {
             return;
         };

@@ -3,10 +3,8 @@
 use super::Lowerer;
 use super::operand::fixed;
 use crate::catalogue::Basic;
-use crate::interrupts::{self, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch};
-use crate::node::{
-    Body, EdgeKind, Expr, Flag, FlagId, Function, FunctionKind, Source, Stmt, SysValue,
-};
+use crate::interrupts::{self, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch, Source};
+use crate::node::{Body, EdgeKind, Expr, FlagId, Function, FunctionKind, Stmt, SysValue};
 use rungc_syntax::{DeviceClass::M, codes};
 
 /// Name of the flag that EI sets.
@@ -30,6 +28,8 @@ enum What {
 #[derive(Default)]
 pub(super) struct Interrupts {
     requests: Vec<Request>,
+    /// The flags that sources set.
+    flags: Vec<(Source, FlagId)>,
     /// The flag that EI sets, and the function that takes interrupts; `None` if there is nothing to take.
     function: Option<(FlagId, u32)>,
 }
@@ -60,7 +60,8 @@ impl Lowerer<'_> {
         if requests.is_empty() {
             return;
         }
-        let enabled = self.flag(ENABLED.to_string(), None);
+        let enabled = self.flag(ENABLED.to_string(), "EI was executed", None);
+        let flags = self.request_flags(&requests);
         let function = self.module.functions.len() as u32;
         self.module.functions.push(Function {
             kind: FunctionKind::TakeInterrupts,
@@ -68,8 +69,38 @@ impl Lowerer<'_> {
         });
         self.interrupts = Interrupts {
             requests,
+            flags,
             function: Some((enabled, function)),
         };
+    }
+
+    /// A flag for each source, and what sets it.
+    fn request_flags(&mut self, requests: &[Request]) -> Vec<(Source, FlagId)> {
+        let mut flags: Vec<(Source, FlagId)> = Vec::new();
+        for source in requests.iter().filter_map(|request| request.source) {
+            if flags.iter().any(|&(known, _)| known == source) {
+                continue;
+            }
+            let period = match source {
+                Source::Period { ms } => Some(ms),
+                _ => None,
+            };
+            let flag = self.flag(flag_name(source), "requests an interrupt", period);
+            if let Source::Input { number, kind } = source {
+                self.on_edge(number, kind, |this| this.emit(Stmt::SetFlag(flag, true)));
+            }
+            flags.push((source, flag));
+        }
+        flags
+    }
+
+    /// The flag that a source sets, if it requests something.
+    pub(super) fn request_flag(&self, source: Source) -> Option<FlagId> {
+        let flags = &self.interrupts.flags;
+        flags
+            .iter()
+            .find(|flag| flag.0 == source)
+            .map(|flag| flag.1)
     }
 
     /// The pulse catch relays that something looks at.
@@ -86,11 +117,6 @@ impl Lowerer<'_> {
                 what: What::Catch(relay),
             })
             .collect()
-    }
-
-    fn flag(&mut self, name: String, source: Option<Source>) -> FlagId {
-        self.module.flags.push(Flag { name, source });
-        FlagId(self.module.flags.len() as u32 - 1)
     }
 
     /// EI, DI.
@@ -112,17 +138,9 @@ impl Lowerer<'_> {
         let Some((enabled, function)) = self.interrupts.function else {
             return;
         };
-        let requests = std::mem::take(&mut self.interrupts.requests);
-        let mut sources: Vec<Source> = Vec::new();
-        for source in requests.iter().filter_map(|request| request.source) {
-            if !sources.contains(&source) {
-                sources.push(source);
-            }
-        }
-        let flags: Vec<(Source, FlagId)> = sources
-            .into_iter()
-            .map(|source| (source, self.flag(flag_name(source), Some(source))))
-            .collect();
+        let Interrupts {
+            requests, flags, ..
+        } = std::mem::take(&mut self.interrupts);
         let body = self.body(|this| {
             for &(source, flag) in &flags {
                 this.keep_requests(&requests, source, flag);
@@ -264,5 +282,6 @@ fn flag_name(source: Source) -> String {
             format!("x{number:03o}_{what}")
         }
         Source::Period { ms } => format!("passed_{ms}ms"),
+        Source::Comparison { pointer } => format!("i{pointer:03}_requested"),
     }
 }

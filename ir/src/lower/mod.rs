@@ -8,7 +8,9 @@ mod arith;
 mod build;
 mod call;
 mod coil;
+mod edges;
 mod flow;
+mod high_speed;
 mod interrupt;
 mod logic;
 mod operand;
@@ -98,6 +100,8 @@ struct Lowerer<'a> {
     interrupts: interrupt::Interrupts,
     /// Timers that go on in scans that do not execute their coils.
     free_running: BTreeMap<u32, TimerKind>,
+    high_speed: high_speed::HighSpeed,
+    edges: edges::Edges,
     /// Statement above a network that has not begun yet.
     heading: Option<String>,
 }
@@ -126,6 +130,8 @@ impl<'a> Lowerer<'a> {
             steps: stl::Steps::of(resolved),
             interrupts: interrupt::Interrupts::default(),
             free_running: BTreeMap::new(),
+            high_speed: high_speed::HighSpeed::default(),
+            edges: edges::Edges::default(),
             flow,
             diagnostics: Diagnostics::new(),
             at: 0,
@@ -152,15 +158,18 @@ impl<'a> Lowerer<'a> {
             }
         }
         self.find_interrupts();
+        self.find_counters();
         for region in 0..self.flow.regions.len() {
             let body = self.region(region);
             let function = self.flow.regions[region].function as usize;
             self.module.functions[function].body = body;
         }
         self.module.run_states = self.module.states;
+        self.counter_edges();
         self.module.functions[0].body = self.begin_function();
         self.module.functions[2].body = self.end_function();
         self.take_interrupts();
+        self.edge_functions();
     }
 
     fn instr(&self) -> &'a Instr {
@@ -213,6 +222,7 @@ impl<'a> Lowerer<'a> {
             Lower::Basic(basic) => self.basic(basic),
             Lower::Compare(join, op) => self.compare_contact(join, op),
             Lower::Call(function) => self.call(inst, function),
+            Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
             Lower::Todo(what) => self.not_implemented(inst, what),
             _ => self.driven(|this| this.inline(inst, lower)),
         }

@@ -72,6 +72,7 @@ impl Lowerer<'_> {
     pub(super) fn begin_function(&mut self) -> Body {
         self.body(|this| {
             this.run_flags();
+            this.first_levels();
             this.clear_masks();
             this.forget_errors();
             this.clocks();

@@ -100,9 +100,9 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
             Writes::Run(DeviceClass::T, number, number)
         }
-        Stmt::Counter16 { number, .. } | Stmt::Counter32 { number, .. } => {
-            Writes::Run(DeviceClass::C, number, number)
-        }
+        Stmt::Counter16 { number, .. }
+        | Stmt::Counter32 { number, .. }
+        | Stmt::Count { number, .. } => Writes::Run(DeviceClass::C, number, number),
         Stmt::If { .. }
         | Stmt::For { .. }
         | Stmt::Parts(_)
@@ -113,6 +113,7 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         | Stmt::Fault { .. }
         | Stmt::Stop
         | Stmt::SetFlag(..)
+        | Stmt::SetCell(..)
         | Stmt::Clear { .. } => Writes::All,
     }
 }

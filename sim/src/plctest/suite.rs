@@ -84,9 +84,7 @@ impl Suite {
 
     /// Whether a module takes notice of what happens outside its scan.
     pub(super) fn takes_events(&self, module: usize) -> bool {
-        self.modules
-            .get(module)
-            .is_some_and(|m| !m.flags.is_empty())
+        self.modules.get(module).is_some_and(Module::takes_events)
     }
 
     pub(super) fn built(&self, id: Id) -> &Built {

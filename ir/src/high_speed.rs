@@ -1,0 +1,161 @@
+//! High-speed counters C235 to C255 as data: which inputs they count, and in which way.
+
+use crate::model::{ModelId, ModelSet};
+
+/// How the inputs of a counter count.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// One input; a relay says in which direction (M8235 for C235).
+    One,
+    /// An input that counts up, and one that counts down.
+    UpDown,
+    /// Phases A and B of an encoder.
+    Phases,
+}
+
+/// A counter and its inputs, as values (X010 is 8).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Counter {
+    /// Number.
+    pub number: u32,
+    /// How it counts.
+    pub kind: Kind,
+    /// What counts: one input, or two.
+    pub counts: &'static [u32],
+    /// Sets it to 0.
+    pub reset: Option<u32>,
+    /// It counts only while this is on.
+    pub start: Option<u32>,
+}
+
+impl Counter {
+    /// All of its inputs.
+    pub fn inputs(&self) -> impl Iterator<Item = u32> + use<> {
+        let others = [self.reset, self.start];
+        self.counts
+            .iter()
+            .copied()
+            .chain(others.into_iter().flatten())
+    }
+}
+
+/// Relays that make counters of two phases count all four edges of a cycle.
+struct FourFold {
+    models: ModelSet,
+    /// Counter and relay.
+    relays: &'static [(u32, u32)],
+}
+
+const fn counter(
+    number: u32,
+    kind: Kind,
+    counts: &'static [u32],
+    reset: Option<u32>,
+    start: Option<u32>,
+) -> Counter {
+    Counter {
+        number,
+        kind,
+        counts,
+        reset,
+        start,
+    }
+}
+
+/// The FX family's counters (h1u-h2u-programming §3.6).
+const FX: &[Counter] = &{
+    use Kind::{One, Phases, UpDown};
+    [
+        counter(235, One, &[0], None, None),
+        counter(236, One, &[1], None, None),
+        counter(237, One, &[2], None, None),
+        counter(238, One, &[3], None, None),
+        counter(239, One, &[4], None, None),
+        counter(240, One, &[5], None, None),
+        counter(241, One, &[0], Some(1), None),
+        counter(242, One, &[2], Some(3), None),
+        counter(243, One, &[4], Some(5), None),
+        counter(244, One, &[0], Some(1), Some(6)),
+        counter(245, One, &[2], Some(3), Some(7)),
+        counter(246, UpDown, &[0, 1], None, None),
+        counter(247, UpDown, &[0, 1], Some(2), None),
+        counter(248, UpDown, &[3, 4], Some(5), None),
+        counter(249, UpDown, &[0, 1], Some(2), Some(6)),
+        counter(250, UpDown, &[3, 4], Some(5), Some(7)),
+        counter(251, Phases, &[0, 1], None, None),
+        counter(252, Phases, &[0, 1], Some(2), None),
+        counter(253, Phases, &[3, 4], Some(5), None),
+        counter(254, Phases, &[0, 1], Some(2), Some(6)),
+        counter(255, Phases, &[3, 4], Some(5), Some(7)),
+    ]
+};
+
+/// HM's counters (hm-motion-controller §5.1.5).
+const HM: &[Counter] = &{
+    use Kind::{One, Phases, UpDown};
+    [
+        counter(235, One, &[0o0], None, None),
+        counter(237, One, &[0o2], None, None),
+        counter(239, One, &[0o0], Some(0o10), None),
+        counter(240, One, &[0o2], Some(0o11), None),
+        counter(241, One, &[0o0], Some(0o10), Some(0o12)),
+        counter(242, One, &[0o2], Some(0o11), Some(0o13)),
+        counter(244, UpDown, &[0o0, 0o1], None, None),
+        counter(245, UpDown, &[0o2, 0o3], None, None),
+        counter(246, UpDown, &[0o0, 0o1], Some(0o10), None),
+        counter(247, UpDown, &[0o2, 0o3], Some(0o11), None),
+        counter(248, UpDown, &[0o0, 0o1], Some(0o10), Some(0o12)),
+        counter(249, UpDown, &[0o2, 0o3], Some(0o11), Some(0o13)),
+        counter(250, Phases, &[0o0, 0o1], None, None),
+        counter(251, Phases, &[0o2, 0o3], None, None),
+        counter(252, Phases, &[0o0, 0o1], Some(0o10), None),
+        counter(253, Phases, &[0o2, 0o3], Some(0o11), None),
+        counter(254, Phases, &[0o0, 0o1], Some(0o10), Some(0o12)),
+        counter(255, Phases, &[0o2, 0o3], Some(0o11), Some(0o13)),
+    ]
+};
+
+/// Four-fold counting (h1u-h2u-programming §3.6; l01s-programming, table of special relays).
+const FOUR_FOLD: &[FourFold] = &[
+    FourFold {
+        models: ModelSet::of(&[ModelId::H1u, ModelId::H2u]),
+        relays: &[
+            (251, 8195),
+            (252, 8196),
+            (253, 8197),
+            (254, 8198),
+            (255, 8199),
+        ],
+    },
+    FourFold {
+        models: ModelSet::of(&[ModelId::L01s, ModelId::Fx3g, ModelId::Fx3u]),
+        relays: &[
+            (251, 8198),
+            (252, 8198),
+            (253, 8199),
+            (254, 8198),
+            (255, 8199),
+        ],
+    },
+];
+
+/// Models on which a reset input acts as long as it is on, unless [`EDGE_RESET`] is on, and not at all while [`NO_RESET`] is on.
+pub const RESET_RELAYS: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+/// Only the edge of a reset input resets.
+pub const EDGE_RESET: u32 = 8166;
+/// Reset inputs do nothing.
+pub const NO_RESET: u32 = 8169;
+/// Comparisons act when a reset input resets the counter, too.
+pub const COMPARE_AT_RESET: u32 = 8025;
+
+/// The high-speed counters of a model.
+pub fn counters(model: ModelId) -> &'static [Counter] {
+    if model == ModelId::Hm { HM } else { FX }
+}
+
+/// The relay that makes a counter count four-fold.
+pub fn four_fold(model: ModelId, number: u32) -> Option<u32> {
+    let row = FOUR_FOLD.iter().find(|row| row.models.has(model))?;
+    let found = row.relays.iter().find(|relay| relay.0 == number)?;
+    Some(found.1)
+}

@@ -1,0 +1,111 @@
+//! What edges of input terminals do, outside the scan.
+
+use super::Lowerer;
+use super::operand::fixed;
+use crate::node::{
+    Body, Cell, CellId, EdgeKind, Expr, ExprId, Flag, FlagId, Function, FunctionKind, Stmt,
+    SysValue,
+};
+use rungc_syntax::DeviceClass::X;
+use std::collections::BTreeMap;
+
+/// Code of edges, and the levels that it asks for.
+#[derive(Default)]
+pub(super) struct Edges {
+    /// By terminal and whether it rises.
+    bodies: BTreeMap<(u32, bool), Body>,
+    /// Flags that follow a terminal.
+    levels: BTreeMap<u32, FlagId>,
+}
+
+impl Lowerer<'_> {
+    /// A new flag.
+    pub(super) fn flag(
+        &mut self,
+        name: String,
+        meaning: &'static str,
+        period_ms: Option<u32>,
+    ) -> FlagId {
+        self.module.flags.push(Flag {
+            name,
+            meaning,
+            period_ms,
+        });
+        FlagId(self.module.flags.len() as u32 - 1)
+    }
+
+    /// A new cell.
+    pub(super) fn cell(&mut self, name: String, meaning: &'static str) -> CellId {
+        self.module.cells.push(Cell { name, meaning });
+        CellId(self.module.cells.len() as u32 - 1)
+    }
+
+    /// The state of a terminal outside the scan, where the device X may be older.
+    pub(super) fn level(&mut self, input: u32) -> ExprId {
+        let flag = match self.edges.levels.get(&input) {
+            Some(&flag) => flag,
+            None => {
+                let name = format!("x{input:03o}_on");
+                let flag = self.flag(name, "state of the input terminal", None);
+                self.edges.levels.insert(input, flag);
+                flag
+            }
+        };
+        self.add(Expr::Flag(flag))
+    }
+
+    /// What `make` emits is done at an edge, behind what was said of it before.
+    pub(super) fn on_edge(&mut self, input: u32, kind: EdgeKind, make: impl FnOnce(&mut Self)) {
+        let body = self.body(make);
+        let key = (input, kind == EdgeKind::Rising);
+        self.edges.bodies.entry(key).or_default().extend(body);
+    }
+
+    /// Flags that follow terminals begin as X shows them to the first scan.
+    pub(super) fn first_levels(&mut self) {
+        if self.edges.levels.is_empty() {
+            return;
+        }
+        let levels = self.edges.levels.clone();
+        let first = self.add(Expr::Sys(SysValue::FirstScan));
+        self.when(first, |this| {
+            for (input, flag) in levels {
+                let on = this.add(Expr::ReadBit(fixed(X, input)));
+                let set = |on| vec![Stmt::SetFlag(flag, on)];
+                this.emit(Stmt::If {
+                    cond: on,
+                    then: set(true),
+                    otherwise: set(false),
+                });
+            }
+        });
+    }
+
+    /// Makes the functions of all edges that mean something. They do nothing in STOP.
+    pub(super) fn edge_functions(&mut self) {
+        let Edges { mut bodies, levels } = std::mem::take(&mut self.edges);
+        for (&input, &flag) in &levels {
+            for on in [false, true] {
+                let body = bodies.entry((input, on)).or_default();
+                body.insert(0, Stmt::SetFlag(flag, on));
+            }
+        }
+        for ((input, rises), then) in bodies {
+            let cond = self.add(Expr::Sys(SysValue::Running));
+            let body = vec![Stmt::If {
+                cond,
+                then,
+                otherwise: Vec::new(),
+            }];
+            let kind = if rises {
+                EdgeKind::Rising
+            } else {
+                EdgeKind::Falling
+            };
+            self.module.functions.push(Function {
+                kind: FunctionKind::InputEdge { input, kind },
+                body,
+            });
+        }
+    }
+}
