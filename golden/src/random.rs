@@ -76,7 +76,9 @@ impl Writer<'_> {
         };
         let all = [edges[0], edges[1], 607, 710];
         self.line("LD M8002");
-        masks.map(|mask| self.line(format!("RST M{mask}")));
+        for mask in masks {
+            self.line(format!("RST M{mask}"));
+        }
         all.into_iter().filter(|_| self.rng.percent(60)).collect()
     }
 

@@ -222,11 +222,11 @@ fn what_is_not_implemented_is_refused_by_name() {
             .collect()
     };
     assert_eq!(
-        refused("LD X10\nOUT C235 K5\nEND\n"),
-        ["E0036 `OUT C235` is not implemented yet: high-speed counters"]
+        refused("LD X10\nDPLSY K1000 K5 Y0\nEND\n"),
+        ["E0036 `PLSY` is not implemented yet: pulse output"]
     );
     assert_eq!(
-        refused("EI\nLD X10\nOUT Y0\nFEND\nI010\nLD X1\nOUT Y1\nIRET\nEND\n"),
-        ["E0036 `I010` is not implemented yet: what requests it"]
+        refused("EI\nLD X10\nOUT Y0\nFEND\nI502\nLD X1\nOUT Y1\nIRET\nEND\n"),
+        ["E0036 `I502` is not implemented yet: what requests it"]
     );
 }

@@ -18,6 +18,8 @@ const LEAST_SCAN_TIME: u32 = 8011;
 const MOST_SCAN_TIME: u32 = 8012;
 /// Relay for any error of the run, and the register that tells which.
 const ANY_ERROR: u32 = 8004;
+/// Code of the last operation error.
+const OPERATION_ERROR: u32 = 8067;
 /// The error log of H1U/H2U: hours and codes, ten each; the running time in seconds; and the registers that tell which error and where.
 const ERROR_LOG: std::ops::RangeInclusive<u32> = 8490..=8511;
 const LAST_ERROR: [u32; 2] = [8067, 8069];
@@ -154,8 +156,14 @@ impl Lowerer<'_> {
             .into_iter()
             .filter(|&relay| self.keeps(M, relay))
             .collect();
-        let summary = self.keeps(D, ANY_ERROR);
-        if errors.is_empty() && !summary {
+        // The code of FX shows the last error as long as there was no other.
+        let code = (!self.model.errors_last_a_scan).then_some(OPERATION_ERROR);
+        let registers: Vec<u32> = [Some(ANY_ERROR), code]
+            .into_iter()
+            .flatten()
+            .filter(|&register| self.keeps(D, register))
+            .collect();
+        if errors.is_empty() && registers.is_empty() {
             return;
         }
         let forget = |this: &mut Self| {
@@ -163,9 +171,9 @@ impl Lowerer<'_> {
             for relay in errors {
                 this.write_device(M, relay, off);
             }
-            if summary {
+            for register in registers {
                 let none = this.int(0, false);
-                this.emit(Stmt::WriteWord(fixed(D, ANY_ERROR), none));
+                this.emit(Stmt::WriteWord(fixed(D, register), none));
             }
         };
         let when = if self.model.errors_last_a_scan {
