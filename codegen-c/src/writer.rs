@@ -488,7 +488,9 @@ impl<'a, 'm> Writer<'a, 'm> {
             }
             Stmt::SetFlag(flag, on) => {
                 let flag = &self.module.flags[flag.0 as usize].name;
-                code = format!("plc->{flag} = {on};");
+                code = format!("plc->{flag} = ");
+                self.expr(&mut code, *on, Around::Exact);
+                code.push(';');
             }
             Stmt::CallSub(function) => {
                 function_name(&mut code, self.module, *function as usize);

@@ -121,9 +121,9 @@ impl Generator<'_> {
             | Stmt::Counter16 { .. }
             | Stmt::Counter32 { .. }
             | Stmt::Count { .. } => self.coil(stmt),
-            Stmt::SetFlag(flag, on) => {
-                let flag = self.flag(*flag);
-                quote!(plc.#flag = #on;)
+            Stmt::SetFlag(flag, value) => {
+                let (flag, value) = (self.flag(*flag), self.expr(*value));
+                quote!(plc.#flag = #value;)
             }
             Stmt::Reset(place) => self.reset(*place),
             Stmt::If {

@@ -64,6 +64,11 @@ fn packer() {
 }
 
 #[test]
+fn cutter() {
+    check("cutter", ModelId::H2u);
+}
+
+#[test]
 fn jumps() {
     check("jumps", ModelId::Fx3u);
 }

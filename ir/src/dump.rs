@@ -211,9 +211,7 @@ impl Out<'_> {
                 down,
                 preset,
             } => format!("count C{number} down {} preset {}", e(down), e(preset)),
-            Stmt::SetFlag(flag, on) => {
-                format!("{} := {}", self.flag(*flag), if *on { "on" } else { "off" })
-            }
+            Stmt::SetFlag(flag, value) => format!("{} := {}", self.flag(*flag), e(value)),
             Stmt::Stop => "stop".into(),
             Stmt::Clear { latched: true } => "clear latched".into(),
             Stmt::Clear { latched: false } => "clear general".into(),

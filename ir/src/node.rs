@@ -292,8 +292,8 @@ pub enum Stmt {
         /// Receives the result.
         out: TempId,
     },
-    /// Sets or resets a flag.
-    SetFlag(FlagId, bool),
+    /// Writes a flag (`Bit`).
+    SetFlag(FlagId, ExprId),
     /// Writes a cell (`I32`).
     SetCell(CellId, ExprId),
     /// Writes a bit device (Y, M, S, or X by force only).

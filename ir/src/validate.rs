@@ -352,7 +352,10 @@ impl Checker<'_> {
                 let typed = is(down, Ty::Bit) && is(preset, Ty::I32);
                 (typed, self.unstored(place, 1))
             }
-            Stmt::SetFlag(flag, _) => ((flag.0 as usize) < module.flags.len(), None),
+            Stmt::SetFlag(flag, value) => (
+                (flag.0 as usize) < module.flags.len() && is(value, Ty::Bit),
+                None,
+            ),
             Stmt::CallSub(_)
             | Stmt::Return
             | Stmt::TimerGoesOn { .. }

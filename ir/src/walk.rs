@@ -60,7 +60,7 @@ macro_rules! for_exprs {
                     place.index.$iter().for_each(&mut *f);
                     f(value);
                 }
-                Stmt::Let(_, value) | Stmt::SetCell(_, value) => f(value),
+                Stmt::Let(_, value) | Stmt::SetFlag(_, value) | Stmt::SetCell(_, value) => f(value),
                 Stmt::Count { down, preset, .. } => {
                     f(down);
                     f(preset);
@@ -91,7 +91,6 @@ macro_rules! for_exprs {
                     drive.$iter().for_each(f);
                 }
                 Stmt::Network(_)
-                | Stmt::SetFlag(..)
                 | Stmt::CallSub(_)
                 | Stmt::Return
                 | Stmt::TimerGoesOn { .. }

@@ -288,7 +288,7 @@ impl<'m> Machine<'m> {
                 });
             }
             Stmt::SetCell(cell, value) => self.cells[cell.0 as usize] = int(self.eval(value)),
-            Stmt::SetFlag(flag, on) => self.flags[flag.0 as usize] = on,
+            Stmt::SetFlag(flag, value) => self.flags[flag.0 as usize] = self.on(value),
             Stmt::WriteBit(place, value) => {
                 let on = self.on(value);
                 self.write_bit(place, on);

@@ -40,6 +40,12 @@ impl Lowerer<'_> {
         CellId(self.module.cells.len() as u32 - 1)
     }
 
+    /// Sets or resets a flag.
+    pub(super) fn set_flag_to(&mut self, flag: FlagId, on: bool) {
+        let on = self.bit_const(on);
+        self.emit(Stmt::SetFlag(flag, on));
+    }
+
     /// The state of a terminal outside the scan, where the device X may be older.
     pub(super) fn level(&mut self, input: u32) -> ExprId {
         let flag = match self.edges.levels.get(&input) {
@@ -71,12 +77,7 @@ impl Lowerer<'_> {
         self.when(first, |this| {
             for (input, flag) in levels {
                 let on = this.add(Expr::ReadBit(fixed(X, input)));
-                let set = |on| vec![Stmt::SetFlag(flag, on)];
-                this.emit(Stmt::If {
-                    cond: on,
-                    then: set(true),
-                    otherwise: set(false),
-                });
+                this.emit(Stmt::SetFlag(flag, on));
             }
         });
     }
@@ -86,8 +87,9 @@ impl Lowerer<'_> {
         let Edges { mut bodies, levels } = std::mem::take(&mut self.edges);
         for (&input, &flag) in &levels {
             for on in [false, true] {
+                let state = self.bit_const(on);
                 let body = bodies.entry((input, on)).or_default();
-                body.insert(0, Stmt::SetFlag(flag, on));
+                body.insert(0, Stmt::SetFlag(flag, state));
             }
         }
         for ((input, rises), then) in bodies {

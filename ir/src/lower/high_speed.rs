@@ -96,20 +96,8 @@ impl Lowerer<'_> {
         let drive = self.drive();
         self.with_preset(true, |this, value| {
             this.emit(Stmt::SetCell(preset, value));
-            this.follow(on, drive);
+            this.emit(Stmt::SetFlag(on, drive));
         });
-    }
-
-    /// Sets a flag to the state of an expression.
-    fn follow(&mut self, flag: FlagId, state: ExprId) {
-        match self.expr(state) {
-            Expr::Bit(state) => self.emit(Stmt::SetFlag(flag, state)),
-            _ => self.emit(Stmt::If {
-                cond: state,
-                then: vec![Stmt::SetFlag(flag, true)],
-                otherwise: vec![Stmt::SetFlag(flag, false)],
-            }),
-        }
     }
 
     /// HSCS, HSCR, HSZ: while driven, the comparison is armed with its values.
@@ -151,16 +139,19 @@ impl Lowerer<'_> {
                 for (cell, value) in cells {
                     this.emit(Stmt::SetCell(cell, value));
                 }
-                this.emit(Stmt::SetFlag(armed, true));
+                this.set_flag_to(armed, true);
             });
         });
         match self.expr(drive) {
             Expr::Bit(true) => set.into_iter().for_each(|stmt| self.emit(stmt)),
-            _ => self.emit(Stmt::If {
-                cond: drive,
-                then: set,
-                otherwise: vec![Stmt::SetFlag(armed, false)],
-            }),
+            _ => {
+                let otherwise = self.body(|this| this.set_flag_to(armed, false));
+                self.emit(Stmt::If {
+                    cond: drive,
+                    then: set,
+                    otherwise,
+                });
+            }
         }
         self.high_speed.compares.push(Compare {
             counter: counter.number,
@@ -243,20 +234,28 @@ impl Lowerer<'_> {
                     for kind in [EdgeKind::Rising, EdgeKind::Falling] {
                         self.on_edge(input, kind, |this| {
                             // Forward, A rises while B is off, B while A is on; falling is the other way round.
-                            let level = this.level(other);
                             let rises = kind == EdgeKind::Rising;
-                            let down = if (input == a) == rises {
-                                level
-                            } else {
-                                this.not(level)
-                            };
-                            let four_fold = four_fold.map(|number| relay(this, number));
-                            let four_fold = four_fold.unwrap_or_else(|| this.bit_const(false));
-                            // Counted once, an edge of B counts while A is on.
-                            let counts = if input == b {
-                                this.or(level, four_fold)
-                            } else {
-                                four_fold
+                            let four_fold = four_fold
+                                .filter(|&number| this.specials.has(DeviceClass::M, number))
+                                .map(|number| relay(this, number));
+                            let level = this.level(other);
+                            let (counts, down) = match four_fold {
+                                Some(four_fold) => {
+                                    let down = if (input == a) == rises {
+                                        level
+                                    } else {
+                                        this.not(level)
+                                    };
+                                    let counts = if input == b {
+                                        this.or(level, four_fold)
+                                    } else {
+                                        four_fold
+                                    };
+                                    (counts, down)
+                                }
+                                // Counted once, an edge of B counts while A is on.
+                                None if input == b => (level, this.bit_const(!rises)),
+                                None => return,
                             };
                             this.when(counts, |this| this.count(used, down, compares));
                         });
@@ -366,7 +365,7 @@ impl Lowerer<'_> {
                         let on = this.bit_const(*on);
                         this.write_bits(target, on);
                     }
-                    Action::Request(flag) => this.emit(Stmt::SetFlag(*flag, true)),
+                    Action::Request(flag) => this.set_flag_to(*flag, true),
                     Action::Reset => this.emit(Stmt::Reset(counter_place(compare.counter))),
                     Action::Zone(_) => {}
                 });

@@ -87,7 +87,7 @@ impl Lowerer<'_> {
             };
             let flag = self.flag(flag_name(source), "requests an interrupt", period);
             if let Source::Input { number, kind } = source {
-                self.on_edge(number, kind, |this| this.emit(Stmt::SetFlag(flag, true)));
+                self.on_edge(number, kind, |this| this.set_flag_to(flag, true));
             }
             flags.push((source, flag));
         }
@@ -122,7 +122,7 @@ impl Lowerer<'_> {
     /// EI, DI.
     pub(super) fn enable_interrupts(&mut self, on: bool) {
         if let Some((enabled, _)) = self.interrupts.function {
-            self.emit(Stmt::SetFlag(enabled, on));
+            self.set_flag_to(enabled, on);
         }
     }
 
@@ -171,7 +171,7 @@ impl Lowerer<'_> {
         }
         let asked = self.add(Expr::Flag(flag));
         self.when(asked, |this| {
-            this.emit(Stmt::SetFlag(flag, false));
+            this.set_flag_to(flag, false);
             for relay in relays {
                 let on = this.bit_const(true);
                 this.write_device(M, relay, on);
@@ -192,7 +192,7 @@ impl Lowerer<'_> {
         }
         let asked = self.add(Expr::Flag(flag));
         self.when(asked, |this| {
-            this.emit(Stmt::SetFlag(flag, false));
+            this.set_flag_to(flag, false);
             for what in direct {
                 match *what {
                     What::Catch(relay) => {

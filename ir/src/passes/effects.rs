@@ -6,9 +6,14 @@ use crate::runs::is_special;
 use crate::walk::operands;
 use rungc_syntax::DeviceClass;
 
-/// The devices that an expression reads: runs of (class, first, last).
+/// What an expression reads.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Reads(Vec<(DeviceClass, u32, u32)>);
+pub(super) struct Reads {
+    /// Runs of devices: (class, first, last).
+    devices: Vec<(DeviceClass, u32, u32)>,
+    /// A flag or a cell.
+    private: bool,
+}
 
 /// What a statement writes.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -42,20 +47,29 @@ impl Reads {
             }
             Expr::ReadPair(place) | Expr::ReadFloat(place) => (place, 2),
             Expr::ReadNibbles { place, digits, .. } => (place, 4 * u32::from(digits)),
+            Expr::Flag(_) | Expr::Cell(_) => {
+                self.private = true;
+                return;
+            }
             _ => return,
         };
         let (first, last) = run(place, count);
-        self.0.push((place.class, first, last));
+        self.devices.push((place.class, first, last));
     }
 
     /// Whether the value may be another behind the write.
     pub(super) fn disturbed_by(&self, writes: Writes) -> bool {
-        self.0.iter().any(|&(class, first, last)| match writes {
-            Writes::Nothing => false,
-            Writes::Run(other, from, to) => class == other && first <= to && from <= last,
-            Writes::Index => is_index(class),
-            Writes::All => true,
-        })
+        let private = self.private && writes == Writes::All;
+        private
+            || self
+                .devices
+                .iter()
+                .any(|&(class, first, last)| match writes {
+                    Writes::Nothing => false,
+                    Writes::Run(other, from, to) => class == other && first <= to && from <= last,
+                    Writes::Index => is_index(class),
+                    Writes::All => true,
+                })
     }
 }
 

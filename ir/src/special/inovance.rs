@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use super::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATCHES, LINK, NETWORK, POWER, PULSES, SERIAL,
-    Special, TRACE, specials,
+    CAN, CHECKED, FAST, HARDWARE, HOST, LATCHES, LINK, NETWORK, POWER, PULSES, SERIAL, Special,
+    TRACE, specials,
 };
 
 /// What both have.
@@ -29,7 +29,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8021 r 0 by("arithmetic") "borrow flag: result below the smallest representable value";
     M 8022 r 0 by("arithmetic") "carry flag: result above the largest representable value; bit carried out by rotate instructions";
     M 8024 rw 0 by("BMOV") "BMOV direction: on reverses the transfer (D to S)";
-    M 8025 rw 0 inert(FAST) "HSC mode: on makes HSCS/HSCR/HSZ also act when an external reset input clears the counter";
+    M 8025 rw 0 by("HSCS, HSCR, HSZ") "HSC mode: on makes HSCS/HSCR/HSZ also act when an external reset input clears the counter";
     M 8026 rw 0 by("RAMP") "RAMP mode (holds final value / single ramp)";
     M 8027 rw 0 by("PR") "PR mode (number of characters)";
     M 8029 r 0 by("instructions that take several scans") "instruction finished (multi-scan instructions)";
@@ -55,7 +55,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8049 rw 0 scan "annunciator monitor: enables D8049 and M8048";
     M 8050-8055 rw 0 scan "on: input interrupts I000–500/I001–501 (X0–5) disabled";
     M 8056-8058 rw 0 scan "on: timed interrupt I6–8xx disabled";
-    M 8059 rw 0 inert(INTERRUPTS) "on: high-speed counter interrupts I010-I060 disabled";
+    M 8059 rw 0 scan "on: high-speed counter interrupts I010-I060 disabled";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error; error lamp off, PLC keeps running; detail D8060";
     M 8061 r 0 scan "PLC error, here of the watchdog; lamp flashes, PLC stops; code D8061";
     M 8062 r 0 inert(SERIAL) "PLC/programming-device communication error; lamp off, keeps running; code D8062";
@@ -105,10 +105,10 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD") "8-bit processing mode for ASC, RS, ASCI, HEX, CCD";
     M 8162 rw 0 inert(LINK) "high-speed parallel link mode";
     M 8164 rw 0 by("FROM, TO") "FROM/TO: transfer count taken from D8164";
-    M 8166 rw 0 inert(FAST) "high-speed counters: level reset through X terminals disabled (only the edge/interrupt reset remains)";
+    M 8166 rw 0 by("OUT C") "high-speed counters: level reset through X terminals disabled (only the edge/interrupt reset remains)";
     M 8167 rw 0 by("HKY") "HKY hexadecimal mode";
     M 8168 rw 0 by("SMOV") "SMOV hexadecimal mode";
-    M 8169 rw 0 inert(FAST) "high-speed counters: reset through X terminals disabled altogether (level and edge)";
+    M 8169 rw 0 by("OUT C") "high-speed counters: reset through X terminals disabled altogether (level and edge)";
     M 8170 rw 0 scan "X000 pulse catch: set by a rising edge after EI; the program resets it";
     M 8171-8175 rw 0 scan "X001–005 pulse catch";
     M 8183 r 0 inert(LINK) "N:N link: master transfer error";
@@ -117,11 +117,11 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8192 r 0 inert(CAN) "CAN receive time-out (N series)";
     M 8193 r 0 inert(CAN) "free CAN instruction receive state (N series)";
     M 8194 r 0 inert(CAN) "free CAN instruction send failed (N series)";
-    M 8195 rw 0 inert(FAST) "C251: on 4x counting, off 1x";
-    M 8196-8199 rw 0 inert(FAST) "C252–255: on 4x counting";
+    M 8195 rw 0 by("OUT C") "C251: on 4x counting, off 1x";
+    M 8196-8199 rw 0 by("OUT C") "C252–255: on 4x counting";
     M 8200-8234 rw 0 by("OUT C") "C200–234 direction: 0 counts up, 1 counts down";
-    M 8235-8245 rw 0 inert(FAST) "C235–245 (single-phase high-speed counter) direction: 0 up, 1 down";
-    M 8246-8255 r 0 inert(FAST) "C246–255 direction monitor: 0 counting up, 1 counting down";
+    M 8235-8245 rw 0 by("OUT C") "C235–245 (single-phase high-speed counter) direction: 0 up, 1 down";
+    M 8246-8255 r 0 by("OUT C") "C246–255 direction monitor: 0 counting up, 1 counting down";
     M 8261 r 0 inert(SERIAL) "COM2: waiting to send (RS2)";
     M 8262 rw 0 inert(SERIAL) "COM2: send flag (RS2); instruction executing (MODBUS2)";
     M 8263 rw 0 inert(SERIAL) "COM2: receive finished (RS2); communication error (MODBUS2)";

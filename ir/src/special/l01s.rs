@@ -34,7 +34,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8049 rw 0 scan "on: annunciator monitoring enabled";
     M 8050-8055 rw 0 scan "on: input interrupt I00–50x (input X000–005) disabled; cleared on the change from RUN to STOP";
     M 8056-8058 rw 0 scan "on: timer interrupt I600–800-I699–899 disabled (base 1 ms); cleared on the change from RUN to STOP";
-    M 8059 rw 0 inert(INTERRUPTS) "on: all high-speed-counter interrupts disabled (I010-I060)";
+    M 8059 rw 0 scan "on: all high-speed-counter interrupts disabled (I010-I060)";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error";
     M 8061 r 0 scan "PLC error, here of the watchdog";
     M 8062-8063 r 0 inert(SERIAL) "serial communication error 0–1";
@@ -63,13 +63,13 @@ pub(super) const L01S: &[Special] = specials! {
     M 8170-8177 rw 0 scan "pulse catch of input X000–007: set on its rising edge";
     M 8192 rw 0 inert(SERIAL) "port 3 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port";
     M 8196 rw 0 inert(SERIAL) "port 2 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port/BD/Modbus";
-    M 8198 rw 0 inert(FAST) "4-fold counting for C251, C252, C254 (off = 1-fold)";
-    M 8199 rw 0 inert(FAST) "4-fold counting for C253, C255 (off = 1-fold)";
+    M 8198 rw 0 by("OUT C") "4-fold counting for C251, C252, C254 (off = 1-fold)";
+    M 8199 rw 0 by("OUT C") "4-fold counting for C253, C255 (off = 1-fold)";
     M 8200-8227 rw 0 by("OUT C") "count direction of C200–227: on = down, off = up";
     M 8228 rw 0 by("OUT C") "handwheel function start (not supported on this model); in FX also count direction of C228 (on = down)";
     M 8229-8234 rw 0 by("OUT C") "count direction of C229–234: on = down, off = up";
-    M 8235-8245 rw 0 inert(FAST) "count direction of single-phase high-speed counter C235–245: on = down, off = up";
-    M 8246-8255 r 0 inert(FAST) "count direction monitor of high-speed counter C246–255: on = counting down, off = counting up";
+    M 8235-8245 rw 0 by("OUT C") "count direction of single-phase high-speed counter C235–245: on = down, off = up";
+    M 8246-8255 r 0 by("OUT C") "count direction monitor of high-speed counter C246–255: on = counting down, off = counting up";
     M 8329 r 0 inert(PULSES) "instruction ended abnormally";
     M 8338 rw 0 inert(PULSES) "PLSV with acceleration/deceleration: on = ramps with D8348/D8349, off = frequency changes at once";
     M 8340 r 0 inert(PULSES) "Y000: pulse output in progress (BUSY/READY monitor)";

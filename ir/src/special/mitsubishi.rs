@@ -29,7 +29,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8021 r 0 by("arithmetic") "borrow flag: the result was too small";
     M 8022 r 0 by("arithmetic") "carry flag: the result was too large; the bit that a rotation moved last";
     M 8024 rw 0 by("BMOV") "BMOV copies from D to S";
-    M 8025 rw 0 inert(FAST) "comparisons of high-speed counters act at an external reset too";
+    M 8025 rw 0 by("HSCS, HSCR, HSZ") "comparisons of high-speed counters act at an external reset too";
     M 8026 rw 0 by("RAMP") "RAMP holds the final value";
     M 8027 rw 0 by("PR") "PR sends up to 16 characters";
     M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO";
@@ -55,7 +55,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8049 rw 0 scan "D8049 and M8048 show the annunciators";
     M 8050-8055 rw 0 scan "forbids the interrupts of X000–X005";
     M 8056-8058 rw 0 scan "forbids the timer interrupts I6–I8";
-    M 8059 rw 0 inert(INTERRUPTS) "forbids the interrupts of counters";
+    M 8059 rw 0 scan "forbids the interrupts of counters";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error, code in D8060";
     M 8061 r 0 scan "hardware error, here of the watchdog, code in D8061";
     M 8062-8063 r 0 inert(SERIAL) "communication error, code in D8062 and D8063";
@@ -85,8 +85,8 @@ pub(super) const ALL: &[Special] = specials! {
     M 8170-8175 rw 0 scan "a pulse came at X000–X005";
     M 8183-8191 r 0 inert(LINK) "N:N link";
     M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
-    M 8235-8245 rw 0 inert(FAST) "C235–C245 count down";
-    M 8246-8255 r 0 inert(FAST) "C246–C255 are counting down";
+    M 8235-8245 rw 0 by("OUT C") "C235–C245 count down";
+    M 8246-8255 r 0 by("OUT C") "C246–C255 are counting down";
     D 8000 rw 200 scan "longest time of a scan in ms";
     D 8003 r 16 scan "kind of memory";
     D 8004 r 0 scan "number of the error relay that is on, in BCD";
@@ -156,7 +156,7 @@ pub(super) const FX3: &[Special] = specials! {
     M 8136-8139 rw 0 inert(FAST) "table comparison of high-speed counters";
     M 8151-8159 r 0 inert(SERIAL) "inverter communication";
     M 8176-8177 rw 0 scan "a pulse came at X006, X007";
-    M 8198-8199 rw 0 inert(FAST) "four counts a cycle for C251, C252 and C253–C255";
+    M 8198-8199 rw 0 by("OUT C") "four counts a cycle for C251, C252 and C253–C255";
     M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
     M 8306 r 0 by("DIV") "carry flag of division";
     M 8338 rw 0 inert(PULSES) "PLSV with ramps";
