@@ -38,6 +38,7 @@ pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) 
     let interrupts = if writer.rng.percent(25) {
         writer.enable_interrupts()
     } else {
+        writer.high_speed_counter();
         Vec::new()
     };
     if writer.rng.percent(25) {
@@ -80,6 +81,24 @@ impl Writer<'_> {
             self.line(format!("RST M{mask}"));
         }
         all.into_iter().filter(|_| self.rng.percent(60)).collect()
+    }
+
+    /// A counter of the first inputs, sometimes, with comparisons at the count. HM's count in other ways.
+    fn high_speed_counter(&mut self) {
+        if self.model == ModelId::Hm || self.rng.percent(75) {
+            return;
+        }
+        let counter = 235 + [0, 6, 9, 11, 12, 16, 19][self.rng.below(7) as usize];
+        self.logic(1);
+        let preset = self.rng.below(5);
+        self.line(format!("OUT C{counter} K{preset}"));
+        for compare in ["DHSCS K2", "DHSCR K4", "DHSZ K1 K3"] {
+            if self.rng.percent(60) {
+                self.logic(1);
+                let bit = ["Y000", "M10", "S20"][self.rng.below(3) as usize];
+                self.line(format!("{compare} C{counter} {bit}"));
+            }
+        }
     }
 
     fn label(&mut self) -> u32 {
