@@ -230,3 +230,38 @@ fn what_is_not_implemented_is_refused_by_name() {
         ["E0036 `I502` is not implemented yet: what requests it"]
     );
 }
+
+#[test]
+fn comments_of_devices_are_written_by_the_compiler() {
+    let device = rungc_syntax::Device {
+        class: rungc_syntax::DeviceClass::D,
+        number: 0,
+    };
+    let compiled = |comment: &str| {
+        let text = "LD X0\nCOMRD D0 D10\nEND\n";
+        let mut program = rungc_frontend::read_text("test.il", text).program;
+        program.comments.insert(device, comment.to_string());
+        compile(&program, &on(ModelId::Fx3u))
+    };
+    let module = compiled("Pump 1").module.unwrap();
+    let dumped = dump(&module);
+    let words: Vec<&str> = dumped
+        .lines()
+        .filter_map(|l| l.trim().strip_prefix("D1"))
+        .collect();
+    assert_eq!(
+        words,
+        [
+            "0 := 30032",
+            "1 := 28781",
+            "2 := 12576",
+            "3 := 8224",
+            "4 := 8224",
+            "5 := 8224",
+            "6 := 8224",
+            "7 := 8224",
+            "8 := 0"
+        ]
+    );
+    assert!(compiled("泵").module.is_none());
+}

@@ -509,6 +509,8 @@ pub enum Lower {
     Move,
     /// CML: complements S to D.
     MoveNot,
+    /// COMRD: a device's comment, which the compiler knows.
+    Comment,
     /// CMP: three bits.
     Cmp,
     /// ZCP: three bits.

@@ -1,7 +1,7 @@
 //! Text instructions, FNC 182 and 200–209, and decimal text, FNC 260 and 261.
 
 use super::row::*;
-use super::{Classes, Inst};
+use super::{Classes, Inst, Lower};
 use rungc_rt::RtFn;
 
 const TEXTS: Classes = GROUPS.or(REGISTERS).or(Classes::TEXT);
@@ -21,12 +21,12 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(5, 5)
         .on(FX3U)
         .takes(&[
-            mixed("S", BITS.or(REGISTERS)),
+            mixed("S", BITS.or(REGISTERS)).plain(),
             text_out("D", REGISTERS).len(9),
         ])
         .flags(&["M8091"])
-        .todo("device comments at run time")
-        .text("Writes the comment of device S, 16 characters, to D."),
+        .lower(Lower::Comment)
+        .text("Writes the comment of device S, 16 characters filled up with spaces, to D. Comments are those of the project."),
     string("STR", 200, "Integer to text")
         .forms(ALL_FORMS)
         .steps(7, 13)

@@ -31,6 +31,7 @@ impl Lowerer<'_> {
         match lower {
             Lower::Move => self.move_value(false),
             Lower::MoveNot => self.move_value(true),
+            Lower::Comment => self.device_comment(),
             Lower::Cmp => self.compare(),
             Lower::Zcp => self.compare_zone(),
             Lower::Arith(op) => self.arith(op, false),
@@ -62,7 +63,7 @@ impl Lowerer<'_> {
         self.result_element(i, 0, wide, guards)
     }
 
-    fn result_element(
+    pub(super) fn result_element(
         &mut self,
         i: usize,
         element: u32,

@@ -8,6 +8,7 @@ mod arith;
 mod build;
 mod call;
 mod coil;
+mod comment;
 mod edges;
 mod flow;
 mod high_speed;

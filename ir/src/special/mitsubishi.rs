@@ -191,7 +191,7 @@ pub(super) const FX3G: &[Special] = specials! {
 /// FX3U: version 3.20, 64 k steps.
 pub(super) const FX3U: &[Special] = specials! {
     M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
-    M 8091 rw 0 by("BINDA") "no zero behind the characters";
+    M 8091 rw 0 by("BINDA, COMRD") "no zero behind the characters";
     M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
     M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
     M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
