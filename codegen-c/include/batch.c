@@ -23,8 +23,8 @@ typedef struct {
     void (*power_cycle)(void);
     bool (*output)(unsigned terminal);
     void (*input_edge)(unsigned terminal, bool on); /* NULL if the program takes no notice of edges */
-    void (*tick)(uint32_t now_ms); /* NULL, as the next, if it has no interrupts */
-    void (*take_interrupts)(void);
+    void (*tick)(uint32_t now_ms); /* NULL if it does not follow the time */
+    void (*take_interrupts)(void); /* NULL if it has no interrupts */
     rungc_map (*map)(void);
 } program;
 
@@ -61,11 +61,13 @@ typedef struct {
         case##n##_input_edge(&memory.case##n, terminal, on);                                                           \
     }
 
-#define INTERRUPTS(n)                                                                                                  \
+#define TIME(n)                                                                                                        \
     static void tick##n(uint32_t now_ms)                                                                               \
     {                                                                                                                  \
         case##n##_tick(&memory.case##n, now_ms);                                                                       \
-    }                                                                                                                  \
+    }
+
+#define INTERRUPTS(n)                                                                                                  \
     static void take_interrupts##n(void)                                                                               \
     {                                                                                                                  \
         case##n##_take_interrupts(&memory.case##n);                                                                    \
@@ -75,6 +77,9 @@ typedef struct {
 
 #define ENTRY_WITH_EVENTS(n)                                                                                           \
     {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, NULL, NULL, map##n}
+
+#define ENTRY_WITH_TIME(n)                                                                                             \
+    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, NULL, map##n}
 
 #define ENTRY_WITH_INTERRUPTS(n)                                                                                       \
     {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, take_interrupts##n, map##n}

@@ -2,7 +2,7 @@
 
 use crate::writer::function_name;
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeKind, Flag, FunctionKind, Stmt};
+use rungc_ir::node::{Cell, EdgeKind, Flag, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -27,9 +27,14 @@ pub fn inputs(module: &Module) -> BTreeSet<u32> {
     edges(module).map(|(_, input, _)| input).collect()
 }
 
-/// Whether some flag is set each time a period has passed.
-pub fn has_periods(module: &Module) -> bool {
-    periods(module).next().is_some()
+/// The cells that follow the time.
+fn clocks(module: &Module) -> impl Iterator<Item = &Cell> {
+    module.cells.iter().filter(|cell| cell.follows_time)
+}
+
+/// Whether the time between scans means something.
+pub fn follows_time(module: &Module) -> bool {
+    periods(module).next().is_some() || clocks(module).next().is_some()
 }
 
 /// The flags that are set outside the scan, perhaps in an interrupt handler.
@@ -79,7 +84,8 @@ pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
         (format!("uint32_t {}_since;", flag.name), comment, 4)
     });
     let cells = module.cells.iter().map(|cell| {
-        let declaration = format!("int32_t {};", cell.name);
+        let volatile = if cell.follows_time { "volatile " } else { "" };
+        let declaration = format!("{volatile}int32_t {};", cell.name);
         (declaration, cell.meaning.to_string(), 4)
     });
     flags.chain(since).chain(cells).collect()
@@ -118,12 +124,17 @@ pub fn prototypes(module: &Module) -> String {
         "\n/* An input terminal X (a plain number: 8 is X010) goes on or off. {when} */\n\
          void {name}_input_edge({name}_plc *plc, unsigned terminal, bool on);\n"
     );
+    if module.takes_time() {
+        let _ = write!(
+            out,
+            "\n/* Time goes on: call it each millisecond, in an interrupt handler or the main loop, for what follows time to be on time. */\n\
+             void {name}_tick({name}_plc *plc, uint32_t now_ms);\n"
+        );
+    }
     if interrupts(module).is_some() {
         let _ = write!(
             out,
-            "\n/* Time goes on: call it each millisecond, in an interrupt handler or the main loop, for timer interrupts to be on time. */\n\
-             void {name}_tick({name}_plc *plc, uint32_t now_ms);\n\n\
-             /* Runs the interrupt routines that are requested. A scan does so in front of each network; call it while waiting for the next. */\n\
+            "\n/* Runs the interrupt routines that are requested. A scan does so in front of each network; call it while waiting for the next. */\n\
              void {name}_take_interrupts({name}_plc *plc);\n"
         );
     }
@@ -140,13 +151,23 @@ pub fn interrupts(module: &Module) -> Option<usize> {
 pub fn functions(module: &Module) -> String {
     let name = &module.name;
     let mut out = input_edge(module);
-    let Some(at) = interrupts(module) else {
-        return out;
-    };
-    let _ = write!(
-        out,
-        "void {name}_tick({name}_plc *plc, uint32_t now_ms)\n{{\n"
-    );
+    if module.takes_time() {
+        out.push_str(&tick(module));
+    }
+    if let Some(at) = interrupts(module) {
+        let mut function = String::new();
+        function_name(&mut function, module, at);
+        let _ = write!(
+            out,
+            "void {name}_take_interrupts({name}_plc *plc)\n{{\n    if (plc->sys.running) {{\n        {function}(plc);\n    }}\n}}\n\n"
+        );
+    }
+    out
+}
+
+fn tick(module: &Module) -> String {
+    let name = &module.name;
+    let mut out = format!("void {name}_tick({name}_plc *plc, uint32_t now_ms)\n{{\n");
     for (flag, ms) in periods(module) {
         let flag = &flag.name;
         let _ = write!(
@@ -154,15 +175,13 @@ pub fn functions(module: &Module) -> String {
             "    if (now_ms - plc->{flag}_since >= {ms}u) {{\n        plc->{flag}_since += {ms}u;\n        plc->{flag} = true;\n    }}\n"
         );
     }
-    if !has_periods(module) {
+    for cell in clocks(module) {
+        let _ = writeln!(out, "    plc->{} = (int32_t)now_ms;", cell.name);
+    }
+    if !follows_time(module) {
         out.push_str("    (void)plc;\n    (void)now_ms;\n");
     }
-    let mut function = String::new();
-    function_name(&mut function, module, at);
-    let _ = write!(
-        out,
-        "}}\n\nvoid {name}_take_interrupts({name}_plc *plc)\n{{\n    if (plc->sys.running) {{\n        {function}(plc);\n    }}\n}}\n\n"
-    );
+    out.push_str("}\n\n");
     out
 }
 

@@ -197,20 +197,21 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         let unit = unit::unit(&module, true);
         api.push_str(&unit.api);
         api.push('\n');
-        let entry = match (module.takes_events(), events::interrupts(&module)) {
-            (true, Some(_)) => {
-                let _ = writeln!(table, "CASE({i})\nEVENTS({i})\nINTERRUPTS({i})");
-                "ENTRY_WITH_INTERRUPTS"
-            }
-            (true, None) => {
-                let _ = writeln!(table, "CASE({i})\nEVENTS({i})");
-                "ENTRY_WITH_EVENTS"
-            }
-            (false, _) => {
-                let _ = writeln!(table, "CASE({i})");
-                "ENTRY"
-            }
-        };
+        let functions = [
+            (true, "CASE", "ENTRY"),
+            (module.takes_events(), "EVENTS", "ENTRY_WITH_EVENTS"),
+            (module.takes_time(), "TIME", "ENTRY_WITH_TIME"),
+            (
+                events::interrupts(&module).is_some(),
+                "INTERRUPTS",
+                "ENTRY_WITH_INTERRUPTS",
+            ),
+        ];
+        let mut entry = "";
+        for (_, function, with) in functions.into_iter().filter(|row| row.0) {
+            let _ = writeln!(table, "{function}({i})");
+            entry = with;
+        }
         let _ = writeln!(members, "    {entry}({i}),");
         let size = sources.last().map_or(usize::MAX, String::len);
         let length: usize =

@@ -263,7 +263,7 @@ pub fn embedding(module: &Module, fields: &Fields) -> String {
             "in the interrupt handler of this pin",
         ));
     }
-    if events::has_periods(module) {
+    if events::follows_time(module) {
         lines.push((
             format!("{name}_tick(&plc, millis());"),
             "in a handler that runs each millisecond",

@@ -11,13 +11,12 @@ use std::fmt::Write;
 /// What stands around the tables of terminals.
 const MAIN_C: &str = include_str!("../include/main.c");
 
-/// How a program waits for its next scan that may be interrupted.
-const WAIT_WITH_INTERRUPTS: &str = "\
+/// How a program waits for its next scan that follows the time.
+const WAIT_WITH_TIME: &str = "\
 for (uint64_t now = microseconds(); now < next && !stopped; now = microseconds()) {
             sleep_until(now + 1000u < next ? now + 1000u : next);
             PROGRAM_tick(plc, (uint32_t)((microseconds() - start) / 1000u));
-            PROGRAM_take_interrupts(plc);
-        }";
+/* INTERRUPTS */        }";
 
 /// `main.c` for a program.
 pub fn main_file(module: &Module) -> String {
@@ -43,13 +42,19 @@ pub fn main_file(module: &Module) -> String {
             text::string_literal(&text)
         );
     }
-    let wait = if events::interrupts(module).is_some() {
-        WAIT_WITH_INTERRUPTS
+    let wait = if module.takes_time() {
+        WAIT_WITH_TIME
     } else {
         "sleep_until(next);"
     };
+    let interrupts = if events::interrupts(module).is_some() {
+        "            PROGRAM_take_interrupts(plc);\n"
+    } else {
+        ""
+    };
     MAIN_C
         .replace("/* WAIT */", wait)
+        .replace("/* INTERRUPTS */", interrupts)
         .replace("    /* INPUTS */\n", &inputs)
         .replace("    /* OUTPUTS */\n", &outputs)
         .replace("PROGRAM", name)

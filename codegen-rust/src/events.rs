@@ -72,29 +72,12 @@ impl Generator<'_> {
     /// The methods that a host calls; nothing if the program takes no notice of anything outside its scan.
     pub fn event_methods(&mut self) -> TokenStream {
         let edge = self.input_edge();
+        let tick = self.tick();
         let module = self.module;
         let mut functions = module.functions.iter();
         let Some(at) = functions.position(|f| f.kind == FunctionKind::TakeInterrupts) else {
-            return edge;
+            return quote!(#edge #tick);
         };
-        let periods: Vec<TokenStream> = self
-            .periods()
-            .map(|(flag, ms)| {
-                let (field, since) = (flag_field(flag), since_field(flag));
-                let ms = Literal::u32_unsuffixed(ms);
-                quote! {
-                    if now_ms.wrapping_sub(self.#since) >= #ms {
-                        self.#since = self.#since.wrapping_add(#ms);
-                        self.#field = true;
-                    }
-                }
-            })
-            .collect();
-        let tick = (!periods.is_empty()).then(|| {
-            quote! {
-                fn tick(&mut self, now_ms: u32) { #(#periods)* }
-            }
-        });
         let function = format_ident!("{}", function_name(&module.functions[at]));
         let needs_hal = self.calls.needs_hal.get(at).copied().unwrap_or(false);
         let (parameter, argument) = if needs_hal {
@@ -110,6 +93,36 @@ impl Generator<'_> {
                 if self.sys.running { program::#function(self #argument); }
             }
         }
+    }
+
+    /// Time goes on; `None` if that means nothing.
+    fn tick(&self) -> Option<TokenStream> {
+        let periods: Vec<TokenStream> = self
+            .periods()
+            .map(|(flag, ms)| {
+                let (field, since) = (flag_field(flag), since_field(flag));
+                let ms = Literal::u32_unsuffixed(ms);
+                quote! {
+                    if now_ms.wrapping_sub(self.#since) >= #ms {
+                        self.#since = self.#since.wrapping_add(#ms);
+                        self.#field = true;
+                    }
+                }
+            })
+            .collect();
+        let clocks: Vec<TokenStream> = (0..)
+            .zip(&self.module.cells)
+            .filter(|(_, cell)| cell.follows_time)
+            .map(|(i, _)| {
+                let field = self.cell(CellId(i));
+                quote!(self.#field = now_ms as i32;)
+            })
+            .collect();
+        (!periods.is_empty() || !clocks.is_empty()).then(|| {
+            quote! {
+                fn tick(&mut self, now_ms: u32) { #(#periods)* #(#clocks)* }
+            }
+        })
     }
 
     fn input_edge(&self) -> TokenStream {

@@ -118,7 +118,7 @@ const HM: &[Counter] = &{
 /// Four-fold counting (h1u-h2u-programming §3.6; l01s-programming, table of special relays).
 const FOUR_FOLD: &[FourFold] = &[
     FourFold {
-        models: ModelSet::of(&[ModelId::H1u, ModelId::H2u]),
+        models: INOVANCE,
         relays: &[
             (251, 8195),
             (252, 8196),
@@ -139,14 +139,20 @@ const FOUR_FOLD: &[FourFold] = &[
     },
 ];
 
+const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
 /// Models on which a reset input acts as long as it is on, unless [`EDGE_RESET`] is on, and not at all while [`NO_RESET`] is on.
-pub const RESET_RELAYS: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+pub const RESET_RELAYS: ModelSet = INOVANCE;
 /// Only the edge of a reset input resets.
 pub const EDGE_RESET: u32 = 8166;
 /// Reset inputs do nothing.
 pub const NO_RESET: u32 = 8169;
 /// Comparisons act when a reset input resets the counter, too.
 pub const COMPARE_AT_RESET: u32 = 8025;
+
+/// The relay of input X000, behind which the others' follow, that makes SPD show pulses a minute (h1u-h2u-programming §4.3.6).
+pub fn per_minute(model: ModelId) -> Option<u32> {
+    INOVANCE.has(model).then_some(8100)
+}
 
 /// The high-speed counters of a model.
 pub fn counters(model: ModelId) -> &'static [Counter] {

@@ -64,6 +64,8 @@ pub struct Cell {
     pub name: String,
     /// What it means, for a comment.
     pub meaning: &'static str,
+    /// Set to the time, as for [`SysValue::NowMs`], each time that a host tells it ([`rungc_rt::Program::tick`]).
+    pub follows_time: bool,
 }
 
 /// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression).
@@ -577,6 +579,12 @@ impl Module {
             )
         };
         self.functions.iter().any(by_host)
+    }
+
+    /// Whether a host has to tell it how time goes on between scans.
+    pub fn takes_time(&self) -> bool {
+        let taken = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
+        self.cells.iter().any(|cell| cell.follows_time) || self.functions.iter().any(taken)
     }
 
     /// Adds an expression.

@@ -160,6 +160,10 @@ impl Program for Machine<'_> {
                 *state = true;
             }
         }
+        let cells = self.module.cells.iter().zip(&mut self.cells);
+        for (_, value) in cells.filter(|(cell, _)| cell.follows_time) {
+            *value = now_ms as i32;
+        }
     }
 
     fn take_interrupts(&mut self, hal: &mut dyn Hal) {

@@ -209,7 +209,7 @@ pub(super) const ROWS: &[Inst] = &[
             dst("D", REGISTERS.or(INDEX)).len(3),
         ])
         .flags(&["M8100", "M8101", "M8102", "M8103", "M8104", "M8105"])
-        .todo(COUNTERS)
+        .lower(Lower::Density)
         .text("Counts pulses of S1 in windows of S2 ms: D the last full window, D+1 the running one, D+2 what is left of it."),
     fast("PLSY", 57, "Pulse output")
         .forms(W16_W32)

@@ -521,6 +521,8 @@ pub enum Lower {
     ArithSaturating(ArithOp),
     /// A comparison that acts at the count of a high-speed counter.
     HighSpeed(Comparison),
+    /// SPD: counts pulses of an input in windows of time.
+    Density,
     /// A runtime function.
     Call(RtFn),
     /// Not there yet: a compile error names the instruction and this reason.

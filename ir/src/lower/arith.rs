@@ -39,6 +39,7 @@ impl Lowerer<'_> {
             Lower::Basic(_)
             | Lower::Compare(..)
             | Lower::HighSpeed(_)
+            | Lower::Density
             | Lower::Call(_)
             | Lower::Todo(_) => {}
         }

@@ -16,6 +16,8 @@ pub(super) struct Edges {
     bodies: BTreeMap<(u32, bool), Body>,
     /// Flags that follow a terminal.
     levels: BTreeMap<u32, FlagId>,
+    /// A cell that follows the time.
+    clock: Option<CellId>,
 }
 
 impl Lowerer<'_> {
@@ -36,8 +38,31 @@ impl Lowerer<'_> {
 
     /// A new cell.
     pub(super) fn cell(&mut self, name: String, meaning: &'static str) -> CellId {
-        self.module.cells.push(Cell { name, meaning });
+        self.module.cells.push(Cell {
+            name,
+            meaning,
+            follows_time: false,
+        });
         CellId(self.module.cells.len() as u32 - 1)
+    }
+
+    /// The time outside the scan, to a millisecond.
+    pub(super) fn clock(&mut self) -> CellId {
+        if let Some(clock) = self.edges.clock {
+            return clock;
+        }
+        let clock = self.cell("clock_ms".to_string(), "the time, between scans too");
+        self.module.cells[clock.0 as usize].follows_time = true;
+        self.edges.clock = Some(clock);
+        clock
+    }
+
+    /// The time outside the scan is not behind that of the scan.
+    pub(super) fn begin_clock(&mut self) {
+        if let Some(clock) = self.edges.clock {
+            let now = self.add(Expr::Sys(SysValue::NowMs));
+            self.emit(Stmt::SetCell(clock, now));
+        }
     }
 
     /// Sets or resets a flag.
@@ -84,7 +109,9 @@ impl Lowerer<'_> {
 
     /// Makes the functions of all edges that mean something. They do nothing in STOP.
     pub(super) fn edge_functions(&mut self) {
-        let Edges { mut bodies, levels } = std::mem::take(&mut self.edges);
+        let Edges {
+            mut bodies, levels, ..
+        } = std::mem::take(&mut self.edges);
         for (&input, &flag) in &levels {
             for on in [false, true] {
                 let state = self.bit_const(on);

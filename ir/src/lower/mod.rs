@@ -9,6 +9,7 @@ mod build;
 mod call;
 mod coil;
 mod comment;
+mod density;
 mod edges;
 mod flow;
 mod high_speed;
@@ -103,6 +104,8 @@ struct Lowerer<'a> {
     free_running: BTreeMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
+    /// How many SPD there are so far.
+    densities: usize,
     /// Statement above a network that has not begun yet.
     heading: Option<String>,
 }
@@ -133,6 +136,7 @@ impl<'a> Lowerer<'a> {
             free_running: BTreeMap::new(),
             high_speed: high_speed::HighSpeed::default(),
             edges: edges::Edges::default(),
+            densities: 0,
             flow,
             diagnostics: Diagnostics::new(),
             at: 0,
@@ -224,6 +228,7 @@ impl<'a> Lowerer<'a> {
             Lower::Compare(join, op) => self.compare_contact(join, op),
             Lower::Call(function) => self.call(inst, function),
             Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
+            Lower::Density => self.density(),
             Lower::Todo(what) => self.not_implemented(inst, what),
             _ => self.driven(|this| this.inline(inst, lower)),
         }

@@ -16,6 +16,11 @@ impl Guards {
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
+
+    /// One more condition.
+    pub(super) fn demand(&mut self, cond: ExprId) {
+        self.0.push(cond);
+    }
 }
 
 /// Where a result goes.

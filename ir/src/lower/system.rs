@@ -75,6 +75,7 @@ impl Lowerer<'_> {
         self.body(|this| {
             this.run_flags();
             this.first_levels();
+            this.begin_clock();
             this.clear_masks();
             this.forget_errors();
             this.clocks();

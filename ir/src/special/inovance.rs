@@ -79,6 +79,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8090-8092 rw 0 inert(PULSES) "Y0–2 pulse-finished interrupt I502–504 enabled";
     M 8095-8097 rw 0 inert(PULSES) "PWM on Y0–2: unit us instead of ms";
     M 8099 rw 0 scan "starts the high-speed ring counter D8099 (0.1 ms, 0-32767), from the next scan";
+    M 8100-8105 rw 0 by("SPD") "SPD of X000–005: pulses a minute, times 10, in D+1 and D+2";
     M 8109 r 0 inert(HARDWARE) "output refresh error; number of the output in D8109";
     M 8111 r 0 inert(SERIAL) "COM0: waiting to send (RS)";
     M 8112 rw 0 inert(SERIAL) "COM0: send flag (RS); instruction executing (MODBUS)";
