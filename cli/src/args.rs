@@ -137,6 +137,10 @@ pub struct RunArgs {
     /// most.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
+    /// Record the program's inputs and outputs and what is watched as a value change dump, which GTKWave and other viewers of
+    /// waveforms show; a file that is there is replaced.
+    #[arg(long, value_name = "FILE")]
+    pub vcd: Option<PathBuf>,
     /// Keep step with the clock instead of running as fast as possible.
     #[arg(long)]
     pub real_time: bool,

@@ -258,6 +258,56 @@ fn run_shows_a_table_and_a_diagram() {
 }
 
 #[test]
+fn run_records_a_value_change_dump() {
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("idle.il", b"LD M8000\nOUT M8034\nEND\n"),
+        (
+            "endless.il",
+            b"LD M8000\nOUT Y000\nP0\nLD M8000\nCJ P0\nEND\n",
+        ),
+    ]);
+    let path = folder.path();
+    let run = |args: &[&str]| code(path, &[&["run"], args].concat());
+    let recording = |name: &str| fs::read_to_string(path.join(name)).unwrap();
+    let set = ["--set", "X000=1@5ms,X002=1@15ms,D4=16961"];
+    let watch = ["--watch", "T0,D0,D2.f32,D4.str,K1M0,C200,M0"];
+    let args = ["motor.il", "--for", "40ms", "--vcd", "new/motor.vcd"];
+    assert_eq!(run(&[&args[..], &set, &watch].concat()), 0);
+    insta::assert_snapshot!("run_vcd", recording("new/motor.vcd"));
+    // A run of no time has a scan; a recording replaces the last one.
+    let args = ["motor.il", "--for", "0", "--vcd", "new/motor.vcd"];
+    assert_eq!(run(&args), 0);
+    let zero = recording("new/motor.vcd");
+    assert!(
+        zero.contains("#0\n$dumpvars\n") && !zero.contains("#1"),
+        "{zero}"
+    );
+    // What there is of a run that the watchdog ends is kept.
+    assert_eq!(run(&["endless.il", "--vcd", "endless.vcd"]), 1);
+    assert!(recording("endless.vcd").contains("Y000"));
+    for (name, args) in [
+        ("none", &["idle.il", "--vcd", "none.vcd"]),
+        ("program", &["motor.il", "--vcd", "./motor.il"]),
+        ("folder", &["motor.il", "--vcd", "new"]),
+    ] {
+        let args = [&["run"], &args[..]].concat();
+        insta::assert_snapshot!(format!("run_vcd_{name}"), shown(path, &args));
+    }
+    assert_eq!(run(&["motor.il", "--vcd", "motor.il/motor.vcd"]), 2);
+    let mut left: Vec<_> = fs::read_dir(path)
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
+    left.sort();
+    assert_eq!(
+        left,
+        ["endless.il", "endless.vcd", "idle.il", "motor.il", "new"]
+    );
+    assert_eq!(recording("motor.il"), MOTOR);
+}
+
+#[test]
 fn a_scan_that_does_not_end_is_the_programs_fault() {
     let folder = folder(&[("endless.il", b"P0\nLD M8000\nCJ P0\nEND\n")]);
     let args = ["run", "endless.il"];

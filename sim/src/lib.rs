@@ -9,6 +9,7 @@ mod exec;
 pub mod machine;
 pub mod plctest;
 pub mod protocol;
+pub mod record;
 
 pub use devices::rt_class;
 pub use machine::Machine;

@@ -13,9 +13,10 @@ use rungc_frontend::{Read, ReadError};
 use rungc_ir::compile::Compiled;
 use rungc_syntax::{Span, codes};
 use std::fmt;
-use std::fs;
-use std::io::{self, Write};
-use std::path::Path;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// How a command ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -181,24 +182,66 @@ fn write_whole(
     force: bool,
     mode: u32,
 ) -> std::result::Result<(), Failure> {
-    let at = |error: io::Error| Failure::Because(format!("{}: {error}", path.display()));
     if path.exists() && !force {
         return Err(Failure::Because(format!(
             "{} is already there; --force replaces it",
             path.display()
         )));
     }
-    let folder = holder(path);
-    fs::create_dir_all(folder).map_err(at)?;
-    let mut fresh = tempfile::Builder::new();
-    #[cfg(unix)]
-    fresh.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
-    #[cfg(not(unix))]
-    let _ = mode;
-    let mut file = fresh.tempfile_in(folder).map_err(at)?;
-    file.write_all(contents).map_err(at)?;
-    file.persist(path).map_err(|error| at(error.error))?;
-    Ok(())
+    let mut fresh = Fresh::with_mode(path, mode)?;
+    let written = fresh.file.write_all(contents);
+    written.map_err(|error| fresh.failed(error))?;
+    fresh.keep()
+}
+
+/// A file in the making beside the place that it takes when it is whole. If it is dropped before, nothing has happened.
+pub struct Fresh {
+    file: NamedTempFile,
+    path: PathBuf,
+}
+
+impl Fresh {
+    /// Begins a file, which replaces the one that may be there.
+    pub fn begin(path: &Path) -> std::result::Result<Fresh, Failure> {
+        Fresh::with_mode(path, 0o666)
+    }
+
+    fn with_mode(path: &Path, mode: u32) -> std::result::Result<Fresh, Failure> {
+        let at = |error: io::Error| Failure::Because(format!("{}: {error}", path.display()));
+        if path.exists() && !path.is_file() {
+            let what = "is there already and is no file that can be replaced";
+            return Err(Failure::Because(format!("{} {what}", path.display())));
+        }
+        let folder = holder(path);
+        fs::create_dir_all(folder).map_err(at)?;
+        let mut fresh = tempfile::Builder::new();
+        #[cfg(unix)]
+        fresh.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+        #[cfg(not(unix))]
+        let _ = mode;
+        Ok(Fresh {
+            file: fresh.tempfile_in(folder).map_err(at)?,
+            path: path.to_path_buf(),
+        })
+    }
+
+    /// What is written to goes into the file.
+    pub fn writer(&self) -> std::result::Result<BufWriter<File>, Failure> {
+        let file = self.file.reopen().map_err(|error| self.failed(error))?;
+        Ok(BufWriter::new(file))
+    }
+
+    /// What went wrong, with the file's name.
+    pub fn failed(&self, error: io::Error) -> Failure {
+        Failure::Because(format!("{}: {error}", self.path.display()))
+    }
+
+    /// The file is whole and takes its place.
+    pub fn keep(self) -> std::result::Result<(), Failure> {
+        let path = self.path;
+        let kept = self.file.persist(&path).map(|_| ());
+        kept.map_err(|error| Failure::Because(format!("{}: {}", path.display(), error.error)))
+    }
 }
 
 /// The folder that a path lies in.

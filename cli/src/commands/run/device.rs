@@ -1,0 +1,36 @@
+//! Setting devices of the machine by their names.
+
+use rungc_ir::runs::is_counter32;
+use rungc_rt::{Class, Plc};
+use rungc_sim::plctest::Target;
+use rungc_sim::{Machine, rt_class};
+
+fn set_pair(machine: &mut Machine, class: Class, number: u32, value: i32) -> Option<()> {
+    machine.set_word(class, number, value as i16)?;
+    machine.set_word(class, number + 1, (value >> 16) as i16)
+}
+
+/// Sets a device; `None` if the model has no such device.
+pub fn set(machine: &mut Machine, target: Target, value: f64) -> Option<()> {
+    let integer = value as i64;
+    match target {
+        Target::Bit(class, n) => machine.set_bit(rt_class(class)?, n, value != 0.0),
+        Target::Current(class, n) if is_counter32(class, n) => {
+            machine.set_counter32(n, integer as i32)
+        }
+        Target::Word(class, n) | Target::Current(class, n) => {
+            machine.set_word(rt_class(class)?, n, integer as i16)
+        }
+        Target::Pair(class, n) => set_pair(machine, rt_class(class)?, n, integer as i32),
+        Target::Float(class, n) => {
+            let bits = (value as f32).to_bits() as i32;
+            set_pair(machine, rt_class(class)?, n, bits)
+        }
+        Target::Nibbles(digits, class, n) => {
+            let class = rt_class(class)?;
+            (0..4 * u32::from(digits))
+                .try_for_each(|i| machine.set_bit(class, n + i, integer >> i & 1 == 1))
+        }
+        Target::Text(..) | Target::Pulses(_) | Target::Frequency(_) => None,
+    }
+}

@@ -1,0 +1,89 @@
+//! `rungc run --vcd`: which devices are recorded, and the file.
+
+use super::super::{Failure, Fresh};
+use rungc_ir::Module;
+use rungc_sim::Machine;
+use rungc_sim::plctest::Target;
+use rungc_sim::record::{Reading, Signal, Vcd};
+use rungc_syntax::DeviceClass;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+
+/// A recording that is being written.
+pub struct Recording {
+    targets: Vec<Target>,
+    vcd: Vcd<BufWriter<File>>,
+    file: Fresh,
+}
+
+impl Recording {
+    /// Begins a recording of a program's inputs and outputs and of what is watched.
+    pub fn begin(
+        path: &Path,
+        machine: &Machine,
+        watched: &[Target],
+    ) -> std::result::Result<Self, Failure> {
+        let module = machine.module();
+        let targets = targets(module, watched);
+        if targets.is_empty() {
+            return Err(Failure::Because(
+                "--vcd: the program has no inputs and outputs: there is nothing to record; --watch names devices".to_string(),
+            ));
+        }
+        let signals = targets
+            .iter()
+            .filter_map(|&target| Some((Signal::of(target), Reading::of(machine, target)?)))
+            .collect();
+        let file = Fresh::begin(path)?;
+        let vcd = Vcd::begin(file.writer()?, &module.name, signals);
+        Ok(Recording {
+            targets,
+            vcd: vcd.map_err(|error| file.failed(error))?,
+            file,
+        })
+    }
+
+    /// Records what has changed.
+    pub fn sample(&mut self, at_us: u64, machine: &Machine) -> std::result::Result<(), Failure> {
+        for (i, &target) in self.targets.iter().enumerate() {
+            if let Some(reading) = Reading::of(machine, target) {
+                let written = self.vcd.change(at_us, i, reading);
+                written.map_err(|error| self.file.failed(error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the recording; the file takes its place.
+    pub fn keep(self, at_us: u64) -> std::result::Result<(), Failure> {
+        let written = self.vcd.end(at_us);
+        written.map_err(|error| self.file.failed(error))?;
+        self.file.keep()
+    }
+}
+
+/// The inputs and outputs that the program uses and the watched devices, each once, by class.
+fn targets(module: &Module, watched: &[Target]) -> Vec<Target> {
+    let terminals = [DeviceClass::X, DeviceClass::Y].into_iter();
+    let terminals = terminals.flat_map(|class| super::used(module, class).map(move |n| (class, n)));
+    let mut targets: Vec<Target> = Vec::new();
+    let all = terminals.map(|(class, n)| Target::Bit(class, n));
+    for target in all.chain(watched.iter().copied()) {
+        if !targets.contains(&target) {
+            targets.push(target);
+        }
+    }
+    targets.sort_by_key(|&target| rank(target));
+    targets
+}
+
+/// Signals of a scope stand together.
+fn rank(target: Target) -> usize {
+    let order = ["inputs", "outputs", "relays", "timers", "counters"];
+    let scope = Signal::of(target).scope;
+    order
+        .iter()
+        .position(|&s| s == scope)
+        .unwrap_or(order.len())
+}

@@ -1,0 +1,205 @@
+//! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
+
+use super::recording::Recording;
+use super::view::{Column, Kind, View};
+use super::{Setting, device};
+use crate::args::RunArgs;
+use crate::commands::{Failure, Outcome, Result, tell};
+use rungc_ir::Module;
+use rungc_rt::{Program, VirtualHal};
+use rungc_sim::Machine;
+use rungc_sim::plctest::Target;
+use rungc_sim::record::Reading;
+use rungc_syntax::DeviceClass;
+use std::io::{self, Write};
+use std::iter::Peekable;
+use std::slice::Iter;
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// A program that runs.
+struct Simulation<'a> {
+    machine: Machine<'a>,
+    hal: VirtualHal,
+    pending: Peekable<Iter<'a, Setting>>,
+    watched: &'a [Target],
+    view: View,
+    out: Table,
+    recording: Option<Recording>,
+    now_ms: u64,
+}
+
+/// Runs a program; `settings` are in the order of their times.
+pub fn simulate(
+    args: &RunArgs,
+    module: &Module,
+    settings: &[Setting],
+    watched: &[Target],
+) -> Result {
+    let machine = Machine::new(module);
+    // What does not exist is said before anything is shown or written.
+    for target in settings.iter().map(|s| s.target).chain(watched.to_vec()) {
+        Reading::of(&machine, target).ok_or_else(|| missing(target, module))?;
+    }
+    let recording = match &args.vcd {
+        Some(path) => Some(Recording::begin(path, &machine, watched)?),
+        None => None,
+    };
+    let mut simulation = Simulation {
+        machine,
+        hal: VirtualHal::new(),
+        pending: settings.iter().peekable(),
+        watched,
+        view: View::new(watched.iter().map(|&t| column(t)).collect()),
+        out: Table {
+            muted: false,
+            optional: recording.is_some(),
+        },
+        recording,
+        now_ms: 0,
+    };
+    let outcome = simulation.run(args)?;
+    let end_us = 1000
+        * match outcome {
+            Outcome::Success => args.duration,
+            Outcome::Failed => simulation.now_ms,
+        };
+    if let Some(recording) = simulation.recording {
+        recording.keep(end_us)?;
+    }
+    Ok(outcome)
+}
+
+impl Simulation<'_> {
+    fn run(&mut self, args: &RunArgs) -> Result {
+        self.out.line(&self.view.heading())?;
+        let begin = Instant::now();
+        self.apply_settings()?;
+        loop {
+            self.scan(args.scan)?;
+            if self.machine.watchdog_tripped() {
+                let now = self.now_ms;
+                tell(&format!(
+                    "rungc: at {now} ms: a scan does not end (watchdog, D8061 = 6105)"
+                ));
+                return Ok(Outcome::Failed);
+            }
+            if self.now_ms + args.scan > args.duration {
+                break;
+            }
+            for left in (0..args.scan).rev() {
+                self.millisecond()?;
+                // What a scan begins with is recorded as it leaves it.
+                if left > 0 {
+                    self.record()?;
+                }
+            }
+            if args.real_time {
+                thread::sleep(Duration::from_millis(self.now_ms).saturating_sub(begin.elapsed()));
+            }
+        }
+        self.out
+            .line(format!("\n{}", self.view.diagram(args.duration)).trim_end_matches('\n'))?;
+        for late in self.pending.by_ref() {
+            tell(&format!(
+                "rungc: `{}` was not set: its time, {} ms, lies behind the last scan",
+                late.target, late.at_ms
+            ));
+        }
+        Ok(Outcome::Success)
+    }
+
+    fn scan(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
+        self.hal.advance_to(self.now_ms as u32);
+        let scan_us = (scan_ms * 1000).min(u64::from(u32::MAX)) as u32;
+        self.machine
+            .scan(&mut self.hal, self.now_ms as u32, scan_us);
+        let values = self
+            .watched
+            .iter()
+            .map(|&target| self.read(target))
+            .collect::<std::result::Result<Vec<_>, _>>()?;
+        if let Some(row) = self.view.scan(self.now_ms, &values) {
+            self.out.line(&row)?;
+        }
+        self.record()
+    }
+
+    /// A millisecond between two scans.
+    fn millisecond(&mut self) -> std::result::Result<(), Failure> {
+        self.now_ms += 1;
+        self.machine.tick(self.now_ms as u32);
+        self.apply_settings()?;
+        self.machine.take_interrupts(&mut self.hal);
+        Ok(())
+    }
+
+    /// Sets what is to be set now.
+    fn apply_settings(&mut self) -> std::result::Result<(), Failure> {
+        while let Some(setting) = self.pending.next_if(|s| s.at_ms == self.now_ms) {
+            device::set(&mut self.machine, setting.target, setting.value)
+                .ok_or_else(|| missing(setting.target, self.machine.module()))?;
+            if let Target::Bit(DeviceClass::X, number) = setting.target
+                && self.now_ms > 0
+            {
+                self.machine.input_edge(number, setting.value != 0.0);
+            }
+        }
+        Ok(())
+    }
+
+    fn read(&self, target: Target) -> std::result::Result<String, Failure> {
+        Reading::of(&self.machine, target)
+            .map(|reading| reading.to_string())
+            .ok_or_else(|| missing(target, self.machine.module()))
+    }
+
+    fn record(&mut self) -> std::result::Result<(), Failure> {
+        match &mut self.recording {
+            Some(recording) => recording.sample(1000 * self.now_ms, &self.machine),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Standard output.
+struct Table {
+    /// Nobody reads it any more.
+    muted: bool,
+    /// A run that writes files goes on then.
+    optional: bool,
+}
+
+impl Table {
+    fn line(&mut self, line: &str) -> std::result::Result<(), Failure> {
+        if self.muted {
+            return Ok(());
+        }
+        match writeln!(io::stdout().lock(), "{line}").map_err(Failure::from) {
+            Err(Failure::Unheard) if self.optional => {
+                self.muted = true;
+                Ok(())
+            }
+            result => result,
+        }
+    }
+}
+
+fn column(target: Target) -> Column {
+    let kind = match target {
+        Target::Bit(..) => Kind::Bit,
+        Target::Current(DeviceClass::T, _) => Kind::Running,
+        _ => Kind::Number,
+    };
+    // T0 rather than T0.value: the table shows at once that it is a number.
+    let name = match target {
+        Target::Current(class, n) => class.number(n).to_string(),
+        other => other.to_string(),
+    };
+    Column { name, kind }
+}
+
+fn missing(target: Target, module: &Module) -> Failure {
+    let model = module.model.title;
+    Failure::Because(format!("`{target}` does not exist on {model}"))
+}

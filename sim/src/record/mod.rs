@@ -1,0 +1,7 @@
+//! What a run leaves behind: the values of devices as they are read ([`Reading`]), and recordings of them over time ([`Vcd`]).
+
+mod reading;
+mod vcd;
+
+pub use reading::{Reading, TEXT_LENGTH};
+pub use vcd::{Signal, Vcd};

@@ -1,0 +1,79 @@
+//! Values of devices, in the shapes that their names ask for.
+
+use crate::Machine;
+use crate::devices::rt_class;
+use crate::plctest::Target;
+use rungc_ir::runs::is_counter32;
+use rungc_rt::{Class, Plc};
+use std::fmt;
+
+/// How many characters of a text are read at most.
+pub const TEXT_LENGTH: usize = 64;
+
+/// What a device holds.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Reading {
+    /// A bit.
+    Bit(bool),
+    /// A word, a pair, a group of bits: the value and its width in bits.
+    Integer(i64, u32),
+    /// A float.
+    Float(f64),
+    /// Characters.
+    Text(String),
+}
+
+impl Reading {
+    /// What the target holds; `None` if the model has no such device.
+    pub fn of(machine: &Machine, target: Target) -> Option<Reading> {
+        Some(match target {
+            Target::Bit(class, n) => Reading::Bit(machine.bit(rt_class(class)?, n)?),
+            Target::Current(class, n) if is_counter32(class, n) => {
+                Reading::Integer(machine.counter32(n)?.into(), 32)
+            }
+            Target::Word(class, n) | Target::Current(class, n) => {
+                Reading::Integer(machine.word(rt_class(class)?, n)?.into(), 16)
+            }
+            Target::Pair(class, n) => {
+                Reading::Integer(pair(machine, rt_class(class)?, n)?.into(), 32)
+            }
+            Target::Float(class, n) => {
+                let bits = pair(machine, rt_class(class)?, n)? as u32;
+                Reading::Float(f32::from_bits(bits).into())
+            }
+            Target::Nibbles(digits, class, n) => {
+                let class = rt_class(class)?;
+                let width = 4 * u32::from(digits);
+                let bit = |i| Some(i64::from(machine.bit(class, n.checked_add(i)?)?) << i);
+                Reading::Integer((0..width).map(bit).sum::<Option<i64>>()?, width)
+            }
+            Target::Text(class, n) => {
+                let class = rt_class(class)?;
+                machine.word(class, n)?;
+                let words = (n..).map_while(|n| machine.word(class, n));
+                let bytes = words.take(TEXT_LENGTH / 2).flat_map(i16::to_le_bytes);
+                let bytes: Vec<u8> = bytes.take_while(|&byte| byte != 0).collect();
+                Reading::Text(String::from_utf8_lossy(&bytes).into_owned())
+            }
+            Target::Pulses(_) | Target::Frequency(_) => return None,
+        })
+    }
+}
+
+fn pair(machine: &Machine, class: Class, number: u32) -> Option<i32> {
+    let low = machine.word(class, number)? as u16;
+    let high = machine.word(class, number.checked_add(1)?)?;
+    Some(i32::from(high) << 16 | i32::from(low))
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Reading::Bit(on) => u8::from(*on).fmt(f),
+            Reading::Integer(value, _) => value.fmt(f),
+            // What the device holds is a single, and is shown with no more digits than one has.
+            Reading::Float(value) => (*value as f32).fmt(f),
+            Reading::Text(text) => write!(f, "{text:?}"),
+        }
+    }
+}
