@@ -67,7 +67,7 @@ fn edges_only_note(module: &Module) -> bool {
     only
 }
 
-/// The fields of flags and cells: declaration, comment, size in bytes.
+/// The fields of flags, cells and tables: declaration, comment, size in bytes.
 pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
     let outside = set_outside(module);
     let flags = module.flags.iter().enumerate().map(|(i, flag)| {
@@ -88,7 +88,11 @@ pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
         let declaration = format!("{volatile}int32_t {};", cell.name);
         (declaration, cell.meaning.to_string(), 4)
     });
-    flags.chain(since).chain(cells).collect()
+    let tables = module.tables.iter().map(|table| {
+        let declaration = format!("int32_t {}[{}];", table.name, table.length);
+        (declaration, table.meaning.to_string(), 4 * table.length)
+    });
+    flags.chain(since).chain(cells).chain(tables).collect()
 }
 
 /// The statements that forget what happened, when RUN begins.
@@ -104,12 +108,15 @@ pub fn forget(module: &Module) -> String {
     out
 }
 
-/// The statements that clear cells at power-on.
+/// The statements that clear cells and tables at power-on.
 pub fn clear_cells(module: &Module) -> String {
     let cells = module.cells.iter();
-    cells
-        .map(|cell| format!("    plc->{} = 0;\n", cell.name))
-        .collect()
+    let cells = cells.map(|cell| format!("    plc->{} = 0;\n", cell.name));
+    let tables = module.tables.iter().map(|table| {
+        let name = &table.name;
+        format!("    memset(plc->{name}, 0, sizeof plc->{name});\n")
+    });
+    cells.chain(tables).collect()
 }
 
 /// Prototypes of the functions that a host calls.

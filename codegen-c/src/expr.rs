@@ -132,6 +132,11 @@ impl Writer<'_, '_> {
                 out.push_str("plc->");
                 out.push_str(&module.cells[cell.0 as usize].name);
             }
+            Expr::Entry(table, index) => {
+                let _ = write!(out, "plc->{}[", module.tables[table.0 as usize].name);
+                self.expr(out, *index, Around::Exact);
+                out.push(']');
+            }
             Expr::Flag(flag) => {
                 out.push_str("plc->");
                 out.push_str(&module.flags[flag.0 as usize].name);

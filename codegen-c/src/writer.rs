@@ -486,6 +486,13 @@ impl<'a, 'm> Writer<'a, 'm> {
                 self.expr(&mut code, *value, Around::Exact);
                 code.push(';');
             }
+            Stmt::SetEntry(table, index, value) => {
+                code = format!("plc->{}[", self.module.tables[table.0 as usize].name);
+                self.expr(&mut code, *index, Around::Exact);
+                code.push_str("] = ");
+                self.expr(&mut code, *value, Around::Exact);
+                code.push(';');
+            }
             Stmt::SetFlag(flag, on) => {
                 let flag = &self.module.flags[flag.0 as usize].name;
                 code = format!("plc->{flag} = ");

@@ -3,7 +3,7 @@
 use crate::generate::{Generator, function_name};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{CellId, EdgeKind, Flag, FlagId, FunctionKind};
+use rungc_ir::node::{CellId, EdgeKind, Flag, FlagId, FunctionKind, TableId};
 
 /// A private field: name, type, value at power-on, meaning.
 pub type Hidden = (Ident, TokenStream, TokenStream, &'static str);
@@ -28,6 +28,11 @@ impl Generator<'_> {
         format_ident!("{}", self.module.cells[cell.0 as usize].name)
     }
 
+    /// The field of a table.
+    pub fn table(&self, table: TableId) -> Ident {
+        format_ident!("{}", self.module.tables[table.0 as usize].name)
+    }
+
     /// The flags with a period, and their periods in milliseconds.
     fn periods(&self) -> impl Iterator<Item = (&Flag, u32)> {
         let flags = self.module.flags.iter();
@@ -45,15 +50,19 @@ impl Generator<'_> {
         flags.chain(since).collect()
     }
 
-    /// The fields of cells.
+    /// The fields of cells and tables.
     pub fn cell_fields(&self) -> Vec<Hidden> {
-        let cells = self.module.cells.iter();
-        cells
-            .map(|cell| {
-                let name = format_ident!("{}", cell.name);
-                (name, quote!(i32), quote!(0), cell.meaning)
-            })
-            .collect()
+        let cells = self.module.cells.iter().map(|cell| {
+            let name = format_ident!("{}", cell.name);
+            (name, quote!(i32), quote!(0), cell.meaning)
+        });
+        let tables = self.module.tables.iter().map(|table| {
+            let name = format_ident!("{}", table.name);
+            let length = Literal::u32_unsuffixed(table.length);
+            let ty = quote!([i32; #length]);
+            (name, ty, quote!([0; #length]), table.meaning)
+        });
+        cells.chain(tables).collect()
     }
 
     /// Forgets what happened, when RUN begins.

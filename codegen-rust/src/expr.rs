@@ -177,6 +177,10 @@ impl Generator<'_> {
                 let cell = self.cell(cell);
                 Code::atom(quote!(plc.#cell))
             }
+            Expr::Entry(table, index) => {
+                let (table, index) = (self.table(table), self.expr(index));
+                Code::atom(quote!(plc.#table[#index as usize]))
+            }
             Expr::Flag(flag) => {
                 let flag = self.flag(flag);
                 Code::atom(quote!(plc.#flag))

@@ -117,6 +117,11 @@ impl Generator<'_> {
                 let (cell, value) = (self.cell(*cell), self.expr(*value));
                 quote!(plc.#cell = #value;)
             }
+            Stmt::SetEntry(table, index, value) => {
+                let (table, index) = (self.table(*table), self.expr(*index));
+                let value = self.expr(*value);
+                quote!(plc.#table[#index as usize] = #value;)
+            }
             Stmt::Timer { .. }
             | Stmt::Counter16 { .. }
             | Stmt::Counter32 { .. }

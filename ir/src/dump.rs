@@ -6,7 +6,7 @@
 use crate::layout::Area;
 use crate::node::{
     Arg, BinOp, Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Module,
-    Place, Stmt, SysValue,
+    Place, Stmt, SysValue, TableId,
 };
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -206,6 +206,9 @@ impl Out<'_> {
             Stmt::Call { .. } => self.call(stmt),
             Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
             Stmt::SetCell(cell, value) => format!("{} := {}", self.cell(*cell), e(value)),
+            Stmt::SetEntry(table, index, value) => {
+                format!("{}[{}] := {}", self.table(*table), e(index), e(value))
+            }
             Stmt::Count {
                 number,
                 down,
@@ -223,6 +226,14 @@ impl Out<'_> {
         let cells = &self.module.cells;
         let name = cells.get(cell.0 as usize).map_or("?", |cell| &cell.name);
         format!("cell {name}")
+    }
+
+    fn table(&self, table: TableId) -> String {
+        let tables = &self.module.tables;
+        let name = tables
+            .get(table.0 as usize)
+            .map_or("?", |table| &table.name);
+        format!("table {name}")
     }
 
     fn flag(&self, flag: FlagId) -> String {
@@ -322,6 +333,7 @@ impl Out<'_> {
                 format!("K{digits}{}{wide}", self.place(place))
             }
             Expr::Cell(cell) => self.cell(*cell),
+            Expr::Entry(table, index) => format!("{}[{}]", self.table(*table), self.expr(*index)),
             Expr::Flag(flag) => self.flag(*flag),
             Expr::Sys(SysValue::Running) => "running".into(),
             Expr::Sys(SysValue::FirstScan) => "first_scan".into(),

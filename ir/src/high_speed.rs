@@ -1,6 +1,8 @@
 //! High-speed counters C235 to C255 as data: which inputs they count, and in which way.
 
+use crate::catalogue::CmpOp;
 use crate::model::{ModelId, ModelSet};
+use rungc_syntax::{Device, DeviceClass};
 
 /// How the inputs of a counter count.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -9,6 +11,8 @@ pub enum Kind {
     One,
     /// An input that counts up, and one that counts down.
     UpDown,
+    /// An input that counts, and one that says in which direction: down while it is on.
+    Direction,
     /// Phases A and B of an encoder.
     Phases,
 }
@@ -92,7 +96,7 @@ const FX: &[Counter] = &{
 
 /// HM's counters (hm-motion-controller §5.1.5).
 const HM: &[Counter] = &{
-    use Kind::{One, Phases, UpDown};
+    use Kind::{Direction, One, Phases};
     [
         counter(235, One, &[0o0], None, None),
         counter(237, One, &[0o2], None, None),
@@ -100,12 +104,12 @@ const HM: &[Counter] = &{
         counter(240, One, &[0o2], Some(0o11), None),
         counter(241, One, &[0o0], Some(0o10), Some(0o12)),
         counter(242, One, &[0o2], Some(0o11), Some(0o13)),
-        counter(244, UpDown, &[0o0, 0o1], None, None),
-        counter(245, UpDown, &[0o2, 0o3], None, None),
-        counter(246, UpDown, &[0o0, 0o1], Some(0o10), None),
-        counter(247, UpDown, &[0o2, 0o3], Some(0o11), None),
-        counter(248, UpDown, &[0o0, 0o1], Some(0o10), Some(0o12)),
-        counter(249, UpDown, &[0o2, 0o3], Some(0o11), Some(0o13)),
+        counter(244, Direction, &[0o0, 0o1], None, None),
+        counter(245, Direction, &[0o2, 0o3], None, None),
+        counter(246, Direction, &[0o0, 0o1], Some(0o10), None),
+        counter(247, Direction, &[0o2, 0o3], Some(0o11), None),
+        counter(248, Direction, &[0o0, 0o1], Some(0o10), Some(0o12)),
+        counter(249, Direction, &[0o2, 0o3], Some(0o11), Some(0o13)),
         counter(250, Phases, &[0o0, 0o1], None, None),
         counter(251, Phases, &[0o2, 0o3], None, None),
         counter(252, Phases, &[0o0, 0o1], Some(0o10), None),
@@ -152,6 +156,105 @@ pub const COMPARE_AT_RESET: u32 = 8025;
 /// The relay of input X000, behind which the others' follow, that makes SPD show pulses a minute (h1u-h2u-programming §4.3.6).
 pub fn per_minute(model: ModelId) -> Option<u32> {
     INOVANCE.has(model).then_some(8100)
+}
+
+/// Models on which a comparison acts when the count crosses the value in either direction, also where the program changes one of
+/// them, and not only at a count that equals it (hm-motion-controller §8.3.14).
+pub const CROSSING: ModelSet = ModelSet::of(&[ModelId::Hm]);
+/// The zones in which comparisons of those models run.
+pub const ZONES: std::ops::RangeInclusive<i32> = 0..=5;
+
+/// How a table of rows that wait for counts works.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TableMode {
+    /// The relay that HSZ names instead of bits; `None`: HSCT.
+    pub relay: Option<u32>,
+    /// Words of a row: the count, a pair, and what it says, a word or a pair.
+    pub words: u32,
+    /// Its rows are those that stand when the first scan that drives it ends.
+    pub fixed: bool,
+    /// A row is reached when this holds between the count and its own.
+    pub reached: CmpOp,
+    /// Behind the last row comes the first.
+    pub repeats: bool,
+    /// A mask says which bits of a row's pattern are written.
+    pub masked: bool,
+    /// Register of the row that waits.
+    pub row: Option<u32>,
+    /// Relay that is on for a scan when the last row was reached.
+    pub done: Option<u32>,
+    /// What the row that waits says, shown instead of done.
+    pub shows: Option<Shown>,
+}
+
+/// Pairs of registers that show a row.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Shown {
+    /// What it says.
+    pub word: u32,
+    /// The count that it waits for.
+    pub count: u32,
+}
+
+/// HSZ with M8130: rows switch outputs (h1u-h2u-programming §4.3.6).
+const OUTPUTS: TableMode = TableMode {
+    relay: Some(8130),
+    words: 4,
+    fixed: true,
+    reached: CmpOp::Eq,
+    repeats: true,
+    masked: false,
+    row: Some(8130),
+    done: Some(8131),
+    shows: None,
+};
+
+/// HSZ with M8132: rows give the frequency of PLSY (h1u-h2u-programming §4.3.6).
+const FREQUENCIES: TableMode = TableMode {
+    relay: Some(8132),
+    row: Some(8131),
+    done: Some(8133),
+    shows: Some(Shown {
+        word: 8132,
+        count: 8134,
+    }),
+    ..OUTPUTS
+};
+
+/// HSCT of the FX family.
+const PATTERNS: TableMode = TableMode {
+    relay: None,
+    words: 3,
+    row: Some(8138),
+    done: Some(8138),
+    ..OUTPUTS
+};
+
+/// DHSCT of HM (hm-motion-controller §8.3.17).
+const MASKED_PATTERNS: TableMode = TableMode {
+    fixed: false,
+    reached: CmpOp::Ge,
+    repeats: false,
+    masked: true,
+    row: None,
+    done: None,
+    ..PATTERNS
+};
+
+/// The table that HSZ works through if it names this relay.
+pub fn zone_table(relay: Device) -> Option<&'static TableMode> {
+    [&OUTPUTS, &FREQUENCIES]
+        .into_iter()
+        .find(|mode| relay.class == DeviceClass::M && mode.relay == Some(relay.number))
+}
+
+/// The table of HSCT.
+pub fn pattern_table(model: ModelId) -> &'static TableMode {
+    if model == ModelId::Hm {
+        &MASKED_PATTERNS
+    } else {
+        &PATTERNS
+    }
 }
 
 /// The high-speed counters of a model.

@@ -237,6 +237,7 @@ impl<'m> Builder<'m> {
             | Stmt::Stop
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
             | Stmt::Clear { .. } => {}
         }
     }

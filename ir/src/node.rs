@@ -68,6 +68,21 @@ pub struct Cell {
     pub follows_time: bool,
 }
 
+/// Handle of a [`Table`] in [`Module::tables`].
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct TableId(pub u32);
+
+/// Private `I32`s with a name; all 0 at power-on.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Table {
+    /// An identifier in lower case, unique in the module: `table1`.
+    pub name: String,
+    /// What it means, for a comment.
+    pub meaning: &'static str,
+    /// How many, at least 1.
+    pub length: u32,
+}
+
 /// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub struct Place {
@@ -192,6 +207,8 @@ pub enum Expr {
     Flag(FlagId),
     /// `I32`: value of a cell.
     Cell(CellId),
+    /// `I32`: entry of a table. The index, an `I32`, must be known to be at least 0 and less than the table's length.
+    Entry(TableId, ExprId),
     /// Not, of a `Bit`.
     Not(ExprId),
     /// And, of two `Bit`s; both are evaluated (they have no effects).
@@ -298,6 +315,8 @@ pub enum Stmt {
     SetFlag(FlagId, ExprId),
     /// Writes a cell (`I32`).
     SetCell(CellId, ExprId),
+    /// Writes the entry of a table that the index (`I32`, as for [`Expr::Entry`]) tells (`I32`).
+    SetEntry(TableId, ExprId, ExprId),
     /// Writes a bit device (Y, M, S, or X by force only).
     WriteBit(Place, ExprId),
     /// Writes bit 0–15 of a word device.
@@ -519,6 +538,8 @@ pub struct Module {
     pub flags: Vec<Flag>,
     /// Private numbers.
     pub cells: Vec<Cell>,
+    /// Private rows of numbers.
+    pub tables: Vec<Table>,
     /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, `TakeInterrupts` if there
     /// are any of these, and one for each edge that means something.
     pub functions: Vec<Function>,
@@ -554,6 +575,7 @@ impl Module {
             texts: Vec::new(),
             flags: Vec::new(),
             cells: Vec::new(),
+            tables: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),
@@ -616,7 +638,9 @@ pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         | Expr::Narrow(_)
         | Expr::HighWord(_)
         | Expr::BitToInt(_) => Ty::I16,
-        Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) | Expr::Cell(_) => Ty::I32,
+        Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) | Expr::Cell(_) | Expr::Entry(..) => {
+            Ty::I32
+        }
         Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
         Expr::Temp(temp) => temps[temp.0 as usize],
         Expr::ReadNibbles { wide, .. } => {

@@ -59,6 +59,9 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::ReadWordBit(_, bit) => bit < 16,
         Expr::InRange { count, .. } => count > 0,
         Expr::Cell(cell) => (cell.0 as usize) < module.cells.len(),
+        Expr::Entry(table, index) => {
+            (table.0 as usize) < module.tables.len() && ty(index) == Ty::I32
+        }
         Expr::Flag(flag) => (flag.0 as usize) < module.flags.len(),
         Expr::Sys(
             SysValue::Running | SysValue::FirstScan | SysValue::NowMs | SysValue::Scan100us,
@@ -337,6 +340,12 @@ impl Checker<'_> {
             ),
             Stmt::SetCell(cell, value) => (
                 (cell.0 as usize) < module.cells.len() && is(value, Ty::I32),
+                None,
+            ),
+            Stmt::SetEntry(table, index, value) => (
+                (table.0 as usize) < module.tables.len()
+                    && is(index, Ty::I32)
+                    && is(value, Ty::I32),
                 None,
             ),
             Stmt::Count {

@@ -23,7 +23,8 @@ fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
         | Expr::Widen(a)
         | Expr::Narrow(a)
         | Expr::HighWord(a)
-        | Expr::BitToInt(a) => [Some(a), None],
+        | Expr::BitToInt(a)
+        | Expr::Entry(_, a) => [Some(a), None],
         Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
             [Some(a), Some(b)]
         }
@@ -61,6 +62,10 @@ macro_rules! for_exprs {
                     f(value);
                 }
                 Stmt::Let(_, value) | Stmt::SetFlag(_, value) | Stmt::SetCell(_, value) => f(value),
+                Stmt::SetEntry(_, index, value) => {
+                    f(index);
+                    f(value);
+                }
                 Stmt::Count { down, preset, .. } => {
                     f(down);
                     f(preset);

@@ -66,6 +66,10 @@ impl<'m> Machine<'m> {
                 }
             }
             Expr::Cell(cell) => Value::I32(self.cells[cell.0 as usize]),
+            Expr::Entry(table, index) => {
+                let index = int(self.eval(index));
+                Value::I32(self.tables[table.0 as usize][index as usize])
+            }
             Expr::Flag(flag) => Value::Bit(self.flags[flag.0 as usize]),
             Expr::Sys(SysValue::Running) => Value::Bit(self.sys.running),
             Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
@@ -288,6 +292,10 @@ impl<'m> Machine<'m> {
                 });
             }
             Stmt::SetCell(cell, value) => self.cells[cell.0 as usize] = int(self.eval(value)),
+            Stmt::SetEntry(table, index, value) => {
+                let index = int(self.eval(index));
+                self.tables[table.0 as usize][index as usize] = int(self.eval(value));
+            }
             Stmt::SetFlag(flag, value) => self.flags[flag.0 as usize] = self.on(value),
             Stmt::WriteBit(place, value) => {
                 let on = self.on(value);

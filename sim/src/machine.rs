@@ -28,6 +28,7 @@ pub struct Machine<'m> {
     /// When the period of each flag that has one began.
     periods: Vec<u32>,
     pub(crate) cells: Vec<i32>,
+    pub(crate) tables: Vec<Vec<i32>>,
     pub(crate) sys: Sys,
     /// Statements that this scan may still execute.
     pub(crate) budget: u64,
@@ -48,6 +49,11 @@ impl<'m> Machine<'m> {
             flags: vec![false; module.flags.len()],
             periods: vec![0; module.flags.len()],
             cells: vec![0; module.cells.len()],
+            tables: module
+                .tables
+                .iter()
+                .map(|t| vec![0; t.length as usize])
+                .collect(),
             sys: Sys::power_on(),
             budget: 0,
             operands: Vec::new(),
@@ -78,6 +84,9 @@ impl<'m> Machine<'m> {
         }
         self.states.fill(State::default());
         self.cells.fill(0);
+        for table in &mut self.tables {
+            table.fill(0);
+        }
         self.sys = Sys::power_on();
         self.watchdog_tripped = false;
         self.begin_run();

@@ -2,9 +2,10 @@
 
 use super::row::*;
 use super::{Classes, Comparison, Inst, Lower, Param, Rule, Variant};
+use crate::high_speed;
 use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
-use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rungc_syntax::{DeviceClass, Operand, OperandKind};
 
 const COUNTERS: &str = "high-speed counters";
 const PULSES: &str = "pulse output";
@@ -43,22 +44,40 @@ const RESET_FX: &[Param] = &[
     FAST_COUNTER,
     mixed_out("D", COILS.or(Classes::C)),
 ];
-/// With M8130 or M8132 as D, S2 is the number of rows of a table.
-const ROWS_OF_TABLE: Rule = Rule::Holds(
-    |operands| match operands {
-        [_, rows, _, mode] => {
-            let class = DeviceClass::M;
-            let table =
-                [8130, 8132].map(|number| OperandKind::Device(Device { class, number }, None));
-            !table.contains(&mode.kind)
-                || !matches!(rows.kind, OperandKind::Decimal(rows, None) if !(1..=128).contains(&rows))
+/// Whether a rule holds for what HSZ names, or HSZ names no relay that chooses a table.
+fn table_holds(operands: &[Operand], rule: fn(&OperandKind, &OperandKind) -> bool) -> bool {
+    match operands {
+        [first, rows, _, mode] => {
+            let table = matches!(mode.kind, OperandKind::Device(relay, None) if high_speed::zone_table(relay).is_some());
+            !table || rule(&first.kind, &rows.kind)
         }
         _ => true,
+    }
+}
+/// With M8130 or M8132 as D, S1 is where a table begins …
+const TABLE: Rule = Rule::Holds(
+    |operands| {
+        table_holds(
+            operands,
+            |first, _| matches!(first, OperandKind::Device(first, None) if matches!(first.class, DeviceClass::D | DeviceClass::R)),
+        )
     },
-    "a table has 1 to 128 rows",
+    "a table begins at a data register",
+);
+/// … and S2 the number of its rows.
+const ROWS_OF_TABLE: Rule = Rule::Holds(
+    |operands| {
+        table_holds(operands, |_, rows| match *rows {
+            OperandKind::Decimal(rows, None) => (1..=128).contains(&rows),
+            OperandKind::Hex(rows, None) => (1..=128).contains(&rows),
+            OperandKind::Decimal(..) | OperandKind::Hex(..) => true,
+            _ => false,
+        })
+    },
+    "a table has 1 to 128 rows, and their number is a constant",
 );
 const ZONE: &[Param] = &[
-    src("S1", VALUES.without(Classes::V)),
+    src("S1", VALUES.without(Classes::V)).rules(&[TABLE]),
     src("S2", VALUES.without(Classes::V)).rules(&[Rule::AtLeast(0), ROWS_OF_TABLE]),
     src("S", Classes::C).numbers(FAST),
     coil("D", COILS).len(3),
@@ -68,11 +87,23 @@ const HM_COUNTER: Param = src("D2", DATA.or(Classes::C));
 const HM_VALUE: Param = src("D1", CONSTANTS.or(DATA));
 const HM_ZONE: Param = src("zone", CONSTANTS.or(DATA)).word().limits(0, 5);
 const HM_BIT: &[Param] = &[HM_VALUE, HM_COUNTER, coil("D3", COILS), HM_ZONE];
+/// The three bits of a zone lie among sixteen that belong together.
+const AMONG_SIXTEEN: Rule = Rule::Holds(
+    |operands| {
+        operands.iter().all(|operand| match operand.kind {
+            OperandKind::Device(bit, None) if COILS.meets(Classes::of(&operand.kind)) => {
+                bit.number % 16 < 14
+            }
+            _ => true,
+        })
+    },
+    "the three bits lie within sixteen of which the first has a number that is a multiple of 16",
+);
 const HM_ZONE_COMPARE: &[Param] = &[
-    HM_VALUE,
+    HM_VALUE.rules(&[Rule::Below(1)]),
     src("D2", CONSTANTS.or(DATA)),
     src("D3", DATA.or(Classes::C)),
-    coil("D4", COILS).len(3),
+    coil("D4", COILS).len(3).rules(&[AMONG_SIXTEEN]),
     HM_ZONE,
 ];
 const HM_TABLE: &[Param] = &[
@@ -138,7 +169,6 @@ const fn compare(
         .flags(&["M8025"])
         .errors(&[6760])
         .lower(Lower::HighSpeed(comparison))
-        .lower_on(&[(HM, Lower::Todo(COUNTERS))])
 }
 
 pub(super) const ROWS: &[Inst] = &[
@@ -272,7 +302,7 @@ pub(super) const ROWS: &[Inst] = &[
         ])
         .variants(&[on(HM).takes(HM_TABLE)])
         .flags(&["M8138", "D8138"])
-        .todo(COUNTERS)
+        .lower(Lower::HighSpeed(Comparison::Table))
         .text(
             "Works through a table of rows of a 32-bit value and a pattern: when the counter reaches a row's value its pattern goes to the \
              outputs, and the next row is waited for.",
@@ -282,6 +312,6 @@ pub(super) const ROWS: &[Inst] = &[
         .spelling(super::Spelling::Plain)
         .on(HM)
         .takes(&[src("D1", DATA.or(Classes::C)), dst("D2", DATA.or(Classes::C))])
-        .todo(COUNTERS)
+        .lower(Lower::Move)
         .text("Brings the counter or pulse count D1 up to date and copies it to D2."),
 ];

@@ -538,6 +538,8 @@ pub enum Comparison {
     Reset,
     /// HSZ: shows in three bits whether the count is below, in or above a zone.
     Zone,
+    /// HSCT: works through a table.
+    Table,
 }
 
 /// When a [`Variant`] holds.

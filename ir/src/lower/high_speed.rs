@@ -1,20 +1,18 @@
 //! High-speed counters: they count at the edges of their inputs, and comparisons act at the count.
 
 use super::Lowerer;
+use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use crate::catalogue::{Basic, CmpOp, Comparison};
 use crate::high_speed::{
-    self, COMPARE_AT_RESET, Counter, EDGE_RESET, Kind, NO_RESET, RESET_RELAYS,
+    self, COMPARE_AT_RESET, CROSSING, Counter, EDGE_RESET, Kind, NO_RESET, RESET_RELAYS, ZONES,
 };
 use crate::interrupts::Source;
-use crate::model::ModelId;
 use crate::node::{CellId, EdgeKind, Expr, ExprId, FlagId, Place, Stmt};
 use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
 
 /// Relay of a counter: its direction, or what shows it.
 const DIRECTION: u32 = 8000;
-/// Relays that choose a table for DHSZ instead of a zone.
-const TABLE_MODES: [u32; 2] = [8130, 8132];
 
 /// A counter that the program drives.
 struct Used {
@@ -24,19 +22,29 @@ struct Used {
     preset: CellId,
 }
 
+/// What a comparison looks at.
+#[derive(Clone, Copy)]
+pub(super) enum Counted {
+    /// A high-speed counter, by its number: at each count.
+    Counter(u32),
+    /// Something else, in the scan.
+    Value(ExprId),
+}
+
 /// A comparison that the program makes.
-struct Compare {
-    /// Number of the counter.
-    counter: u32,
+pub(super) struct Compare {
+    pub(super) counted: Counted,
     /// It is driven.
-    armed: FlagId,
-    /// What the counter is compared with: one value, or the ends of a zone.
-    values: Vec<CellId>,
-    action: Action,
+    pub(super) armed: FlagId,
+    /// What the count is compared with: one value, or the ends of a zone.
+    pub(super) values: Vec<CellId>,
+    /// Whether the count was not below the value; `None` where only an equal count acts.
+    pub(super) reached: Option<FlagId>,
+    pub(super) action: Action,
 }
 
 /// What a comparison does.
-enum Action {
+pub(super) enum Action {
     /// Switches a bit.
     Switch(OperandKind, bool),
     /// Resets the counter itself.
@@ -45,21 +53,22 @@ enum Action {
     Request(FlagId),
     /// Shows the zone in three bits.
     Zone(OperandKind),
+    /// Goes on in a table.
+    Rows(Rows),
 }
 
 /// The high-speed counters of a program.
 #[derive(Default)]
 pub(super) struct HighSpeed {
     used: Vec<Used>,
-    compares: Vec<Compare>,
+    pub(super) compares: Vec<Compare>,
+    /// Tables that begin when a scan ends.
+    pub(super) tables: Vec<Rows>,
 }
 
 impl Lowerer<'_> {
     /// Finds the counters that the program drives.
     pub(super) fn find_counters(&mut self) {
-        if self.model.id == ModelId::Hm {
-            return;
-        }
         for i in 0..self.resolved.instrs.len() {
             let coil = self.basic_at(i) == Some(Basic::Out);
             let operand = self.resolved.program.instrs[i].operands.first();
@@ -70,8 +79,7 @@ impl Lowerer<'_> {
             if !coil || device.class != DeviceClass::C || self.high_speed.used.iter().any(known) {
                 continue;
             }
-            let table = high_speed::counters(self.model.id);
-            if let Some(counter) = table.iter().find(|counter| counter.number == device.number) {
+            if let Some(counter) = self.counter_with_number(device.number) {
                 let number = counter.number;
                 let on = self.flag(format!("c{number}_on"), "its coil is on", None);
                 let preset = self.cell(format!("c{number}_preset"), "its set value");
@@ -100,77 +108,142 @@ impl Lowerer<'_> {
         });
     }
 
-    /// HSCS, HSCR, HSZ: while driven, the comparison is armed with its values.
+    /// HSCS, HSCR, HSZ, HSCT: while driven, the comparison is armed with its values.
     pub(super) fn high_speed_compare(&mut self, comparison: Comparison) {
-        let values = if comparison == Comparison::Zone { 2 } else { 1 };
-        let (Some(OperandKind::Device(counter, None)), Some(target)) = (
-            self.operand(values).cloned(),
-            self.operand(values + 1).cloned(),
-        ) else {
-            return self.cannot_compare();
+        if self.compare_at_count(comparison).is_none() {
+            let span = self.instr().span;
+            let message = format!("`{}` is not implemented yet in this form", self.instr());
+            self.report(codes::NOT_IMPLEMENTED.at(span, message));
+        }
+    }
+
+    fn compare_at_count(&mut self, comparison: Comparison) -> Option<()> {
+        let values = match comparison {
+            Comparison::Set | Comparison::Reset => 1,
+            Comparison::Zone | Comparison::Table => 2,
         };
-        let Some(action) = self.action(comparison, counter, &target) else {
-            return self.cannot_compare();
-        };
-        let n = self.high_speed.compares.len() + 1;
-        let armed = self.flag(
-            format!("compare{n}"),
-            "a comparison at the count is driven",
-            None,
-        );
-        let drive = self.drive();
         let mut guards = Guards::default();
+        let counted = self.counted(values, &mut guards)?;
+        let target = self.operand(values + 1)?.clone();
+        let table = match (comparison, &target) {
+            (Comparison::Table, _) => Some(high_speed::pattern_table(self.model.id)),
+            (Comparison::Zone, &OperandKind::Device(relay, None)) => high_speed::zone_table(relay),
+            _ => None,
+        };
+        if let Some(mode) = table {
+            return self.count_table(mode, counted);
+        }
+        let action = self.action(comparison, counted, &target)?;
+        let n = self.high_speed.compares.len() + 1;
+        let meaning = "a comparison at the count is driven";
+        let armed = self.flag(format!("compare{n}"), meaning, None);
+        let crossing = CROSSING.has(self.model.id);
+        let reached = (crossing && comparison != Comparison::Zone).then(|| {
+            let meaning = "the count was not below the value";
+            self.flag(format!("compare{n}_reached"), meaning, None)
+        });
+        let drive = self.drive();
         let mut cells = Vec::new();
         for i in 0..values {
-            let Some(operand) = self.operand(i) else {
-                return;
-            };
-            let value = self.value(operand, true, &mut guards);
+            let value = self.value(self.operand(i)?, true, &mut guards);
             let end = ["value", "end"][i];
-            let cell = self.cell(
-                format!("compare{n}_{end}"),
-                "what the count is compared with",
-            );
-            cells.push((cell, value));
+            let meaning = "what the count is compared with";
+            cells.push((self.cell(format!("compare{n}_{end}"), meaning), value));
         }
-        let stored: Vec<CellId> = cells.iter().map(|&(cell, _)| cell).collect();
-        let set = self.body(|this| {
+        if crossing {
+            self.demand_zone(values + 2, &mut guards);
+        }
+        let compare = Compare {
+            counted,
+            armed,
+            values: cells.iter().map(|&(cell, _)| cell).collect(),
+            reached,
+            action,
+        };
+        let then = self.body(|this| {
             this.guarded(guards, |this| {
                 for (cell, value) in cells {
                     this.emit(Stmt::SetCell(cell, value));
                 }
-                this.set_flag_to(armed, true);
+                this.arm(&compare);
+                if crossing {
+                    this.act(&compare);
+                }
             });
         });
         match self.expr(drive) {
-            Expr::Bit(true) => set.into_iter().for_each(|stmt| self.emit(stmt)),
+            Expr::Bit(true) => then.into_iter().for_each(|stmt| self.emit(stmt)),
             _ => {
                 let otherwise = self.body(|this| this.set_flag_to(armed, false));
                 self.emit(Stmt::If {
                     cond: drive,
-                    then: set,
+                    then,
                     otherwise,
                 });
             }
         }
-        self.high_speed.compares.push(Compare {
-            counter: counter.number,
-            armed,
-            values: stored,
-            action,
-        });
+        self.high_speed.compares.push(compare);
+        Some(())
     }
 
-    fn cannot_compare(&mut self) {
-        let span = self.instr().span;
-        let message = format!("`{}` is not implemented yet in this form", self.instr());
-        self.report(codes::NOT_IMPLEMENTED.at(span, message));
+    /// What operand `i` names to be looked at.
+    fn counted(&mut self, i: usize, guards: &mut Guards) -> Option<Counted> {
+        let operand = self.operand(i)?;
+        if let OperandKind::Device(device, None) = *operand
+            && device.class == DeviceClass::C
+            && self.counter_with_number(device.number).is_some()
+        {
+            return Some(Counted::Counter(device.number));
+        }
+        CROSSING
+            .has(self.model.id)
+            .then(|| Counted::Value(self.value(operand, true, guards)))
+    }
+
+    /// The high-speed counter of this number.
+    fn counter_with_number(&self, number: u32) -> Option<&'static Counter> {
+        let mut table = high_speed::counters(self.model.id).iter();
+        table.find(|counter| counter.number == number)
+    }
+
+    /// The zone in which a comparison runs is one of those that there are.
+    fn demand_zone(&mut self, operand: usize, guards: &mut Guards) {
+        let zone = match self.operand(operand) {
+            Some(zone @ OperandKind::Device(..)) => self.value(zone, true, guards),
+            _ => return,
+        };
+        for (op, end) in [(CmpOp::Ge, *ZONES.start()), (CmpOp::Le, *ZONES.end())] {
+            let end = self.add(Expr::I32(end));
+            let holds = self.add(Expr::Cmp(op, zone, end));
+            guards.demand(holds);
+        }
+    }
+
+    /// A comparison is driven. One that acts when the value is crossed begins with the state at hand.
+    fn arm(&mut self, compare: &Compare) {
+        if let (Some(reached), &[value]) = (compare.reached, compare.values.as_slice()) {
+            let armed = self.add(Expr::Flag(compare.armed));
+            let begins = self.not(armed);
+            let count = self.count_of(compare);
+            let value = self.add(Expr::Cell(value));
+            let now = self.add(Expr::Cmp(CmpOp::Ge, count, value));
+            self.when(begins, |this| this.emit(Stmt::SetFlag(reached, now)));
+        }
+        self.set_flag_to(compare.armed, true);
+    }
+
+    /// What a comparison looks at, now.
+    fn count_of(&mut self, compare: &Compare) -> ExprId {
+        match compare.counted {
+            Counted::Counter(number) => self.add(Expr::ReadPair(counter_place(number))),
+            Counted::Value(value) => value,
+        }
     }
 
     fn action(
         &mut self,
         comparison: Comparison,
-        counter: Device,
+        counted: Counted,
         target: &OperandKind,
     ) -> Option<Action> {
         let device = match *target {
@@ -182,15 +255,14 @@ impl Lowerer<'_> {
             _ => return None,
         };
         Some(match (comparison, device.class) {
-            (Comparison::Zone, DeviceClass::M) if TABLE_MODES.contains(&device.number) => {
-                return None;
-            }
             (Comparison::Zone, _) => Action::Zone(target.clone()),
             (Comparison::Set, DeviceClass::I) => {
                 let pointer = device.number;
                 Action::Request(self.request_flag(Source::Comparison { pointer })?)
             }
-            (Comparison::Reset, DeviceClass::C) if device == counter => Action::Reset,
+            (Comparison::Reset, DeviceClass::C) if matches!(counted, Counted::Counter(number) if number == device.number) => {
+                Action::Reset
+            }
             (_, DeviceClass::C | DeviceClass::I) => return None,
             _ => Action::Switch(target.clone(), comparison == Comparison::Set),
         })
@@ -198,10 +270,13 @@ impl Lowerer<'_> {
 
     /// What the edges of the counters' inputs do.
     pub(super) fn counter_edges(&mut self) {
-        let HighSpeed { used, compares } = std::mem::take(&mut self.high_speed);
+        let used = std::mem::take(&mut self.high_speed.used);
+        let compares = std::mem::take(&mut self.high_speed.compares);
         for used in &used {
             let number = used.counter.number;
-            let compares: Vec<&Compare> = compares.iter().filter(|c| c.counter == number).collect();
+            let looks =
+                |compare: &&Compare| matches!(compare.counted, Counted::Counter(n) if n == number);
+            let compares: Vec<&Compare> = compares.iter().filter(looks).collect();
             self.count_edges(used, &compares);
             if let Some(reset) = used.counter.reset {
                 self.reset_edge(used, reset, &compares);
@@ -227,6 +302,12 @@ impl Lowerer<'_> {
                         this.count(used, down, compares);
                     });
                 }
+            }
+            (Kind::Direction, &[input, direction]) => {
+                self.on_edge(input, EdgeKind::Rising, |this| {
+                    let down = this.level(direction);
+                    this.count(used, down, compares);
+                });
             }
             (Kind::Phases, &[a, b]) => {
                 let four_fold = high_speed::four_fold(self.model.id, number);
@@ -298,7 +379,7 @@ impl Lowerer<'_> {
                 this.write_device(DeviceClass::M, shown, down);
             }
             for compare in compares {
-                this.act_at_count(compare);
+                this.act(compare);
             }
         });
     }
@@ -322,7 +403,7 @@ impl Lowerer<'_> {
                 if let Some(compares_too) = relay(this, COMPARE_AT_RESET) {
                     this.when(compares_too, |this| {
                         for compare in compares {
-                            this.act_at_count(compare);
+                            this.act(compare);
                         }
                     });
                 }
@@ -330,48 +411,81 @@ impl Lowerer<'_> {
         });
     }
 
-    /// One comparison, at a count.
-    fn act_at_count(&mut self, compare: &Compare) {
-        let count = self.add(Expr::ReadPair(counter_place(compare.counter)));
+    /// A comparison looks at the count.
+    pub(super) fn act(&mut self, compare: &Compare) {
+        let count = self.count_of(compare);
         let values: Vec<ExprId> = compare
             .values
             .iter()
             .map(|&cell| self.add(Expr::Cell(cell)))
             .collect();
-        let armed = self.add(Expr::Flag(compare.armed));
         match (&compare.action, values.as_slice()) {
+            (Action::Rows(rows), _) => self.row_at_count(rows, count),
             (Action::Zone(target), &[low, high]) => {
                 let below = self.add(Expr::Cmp(CmpOp::Lt, count, low));
                 let above = self.add(Expr::Cmp(CmpOp::Gt, count, high));
-                let outside = self.or(below, above);
-                let inside = self.not(outside);
-                self.when(armed, |this| {
-                    let mut guards = Guards::default();
-                    let Some(target) = this.bit_target(target, 3, false, &mut guards) else {
-                        return;
-                    };
-                    this.guarded(guards, |this| {
-                        for (offset, state) in (0..).zip([below, inside, above]) {
-                            this.store_bit(target, offset, state);
-                        }
-                    });
-                });
+                self.show_zone(compare.armed, target, below, above);
             }
-            (action, &[value, ..]) => {
-                let equal = self.add(Expr::Cmp(CmpOp::Eq, count, value));
-                let acts = self.and(armed, equal);
-                self.when(acts, |this| match action {
-                    Action::Switch(target, on) => {
-                        let on = this.bit_const(*on);
-                        this.write_bits(target, on);
-                    }
-                    Action::Request(flag) => this.set_flag_to(*flag, true),
-                    Action::Reset => this.emit(Stmt::Reset(counter_place(compare.counter))),
-                    Action::Zone(_) => {}
+            (_, &[value, ..]) => {
+                let armed = self.add(Expr::Flag(compare.armed));
+                let Some(reached) = compare.reached else {
+                    let equal = self.add(Expr::Cmp(CmpOp::Eq, count, value));
+                    let acts = self.and(armed, equal);
+                    return self.when(acts, |this| this.do_action(compare));
+                };
+                let now = self.add(Expr::Cmp(CmpOp::Ge, count, value));
+                let before = self.add(Expr::Flag(reached));
+                let crossed = self.differ(before, now);
+                let acts = self.and(armed, crossed);
+                self.when(acts, |this| {
+                    this.emit(Stmt::SetFlag(reached, now));
+                    this.do_action(compare);
                 });
             }
             _ => {}
         }
+    }
+
+    /// Whether one of two bits is on.
+    fn differ(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        let (not_a, not_b) = (self.not(a), self.not(b));
+        let first = self.and(a, not_b);
+        let second = self.and(not_a, b);
+        self.or(first, second)
+    }
+
+    fn do_action(&mut self, compare: &Compare) {
+        match &compare.action {
+            Action::Switch(target, on) => {
+                let on = self.bit_const(*on);
+                self.write_bits(target, on);
+            }
+            Action::Request(flag) => self.set_flag_to(*flag, true),
+            Action::Reset => {
+                if let Counted::Counter(number) = compare.counted {
+                    self.emit(Stmt::Reset(counter_place(number)));
+                }
+            }
+            Action::Zone(_) | Action::Rows(_) => {}
+        }
+    }
+
+    /// Three bits show where the count is.
+    fn show_zone(&mut self, armed: FlagId, target: &OperandKind, below: ExprId, above: ExprId) {
+        let outside = self.or(below, above);
+        let inside = self.not(outside);
+        let armed = self.add(Expr::Flag(armed));
+        self.when(armed, |this| {
+            let mut guards = Guards::default();
+            let Some(target) = this.bit_target(target, 3, false, &mut guards) else {
+                return;
+            };
+            this.guarded(guards, |this| {
+                for (offset, state) in (0..).zip([below, inside, above]) {
+                    this.store_bit(target, offset, state);
+                }
+            });
+        });
     }
 }
 

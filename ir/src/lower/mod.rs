@@ -9,6 +9,7 @@ mod build;
 mod call;
 mod coil;
 mod comment;
+mod count_table;
 mod density;
 mod edges;
 mod flow;

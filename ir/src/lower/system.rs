@@ -92,6 +92,7 @@ impl Lowerer<'_> {
     pub(super) fn end_function(&mut self) -> Body {
         self.body(|this| {
             this.interruptible();
+            this.begin_tables();
             for (number, kind) in std::mem::take(&mut this.free_running) {
                 this.emit(Stmt::TimerGoesOn { number, kind });
             }

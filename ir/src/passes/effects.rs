@@ -11,7 +11,7 @@ use rungc_syntax::DeviceClass;
 pub(super) struct Reads {
     /// Runs of devices: (class, first, last).
     devices: Vec<(DeviceClass, u32, u32)>,
-    /// A flag or a cell.
+    /// A flag, a cell or a table.
     private: bool,
 }
 
@@ -47,7 +47,7 @@ impl Reads {
             }
             Expr::ReadPair(place) | Expr::ReadFloat(place) => (place, 2),
             Expr::ReadNibbles { place, digits, .. } => (place, 4 * u32::from(digits)),
-            Expr::Flag(_) | Expr::Cell(_) => {
+            Expr::Flag(_) | Expr::Cell(_) | Expr::Entry(..) => {
                 self.private = true;
                 return;
             }
@@ -128,6 +128,7 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         | Stmt::Stop
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
+        | Stmt::SetEntry(..)
         | Stmt::Clear { .. } => Writes::All,
     }
 }

@@ -28,9 +28,9 @@ pub(super) const HM: &[Special] = specials! {
     M 8096-8111 rw 0 inert(MOTION) "switch input of motion instructions in place of X000–017 (used while Bit13 of the axis event word is 0)";
     M 8160-8163 rw 0 scan "state of the virtual inputs X014..X017";
     M 8200-8234 rw 0 by("OUT C") "count direction of C200..C234: on = down, off = up";
-    M 8235 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
-    M 8237 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
-    M 8239-8242 rw 0 inert(FAST) "count direction of the high-speed counter with the same number";
+    M 8235 rw 0 by("OUT C") "count direction of the high-speed counter with the same number";
+    M 8237 rw 0 by("OUT C") "count direction of the high-speed counter with the same number";
+    M 8239-8242 rw 0 by("OUT C") "count direction of the high-speed counter with the same number";
     D 8000 rw 200 scan "scan watchdog limit in ms; PLC faults and stops when a scan exceeds it";
     D 8001 r 0 inert(MAKER) "series number of the instruction set";
     D 8002 r 12 scan "program capacity";

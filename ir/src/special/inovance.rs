@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use super::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, LATCHES, LINK, NETWORK, POWER, PULSES, SERIAL, Special,
-    TRACE, specials,
+    CAN, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, POWER, PULSES, SERIAL, Special, TRACE,
+    specials,
 };
 
 /// What both have.
@@ -92,9 +92,10 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8124 r 0 inert(SERIAL) "COM1: receiving (RS only)";
     M 8126 r 0 inert(SERIAL) "COM1: on when the 485BD card is effective";
     M 8129 r 0 inert(SERIAL) "COM1: time-out";
-    M 8130 rw 0 inert(FAST) "HSZ table (comparison platform) mode";
-    M 8131 r 0 inert(FAST) "used with M8130 (table finished)";
-    M 8132 rw 0 inert(FAST) "HSZ & PLSY speed-pattern mode";
+    M 8130 rw 0 by("HSZ") "HSZ table (comparison platform) mode";
+    M 8131 r 0 by("HSZ") "used with M8130: on for a scan when the last row of the table was reached";
+    M 8132 rw 0 by("HSZ") "HSZ & PLSY speed-pattern mode";
+    M 8133 r 0 by("HSZ") "used with M8132: on for a scan when the last row of the table was reached";
     M 8135 rw 0 inert(PULSES) "Y0: separate acceleration/deceleration times and change of the pulse count while running";
     M 8136-8137 rw 0 inert(PULSES) "Y1–2: as M8135";
     M 8140 rw 0 inert(PULSES) "ZRN: CLR signal output enabled";
@@ -269,12 +270,12 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8127 rw 0 inert(SERIAL) "COM1: computer link on-demand first data number";
     D 8128 rw 0 inert(SERIAL) "COM1: computer link on-demand number of data";
     D 8129 rw 10 inert(SERIAL) "COM1: time-out, unit 10 ms";
-    D 8130 r 0 inert(FAST) "HSZ table mode: present record number";
-    D 8131 r 0 inert(FAST) "HSZ & PLSY speed pattern: present record number";
-    D 8132 r 0 inert(FAST) "HSZ & PLSY speed pattern: frequency, low word";
-    D 8133 r 0 inert(FAST) "HSZ & PLSY speed pattern: frequency, high word";
-    D 8134 r 0 inert(FAST) "HSZ & PLSY speed pattern: compare pulse count, low word";
-    D 8135 r 0 inert(FAST) "HSZ & PLSY speed pattern: compare pulse count, high word";
+    D 8130 r 0 by("HSZ") "HSZ table mode: present record number";
+    D 8131 r 0 by("HSZ") "HSZ & PLSY speed pattern: present record number";
+    D 8132 r 0 by("HSZ") "HSZ & PLSY speed pattern: frequency, low word";
+    D 8133 r 0 by("HSZ") "HSZ & PLSY speed pattern: frequency, high word";
+    D 8134 r 0 by("HSZ") "HSZ & PLSY speed pattern: compare pulse count, low word";
+    D 8135 r 0 by("HSZ") "HSZ & PLSY speed pattern: compare pulse count, high word";
     D 8136 rw 0 inert(PULSES) "total pulses Y0 and Y1, low word";
     D 8137 rw 0 inert(PULSES) "total pulses Y0 and Y1, high word";
     D 8140 rw 0 inert(PULSES) "Y000 accumulated pulses of PLSY/PLSR, 32 bits, low word";

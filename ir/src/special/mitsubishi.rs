@@ -74,7 +74,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8123 rw 0 inert(SERIAL) "RS has received";
     M 8124 r 0 inert(SERIAL) "RS receives";
     M 8126-8129 r 0 inert(SERIAL) "computer link, time-out of RS";
-    M 8130-8133 rw 0 inert(FAST) "HSZ by a table, and PLSY by HSZ";
+    M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
     M 8145-8149 rw 0 inert(PULSES) "stops pulses, shows that they are sent";
     M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
@@ -121,7 +121,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8099 rw 0 scan "ring counter of 0.1 ms";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
-    D 8130-8135 r 0 inert(FAST) "HSZ by a table, and PLSY by HSZ";
+    D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
     D 8136-8137 rw 0 inert(PULSES) "pulses sent at Y000 and Y001";
     D 8140-8143 rw 0 inert(PULSES) "pulses sent at Y000, at Y001";
     D 8145-8148 rw 0 inert(PULSES) "speeds and ramp time of positioning";
@@ -153,7 +153,7 @@ pub(super) const FX2N: &[Special] = specials! {
 
 /// What FX3G and FX3U have besides.
 pub(super) const FX3: &[Special] = specials! {
-    M 8136-8139 rw 0 inert(FAST) "table comparison of high-speed counters";
+    M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
     M 8151-8159 r 0 inert(SERIAL) "inverter communication";
     M 8176-8177 rw 0 scan "a pulse came at X006, X007";
     M 8198-8199 rw 0 by("OUT C") "four counts a cycle for C251, C252 and C253–C255";
