@@ -1,0 +1,124 @@
+//! The examples for a microcontroller build with what the README says and run under QEMU. Without the tools a test says what is missing and
+//! that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const TARGET: &str = "thumbv7em-none-eabihf";
+
+fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/stm32f405")
+}
+
+fn is_there(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok()
+}
+
+/// Says that a test does not run, or fails where it has to.
+fn leave_out(missing: &str) {
+    let required = std::env::var_os("RUNGC_REQUIRE_EMBEDDED").is_some();
+    assert!(!required, "missing: {missing}");
+    eprintln!("not run: there is no {missing}");
+}
+
+/// Whether all programs are there, or the test is to be left out.
+fn tools(programs: &[&str]) -> bool {
+    let missing: Vec<_> = programs.iter().filter(|name| !is_there(name)).collect();
+    missing.iter().for_each(|name| leave_out(name));
+    missing.is_empty()
+}
+
+fn printed(output: Output) -> String {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// What the lamps do.
+fn lamps(output: Output) -> String {
+    let lines = printed(output);
+    let lines: Vec<_> = lines.lines().filter(|l| l.contains(" s  Y")).collect();
+    lines.join("\n")
+}
+
+#[test]
+fn traffic_light_in_c() {
+    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+        return;
+    }
+    let build = tempfile::tempdir().unwrap();
+    let output = Command::new("make")
+        .arg("run")
+        .arg(format!("BUILD={}", build.path().display()))
+        .arg(format!("RUNGC={}", env!("CARGO_BIN_EXE_rungc")))
+        .current_dir(examples().join("c"))
+        .output()
+        .unwrap();
+    insta::assert_snapshot!("traffic_light", lamps(output));
+}
+
+/// A cargo that can build for the microcontroller: rustup's with the target, or a distribution's with the sources of `core`.
+fn cargo() -> Option<Command> {
+    let libraries = Command::new("rustc")
+        .args(["--print", "target-libdir", "--target", TARGET])
+        .output()
+        .ok()?;
+    let folder = String::from_utf8(libraries.stdout).ok()?;
+    let mut cargo = if Path::new(folder.trim()).exists() {
+        Command::new("cargo")
+    } else if Path::new("/usr/lib/rustlib/src/rust/library").exists() {
+        let mut cargo = Command::new("/usr/bin/cargo");
+        cargo
+            .env("RUSTC", "/usr/bin/rustc")
+            .env("RUSTC_BOOTSTRAP", "1")
+            .env("CARGO_UNSTABLE_BUILD_STD", "core")
+            .env(
+                "CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER",
+                "arm-none-eabi-ld",
+            );
+        cargo
+    } else {
+        return None;
+    };
+    for variable in ["CARGO", "RUSTUP_TOOLCHAIN", "RUSTFLAGS", "LD_LIBRARY_PATH"] {
+        cargo.env_remove(variable);
+    }
+    Some(cargo)
+}
+
+#[test]
+fn traffic_light_in_rust() {
+    if !tools(&["arm-none-eabi-ld", "qemu-system-arm"]) {
+        return;
+    }
+    let Some(mut cargo) = cargo() else {
+        return leave_out(&format!("Rust for {TARGET} (rustup target add {TARGET})"));
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let from = examples().join("rust");
+    for file in [
+        "Cargo.toml",
+        "Cargo.lock",
+        "memory.x",
+        ".cargo/config.toml",
+        "src/main.rs",
+        "src/board.rs",
+    ] {
+        let to = folder.path().join(file);
+        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+        std::fs::copy(from.join(file), to).unwrap();
+    }
+    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("../golden/examples/traffic_light.il");
+    let emitted = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["build", "--emit", "rust", "-o"])
+        .arg(folder.path().join("plc"))
+        .arg(program)
+        .output();
+    printed(emitted.unwrap());
+    let output = cargo
+        .args(["run", "--release", "--locked", "--features", "demo"])
+        .env("CARGO_TARGET_DIR", folder.path().join("target"))
+        .current_dir(folder.path())
+        .output();
+    insta::assert_snapshot!("traffic_light", lamps(output.unwrap()));
+}

@@ -1,0 +1,27 @@
+/* board.h: what the program needs of the board. */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Sets up pins and the clock. */
+void board_init(void);
+
+/* Milliseconds since board_init. */
+uint32_t board_millis(void);
+
+/* Sleeps until the next interrupt. */
+void board_sleep(void);
+
+/* The button. */
+bool board_button(void);
+
+/* Lamp 0 to 4. */
+void board_lamp(unsigned lamp, bool on);
+
+/* Semihosting, for a debugger or QEMU: text to the console, and the end of the program. */
+void board_print(const char *text);
+_Noreturn void board_exit(void);
+
+#endif

@@ -1,0 +1,75 @@
+//! An STM32F4 Discovery, or QEMU's netduinoplus2. The button is PA0, the lamps are PD11 to PD15.
+
+use core::cell::Cell;
+use cortex_m::interrupt::{Mutex, free};
+use cortex_m::peripheral::SYST;
+use cortex_m::peripheral::syst::SystClkSource;
+use cortex_m_rt::exception;
+
+/// The core's clock: 16 MHz behind reset; QEMU's machine has 168 MHz.
+const CPU_HZ: u32 = if cfg!(feature = "demo") {
+    168_000_000
+} else {
+    16_000_000
+};
+
+/// How many lamps there are.
+pub const LAMPS: usize = 5;
+const FIRST_LAMP: usize = 11;
+
+/// A register of the STM32F405.
+struct Register(usize);
+
+const RCC_AHB1ENR: Register = Register(0x4002_3830);
+const GPIOA_IDR: Register = Register(0x4002_0010);
+const GPIOD_MODER: Register = Register(0x4002_0C00);
+const GPIOD_BSRR: Register = Register(0x4002_0C18);
+
+impl Register {
+    fn read(&self) -> u32 {
+        // SAFETY: the constants above are addresses of registers that may be read at any time.
+        unsafe { (self.0 as *const u32).read_volatile() }
+    }
+
+    fn write(&self, value: u32) {
+        // SAFETY: the same; writing them only switches clocks and pins.
+        unsafe { (self.0 as *mut u32).write_volatile(value) }
+    }
+}
+
+static MILLISECONDS: Mutex<Cell<u32>> = Mutex::new(Cell::new(0));
+
+#[exception]
+fn SysTick() {
+    free(|cs| {
+        let milliseconds = MILLISECONDS.borrow(cs);
+        milliseconds.set(milliseconds.get().wrapping_add(1));
+    });
+}
+
+/// Sets up pins and the clock.
+pub fn set_up(clock: &mut SYST) {
+    RCC_AHB1ENR.write(RCC_AHB1ENR.read() | 0b1001);
+    GPIOD_MODER.write((GPIOD_MODER.read() & 0x003F_FFFF) | 0x5540_0000);
+    clock.set_clock_source(SystClkSource::Core);
+    clock.set_reload(CPU_HZ / 1000 - 1);
+    clock.clear_current();
+    clock.enable_counter();
+    clock.enable_interrupt();
+}
+
+/// Milliseconds since the clock was set up.
+pub fn millis() -> u32 {
+    free(|cs| MILLISECONDS.borrow(cs).get())
+}
+
+/// The button.
+pub fn button() -> bool {
+    GPIOA_IDR.read() & 1 != 0
+}
+
+/// Switches a lamp.
+pub fn set_lamp(lamp: usize, on: bool) {
+    let pin = 1 << (FIRST_LAMP + lamp);
+    GPIOD_BSRR.write(if on { pin } else { pin << 16 });
+}
