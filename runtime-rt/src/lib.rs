@@ -33,6 +33,7 @@ mod hal;
 mod operand;
 mod plc;
 mod program;
+pub mod pulse;
 mod registry;
 mod runs;
 pub mod special;

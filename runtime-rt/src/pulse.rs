@@ -1,0 +1,466 @@
+//! A pulse generator: one pulse output as a pure state machine over time, in integers. Whoever has the time drives it: the
+//! simulator each millisecond, a hardware timer at [`Generator::next_edge`].
+//!
+//! A speed is kept as its square, which a steady acceleration changes by the same amount at each pulse (v² = v₀² + 2as). So ramps need no
+//! clock, the way down begins where as many pulses are left as it takes, and a train ends with exactly the pulses that it was given.
+
+/// What of a pulse has passed is counted in millihertz times microseconds.
+const FULL: u64 = 1_000_000_000;
+
+/// A train of pulses. Speeds are in millihertz, up to 4 MHz.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Train {
+    /// Speed that it is to reach; 0: it waits.
+    pub speed: u32,
+    /// Square of the speed that ramps begin and end with, in mHz².
+    pub lowest: u64,
+    /// How much a pulse adds to the square of the speed on the way up, in mHz²; 0: any speed at once.
+    pub up: u64,
+    /// How much it takes away on the way down.
+    pub down: u64,
+    /// Pulses; 0: without end.
+    pub total: u32,
+    /// Whether positions count down.
+    pub reverse: bool,
+}
+
+impl Train {
+    /// A train at one speed.
+    pub const fn steady(speed: u32, total: u32) -> Train {
+        Train {
+            speed,
+            lowest: 0,
+            up: 0,
+            down: 0,
+            total,
+            reverse: false,
+        }
+    }
+
+    /// The change of the square of a speed at each pulse, in mHz², by an acceleration from 0 to `hz` in `ms`: 2a.
+    pub const fn slope(hz: u32, ms: u32) -> u64 {
+        let ms = if ms == 0 { 1 } else { ms };
+        hz as u64 * 2_000_000_000 / ms as u64
+    }
+}
+
+/// One pulse output. All zero is one that is idle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Generator {
+    /// What has passed of the present pulse.
+    phase: u64,
+    /// What a whole pulse is.
+    full: u64,
+    /// Square of the speed.
+    square: u64,
+    lowest: u64,
+    up: u64,
+    down: u64,
+    /// How much passes in a microsecond.
+    rate: u32,
+    speed: u32,
+    total: u32,
+    sent: u32,
+    /// Time of the last call, in microseconds, wrapping.
+    now_us: u32,
+    /// How much of a pulse it is on.
+    on: u32,
+    busy: bool,
+    reverse: bool,
+    /// The train was stopped before its end.
+    stopped: bool,
+    /// A signal of a fixed width and period.
+    modulates: bool,
+}
+
+impl Generator {
+    /// An idle output.
+    pub const fn new() -> Self {
+        Generator {
+            phase: 0,
+            full: FULL,
+            square: 0,
+            lowest: 0,
+            up: 0,
+            down: 0,
+            rate: 0,
+            speed: 0,
+            total: 0,
+            sent: 0,
+            now_us: 0,
+            on: 0,
+            busy: false,
+            reverse: false,
+            stopped: false,
+            modulates: false,
+        }
+    }
+
+    /// Begins a train now, instead of whatever it does.
+    pub fn start(&mut self, train: Train, now_us: u32) {
+        *self = Generator {
+            full: FULL,
+            lowest: train.lowest.min(square(train.speed)),
+            up: train.up,
+            down: train.down,
+            speed: train.speed,
+            total: train.total,
+            now_us,
+            on: (FULL / 2) as u32,
+            busy: true,
+            reverse: train.reverse,
+            ..Generator::new()
+        };
+        self.square = if self.up == 0 {
+            square(self.speed)
+        } else {
+            self.lowest
+        };
+        self.hold_back();
+        self.rate = self.square.isqrt() as u32;
+    }
+
+    /// Sends pulses of a width and a period without end; a signal that is sent already goes on with them. Both are in units of `unit_us`.
+    pub fn modulate(&mut self, width: u32, period: u32, unit_us: u32, now_us: u32) {
+        if !self.modulates {
+            *self = Generator {
+                now_us,
+                busy: true,
+                modulates: true,
+                rate: 1,
+                ..Generator::new()
+            };
+        }
+        self.full = (u64::from(period) * u64::from(unit_us)).max(1);
+        self.phase = self.phase.min(self.full - 1);
+        self.on = width.saturating_mul(unit_us);
+    }
+
+    /// Stops at once.
+    pub fn halt(&mut self) {
+        self.stopped |= self.busy;
+        self.rest();
+    }
+
+    /// Comes down and stops.
+    pub fn stop(&mut self) {
+        if self.down == 0 || self.rate == 0 {
+            return self.halt();
+        }
+        let above = self.square.saturating_sub(self.lowest);
+        let needed = above.div_ceil(self.down).saturating_add(1);
+        let end = u64::from(self.sent) + needed;
+        if self.total == 0 || end < u64::from(self.total) {
+            self.total = u32::try_from(end).unwrap_or(u32::MAX);
+        }
+        self.stopped = true;
+    }
+
+    /// Changes the speed of a train that is sent, by its ramps if it has any.
+    pub fn set_speed(&mut self, speed: u32) {
+        self.speed = speed;
+        self.lowest = self.lowest.min(square(speed));
+        if self.busy && (self.up == 0 || self.square == 0) {
+            self.square = square(speed);
+            self.hold_back();
+            self.rate = self.square.isqrt() as u32;
+        }
+    }
+
+    /// Changes how many pulses a train has that is sent; the pulse that has begun is sent in any case.
+    pub fn set_total(&mut self, total: u32) {
+        if self.busy && !self.stopped && self.total != 0 {
+            self.total = total.max(self.sent.saturating_add(1));
+        }
+    }
+
+    /// Counts the pulses that have ended since the last call. Call it at least once an hour.
+    pub fn advance(&mut self, now_us: u32) -> u32 {
+        let mut left = u64::from(now_us.wrapping_sub(self.now_us));
+        self.now_us = now_us;
+        let mut count: u32 = 0;
+        while self.busy && self.rate > 0 {
+            let gain = left.saturating_mul(self.rate.into());
+            let Some(behind) = gain.checked_sub(self.full - self.phase) else {
+                self.phase += gain;
+                break;
+            };
+            let pulses = (1 + behind / self.full).min(self.alike().into());
+            let needed = pulses * self.full - self.phase;
+            let used = needed.div_ceil(self.rate.into());
+            self.phase = used * u64::from(self.rate) - needed;
+            left -= used;
+            count = count.wrapping_add(pulses as u32);
+            self.passed(pulses as u32);
+        }
+        count
+    }
+
+    /// How many pulses, the present one included, have its speed for certain.
+    fn alike(&self) -> u32 {
+        if self.modulates {
+            return u32::MAX;
+        }
+        if self.square != square(self.speed) {
+            return 1;
+        }
+        if self.total == 0 {
+            return u32::MAX;
+        }
+        let remaining = self.total - self.sent;
+        let above = self.square.saturating_sub(self.lowest);
+        let way_down = above.div_ceil(self.down.max(1));
+        if self.down == 0 {
+            return remaining;
+        }
+        u64::from(remaining).saturating_sub(way_down).max(1) as u32
+    }
+
+    /// So many pulses have ended; gives the next one its speed.
+    fn passed(&mut self, pulses: u32) {
+        if self.modulates {
+            return;
+        }
+        // A train without end wraps.
+        self.sent = self.sent.wrapping_add(pulses);
+        if self.total != 0 && self.sent >= self.total {
+            return self.rest();
+        }
+        let wanted = square(self.speed);
+        self.square = match (self.square < wanted, self.up, self.down) {
+            (true, up @ 1.., _) => wanted.min(self.square + up),
+            (false, _, down @ 1..) => wanted.max(self.square.saturating_sub(down)),
+            _ => wanted,
+        };
+        self.hold_back();
+        self.rate = self.square.isqrt() as u32;
+    }
+
+    /// No pulse is faster than the way down from it allows.
+    fn hold_back(&mut self) {
+        if self.total == 0 || self.down == 0 {
+            return;
+        }
+        let behind = u64::from(self.total - self.sent).saturating_sub(1);
+        let most = self.lowest.saturating_add(self.down.saturating_mul(behind));
+        self.square = self.square.min(most);
+    }
+
+    fn rest(&mut self) {
+        self.busy = false;
+        self.modulates = false;
+        self.rate = 0;
+        self.square = 0;
+        self.phase = 0;
+    }
+
+    /// Whether a train is being sent.
+    pub fn is_busy(&self) -> bool {
+        self.busy
+    }
+
+    /// Whether the last train was sent to its end.
+    pub fn is_complete(&self) -> bool {
+        !self.busy && !self.stopped && self.total != 0 && self.sent >= self.total
+    }
+
+    /// Whether it is a signal of [`Generator::modulate`].
+    pub fn modulates(&self) -> bool {
+        self.modulates
+    }
+
+    /// Whether positions count down.
+    pub fn is_reverse(&self) -> bool {
+        self.reverse
+    }
+
+    /// The present speed in millihertz; 0 if idle.
+    pub fn millihertz(&self) -> u32 {
+        if self.modulates {
+            (FULL / self.full) as u32
+        } else {
+            self.rate
+        }
+    }
+
+    /// Pulses of this train that have ended.
+    pub fn sent(&self) -> u32 {
+        self.sent
+    }
+
+    /// State of the output: on in the first half of each pulse.
+    pub fn level(&self) -> bool {
+        self.busy && self.rate > 0 && self.phase < self.on.into()
+    }
+
+    /// Microseconds from the last [`Generator::advance`] to when the output changes next; `None` if it does not.
+    pub fn next_edge(&self) -> Option<u32> {
+        if !self.busy || self.rate == 0 {
+            return None;
+        }
+        let on = u64::from(self.on).min(self.full);
+        let next = if self.phase < on { on } else { self.full };
+        let wait = (next - self.phase).div_ceil(self.rate.into());
+        Some(u32::try_from(wait).unwrap_or(u32::MAX))
+    }
+}
+
+/// Square of a speed.
+const fn square(speed: u32) -> u64 {
+    speed as u64 * speed as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers that look random (Knuth's multiplier).
+    struct Numbers(u64);
+
+    impl Numbers {
+        fn below(&mut self, end: u64) -> u64 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 33) % end
+        }
+
+        fn train(&mut self) -> Train {
+            let slope = |this: &mut Self| match this.below(4) {
+                0 => 0,
+                _ => Train::slope(10 + this.below(200_000) as u32, 50 + this.below(5000) as u32),
+            };
+            let (up, down) = (slope(self), slope(self));
+            Train {
+                speed: 1000 * (1 + self.below(200_000) as u32),
+                lowest: up.max(down) / 4,
+                up,
+                down,
+                total: 1 + self.below(5000) as u32,
+                reverse: self.below(2) == 0,
+            }
+        }
+    }
+
+    /// Sends a train to its end in steps of random length; returns how many pulses it had.
+    fn send(generator: &mut Generator, numbers: &mut Numbers, mut now: u32) -> u32 {
+        let mut count = 0;
+        while generator.is_busy() {
+            now = now.wrapping_add(1 + numbers.below(20_000) as u32);
+            count += generator.advance(now);
+        }
+        count
+    }
+
+    #[test]
+    fn a_train_has_as_many_pulses_as_asked_for() {
+        let mut numbers = Numbers(1);
+        for _ in 0..2000 {
+            let train = numbers.train();
+            let now = numbers.below(1 << 32) as u32;
+            let mut generator = Generator::new();
+            generator.start(train, now);
+            assert_eq!(
+                send(&mut generator, &mut numbers, now),
+                train.total,
+                "{train:?}"
+            );
+            assert!(generator.is_complete() && generator.millihertz() == 0);
+        }
+    }
+
+    #[test]
+    fn no_step_of_speed_is_greater_than_its_ramp() {
+        let mut numbers = Numbers(2);
+        for _ in 0..500 {
+            let train = numbers.train();
+            let mut generator = Generator::new();
+            generator.start(train, 0);
+            let mut last = generator.square;
+            let mut now = 0;
+            while generator.is_busy() {
+                now += generator.next_edge().unwrap();
+                if generator.advance(now) == 0 || !generator.is_busy() {
+                    continue;
+                }
+                let next = generator.square;
+                assert!(train.up == 0 || next <= last + train.up, "{train:?}");
+                assert!(train.down == 0 || last <= next + train.down, "{train:?}");
+                last = next;
+            }
+            assert!(train.down == 0 || last <= train.lowest.max(square(train.speed)));
+        }
+    }
+
+    #[test]
+    fn changes_and_stops_keep_the_count() {
+        let mut numbers = Numbers(3);
+        for _ in 0..1000 {
+            let train = numbers.train();
+            let mut generator = Generator::new();
+            generator.start(train, 0);
+            let mut now = numbers.below(50_000) as u32;
+            let mut count = generator.advance(now);
+            let total = 1 + numbers.below(8000) as u32;
+            let begun = generator.is_busy();
+            generator.set_total(total);
+            generator.set_speed(1000 * (1 + numbers.below(100_000) as u32));
+            let expected = if begun { total.max(count + 1) } else { count };
+            if numbers.below(3) == 0 {
+                now += numbers.below(50_000) as u32;
+                count += generator.advance(now);
+                generator.stop();
+                count += send(&mut generator, &mut numbers, now);
+                assert!(count <= expected);
+                assert_eq!(generator.sent(), count);
+            } else {
+                count += send(&mut generator, &mut numbers, now);
+                assert_eq!(count, expected, "{train:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_steady_train_does_not_drift() {
+        let mut generator = Generator::new();
+        generator.start(Train::steady(99_999_000, 0), 0);
+        let mut count: u32 = 0;
+        let mut now = 0;
+        for _ in 0..1000 {
+            now += 1_000_003;
+            count += generator.advance(now);
+        }
+        // 99,999 pulses a second for 1000.003 seconds.
+        assert_eq!(count, 99_999_299);
+        generator.start(Train::steady(100_000_000, i32::MAX as u32), now);
+        let mut sent: u32 = 0;
+        while generator.is_busy() {
+            now = now.wrapping_add(1_000_000_000);
+            sent += generator.advance(now);
+        }
+        assert_eq!(sent, i32::MAX as u32);
+    }
+
+    #[test]
+    fn edges_come_when_they_are_told() {
+        let mut generator = Generator::new();
+        generator.start(Train::steady(1_000_000, 2), 0);
+        let mut edges = std::vec::Vec::new();
+        let mut now = 0;
+        while let Some(wait) = generator.next_edge() {
+            edges.push((now, generator.level()));
+            now += wait;
+            generator.advance(now);
+        }
+        assert_eq!(
+            edges,
+            [(0, true), (500, false), (1000, true), (1500, false)]
+        );
+        assert_eq!(now, 2000);
+        generator.modulate(1, 4, 1000, now);
+        assert_eq!((generator.millihertz(), generator.level()), (250_000, true));
+        assert_eq!(generator.next_edge(), Some(1000));
+    }
+}
