@@ -1,7 +1,8 @@
 //! A PLC for the tests of this crate: all devices, no layout.
 
 use crate::{
-    Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, RtFn, Site, State, Sys, VirtualHal, d,
+    Axis, Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, Pulses, RtFn, Site, State, Sys,
+    VirtualHal, d,
 };
 use std::collections::HashMap;
 use std::vec::Vec;
@@ -12,6 +13,7 @@ pub struct Double {
     words: HashMap<(Class, u32), i16>,
     counters: HashMap<u32, i32>,
     states: Vec<State>,
+    axes: [Axis; 3],
     /// Time and mode.
     pub sys: Sys,
     /// Hardware.
@@ -55,6 +57,7 @@ impl Double {
             words: HashMap::new(),
             counters: HashMap::new(),
             states: std::vec![State::default(); 8],
+            axes: [Axis::new(); 3],
             sys: Sys {
                 running: true,
                 first_scan: true,
@@ -200,6 +203,14 @@ impl Plc for Double {
 
     fn sys(&self) -> &Sys {
         &self.sys
+    }
+
+    fn axis(&mut self, output: u32) -> Option<&mut Axis> {
+        self.axes.get_mut(output as usize)
+    }
+
+    fn pulses(&self) -> Pulses {
+        Pulses::Inovance
     }
 
     fn error_relay(&self) -> u32 {

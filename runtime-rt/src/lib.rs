@@ -11,6 +11,7 @@
 extern crate std;
 
 mod access;
+mod axis;
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]
 pub mod capi;
@@ -42,6 +43,7 @@ mod virtual_hal;
 pub mod word;
 
 pub use access::Access;
+pub use axis::{Axis, Pulses, Ramps, Wiring, advance as advance_pulses};
 pub use cx::{Cx, call};
 pub use edge::Edge;
 pub use fault::{Done, Fault, report, trip_watchdog};

@@ -1,5 +1,7 @@
 //! The devices of a PLC as instructions see them.
 
+use crate::axis::{Axis, Pulses};
+
 /// Device class. The numbers are part of the C ABI.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 #[repr(u8)]
@@ -50,6 +52,8 @@ pub struct Sys {
     pub dt_ms: u32,
     /// Duration of the last scan in microseconds (D8010 shows it in 0.1 ms).
     pub scan_us: u32,
+    /// Up to when pulse outputs have been advanced: microseconds since power-on, wrapping. It never goes back.
+    pub pulses_us: u32,
     /// Whether this is the first scan after RUN began (M8002).
     pub first_scan: bool,
     /// Whether the PLC is in RUN.
@@ -63,6 +67,7 @@ impl Sys {
             now_ms: 0,
             dt_ms: 0,
             scan_us: 0,
+            pulses_us: 0,
             first_scan: true,
             running: true,
         }
@@ -77,6 +82,14 @@ impl Sys {
         };
         self.now_ms = now_ms;
         self.scan_us = scan_us;
+        self.advance_to(now_ms.wrapping_mul(1000));
+    }
+
+    /// Time for pulse outputs goes on, unless it is there already.
+    pub fn advance_to(&mut self, now_us: u32) {
+        if (now_us.wrapping_sub(self.pulses_us) as i32) > 0 {
+            self.pulses_us = now_us;
+        }
     }
 
     /// The scan is over.
@@ -163,6 +176,15 @@ pub trait Plc {
     fn state(&mut self, slot: u16) -> &mut State;
     /// Time and mode.
     fn sys(&self) -> &Sys;
+    /// Pulse output Y`output`, if the program uses it.
+    fn axis(&mut self, output: u32) -> Option<&mut Axis> {
+        let _ = output;
+        None
+    }
+    /// The pulse outputs that the model has.
+    fn pulses(&self) -> Pulses {
+        Pulses::Without
+    }
     /// Characters of a text operand.
     fn text(&self, index: u32) -> &[u8] {
         let _ = index;

@@ -330,7 +330,10 @@ mod tests {
         fn train(&mut self) -> Train {
             let slope = |this: &mut Self| match this.below(4) {
                 0 => 0,
-                _ => Train::slope(10 + this.below(200_000) as u32, 50 + this.below(5000) as u32),
+                _ => Train::slope(
+                    10 + this.below(200_000) as u32,
+                    50 + this.below(5000) as u32,
+                ),
             };
             let (up, down) = (slope(self), slope(self));
             Train {

@@ -14,6 +14,8 @@ pub struct Needs {
     pub always: bool,
     /// Asks the hardware ([`crate::Hal`]).
     pub hal: bool,
+    /// One of its operands names a pulse output ([`crate::Axis`]).
+    pub pulses: bool,
 }
 
 macro_rules! registry {
@@ -46,7 +48,7 @@ macro_rules! registry {
             pub const fn needs(self) -> Needs {
                 #[allow(unused_mut, reason = "functions that need nothing change nothing")]
                 match self { $(RtFn::$variant => {
-                    let mut needs = Needs { state: false, always: false, hal: false };
+                    let mut needs = Needs { state: false, always: false, hal: false, pulses: false };
                     $($(needs.$need = true;)*)?
                     needs
                 })* }
@@ -368,6 +370,8 @@ registry! {
     Reff = modules::reff(n) [hal];
     /// MTR (FNC 52): matrix of switches.
     Mtr = keys::mtr(s, d1, d2, n) [state, always];
+    /// PLSY (FNC 57): pulses.
+    Plsy = pulses::plsy(s1, s2, d) [state, always, pulses];
     /// TKY (FNC 70): ten keys.
     Tky = keys::tky(s, d1, d2) [state, always];
     /// HKY (FNC 71): matrix of 16 keys.

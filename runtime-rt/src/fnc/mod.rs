@@ -1,6 +1,7 @@
 //! One function per instruction, in files by the manual's families.
 
 mod digits;
+mod output;
 
 pub mod block;
 pub mod cassette;
@@ -15,6 +16,7 @@ pub mod modules;
 pub mod move_;
 pub mod pid;
 pub mod pid_thermal;
+pub mod pulses;
 pub mod rotate;
 pub mod scale;
 pub mod serial;

@@ -1,0 +1,350 @@
+//! Pulse outputs: what each is doing, and which special devices belong to it on which models.
+
+use crate::plc::{Class, Plc, Sys};
+use crate::pulse::Generator;
+use crate::word::{pair, words};
+
+/// A pulse output in a program's memory. All zero is one that is idle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Axis {
+    /// What it sends.
+    pub generator: Generator,
+    /// Pulses sent since power-on; those sent in reverse count down.
+    pub sent: i32,
+    /// The pair of registers D in which the pulses of this train are counted; 0: none.
+    pub counter: u16,
+    /// Private memory of the instruction that sends; 0: none.
+    pub owner: u16,
+    /// A train was sent to its end, and nobody has asked yet.
+    pub ended: bool,
+}
+
+impl Axis {
+    /// An idle output.
+    pub const fn new() -> Self {
+        Axis {
+            generator: Generator::new(),
+            sent: 0,
+            counter: 0,
+            owner: 0,
+            ended: false,
+        }
+    }
+
+    /// Whether a train has been sent to its end since this was last asked.
+    pub fn take_end(&mut self) -> bool {
+        core::mem::take(&mut self.ended)
+    }
+
+    /// Lets time pass; returns the pulses that have ended, those in reverse negative.
+    fn pass(&mut self, now_us: u32) -> i32 {
+        let was_busy = self.generator.is_busy();
+        let count = self.generator.advance(now_us) as i32;
+        self.ended |= was_busy && self.generator.is_complete();
+        let count = if self.generator.is_reverse() {
+            count.wrapping_neg()
+        } else {
+            count
+        };
+        self.sent = self.sent.wrapping_add(count);
+        count
+    }
+
+    fn halt(&mut self) {
+        self.generator.halt();
+        self.owner = 0;
+    }
+}
+
+/// Registers D with the speeds and times of ramps; 0 where the model has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ramps {
+    /// Speed that ramps begin and end with, in Hz.
+    pub base: u32,
+    /// Pair: highest speed, in Hz.
+    pub highest: u32,
+    /// Milliseconds from 0 to the highest speed.
+    pub up: u32,
+    /// Milliseconds from the highest speed to 0.
+    pub down: u32,
+}
+
+/// The special devices of one pulse output. A 0 stands for none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wiring {
+    /// Pair: the position, which positioning instructions count.
+    pub position: u32,
+    /// Pair: the pulses of PLSY and PLSR.
+    pub pulses: u32,
+    /// Pair: the pulses of several outputs.
+    pub sum: u32,
+    /// Relays that show that pulses are sent.
+    pub busy: [u32; 2],
+    /// Relays that stop the pulses at once.
+    pub stop: [u32; 2],
+    /// Relay that shows that an instruction for this output is driven.
+    pub driven: u32,
+    /// Relay with which a driven instruction begins anew, or takes the output from another one.
+    pub restart: u32,
+    /// Relay with which numbers of pulses may change while they are sent, and `own` holds instead of `ramps`.
+    pub changes: u32,
+    /// Ramps of positioning.
+    pub ramps: Ramps,
+    /// Ramps of this output alone.
+    pub own: Ramps,
+}
+
+const NONE: Wiring = Wiring {
+    position: 0,
+    pulses: 0,
+    sum: 0,
+    busy: [0; 2],
+    stop: [0; 2],
+    driven: 0,
+    restart: 0,
+    changes: 0,
+    ramps: Ramps {
+        base: 0,
+        highest: 0,
+        up: 0,
+        down: 0,
+    },
+    own: Ramps {
+        base: 0,
+        highest: 0,
+        up: 0,
+        down: 0,
+    },
+};
+
+/// What D8145 to D8148 say for all outputs (h1u-h2u-programming §4.3.11).
+const D8145: Ramps = Ramps {
+    base: 8145,
+    highest: 8146,
+    up: 8148,
+    down: 8148,
+};
+
+/// H1U and H2U, whose second stop relays are those beside DSZR's (h1u-h2u-programming §8.4 to §8.9).
+const INOVANCE: [Wiring; 3] = [
+    inovance(0, 8140, 8136, 8145, 8147),
+    inovance(1, 8142, 8136, 8146, 8148),
+    inovance(2, 8150, 0, 8152, 8149),
+];
+
+const fn inovance(output: u32, position: u32, sum: u32, stop: u32, busy: u32) -> Wiring {
+    Wiring {
+        position,
+        pulses: position,
+        sum,
+        busy: [busy, 8440 + 10 * output],
+        stop: [stop, 8449 + 10 * output],
+        driven: 8448 + 10 * output,
+        restart: 8085 + output,
+        changes: 8135 + output,
+        ramps: D8145,
+        own: Ramps {
+            base: 8034 + output,
+            highest: 8050 + 2 * output,
+            up: 8104 + output,
+            down: 8165 + output,
+        },
+    }
+}
+
+/// M8340 and D8340 on, ten of each for an output (l01s-programming §7.1, and FX3G, FX3U).
+const fn tens(output: u32) -> Wiring {
+    let ten = 10 * output;
+    Wiring {
+        position: 8340 + ten,
+        busy: [8340 + ten, 0],
+        stop: [8349 + ten, 0],
+        driven: 8348 + ten,
+        ramps: Ramps {
+            base: 8342 + ten,
+            highest: 8343 + ten,
+            up: 8348 + ten,
+            down: 8349 + ten,
+        },
+        ..NONE
+    }
+}
+
+const L01S: [Wiring; 4] = [tens(0), tens(1), tens(2), tens(3)];
+
+/// The first two outputs also have the devices of FX2N.
+const fn fx3(output: u32) -> Wiring {
+    Wiring {
+        pulses: 8140 + 2 * output,
+        sum: 8136,
+        busy: [8340 + 10 * output, 8147 + output],
+        stop: [8349 + 10 * output, 8145 + output],
+        ..tens(output)
+    }
+}
+
+const FX3: [Wiring; 3] = [fx3(0), fx3(1), tens(2)];
+
+const fn fx2n(output: u32) -> Wiring {
+    Wiring {
+        position: 8140 + 2 * output,
+        pulses: 8140 + 2 * output,
+        sum: 8136,
+        busy: [8147 + output, 0],
+        stop: [8145 + output, 0],
+        ramps: D8145,
+        ..NONE
+    }
+}
+
+const FX2N: [Wiring; 2] = [fx2n(0), fx2n(1)];
+
+/// The pulse outputs of a family of models.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum Pulses {
+    /// None, or none that instructions name by output.
+    Without = 0,
+    /// H1U, H2U.
+    Inovance = 1,
+    /// L01S.
+    L01s = 2,
+    /// FX2N.
+    Fx2n = 3,
+    /// FX3G, FX3U.
+    Fx3 = 4,
+}
+
+impl Pulses {
+    /// The outputs, Y000 first.
+    pub const fn outputs(self) -> &'static [Wiring] {
+        match self {
+            Pulses::Without => &[],
+            Pulses::Inovance => &INOVANCE,
+            Pulses::L01s => &L01S,
+            Pulses::Fx2n => &FX2N,
+            Pulses::Fx3 => &FX3,
+        }
+    }
+
+    /// Highest speed in Hz.
+    pub const fn highest_hz(self) -> u32 {
+        match self {
+            Pulses::Fx2n => 20_000,
+            Pulses::L01s => 200_000,
+            Pulses::Without | Pulses::Inovance | Pulses::Fx3 => 100_000,
+        }
+    }
+
+    /// Code of an instruction for an output that another one uses (h1u-h2u-programming §8.2).
+    pub const fn conflict(self) -> u16 {
+        match self {
+            Pulses::Inovance => 6770,
+            _ => 6764,
+        }
+    }
+}
+
+impl Wiring {
+    /// The registers that instructions look at besides their operands, for those of PLSY and PWM without ramps.
+    pub fn registers(&self, with_ramps: bool) -> impl Iterator<Item = u32> {
+        let Ramps {
+            base,
+            highest,
+            up,
+            down,
+        } = self.ramps;
+        let ramps = [
+            self.position,
+            self.position + 1,
+            base,
+            highest,
+            highest + 1,
+            up,
+            down,
+        ];
+        let counters = [self.pulses, self.sum]
+            .into_iter()
+            .flat_map(|low| [low, low + 1]);
+        let own = self.own;
+        let own = [own.base, own.highest, own.highest + 1, own.up, own.down];
+        let ramps = ramps.into_iter().chain(own).filter(move |_| with_ramps);
+        counters.chain(ramps).filter(|&register| register > 1)
+    }
+}
+
+/// Value of a pair of registers D.
+pub(crate) fn long(plc: &dyn Plc, low: u32) -> i32 {
+    let [low, high] = [low, low + 1].map(|n| plc.word(Class::D, n).unwrap_or(0));
+    pair(low, high)
+}
+
+/// Sets a pair of registers D, as far as the program looks at them.
+pub(crate) fn set_long(plc: &mut dyn Plc, low: u32, value: i32) {
+    for (n, word) in (low..).zip(words(value)) {
+        let _ = plc.set_word(Class::D, n, word);
+    }
+}
+
+/// Whether one of these relays is on.
+pub(crate) fn is_on(plc: &dyn Plc, relays: &[u32]) -> bool {
+    relays
+        .iter()
+        .any(|&relay| relay != 0 && plc.bit(Class::M, relay) == Some(true))
+}
+
+/// Sets these relays, as far as the program looks at them.
+pub(crate) fn set_relays(plc: &mut dyn Plc, relays: &[u32], on: bool) {
+    for &relay in relays.iter().filter(|&&relay| relay != 0) {
+        let _ = plc.set_bit(Class::M, relay, on);
+    }
+}
+
+/// Counts the pulses that have ended by [`Sys::pulses_us`], on all outputs. Pulses end when the PLC goes to STOP, and while a stop relay is on.
+pub fn advance(plc: &mut dyn Plc) {
+    let Sys {
+        pulses_us,
+        running,
+        first_scan,
+        ..
+    } = *plc.sys();
+    for (output, wiring) in (0..).zip(plc.pulses().outputs()) {
+        let stops = !running || first_scan || is_on(plc, &wiring.stop);
+        let Some(axis) = plc.axis(output) else {
+            continue;
+        };
+        let count = axis.pass(pulses_us);
+        if stops {
+            axis.halt();
+        }
+        let busy = axis.generator.millihertz() > 0;
+        let counter = u32::from(axis.counter);
+        set_relays(plc, &wiring.busy, busy);
+        if count == 0 || counter == 0 {
+            continue;
+        }
+        for pair in [counter, wiring.sum].into_iter().filter(|&pair| pair != 0) {
+            let total = long(plc, pair).wrapping_add(count);
+            set_long(plc, pair, total);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn registers_are_those_that_a_model_has() {
+        let of = |wiring: &Wiring| wiring.registers(true).collect::<std::vec::Vec<u32>>();
+        assert_eq!(
+            of(&INOVANCE[2]),
+            [
+                8150, 8151, 8150, 8151, 8145, 8146, 8147, 8148, 8148, 8036, 8054, 8055, 8106, 8167
+            ]
+        );
+        assert_eq!(of(&L01S[1]).len(), 7);
+        assert_eq!(L01S[0].registers(false).count(), 0);
+    }
+}
