@@ -159,6 +159,12 @@ static bool machine_request(const program *program, const char *verb, const long
         done(true);
     } else if (strcmp(verb, "out") == 0) {
         value(true, program->output((unsigned)number[0]));
+    } else if (strcmp(verb, "pulses") == 0) {
+        rungc_map map = program->map();
+        value(true, rungc_pulses_sent(&map, (uint32_t)number[0]));
+    } else if (strcmp(verb, "frequency") == 0) {
+        rungc_map map = program->map();
+        value(true, (long)rungc_pulse_millihertz(&map, (uint32_t)number[0]));
     } else if (strcmp(verb, "edge") == 0) {
         if (program->input_edge != NULL) {
             program->input_edge((unsigned)number[0], number[1] != 0);

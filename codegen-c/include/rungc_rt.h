@@ -109,6 +109,43 @@ typedef uint8_t rungc_area_kind;
 #endif // __cplusplus
 
 /**
+ * The pulse outputs of a family of models.
+ */
+enum rungc_pulses
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * None, or none that instructions name by output.
+     */
+    RUNGC_PULSES_WITHOUT = 0,
+    /**
+     * H1U, H2U.
+     */
+    RUNGC_PULSES_INOVANCE = 1,
+    /**
+     * L01S.
+     */
+    RUNGC_PULSES_L01S = 2,
+    /**
+     * FX2N.
+     */
+    RUNGC_PULSES_FX2N = 3,
+    /**
+     * FX3G, FX3U.
+     */
+    RUNGC_PULSES_FX3 = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_pulses rungc_pulses;
+#else
+typedef uint8_t rungc_pulses;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * How to read an [`Operand`]. The numbers are part of the C ABI.
  */
 enum rungc_operand_kind
@@ -285,6 +322,22 @@ typedef struct rungc_layout {
      * Code of an error in an operand's value.
      */
     uint16_t value_error;
+    /**
+     * Where the struct holds its pulse outputs.
+     */
+    size_t axes;
+    /**
+     * Their numbers Y, in order.
+     */
+    const uint8_t *outputs;
+    /**
+     * How many.
+     */
+    size_t output_count;
+    /**
+     * The pulse outputs that the model has.
+     */
+    rungc_pulses pulses;
 } rungc_layout;
 
 /**
@@ -432,6 +485,78 @@ typedef struct rungc_site {
     bool drive;
 } rungc_site;
 
+/**
+ * One pulse output. All zero is one that is idle.
+ */
+typedef struct rungc_generator {
+    /**
+     * What has passed of the present pulse.
+     */
+    uint64_t phase;
+    /**
+     * What a whole pulse is.
+     */
+    uint64_t full;
+    /**
+     * Square of the speed.
+     */
+    uint64_t square;
+    uint64_t lowest;
+    uint64_t up;
+    uint64_t down;
+    /**
+     * How much passes in a microsecond.
+     */
+    uint32_t rate;
+    uint32_t speed;
+    uint32_t total;
+    uint32_t sent;
+    /**
+     * Time of the last call, in microseconds, wrapping.
+     */
+    uint32_t now_us;
+    /**
+     * How much of a pulse it is on.
+     */
+    uint32_t on;
+    bool busy;
+    bool reverse;
+    /**
+     * The train was stopped before its end.
+     */
+    bool stopped;
+    /**
+     * A signal of a fixed width and period.
+     */
+    bool modulates;
+} rungc_generator;
+
+/**
+ * A pulse output in a program's memory. All zero is one that is idle.
+ */
+typedef struct rungc_axis {
+    /**
+     * What it sends.
+     */
+    struct rungc_generator generator;
+    /**
+     * Pulses sent since power-on; those sent in reverse count down.
+     */
+    int32_t sent;
+    /**
+     * The pair of registers D in which the pulses of this train are counted; 0: none.
+     */
+    uint16_t counter;
+    /**
+     * Private memory of the instruction that sends; 0: none.
+     */
+    uint16_t owner;
+    /**
+     * A train was sent to its end, and nobody has asked yet.
+     */
+    bool ended;
+} rungc_axis;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -460,6 +585,21 @@ bool rungc_set_word(struct rungc_map *map, rungc_class class_, uint32_t number, 
  * The 32-bit value of a counter from C200 on or of a pair of words, as 32-bit instructions see it.
  */
 bool rungc_get_long(struct rungc_map *map, rungc_class class_, uint32_t number, int32_t *value);
+
+/**
+ * Counts the pulses that have been sent by `now_us`, in microseconds since power-on, wrapping.
+ */
+void rungc_advance_pulses(struct rungc_map *map, uint32_t now_us);
+
+/**
+ * Pulses that output Y `number` has sent since power-on; those in reverse count down.
+ */
+int32_t rungc_pulses_sent(struct rungc_map *map, uint32_t number);
+
+/**
+ * The frequency at which output Y `number` sends pulses now, in millihertz.
+ */
+uint32_t rungc_pulse_millihertz(struct rungc_map *map, uint32_t number);
 
 /**
  * Sets the 32-bit value of a counter from C200 on or of a pair of words.

@@ -34,7 +34,7 @@ fn clocks(module: &Module) -> impl Iterator<Item = &Cell> {
 
 /// Whether the time between scans means something.
 pub fn follows_time(module: &Module) -> bool {
-    periods(module).next().is_some() || clocks(module).next().is_some()
+    module.sends_pulses() || periods(module).next().is_some() || clocks(module).next().is_some()
 }
 
 /// The flags that are set outside the scan, perhaps in an interrupt handler.
@@ -172,6 +172,32 @@ pub fn functions(module: &Module) -> String {
     out
 }
 
+/// The function that counts pulses.
+pub fn count_pulses(module: &Module) -> String {
+    if !module.sends_pulses() {
+        return String::new();
+    }
+    let name = &module.name;
+    let mut out = format!(
+        "/* Counts the pulses that have been sent by now, and takes notice of trains that have ended. */\n\
+         static void {name}_count_pulses({name}_plc *plc, uint32_t now_us)\n{{\n    rungc_map map = {name}_map(plc);\n\n    rungc_advance_pulses(&map, now_us);\n"
+    );
+    for flag in &module.flags {
+        let place = flag
+            .pulses_end
+            .map(|output| module.pulse_outputs.binary_search(&output));
+        if let Some(Ok(i)) = place {
+            let flag = &flag.name;
+            let _ = writeln!(
+                out,
+                "    plc->{flag} = plc_take(&plc->axis[{i}].ended) || plc->{flag};"
+            );
+        }
+    }
+    out.push_str("}\n\n");
+    out
+}
+
 fn tick(module: &Module) -> String {
     let name = &module.name;
     let mut out = format!("void {name}_tick({name}_plc *plc, uint32_t now_ms)\n{{\n");
@@ -184,6 +210,9 @@ fn tick(module: &Module) -> String {
     }
     for cell in clocks(module) {
         let _ = writeln!(out, "    plc->{} = (int32_t)now_ms;", cell.name);
+    }
+    if module.sends_pulses() {
+        let _ = write!(out, "    {name}_count_pulses(plc, now_ms * 1000u);\n");
     }
     if !follows_time(module) {
         out.push_str("    (void)plc;\n    (void)now_ms;\n");

@@ -7,6 +7,7 @@ use crate::text;
 use crate::unit::uses_runtime;
 use crate::writer::c_type;
 use rungc_ir::Module;
+use rungc_rt::Axis;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -113,6 +114,12 @@ fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
             _ => 4,
         };
         size.add(bytes, bytes);
+    }
+    if module.sends_pulses() {
+        let outputs = module.pulse_outputs.len();
+        let line = format!("    rungc_axis axis[{outputs}];");
+        push_with_comment(out, &line, "what the pulse outputs send");
+        size.add((size_of::<Axis>() * outputs) as u32, 8);
     }
     if module.states > 0 {
         let _ = writeln!(

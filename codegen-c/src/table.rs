@@ -89,6 +89,19 @@ pub fn write(out: &mut String, module: &Module, fields: &Fields) {
         layout.push(format!(".states = offsetof({name}_plc, state)"));
         layout.push(format!(".state_count = {}", module.states));
     }
+    if module.sends_pulses() {
+        let outputs: Vec<String> = module.pulse_outputs.iter().map(u32::to_string).collect();
+        let _ = writeln!(
+            out,
+            "/* Outputs Y that send pulses, in the order of `axis`. */\nstatic const uint8_t {name}_pulse_outputs[] = {{{}}};\n",
+            outputs.join(", ")
+        );
+        layout.push(format!(".axes = offsetof({name}_plc, axis)"));
+        layout.push(format!(".outputs = {name}_pulse_outputs"));
+        layout.push(format!(".output_count = {}", outputs.len()));
+        let family = format!("{:?}", module.model.pulses).to_ascii_uppercase();
+        layout.push(format!(".pulses = RUNGC_PULSES_{family}"));
+    }
     if module.model.z_pairs_with_v {
         layout.push(".z_pairs_with_v = true".to_string());
     }

@@ -356,10 +356,15 @@ impl Printer<'_> {
             self.each_timer_and_counter(&mut special, "done = false");
         }
         let forget = self.forget(out);
+        out.push_str(&events::count_pulses(module));
         let states = if module.states > 0 {
             "    memset(plc->state, 0, sizeof plc->state);\n"
         } else {
             ""
+        };
+        let states = match module.sends_pulses() {
+            true => format!("{states}    memset(plc->axis, 0, sizeof plc->axis);\n"),
+            false => states.to_string(),
         };
         let cells = events::clear_cells(module);
         let _ = write!(
@@ -401,11 +406,15 @@ impl Printer<'_> {
             true => format!("    plc->jumps_left = {MAX_JUMPS};\n"),
             false => String::new(),
         };
+        let pulses = match module.sends_pulses() {
+            true => format!("    {name}_count_pulses(plc, now_ms * 1000u);\n"),
+            false => String::new(),
+        };
         let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
         let _ = write!(
             out,
             "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n    \
-             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{jumps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
+             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{jumps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
              plc->sys.first_scan = false;\n}}\n\n"
         );
         self.output(out);

@@ -9,7 +9,7 @@ use rungc_rt::RtFn;
 use std::path::{Path, PathBuf};
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 15] = [
+const NAMES: [(&str, &str); 18] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -25,6 +25,9 @@ const NAMES: [(&str, &str); 15] = [
     ("Range", "rungc_range"),
     ("Alias", "rungc_alias"),
     ("Text", "rungc_text"),
+    ("Generator", "rungc_generator"),
+    ("Axis", "rungc_axis"),
+    ("Pulses", "rungc_pulses"),
 ];
 
 const TOP: &str = "/*
@@ -63,7 +66,7 @@ fn header() -> String {
                 .map(str::to_string)
                 .into(),
             // Only the functions below take them, which cbindgen does not see: a macro makes them.
-            include: ["Operand", "OperandKind", "Site"]
+            include: ["Operand", "OperandKind", "Site", "Axis"]
                 .map(str::to_string)
                 .into(),
             rename: names,
@@ -84,6 +87,8 @@ fn header() -> String {
         "plc.rs",
         "operand.rs",
         "hal.rs",
+        "pulse.rs",
+        "axis.rs",
         "capi.rs",
         "capi_virtual.rs",
     ];

@@ -12,6 +12,11 @@ fn flag_field(flag: &Flag) -> Ident {
     format_ident!("{}", flag.name)
 }
 
+/// The field of a pulse output.
+fn axis_field(output: u32) -> Ident {
+    format_ident!("y{:03o}_pulses", output)
+}
+
 /// The field that holds when a flag's period began.
 fn since_field(flag: &Flag) -> Ident {
     format_ident!("{}_since", flag.name)
@@ -105,7 +110,10 @@ impl Generator<'_> {
     }
 
     /// Time goes on; `None` if that means nothing.
-    fn tick(&self) -> Option<TokenStream> {
+    fn tick(&mut self) -> Option<TokenStream> {
+        if !self.module.takes_time() {
+            return None;
+        }
         let periods: Vec<TokenStream> = self
             .periods()
             .map(|(flag, ms)| {
@@ -127,10 +135,74 @@ impl Generator<'_> {
                 quote!(self.#field = now_ms as i32;)
             })
             .collect();
-        (!periods.is_empty() || !clocks.is_empty()).then(|| {
+        let pulses = self
+            .module
+            .sends_pulses()
+            .then(|| quote!(self.count_pulses(now_ms.wrapping_mul(1000));));
+        let says_nothing = periods.is_empty() && clocks.is_empty() && pulses.is_none();
+        (!says_nothing).then(|| {
             quote! {
-                fn tick(&mut self, now_ms: u32) { #(#periods)* #(#clocks)* }
+                fn tick(&mut self, now_ms: u32) { #(#periods)* #(#clocks)* #pulses }
             }
+        })
+    }
+
+    /// The fields of pulse outputs.
+    pub fn axis_fields(&mut self) -> Vec<Hidden> {
+        let outputs = self.module.pulse_outputs.iter();
+        outputs
+            .map(|&output| {
+                let axis = self.rt("Axis");
+                let meaning = "What this output sends.";
+                (
+                    axis_field(output),
+                    quote!(#axis),
+                    quote!(#axis::new()),
+                    meaning,
+                )
+            })
+            .collect()
+    }
+
+    /// The method that counts pulses.
+    pub fn count_pulses(&mut self) -> Option<TokenStream> {
+        if !self.module.sends_pulses() {
+            return None;
+        }
+        let advance = self.rt("advance_pulses");
+        let ends = self.module.flags.iter().filter_map(|flag| {
+            let output = flag.pulses_end?;
+            self.module.pulse_outputs.binary_search(&output).ok()?;
+            let (field, axis) = (flag_field(flag), axis_field(output));
+            Some(quote!(self.#field |= self.#axis.take_end();))
+        });
+        let doc = self.doc("Counts the pulses that have been sent by now, and takes notice of trains that have ended.");
+        Some(quote! {
+            #doc
+            fn count_pulses(&mut self, now_us: u32) {
+                #advance(self, now_us);
+                #(#ends)*
+            }
+        })
+    }
+
+    /// The methods by which instructions find pulse outputs.
+    pub fn axis_methods(&mut self) -> Option<TokenStream> {
+        if !self.module.sends_pulses() {
+            return None;
+        }
+        let (axis, pulses) = (self.rt("Axis"), self.rt("Pulses"));
+        let arms = self.module.pulse_outputs.iter().map(|&output| {
+            let field = axis_field(output);
+            let number = Literal::u32_unsuffixed(output);
+            quote!(#number => Some(&mut self.#field),)
+        });
+        let family = format_ident!("{}", format!("{:?}", self.module.model.pulses));
+        Some(quote! {
+            fn axis(&mut self, output: u32) -> Option<&mut #axis> {
+                match output { #(#arms)* _ => None }
+            }
+            fn pulses(&self) -> #pulses { #pulses::#family }
         })
     }
 

@@ -50,7 +50,7 @@ impl Generator<'_> {
         })
     }
 
-    fn doc(&self, text: &str) -> TokenStream {
+    pub(crate) fn doc(&self, text: &str) -> TokenStream {
         if !self.with_comments {
             return TokenStream::new();
         }
@@ -143,6 +143,7 @@ impl Generator<'_> {
         ));
         fields.extend(self.flag_fields());
         fields.extend(self.cell_fields());
+        fields.extend(self.axis_fields());
         if self.jumps_back {
             fields.push((
                 format_ident!("jumps_left"),
@@ -189,6 +190,7 @@ impl Generator<'_> {
             .then(|| self.clear(true));
         let forget = self.forget();
         let jumps = self.jumps_back.then(|| self.watchdog());
+        let count_pulses = self.count_pulses();
         let max_jumps = self.jumps_back.then(|| {
             let doc = self.doc("A scan that jumps backwards this often does not end.");
             let most = Literal::u32_unsuffixed(MAX_JUMPS);
@@ -202,6 +204,7 @@ impl Generator<'_> {
                 #clear_general
                 #clear_latched
                 #forget
+                #count_pulses
                 #jumps
             }
             impl Default for #name {
@@ -366,6 +369,10 @@ impl Generator<'_> {
         let off = off.map(|off| quote!(& !#off));
         let power_cycle = self.power_cycle();
         let events = self.event_methods();
+        let count_pulses = self
+            .module
+            .sends_pulses()
+            .then(|| quote!(self.count_pulses(now_ms.wrapping_mul(1000));));
         let jumps = self
             .jumps_back
             .then(|| quote!(self.jumps_left = MAX_JUMPS_BACK;));
@@ -374,6 +381,7 @@ impl Generator<'_> {
             impl #program for #name {
                 fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
                     self.sys.begin_scan(now_ms, scan_us);
+                    #count_pulses
                     #jumps
                     #begin
                     #in_run
@@ -440,6 +448,7 @@ impl Generator<'_> {
         let name = self.type_name.clone();
         let (plc, state, sys) = (self.rt("Plc"), self.rt("State"), self.rt("Sys"));
         let methods = self.access_methods();
+        let axes = self.axis_methods();
         let last = usize::from(self.module.states);
         let (slot, cell) = if last == 0 {
             (quote!(_slot), quote!(0))
@@ -476,6 +485,7 @@ impl Generator<'_> {
                 #(#methods)*
                 fn state(&mut self, #slot: u16) -> &mut #state { &mut self.states[#cell] }
                 fn sys(&self) -> &#sys { &self.sys }
+                #axes
                 #text
                 #pairs
                 #errors

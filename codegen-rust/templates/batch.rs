@@ -80,6 +80,8 @@ fn answer(bench: &mut Option<Bench>, request: &str, mut words: SplitAsciiWhitesp
         "tick" => program.tick(next(words)?),
         "interrupts" => program.take_interrupts(hal),
         "out" => return Some(u8::from(program.output(next(words)?)).to_string()),
+        "pulses" => return Some(program.pulses_sent(next(words)?).to_string()),
+        "frequency" => return Some(program.pulse_millihertz(next(words)?).to_string()),
         "run" => program.set_running(next::<i64>(words)? != 0),
         "power" => {
             program.power_cycle();

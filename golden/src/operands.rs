@@ -64,7 +64,7 @@ impl Candidate {
                     break;
                 }
                 text.push(' ');
-                text.push_str(&operand(rng, param, self.form)?);
+                text.push_str(&operand(rng, param, self.form, Model::get(model))?);
             }
             accepted(&text, model).then_some(text)
         })
@@ -90,7 +90,7 @@ fn each(classes: Classes) -> Vec<Classes> {
         .collect()
 }
 
-fn operand(rng: &mut Rng, param: &Param, form: Form) -> Option<String> {
+fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<String> {
     let class = rng.pick(&each(param.classes))?;
     let wide = form.wide && param.shape == Shape::Value || param.shape == Shape::Pair;
     if class == Classes::K || class == Classes::H {
@@ -120,14 +120,19 @@ fn operand(rng: &mut Rng, param: &Param, form: Form) -> Option<String> {
             .collect();
         return Some(format!("\"{text}\""));
     }
-    let mut text = device(rng, param, class, wide)?;
+    let mut text = device(rng, (param, model), class, wide)?;
     if param.indexable && rng.percent(12) {
         text.push_str(rng.pick(&["Z0", "Z1", "V0", "V1"])?);
     }
     Some(text)
 }
 
-fn device(rng: &mut Rng, param: &Param, class: Classes, wide: bool) -> Option<String> {
+fn device(
+    rng: &mut Rng,
+    (param, model): (&Param, &Model),
+    class: Classes,
+    wide: bool,
+) -> Option<String> {
     let group = |class| [Classes::KNX, Classes::KNY, Classes::KNM, Classes::KNS].contains(&class);
     if group(class) {
         let letters = match class {
@@ -147,7 +152,7 @@ fn device(rng: &mut Rng, param: &Param, class: Classes, wide: bool) -> Option<St
     let letters = DeviceClass::ALL
         .into_iter()
         .find(|&c| Classes::of_device(c) == class)?;
-    if let Some(&(_, first, last)) = param.numbers.iter().find(|(c, ..)| *c == letters) {
+    if let Some(&(_, first, last)) = param.numbers_on(model).iter().find(|(c, ..)| *c == letters) {
         let number = first + rng.below(last - first + 1);
         return Some(letters.number(number).to_string());
     }

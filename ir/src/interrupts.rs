@@ -23,6 +23,20 @@ pub enum Source {
         /// Pointer I.
         pointer: u32,
     },
+    /// A train of pulses has been sent to its end.
+    PulsesEnd {
+        /// Output Y.
+        output: u32,
+    },
+}
+
+/// The relay that decides whether an interrupt routine may run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Gate {
+    /// It may not while this relay is on.
+    Forbids(u32),
+    /// It may while this relay is on.
+    Allows(u32),
 }
 
 /// An interrupt routine's own conditions.
@@ -32,8 +46,8 @@ pub struct Interrupt {
     pub source: Option<Source>,
     /// The relay that keeps the request, and may be set by the program (HM); it goes off when the routine begins.
     pub request: Option<u32>,
-    /// The relay that forbids it while on. A request that is not kept in a relay is lost then.
-    pub mask: u32,
+    /// Whether it may run. A request that is not kept in a relay is lost if not.
+    pub gate: Gate,
 }
 
 /// The relays that catch a rising edge of an input once EI was executed.
@@ -46,6 +60,7 @@ pub struct PulseCatch {
 }
 
 const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
+const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
 /// Models that clear the relays that forbid interrupts when they go from RUN to STOP (l01s-programming §6.4).
 pub const MASKS_CLEARED_IN_STOP: ModelSet =
     ModelSet::of(&[ModelId::L01s, ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
@@ -71,8 +86,7 @@ pub fn pulse_catch(model: ModelId) -> Option<&'static PulseCatch> {
     PULSE_CATCH.iter().find(|row| row.models.has(model))
 }
 
-/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests: pulse outputs, HM's advanced
-/// interrupts.
+/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests: HM's advanced interrupts.
 pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
     if HM.has(model) {
         return find_hm(number);
@@ -88,7 +102,16 @@ pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
             return Some(Interrupt {
                 source: Some(Source::Comparison { pointer: number }),
                 request: None,
-                mask: *MASKS.end(),
+                gate: Gate::Forbids(*MASKS.end()),
+            });
+        }
+        // I502 to I506: Y000 to Y004 (h1u-h2u-programming §4.3.6).
+        (5, 2..=6) if INOVANCE.has(model) => {
+            let output = rest - 2;
+            return Some(Interrupt {
+                source: Some(Source::PulsesEnd { output }),
+                request: None,
+                gate: Gate::Allows(8090 + output),
             });
         }
         _ => return None,
@@ -96,7 +119,7 @@ pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
     Some(Interrupt {
         source: Some(source),
         request: None,
-        mask: MASKS.start() + group,
+        gate: Gate::Forbids(MASKS.start() + group),
     })
 }
 
@@ -130,7 +153,7 @@ fn find_hm(number: u32) -> Option<Interrupt> {
     Some(Interrupt {
         source,
         request: Some(request),
-        mask,
+        gate: Gate::Forbids(mask),
     })
 }
 
@@ -149,15 +172,18 @@ mod tests {
 
     #[test]
     fn pointers_name_inputs_and_periods() {
-        let h2u = |number| find(ModelId::H2u, number).map(|found| (found.source, found.mask));
+        let gate = Gate::Forbids;
+        let h2u = |number| find(ModelId::H2u, number).map(|found| (found.source, found.gate));
         let input = |number, kind| Some(Source::Input { number, kind });
         let period = |ms| Some(Source::Period { ms });
-        assert_eq!(h2u(101), Some((input(1, EdgeKind::Rising), 8051)));
-        assert_eq!(h2u(500), Some((input(5, EdgeKind::Falling), 8055)));
-        assert_eq!(h2u(899), Some((period(99), 8058)));
+        assert_eq!(h2u(101), Some((input(1, EdgeKind::Rising), gate(8051))));
+        assert_eq!(h2u(500), Some((input(5, EdgeKind::Falling), gate(8055))));
+        assert_eq!(h2u(899), Some((period(99), gate(8058))));
         let counter = Some(Source::Comparison { pointer: 10 });
-        assert_eq!(h2u(10), Some((counter, 8059)));
-        assert_eq!((h2u(600), h2u(502)), (None, None));
+        assert_eq!(h2u(10), Some((counter, gate(8059))));
+        let pulses = Some(Source::PulsesEnd { output: 1 });
+        assert_eq!(h2u(503), Some((pulses, Gate::Allows(8091))));
+        assert_eq!((h2u(600), h2u(507)), (None, None));
         let hm = |number| find(ModelId::Hm, number).map(|found| (found.source, found.request));
         assert_eq!(hm(1), Some((None, Some(8033))));
         assert_eq!(hm(301), Some((input(7, EdgeKind::Rising), Some(8039))));

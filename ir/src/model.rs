@@ -7,7 +7,7 @@ mod mitsubishi;
 
 use crate::catalogue::Classes;
 use crate::special;
-use rungc_rt::TimerKind;
+use rungc_rt::{Pulses, TimerKind};
 use rungc_syntax::DeviceClass;
 
 /// A PLC model.
@@ -164,6 +164,10 @@ pub struct Model {
     pub max_for: u32,
     /// How deep CALL may nest.
     pub max_call: u32,
+    /// What its pulse outputs are.
+    pub pulses: Pulses,
+    /// Their numbers, as far as instructions name them by output.
+    pub pulse_outputs: &'static [(DeviceClass, u32, u32)],
     /// Special data registers that are other names of index registers: (number, class, index number), e.g. D8028 is Z0.
     pub index_aliases: &'static [(u32, DeviceClass, u32)],
 }

@@ -51,6 +51,8 @@ pub struct Flag {
     /// Set each time that so many milliseconds of RUN have passed since the last time, or since RUN began
     /// ([`rungc_rt::Program::tick`]); `None`: by the program only.
     pub period_ms: Option<u32>,
+    /// Set when a train of pulses of this output Y has been sent to its end ([`rungc_rt::Axis::take_end`], asked whenever pulses are counted).
+    pub pulses_end: Option<u32>,
 }
 
 /// Handle of a [`Cell`] in [`Module::cells`].
@@ -543,6 +545,10 @@ pub struct Module {
     /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, `TakeInterrupts` if there
     /// are any of these, and one for each edge that means something.
     pub functions: Vec<Function>,
+    /// Outputs Y at which instructions send pulses, in order, each once. Their [`rungc_rt::Axis`] is idle at power-on. Pulses are counted
+    /// ([`rungc_rt::advance_pulses`]) at the begin of each scan before `Begin`, and each time that a host tells the time
+    /// ([`rungc_rt::Program::tick`]).
+    pub pulse_outputs: Vec<u32>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
     /// Comments on devices.
@@ -576,6 +582,7 @@ impl Module {
             flags: Vec::new(),
             cells: Vec::new(),
             tables: Vec::new(),
+            pulse_outputs: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),
@@ -600,13 +607,20 @@ impl Module {
                 FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
             )
         };
-        self.functions.iter().any(by_host)
+        self.sends_pulses() || self.functions.iter().any(by_host)
+    }
+
+    /// Whether it has pulse outputs.
+    pub fn sends_pulses(&self) -> bool {
+        !self.pulse_outputs.is_empty()
     }
 
     /// Whether a host has to tell it how time goes on between scans.
     pub fn takes_time(&self) -> bool {
         let taken = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
-        self.cells.iter().any(|cell| cell.follows_time) || self.functions.iter().any(taken)
+        self.sends_pulses()
+            || self.cells.iter().any(|cell| cell.follows_time)
+            || self.functions.iter().any(taken)
     }
 
     /// Adds an expression.

@@ -184,7 +184,7 @@ const fn fx3(output: u32) -> Wiring {
     }
 }
 
-const FX3: [Wiring; 3] = [fx3(0), fx3(1), tens(2)];
+const FX3: [Wiring; 4] = [fx3(0), fx3(1), tens(2), tens(3)];
 
 const fn fx2n(output: u32) -> Wiring {
     Wiring {
@@ -301,10 +301,9 @@ pub(crate) fn set_relays(plc: &mut dyn Plc, relays: &[u32], on: bool) {
     }
 }
 
-/// Counts the pulses that have ended by [`Sys::pulses_us`], on all outputs. Pulses end when the PLC goes to STOP, and while a stop relay is on.
-pub fn advance(plc: &mut dyn Plc) {
+/// Counts the pulses that have ended by `now_us`, in microseconds since power-on, wrapping, on all outputs. Pulses end when the PLC goes to STOP, and while a stop relay is on.
+pub fn advance(plc: &mut dyn Plc, now_us: u32) {
     let Sys {
-        pulses_us,
         running,
         first_scan,
         ..
@@ -314,7 +313,7 @@ pub fn advance(plc: &mut dyn Plc) {
         let Some(axis) = plc.axis(output) else {
             continue;
         };
-        let count = axis.pass(pulses_us);
+        let count = axis.pass(now_us);
         if stops {
             axis.halt();
         }

@@ -12,6 +12,7 @@
 //!
 //! The Makefile beside emitted C that needs it does the same with the sources that are emitted along.
 
+use crate::axis::{Axis, Pulses, advance};
 use crate::cx::Cx;
 use crate::fault::{Done, report};
 use crate::hal::{Clock, Hal};
@@ -119,6 +120,14 @@ pub struct Layout {
     pub error_relay: u16,
     /// Code of an error in an operand's value.
     pub value_error: u16,
+    /// Where the struct holds its pulse outputs.
+    pub axes: usize,
+    /// Their numbers Y, in order.
+    pub outputs: *const u8,
+    /// How many.
+    pub output_count: usize,
+    /// The pulse outputs that the model has.
+    pub pulses: Pulses,
 }
 
 /// The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
@@ -345,6 +354,19 @@ impl Plc for Map {
         unsafe { &*self.plc.cast::<u8>().add(self.layout().sys).cast::<Sys>() }
     }
 
+    fn axis(&mut self, output: u32) -> Option<&mut Axis> {
+        let layout = *self.layout();
+        let outputs = elements(layout.outputs, layout.output_count);
+        let i = outputs.iter().position(|&n| u32::from(n) == output)?;
+        let offset = layout.axes + i * size_of::<Axis>();
+        // SAFETY: the struct holds `output_count` outputs there, and nothing else uses it during a call.
+        Some(unsafe { &mut *self.plc.cast::<u8>().add(offset).cast::<Axis>() })
+    }
+
+    fn pulses(&self) -> Pulses {
+        self.layout().pulses
+    }
+
     fn text(&self, index: u32) -> &[u8] {
         let layout = self.layout();
         let texts = elements(layout.texts, layout.text_count);
@@ -504,6 +526,25 @@ pub extern "C" fn rungc_get_long(
 ) -> bool {
     let found = map.with_operand(class, number, |cx| cx.dword(0, 0));
     found.map(|long| *value = long).is_ok()
+}
+
+/// Counts the pulses that have been sent by `now_us`, in microseconds since power-on, wrapping.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_advance_pulses(map: &mut Map, now_us: u32) {
+    advance(map, now_us);
+}
+
+/// Pulses that output Y `number` has sent since power-on; those in reverse count down.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_pulses_sent(map: &mut Map, number: u32) -> i32 {
+    map.axis(number).map_or(0, |axis| axis.sent)
+}
+
+/// The frequency at which output Y `number` sends pulses now, in millihertz.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_pulse_millihertz(map: &mut Map, number: u32) -> u32 {
+    map.axis(number)
+        .map_or(0, |axis| axis.generator.millihertz())
 }
 
 /// Sets the 32-bit value of a counter from C200 on or of a pair of words.

@@ -52,8 +52,6 @@ pub struct Sys {
     pub dt_ms: u32,
     /// Duration of the last scan in microseconds (D8010 shows it in 0.1 ms).
     pub scan_us: u32,
-    /// Up to when pulse outputs have been advanced: microseconds since power-on, wrapping. It never goes back.
-    pub pulses_us: u32,
     /// Whether this is the first scan after RUN began (M8002).
     pub first_scan: bool,
     /// Whether the PLC is in RUN.
@@ -67,7 +65,6 @@ impl Sys {
             now_ms: 0,
             dt_ms: 0,
             scan_us: 0,
-            pulses_us: 0,
             first_scan: true,
             running: true,
         }
@@ -82,14 +79,6 @@ impl Sys {
         };
         self.now_ms = now_ms;
         self.scan_us = scan_us;
-        self.advance_to(now_ms.wrapping_mul(1000));
-    }
-
-    /// Time for pulse outputs goes on, unless it is there already.
-    pub fn advance_to(&mut self, now_us: u32) {
-        if (now_us.wrapping_sub(self.pulses_us) as i32) > 0 {
-            self.pulses_us = now_us;
-        }
     }
 
     /// The scan is over.

@@ -17,6 +17,7 @@ pub trait Program: Plc {
     }
 
     /// Time goes on: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as those of inputs.
+    /// Pulses that have ended by then are counted.
     fn tick(&mut self, now_ms: u32) {
         let _ = now_ms;
     }
@@ -24,6 +25,17 @@ pub trait Program: Plc {
     /// Runs the interrupt routines that are requested, between two scans. In a scan they run in front of each network.
     fn take_interrupts(&mut self, hal: &mut dyn Hal) {
         let _ = hal;
+    }
+
+    /// How many pulses output Y `number` has sent since power-on; those in reverse count down.
+    fn pulses_sent(&mut self, number: u32) -> i32 {
+        self.axis(number).map_or(0, |axis| axis.sent)
+    }
+
+    /// The frequency at which output Y `number` sends pulses now, in millihertz.
+    fn pulse_millihertz(&mut self, number: u32) -> u32 {
+        self.axis(number)
+            .map_or(0, |axis| axis.generator.millihertz())
     }
 
     /// The RUN/STOP switch. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;

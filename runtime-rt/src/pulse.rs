@@ -97,8 +97,8 @@ impl Generator {
         }
     }
 
-    /// Begins a train now, instead of whatever it does.
-    pub fn start(&mut self, train: Train, now_us: u32) {
+    /// Begins a train at the time of the last [`Generator::advance`], instead of whatever it does.
+    pub fn start(&mut self, train: Train) {
         *self = Generator {
             full: FULL,
             lowest: train.lowest.min(square(train.speed)),
@@ -106,7 +106,7 @@ impl Generator {
             down: train.down,
             speed: train.speed,
             total: train.total,
-            now_us,
+            now_us: self.now_us,
             on: (FULL / 2) as u32,
             busy: true,
             reverse: train.reverse,
@@ -122,10 +122,10 @@ impl Generator {
     }
 
     /// Sends pulses of a width and a period without end; a signal that is sent already goes on with them. Both are in units of `unit_us`.
-    pub fn modulate(&mut self, width: u32, period: u32, unit_us: u32, now_us: u32) {
+    pub fn modulate(&mut self, width: u32, period: u32, unit_us: u32) {
         if !self.modulates {
             *self = Generator {
-                now_us,
+                now_us: self.now_us,
                 busy: true,
                 modulates: true,
                 rate: 1,
@@ -175,9 +175,13 @@ impl Generator {
         }
     }
 
-    /// Counts the pulses that have ended since the last call. Call it at least once an hour.
+    /// Counts the pulses that have ended since the last call. Call it at least every half an hour; time that goes back stands still.
     pub fn advance(&mut self, now_us: u32) -> u32 {
-        let mut left = u64::from(now_us.wrapping_sub(self.now_us));
+        let passed = now_us.wrapping_sub(self.now_us);
+        if passed > u32::MAX / 2 {
+            return 0;
+        }
+        let mut left = u64::from(passed);
         self.now_us = now_us;
         let mut count: u32 = 0;
         while self.busy && self.rate > 0 {
@@ -364,7 +368,9 @@ mod tests {
             let train = numbers.train();
             let now = numbers.below(1 << 32) as u32;
             let mut generator = Generator::new();
-            generator.start(train, now);
+            generator.advance(now / 2);
+            generator.advance(now);
+            generator.start(train);
             assert_eq!(
                 send(&mut generator, &mut numbers, now),
                 train.total,
@@ -380,7 +386,7 @@ mod tests {
         for _ in 0..500 {
             let train = numbers.train();
             let mut generator = Generator::new();
-            generator.start(train, 0);
+            generator.start(train);
             let mut last = generator.square;
             let mut now = 0;
             while generator.is_busy() {
@@ -403,7 +409,7 @@ mod tests {
         for _ in 0..1000 {
             let train = numbers.train();
             let mut generator = Generator::new();
-            generator.start(train, 0);
+            generator.start(train);
             let mut now = numbers.below(50_000) as u32;
             let mut count = generator.advance(now);
             let total = 1 + numbers.below(8000) as u32;
@@ -428,7 +434,7 @@ mod tests {
     #[test]
     fn a_steady_train_does_not_drift() {
         let mut generator = Generator::new();
-        generator.start(Train::steady(99_999_000, 0), 0);
+        generator.start(Train::steady(99_999_000, 0));
         let mut count: u32 = 0;
         let mut now = 0;
         for _ in 0..1000 {
@@ -437,7 +443,7 @@ mod tests {
         }
         // 99,999 pulses a second for 1000.003 seconds.
         assert_eq!(count, 99_999_299);
-        generator.start(Train::steady(100_000_000, i32::MAX as u32), now);
+        generator.start(Train::steady(100_000_000, i32::MAX as u32));
         let mut sent: u32 = 0;
         while generator.is_busy() {
             now = now.wrapping_add(1_000_000_000);
@@ -449,7 +455,7 @@ mod tests {
     #[test]
     fn edges_come_when_they_are_told() {
         let mut generator = Generator::new();
-        generator.start(Train::steady(1_000_000, 2), 0);
+        generator.start(Train::steady(1_000_000, 2));
         let mut edges = std::vec::Vec::new();
         let mut now = 0;
         while let Some(wait) = generator.next_edge() {
@@ -462,7 +468,7 @@ mod tests {
             [(0, true), (500, false), (1000, true), (1500, false)]
         );
         assert_eq!(now, 2000);
-        generator.modulate(1, 4, 1000, now);
+        generator.modulate(1, 4, 1000);
         assert_eq!((generator.millihertz(), generator.level()), (250_000, true));
         assert_eq!(generator.next_edge(), Some(1000));
     }

@@ -16,6 +16,8 @@ pub struct Needs {
     pub hal: bool,
     /// One of its operands names a pulse output ([`crate::Axis`]).
     pub pulses: bool,
+    /// It looks at the speeds and times of ramps ([`crate::Ramps`]).
+    pub ramps: bool,
 }
 
 macro_rules! registry {
@@ -48,7 +50,7 @@ macro_rules! registry {
             pub const fn needs(self) -> Needs {
                 #[allow(unused_mut, reason = "functions that need nothing change nothing")]
                 match self { $(RtFn::$variant => {
-                    let mut needs = Needs { state: false, always: false, hal: false, pulses: false };
+                    let mut needs = Needs { state: false, always: false, hal: false, pulses: false, ramps: false };
                     $($(needs.$need = true;)*)?
                     needs
                 })* }

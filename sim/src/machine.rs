@@ -8,7 +8,7 @@ use crate::exec::{Flow, Value};
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeKind, FunctionKind, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
-use rungc_rt::{Class, Hal, NoHal, Operand, Plc, Program, State, Sys};
+use rungc_rt::{Axis, Class, Hal, NoHal, Operand, Plc, Program, Pulses, State, Sys};
 
 /// How many statements the machine takes a PLC to execute in a millisecond, when virtual time stands still and only their
 /// number can tell that a scan does not end.
@@ -35,6 +35,8 @@ pub struct Machine<'m> {
     /// Operands of the call being executed; kept to save the allocation.
     pub(crate) operands: Vec<Operand>,
     states: Vec<State>,
+    /// Of the module's pulse outputs, in their order.
+    axes: Vec<Axis>,
     watchdog_tripped: bool,
 }
 
@@ -58,6 +60,7 @@ impl<'m> Machine<'m> {
             budget: 0,
             operands: Vec::new(),
             states: vec![State::default(); usize::from(module.states) + 1],
+            axes: vec![Axis::new(); module.pulse_outputs.len()],
             watchdog_tripped: false,
         };
         machine.power_on();
@@ -83,6 +86,7 @@ impl<'m> Machine<'m> {
             let _ = self.set_bit(Class::M, number, true);
         }
         self.states.fill(State::default());
+        self.axes.fill(Axis::new());
         self.cells.fill(0);
         for table in &mut self.tables {
             table.fill(0);
@@ -101,6 +105,20 @@ impl<'m> Machine<'m> {
             states.fill(State::default());
         }
         self.devices.forget_coils();
+    }
+
+    /// Counts the pulses that have been sent, and takes notice of trains that have ended.
+    fn advance_pulses(&mut self, now_us: u32) {
+        if !self.module.sends_pulses() {
+            return;
+        }
+        rungc_rt::advance_pulses(self, now_us);
+        for (i, flag) in self.module.flags.iter().enumerate() {
+            if let Some(axis) = flag.pulses_end.and_then(|output| self.axis(output)) {
+                let ended = axis.take_end();
+                self.flags[i] |= ended;
+            }
+        }
     }
 
     fn special(&self, number: u32) -> bool {
@@ -131,6 +149,7 @@ impl<'m> Machine<'m> {
 impl Program for Machine<'_> {
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
         self.sys.begin_scan(now_ms, scan_us);
+        self.advance_pulses(now_ms.wrapping_mul(1000));
         self.restart_watchdog();
 
         let functions: &[FunctionKind] = if self.sys.running {
@@ -173,6 +192,7 @@ impl Program for Machine<'_> {
         for (_, value) in cells.filter(|(cell, _)| cell.follows_time) {
             *value = now_ms as i32;
         }
+        self.advance_pulses(now_ms.wrapping_mul(1000));
     }
 
     fn take_interrupts(&mut self, hal: &mut dyn Hal) {
@@ -254,6 +274,15 @@ impl Plc for Machine<'_> {
 
     fn sys(&self) -> &Sys {
         &self.sys
+    }
+
+    fn axis(&mut self, output: u32) -> Option<&mut Axis> {
+        let i = self.module.pulse_outputs.binary_search(&output).ok()?;
+        self.axes.get_mut(i)
+    }
+
+    fn pulses(&self) -> Pulses {
+        self.module.model.pulses
     }
 
     fn text(&self, index: u32) -> &[u8] {

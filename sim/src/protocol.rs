@@ -38,6 +38,10 @@ pub enum Request {
     Interrupts,
     /// Asks for the state of an output terminal.
     Output(u32),
+    /// Asks how many pulses an output has sent since power-on; those in reverse count down.
+    Pulses(u32),
+    /// Asks for the frequency at which an output sends pulses, in millihertz.
+    Frequency(u32),
     /// The RUN/STOP switch.
     Run(bool),
     /// Power off and on; virtual time begins at 0 again.
@@ -118,6 +122,8 @@ impl fmt::Display for Request {
             Request::Tick(now_ms) => write!(f, "tick {now_ms}"),
             Request::Interrupts => write!(f, "interrupts"),
             Request::Output(n) => write!(f, "out {n}"),
+            Request::Pulses(n) => write!(f, "pulses {n}"),
+            Request::Frequency(n) => write!(f, "frequency {n}"),
             Request::Run(run) => write!(f, "run {}", u8::from(run)),
             Request::Power => write!(f, "power"),
             Request::SetBfm(unit, address, v) => write!(f, "bfm {unit} {address} {v}"),

@@ -168,6 +168,9 @@ fn meaning(param: &Param, params: &[Param]) -> String {
             Rule::WideCounter => "; in the 32-bit form from C200 on".to_owned(),
         };
     }
+    if param.sends_pulses {
+        text += "; it sends pulses";
+    }
     for &(class, first, last) in param.numbers {
         text += &format!("; {}–{}", class.number(first), class.number(last));
     }
@@ -455,9 +458,11 @@ struct Next {
 impl Next {
     /// An operand that a parameter accepts.
     fn operand(&mut self, param: &Param, model: &Model) -> String {
-        if let Some(&(class, first, _)) = param.numbers.iter().find(|(class, first, _)| {
-            model.has(*class, *first) && *first != 0 || *class == DeviceClass::Y
-        }) {
+        if let Some(&(class, first, _)) =
+            param.numbers_on(model).iter().find(|(class, first, _)| {
+                model.has(*class, *first) && *first != 0 || *class == DeviceClass::Y
+            })
+        {
             return class.number(first).to_string();
         }
         let classes = param.classes_on(model);

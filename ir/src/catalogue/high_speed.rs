@@ -21,15 +21,8 @@ const COUNTER_INTERRUPTS: &[(DeviceClass, u32, u32)] = &[
     (DeviceClass::I, 60, 60),
 ];
 const FAST_COUNTER: Param = src("S2", Classes::C).numbers(FAST);
-/// Pulse outputs: three or, on L01S, four.
-pub(super) const PULSE_OUTPUT: Param =
-    coil("D", Classes::Y)
-        .plain()
-        .numbers(&[(DeviceClass::Y, 0, 2)]);
-pub(super) const PULSE_OUTPUT_L01S: Param =
-    coil("D", Classes::Y)
-        .plain()
-        .numbers(&[(DeviceClass::Y, 0, 3)]);
+/// An output that sends pulses.
+pub(super) const PULSE_OUTPUT: Param = coil("D", Classes::Y).plain().pulses();
 const LIKE_FX: ModelSet = FX.and(&[ModelId::L01s]);
 
 const SET: &[Param] = &[
@@ -248,21 +241,16 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_PULSES),
-            on(L01S).takes(&[src("S1", VALUES), src("S2", VALUES), PULSE_OUTPUT_L01S]),
         ])
         .flags(&["M8029"])
         .errors(&[6770, 6771])
-        .todo(PULSES)
+        .call(RtFn::Plsy)
+        .lower_on(&[(HM, Lower::Todo(PULSES))])
         .text("Sends S2 pulses of S1 Hz on output D; S2 = 0: without end. HM: D1 the frequency, D2 the number, and an axis."),
     fast("PWM", 58, "Pulse width modulation")
         .steps(7, 7)
         .on(NOT_HM)
         .takes(&[src("S1", VALUES).limits(0, 32767), src("S2", VALUES).limits(1, 32767), PULSE_OUTPUT])
-        .variants(&[on(L01S).takes(&[
-            src("S1", VALUES).limits(0, 32767),
-            src("S2", VALUES).limits(1, 32767),
-            PULSE_OUTPUT_L01S,
-        ])])
         .todo(PULSES)
         .text("Sends pulses S1 ms wide with a period of S2 ms on output D as long as it is driven."),
     fast("PLSR", 59, "Pulse output with ramps")
@@ -272,7 +260,6 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_RAMP),
-            on(L01S).takes(&[src("S1", VALUES), src("S2", VALUES), src("S3", VALUES), PULSE_OUTPUT_L01S]),
         ])
         .flags(&["M8029"])
         .errors(&[6770])

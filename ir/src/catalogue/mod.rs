@@ -285,6 +285,8 @@ pub struct Param {
     pub limits: Option<(i64, i64)>,
     /// Numbers that devices of these classes must have, first to last; classes that are not listed are free.
     pub numbers: &'static [(DeviceClass, u32, u32)],
+    /// Whether it is an output that sends pulses: one of the model's, unless `numbers` says more.
+    pub sends_pulses: bool,
     /// What else it must obey.
     pub rules: &'static [Rule],
     /// Whether it may carry an index register.
@@ -294,6 +296,15 @@ pub struct Param {
 }
 
 impl Param {
+    /// Numbers that devices of these classes must have on a model, first to last.
+    pub fn numbers_on(&self, model: &Model) -> &'static [(DeviceClass, u32, u32)] {
+        if self.sends_pulses && self.numbers.is_empty() {
+            model.pulse_outputs
+        } else {
+            self.numbers
+        }
+    }
+
     /// What it may be on a model: without the classes that only others accept, and without notations and devices that the model
     /// does not have at all.
     pub fn classes_on(&self, model: &Model) -> Classes {

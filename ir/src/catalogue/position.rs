@@ -1,16 +1,16 @@
 //! Positioning, FNC 150–159.
 
-use super::high_speed::{AXIS, PULSE_OUTPUT, PULSE_OUTPUT_L01S};
+use super::high_speed::{AXIS, PULSE_OUTPUT};
 use super::row::*;
 use super::{Classes, Inst, Param};
 use crate::model::ModelId;
+use rungc_syntax::DeviceClass;
 
 const PULSES: &str = "pulse output";
 const DIRECTION: Param = coil("D2", COILS);
 const DISTANCE: Param = src("S1", VALUES);
 const SPEED: Param = src("S2", VALUES);
 const MOVE: &[Param] = &[DISTANCE, SPEED, PULSE_OUTPUT, DIRECTION];
-const MOVE_L01S: &[Param] = &[DISTANCE, SPEED, PULSE_OUTPUT_L01S, DIRECTION];
 const MOVE_HM: &[Param] = &[
     src("D1", CONSTANTS.or(DATA)).limits(-16_000_000, 16_000_000),
     src("D2", CONSTANTS.or(DATA)),
@@ -23,22 +23,17 @@ const RETURN: &[Param] = &[
     bit("S3", BITS),
     PULSE_OUTPUT,
 ];
-const RETURN_L01S: &[Param] = &[
-    src("S1", VALUES),
-    src("S2", VALUES),
-    bit("S3", BITS),
-    PULSE_OUTPUT_L01S,
-];
 const SEARCH: &[Param] = &[
     bit("S1", BITS),
     bit("S2", Classes::X),
     PULSE_OUTPUT,
     coil("D2", Classes::Y.or(Classes::M)),
 ];
-const SEARCH_L01S: &[Param] = &[
+/// The types of H1U and H2U with more than three outputs have no DSZR.
+const SEARCH_INOVANCE: &[Param] = &[
     bit("S1", BITS),
     bit("S2", Classes::X),
-    PULSE_OUTPUT_L01S,
+    PULSE_OUTPUT.numbers(&[(DeviceClass::Y, 0, 2)]),
     coil("D2", Classes::Y.or(Classes::M)),
 ];
 
@@ -57,7 +52,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_W32)
         .on(NOT_HM.except(&[ModelId::Fx2n]))
         .takes(SEARCH)
-        .variants(&[on(L01S.and(&[ModelId::Fx3g, ModelId::Fx3u])).forms(W16), on(L01S).takes(SEARCH_L01S)])
+        .variants(&[on(L01S.and(&[ModelId::Fx3g, ModelId::Fx3u])).forms(W16), on(INOVANCE).takes(SEARCH_INOVANCE)])
         .text("Runs the axis of output D1 to its origin by the signals DOG S1 and zero S2, searching the DOG if it starts past it."),
     position("DVIT", 151, "Interrupt positioning")
         .on(FX3U.and(&[ModelId::Hm]))
@@ -79,22 +74,20 @@ pub(super) const ROWS: &[Inst] = &[
     position("ZRN", 156, "Zero return")
         .on(NOT_HM)
         .takes(RETURN)
-        .variants(&[on(L01S).takes(RETURN_L01S)])
         .text("Runs output D back at S1 Hz until the DOG signal S3, then at S2 Hz until it is off: the origin."),
     position("PLSV", 157, "Variable-speed pulses")
         .steps(7, 13)
         .takes(&[src("S", VALUES), PULSE_OUTPUT, DIRECTION])
         .variants(&[
             on(HM).forms(W32).takes(SPEED_HM),
-            on(L01S).takes(&[src("S", VALUES), PULSE_OUTPUT_L01S, DIRECTION]),
         ])
         .text("Sends pulses of |S| Hz on D1 while driven, the sign of S on D2; S may change. HM: an axis instead of D1 and D2."),
     position("DRVI", 158, "Relative positioning")
         .takes(MOVE)
-        .variants(&[on(HM).forms(W32).takes(MOVE_HM), on(L01S).takes(MOVE_L01S)])
+        .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
         .text("Moves by S1 pulses at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
     position("DRVA", 159, "Absolute positioning")
         .takes(MOVE)
-        .variants(&[on(HM).forms(W32).takes(MOVE_HM), on(L01S).takes(MOVE_L01S)])
+        .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
         .text("Moves to position S1 at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
 ];

@@ -200,6 +200,7 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
         extent: Extent::One,
         limits: None,
         numbers: &[],
+        sends_pulses: false,
         rules: &[],
         indexable: true,
         optional: false,
@@ -344,6 +345,15 @@ impl Param {
     /// Devices of these classes have these numbers.
     pub(super) const fn numbers(self, numbers: &'static [(DeviceClass, u32, u32)]) -> Self {
         Param { numbers, ..self }
+    }
+
+    /// It is an output that sends pulses.
+    pub(super) const fn pulses(self) -> Self {
+        let sends_pulses = true;
+        Param {
+            sends_pulses,
+            ..self
+        }
     }
 
     /// No index register.

@@ -7,7 +7,7 @@ use crate::node::{Arg, EdgeKind, Place, Stmt};
 use crate::resolve::Form;
 use crate::runs::is_counter32;
 use rungc_rt::RtFn;
-use rungc_syntax::{Device, Index, Operand, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
 use std::borrow::Cow;
 
 impl Lowerer<'_> {
@@ -16,6 +16,9 @@ impl Lowerer<'_> {
         let form = self.resolution().form;
         let step = self.step();
         let slot = self.slot(needs.state);
+        if needs.pulses {
+            self.use_outputs(inst, needs.ramps);
+        }
         let drive = self.drive();
         let drive = if form.pulse {
             let edge = self.new_edge();
@@ -38,6 +41,27 @@ impl Lowerer<'_> {
             call(self, Some(drive));
         } else {
             self.when(drive, |this| call(this, None));
+        }
+    }
+
+    /// The program sends pulses at the outputs that the instruction names; what it looks at besides is stored.
+    fn use_outputs(&mut self, inst: &Inst, with_ramps: bool) {
+        let operands = &self.instr().operands;
+        let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
+        for (kind, param) in kinds.iter().zip(inst.params_of(&kinds, self.model)) {
+            let &OperandKind::Device(Device { class, number }, _) = kind else {
+                continue;
+            };
+            if class != DeviceClass::Y || !param.sends_pulses {
+                continue;
+            }
+            if let Err(place) = self.module.pulse_outputs.binary_search(&number) {
+                self.module.pulse_outputs.insert(place, number);
+            }
+            let wiring = self.model.pulses.outputs().get(number as usize);
+            let registers = wiring.into_iter().flat_map(|w| w.registers(with_ramps));
+            let registers = registers.map(|register| (DeviceClass::D, register));
+            self.specials.flags.extend(registers);
         }
     }
 

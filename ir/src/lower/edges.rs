@@ -32,6 +32,7 @@ impl Lowerer<'_> {
             name,
             meaning,
             period_ms,
+            pulses_end: None,
         });
         FlagId(self.module.flags.len() as u32 - 1)
     }

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::operand::fixed;
 use crate::catalogue::Basic;
-use crate::interrupts::{self, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch, Source};
+use crate::interrupts::{self, Gate, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch, Source};
 use crate::node::{Body, EdgeKind, Expr, FlagId, Function, FunctionKind, Stmt, SysValue};
 use rungc_syntax::{DeviceClass::M, codes};
 
@@ -86,8 +86,14 @@ impl Lowerer<'_> {
                 _ => None,
             };
             let flag = self.flag(flag_name(source), "requests an interrupt", period);
-            if let Source::Input { number, kind } = source {
-                self.on_edge(number, kind, |this| this.set_flag_to(flag, true));
+            match source {
+                Source::Input { number, kind } => {
+                    self.on_edge(number, kind, |this| this.set_flag_to(flag, true));
+                }
+                Source::PulsesEnd { output } => {
+                    self.module.flags[flag.0 as usize].pulses_end = Some(output);
+                }
+                Source::Period { .. } | Source::Comparison { .. } => {}
             }
             flags.push((source, flag));
         }
@@ -203,7 +209,7 @@ impl Lowerer<'_> {
                         function,
                         interrupt,
                     } => {
-                        let allowed = this.allowed(interrupt.mask);
+                        let allowed = this.allowed(interrupt.gate);
                         this.when(allowed, |this| this.emit(Stmt::CallSub(function)));
                     }
                 }
@@ -224,7 +230,7 @@ impl Lowerer<'_> {
             return;
         };
         let asked = self.add(Expr::ReadBit(fixed(M, relay)));
-        let allowed = self.allowed(interrupt.mask);
+        let allowed = self.allowed(interrupt.gate);
         let runs = self.and(asked, allowed);
         self.when(runs, |this| {
             let off = this.bit_const(false);
@@ -233,14 +239,18 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Whether a mask lets the routine run; one that nothing looks at stays as it is at power-on.
-    fn allowed(&mut self, mask: u32) -> crate::node::ExprId {
-        if self.specials.has(M, mask) {
-            let mask = self.add(Expr::ReadBit(fixed(M, mask)));
-            self.not(mask)
+    /// Whether a routine may run; a relay that nothing looks at stays as it is at power-on.
+    fn allowed(&mut self, gate: Gate) -> crate::node::ExprId {
+        let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate;
+        let on = if self.specials.has(M, relay) {
+            self.add(Expr::ReadBit(fixed(M, relay)))
         } else {
-            let on = self.model.special_bits().any(|relay| relay == mask);
-            self.bit_const(!on)
+            let on = self.model.special_bits().any(|bit| bit == relay);
+            self.bit_const(on)
+        };
+        match gate {
+            Gate::Forbids(_) => self.not(on),
+            Gate::Allows(_) => on,
         }
     }
 
@@ -283,5 +293,6 @@ fn flag_name(source: Source) -> String {
         }
         Source::Period { ms } => format!("passed_{ms}ms"),
         Source::Comparison { pointer } => format!("i{pointer:03}_requested"),
+        Source::PulsesEnd { output } => format!("y{output:03o}_ended"),
     }
 }

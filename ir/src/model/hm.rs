@@ -2,6 +2,7 @@
 
 use super::{Model, ModelId, Range, Timers, general, latched, timers};
 use crate::catalogue::Classes;
+use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{self, C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 
 /// Kewei HM.
@@ -21,6 +22,8 @@ pub(super) const HM: Model = Model {
     errors_last_a_scan: false,
     annunciators_are_states: false,
     value_error: 6707,
+    pulses: Pulses::Without,
+    pulse_outputs: &[],
     notations: Classes::NONE,
     bare_names: true,
     steps_per_operand: Some((2, 3)),

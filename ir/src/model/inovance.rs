@@ -2,6 +2,7 @@
 
 use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
 use crate::catalogue::Classes;
+use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
 
 /// Inovance H1U.
@@ -21,6 +22,8 @@ pub(super) const H1U: Model = Model {
     errors_last_a_scan: false,
     annunciators_are_states: true,
     value_error: 6707,
+    pulses: Pulses::Inovance,
+    pulse_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: false,
     steps_per_operand: None,
@@ -46,6 +49,8 @@ pub(super) const H2U: Model = Model {
     errors_last_a_scan: false,
     annunciators_are_states: true,
     value_error: 6707,
+    pulses: Pulses::Inovance,
+    pulse_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: false,
     steps_per_operand: None,

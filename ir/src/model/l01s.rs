@@ -2,6 +2,7 @@
 
 use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
 use crate::catalogue::Classes;
+use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 
 /// Coolmay L01S.
@@ -21,6 +22,8 @@ pub(super) const L01S: Model = Model {
     errors_last_a_scan: true,
     annunciators_are_states: false,
     value_error: 6706,
+    pulses: Pulses::L01s,
+    pulse_outputs: &[(Y, 0, 3)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,
     steps_per_operand: None,

@@ -3,6 +3,7 @@
 
 use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
 use crate::catalogue::Classes;
+use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
 
 /// Mitsubishi FX2N.
@@ -25,6 +26,8 @@ pub(super) const FX2N: Model = Model {
     errors_last_a_scan: true,
     annunciators_are_states: false,
     value_error: 6706,
+    pulses: Pulses::Fx2n,
+    pulse_outputs: &[(Y, 0, 1)],
     notations: Classes::TEXT,
     bare_names: true,
     steps_per_operand: None,
@@ -50,6 +53,8 @@ pub(super) const FX3G: Model = Model {
     errors_last_a_scan: true,
     annunciators_are_states: false,
     value_error: 6706,
+    pulses: Pulses::Fx3,
+    pulse_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,
     steps_per_operand: None,
@@ -75,6 +80,8 @@ pub(super) const FX3U: Model = Model {
     errors_last_a_scan: true,
     annunciators_are_states: false,
     value_error: 6706,
+    pulses: Pulses::Fx3,
+    pulse_outputs: &[(Y, 0, 3)],
     notations: Classes::E
         .or(Classes::TEXT)
         .or(Classes::WORD_BIT)

@@ -93,14 +93,14 @@ impl Checker {
                 .existing(span, *device)
                 .or_else(|| self.counter(place, span, *device, param))
                 .or_else(|| self.upper_half(place, span, *device, param))
-                .or_else(|| numbers(span, *device, param))
+                .or_else(|| numbers(span, *device, param.numbers_on(self.model)))
                 .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
             OperandKind::WordBit(device, bit, index) => bit_of_register(span, *device, *index)
                 .or_else(|| self.existing(span, *device))
                 .or_else(|| self.bits_of_words(place, span, (*device, *bit), *index, param)),
             OperandKind::Nibbles(digits, device, index) => digits_fit(place, span, *digits, param)
                 .or_else(|| self.existing(span, *device))
-                .or_else(|| numbers(span, *device, param))
+                .or_else(|| numbers(span, *device, param.numbers_on(self.model)))
                 .or_else(|| {
                     let bits = 4 * u32::from(*digits);
                     self.reach(place, span, *device, bits, index.is_some(), param)
@@ -445,9 +445,8 @@ fn wrong_class(instr: &Instr, operand: &Operand, param: &Param, classes: Classes
 }
 
 /// A device whose number does not serve in this place.
-fn numbers(span: Span, device: Device, param: &Param) -> Option<Diagnostic> {
-    let mut of_class = param
-        .numbers
+fn numbers(span: Span, device: Device, numbers: &[(DeviceClass, u32, u32)]) -> Option<Diagnostic> {
+    let mut of_class = numbers
         .iter()
         .filter(|(class, ..)| *class == device.class)
         .peekable();

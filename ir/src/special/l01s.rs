@@ -72,7 +72,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8246-8255 r 0 by("OUT C") "count direction monitor of high-speed counter C246–255: on = counting down, off = counting up";
     M 8329 r 0 inert(PULSES) "instruction ended abnormally";
     M 8338 rw 0 inert(PULSES) "PLSV with acceleration/deceleration: on = ramps with D8348/D8349, off = frequency changes at once";
-    M 8340 r 0 inert(PULSES) "Y000: pulse output in progress (BUSY/READY monitor)";
+    M 8340 r 0 by("PLSY") "Y000: pulse output in progress (BUSY/READY monitor)";
     M 8341 rw 0 inert(PULSES) "Y000: clear-signal output enabled";
     M 8342 rw 0 inert(PULSES) "Y000: home-return direction; DSZR (on = forward is fx)";
     M 8343 rw 0 inert(PULSES) "Y000: forward limit";
@@ -81,8 +81,8 @@ pub(super) const L01S: &[Special] = specials! {
     M 8346 rw 0 inert(PULSES) "Y000: zero-point signal logic inverted; DSZR";
     M 8347 rw 0 inert(PULSES) "Y000: interrupt signal logic inverted";
     M 8348 r 0 inert(PULSES) "Y000: positioning instruction being driven";
-    M 8349 rw 0 inert(PULSES) "Y000: pulse stop command: on stops pulse output";
-    M 8350 r 0 inert(PULSES) "Y001: pulse output in progress (BUSY/READY monitor)";
+    M 8349 rw 0 by("PLSY") "Y000: pulse stop command: on stops pulse output";
+    M 8350 r 0 by("PLSY") "Y001: pulse output in progress (BUSY/READY monitor)";
     M 8351 rw 0 inert(PULSES) "Y001: clear-signal output enabled";
     M 8352 rw 0 inert(PULSES) "Y001: home-return direction; DSZR (on = forward is fx)";
     M 8353 rw 0 inert(PULSES) "Y001: forward limit";
@@ -91,8 +91,8 @@ pub(super) const L01S: &[Special] = specials! {
     M 8356 rw 0 inert(PULSES) "Y001: zero-point signal logic inverted; DSZR";
     M 8357 rw 0 inert(PULSES) "Y001: interrupt signal logic inverted";
     M 8358 r 0 inert(PULSES) "Y001: positioning instruction being driven";
-    M 8359 rw 0 inert(PULSES) "Y001: pulse stop command: on stops pulse output";
-    M 8360 r 0 inert(PULSES) "Y002: pulse output in progress (BUSY/READY monitor)";
+    M 8359 rw 0 by("PLSY") "Y001: pulse stop command: on stops pulse output";
+    M 8360 r 0 by("PLSY") "Y002: pulse output in progress (BUSY/READY monitor)";
     M 8361 rw 0 inert(PULSES) "Y002: clear-signal output enabled";
     M 8362 rw 0 inert(PULSES) "Y002: home-return direction; DSZR (on = forward is fx)";
     M 8363 rw 0 inert(PULSES) "Y002: forward limit";
@@ -101,8 +101,8 @@ pub(super) const L01S: &[Special] = specials! {
     M 8366 rw 0 inert(PULSES) "Y002: zero-point signal logic inverted; DSZR";
     M 8367 rw 0 inert(PULSES) "Y002: interrupt signal logic inverted";
     M 8368 r 0 inert(PULSES) "Y002: positioning instruction being driven";
-    M 8369 rw 0 inert(PULSES) "Y002: pulse stop command: on stops pulse output";
-    M 8370 r 0 inert(PULSES) "Y003: pulse output in progress (BUSY/READY monitor)";
+    M 8369 rw 0 by("PLSY") "Y002: pulse stop command: on stops pulse output";
+    M 8370 r 0 by("PLSY") "Y003: pulse output in progress (BUSY/READY monitor)";
     M 8371 rw 0 inert(PULSES) "Y003: clear-signal output enabled";
     M 8372 rw 0 inert(PULSES) "Y003: home-return direction; DSZR (on = forward is fx)";
     M 8373 rw 0 inert(PULSES) "Y003: forward limit";
@@ -111,7 +111,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8376 rw 0 inert(PULSES) "Y003: zero-point signal logic inverted; DSZR";
     M 8377 rw 0 inert(PULSES) "Y003: interrupt signal logic inverted";
     M 8378 r 0 inert(PULSES) "Y003: positioning instruction being driven";
-    M 8379 rw 0 inert(PULSES) "Y003: pulse stop command: on stops pulse output";
+    M 8379 rw 0 by("PLSY") "Y003: pulse stop command: on stops pulse output";
     M 8396 rw 0 inert(FAST) "phase of the inputs assigned to C254";
     M 8401 r 0 inert(SERIAL) "port 3: RS2 waiting to send";
     M 8402 rw 0 inert(SERIAL) "port 3: RS2 send request: program sets it on";

@@ -75,7 +75,8 @@ pub(super) const ALL: &[Special] = specials! {
     M 8124 r 0 inert(SERIAL) "RS receives";
     M 8126-8129 r 0 inert(SERIAL) "computer link, time-out of RS";
     M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
-    M 8145-8149 rw 0 inert(PULSES) "stops pulses, shows that they are sent";
+    M 8145-8146 rw 0 by("PLSY") "stop the pulses of Y000, of Y001";
+    M 8147-8148 r 0 by("PLSY") "pulses are sent at Y000, at Y001";
     M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8162 rw 0 inert(LINK) "fast mode of the parallel link";
@@ -122,8 +123,8 @@ pub(super) const ALL: &[Special] = specials! {
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
     D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
-    D 8136-8137 rw 0 inert(PULSES) "pulses sent at Y000 and Y001";
-    D 8140-8143 rw 0 inert(PULSES) "pulses sent at Y000, at Y001";
+    D 8136-8137 rw 0 by("PLSY") "pulses sent at Y000 and Y001";
+    D 8140-8143 rw 0 by("PLSY") "pulses sent at Y000, at Y001";
     D 8145-8148 rw 0 inert(PULSES) "speeds and ramp time of positioning";
     D 8164 rw 0 by("FROM, TO") "number of words (with M8164)";
     D 8173-8180 rw 0 inert(LINK) "N:N link: settings";

@@ -110,10 +110,10 @@ impl Output {
 
     /// The instruction sends a train, whose pulses are counted in the pair of registers `counter`.
     pub fn start(self, cx: &mut Cx, train: Train, counter: u32) {
-        let (slot, now_us) = (cx.site.slot, cx.plc.sys().pulses_us);
+        let slot = cx.site.slot;
         self.enter(cx, Phase::Sends);
         if let Some(axis) = cx.plc.axis(self.number) {
-            axis.generator.start(train, now_us);
+            axis.generator.start(train);
             axis.owner = slot;
             axis.counter = counter as u16;
             axis.ended = false;

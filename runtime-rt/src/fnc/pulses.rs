@@ -46,8 +46,8 @@ mod tests {
 
     fn scan(plc: &mut Double, ms: u32, drive: bool) {
         plc.sys.now_ms += ms;
-        plc.sys.advance_to(plc.sys.now_ms * 1000);
-        advance_pulses(plc);
+        let now_us = plc.sys.now_ms * 1000;
+        advance_pulses(plc, now_us);
         plc.sys.first_scan = false;
         let ops = [reg(0), reg(2), d(Class::Y, 0)];
         plc.scan(0, drive, RtFn::Plsy, &ops).unwrap();

@@ -85,6 +85,8 @@ impl Engine for Interpreter<'_> {
                 Answer::Ok
             }
             Request::Output(n) => Answer::value(Some(machine.output(n))),
+            Request::Pulses(n) => Answer::value(Some(machine.pulses_sent(n))),
+            Request::Frequency(n) => Answer::value(Some(machine.pulse_millihertz(n))),
             Request::Run(running) => {
                 machine.set_running(running);
                 Answer::Ok

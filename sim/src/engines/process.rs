@@ -135,6 +135,8 @@ fn asks_for_value(request: Request) -> bool {
             | Request::Word(..)
             | Request::Double(..)
             | Request::Output(_)
+            | Request::Pulses(_)
+            | Request::Frequency(_)
             | Request::Bfm(..)
     )
 }

@@ -81,14 +81,6 @@ impl Target {
         }
     }
 
-    /// What the target needs beyond devices, if an engine has to lack it.
-    pub(crate) fn needs(self) -> Option<&'static str> {
-        match self {
-            Target::Pulses(_) | Target::Frequency(_) => Some("pulse outputs"),
-            _ => None,
-        }
-    }
-
     /// The devices it covers, as (class, first, count); a text covers `text_len` bytes.
     pub fn devices(self, text_len: usize) -> (DeviceClass, u32, u32) {
         match self {

@@ -13,6 +13,9 @@ use std::collections::BTreeMap;
 /// Relative tolerance of floats.
 const FLOAT_TOLERANCE: f64 = 1e-5;
 
+/// Relative tolerance of frequencies.
+const FREQUENCY_TOLERANCE: f64 = 0.01;
+
 /// Runs all cases. `progress` is told each result as it is known.
 pub fn run(suite: &Suite, engine: &mut dyn Engine, progress: &mut dyn FnMut(&Outcome)) -> Report {
     let mut report = Report::default();
@@ -88,9 +91,7 @@ fn run_case(
     init: &[Setting],
     steps: &[Step],
 ) -> Result<(), Failure> {
-    let settings = steps.iter().flat_map(|s| s.set.iter().chain(&s.expect));
     let mut needs: Vec<_> = steps.iter().flat_map(|s| s.needs.clone()).collect();
-    needs.extend(init.iter().chain(settings).filter_map(|s| s.target.needs()));
     needs.sort_unstable();
     needs.dedup();
     if !needs.is_empty() {
@@ -196,7 +197,7 @@ impl Running<'_> {
         let mut values = Vec::new();
         for Setting { target, value } in &step.expect {
             let actual = self.get(*target, value)?;
-            if !agrees(value, &actual) {
+            if !agrees(*target, value, &actual) {
                 values.push((target.to_string(), value.clone(), actual));
             }
         }
@@ -313,8 +314,10 @@ impl Running<'_> {
                 bytes.truncate(len);
                 Ok(Value::Text(String::from_utf8_lossy(&bytes).into_owned()))
             }
-            Target::Pulses(_) | Target::Frequency(_) => {
-                Err(Failure::Lacks(target.needs().into_iter().collect()))
+            Target::Pulses(n) => self.value(target, Request::Pulses(n)).map(int),
+            Target::Frequency(n) => {
+                let millihertz = self.value(target, Request::Frequency(n))?;
+                Ok(Value::Float(millihertz as f64 / 1000.0))
             }
         }
     }
@@ -353,10 +356,14 @@ fn requests(setting: &Setting) -> Vec<Request> {
     }
 }
 
-fn agrees(expected: &Value, actual: &Value) -> bool {
+fn agrees(target: Target, expected: &Value, actual: &Value) -> bool {
+    let tolerance = match target {
+        Target::Frequency(_) => FREQUENCY_TOLERANCE,
+        _ => FLOAT_TOLERANCE,
+    };
     match (expected, actual) {
         (Value::Float(e), Value::Float(a)) => {
-            e == a || (e.is_nan() && a.is_nan()) || (a - e).abs() <= FLOAT_TOLERANCE * e.abs()
+            e == a || (e.is_nan() && a.is_nan()) || (a - e).abs() <= tolerance * e.abs()
         }
         (expected, actual) => expected == actual,
     }
