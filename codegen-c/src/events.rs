@@ -212,7 +212,7 @@ fn tick(module: &Module) -> String {
         let _ = writeln!(out, "    plc->{} = (int32_t)now_ms;", cell.name);
     }
     if module.sends_pulses() {
-        let _ = write!(out, "    {name}_count_pulses(plc, now_ms * 1000u);\n");
+        let _ = writeln!(out, "    {name}_count_pulses(plc, now_ms * 1000u);");
     }
     if !follows_time(module) {
         out.push_str("    (void)plc;\n    (void)now_ms;\n");
