@@ -23,7 +23,7 @@ Examples:
   rungc test tests/*.plctest.toml --engine all
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
 
-Exit codes: 0 success, 1 errors in the program or a failed test, 2 wrong usage or unreadable input.")]
+Exit codes: 0 success, 1 errors in the program, a failed test or a damaged machine, 2 wrong usage or unreadable input.")]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -137,6 +137,9 @@ pub struct RunArgs {
     /// most.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
+    /// The machine around the PLC, whose axes, cylinders and delays follow the outputs and drive inputs (docs/machines.md).
+    #[arg(long, value_name = "FILE")]
+    pub machine: Option<PathBuf>,
     /// Record the program's inputs and outputs and what is watched as a value change dump, which GTKWave and other viewers of
     /// waveforms show; a file that is there is replaced.
     #[arg(long, value_name = "FILE")]
@@ -155,6 +158,9 @@ pub struct TestArgs {
     /// What to run the cases on.
     #[arg(long, value_enum, default_value_t = EngineChoice::Interp)]
     pub engine: EngineChoice,
+    /// The machine around the PLC (docs/machines.md), for cases that name none.
+    #[arg(long, value_name = "FILE")]
+    pub machine: Option<PathBuf>,
     /// Run only cases whose `file::name` contains this.
     #[arg(long, value_name = "TEXT")]
     pub only: Option<String>,

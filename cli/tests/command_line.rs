@@ -307,6 +307,105 @@ fn run_records_a_value_change_dump() {
     assert_eq!(recording("motor.il"), MOTOR);
 }
 
+/// A door that a motor moves, and its machine: the program does not look at the limit switch.
+const DOOR: &str = "LD X000\nOUT Y000\nLD X001\nOUT Y001\nEND\n";
+const DOOR_MACHINE: &str = r#"normally_closed = ["X001"]
+
+[[axis]]
+name = "door"
+unit = "mm"
+forward = "Y000"
+reverse = "Y002"
+speed = 1000
+travel = [0, 500]
+forward_limit = "X001"
+forward_limit_at = 400
+"#;
+const DOOR_TEST: &str = r#"model = "fx3u"
+topic = "door"
+machine = "door.toml"
+[[case]]
+name = "opens"
+program = """
+LD X000
+OUT Y000
+END
+"""
+[[case.step]]
+set = { X000 = 1 }
+run_ms = 300
+expect = { X001 = 1 }
+expect_position = { door = 300 }
+[[case.step]]
+set = { X000 = 0 }
+scans = 1
+expect_position = { door = 300 }
+[[case]]
+name = "does_not_open"
+program = "END"
+[[case.step]]
+expect_position = { door = 17 }
+[[case]]
+name = "crashes"
+program = """
+LD M8000
+OUT Y000
+END
+"""
+[[case.step]]
+run_ms = 1000
+[[case]]
+name = "sets_what_the_machine_drives"
+program = "END"
+[[case.step]]
+set = { X001 = 1 }
+[[case]]
+name = "other_axis"
+program = "END"
+[[case.step]]
+expect_position = { gate = 1 }
+[[case]]
+name = "other_model"
+model = "h1u"
+machine = "wide.toml"
+program = "END"
+[[case.step]]
+scans = 1
+"#;
+
+#[test]
+fn machines_are_wired_to_programs() {
+    let wide = "[[delay]]\noutput = 'Y000'\ninput = 'X777'\non_ms = 1\n";
+    let folder = folder(&[
+        ("door.il", DOOR.as_bytes()),
+        ("door.toml", DOOR_MACHINE.as_bytes()),
+        ("door.plctest.toml", DOOR_TEST.as_bytes()),
+        ("wide.toml", wide.as_bytes()),
+        ("wrong.toml", b"[[axis]]\noutput = 'Y000'\nhomes = 'X000'\n"),
+        ("binary.toml", &[0xFF, 0xFE, 0, 1]),
+    ]);
+    let path = folder.path();
+    let seconds = ["--set", "X000=1@5ms", "--for", "1s", "--vcd", "door.vcd"];
+    for (name, machine, more) in [
+        ("door", "door.toml", &seconds[..]),
+        ("set", "door.toml", &["--set", "K4X000=1"]),
+        ("wide", "wide.toml", &[]),
+        ("wrong", "wrong.toml", &[]),
+        ("binary", "binary.toml", &[]),
+        ("missing", "missing.toml", &[]),
+    ] {
+        let args = [&["run", "door.il", "--machine", machine], more].concat();
+        insta::assert_snapshot!(format!("machine_{name}"), shown(path, &args));
+    }
+    let recording = fs::read_to_string(path.join("door.vcd")).unwrap();
+    // The limit switch opens at 400 mm, which the door reaches 400 ms after the scan at 10 ms.
+    assert!(recording.contains("#410000\n0\""), "{recording}");
+    let args = ["test", "door.plctest.toml"];
+    insta::assert_snapshot!("machine_test", shown(path, &args));
+    let args = ["test", "door.plctest.toml", "--machine", "wrong.toml"];
+    assert_eq!(code(path, &args), 2);
+}
+
 #[test]
 fn a_scan_that_does_not_end_is_the_programs_fault() {
     let folder = folder(&[("endless.il", b"P0\nLD M8000\nCJ P0\nEND\n")]);

@@ -69,6 +69,32 @@ fn readme_shows_what_happens() {
 }
 
 #[test]
+fn the_example_of_machines_runs() {
+    let page = fs::read_to_string(root().join("docs/machines.md")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let program = &blocks(&page, "", "LD M8002")[0];
+    let test = &blocks(&page, "toml", "model")[0];
+    write("feeder.il", program);
+    write("feeder.machine.toml", &blocks(&page, "toml", "[[axis]]")[0]);
+    write("feeder.plctest.toml", test);
+    let bare = |line: &str| line.split(';').next().unwrap().trim_end().to_owned();
+    let bare: Vec<_> = program.lines().map(bare).collect();
+    assert!(
+        test.contains(&bare.join("\n")),
+        "the test has another program"
+    );
+    let (printed, succeeded) = rungc(folder.path(), &["test", "feeder.plctest.toml"]);
+    assert!(succeeded, "{printed}");
+    let command = blocks(&page, "", "$ rungc run").concat();
+    let args = command.trim().strip_prefix("$ rungc ").unwrap();
+    let (printed, succeeded) = rungc(folder.path(), &args.split(' ').collect::<Vec<_>>());
+    assert!(succeeded, "{printed}");
+    let counted = printed.lines().any(|line| line.ends_with("·    █      1"));
+    assert!(counted, "{printed}");
+}
+
+#[test]
 fn the_example_of_test_files_passes() {
     let page = fs::read_to_string(root().join("docs/test-files.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();

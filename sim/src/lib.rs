@@ -7,9 +7,12 @@ mod devices;
 pub mod engines;
 mod exec;
 pub mod machine;
+pub mod plant;
 pub mod plctest;
+mod problem;
 pub mod protocol;
 pub mod record;
+pub mod wire;
 
 pub use devices::rt_class;
 pub use machine::Machine;

@@ -4,13 +4,15 @@ mod device;
 mod recording;
 mod simulate;
 mod view;
+mod wiring;
 
 use super::{Context, Failure, Result, conclude, findings, read, stem};
 use crate::args::RunArgs;
 use crate::report;
 use rungc_ir::Module;
 use rungc_ir::compile::{CompileOptions, compile};
-use rungc_sim::plctest::Target;
+use rungc_sim::plant::{self, Description};
+use rungc_sim::plctest::{LoadError, Target};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_syntax::DeviceClass;
 use std::fs;
@@ -48,15 +50,23 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         .iter()
         .map(|name| target(name))
         .collect::<std::result::Result<Vec<_>, _>>()?;
+    let described = match &args.machine {
+        Some(path) => Some(plant::load(path).map_err(because)?),
+        None => None,
+    };
+    if let Some(machine) = &described {
+        free_inputs(machine, &settings)?;
+    }
     if let Some(path) = &args.vcd {
         spare_input("--vcd", path, &args.input.file)?;
     }
     let read = read(&args.input, cx)?;
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
+    let wired = described.iter().flat_map(Description::terminals);
     let options = CompileOptions {
         model: args.input.model,
         name: Some(stem(&args.input, &read)),
-        observe: used.flat_map(observed).collect(),
+        observe: used.flat_map(observed).chain(wired).collect(),
         ..CompileOptions::default()
     };
     let compiled = compile(&read.program, &options);
@@ -71,7 +81,11 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     } else {
         watched
     };
-    simulate::simulate(args, &module, &settings, &watched)
+    if let Some(machine) = &described {
+        machine.check(module.model).map_err(because)?;
+    }
+    let plant = described.as_ref().map(Description::plant);
+    simulate::simulate(args, &module, plant, &settings, &watched)
 }
 
 fn target(name: &str) -> std::result::Result<Target, Failure> {
@@ -134,6 +148,26 @@ fn setting(text: &str) -> std::result::Result<Setting, Failure> {
 fn observed(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
     let (class, first, count) = target.devices(TEXT_LENGTH);
     (first..first.saturating_add(count)).map(move |n| (class, n))
+}
+
+fn because(error: LoadError) -> Failure {
+    Failure::Because(error.to_string())
+}
+
+/// What the machine drives is not set by hand.
+fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Result<(), Failure> {
+    let driven = settings.iter().find_map(|setting| {
+        let mut devices = observed(setting.target);
+        devices.find(|&(class, n)| machine.drives(class, n))
+    });
+    match driven {
+        Some((class, n)) => Err(Failure::Because(format!(
+            "--set: `{}` is driven by {}",
+            class.number(n),
+            machine.name()
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// Recordings replace what is there, but not the program.

@@ -4,9 +4,11 @@ use super::{Context, Failure, Outcome, Result, counted, say, tell};
 use crate::args::{EngineChoice, TestArgs};
 use crate::progress;
 use rungc_sim::engines::{EngineKind, build};
+use rungc_sim::plant;
 use rungc_sim::plctest::{self, Report, Suite, TestFile};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Ending of the names of test files.
@@ -15,7 +17,10 @@ const ENDING: &str = ".plctest.toml";
 /// Runs test files.
 pub fn run(args: &TestArgs, _cx: Context) -> Result {
     let start = Instant::now();
-    let files = load(&args.files, args.only.as_deref())?;
+    let mut files = load(&args.files, args.only.as_deref())?;
+    if let Some(path) = &args.machine {
+        wire(&mut files, path)?;
+    }
     let suite = progress::spin("compiling the cases", || Suite::compile(files));
     if suite.is_empty() {
         return Err(Failure::Because("no case to run".to_string()));
@@ -95,6 +100,16 @@ fn load(paths: &[PathBuf], only: Option<&str>) -> std::result::Result<Vec<TestFi
         files.retain(|file| !file.cases.is_empty());
     }
     Ok(files)
+}
+
+/// Gives the machine of a file to cases that name none.
+fn wire(files: &mut [TestFile], path: &Path) -> std::result::Result<(), Failure> {
+    let described = plant::load(path).map_err(|error| Failure::Because(error.to_string()))?;
+    let described = Arc::new(described);
+    for case in files.iter_mut().flat_map(|file| &mut file.cases) {
+        case.machine.get_or_insert_with(|| Arc::clone(&described));
+    }
+    Ok(())
 }
 
 fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Failure> {

@@ -1,12 +1,17 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
-use super::wire::Signal;
-use super::{Basis, Case, Check, Problem, Rejects, Run, Setting, Step, Target, TestFile, Value};
+use super::{
+    Basis, Case, Check, Problem, Rejects, Run, Setting, Signal, Step, Target, TestFile, Value,
+};
+use crate::plant::{self, Description};
+use crate::problem;
 use rungc_ir::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
 use toml::Spanned;
 
 type Map<T> = BTreeMap<Spanned<String>, T>;
@@ -17,6 +22,7 @@ struct RawFile {
     model: Spanned<String>,
     topic: String,
     note: Option<String>,
+    machine: Option<Spanned<String>>,
     case: Vec<Spanned<RawCase>>,
 }
 
@@ -31,6 +37,7 @@ struct RawCase {
     #[serde(default)]
     note: String,
     program: String,
+    machine: Option<Spanned<String>>,
     #[serde(default)]
     init: Map<Spanned<Scalar>>,
     #[serde(default)]
@@ -67,6 +74,8 @@ struct RawStep {
     bfm: Map<Spanned<Scalar>>,
     #[serde(default)]
     expect_bfm: Map<Spanned<Scalar>>,
+    #[serde(default)]
+    expect_position: BTreeMap<String, f64>,
     #[serde(default)]
     analog: Map<Spanned<Scalar>>,
 }
@@ -112,13 +121,7 @@ struct Reader<'t> {
 
 /// Reads the text of a test file.
 pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
-    let raw: RawFile = match toml::from_str(&source.text) {
-        Ok(raw) => raw,
-        Err(error) => {
-            let at = error.span().map_or(0, |span| span.start);
-            return Err(vec![problem(source, at, error.message().to_string())]);
-        }
-    };
+    let raw: RawFile = problem::from_toml(source)?;
     let mut reader = Reader {
         source,
         problems: Vec::new(),
@@ -132,18 +135,9 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
     }
 }
 
-fn problem(source: &Source, at: usize, message: String) -> Problem {
-    let (line, column) = source.line_col(at as u32);
-    Problem {
-        line,
-        column,
-        message,
-    }
-}
-
 impl Reader<'_> {
     fn report(&mut self, at: usize, message: String) {
-        self.problems.push(problem(self.source, at, message));
+        self.problems.push(Problem::at(self.source, at, message));
     }
 
     fn line(&self, at: usize) -> u32 {
@@ -160,6 +154,7 @@ impl Reader<'_> {
 
     fn file(&mut self, raw: RawFile) -> TestFile {
         let model = self.model(&raw.model);
+        let machine = self.machine(raw.machine.as_ref());
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
             let name = case.get_ref().name.clone();
@@ -167,7 +162,10 @@ impl Reader<'_> {
                 let message = format!("the case `{}` stands twice in this file", name.get_ref());
                 self.report(name.span().start, message);
             }
-            let case = self.case(case, model);
+            let mut case = self.case(case, model);
+            if case.machine.is_none() {
+                case.machine.clone_from(&machine);
+            }
             cases.push(case);
         }
         TestFile {
@@ -175,6 +173,20 @@ impl Reader<'_> {
             topic: raw.topic,
             note: raw.note.unwrap_or_default(),
             cases,
+        }
+    }
+
+    /// The machine that a file beside the test file describes.
+    fn machine(&mut self, name: Option<&Spanned<String>>) -> Option<Arc<Description>> {
+        let name = name?;
+        let folder = Path::new(&self.source.name).parent();
+        let path = folder.unwrap_or(Path::new("")).join(name.get_ref());
+        match plant::load(&path) {
+            Ok(machine) => Some(Arc::new(machine)),
+            Err(error) => {
+                self.report(name.span().start, error.to_string());
+                None
+            }
         }
     }
 
@@ -209,6 +221,7 @@ impl Reader<'_> {
             basis: raw.basis,
             note: raw.note,
             program: raw.program,
+            machine: self.machine(raw.machine.as_ref()),
             check,
         }
     }
@@ -261,6 +274,7 @@ impl Reader<'_> {
             scan_ms,
             expect: self.settings(raw.expect),
             expect_bfm: self.buffer(raw.expect_bfm),
+            expect_position: raw.expect_position.into_iter().collect(),
             needs,
         }
     }

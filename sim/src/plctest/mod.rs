@@ -7,20 +7,25 @@ mod name;
 mod report;
 mod runner;
 mod suite;
-mod wire;
+mod wiring;
 
 pub use name::Target;
 pub use report::{Failure, Outcome, Report};
 pub use runner::run;
 pub use suite::{Id, Suite};
-pub use wire::Signal;
 
+pub use crate::problem::{LoadError, Problem};
+pub use crate::wire::Signal;
+
+use crate::plant::Description;
+use crate::problem;
 use rungc_ir::ModelId;
 use rungc_rt::Clock;
 use rungc_syntax::Source;
 use serde::Deserialize;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::sync::Arc;
 
 /// A test file.
 #[derive(Clone, Debug)]
@@ -52,6 +57,8 @@ pub struct Case {
     pub note: String,
     /// The program as an instruction list.
     pub program: String,
+    /// The machine that its inputs and outputs are wired to.
+    pub machine: Option<Arc<Description>>,
     /// What is checked.
     pub check: Check,
 }
@@ -118,6 +125,8 @@ pub struct Step {
     pub expect: Vec<Setting>,
     /// What buffer memory must hold then.
     pub expect_bfm: Vec<(u16, u16, i16)>,
+    /// Where axes of the machine must be then, in their units.
+    pub expect_position: Vec<(String, f64)>,
     /// Hardware that the step needs and no engine has yet.
     pub needs: Vec<&'static str>,
 }
@@ -161,57 +170,19 @@ impl fmt::Display for Value {
     }
 }
 
-/// A mistake in a test file.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Problem {
-    /// Line, from 1.
-    pub line: u32,
-    /// Column in characters, from 1.
-    pub column: u32,
-    /// What is wrong.
-    pub message: String,
-}
-
-/// Why a test file could not be loaded.
-#[derive(Debug, thiserror::Error)]
-pub enum LoadError {
-    /// It could not be read.
-    #[error("{}: {error}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        error: std::io::Error,
-    },
-    /// Mistakes in it, one a line.
-    #[error("{}", lines(name, problems))]
-    Format {
-        /// The file's name.
-        name: String,
-        /// What is wrong in it.
-        problems: Vec<Problem>,
-    },
-}
-
-fn lines(name: &str, problems: &[Problem]) -> String {
-    let line = |p: &Problem| format!("{name}:{}:{}: {}", p.line, p.column, p.message);
-    problems.iter().map(line).collect::<Vec<_>>().join("\n")
-}
-
 /// Reads a test file.
 pub fn load(path: &Path) -> Result<TestFile, LoadError> {
-    let text = std::fs::read_to_string(path).map_err(|error| LoadError::Io {
-        path: path.to_path_buf(),
-        error,
-    })?;
-    parse(&path.display().to_string(), &text)
+    parse_source(&problem::read(path)?)
 }
 
 /// Reads the text of a test file.
 pub fn parse(name: &str, text: &str) -> Result<TestFile, LoadError> {
-    let source = Source::new(name, text);
-    format::parse(&source).map_err(|problems| LoadError::Format {
-        name: name.to_string(),
+    parse_source(&Source::new(name, text))
+}
+
+fn parse_source(source: &Source) -> Result<TestFile, LoadError> {
+    format::parse(source).map_err(|problems| LoadError::Format {
+        name: source.name.clone(),
         problems,
     })
 }

@@ -28,6 +28,13 @@ pub enum Failure {
         /// Name, expected and actual value of each.
         values: Vec<(String, Value, Value)>,
     },
+    /// The machine around the PLC was damaged, or the case does not fit it.
+    Machine {
+        /// Step of the case, from 1; 0 before the first.
+        step: usize,
+        /// What is wrong.
+        message: String,
+    },
     /// The engine failed.
     Engine {
         /// Step of the case, from 1; 0 for `init`.
@@ -59,7 +66,10 @@ impl fmt::Display for Failure {
                     write!(f, " {name} is {actual}, expected {expected};")
                 })
             }
-            Failure::Engine { step, message } => write!(f, "step {step}: {message}"),
+            Failure::Machine { step: 0, message } => write!(f, "{message}"),
+            Failure::Machine { step, message } | Failure::Engine { step, message } => {
+                write!(f, "step {step}: {message}")
+            }
         }
     }
 }

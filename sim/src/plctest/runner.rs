@@ -1,11 +1,13 @@
 //! Runs the cases of a suite on an engine.
 
 use super::suite::Built;
-use super::wire;
+use super::wiring;
 use super::{Check, Failure, Outcome, Rejects, Report, Run, Setting, Step, Suite, Target, Value};
 use crate::devices::rt_class;
 use crate::engines::{Engine, EngineError};
+use crate::plant::{Description, Plant};
 use crate::protocol::{Answer, Request};
+use crate::wire;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -26,7 +28,12 @@ pub fn run(suite: &Suite, engine: &mut dyn Engine, progress: &mut dyn FnMut(&Out
                 errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
             )),
             (Check::Steps { init, steps }, Built::Module(module)) => {
-                run_case(engine, *module, suite.takes_events(*module), init, steps)
+                let machine = case.machine.as_deref();
+                wiring::check(machine, case.model, init, steps).and_then(|()| {
+                    let takes_events = suite.takes_events(*module);
+                    let plant = machine.map(Description::plant);
+                    run_case(engine, *module, takes_events, plant, init, steps)
+                })
             }
         };
         let outcome = Outcome {
@@ -71,10 +78,10 @@ fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
 }
 
 /// A case while it runs.
-struct Running<'e> {
-    engine: &'e mut dyn Engine,
+pub(super) struct Running<'e> {
+    pub(super) engine: &'e mut dyn Engine,
     /// The step that runs, from 1.
-    step: usize,
+    pub(super) step: usize,
     now_ms: u32,
     /// State of the input terminals, which a power cycle does not change.
     inputs: BTreeMap<u32, bool>,
@@ -82,12 +89,15 @@ struct Running<'e> {
     takes_events: bool,
     /// Whether a scan has run since power-on.
     scanned: bool,
+    /// The machine around the PLC.
+    pub(super) plant: Option<Plant>,
 }
 
 fn run_case(
     engine: &mut dyn Engine,
     module: usize,
     takes_events: bool,
+    plant: Option<Plant>,
     init: &[Setting],
     steps: &[Step],
 ) -> Result<(), Failure> {
@@ -104,9 +114,11 @@ fn run_case(
         inputs: BTreeMap::new(),
         takes_events,
         scanned: false,
+        plant,
     };
     running.ask(Request::Case(module))?;
     running.set_all(init)?;
+    running.wire_up()?;
     for (i, step) in steps.iter().enumerate() {
         running.step = i + 1;
         running.run_step(step)?;
@@ -115,13 +127,13 @@ fn run_case(
 }
 
 impl Running<'_> {
-    fn ask(&mut self, request: Request) -> Result<Answer, Failure> {
+    pub(super) fn ask(&mut self, request: Request) -> Result<Answer, Failure> {
         self.engine
             .ask(request)
             .map_err(|error| self.failed(&error))
     }
 
-    fn failed(&self, error: &EngineError) -> Failure {
+    pub(super) fn failed(&self, error: &EngineError) -> Failure {
         Failure::Engine {
             step: self.step,
             message: error.to_string(),
@@ -141,6 +153,7 @@ impl Running<'_> {
             self.ask(Request::Power)?;
             self.now_ms = 0;
             self.scanned = false;
+            self.plant.iter_mut().for_each(Plant::power_cycle);
             for (number, on) in self.inputs.clone() {
                 self.ask(Request::SetBit(Class::X, number, on))?;
             }
@@ -188,6 +201,7 @@ impl Running<'_> {
                     self.ask(Request::Tick(self.now_ms))?;
                     self.interrupts()?;
                 }
+                self.move_machine(self.now_ms)?;
             }
         }
         self.check(step)
@@ -211,6 +225,7 @@ impl Running<'_> {
                 values.push((name, Value::Int(expected.into()), Value::Int(actual as i32)));
             }
         }
+        values.extend(self.wrong_positions(&step.expect_position));
         if values.is_empty() {
             return Ok(());
         }
@@ -238,7 +253,7 @@ impl Running<'_> {
     }
 
     /// An input terminal is on or off from now.
-    fn input(&mut self, number: u32, on: bool) -> Result<(), Failure> {
+    pub(super) fn input(&mut self, number: u32, on: bool) -> Result<(), Failure> {
         let before = self.inputs.insert(number, on).unwrap_or(false);
         // What is on at power-on has not gone on.
         if self.takes_events && self.scanned && on != before {
@@ -248,7 +263,7 @@ impl Running<'_> {
     }
 
     /// Interrupts are taken between two scans.
-    fn interrupts(&mut self) -> Result<(), Failure> {
+    pub(super) fn interrupts(&mut self) -> Result<(), Failure> {
         if self.takes_events {
             self.ask(Request::Interrupts)?;
         }

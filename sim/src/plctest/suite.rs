@@ -98,6 +98,7 @@ fn observed(case: &Case) -> Vec<(DeviceClass, u32)> {
         return Vec::new();
     };
     let of_steps = steps.iter().flat_map(|s| s.set.iter().chain(&s.expect));
+    let of_machine = case.machine.iter().flat_map(|machine| machine.terminals());
     let devices: BTreeSet<_> = init
         .iter()
         .chain(of_steps)
@@ -109,6 +110,7 @@ fn observed(case: &Case) -> Vec<(DeviceClass, u32)> {
             let (class, first, count) = setting.target.devices(text_len);
             (first..first.saturating_add(count)).map(move |n| (class, n))
         })
+        .chain(of_machine)
         .collect();
     devices.into_iter().collect()
 }

@@ -33,6 +33,14 @@ impl Signal {
         };
         Signal { scope, name }
     }
+
+    /// The position of an axis of the machine around the PLC.
+    pub fn of_axis(name: &str) -> Signal {
+        Signal {
+            scope: "machine",
+            name: format!("{name}_position"),
+        }
+    }
 }
 
 /// A recording that is being written. Times are in microseconds, and do not go back.

@@ -2,12 +2,14 @@
 
 use super::recording::Recording;
 use super::view::{Column, Kind, View};
+use super::wiring::Wiring;
 use super::{Setting, device};
 use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, tell};
 use rungc_ir::Module;
-use rungc_rt::{Program, VirtualHal};
+use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Machine;
+use rungc_sim::plant::Plant;
 use rungc_sim::plctest::Target;
 use rungc_sim::record::Reading;
 use rungc_syntax::DeviceClass;
@@ -26,6 +28,7 @@ struct Simulation<'a> {
     view: View,
     out: Table,
     recording: Option<Recording>,
+    plant: Option<Plant>,
     now_ms: u64,
 }
 
@@ -33,6 +36,7 @@ struct Simulation<'a> {
 pub fn simulate(
     args: &RunArgs,
     module: &Module,
+    plant: Option<Plant>,
     settings: &[Setting],
     watched: &[Target],
 ) -> Result {
@@ -42,7 +46,7 @@ pub fn simulate(
         Reading::of(&machine, target).ok_or_else(|| missing(target, module))?;
     }
     let recording = match &args.vcd {
-        Some(path) => Some(Recording::begin(path, &machine, watched)?),
+        Some(path) => Some(Recording::begin(path, &machine, plant.as_ref(), watched)?),
         None => None,
     };
     let mut simulation = Simulation {
@@ -56,13 +60,14 @@ pub fn simulate(
             optional: recording.is_some(),
         },
         recording,
+        plant,
         now_ms: 0,
     };
     let outcome = simulation.run(args)?;
     let end_us = 1000
-        * match outcome {
-            Outcome::Success => args.duration,
-            Outcome::Failed => simulation.now_ms,
+        * match simulation.machine.watchdog_tripped() {
+            false => args.duration,
+            true => simulation.now_ms,
         };
     if let Some(recording) = simulation.recording {
         recording.keep(end_us)?;
@@ -75,6 +80,11 @@ impl Simulation<'_> {
         self.out.line(&self.view.heading())?;
         let begin = Instant::now();
         self.apply_settings()?;
+        let inputs = self.plant.as_ref().map_or(Vec::new(), Plant::inputs);
+        for (number, on) in inputs {
+            // The description was held to the model, so the input exists.
+            let _ = self.machine.set_bit(Class::X, number, on);
+        }
         loop {
             self.scan(args.scan)?;
             if self.machine.watchdog_tripped() {
@@ -106,7 +116,11 @@ impl Simulation<'_> {
                 late.target, late.at_ms
             ));
         }
-        Ok(Outcome::Success)
+        let damaged = self.plant.as_ref().and_then(Plant::collision);
+        Ok(match damaged {
+            Some(_) => Outcome::Failed,
+            None => Outcome::Success,
+        })
     }
 
     fn scan(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
@@ -131,6 +145,23 @@ impl Simulation<'_> {
         self.machine.tick(self.now_ms as u32);
         self.apply_settings()?;
         self.machine.take_interrupts(&mut self.hal);
+        let Some(plant) = &mut self.plant else {
+            return Ok(());
+        };
+        let before = plant.collision().cloned();
+        plant.step(
+            self.now_ms,
+            &mut Wiring {
+                machine: &mut self.machine,
+                hal: &mut self.hal,
+                recording: self.recording.as_mut(),
+            },
+        )?;
+        if let Some(collision) = plant.collision()
+            && before.as_ref() != Some(collision)
+        {
+            tell(&format!("rungc: {collision}"));
+        }
         Ok(())
     }
 
@@ -156,7 +187,9 @@ impl Simulation<'_> {
 
     fn record(&mut self) -> std::result::Result<(), Failure> {
         match &mut self.recording {
-            Some(recording) => recording.sample(1000 * self.now_ms, &self.machine),
+            Some(recording) => {
+                recording.sample(1000 * self.now_ms, &self.machine, self.plant.as_ref())
+            }
             None => Ok(()),
         }
     }

@@ -1,0 +1,41 @@
+//! `rungc run --machine`: the terminals of the interpreter, as the machine is wired to them.
+
+use super::recording::Recording;
+use crate::commands::Failure;
+use rungc_rt::{Class, Plc, Program, VirtualHal};
+use rungc_sim::Machine;
+use rungc_sim::plant::{Look, Terminals};
+use rungc_sim::wire::Change;
+
+/// A PLC between two scans.
+pub struct Wiring<'a, 'm> {
+    /// The PLC.
+    pub machine: &'a mut Machine<'m>,
+    /// Its hardware.
+    pub hal: &'a mut VirtualHal,
+    /// Where edges of inputs are recorded.
+    pub recording: Option<&'a mut Recording>,
+}
+
+impl Terminals for Wiring<'_, '_> {
+    type Error = Failure;
+
+    fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Failure> {
+        let value = |look: &Look| match *look {
+            Look::Level(output) => i32::from(self.machine.output(output)),
+            Look::Pulses(output) => i32::from(self.machine.output(output)),
+        };
+        Ok(at.iter().map(value).collect())
+    }
+
+    fn change(&mut self, change: Change) -> Result<(), Failure> {
+        // The description was held to the model, so the input exists.
+        let _ = self.machine.set_bit(Class::X, change.input, change.on);
+        self.machine.input_edge(change.input, change.on);
+        self.machine.take_interrupts(self.hal);
+        match &mut self.recording {
+            Some(recording) => recording.edge(change),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Something that moves: what drives it, how far it can go, and the switches along its way.
+
+use super::marks::Switch;
+use super::{Look, Moment};
+use std::fmt;
+
+/// What drives an axis.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Drive {
+    /// The pulses of an output.
+    Pulses {
+        /// Output Y.
+        output: u32,
+        /// The output that tells the direction, and its state for forward; without one the sign of the pulses tells it.
+        direction: Option<(u32, bool)>,
+        /// Pulses that it has followed.
+        followed: i32,
+    },
+    /// A motor, or the air of a cylinder. It stands still when it is driven both ways.
+    Outputs {
+        /// Output that drives it forward.
+        forward: u32,
+        /// What drives it back.
+        back: Back,
+        /// What it goes forward in a millisecond.
+        out_speed: f64,
+        /// What it goes back in a millisecond.
+        back_speed: f64,
+    },
+}
+
+/// What drives an axis back.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Back {
+    /// Nothing: it runs forward only.
+    Nothing,
+    /// A spring, when nothing drives it forward.
+    Spring,
+    /// An output.
+    Output(u32),
+}
+
+/// An axis, or a cylinder. Lengths are in pulses if pulses drive it.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Axis {
+    pub(super) name: String,
+    pub(super) unit: String,
+    /// How much of a length makes a unit.
+    pub(super) per_unit: f64,
+    pub(super) drive: Drive,
+    pub(super) position: f64,
+    /// The ends of its way.
+    pub(super) travel: Option<[f64; 2]>,
+    pub(super) switches: Vec<Switch>,
+    /// Whether it has run into an end of its way.
+    pub(super) collision: Option<Collision>,
+}
+
+/// An axis has run into an end of its travel, where it stays: its motor stalls, and pulses are lost.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Collision {
+    /// Name of the axis.
+    pub axis: String,
+    /// When, in milliseconds since the machine began.
+    pub at_ms: u64,
+    /// Where, in the unit of the axis.
+    pub position: f64,
+    /// That unit.
+    pub unit: String,
+}
+
+impl fmt::Display for Collision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Collision {
+            axis,
+            at_ms,
+            position,
+            unit,
+        } = self;
+        write!(
+            f,
+            "at {at_ms} ms: the axis {axis} runs into the end of its travel, at {position} {unit}"
+        )
+    }
+}
+
+impl Axis {
+    pub(super) fn inputs(&self) -> impl Iterator<Item = (u32, bool)> {
+        let state = |s: &Switch| (s.input, s.is_on(self.position));
+        self.switches.iter().map(state)
+    }
+
+    pub(super) fn looks_at(&self, wanted: &mut Vec<Look>) {
+        match self.drive {
+            Drive::Pulses {
+                output, direction, ..
+            } => {
+                wanted.push(Look::Pulses(output));
+                wanted.extend(direction.map(|(output, _)| Look::Level(output)));
+            }
+            Drive::Outputs { forward, back, .. } => {
+                wanted.push(Look::Level(forward));
+                if let Back::Output(output) = back {
+                    wanted.push(Look::Level(output));
+                }
+            }
+        }
+    }
+
+    /// How far it may be from where it is expected: half a pulse, or half of what it goes in a millisecond.
+    pub(super) fn tolerance(&self) -> f64 {
+        match self.drive {
+            Drive::Pulses { .. } => 0.5,
+            Drive::Outputs { out_speed, .. } => out_speed / 2.0,
+        }
+    }
+
+    pub(super) fn power_cycle(&mut self) {
+        if let Drive::Pulses { followed, .. } = &mut self.drive {
+            *followed = 0;
+        }
+    }
+
+    pub(super) fn step(
+        &mut self,
+        now_ms: u64,
+        see: &dyn Fn(Look) -> i32,
+        moments: &mut Vec<Moment>,
+    ) {
+        let speed = self.drive.follow(see);
+        if speed == 0.0 {
+            return;
+        }
+        let from = self.position;
+        let free = from + speed;
+        let to = self.travel.map_or(free, |[min, max]| free.clamp(min, max));
+        if to != free && self.collision.is_none() {
+            self.collision = Some(Collision {
+                axis: self.name.clone(),
+                at_ms: now_ms,
+                position: to / self.per_unit,
+                unit: self.unit.clone(),
+            });
+        }
+        for switch in &self.switches {
+            switch.pass(from, to, speed, moments);
+        }
+        self.position = to;
+    }
+}
+
+impl Drive {
+    /// Whether both follow the pulses of the same output.
+    pub(super) fn follows_same(&self, other: &Drive) -> bool {
+        let output = |drive: &Drive| match drive {
+            Drive::Pulses { output, .. } => Some(*output),
+            Drive::Outputs { .. } => None,
+        };
+        output(self).is_some() && output(self) == output(other)
+    }
+
+    /// What the axis is driven in a millisecond.
+    fn follow(&mut self, see: &dyn Fn(Look) -> i32) -> f64 {
+        match self {
+            Drive::Pulses {
+                output,
+                direction,
+                followed,
+            } => {
+                let sent = see(Look::Pulses(*output));
+                let pulses = f64::from(sent.wrapping_sub(*followed));
+                *followed = sent;
+                match *direction {
+                    None => pulses,
+                    Some((output, forward)) if (see(Look::Level(output)) != 0) == forward => {
+                        pulses.abs()
+                    }
+                    Some(_) => -pulses.abs(),
+                }
+            }
+            Drive::Outputs {
+                forward,
+                back,
+                out_speed,
+                back_speed,
+            } => {
+                let on = |output| see(Look::Level(output)) != 0;
+                let out = on(*forward);
+                let back = match *back {
+                    Back::Nothing => false,
+                    Back::Spring => !out,
+                    Back::Output(output) => on(output),
+                };
+                match (out, back) {
+                    (true, false) => *out_speed,
+                    (false, true) => -*back_speed,
+                    _ => 0.0,
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Where along its way an axis switches an input.
+
+use super::Moment;
+
+/// Places where an input is on. Along the way they alternate with places where it is off; all of them are numbered, so that an axis
+/// that moves from one number to another passes those between.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Marks {
+    /// From here to there, both included.
+    Range { from: f64, to: f64 },
+    /// `width` long, beginning at `offset` and again after each `every`.
+    Periodic { offset: f64, width: f64, every: f64 },
+}
+
+impl Marks {
+    /// Number of the place that holds this position. It never goes down when the position goes up.
+    fn index(self, at: f64) -> i64 {
+        match self {
+            Marks::Range { from, to } => i64::from(at >= from) + i64::from(at > to),
+            Marks::Periodic {
+                offset,
+                width,
+                every,
+            } => {
+                let period = ((at - offset) / every).floor();
+                let within = at - offset - period * every;
+                2 * period as i64 + i64::from(within >= width)
+            }
+        }
+    }
+
+    /// Whether the input is on there.
+    fn is_on(self, index: i64) -> bool {
+        match self {
+            Marks::Range { .. } => index == 1,
+            Marks::Periodic { .. } => index % 2 == 0,
+        }
+    }
+
+    /// Where a place begins.
+    fn begin(self, index: i64) -> f64 {
+        match self {
+            Marks::Range { from, to } => {
+                if index == 1 {
+                    from
+                } else {
+                    to
+                }
+            }
+            Marks::Periodic {
+                offset,
+                width,
+                every,
+            } => {
+                let inside = if index % 2 == 0 { 0.0 } else { width };
+                offset + index.div_euclid(2) as f64 * every + inside
+            }
+        }
+    }
+}
+
+/// A switch or a line of an encoder.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Switch {
+    pub(super) input: u32,
+    pub(super) marks: Marks,
+}
+
+impl Switch {
+    /// Whether it is on at this position.
+    pub(super) fn is_on(&self, at: f64) -> bool {
+        self.marks.is_on(self.marks.index(at))
+    }
+
+    /// What it does on the way from one position to another, of which the axis goes `speed` in the millisecond.
+    pub(super) fn pass(&self, from: f64, to: f64, speed: f64, moments: &mut Vec<Moment>) {
+        let (begin, end) = (self.marks.index(from), self.marks.index(to));
+        let mut enter = |index: i64, border: f64| {
+            let part = ((border - from) / speed).clamp(0.0, 1.0);
+            moments.push((part, self.input, self.marks.is_on(index)));
+        };
+        for index in begin + 1..=end {
+            enter(index, self.marks.begin(index));
+        }
+        for index in (end..begin).rev() {
+            enter(index, self.marks.begin(index + 1));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn passed(marks: Marks, from: f64, to: f64) -> Vec<Moment> {
+        let mut moments = Vec::new();
+        Switch { input: 0, marks }.pass(from, to, to - from, &mut moments);
+        moments
+    }
+
+    #[test]
+    fn a_switch_that_is_passed_within_a_millisecond_is_seen() {
+        let marks = Marks::Range {
+            from: 10.0,
+            to: 20.0,
+        };
+        let there = [(0.25, 0, true), (0.5, 0, false)];
+        assert_eq!(passed(marks, 0.0, 40.0), there);
+        let back = [(0.5, 0, true), (0.75, 0, false)];
+        assert_eq!(passed(marks, 40.0, 0.0), back);
+        assert_eq!(passed(marks, 10.0, 20.0), []);
+        assert_eq!(passed(marks, 21.0, 20.0).len(), 1);
+    }
+
+    #[test]
+    fn an_encoder_line_has_an_edge_each_half_cycle_both_ways() {
+        let marks = Marks::Periodic {
+            offset: 0.25,
+            width: 0.5,
+            every: 1.0,
+        };
+        for (from, to) in [(0.0, 3.0), (-3.0, 0.0), (-1.0, 2.0)] {
+            let there = passed(marks, from, to);
+            let back = passed(marks, to, from);
+            assert_eq!((there.len(), back.len()), (6, 6), "{from} {to}");
+            assert!(there[0].2 && back[0].2, "{from} {to}");
+            assert!(there.is_sorted_by(|a, b| a.0 < b.0 && a.2 != b.2));
+        }
+    }
+}

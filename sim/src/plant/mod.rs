@@ -1,0 +1,135 @@
+//! The machine around a PLC: axes with their switches and encoders, cylinders, and inputs that follow outputs.
+//!
+//! A [`Description`] is read from a TOML file (`docs/machines.md`). The [`Plant`] that it describes moves on a millisecond at a time:
+//! it looks at the PLC's outputs through [`Terminals`] and changes its inputs. Within a millisecond an axis moves evenly, and each
+//! switch and each encoder line changes when the axis passes the place where it does.
+
+mod axis;
+mod delay;
+mod format;
+mod marks;
+
+pub use axis::Collision;
+pub use format::{Description, load, parse};
+
+use crate::wire::Change;
+use axis::Axis;
+use delay::Delay;
+
+/// What the machine asks of an output.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Look {
+    /// Whether output terminal Y is on: 0 or 1.
+    Level(u32),
+    /// How many pulses output Y has sent since power-on, those in reverse counting down; wraps.
+    Pulses(u32),
+}
+
+/// The terminals of a PLC, as the machine is wired to them.
+pub trait Terminals {
+    /// What may go wrong.
+    type Error;
+
+    /// What the outputs do now.
+    fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Self::Error>;
+
+    /// An input goes on or off. Changes come in the order of their times.
+    fn change(&mut self, change: Change) -> Result<(), Self::Error>;
+}
+
+/// A machine.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Plant {
+    axes: Vec<Axis>,
+    cylinders: Vec<Axis>,
+    delays: Vec<Delay>,
+    /// Inputs whose contacts open where the others close.
+    normally_closed: Vec<u32>,
+}
+
+/// An input that goes on or off: when, as a part of the millisecond, which one, and whether it is on now.
+type Moment = (f64, u32, bool);
+
+impl Plant {
+    /// The state of each input that the machine drives.
+    pub fn inputs(&self) -> Vec<(u32, bool)> {
+        let of_axes = self.movers().flat_map(Axis::inputs);
+        let of_delays = self.delays.iter().map(Delay::input);
+        of_axes
+            .chain(of_delays)
+            .map(|(input, on)| (input, self.contact(input, on)))
+            .collect()
+    }
+
+    /// A millisecond passes, which ends at `now_ms`.
+    pub fn step<T: Terminals>(&mut self, now_ms: u64, terminals: &mut T) -> Result<(), T::Error> {
+        let mut wanted = Vec::new();
+        for axis in self.movers() {
+            axis.looks_at(&mut wanted);
+        }
+        wanted.extend(self.delays.iter().map(Delay::looks_at));
+        let seen = terminals.look(&wanted)?;
+        let see = |look: Look| {
+            let found = wanted
+                .iter()
+                .zip(&seen)
+                .find(|(wanted, _)| **wanted == look);
+            found.map_or(0, |(_, &value)| value)
+        };
+        let mut moments: Vec<Moment> = Vec::new();
+        for axis in self.axes.iter_mut().chain(&mut self.cylinders) {
+            axis.step(now_ms, &see, &mut moments);
+        }
+        for delay in &mut self.delays {
+            delay.step(&see, &mut moments);
+        }
+        moments.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        for (part, input, on) in moments {
+            terminals.change(Change {
+                at_us: now_ms.saturating_sub(1) * 1000 + (part * 1000.0) as u64,
+                input,
+                on: self.contact(input, on),
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The PLC was switched off and on: it counts its pulses from 0 again. The machine stays as it is.
+    pub fn power_cycle(&mut self) {
+        self.axes.iter_mut().for_each(Axis::power_cycle);
+    }
+
+    /// The names of the axes.
+    pub fn axes(&self) -> impl Iterator<Item = &str> {
+        self.axes.iter().map(|axis| axis.name.as_str())
+    }
+
+    /// Where the axis with this name is, in its unit.
+    pub fn position(&self, axis: &str) -> Option<f64> {
+        let found = self.axes.iter().find(|a| a.name == axis);
+        found.map(|axis| axis.position / axis.per_unit)
+    }
+
+    /// Whether the axis with this name is where it is expected, to within half a pulse or, of a motor, half a millisecond's way.
+    pub fn is_at(&self, axis: &str, expected: f64) -> bool {
+        let found = self.axes.iter().find(|a| a.name == axis);
+        found.is_some_and(|axis| {
+            (axis.position - expected * axis.per_unit).abs() <= axis.tolerance()
+        })
+    }
+
+    /// The first axis that has run into an end of its travel.
+    pub fn collision(&self) -> Option<&Collision> {
+        let all = self.axes.iter().filter_map(|axis| axis.collision.as_ref());
+        all.min_by_key(|collision| collision.at_ms)
+    }
+
+    fn movers(&self) -> impl Iterator<Item = &Axis> {
+        self.axes.iter().chain(&self.cylinders)
+    }
+
+    /// What an input sees of a contact that is closed or not as it is usual.
+    fn contact(&self, input: u32, on: bool) -> bool {
+        on != self.normally_closed.contains(&input)
+    }
+}

@@ -1,0 +1,144 @@
+//! A case whose PLC is wired to a machine.
+
+use super::runner::Running;
+use super::{Failure, Setting, Signal, Step, Value};
+use crate::engines::EngineError;
+use crate::plant::{Description, Look, Terminals};
+use crate::protocol::{Answer, Request};
+use crate::wire::Change;
+use rungc_ir::{Model, ModelId};
+use rungc_rt::Class;
+use rungc_syntax::DeviceClass;
+
+/// Whether a case and its machine fit each other.
+pub(super) fn check(
+    machine: Option<&Description>,
+    model: ModelId,
+    init: &[Setting],
+    steps: &[Step],
+) -> Result<(), Failure> {
+    let wrong = |step, message| Err(Failure::Machine { step, message });
+    let Some(machine) = machine else {
+        let asks = |step: &Step| !step.expect_position.is_empty();
+        return match steps.iter().position(asks) {
+            Some(i) => wrong(i + 1, "the case has no `machine`".to_string()),
+            None => Ok(()),
+        };
+    };
+    if let Err(error) = machine.check(Model::get(model)) {
+        return wrong(0, error.to_string());
+    }
+    let plant = machine.plant();
+    let begin = (0, inputs_of(init, &[]));
+    let of_steps = steps.iter().enumerate();
+    let of_steps = of_steps.map(|(i, step)| (i + 1, inputs_of(&step.set, &step.signals)));
+    for (step, inputs) in [begin].into_iter().chain(of_steps) {
+        if let Some(input) = inputs
+            .into_iter()
+            .find(|&n| machine.drives(DeviceClass::X, n))
+        {
+            let name = DeviceClass::X.number(input);
+            return wrong(step, format!("`{name}` is driven by {}", machine.name()));
+        }
+    }
+    for (i, step) in steps.iter().enumerate() {
+        for (name, _) in &step.expect_position {
+            if plant.position(name).is_none() {
+                let axes: Vec<_> = plant.axes().collect();
+                let message = format!("there is no axis `{name}`, but: {}", axes.join(", "));
+                return wrong(i + 1, message);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The input terminals that a step sets or gives signals to.
+fn inputs_of(set: &[Setting], signals: &[Signal]) -> Vec<u32> {
+    let set = set.iter().map(|setting| setting.target.devices(0));
+    let of_x = set.filter(|&(class, ..)| class == DeviceClass::X);
+    let mut inputs: Vec<u32> = of_x.flat_map(|(_, n, count)| n..n + count).collect();
+    for signal in signals {
+        match *signal {
+            Signal::Pulses { input, .. } => inputs.push(input),
+            Signal::Encoder { a, b, .. } => inputs.extend([a, b]),
+        }
+    }
+    inputs
+}
+
+impl Running<'_> {
+    /// The inputs are as the machine has them when it is switched on.
+    pub(super) fn wire_up(&mut self) -> Result<(), Failure> {
+        let inputs = self.plant.as_ref().map_or(Vec::new(), |p| p.inputs());
+        for (number, on) in inputs {
+            self.input(number, on)?;
+            self.ask(Request::SetBit(Class::X, number, on))?;
+        }
+        Ok(())
+    }
+
+    /// A millisecond passes.
+    pub(super) fn move_machine(&mut self, now_ms: u32) -> Result<(), Failure> {
+        let Some(mut plant) = self.plant.take() else {
+            return Ok(());
+        };
+        plant.step(now_ms.into(), self)?;
+        let collision = plant.collision().map(ToString::to_string);
+        self.plant = Some(plant);
+        match collision {
+            Some(message) => Err(Failure::Machine {
+                step: self.step,
+                message,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Axes that are not where they are expected: name, expected and actual position of each.
+    pub(super) fn wrong_positions(
+        &self,
+        expected: &[(String, f64)],
+    ) -> Vec<(String, Value, Value)> {
+        let Some(plant) = &self.plant else {
+            return Vec::new();
+        };
+        let wrong = expected.iter().filter(|(name, at)| !plant.is_at(name, *at));
+        wrong
+            .filter_map(|(name, at)| {
+                let actual = Value::Float(plant.position(name)?);
+                Some((format!("the position of {name}"), Value::Float(*at), actual))
+            })
+            .collect()
+    }
+}
+
+impl Terminals for Running<'_> {
+    type Error = Failure;
+
+    fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Failure> {
+        let requests: Vec<Request> = at
+            .iter()
+            .map(|look| match *look {
+                Look::Level(output) => Request::Output(output),
+                Look::Pulses(output) => Request::Output(output),
+            })
+            .collect();
+        let answers = self.engine.ask_all(&requests);
+        let answers = answers.map_err(|error| self.failed(&error))?;
+        let values = answers
+            .iter()
+            .zip(requests)
+            .map(|(answer, request)| match answer {
+                Answer::Value(value) => Ok(*value as i32),
+                _ => Err(self.failed(&EngineError::Missing(request))),
+            });
+        values.collect()
+    }
+
+    fn change(&mut self, change: Change) -> Result<(), Failure> {
+        self.ask(Request::SetBit(Class::X, change.input, change.on))?;
+        self.input(change.input, change.on)?;
+        self.interrupts()
+    }
+}

@@ -1,0 +1,303 @@
+//! Machines around a PLC: how they move, and what is wrong in their files.
+
+use rungc_ir::{Model, ModelId};
+use rungc_sim::plant::{self, Look, Plant, Terminals};
+use rungc_sim::wire::Change;
+use std::collections::BTreeMap;
+
+/// A PLC that does what the test says.
+#[derive(Default)]
+struct Plc {
+    outputs: BTreeMap<u32, bool>,
+    pulses: BTreeMap<u32, i32>,
+    changes: Vec<Change>,
+    inputs: BTreeMap<u32, bool>,
+}
+
+impl Terminals for Plc {
+    type Error = ();
+
+    fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, ()> {
+        let value = |look: &Look| match look {
+            Look::Level(n) => i32::from(self.outputs.get(n).copied().unwrap_or(false)),
+            Look::Pulses(n) => self.pulses.get(n).copied().unwrap_or(0),
+        };
+        Ok(at.iter().map(value).collect())
+    }
+
+    fn change(&mut self, change: Change) -> Result<(), ()> {
+        let before = self.inputs.insert(change.input, change.on);
+        assert_ne!(before, Some(change.on), "{change:?}");
+        assert!(
+            self.changes
+                .last()
+                .is_none_or(|last| last.at_us <= change.at_us)
+        );
+        self.changes.push(change);
+        Ok(())
+    }
+}
+
+struct Rig {
+    plant: Plant,
+    plc: Plc,
+    now_ms: u64,
+}
+
+impl Rig {
+    fn new(text: &str) -> Rig {
+        let plant = plant::parse("machine.toml", text).unwrap().plant();
+        let mut plc = Plc::default();
+        plc.inputs.extend(plant.inputs());
+        Rig {
+            plant,
+            plc,
+            now_ms: 0,
+        }
+    }
+
+    fn run(&mut self, ms: u64, pulses_per_ms: i32) -> Vec<(u64, u32, bool)> {
+        self.plc.changes.clear();
+        for _ in 0..ms {
+            self.now_ms += 1;
+            *self.plc.pulses.entry(0).or_default() += pulses_per_ms;
+            self.plant.step(self.now_ms, &mut self.plc).unwrap();
+        }
+        let seen = |c: &Change| (c.at_us, c.input, c.on);
+        self.plc.changes.iter().map(seen).collect()
+    }
+
+    fn input(&self, number: u32) -> bool {
+        self.plc.inputs[&number]
+    }
+}
+
+#[test]
+fn an_axis_passes_its_switches_at_their_places() {
+    let mut rig = Rig::new(
+        r#"
+        normally_closed = ["X002"]
+        [[axis]]
+        output = "Y000"
+        start = 100
+        travel = [-1000, 5000]
+        home = "X001"
+        home_at = [-200, 25]
+        reverse_limit = "X002"
+        reverse_limit_at = -300
+        "#,
+    );
+    assert!(
+        !rig.input(1) && rig.input(2),
+        "X002 is closed until it is pressed"
+    );
+    // Ten pulses a millisecond: 25 is reached after seven and a half of them, -201 after 30.1, -300 after 40.
+    let seen = rig.run(41, -10);
+    assert_eq!(
+        seen,
+        [(7500, 1, true), (30_000, 1, false), (40_000, 2, false)]
+    );
+    assert_eq!(rig.plant.position("Y000"), Some(-310.0));
+    assert_eq!(rig.plant.collision(), None);
+    rig.run(69, -10);
+    assert_eq!(rig.plant.position("Y000"), Some(-1000.0));
+    assert_eq!(rig.plant.collision(), None);
+    rig.run(1, -10);
+    let collision = rig.plant.collision().unwrap().to_string();
+    assert_eq!(
+        collision,
+        "at 111 ms: the axis Y000 runs into the end of its travel, at -1000 pulses"
+    );
+}
+
+#[test]
+fn a_direction_output_turns_pulses_round() {
+    let mut rig = Rig::new(
+        r#"
+        [[axis]]
+        name = "table"
+        output = "Y000"
+        direction = "Y004"
+        pulses_per_unit = 100
+        unit = "mm"
+        switch = [{ input = "X010", at = [1, 1.5], every = 10 }]
+        "#,
+    );
+    rig.plc.outputs.insert(4, true);
+    let seen = rig.run(5, 250);
+    assert_eq!(rig.plant.position("table"), Some(12.5));
+    let times: Vec<_> = seen.iter().map(|&(at, ..)| at).collect();
+    assert_eq!(times, [400, 600, 4400, 4600]);
+    rig.plc.outputs.insert(4, false);
+    rig.run(5, 250);
+    assert_eq!(rig.plant.position("table"), Some(0.0));
+    // Pulses are counted from 0 when the PLC is switched on again; the table stays.
+    rig.plant.power_cycle();
+    rig.plc.pulses.clear();
+    rig.run(1, 250);
+    assert_eq!(rig.plant.position("table"), Some(-2.5));
+}
+
+/// Counts edges of an encoder as a fourfold counter does.
+fn count(seen: &[(u64, u32, bool)], mut lines: [bool; 2]) -> i32 {
+    let quarter = |[a, b]: [bool; 2]| i32::from(a != b) + 2 * i32::from(b);
+    let mut count = 0;
+    for &(_, input, on) in seen {
+        let before = quarter(lines);
+        lines[input as usize] = on;
+        match (quarter(lines) - before).rem_euclid(4) {
+            1 => count += 1,
+            3 => count -= 1,
+            _ => panic!("a step was lost at {seen:?}"),
+        }
+    }
+    count
+}
+
+#[test]
+fn an_encoder_counts_what_the_axis_goes() {
+    let mut rig = Rig::new(
+        r#"
+        [[axis]]
+        output = "Y000"
+        encoder = { a = "X000", b = "X001", cycles_per_unit = 0.5 }
+        "#,
+    );
+    let there = rig.run(1000, 100);
+    assert_eq!(count(&there, [false, false]), 200_000);
+    let lines = [rig.input(0), rig.input(1)];
+    let back = rig.run(900, -123);
+    assert_eq!(count(&back, lines), -221_400);
+}
+
+#[test]
+fn a_motor_moves_while_it_is_driven_one_way() {
+    let mut rig = Rig::new(
+        r#"
+        [[axis]]
+        name = "gate"
+        unit = "mm"
+        forward = "Y000"
+        reverse = "Y001"
+        speed = 500
+        travel = [0, 1000]
+        forward_limit = "X000"
+        reverse_limit = "X001"
+        "#,
+    );
+    assert!(rig.input(1));
+    rig.plc.outputs.insert(0, true);
+    assert_eq!(rig.run(1980, 0), [(20_000, 1, false), (1_980_000, 0, true)]);
+    rig.plc.outputs.insert(1, true);
+    assert_eq!(rig.run(100, 0), []);
+    assert_eq!(rig.plant.position("gate"), Some(990.0));
+}
+
+#[test]
+fn cylinders_and_delays_answer_after_their_times() {
+    let mut rig = Rig::new(
+        r#"
+        [[cylinder]]
+        extend = "Y000"
+        extended = "X000"
+        retracted = "X001"
+        time_ms = 30
+        retract_ms = 20
+
+        [[cylinder]]
+        extend = "Y001"
+        retract = "Y002"
+        extended = "X002"
+        time_ms = 10
+        start = "extended"
+
+        [[delay]]
+        output = "Y000"
+        input = "X003"
+        on_ms = 5
+        "#,
+    );
+    assert!(!rig.input(0) && rig.input(1) && rig.input(2) && !rig.input(3));
+    rig.plc.outputs.insert(0, true);
+    let seen = rig.run(40, 0);
+    assert_eq!(seen, [(0, 1, false), (5000, 3, true), (30_000, 0, true)]);
+    rig.plc.outputs.insert(0, false);
+    let seen = rig.run(40, 0);
+    assert_eq!(
+        seen,
+        [(40_000, 0, false), (41_000, 3, false), (60_000, 1, true)]
+    );
+    rig.plc.outputs.insert(2, true);
+    assert_eq!(rig.run(20, 0).len(), 1);
+    rig.plc.outputs.insert(2, false);
+    assert_eq!(rig.run(20, 0), [], "it stays where it was driven to");
+    // Too short for the delay.
+    rig.plc.outputs.insert(0, true);
+    rig.run(4, 0);
+    rig.plc.outputs.insert(0, false);
+    assert!(rig.run(9, 0).iter().all(|&(_, input, _)| input != 3));
+}
+
+fn problems(text: &str) -> String {
+    plant::parse("machine.toml", text).unwrap_err().to_string()
+}
+
+#[test]
+fn mistakes_are_told_with_their_places() {
+    let text = r#"
+normally_closed = ["X077"]
+[[axis]]
+output = "Y000"
+direction_on = "reverse"
+speed = 5
+start = 9
+travel = [0, 5]
+home = "Y005"
+forward_limit_at = 1
+zero_phase = "X004"
+encoder = { a = "X004", b = "X001", cycles_per_unit = 20 }
+[[axis]]
+output = "Y000"
+home = "X002"
+reverse_limit = "X003"
+switch = [{ input = "X010", at = [5, 1] }, { input = "X011", at = [0, 5], every = 2 }]
+[[axis]]
+name = "nothing"
+[[axis]]
+forward = "Y4"
+[[axis]]
+forward = "D4"
+speed = 1
+pulses_per_unit = nan
+[[cylinder]]
+extend = "Y009"
+time_ms = 0
+[[delay]]
+output = "Y001"
+input = "X001"
+"#;
+    insta::assert_snapshot!(problems(text));
+    for (name, text) in [
+        ("empty", ""),
+        (
+            "unknown_key",
+            "[[axis]]\noutput = \"Y000\"\nhomee = \"X000\"\n",
+        ),
+        ("unknown_part", "[[motor]]\noutput = \"Y000\"\n"),
+        ("wrong_type", "[[axis]]\noutput = 0\n"),
+        ("no_toml", "[[axis]\n"),
+    ] {
+        insta::assert_snapshot!(format!("machine_{name}"), problems(text));
+    }
+}
+
+#[test]
+fn terminals_are_held_to_the_model() {
+    let text = "[[delay]]\noutput = \"Y000\"\ninput = \"X777\"\non_ms = 5\n";
+    let described = plant::parse("machine.toml", text).unwrap();
+    let error = described.check(Model::get(ModelId::Fx3u)).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "machine.toml:3:9: `X777` does not exist on Mitsubishi FX3U"
+    );
+}
