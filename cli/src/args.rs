@@ -144,6 +144,10 @@ pub struct RunArgs {
     /// waveforms show; a file that is there is replaced.
     #[arg(long, value_name = "FILE")]
     pub vcd: Option<PathBuf>,
+    /// Draw positions and speeds of the machine's axes and of pulse outputs, and what is watched, as an SVG; a file that is there
+    /// is replaced.
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
     /// Keep step with the clock instead of running as fast as possible.
     #[arg(long)]
     pub real_time: bool,

@@ -407,6 +407,46 @@ fn machines_are_wired_to_programs() {
 }
 
 #[test]
+fn run_draws_a_diagram() {
+    let folder = folder(&[
+        ("door.il", DOOR.as_bytes()),
+        ("door.toml", DOOR_MACHINE.as_bytes()),
+    ]);
+    let path = folder.path();
+    let run = ["run", "door.il", "--for", "500ms"];
+    let machine = ["--machine", "door.toml", "--set", "X000=1@5ms,X000=0@300ms"];
+    let plot = ["--plot", "out/door.svg", "--watch", "X001,Y000"];
+    let args = [&run[..], &machine, &plot].concat();
+    assert_eq!(code(path, &args), 0);
+    let drawn = || fs::read_to_string(path.join("out/door.svg")).unwrap();
+    let first = drawn();
+    insta::assert_snapshot!("run_plot", first);
+    assert_eq!(code(path, &args), 0);
+    assert_eq!(drawn(), first, "the same run gives the same bytes");
+    // Without a machine there is what is watched; a run of no time has a moment.
+    let args = ["run", "door.il", "--for", "0"];
+    assert_eq!(code(path, &[&args[..], &plot].concat()), 0);
+    assert!(drawn().contains(">X001</text>") && !drawn().contains("Position"));
+    for (name, args) in [
+        ("none", &["--plot", "none.svg"][..]),
+        (
+            "vcd",
+            &["--vcd", "a.svg", "--plot", "./a.svg", "--watch", "Y000"],
+        ),
+        (
+            "machine",
+            &["--machine", "door.toml", "--plot", "door.toml"],
+        ),
+        ("folder", &["--plot", "door.il/a.svg", "--watch", "Y000"]),
+    ] {
+        let args = [&["run", "door.il"], args].concat();
+        insta::assert_snapshot!(format!("run_plot_{name}"), shown(path, &args));
+    }
+    let there = |name: &str| path.join(name).exists();
+    assert!(!there("none.svg") && !there("a.svg"));
+}
+
+#[test]
 fn a_scan_that_does_not_end_is_the_programs_fault() {
     let folder = folder(&[("endless.il", b"P0\nLD M8000\nCJ P0\nEND\n")]);
     let args = ["run", "endless.il"];

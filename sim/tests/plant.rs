@@ -67,6 +67,10 @@ impl Rig {
         self.plc.changes.iter().map(seen).collect()
     }
 
+    fn position(&self, axis: &str) -> f64 {
+        self.plant.axis(axis).unwrap().position()
+    }
+
     fn input(&self, number: u32) -> bool {
         self.plc.inputs[&number]
     }
@@ -97,10 +101,10 @@ fn an_axis_passes_its_switches_at_their_places() {
         seen,
         [(7500, 1, true), (30_000, 1, false), (40_000, 2, false)]
     );
-    assert_eq!(rig.plant.position("Y000"), Some(-310.0));
+    assert_eq!(rig.position("Y000"), -310.0);
     assert_eq!(rig.plant.collision(), None);
     rig.run(69, -10);
-    assert_eq!(rig.plant.position("Y000"), Some(-1000.0));
+    assert_eq!(rig.position("Y000"), -1000.0);
     assert_eq!(rig.plant.collision(), None);
     rig.run(1, -10);
     let collision = rig.plant.collision().unwrap().to_string();
@@ -125,17 +129,17 @@ fn a_direction_output_turns_pulses_round() {
     );
     rig.plc.outputs.insert(4, true);
     let seen = rig.run(5, 250);
-    assert_eq!(rig.plant.position("table"), Some(12.5));
+    assert_eq!(rig.position("table"), 12.5);
     let times: Vec<_> = seen.iter().map(|&(at, ..)| at).collect();
     assert_eq!(times, [400, 600, 4400, 4600]);
     rig.plc.outputs.insert(4, false);
     rig.run(5, 250);
-    assert_eq!(rig.plant.position("table"), Some(0.0));
+    assert_eq!(rig.position("table"), 0.0);
     // Pulses are counted from 0 when the PLC is switched on again; the table stays.
     rig.plant.power_cycle();
     rig.plc.pulses.clear();
     rig.run(1, 250);
-    assert_eq!(rig.plant.position("table"), Some(-2.5));
+    assert_eq!(rig.position("table"), -2.5);
 }
 
 /// Counts edges of an encoder as a fourfold counter does.
@@ -190,7 +194,7 @@ fn a_motor_moves_while_it_is_driven_one_way() {
     assert_eq!(rig.run(1980, 0), [(20_000, 1, false), (1_980_000, 0, true)]);
     rig.plc.outputs.insert(1, true);
     assert_eq!(rig.run(100, 0), []);
-    assert_eq!(rig.plant.position("gate"), Some(990.0));
+    assert_eq!(rig.position("gate"), 990.0);
 }
 
 #[test]

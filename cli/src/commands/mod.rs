@@ -213,6 +213,10 @@ impl Fresh {
             return Err(Failure::Because(format!("{} {what}", path.display())));
         }
         let folder = holder(path);
+        if folder.exists() && !folder.is_dir() {
+            let (path, folder) = (path.display(), folder.display());
+            return Err(Failure::Because(format!("{path}: {folder} is no folder")));
+        }
         fs::create_dir_all(folder).map_err(at)?;
         let mut fresh = tempfile::Builder::new();
         #[cfg(unix)]

@@ -1,12 +1,13 @@
 //! `rungc run`.
 
 mod device;
+mod plotting;
 mod recording;
 mod simulate;
 mod view;
 mod wiring;
 
-use super::{Context, Failure, Result, conclude, findings, read, stem};
+use super::{Context, Failure, Result, conclude, findings, holder, read, stem};
 use crate::args::RunArgs;
 use crate::report;
 use rungc_ir::Module;
@@ -16,7 +17,7 @@ use rungc_sim::plctest::{LoadError, Target};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_syntax::DeviceClass;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// `X000=1@200ms`.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,9 +58,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     if let Some(machine) = &described {
         free_inputs(machine, &settings)?;
     }
-    if let Some(path) = &args.vcd {
-        spare_input("--vcd", path, &args.input.file)?;
-    }
+    spare_inputs(args)?;
     let read = read(&args.input, cx)?;
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
     let wired = described.iter().flat_map(Description::terminals);
@@ -76,16 +75,23 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         _ => return conclude(&findings, &args.input.reporting, cx, String::new),
     };
     report::print(&findings, &args.input.reporting, cx.color, cx.taken)?;
-    let watched = if watched.is_empty() {
+    let shown = if watched.is_empty() {
         default_watch(&module)
     } else {
-        watched
+        watched.clone()
     };
     if let Some(machine) = &described {
         machine.check(module.model).map_err(because)?;
     }
     let plant = described.as_ref().map(Description::plant);
-    simulate::simulate(args, &module, plant, &settings, &watched)
+    let run = simulate::Run {
+        args,
+        module: &module,
+        settings: &settings,
+        shown: &shown,
+        watched: &watched,
+    };
+    run.simulate(plant)
 }
 
 fn target(name: &str) -> std::result::Result<Target, Failure> {
@@ -170,16 +176,36 @@ fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Resu
     }
 }
 
-/// Recordings replace what is there, but not the program.
-fn spare_input(option: &str, path: &Path, input: &Path) -> std::result::Result<(), Failure> {
-    let there = |path: &Path| fs::canonicalize(path).ok();
-    match there(path) {
-        Some(place) if Some(&place) == there(input).as_ref() => Err(Failure::Because(format!(
-            "{option} {}: this is the program itself",
-            path.display()
-        ))),
-        _ => Ok(()),
+/// What a run writes replaces what is there, but not what the run reads, nor what else it writes.
+fn spare_inputs(args: &RunArgs) -> std::result::Result<(), Failure> {
+    let mut taken = vec![(place(&args.input.file), "is the program")];
+    if let Some(machine) = &args.machine {
+        taken.push((place(machine), "describes the machine"));
     }
+    let writes = [
+        ("--vcd", &args.vcd, "is written by --vcd"),
+        ("--plot", &args.plot, "is written by --plot"),
+    ];
+    for (option, path, part) in writes {
+        let Some(path) = path else { continue };
+        let place = place(path);
+        if let Some((_, part)) = taken.iter().find(|(other, _)| *other == place) {
+            let path = path.display();
+            let message = format!("{option} {path}: this file {part}");
+            return Err(Failure::Because(message));
+        }
+        taken.push((place, part));
+    }
+    Ok(())
+}
+
+/// The place of a file, which may not be there yet.
+fn place(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        let folder = fs::canonicalize(holder(path));
+        let folder = folder.unwrap_or_else(|_| holder(path).to_path_buf());
+        folder.join(path.file_name().unwrap_or_default())
+    })
 }
 
 /// Devices of a class that the program uses.

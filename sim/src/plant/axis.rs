@@ -40,15 +40,17 @@ pub(super) enum Back {
     Output(u32),
 }
 
-/// An axis, or a cylinder. Lengths are in pulses if pulses drive it.
+/// An axis, or a cylinder. Inside lengths are in pulses if pulses drive it.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Axis {
+pub struct Axis {
     pub(super) name: String,
     pub(super) unit: String,
     /// How much of a length makes a unit.
     pub(super) per_unit: f64,
     pub(super) drive: Drive,
     pub(super) position: f64,
+    /// What it was driven in the last millisecond in which it moved, and whether that was the last millisecond.
+    pub(super) way: (f64, bool),
     /// The ends of its way.
     pub(super) travel: Option<[f64; 2]>,
     pub(super) switches: Vec<Switch>,
@@ -85,6 +87,49 @@ impl fmt::Display for Collision {
 }
 
 impl Axis {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The unit of its lengths.
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// Where it is, in its unit.
+    pub fn position(&self) -> f64 {
+        self.position / self.per_unit
+    }
+
+    /// Its speed in units a second, negative when it goes back; `hz` tells how many pulses an output sends a second.
+    pub fn speed(&self, hz: impl FnOnce(u32) -> f64) -> f64 {
+        let (way, moves) = self.way;
+        let speed = match self.drive {
+            Drive::Pulses { output, .. } => hz(output).copysign(way),
+            Drive::Outputs { .. } if moves => way * 1000.0,
+            Drive::Outputs { .. } => 0.0,
+        };
+        speed / self.per_unit
+    }
+
+    /// Whether it is where it is expected, within half a pulse or, of a motor, half of what it goes in a millisecond.
+    pub fn is_at(&self, expected: f64) -> bool {
+        let tolerance = match self.drive {
+            Drive::Pulses { .. } => 0.5,
+            Drive::Outputs { out_speed, .. } => out_speed / 2.0,
+        };
+        (self.position - expected * self.per_unit).abs() <= tolerance
+    }
+
+    /// The output whose pulses it follows.
+    pub(super) fn pulse_output(&self) -> Option<u32> {
+        match self.drive {
+            Drive::Pulses { output, .. } => Some(output),
+            Drive::Outputs { .. } => None,
+        }
+    }
+
     pub(super) fn inputs(&self) -> impl Iterator<Item = (u32, bool)> {
         let state = |s: &Switch| (s.input, s.is_on(self.position));
         self.switches.iter().map(state)
@@ -107,14 +152,6 @@ impl Axis {
         }
     }
 
-    /// How far it may be from where it is expected: half a pulse, or half of what it goes in a millisecond.
-    pub(super) fn tolerance(&self) -> f64 {
-        match self.drive {
-            Drive::Pulses { .. } => 0.5,
-            Drive::Outputs { out_speed, .. } => out_speed / 2.0,
-        }
-    }
-
     pub(super) fn power_cycle(&mut self) {
         if let Drive::Pulses { followed, .. } = &mut self.drive {
             *followed = 0;
@@ -129,6 +166,7 @@ impl Axis {
     ) {
         let speed = self.drive.follow(see);
         if speed == 0.0 {
+            self.way.1 = false;
             return;
         }
         let from = self.position;
@@ -145,20 +183,12 @@ impl Axis {
         for switch in &self.switches {
             switch.pass(from, to, speed, moments);
         }
+        self.way = (speed, to != from);
         self.position = to;
     }
 }
 
 impl Drive {
-    /// Whether both follow the pulses of the same output.
-    pub(super) fn follows_same(&self, other: &Drive) -> bool {
-        let output = |drive: &Drive| match drive {
-            Drive::Pulses { output, .. } => Some(*output),
-            Drive::Outputs { .. } => None,
-        };
-        output(self).is_some() && output(self) == output(other)
-    }
-
     /// What the axis is driven in a millisecond.
     fn follow(&mut self, see: &dyn Fn(Look) -> i32) -> f64 {
         match self {

@@ -1,9 +1,9 @@
 //! Reading the description of a machine: TOML to [`Plant`], every mistake with its place.
 
+use super::Plant;
 use super::axis::{Axis, Back, Drive};
 use super::delay::Delay;
 use super::marks::{Marks, Switch};
-use super::{Look, Plant};
 use crate::plctest::Target;
 use crate::problem::{self, LoadError, Problem};
 use rungc_ir::Model;
@@ -65,15 +65,7 @@ impl Description {
 
     /// The outputs whose pulses it follows, in the order of the file.
     pub fn pulse_outputs(&self) -> impl Iterator<Item = u32> {
-        let looks = self.plant.axes.iter().flat_map(|axis| {
-            let mut looks = Vec::new();
-            axis.looks_at(&mut looks);
-            looks
-        });
-        looks.filter_map(|look| match look {
-            Look::Pulses(output) => Some(output),
-            Look::Level(_) => None,
-        })
+        self.plant.axes.iter().filter_map(Axis::pulse_output)
     }
 
     /// Whether a PLC of this model has the terminals that the file names.
@@ -285,7 +277,9 @@ impl<'t> Reader<'t> {
         let (drive, name) = self.drive(at, &raw)?;
         let named = raw.name.as_ref().map(|name| name.get_ref().clone());
         let name = named.unwrap_or(name);
-        if before.iter().any(|axis| axis.drive.follows_same(&drive)) {
+        if let Drive::Pulses { output, .. } = drive
+            && before.iter().any(|a| a.pulse_output() == Some(output))
+        {
             let at = raw.output.as_ref().map_or(at, |output| output.span().start);
             self.report(at, "another axis follows the pulses of this output");
         } else if before.iter().any(|axis| axis.name == name) {
@@ -329,6 +323,7 @@ impl<'t> Reader<'t> {
             per_unit,
             drive,
             position,
+            way: (0.0, false),
             travel,
             switches,
             collision: None,
@@ -604,6 +599,7 @@ impl<'t> Reader<'t> {
                 Some(RawEnd::Extended) => length,
                 _ => 0.0,
             },
+            way: (0.0, false),
             travel: Some([0.0, length]),
             switches: switches
                 .map(|(input, marks)| Switch { input, marks })

@@ -9,11 +9,10 @@ mod delay;
 mod format;
 mod marks;
 
-pub use axis::Collision;
+pub use axis::{Axis, Collision};
 pub use format::{Description, load, parse};
 
 use crate::wire::Change;
-use axis::Axis;
 use delay::Delay;
 
 /// What the machine asks of an output.
@@ -99,23 +98,14 @@ impl Plant {
         self.axes.iter_mut().for_each(Axis::power_cycle);
     }
 
-    /// The names of the axes.
-    pub fn axes(&self) -> impl Iterator<Item = &str> {
-        self.axes.iter().map(|axis| axis.name.as_str())
+    /// The axes, in the order of the file.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
     }
 
-    /// Where the axis with this name is, in its unit.
-    pub fn position(&self, axis: &str) -> Option<f64> {
-        let found = self.axes.iter().find(|a| a.name == axis);
-        found.map(|axis| axis.position / axis.per_unit)
-    }
-
-    /// Whether the axis with this name is where it is expected, to within half a pulse or, of a motor, half a millisecond's way.
-    pub fn is_at(&self, axis: &str, expected: f64) -> bool {
-        let found = self.axes.iter().find(|a| a.name == axis);
-        found.is_some_and(|axis| {
-            (axis.position - expected * axis.per_unit).abs() <= axis.tolerance()
-        })
+    /// The axis with this name.
+    pub fn axis(&self, name: &str) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.name == name)
     }
 
     /// The first axis that has run into an end of its travel.

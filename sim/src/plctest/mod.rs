@@ -228,6 +228,6 @@ program = "END"
     #[test]
     fn unknown_keys_are_mistakes() {
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
-        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `clock`, `mode`, `power_cycle`, `bfm`, `expect_bfm`, `analog`");
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `clock`, `mode`, `power_cycle`, `bfm`, `expect_bfm`, `expect_position`, `analog`");
     }
 }

@@ -3,7 +3,7 @@
 use super::runner::Running;
 use super::{Failure, Setting, Signal, Step, Value};
 use crate::engines::EngineError;
-use crate::plant::{Description, Look, Terminals};
+use crate::plant::{Axis, Description, Look, Terminals};
 use crate::protocol::{Answer, Request};
 use crate::wire::Change;
 use rungc_ir::{Model, ModelId};
@@ -43,8 +43,8 @@ pub(super) fn check(
     }
     for (i, step) in steps.iter().enumerate() {
         for (name, _) in &step.expect_position {
-            if plant.position(name).is_none() {
-                let axes: Vec<_> = plant.axes().collect();
+            if plant.axis(name).is_none() {
+                let axes: Vec<_> = plant.axes().iter().map(Axis::name).collect();
                 let message = format!("there is no axis `{name}`, but: {}", axes.join(", "));
                 return wrong(i + 1, message);
             }
@@ -103,11 +103,13 @@ impl Running<'_> {
         let Some(plant) = &self.plant else {
             return Vec::new();
         };
-        let wrong = expected.iter().filter(|(name, at)| !plant.is_at(name, *at));
-        wrong
-            .filter_map(|(name, at)| {
-                let actual = Value::Float(plant.position(name)?);
-                Some((format!("the position of {name}"), Value::Float(*at), actual))
+        let axes = expected
+            .iter()
+            .filter_map(|(name, at)| Some((plant.axis(name)?, *at)));
+        axes.filter(|(axis, at)| !axis.is_at(*at))
+            .map(|(axis, at)| {
+                let name = format!("the position of {}", axis.name());
+                (name, Value::Float(at), Value::Float(axis.position()))
             })
             .collect()
     }

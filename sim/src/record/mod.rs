@@ -1,5 +1,6 @@
 //! What a run leaves behind: the values of devices as they are read ([`Reading`]), and recordings of them over time ([`Vcd`]).
 
+pub mod plot;
 mod reading;
 mod vcd;
 

@@ -3,7 +3,7 @@
 use super::super::{Failure, Fresh};
 use rungc_ir::Module;
 use rungc_sim::Machine;
-use rungc_sim::plant::Plant;
+use rungc_sim::plant::{Axis, Plant};
 use rungc_sim::plctest::Target;
 use rungc_sim::record::{Reading, Signal, Vcd};
 use rungc_sim::wire::Change;
@@ -14,9 +14,8 @@ use std::path::Path;
 
 /// A recording that is being written.
 pub struct Recording {
+    /// What the first signals show; those of the machine's axes follow.
     targets: Vec<Target>,
-    /// Axes of the machine, whose signals follow those of the targets.
-    axes: Vec<String>,
     vcd: Vcd<BufWriter<File>>,
     file: Fresh,
 }
@@ -31,26 +30,23 @@ impl Recording {
     ) -> std::result::Result<Self, Failure> {
         let module = machine.module();
         let targets = targets(module, watched);
-        let axes: Vec<String> = plant.map_or(Vec::new(), |plant| {
-            plant.axes().map(str::to_owned).collect()
-        });
+        let axes = plant.map_or(&[][..], Plant::axes);
         if targets.is_empty() && axes.is_empty() {
             return Err(Failure::Because(
                 "--vcd: the program has no inputs and outputs: there is nothing to record; --watch names devices".to_string(),
             ));
         }
-        let of_axis = |axis: &String| {
-            let position = plant.and_then(|plant| plant.position(axis))?;
-            Some((Signal::of_axis(axis), Reading::Float(position)))
+        let of_axis = |axis: &Axis| {
+            let position = Reading::Float(axis.position());
+            (Signal::of_axis(axis.name()), position)
         };
         let of_target = |&target| Some((Signal::of(target), Reading::of(machine, target)?));
         let signals = targets.iter().filter_map(of_target);
-        let signals = signals.chain(axes.iter().filter_map(of_axis)).collect();
+        let signals = signals.chain(axes.iter().map(of_axis)).collect();
         let file = Fresh::begin(path)?;
         let vcd = Vcd::begin(file.writer()?, &module.name, signals);
         Ok(Recording {
             targets,
-            axes,
             vcd: vcd.map_err(|error| file.failed(error))?,
             file,
         })
@@ -63,16 +59,14 @@ impl Recording {
         machine: &Machine,
         plant: Option<&Plant>,
     ) -> std::result::Result<(), Failure> {
-        let of_targets = self
-            .targets
-            .iter()
-            .map(|&target| Reading::of(machine, target));
-        let position = |axis: &String| plant?.position(axis).map(Reading::Float);
-        let readings: Vec<_> = of_targets.chain(self.axes.iter().map(position)).collect();
-        for (i, reading) in readings.into_iter().enumerate() {
-            if let Some(reading) = reading {
+        for i in 0..self.targets.len() {
+            if let Some(reading) = Reading::of(machine, self.targets[i]) {
                 self.change(at_us, i, reading)?;
             }
+        }
+        let axes = plant.map_or(&[][..], Plant::axes);
+        for (i, axis) in (self.targets.len()..).zip(axes) {
+            self.change(at_us, i, Reading::Float(axis.position()))?;
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
 
+use super::plotting::Plotting;
 use super::recording::Recording;
 use super::view::{Column, Kind, View};
 use super::wiring::Wiring;
@@ -24,55 +25,80 @@ struct Simulation<'a> {
     machine: Machine<'a>,
     hal: VirtualHal,
     pending: Peekable<Iter<'a, Setting>>,
-    watched: &'a [Target],
+    shown: &'a [Target],
     view: View,
     out: Table,
     recording: Option<Recording>,
+    plotting: Option<Plotting>,
     plant: Option<Plant>,
     now_ms: u64,
 }
 
-/// Runs a program; `settings` are in the order of their times.
-pub fn simulate(
-    args: &RunArgs,
-    module: &Module,
-    plant: Option<Plant>,
-    settings: &[Setting],
-    watched: &[Target],
-) -> Result {
-    let machine = Machine::new(module);
-    // What does not exist is said before anything is shown or written.
-    for target in settings.iter().map(|s| s.target).chain(watched.to_vec()) {
-        Reading::of(&machine, target).ok_or_else(|| missing(target, module))?;
-    }
-    let recording = match &args.vcd {
-        Some(path) => Some(Recording::begin(path, &machine, plant.as_ref(), watched)?),
-        None => None,
-    };
-    let mut simulation = Simulation {
-        machine,
-        hal: VirtualHal::new(),
-        pending: settings.iter().peekable(),
-        watched,
-        view: View::new(watched.iter().map(|&t| column(t)).collect()),
-        out: Table {
-            muted: false,
-            optional: recording.is_some(),
-        },
-        recording,
-        plant,
-        now_ms: 0,
-    };
-    let outcome = simulation.run(args)?;
-    let end_us = 1000
-        * match simulation.machine.watchdog_tripped() {
+/// What is to be run, and how.
+pub struct Run<'a> {
+    /// The command line.
+    pub args: &'a RunArgs,
+    /// The program.
+    pub module: &'a Module,
+    /// What is set, in the order of the times.
+    pub settings: &'a [Setting],
+    /// What the table shows.
+    pub shown: &'a [Target],
+    /// What was asked for with `--watch`.
+    pub watched: &'a [Target],
+}
+
+impl Run<'_> {
+    /// Runs the program, wired to a machine.
+    pub fn simulate(&self, plant: Option<Plant>) -> Result {
+        let Run { args, module, .. } = *self;
+        let machine = Machine::new(module);
+        // What does not exist is said before anything is shown or written.
+        let set = self.settings.iter().map(|s| s.target);
+        for target in set.chain(self.shown.iter().copied()) {
+            Reading::of(&machine, target).ok_or_else(|| missing(target, module))?;
+        }
+        let around = plant.as_ref();
+        let recording = match &args.vcd {
+            Some(path) => Some(Recording::begin(path, &machine, around, self.shown)?),
+            None => None,
+        };
+        let plotting = match &args.plot {
+            Some(path) => {
+                let duration = args.duration;
+                let plotting = Plotting::begin(path, &machine, around, self.watched, duration);
+                Some(plotting?)
+            }
+            None => None,
+        };
+        let mut simulation = Simulation {
+            machine,
+            hal: VirtualHal::new(),
+            pending: self.settings.iter().peekable(),
+            shown: self.shown,
+            view: View::new(self.shown.iter().map(|&t| column(t)).collect()),
+            out: Table {
+                muted: false,
+                optional: recording.is_some() || plotting.is_some(),
+            },
+            recording,
+            plotting,
+            plant,
+            now_ms: 0,
+        };
+        let outcome = simulation.run(args)?;
+        let end_ms = match simulation.machine.watchdog_tripped() {
             false => args.duration,
             true => simulation.now_ms,
         };
-    if let Some(recording) = simulation.recording {
-        recording.keep(end_us)?;
+        if let Some(recording) = simulation.recording {
+            recording.keep(1000 * end_ms)?;
+        }
+        if let Some(plotting) = simulation.plotting {
+            plotting.keep()?;
+        }
+        Ok(outcome)
     }
-    Ok(outcome)
 }
 
 impl Simulation<'_> {
@@ -129,7 +155,7 @@ impl Simulation<'_> {
         self.machine
             .scan(&mut self.hal, self.now_ms as u32, scan_us);
         let values = self
-            .watched
+            .shown
             .iter()
             .map(|&target| self.read(target))
             .collect::<std::result::Result<Vec<_>, _>>()?;
@@ -186,10 +212,12 @@ impl Simulation<'_> {
     }
 
     fn record(&mut self) -> std::result::Result<(), Failure> {
+        let plant = self.plant.as_ref();
+        if let Some(plotting) = &mut self.plotting {
+            plotting.sample(self.now_ms, &self.machine, plant);
+        }
         match &mut self.recording {
-            Some(recording) => {
-                recording.sample(1000 * self.now_ms, &self.machine, self.plant.as_ref())
-            }
+            Some(recording) => recording.sample(1000 * self.now_ms, &self.machine, plant),
             None => Ok(()),
         }
     }

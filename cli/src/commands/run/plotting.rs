@@ -1,0 +1,100 @@
+//! `rungc run --plot`: what is drawn, and the file.
+
+use super::super::{Failure, Fresh};
+use rungc_sim::Machine;
+use rungc_sim::plant::{Axis, Plant};
+use rungc_sim::plctest::Target;
+use rungc_sim::record::plot::{CurveId, Plot, Shape};
+use rungc_sim::record::{Reading, Signal};
+use std::io::Write;
+use std::path::Path;
+
+/// What a curve shows.
+#[derive(Clone, Copy)]
+enum Subject {
+    /// Position of an axis of the machine, by its place there.
+    Position(usize),
+    /// Speed of an axis.
+    Speed(usize),
+    /// A watched device.
+    Watched(Target),
+}
+
+/// A diagram in the making.
+pub struct Plotting {
+    plot: Plot,
+    curves: Vec<(CurveId, Subject)>,
+    file: Fresh,
+}
+
+impl Plotting {
+    /// Begins a diagram of the axes, and of what is watched.
+    pub fn begin(
+        path: &Path,
+        machine: &Machine,
+        plant: Option<&Plant>,
+        watched: &[Target],
+        duration_ms: u64,
+    ) -> std::result::Result<Self, Failure> {
+        let module = machine.module();
+        let title = format!("{} on {}", module.name, module.model.title);
+        let mut plot = Plot::new(&title, duration_ms);
+        let mut curves = Vec::new();
+        for (i, axis) in plant.map_or(&[][..], Plant::axes).iter().enumerate() {
+            let (name, unit) = (axis.name(), axis.unit());
+            let position = plot.curve(&format!("Position ({unit})"), name, Shape::Line);
+            let speed = plot.curve(&format!("Speed ({unit}/s)"), name, Shape::Line);
+            curves.extend([(position, Subject::Position(i)), (speed, Subject::Speed(i))]);
+        }
+        for &target in watched {
+            let name = Signal::of(target).name;
+            let curve = match Reading::of(machine, target) {
+                Some(Reading::Bit(_)) => plot.lane(&name),
+                Some(Reading::Integer(..) | Reading::Float(_)) => {
+                    plot.curve(&name, &name, Shape::Step)
+                }
+                Some(Reading::Text(_)) | None => continue,
+            };
+            curves.push((curve, Subject::Watched(target)));
+        }
+        if plot.is_empty() {
+            return Err(Failure::Because(
+                "--plot: there is nothing to draw: no machine with an axis, no output that sends pulses, and no number or bit that --watch names".to_string(),
+            ));
+        }
+        Ok(Plotting {
+            plot,
+            curves,
+            file: Fresh::begin(path)?,
+        })
+    }
+
+    /// Takes notice of how things are now.
+    pub fn sample(&mut self, at_ms: u64, machine: &Machine, plant: Option<&Plant>) {
+        let axes = plant.map_or(&[][..], Plant::axes);
+        for &(curve, subject) in &self.curves {
+            let value = match subject {
+                Subject::Position(i) => axes.get(i).map(Axis::position),
+                Subject::Speed(i) => axes.get(i).map(|axis| axis.speed(|_| 0.0)),
+                Subject::Watched(target) => match Reading::of(machine, target) {
+                    Some(Reading::Bit(on)) => Some(f64::from(u8::from(on))),
+                    Some(Reading::Integer(value, _)) => Some(value as f64),
+                    Some(Reading::Float(value)) => Some(value),
+                    Some(Reading::Text(_)) | None => None,
+                },
+            };
+            if let Some(value) = value {
+                self.plot.point(curve, at_ms, value);
+            }
+        }
+    }
+
+    /// Draws the diagram; the file takes its place.
+    pub fn keep(self) -> std::result::Result<(), Failure> {
+        let drawn = self.plot.draw();
+        let mut out = self.file.writer()?;
+        let written = out.write_all(drawn.as_bytes()).and_then(|()| out.flush());
+        written.map_err(|error| self.file.failed(error))?;
+        self.file.keep()
+    }
+}

@@ -1,0 +1,149 @@
+//! Diagrams of a run: positions, speeds and values over time, as an SVG that needs nothing beside it.
+//!
+//! Curves are thinned out while they are collected, to what a column of the diagram can show: its first, least, greatest and last
+//! value. So a run of any length takes the same space, and no peak is lost.
+
+mod curve;
+mod draw;
+mod ticks;
+
+use curve::Curve;
+
+/// How a curve goes from point to point.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Shape {
+    /// Straight from one to the next.
+    Line,
+    /// It holds its value until the next point.
+    Step,
+}
+
+/// One of the curves of a plot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct CurveId(usize);
+
+/// A part of the diagram, with a scale of its own.
+#[derive(Clone, PartialEq, Debug)]
+struct Panel {
+    /// What its scale shows, with the unit.
+    title: String,
+    /// Its height in pixels.
+    height: f64,
+    /// Whether its scale shows 0 in any case.
+    with_zero: bool,
+    /// Its curves: the name of each and which one it is.
+    curves: Vec<(String, CurveId)>,
+}
+
+/// A diagram: panels of curves one below the other over the same time, and below them lanes of bits.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Plot {
+    title: String,
+    duration_ms: u64,
+    curves: Vec<Curve>,
+    panels: Vec<Panel>,
+    lanes: Vec<(String, CurveId)>,
+}
+
+impl Plot {
+    /// An empty diagram of so much time.
+    pub fn new(title: &str, duration_ms: u64) -> Plot {
+        Plot {
+            title: title.to_string(),
+            duration_ms,
+            curves: Vec::new(),
+            panels: Vec::new(),
+            lanes: Vec::new(),
+        }
+    }
+
+    /// Whether there is nothing to draw.
+    pub fn is_empty(&self) -> bool {
+        self.curves.is_empty()
+    }
+
+    /// A new curve in the panel with this title, which comes below the others if it is new, too. Position and speed are told from
+    /// 0, other values from where they are.
+    pub fn curve(&mut self, panel: &str, name: &str, shape: Shape) -> CurveId {
+        let id = self.add(shape);
+        let curve = (name.to_string(), id);
+        match self.panels.iter_mut().find(|p| p.title == panel) {
+            Some(panel) => panel.curves.push(curve),
+            None => self.panels.push(Panel {
+                title: panel.to_string(),
+                height: match shape {
+                    Shape::Line => 190.0,
+                    Shape::Step => 120.0,
+                },
+                with_zero: shape == Shape::Line,
+                curves: vec![curve],
+            }),
+        }
+        id
+    }
+
+    /// A new lane of a bit.
+    pub fn lane(&mut self, name: &str) -> CurveId {
+        let id = self.add(Shape::Step);
+        self.lanes.push((name.to_string(), id));
+        id
+    }
+
+    fn add(&mut self, shape: Shape) -> CurveId {
+        self.curves.push(Curve::new(shape, self.duration_ms));
+        CurveId(self.curves.len() - 1)
+    }
+
+    /// A curve has this value at this time. Times do not go back.
+    pub fn point(&mut self, curve: CurveId, at_ms: u64, value: f64) {
+        self.curves[curve.0].push(at_ms, value);
+    }
+
+    /// The diagram as SVG.
+    pub fn draw(&self) -> String {
+        draw::draw(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_diagram() {
+        let mut plot = Plot::new("a <program> & its machine", 1000);
+        let position = plot.curve("Position (mm)", "X", Shape::Line);
+        let other = plot.curve("Position (mm)", "Y", Shape::Line);
+        let word = plot.curve("D0", "D0", Shape::Step);
+        let bit = plot.lane("X005");
+        for t in 0..=1000 {
+            let x = t as f64;
+            plot.point(position, t, x.min(1500.0 - x) / 10.0);
+            plot.point(other, t, -x / 40.0);
+            plot.point(word, t, (t / 300) as f64);
+            plot.point(bit, t, f64::from(t % 250 > 200));
+        }
+        insta::assert_snapshot!(plot.draw());
+    }
+
+    #[test]
+    fn a_diagram_of_no_time_and_of_no_numbers() {
+        let mut plot = Plot::new("", 0);
+        let curve = plot.curve("D0.f32", "D0.f32", Shape::Step);
+        plot.point(curve, 0, f64::NAN);
+        let drawn = plot.draw();
+        assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+    }
+
+    #[test]
+    fn no_peak_is_lost_and_long_runs_take_no_more_space() {
+        let mut plot = Plot::new("", 10_000_000);
+        let curve = plot.curve("D0", "D0", Shape::Step);
+        for t in (0..10_000_000).step_by(10) {
+            plot.point(curve, t, if t == 7_777_770 { 99.0 } else { 0.0 });
+        }
+        let (least, greatest) = plot.curves[0].range().unwrap();
+        assert_eq!((least, greatest), (0.0, 99.0));
+        assert!(plot.draw().len() < 10_000);
+    }
+}
