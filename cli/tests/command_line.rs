@@ -411,6 +411,7 @@ fn run_draws_a_diagram() {
     let folder = folder(&[
         ("door.il", DOOR.as_bytes()),
         ("door.toml", DOOR_MACHINE.as_bytes()),
+        ("pulses.il", b"LD X000\nPLSY K1000 K250 Y000\nEND\n"),
     ]);
     let path = folder.path();
     let run = ["run", "door.il", "--for", "500ms"];
@@ -427,6 +428,24 @@ fn run_draws_a_diagram() {
     let args = ["run", "door.il", "--for", "0"];
     assert_eq!(code(path, &[&args[..], &plot].concat()), 0);
     assert!(drawn().contains(">X001</text>") && !drawn().contains("Position"));
+    // Pulses that no axis follows are drawn, too.
+    let args = ["run", "pulses.il", "--for", "300ms", "--set", "X000=1"];
+    let written = ["--plot", "pulses.svg", "--vcd", "pulses.vcd"];
+    assert_eq!(code(path, &[&args[..], &written].concat()), 0);
+    let drawn = fs::read_to_string(path.join("pulses.svg")).unwrap();
+    for panel in ["Position (pulses)", "Speed (pulses/s)", ">Y000</text>"] {
+        assert!(drawn.contains(panel), "{panel}: {drawn}");
+    }
+    let recorded = fs::read_to_string(path.join("pulses.vcd")).unwrap();
+    assert!(recorded.contains("Y000_pulses") && recorded.contains("Y000_hz"));
+    let watch = ["--watch", "Y000.pulses,Y000.hz", "--scan", "100"];
+    let output = rungc(path, &[&args[..], &watch].concat());
+    let last = text(&output.stdout).lines().nth(3).unwrap().to_string();
+    assert_eq!(last.split_whitespace().last(), Some("1000"), "{last}");
+    assert_eq!(
+        code(path, &[&args[..], &["--set", "Y000.pulses=1"]].concat()),
+        2
+    );
     for (name, args) in [
         ("none", &["--plot", "none.svg"][..]),
         (

@@ -72,6 +72,12 @@ impl<'m> Machine<'m> {
         self.module
     }
 
+    /// The pulse output Y `number`, if the program sends pulses there.
+    pub fn pulse_output(&self, number: u32) -> Option<&Axis> {
+        let i = self.module.pulse_outputs.binary_search(&number).ok()?;
+        self.axes.get(i)
+    }
+
     /// Whether the last scan was cut short by the watchdog.
     pub fn watchdog_tripped(&self) -> bool {
         self.watchdog_tripped

@@ -7,12 +7,12 @@ mod simulate;
 mod view;
 mod wiring;
 
-use super::{Context, Failure, Result, conclude, findings, holder, read, stem};
+use super::{Context, Failure, Result, conclude, findings, holder, read, stem, tell};
 use crate::args::RunArgs;
 use crate::report;
 use rungc_ir::Module;
 use rungc_ir::compile::{CompileOptions, compile};
-use rungc_sim::plant::{self, Description};
+use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::plctest::{LoadError, Target};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_syntax::DeviceClass;
@@ -84,6 +84,14 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         machine.check(module.model).map_err(because)?;
     }
     let plant = described.as_ref().map(Description::plant);
+    let axes = plant.as_ref().map_or(&[][..], Plant::axes);
+    let still = axes.iter().filter(|axis| stands_still(axis, &module));
+    for axis in still {
+        let name = axis.name();
+        tell(&format!(
+            "rungc: the axis {name} stands still: the program sends no pulses to its output"
+        ));
+    }
     let run = simulate::Run {
         args,
         module: &module,
@@ -97,9 +105,6 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
 fn target(name: &str) -> std::result::Result<Target, Failure> {
     let upper = upper(name);
     match Target::parse(&upper).map_err(Failure::Because)? {
-        Target::Pulses(_) | Target::Frequency(_) => Err(Failure::Because(format!(
-            "`{name}`: pulse outputs cannot be watched yet"
-        ))),
         // A timer or counter is watched by its current value.
         Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),
         target => Ok(target),
@@ -116,6 +121,14 @@ fn upper(name: &str) -> String {
     view.map_or(device.clone(), |view| {
         format!("{device}.{}", view.to_lowercase())
     })
+}
+
+/// What a watched device is called: T0 rather than T0.value, since it is seen at once that it is a number.
+fn name(target: Target) -> String {
+    match target {
+        Target::Current(class, n) => class.number(n).to_string(),
+        other => other.to_string(),
+    }
 }
 
 fn setting(text: &str) -> std::result::Result<Setting, Failure> {
@@ -137,6 +150,9 @@ fn setting(text: &str) -> std::result::Result<Setting, Failure> {
         Target::Word(..) => value.fract() == 0.0 && (-32768.0..=65535.0).contains(&value),
         Target::Float(..) => true,
         Target::Text(..) => return Err(wrong("characters cannot be set here".to_string())),
+        Target::Pulses(_) | Target::Frequency(_) => {
+            return Err(wrong("pulses are the program's to send".to_string()));
+        }
         _ => value.fract() == 0.0 && (-2_147_483_648.0..=4_294_967_295.0).contains(&value),
     };
     if fits {
@@ -158,6 +174,12 @@ fn observed(target: Target) -> impl Iterator<Item = (DeviceClass, u32)> {
 
 fn because(error: LoadError) -> Failure {
     Failure::Because(error.to_string())
+}
+
+/// Whether an axis follows an output at which the program never sends pulses.
+fn stands_still(axis: &Axis, module: &Module) -> bool {
+    let output = axis.pulse_output();
+    output.is_some_and(|output| !module.pulse_outputs.contains(&output))
 }
 
 /// What the machine drives is not set by hand.

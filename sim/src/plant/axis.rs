@@ -123,7 +123,7 @@ impl Axis {
     }
 
     /// The output whose pulses it follows.
-    pub(super) fn pulse_output(&self) -> Option<u32> {
+    pub fn pulse_output(&self) -> Option<u32> {
         match self.drive {
             Drive::Pulses { output, .. } => Some(output),
             Drive::Outputs { .. } => None,

@@ -63,11 +63,6 @@ impl Description {
         class == DeviceClass::X && self.terminals().any(|t| t == (class, number))
     }
 
-    /// The outputs whose pulses it follows, in the order of the file.
-    pub fn pulse_outputs(&self) -> impl Iterator<Item = u32> {
-        self.plant.axes.iter().filter_map(Axis::pulse_output)
-    }
-
     /// Whether a PLC of this model has the terminals that the file names.
     pub fn check(&self, model: &Model) -> Result<(), LoadError> {
         let has = |t: &Terminal| {

@@ -123,7 +123,7 @@ impl Terminals for Running<'_> {
             .iter()
             .map(|look| match *look {
                 Look::Level(output) => Request::Output(output),
-                Look::Pulses(output) => Request::Output(output),
+                Look::Pulses(output) => Request::Pulses(output),
             })
             .collect();
         let answers = self.engine.ask_all(&requests);

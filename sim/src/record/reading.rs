@@ -55,9 +55,23 @@ impl Reading {
                 let bytes: Vec<u8> = bytes.take_while(|&byte| byte != 0).collect();
                 Reading::Text(String::from_utf8_lossy(&bytes).into_owned())
             }
-            Target::Pulses(_) | Target::Frequency(_) => return None,
+            Target::Pulses(n) => {
+                machine.bit(Class::Y, n)?;
+                let sent = machine.pulse_output(n).map_or(0, |axis| axis.sent);
+                Reading::Integer(sent.into(), 32)
+            }
+            Target::Frequency(n) => {
+                machine.bit(Class::Y, n)?;
+                Reading::Float(hertz(machine, n))
+            }
         })
     }
+}
+
+/// The pulses that an output sends a second.
+pub fn hertz(machine: &Machine, output: u32) -> f64 {
+    let axis = machine.pulse_output(output);
+    axis.map_or(0.0, |axis| f64::from(axis.generator.millihertz()) / 1000.0)
 }
 
 fn pair(machine: &Machine, class: Class, number: u32) -> Option<i32> {

@@ -5,7 +5,8 @@ use rungc_sim::Machine;
 use rungc_sim::plant::{Axis, Plant};
 use rungc_sim::plctest::Target;
 use rungc_sim::record::plot::{CurveId, Plot, Shape};
-use rungc_sim::record::{Reading, Signal};
+use rungc_sim::record::{Reading, hertz};
+use rungc_syntax::DeviceClass;
 use std::io::Write;
 use std::path::Path;
 
@@ -16,8 +17,22 @@ enum Subject {
     Position(usize),
     /// Speed of an axis.
     Speed(usize),
+    /// Pulses that an output has sent.
+    Pulses(u32),
+    /// Their frequency, negative for those that are counted down.
+    Frequency(u32),
     /// A watched device.
     Watched(Target),
+}
+
+/// What a device holds, as far as it can be drawn.
+fn number(machine: &Machine, target: Target) -> Option<f64> {
+    match Reading::of(machine, target)? {
+        Reading::Bit(on) => Some(f64::from(u8::from(on))),
+        Reading::Integer(value, _) => Some(value as f64),
+        Reading::Float(value) => Some(value),
+        Reading::Text(_) => None,
+    }
 }
 
 /// A diagram in the making.
@@ -40,14 +55,25 @@ impl Plotting {
         let title = format!("{} on {}", module.name, module.model.title);
         let mut plot = Plot::new(&title, duration_ms);
         let mut curves = Vec::new();
-        for (i, axis) in plant.map_or(&[][..], Plant::axes).iter().enumerate() {
+        let axes = plant.map_or(&[][..], Plant::axes);
+        for (i, axis) in axes.iter().enumerate() {
             let (name, unit) = (axis.name(), axis.unit());
             let position = plot.curve(&format!("Position ({unit})"), name, Shape::Line);
             let speed = plot.curve(&format!("Speed ({unit}/s)"), name, Shape::Line);
             curves.extend([(position, Subject::Position(i)), (speed, Subject::Speed(i))]);
         }
+        for &output in &module.pulse_outputs {
+            if axes.iter().any(|axis| axis.pulse_output() == Some(output)) {
+                continue;
+            }
+            let name = DeviceClass::Y.number(output).to_string();
+            let pulses = plot.curve("Position (pulses)", &name, Shape::Line);
+            let hertz = plot.curve("Speed (pulses/s)", &name, Shape::Line);
+            curves.push((pulses, Subject::Pulses(output)));
+            curves.push((hertz, Subject::Frequency(output)));
+        }
         for &target in watched {
-            let name = Signal::of(target).name;
+            let name = super::name(target);
             let curve = match Reading::of(machine, target) {
                 Some(Reading::Bit(_)) => plot.lane(&name),
                 Some(Reading::Integer(..) | Reading::Float(_)) => {
@@ -75,13 +101,20 @@ impl Plotting {
         for &(curve, subject) in &self.curves {
             let value = match subject {
                 Subject::Position(i) => axes.get(i).map(Axis::position),
-                Subject::Speed(i) => axes.get(i).map(|axis| axis.speed(|_| 0.0)),
-                Subject::Watched(target) => match Reading::of(machine, target) {
-                    Some(Reading::Bit(on)) => Some(f64::from(u8::from(on))),
-                    Some(Reading::Integer(value, _)) => Some(value as f64),
-                    Some(Reading::Float(value)) => Some(value),
-                    Some(Reading::Text(_)) | None => None,
-                },
+                Subject::Speed(i) => {
+                    let hz = |output| hertz(machine, output);
+                    axes.get(i).map(|axis| axis.speed(hz))
+                }
+                Subject::Pulses(n) => number(machine, Target::Pulses(n)),
+                Subject::Frequency(n) => machine.pulse_output(n).map(|output| {
+                    let hz = hertz(machine, n);
+                    if output.generator.is_reverse() {
+                        -hz
+                    } else {
+                        hz
+                    }
+                }),
+                Subject::Watched(target) => number(machine, target),
             };
             if let Some(value) = value {
                 self.plot.point(curve, at_ms, value);

@@ -98,13 +98,15 @@ impl Recording {
     }
 }
 
-/// The inputs and outputs that the program uses and the watched devices, each once, by class.
+/// The inputs and outputs that the program uses, the pulses that it sends, and the watched devices, each once, by class.
 fn targets(module: &Module, watched: &[Target]) -> Vec<Target> {
     let terminals = [DeviceClass::X, DeviceClass::Y].into_iter();
     let terminals = terminals.flat_map(|class| super::used(module, class).map(move |n| (class, n)));
     let mut targets: Vec<Target> = Vec::new();
-    let all = terminals.map(|(class, n)| Target::Bit(class, n));
-    for target in all.chain(watched.iter().copied()) {
+    let terminals = terminals.map(|(class, n)| Target::Bit(class, n));
+    let sends = module.pulse_outputs.iter();
+    let pulses = sends.flat_map(|&n| [Target::Pulses(n), Target::Frequency(n)]);
+    for target in terminals.chain(pulses).chain(watched.iter().copied()) {
         if !targets.contains(&target) {
             targets.push(target);
         }

@@ -252,12 +252,10 @@ fn column(target: Target) -> Column {
         Target::Current(DeviceClass::T, _) => Kind::Running,
         _ => Kind::Number,
     };
-    // T0 rather than T0.value: the table shows at once that it is a number.
-    let name = match target {
-        Target::Current(class, n) => class.number(n).to_string(),
-        other => other.to_string(),
-    };
-    Column { name, kind }
+    Column {
+        name: super::name(target),
+        kind,
+    }
 }
 
 fn missing(target: Target, module: &Module) -> Failure {

@@ -35,7 +35,9 @@ const LANE_FILL: &str = "#d6e6f2";
 
 /// What the picture is drawn on: where times are, and the elements so far.
 struct Canvas {
-    time: Ticks,
+    seconds: f64,
+    /// Times that are marked.
+    marks: Vec<(f64, String)>,
     group: Group,
 }
 
@@ -64,7 +66,11 @@ impl Frame {
 pub(super) fn draw(plot: &Plot) -> String {
     let seconds = plot.duration_ms.max(1) as f64 / 1000.0;
     let mut canvas = Canvas {
-        time: Ticks::around(0.0, seconds, 10.0),
+        seconds,
+        marks: Ticks::around(0.0, seconds, 10.0)
+            .labels()
+            .filter(|&(mark, _)| mark <= seconds)
+            .collect(),
         group: Group::new()
             .set("font-family", "Helvetica, Arial, sans-serif")
             .set("font-size", 12)
@@ -102,7 +108,7 @@ impl Canvas {
     }
 
     fn x(&self, seconds: f64) -> f64 {
-        LEFT + (WIDTH - LEFT - RIGHT) * seconds / self.time.greatest()
+        LEFT + (WIDTH - LEFT - RIGHT) * seconds / self.seconds
     }
 
     /// A panel whose frame begins at `top`; returns where it ends.
@@ -206,8 +212,7 @@ impl Canvas {
 
     /// The labels of the times below everything.
     fn times(&mut self, y: f64) {
-        let labels: Vec<_> = self.time.labels().collect();
-        for (seconds, label) in labels {
+        for (seconds, label) in self.marks.clone() {
             let x = self.x(seconds);
             self.add(line([x, y], [x, y + 4.0], INK));
             self.add(text(x, y + 18.0, "middle", &label));
@@ -217,8 +222,7 @@ impl Canvas {
     }
 
     fn time_lines(&mut self, frame: Frame) {
-        let labels: Vec<_> = self.time.labels().collect();
-        for (seconds, _) in labels {
+        for (seconds, _) in self.marks.clone() {
             let x = self.x(seconds);
             self.add(line([x, frame.top], [x, frame.bottom()], GRID));
         }
