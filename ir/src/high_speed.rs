@@ -257,6 +257,11 @@ pub fn pattern_table(model: ModelId) -> &'static TableMode {
     }
 }
 
+/// Registers that count the rising edges of inputs from X000 on (hm-motion-controller §5.7).
+pub fn edge_counts(model: ModelId) -> Option<std::ops::RangeInclusive<u32>> {
+    (model == ModelId::Hm).then_some(8160..=8167)
+}
+
 /// The high-speed counters of a model.
 pub fn counters(model: ModelId) -> &'static [Counter] {
     if model == ModelId::Hm { HM } else { FX }

@@ -50,6 +50,80 @@ pub struct Interrupt {
     pub gate: Gate,
 }
 
+/// An advanced interrupt of HM: its routine may be left in the middle, and entered there again (hm-motion-controller §5.5.8).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Advanced {
+    /// The relay that forbids it while on.
+    pub mask: u32,
+    /// The relay that is on from the first entry to the end of the routine.
+    pub active: u32,
+    /// The relay that requests it; it goes off when the routine begins.
+    pub request: u32,
+    /// The relay that requests the next entry of a routine that is active; it goes off then.
+    pub again: u32,
+    /// What else requests the next entry.
+    pub source: Option<Source>,
+}
+
+/// What the edges of two inputs interrupt, as a register says (hm-motion-controller §5.5.6).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Capture {
+    /// The register. Its low digit is 0 if the first input's falling edge interrupts, its high digit 1 if the second one's falling
+    /// edge does, 2 if its rising edge does.
+    pub register: u32,
+    /// The inputs.
+    pub inputs: [u32; 2],
+    /// It is read at the end of the first scan, and when a counter that counts this input is reset.
+    pub counted: u32,
+}
+
+impl Capture {
+    /// Which bits of the register must have which value for an edge to interrupt.
+    pub fn demands(&self, input: u32, kind: EdgeKind) -> Option<(i32, i32)> {
+        match (self.inputs.iter().position(|&own| own == input)?, kind) {
+            (0, EdgeKind::Falling) => Some((0x0f, 0)),
+            (1, EdgeKind::Falling) => Some((0xf0, 0x10)),
+            (1, EdgeKind::Rising) => Some((0xf0, 0x20)),
+            _ => None,
+        }
+    }
+}
+
+/// HM's registers of edges.
+const CAPTURES: &[Capture] = &[
+    Capture {
+        register: 211,
+        inputs: [4, 5],
+        counted: 0,
+    },
+    Capture {
+        register: 261,
+        inputs: [6, 7],
+        counted: 2,
+    },
+];
+
+/// The registers that say which edges of inputs interrupt.
+pub fn captures(model: ModelId) -> &'static [Capture] {
+    if HM.has(model) { CAPTURES } else { &[] }
+}
+
+/// Pointer of the first advanced interrupt.
+const ADVANCED: u32 = 900;
+
+/// The advanced interrupt I`number` of a model.
+pub fn find_advanced(model: ModelId, number: u32) -> Option<Advanced> {
+    let n = number.checked_sub(ADVANCED)?;
+    (HM.has(model) && n < 8).then_some(Advanced {
+        mask: 8064 + n,
+        active: 8072 + n,
+        request: 8080 + n,
+        again: 8088 + n,
+        // The system requests it each millisecond.
+        source: (n == 0).then_some(Source::Period { ms: 1 }),
+    })
+}
+
 /// The relays that catch a rising edge of an input once EI was executed.
 pub struct PulseCatch {
     models: ModelSet,
@@ -86,7 +160,7 @@ pub fn pulse_catch(model: ModelId) -> Option<&'static PulseCatch> {
     PULSE_CATCH.iter().find(|row| row.models.has(model))
 }
 
-/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests: HM's advanced interrupts.
+/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests, or an advanced interrupt.
 pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
     if HM.has(model) {
         return find_hm(number);
@@ -169,6 +243,26 @@ fn edge(digit: u32) -> EdgeKind {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn registers_choose_edges() {
+        use EdgeKind::{Falling, Rising};
+        let [first, _] = captures(ModelId::Hm) else {
+            panic!("HM has two");
+        };
+        let interrupts = |mode: i32| {
+            [(4, Falling), (4, Rising), (5, Falling), (5, Rising)].map(|(input, kind)| {
+                let demands = first.demands(input, kind);
+                demands.is_some_and(|(mask, value)| mode & mask == value)
+            })
+        };
+        assert_eq!(interrupts(0x00), [true, false, false, false]);
+        assert_eq!(interrupts(0x10), [true, false, true, false]);
+        assert_eq!(interrupts(0x20), [true, false, false, true]);
+        assert_eq!(interrupts(0x11), [false, false, true, false]);
+        assert_eq!(interrupts(0x21), [false, false, false, true]);
+        assert_eq!(interrupts(0x31), [false; 4]);
+    }
 
     #[test]
     fn pointers_name_inputs_and_periods() {

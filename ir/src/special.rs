@@ -105,7 +105,6 @@ const RAW: &str = "analog channels show the raw values of the host, each scan";
 const LATCHES: &str = "the latched ranges are the manual's and do not change";
 const MODULES: &str = "which modules are there is the host's affair";
 const MOTION: &str = "axis motion is not implemented yet";
-const SCOPE: &str = "the oscilloscope is not implemented yet";
 const MAKER: &str = "it serves the maker's tools only";
 
 /// Writes a table of special devices, a row a line:

@@ -360,6 +360,8 @@ registry! {
     Potentiometers = system::potentiometers() [always, hal];
     /// D8398 and D8399 of FX3G, FX3U and L01S, once before each scan's program.
     RingCounter = system::ring_counter() [always];
+    /// The oscilloscope of HM, each millisecond.
+    Oscilloscope = scope::oscilloscope(n, d) [state];
     /// FROM of L01S: module 0 is the host's analog inputs if there is no other.
     FromHost = modules::from_host(m1, m2, d, n) [hal];
     /// TO of L01S: module 0 is the host's analog outputs if there is no other.

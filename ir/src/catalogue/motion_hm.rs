@@ -2,10 +2,9 @@
 
 use super::high_speed::AXIS;
 use super::row::*;
-use super::{Drive, Inst, Param, Rule, Spelling};
+use super::{Basic, Drive, Inst, Lower, Param, Rule, Spelling};
 
 const MOTION: &str = "axis motion";
-const INTERRUPTS: &str = "advanced interrupts";
 
 const fn any(name: &'static str) -> Param {
     src(name, CONSTANTS.or(DATA)).word()
@@ -26,21 +25,21 @@ const fn wide(name: &'static str, title: &'static str) -> Inst {
     motion(name, title).forms(W32).spelling(Spelling::Plain)
 }
 
-const fn process(name: &'static str, title: &'static str) -> Inst {
+const fn process(name: &'static str, title: &'static str, basic: Basic) -> Inst {
     row(name, title, "hm-motion-controller §5.5")
         .on(HM)
-        .todo(INTERRUPTS)
+        .lower(Lower::Basic(basic))
 }
 
 pub(super) const ROWS: &[Inst] = &[
-    process("PROC", "Begin of a process section")
+    process("PROC", "Begin of a process section", Basic::Proc)
         .drive(Drive::Alone)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Where the next request of an advanced interrupt enters it while the PEND that follows is not driven."),
-    process("PEND", "End of a process section")
+    process("PEND", "End of a process section", Basic::Pend)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Ends this run of an advanced interrupt. Driven, the next request goes on behind it."),
-    process("PRET", "End of an advanced interrupt")
+    process("PRET", "End of an advanced interrupt", Basic::Pret)
         .drive(Drive::Alone)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Ends an advanced interrupt."),

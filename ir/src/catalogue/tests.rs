@@ -187,6 +187,7 @@ fn every_runtime_function_has_a_row() {
         rungc_rt::RtFn::ClockRefresh,
         rungc_rt::RtFn::ClockRefreshShort,
         rungc_rt::RtFn::ErrorLog,
+        rungc_rt::RtFn::Oscilloscope,
     ];
     for function in rungc_rt::RtFn::ALL {
         let calls = |lower: &Lower| matches!(lower, Lower::Call(called) if called == function);

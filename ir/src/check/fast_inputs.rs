@@ -1,8 +1,8 @@
-//! Fast inputs: high-speed counters and interrupts that want the same terminal, and interrupts of one source.
+//! Fast inputs: high-speed counters, interrupts, pulse catch and SPD that want the same terminal, and interrupts of one source.
 
 use super::Code;
 use super::pointers::Pointers;
-use crate::catalogue::Basic;
+use crate::catalogue::{Basic, Lower};
 use crate::high_speed;
 use crate::interrupts::{self, Source};
 use crate::model::{ModelId, ModelSet};
@@ -16,7 +16,9 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
     let interrupts = interrupts(code.model().id, pointers);
     let counters = counters(code);
     one_pointer_per_source(code, &interrupts, out);
-    inputs_shared(code, &interrupts, &counters, out);
+    let others = others(code, &interrupts);
+    inputs_shared(code, &others, &counters, out);
+    measured_inputs(code, &others, &counters, out);
     counters_share(code, &counters, out);
     never_enabled(code, &interrupts, out);
 }
@@ -121,29 +123,100 @@ fn counters(code: &Code) -> Vec<Counter> {
     found
 }
 
-fn inputs_shared(
-    code: &Code,
-    interrupts: &[Interrupt],
-    counters: &[Counter],
-    out: &mut Diagnostics,
-) {
-    for interrupt in interrupts {
-        let Some(input) = interrupt.input else {
+/// What else looks at the edges of an input.
+struct Other {
+    input: u32,
+    /// `an interrupt`.
+    name: &'static str,
+    /// `requests an interrupt`.
+    does: &'static str,
+    at: usize,
+}
+
+/// Interrupts of inputs, and relays that catch pulses.
+fn others(code: &Code, interrupts: &[Interrupt]) -> Vec<Other> {
+    let interrupts = interrupts.iter().filter_map(|interrupt| {
+        Some(Other {
+            input: interrupt.input?,
+            name: "an interrupt",
+            does: "requests an interrupt",
+            at: interrupt.label,
+        })
+    });
+    interrupts.chain(caught(code)).collect()
+}
+
+/// The relays of pulse catch that the program looks at, each once.
+fn caught(code: &Code) -> Vec<Other> {
+    let enables = (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei));
+    let Some(catch) = interrupts::pulse_catch(code.model().id).filter(|_| enables) else {
+        return Vec::new();
+    };
+    let mut found: Vec<Other> = Vec::new();
+    for i in 0..code.len {
+        let relay = code
+            .device(i, 0)
+            .filter(|device| device.class == DeviceClass::M);
+        let Some(input) = relay.and_then(|relay| relay.number.checked_sub(catch.first)) else {
             continue;
         };
+        if input < catch.inputs && found.iter().all(|other| other.input != input) {
+            found.push(Other {
+                input,
+                name: "pulse catch",
+                does: "its pulses are caught",
+                at: i,
+            });
+        }
+    }
+    found
+}
+
+fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
+    for other in others {
         for counter in counters
             .iter()
-            .filter(|counter| counter.inputs.contains(&input))
+            .filter(|counter| counter.inputs.contains(&other.input))
         {
-            let input = DeviceClass::X.number(input);
+            let input = DeviceClass::X.number(other.input);
             let message = format!(
-                "`{input}` serves both an interrupt and counter `C{}`",
-                counter.number
+                "`{input}` serves both {} and counter `C{}`",
+                other.name, counter.number
             );
             let diagnostic = codes::INPUT_SHARED
-                .at(code.span(interrupt.label), message)
-                .label("requests an interrupt here …")
+                .at(code.span(other.at), message)
+                .label(format!("{} here …", other.does))
                 .other(code.span(counter.coil), "… and counts here");
+            out.push(diagnostic);
+        }
+    }
+}
+
+/// SPD on an input that serves something else. The manuals advise against it, but it counts all the same (h1u-h2u-programming
+/// §4.3.6 allows what §4.3.1 forbids).
+fn measured_inputs(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
+    for i in 0..code.len {
+        let measures = matches!(code.inst(i).map(|inst| inst.lower), Some(Lower::Density));
+        let Some(input) = code.device(i, 0).filter(|_| measures) else {
+            continue;
+        };
+        let counter = counters
+            .iter()
+            .find(|counter| counter.inputs.contains(&input.number))
+            .map(|counter| (format!("counter `C{}`", counter.number), counter.coil));
+        let other = others
+            .iter()
+            .find(|other| other.input == input.number)
+            .map(|other| (other.name.to_string(), other.at));
+        if let Some((name, at)) = counter.or(other) {
+            let diagnostic = codes::MEASURED_INPUT
+                .at(
+                    code.span(i),
+                    format!("`{input}` serves both SPD and {name}"),
+                )
+                .label("measured here …")
+                .other(code.span(at), "… and used here")
+                .help("choose an input of its own");
             out.push(diagnostic);
         }
     }

@@ -2,7 +2,8 @@
 
 use super::Code;
 use super::pointers::Pointers;
-use crate::catalogue::{Basic, Drive};
+use crate::catalogue::Basic;
+use crate::interrupts;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 
 /// No instruction.
@@ -218,17 +219,36 @@ impl Walk<'_, '_> {
             Some(Basic::Ret) => self.end_states(i),
             Some(Basic::Sret) => self.end_routine(i, Kind::Sub),
             Some(Basic::Iret) => self.end_routine(i, Kind::Interrupt),
+            Some(Basic::Pret) => {
+                self.in_advanced_interrupt(i);
+                self.end_routine(i, Kind::Interrupt);
+            }
+            Some(Basic::Proc | Basic::Pend) => self.in_advanced_interrupt(i),
             Some(Basic::Fend) => self.fend(i),
-            None if self.ends_advanced_interrupt(i) => self.end_routine(i, Kind::Interrupt),
             _ => {}
         }
     }
 
-    /// HM's advanced interrupts end with PRET instead of IRET.
-    fn ends_advanced_interrupt(&self, i: usize) -> bool {
-        self.code
-            .inst(i)
-            .is_some_and(|inst| inst.drive == Drive::Alone && inst.name == "PRET")
+    /// PROC, PEND and PRET stand in advanced interrupts; a PRET in no routine at all is reported as such.
+    fn in_advanced_interrupt(&mut self, i: usize) {
+        let model = self.code.model().id;
+        let advanced = match self.routine {
+            Routine::Interrupt(begin) => {
+                let pointer = self.code.label(begin as usize);
+                pointer.is_some_and(|i| interrupts::find_advanced(model, i.number).is_some())
+            }
+            Routine::Main | Routine::Sub(_) => false,
+            Routine::Nothing => true,
+        };
+        if !advanced {
+            let name = &self.code.instr(i).mnemonic;
+            let message = format!("`{name}` stands in no advanced interrupt");
+            let diagnostic = codes::LONE_RETURN
+                .at(self.code.span(i), message)
+                .label("routines of other interrupts end with IRET")
+                .help("the advanced interrupts are I900 to I907");
+            self.report(diagnostic);
+        }
     }
 
     fn push(&mut self, kind: Kind, at: usize) {
@@ -493,7 +513,7 @@ impl Walk<'_, '_> {
     fn returns_next(&self, i: usize, kind: Kind) -> bool {
         let ends = |at: usize| match self.code.basic(at) {
             Some(Basic::Sret) => Some(kind == Kind::Sub),
-            Some(Basic::Iret) => Some(kind == Kind::Interrupt),
+            Some(Basic::Iret | Basic::Pret) => Some(kind == Kind::Interrupt),
             Some(Basic::Label | Basic::Fend) => Some(false),
             _ => None,
         };
@@ -504,7 +524,7 @@ impl Walk<'_, '_> {
     fn ends_behind_fend(&self, i: usize, kind: Kind) -> bool {
         let fend = (i + 1..self.code.len).find_map(|at| match self.code.basic(at) {
             Some(Basic::Fend) => Some(Some(at)),
-            Some(Basic::Label | Basic::Sret | Basic::Iret) => Some(None),
+            Some(Basic::Label | Basic::Sret | Basic::Iret | Basic::Pret) => Some(None),
             _ => None,
         });
         fend.flatten()

@@ -12,7 +12,7 @@ pub(super) fn check(code: &Code, places: &Places, out: &mut Diagnostics) {
         let dead = places.of(i).routine == Routine::Nothing && code.part(i) != Part::Nothing;
         let frame = matches!(
             code.basic(i),
-            Some(Basic::End | Basic::Fend | Basic::Sret | Basic::Iret)
+            Some(Basic::End | Basic::Fend | Basic::Sret | Basic::Iret | Basic::Pret)
         );
         if dead && !frame && !in_run {
             let diagnostic = codes::UNREACHABLE

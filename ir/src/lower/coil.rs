@@ -121,6 +121,9 @@ impl Lowerer<'_> {
                 let mut guards = Guards::default();
                 let place = this.place(device, index, 1, false, &mut guards);
                 this.guarded(guards, |this| this.emit(Stmt::Reset(place)));
+                if index.is_none() && device.class == DeviceClass::C {
+                    this.read_captures(device.number);
+                }
             }
             OperandKind::Device(device, _) if is_word(device.class) => {
                 let mut guards = Guards::default();

@@ -311,12 +311,15 @@ impl Lowerer<'_> {
 
     /// Does what a row says.
     fn act_row(&mut self, table: &Rows, row: ExprId) {
+        if table.mode.shows.is_some() {
+            return;
+        }
         let word = self.add(Expr::Entry(table.words, row));
+        let word = self.settled(word);
         match table.target {
             Some((target, Width::Bits(bits))) => self.write_pattern(target, bits, word),
             Some((target, Width::Mask { cell, .. })) => self.write_masked(target, cell, word),
-            None if table.mode.shows.is_none() => self.write_output(word),
-            None => {}
+            None => self.write_output(word),
         }
     }
 
@@ -370,14 +373,16 @@ impl Lowerer<'_> {
 
     /// The low word names an output, with its octal digits as hexadecimal ones, the high word is not 0 if it goes on.
     fn write_output(&mut self, word: ExprId) {
-        let mut number = self.add(Expr::I32(0));
-        for (digit, divisor) in [(0o7, 1), (0x70, 2), (0x700, 4)] {
+        let mask = self.add(Expr::I32(0x7));
+        let mut number = self.add(Expr::Bin(BinOp::And, word, mask));
+        for (digit, divisor) in [(0x70, 2), (0x700, 4)] {
             let mask = self.add(Expr::I32(digit));
             let part = self.add(Expr::Bin(BinOp::And, word, mask));
             let divisor = self.add(Expr::I32(divisor));
             let part = self.add(Expr::Bin(BinOp::Div, part, divisor));
-            number = self.add(Expr::Bin(BinOp::Add, number, part));
+            number = self.add(Expr::Bin(BinOp::Or, number, part));
         }
+        let number = self.settled(number);
         let place = Place {
             class: Y,
             number: 0,

@@ -2,11 +2,12 @@
 
 use super::Lowerer;
 use super::operand::fixed;
+use crate::high_speed;
 use crate::node::{
-    Body, Cell, CellId, EdgeKind, Expr, ExprId, Flag, FlagId, Function, FunctionKind, Stmt,
+    BinOp, Body, Cell, CellId, EdgeKind, Expr, ExprId, Flag, FlagId, Function, FunctionKind, Stmt,
     SysValue,
 };
-use rungc_syntax::DeviceClass::X;
+use rungc_syntax::DeviceClass::{D, X};
 use std::collections::BTreeMap;
 
 /// Code of edges, and the levels that it asks for.
@@ -91,6 +92,22 @@ impl Lowerer<'_> {
         let body = self.body(make);
         let key = (input, kind == EdgeKind::Rising);
         self.edges.bodies.entry(key).or_default().extend(body);
+    }
+
+    /// Registers count the rising edges of inputs, if something looks at them.
+    pub(super) fn edge_counts(&mut self) {
+        let registers = high_speed::edge_counts(self.model.id).into_iter().flatten();
+        for (input, register) in (0..).zip(registers) {
+            if !self.keeps(D, register) {
+                continue;
+            }
+            self.on_edge(input, EdgeKind::Rising, |this| {
+                let count = this.add(Expr::ReadWord(fixed(D, register)));
+                let one = this.int(1, false);
+                let count = this.add(Expr::Bin(BinOp::Add, count, one));
+                this.emit(Stmt::WriteWord(fixed(D, register), count));
+            });
+        }
     }
 
     /// Flags that follow terminals begin as X shows them to the first scan.

@@ -168,7 +168,7 @@ impl Flow {
                     let target = pointer(resolved, i).and_then(|p| labels.get(&p));
                     reach = reach.max(target.copied().unwrap_or(0));
                 }
-                Some(Basic::Sret | Basic::Iret) if reach <= i => {
+                Some(Basic::Sret | Basic::Iret | Basic::Pret) if reach <= i => {
                     end = i + 1;
                     break;
                 }
@@ -178,7 +178,7 @@ impl Flow {
         let returns = end > start
             && matches!(
                 basic_of(resolved, end - 1),
-                Some(Basic::Sret | Basic::Iret | Basic::Fend)
+                Some(Basic::Sret | Basic::Iret | Basic::Pret | Basic::Fend)
             );
         let next = if returns || end >= last {
             None
@@ -215,6 +215,11 @@ impl Flow {
             _ => None,
         };
         self.regions.iter().filter_map(routine).collect()
+    }
+
+    /// The function at hand.
+    pub(super) fn function(&self) -> u32 {
+        self.regions[self.current].function
     }
 
     /// Whether the function at hand is the main program.
@@ -334,6 +339,7 @@ impl Lowerer<'_> {
         if let Some(pointer) = region.runs_into {
             self.emit_call(pointer);
         }
+        self.enter_places();
         let items = std::mem::take(&mut self.out);
         let (mut body, escapes) = structure(items);
         for jump in escapes {
@@ -467,7 +473,7 @@ impl Lowerer<'_> {
         }
     }
 
-    fn push_jump(&mut self, cond: ExprId, target: u32) {
+    pub(super) fn push_jump(&mut self, cond: ExprId, target: u32) {
         let stay = self.not(cond);
         self.out.push(Item::Jump(Jump {
             cond,

@@ -2,13 +2,29 @@
 
 use super::Lowerer;
 use super::operand::fixed;
-use crate::catalogue::Basic;
-use crate::interrupts::{self, Gate, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch, Source};
-use crate::node::{Body, EdgeKind, Expr, FlagId, Function, FunctionKind, Stmt, SysValue};
-use rungc_syntax::{DeviceClass::M, codes};
+use super::parts::Item;
+use crate::catalogue::{Basic, CmpOp};
+use crate::high_speed;
+use crate::interrupts::{
+    self, Advanced, Capture, Gate, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch, Source,
+};
+use crate::node::{
+    BinOp, Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue,
+};
+use rungc_syntax::{
+    Device,
+    DeviceClass::{D, M},
+    codes,
+};
+
+/// The register that starts the oscilloscope of HM.
+const SCOPE_STATE: u32 = 8038;
 
 /// Name of the flag that EI sets.
 const ENABLED: &str = "interrupts_enabled";
+
+/// Places where routines go on are labels with numbers above this, which no pointer has.
+pub(super) const FIRST_PLACE: u32 = 0x1_0000;
 
 /// What requests one thing to be done.
 struct Request {
@@ -20,8 +36,38 @@ struct Request {
 enum What {
     /// A routine runs.
     Routine { function: u32, interrupt: Interrupt },
+    /// A routine runs, or goes on where it was left.
+    Process {
+        function: u32,
+        interrupt: Advanced,
+        at: CellId,
+    },
     /// A relay catches the pulse.
     Catch(u32),
+    /// The oscilloscope goes on, whether interrupts are enabled or not.
+    Scope,
+}
+
+impl What {
+    /// The relay that keeps a request.
+    fn relay(&self) -> Option<u32> {
+        match self {
+            What::Routine { interrupt, .. } => interrupt.request,
+            What::Process { interrupt, .. } => Some(interrupt.again),
+            What::Catch(_) | What::Scope => None,
+        }
+    }
+}
+
+/// A routine that may be left in the middle.
+struct Section {
+    /// Its function.
+    function: u32,
+    interrupt: Advanced,
+    /// Where it goes on: 0 is its begin.
+    at: CellId,
+    /// How many other places there are.
+    places: u32,
 }
 
 /// The interrupts of a program.
@@ -30,6 +76,10 @@ pub(super) struct Interrupts {
     requests: Vec<Request>,
     /// The flags that sources set.
     flags: Vec<(Source, FlagId)>,
+    /// Routines that may be left in the middle.
+    sections: Vec<Section>,
+    /// Registers of edges, and what they said when they were last read.
+    captures: Vec<(&'static Capture, CellId)>,
     /// The flag that EI sets, and the function that takes interrupts; `None` if there is nothing to take.
     function: Option<(FlagId, u32)>,
 }
@@ -39,6 +89,10 @@ impl Lowerer<'_> {
     pub(super) fn find_interrupts(&mut self) {
         let mut requests = Vec::new();
         for region in self.flow.interrupts() {
+            if let Some(interrupt) = interrupts::find_advanced(self.model.id, region.number) {
+                requests.push(self.section(region.number, region.function, interrupt));
+                continue;
+            }
             match interrupts::find(self.model.id, region.number) {
                 Some(interrupt) => requests.push(Request {
                     source: interrupt.source,
@@ -57,21 +111,183 @@ impl Lowerer<'_> {
         if let Some(catch) = interrupts::pulse_catch(self.model.id) {
             requests.extend(self.caught(catch));
         }
+        if self.keeps(D, SCOPE_STATE) {
+            self.clock();
+            requests.push(Request {
+                source: Some(Source::Period { ms: 1 }),
+                what: What::Scope,
+            });
+        }
         if requests.is_empty() {
             return;
         }
         let enabled = self.flag(ENABLED.to_string(), "EI was executed", None);
+        self.find_captures(&requests);
         let flags = self.request_flags(&requests);
         let function = self.module.functions.len() as u32;
         self.module.functions.push(Function {
             kind: FunctionKind::TakeInterrupts,
             body: Body::new(),
         });
-        self.interrupts = Interrupts {
-            requests,
-            flags,
-            function: Some((enabled, function)),
+        self.interrupts.requests = requests;
+        self.interrupts.flags = flags;
+        self.interrupts.function = Some((enabled, function));
+    }
+
+    /// An advanced interrupt's routine.
+    fn section(&mut self, number: u32, function: u32, interrupt: Advanced) -> Request {
+        let at = self.cell(format!("i{number}_at"), "where the routine goes on");
+        self.interrupts.sections.push(Section {
+            function,
+            interrupt,
+            at,
+            places: 0,
+        });
+        Request {
+            source: interrupt.source,
+            what: What::Process {
+                function,
+                interrupt,
+                at,
+            },
+        }
+    }
+
+    /// Finds the registers of edges that the program names, and that its interrupts depend on.
+    fn find_captures(&mut self, requests: &[Request]) {
+        for capture in interrupts::captures(self.model.id) {
+            let captured = |request: &Request| matches!(request.source, Some(Source::Input { number, .. }) if capture.inputs.contains(&number));
+            let named = self.names(Device {
+                class: D,
+                number: capture.register,
+            });
+            if named && requests.iter().any(captured) {
+                let name = format!("x{:03o}_edges", capture.inputs[0]);
+                let cell = self.cell(name, "which edges interrupt");
+                self.interrupts.captures.push((capture, cell));
+            }
+        }
+    }
+
+    /// A counter is reset: a register of edges is read.
+    pub(super) fn read_captures(&mut self, counter: u32) {
+        let table = high_speed::counters(self.model.id);
+        let Some(counter) = table.iter().find(|row| row.number == counter) else {
+            return;
         };
+        for i in 0..self.interrupts.captures.len() {
+            let (capture, cell) = self.interrupts.captures[i];
+            if counter.counts.contains(&capture.counted) {
+                self.read_capture(capture, cell);
+            }
+        }
+    }
+
+    fn read_capture(&mut self, capture: &Capture, cell: CellId) {
+        let edges = self.add(Expr::ReadWord(fixed(D, capture.register)));
+        let edges = self.add(Expr::Widen(edges));
+        self.emit(Stmt::SetCell(cell, edges));
+    }
+
+    /// When the first scan ends, registers of edges are read.
+    pub(super) fn first_captures(&mut self) {
+        let captures = std::mem::take(&mut self.interrupts.captures);
+        if captures.is_empty() {
+            return;
+        }
+        let first = self.add(Expr::Sys(SysValue::FirstScan));
+        self.when(first, |this| {
+            for (capture, cell) in captures {
+                this.read_capture(capture, cell);
+            }
+        });
+    }
+
+    /// Whether an edge interrupts; `None`: always.
+    fn captured(&mut self, input: u32, kind: EdgeKind) -> Option<ExprId> {
+        let mut captures = self.interrupts.captures.iter();
+        let &(capture, cell) = captures.find(|(capture, _)| capture.inputs.contains(&input))?;
+        let Some((mask, value)) = capture.demands(input, kind) else {
+            return Some(self.bit_const(false));
+        };
+        let edges = self.add(Expr::Cell(cell));
+        let mask = self.add(Expr::I32(mask));
+        let edges = self.add(Expr::Bin(BinOp::And, edges, mask));
+        let value = self.add(Expr::I32(value));
+        Some(self.add(Expr::Cmp(CmpOp::Eq, edges, value)))
+    }
+
+    /// PROC: the next entry goes on here.
+    pub(super) fn process_begins(&mut self) {
+        if let Some((place, at)) = self.new_place() {
+            self.emit_place(at, place);
+            self.out.push(Item::Label(place));
+        }
+    }
+
+    /// PEND: the routine is left; driven, the next entry goes on behind it.
+    pub(super) fn process_ends(&mut self) {
+        let drive = self.drive();
+        let Some((place, at)) = self.new_place() else {
+            return;
+        };
+        self.when(drive, |this| this.emit_place(at, place));
+        self.emit(Stmt::Return);
+        self.out.push(Item::Label(place));
+        self.logic.stack.clear();
+    }
+
+    /// PRET, or what ends an advanced interrupt's routine instead.
+    pub(super) fn end_interrupt(&mut self) {
+        let function = self.flow.function();
+        let mut sections = self.interrupts.sections.iter();
+        if let Some(section) = sections.find(|section| section.function == function) {
+            let active = section.interrupt.active;
+            let off = self.bit_const(false);
+            self.write_device(M, active, off);
+        }
+        self.return_here();
+    }
+
+    /// One more place at which the routine at hand goes on, and where that is kept.
+    fn new_place(&mut self) -> Option<(u32, CellId)> {
+        if !self.open.is_empty() {
+            let span = self.instr().span;
+            let message = format!(
+                "`{}` in a loop or a state is not implemented yet",
+                self.instr()
+            );
+            self.report(codes::NOT_IMPLEMENTED.at(span, message));
+            return None;
+        }
+        let function = self.flow.function();
+        let mut sections = self.interrupts.sections.iter_mut();
+        let section = sections.find(|section| section.function == function)?;
+        section.places += 1;
+        Some((FIRST_PLACE + section.places, section.at))
+    }
+
+    fn emit_place(&mut self, at: CellId, place: u32) {
+        let place = self.add(Expr::I32((place - FIRST_PLACE) as i32));
+        self.emit(Stmt::SetCell(at, place));
+    }
+
+    /// The routine at hand begins with jumps to the places where it goes on, the last one first, so that they nest.
+    pub(super) fn enter_places(&mut self) {
+        let function = self.flow.function();
+        let mut sections = self.interrupts.sections.iter();
+        let Some(section) = sections.find(|section| section.function == function) else {
+            return;
+        };
+        let (at, places) = (section.at, section.places);
+        let behind = std::mem::take(&mut self.out);
+        for n in (1..=places).rev() {
+            let at = self.add(Expr::Cell(at));
+            let place = self.add(Expr::I32(n as i32));
+            let cond = self.add(Expr::Cmp(CmpOp::Eq, at, place));
+            self.push_jump(cond, FIRST_PLACE + n);
+        }
+        self.out.extend(behind);
     }
 
     /// A flag for each source, and what sets it.
@@ -88,7 +304,11 @@ impl Lowerer<'_> {
             let flag = self.flag(flag_name(source), "requests an interrupt", period);
             match source {
                 Source::Input { number, kind } => {
-                    self.on_edge(number, kind, |this| this.set_flag_to(flag, true));
+                    let captured = self.captured(number, kind);
+                    self.on_edge(number, kind, |this| match captured {
+                        Some(captured) => this.when(captured, |this| this.set_flag_to(flag, true)),
+                        None => this.set_flag_to(flag, true),
+                    });
                 }
                 Source::PulsesEnd { output } => {
                     self.module.flags[flag.0 as usize].pulses_end = Some(output);
@@ -145,19 +365,26 @@ impl Lowerer<'_> {
             return;
         };
         let Interrupts {
-            requests, flags, ..
+            mut requests,
+            flags,
+            ..
         } = std::mem::take(&mut self.interrupts);
+        // Those of the same kind keep the order of their routines.
+        requests.sort_by_key(|request| !matches!(request.what, What::Process { .. }));
         let body = self.body(|this| {
             for &(source, flag) in &flags {
                 this.keep_requests(&requests, source, flag);
             }
             let on = this.add(Expr::Flag(enabled));
             this.when(on, |this| {
+                for request in &requests {
+                    this.serve_process(&request.what);
+                }
                 for &(source, flag) in &flags {
                     this.serve_source(&requests, source, flag);
                 }
                 for request in &requests {
-                    this.serve_relay(request);
+                    this.serve_relay(&request.what);
                 }
             });
         });
@@ -167,12 +394,10 @@ impl Lowerer<'_> {
     /// Relays keep the requests of a source, whether interrupts are enabled or not.
     fn keep_requests(&mut self, requests: &[Request], source: Source, flag: FlagId) {
         let relays: Vec<u32> = of(requests, source)
-            .filter_map(|request| match request.what {
-                What::Routine { interrupt, .. } => interrupt.request,
-                What::Catch(_) => None,
-            })
+            .filter_map(|request| request.what.relay())
             .collect();
-        if relays.is_empty() {
+        let scope = of(requests, source).any(|request| matches!(request.what, What::Scope));
+        if relays.is_empty() && !scope {
             return;
         }
         let asked = self.add(Expr::Flag(flag));
@@ -182,6 +407,9 @@ impl Lowerer<'_> {
                 let on = this.bit_const(true);
                 this.write_device(M, relay, on);
             }
+            if scope {
+                this.oscilloscope();
+            }
         });
     }
 
@@ -189,9 +417,7 @@ impl Lowerer<'_> {
     fn serve_source(&mut self, requests: &[Request], source: Source, flag: FlagId) {
         let direct: Vec<&What> = of(requests, source)
             .map(|request| &request.what)
-            .filter(|what| {
-                !matches!(what, What::Routine { interrupt, .. } if interrupt.request.is_some())
-            })
+            .filter(|what| what.relay().is_none() && !matches!(what, What::Scope))
             .collect();
         if direct.is_empty() {
             return;
@@ -212,17 +438,18 @@ impl Lowerer<'_> {
                         let allowed = this.allowed(interrupt.gate);
                         this.when(allowed, |this| this.emit(Stmt::CallSub(function)));
                     }
+                    What::Process { .. } | What::Scope => {}
                 }
             }
         });
     }
 
     /// Runs a routine whose request a relay keeps.
-    fn serve_relay(&mut self, request: &Request) {
+    fn serve_relay(&mut self, what: &What) {
         let What::Routine {
             function,
             interrupt,
-        } = request.what
+        } = *what
         else {
             return;
         };
@@ -239,8 +466,46 @@ impl Lowerer<'_> {
         });
     }
 
+    /// Runs an advanced interrupt's routine from its begin, or goes on with it. A request for that from before is forgotten at its
+    /// begin.
+    fn serve_process(&mut self, what: &What) {
+        let What::Process {
+            function,
+            interrupt,
+            at,
+        } = *what
+        else {
+            return;
+        };
+        let allowed = self.allowed(Gate::Forbids(interrupt.mask));
+        let relay = |this: &mut Self, relay| this.add(Expr::ReadBit(fixed(M, relay)));
+        let (request, active) = (interrupt.request, interrupt.active);
+        let asked = relay(self, request);
+        let is_active = relay(self, active);
+        let idle = self.not(is_active);
+        let begins = self.and(asked, idle);
+        let begins = self.and(begins, allowed);
+        self.when(begins, |this| {
+            let (off, on) = (this.bit_const(false), this.bit_const(true));
+            this.write_device(M, request, off);
+            this.write_device(M, interrupt.again, off);
+            this.write_device(M, active, on);
+            let begin = this.add(Expr::I32(0));
+            this.emit(Stmt::SetCell(at, begin));
+            this.emit(Stmt::CallSub(function));
+        });
+        let again = relay(self, interrupt.again);
+        let goes_on = self.and(again, is_active);
+        let goes_on = self.and(goes_on, allowed);
+        self.when(goes_on, |this| {
+            let off = this.bit_const(false);
+            this.write_device(M, interrupt.again, off);
+            this.emit(Stmt::CallSub(function));
+        });
+    }
+
     /// Whether a routine may run; a relay that nothing looks at stays as it is at power-on.
-    fn allowed(&mut self, gate: Gate) -> crate::node::ExprId {
+    fn allowed(&mut self, gate: Gate) -> ExprId {
         let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate;
         let on = if self.specials.has(M, relay) {
             self.add(Expr::ReadBit(fixed(M, relay)))

@@ -172,6 +172,7 @@ impl<'a> Lowerer<'a> {
         }
         self.module.run_states = self.module.states;
         self.counter_edges();
+        self.edge_counts();
         self.module.functions[0].body = self.begin_function();
         self.module.functions[2].body = self.end_function();
         self.take_interrupts();
@@ -300,7 +301,10 @@ impl<'a> Lowerer<'a> {
             Basic::Cj => self.jump(),
             Basic::Call => self.call_subroutine(),
             Basic::Label => self.label(),
-            Basic::Fend | Basic::End | Basic::Sret | Basic::Iret => self.return_here(),
+            Basic::Fend | Basic::End | Basic::Sret => self.return_here(),
+            Basic::Iret | Basic::Pret => self.end_interrupt(),
+            Basic::Proc => self.process_begins(),
+            Basic::Pend => self.process_ends(),
             Basic::Ei | Basic::Di => self.enable_interrupts(basic == Basic::Ei),
             Basic::Nop => {}
             // The watchdog belongs to the host.

@@ -1,5 +1,6 @@
 //! Jumps become structured statements where they nest, and parts with labels where they do not.
 
+use super::interrupt::FIRST_PLACE;
 use crate::node::{Body, ExprId, LabelId, Part, Stmt};
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -207,7 +208,7 @@ fn parts(run: Vec<(usize, Item)>, targets: &FxHashSet<usize>) -> Stmt {
                 }
                 parts.push(Part {
                     label: Some(LabelId(label)),
-                    name: Some(DeviceClass::P.number(label).to_string()),
+                    name: (label < FIRST_PLACE).then(|| DeviceClass::P.number(label).to_string()),
                     body: Vec::new(),
                 });
             }

@@ -1,11 +1,11 @@
 //! Which special relays and registers something looks at. What the scan or an instruction would write to the others is left out.
 
-use super::LowerOptions;
 use super::call::extents;
+use super::{LowerOptions, Lowerer};
 use crate::catalogue::{Drive, Lower, Role};
 use crate::resolve::Resolved;
 use crate::runs::FIRST_SPECIAL;
-use rungc_syntax::{DeviceClass, OperandKind};
+use rungc_syntax::{Device, DeviceClass, OperandKind};
 
 /// More than any model has.
 const COUNT: usize = 1000;
@@ -128,6 +128,30 @@ impl Specials {
                 && (index.is_some()
                     || RUN_FLAGS.clone().any(|n| (device.number..end).contains(&n)));
         }
+    }
+}
+
+impl Lowerer<'_> {
+    /// Whether an instruction names a device, among others or with an index.
+    pub(super) fn names(&self, device: Device) -> bool {
+        (0..self.resolved.instrs.len()).any(|i| {
+            let operands = &self.resolved.program.instrs[i].operands;
+            let resolution = &self.resolved.instrs[i];
+            let Some(inst) = resolution.inst else {
+                return false;
+            };
+            let extents = extents(inst, resolution.form, operands, self.model);
+            operands.iter().zip(extents).any(|(operand, extent)| {
+                let (first, indexed) = match operand.kind {
+                    OperandKind::Device(first, index) => (first, index.is_some()),
+                    OperandKind::WordBit(first, _, index) => (first, index.is_some()),
+                    _ => return false,
+                };
+                let end = extent.map_or(u32::MAX, |count| first.number.saturating_add(count));
+                first.class == device.class
+                    && (indexed || (first.number..end).contains(&device.number))
+            })
+        })
     }
 }
 

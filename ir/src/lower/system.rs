@@ -5,7 +5,7 @@ use super::Lowerer;
 use super::operand::fixed;
 use super::stl::ANNUNCIATORS;
 use crate::catalogue::{self, CmpOp, Lower};
-use crate::node::{BinOp, Body, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
+use crate::node::{Arg, BinOp, Body, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use crate::special;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass::{self, D, M, S, X};
@@ -30,6 +30,8 @@ const ANALOG_ENABLE: u32 = 8114;
 const POTENTIOMETERS: std::ops::RangeInclusive<u32> = 8030..=8031;
 /// Relays of HM that are the inputs from X014 on.
 const VIRTUAL_INPUTS: (std::ops::RangeInclusive<u32>, u32) = (8160..=8163, 0o14);
+/// Parameters and state of HM's oscilloscope.
+const OSCILLOSCOPE: std::ops::RangeInclusive<u32> = 8030..=8043;
 /// Clears the general, the latched devices.
 const CLEAR: [(u32, bool); 2] = [(8031, false), (8032, true)];
 /// Puts the PLC in STOP.
@@ -93,6 +95,7 @@ impl Lowerer<'_> {
         self.body(|this| {
             this.interruptible();
             this.begin_tables();
+            this.first_captures();
             for (number, kind) in std::mem::take(&mut this.free_running) {
                 this.emit(Stmt::TimerGoesOn { number, kind });
             }
@@ -303,6 +306,15 @@ impl Lowerer<'_> {
 
     /// Calls a function that keeps special registers. They are all stored, even if the program looks at one.
     fn call_system(&mut self, function: RtFn, registers: impl Iterator<Item = u32>) {
+        self.call_system_with(function, registers, Vec::new());
+    }
+
+    fn call_system_with(
+        &mut self,
+        function: RtFn,
+        registers: impl Iterator<Item = u32>,
+        args: Vec<Arg>,
+    ) {
         self.specials
             .flags
             .extend(registers.map(|register| (D, register)));
@@ -312,11 +324,27 @@ impl Lowerer<'_> {
         self.emit(Stmt::Call {
             function,
             wide: false,
-            args: Vec::new(),
+            args,
             drive,
             slot: if needs.state { self.module.states } else { 0 },
             step: 0,
         });
+    }
+
+    /// D8030 to D8043 (HM): what is recorded, and where, is known only in a run.
+    pub(super) fn oscilloscope(&mut self) {
+        let clock = self.clock();
+        let now = self.add(Expr::Cell(clock));
+        let now = Arg::Const {
+            value: 0,
+            index: Some(now),
+            wide: true,
+        };
+        let registers = Arg::Device {
+            place: fixed(D, 0),
+            extent: None,
+        };
+        self.call_system_with(RtFn::Oscilloscope, OSCILLOSCOPE, vec![now, registers]);
     }
 
     /// D8490 to D8511 (H1U/H2U).

@@ -1,6 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7). Many numbers mean something else than on the other models.
 
-use super::{FAST, HOST, INTERRUPTS, MAKER, MOTION, POWER, SCOPE, SERIAL, Special, specials};
+use super::{FAST, HOST, MAKER, MOTION, POWER, SERIAL, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -21,10 +21,10 @@ pub(super) const HM: &[Special] = specials! {
     M 8048-8055 rw 0 by("interrupt routines") "mask of external interrupt I000–301: on = forbidden";
     M 8056-8058 rw 1 by("interrupt routines") "mask of timer interrupt I6–8xx: on = forbidden; on at power-on, the program must reset it";
     M 8059-8063 rw 0 by("interrupt routines") "mask of software interrupt I010–050: on = forbidden, reset it to allow";
-    M 8064-8071 rw 0 inert(INTERRUPTS) "mask of advanced interrupt I900–907: on = forbidden, off = enabled";
-    M 8072-8079 rw 0 inert(INTERRUPTS) "advanced interrupt I900–907 is active: on from entry to PRET";
-    M 8080-8087 rw 0 inert(INTERRUPTS) "request of advanced interrupt I900–907: set once (edge) by the ladder, cleared by the system on entry";
-    M 8088-8095 rw 0 inert(INTERRUPTS) "process request of I900–907: re-enters an active advanced interrupt at its PROC";
+    M 8064-8071 rw 0 by("interrupt routines") "mask of advanced interrupt I900–907: on = forbidden, off = enabled";
+    M 8072-8079 rw 0 by("interrupt routines") "advanced interrupt I900–907 is active: on from entry to PRET";
+    M 8080-8087 rw 0 by("interrupt routines") "request of advanced interrupt I900–907: set once (edge) by the ladder, cleared by the system on entry";
+    M 8088-8095 rw 0 by("interrupt routines") "process request of I900–907: re-enters an active advanced interrupt at its PROC";
     M 8096-8111 rw 0 inert(MOTION) "switch input of motion instructions in place of X000–017 (used while Bit13 of the axis event word is 0)";
     M 8160-8163 rw 0 scan "state of the virtual inputs X014..X017";
     M 8200-8234 rw 0 by("OUT C") "count direction of C200..C234: on = down, off = up";
@@ -48,20 +48,20 @@ pub(super) const HM: &[Special] = specials! {
     D 8021 r 0 inert(POWER) "measured AD value of the power-fail voltage";
     D 8026 r 0 inert(MAKER) "state of chip port group A";
     D 8028 r 0 inert(MAKER) "state of chip port group B";
-    D 8030 rw 0 inert(SCOPE) "oscilloscope trigger mode: 0 manual, 1 value >= threshold, 2 value <= threshold";
-    D 8031 rw 0 inert(SCOPE) "oscilloscope trigger unit: mode 0: 0 = wait";
-    D 8032 rw 100 inert(SCOPE) "oscilloscope trigger threshold, signed 16 bit";
-    D 8033 rw 2 inert(SCOPE) "oscilloscope sample period: 0 or negative = 0.1 ms, 1 = 0.5 ms, 2 = 1 ms, N > 2 = N+1 ms";
-    D 8034 rw 2000 inert(SCOPE) "oscilloscope number of samples 1..7000";
-    D 8035 rw 1000 inert(SCOPE) "oscilloscope first D register of this recording; must lie within D8036..D8037";
-    D 8036 rw 1000 inert(SCOPE) "oscilloscope first D register of the recording area";
-    D 8037 rw 4999 inert(SCOPE) "oscilloscope last D register of the recording area";
-    D 8038 rw 3 inert(SCOPE) "oscilloscope state: write 4 to start; system shows 0 waiting for the trigger, 1 sampling, 2 start failed";
-    D 8039 r 0 inert(SCOPE) "oscilloscope samples taken so far: 0 at start, up to D8034";
-    D 8040 rw 1 inert(SCOPE) "oscilloscope channel A: words per sample";
-    D 8041 rw 1000 inert(SCOPE) "oscilloscope channel A: number of the first D register sampled, 0..7999";
-    D 8042 rw 1 inert(SCOPE) "oscilloscope channel B, as D8040";
-    D 8043 rw 1100 inert(SCOPE) "oscilloscope channel B, as D8041";
+    D 8030 rw 0 scan "oscilloscope trigger mode: 0 manual, 1 value >= threshold, 2 value <= threshold";
+    D 8031 rw 0 scan "oscilloscope trigger unit: mode 0: 0 = wait";
+    D 8032 rw 100 scan "oscilloscope trigger threshold, signed 16 bit";
+    D 8033 rw 2 scan "oscilloscope sample period: 0 or negative = 0.1 ms, 1 = 0.5 ms, 2 = 1 ms, N > 2 = N+1 ms";
+    D 8034 rw 2000 scan "oscilloscope number of samples 1..7000";
+    D 8035 rw 1000 scan "oscilloscope first D register of this recording; must lie within D8036..D8037";
+    D 8036 rw 1000 scan "oscilloscope first D register of the recording area";
+    D 8037 rw 4999 scan "oscilloscope last D register of the recording area";
+    D 8038 rw 3 scan "oscilloscope state: write 4 to start; system shows 0 waiting for the trigger, 1 sampling, 2 start failed";
+    D 8039 r 0 scan "oscilloscope samples taken so far: 0 at start, up to D8034";
+    D 8040 rw 1 scan "oscilloscope channel A: words per sample";
+    D 8041 rw 1000 scan "oscilloscope channel A: number of the first D register sampled, 0..7999";
+    D 8042 rw 1 scan "oscilloscope channel B, as D8040";
+    D 8043 rw 1100 scan "oscilloscope channel B, as D8041";
     D 8044 r 0 inert(MAKER) "task time position within the 50 us time slice; larger = shorter task; full scale 3999";
     D 8045 r 0 inert(MAKER) "longest time taken by timer interrupts";
     D 8100-8107 rw 0 scan "mirror of index register V0–7";
@@ -73,7 +73,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8124 rw 0 inert(SERIAL) "UART1 byte control word";
     D 8125 rw 7020 inert(SERIAL) "UART1: first D register it occupies";
     D 8129 rw 7100 inert(SERIAL) "first D register occupied by extensions";
-    D 8160-8167 r 0 inert(FAST) "count of rising edges of X000–007 (up to 5 kHz)";
+    D 8160-8167 r 0 scan "count of rising edges of X000–007 (up to 5 kHz)";
     D 8180-8185 rw 0 inert(MOTION) "output mode of Y000..Y005: 0 PLC, 1 high-speed event output, 2 motion axis pulse/direction";
     D 8188-8195 rw 0 inert(MOTION) "output mode of Y010..Y017, values as D8180";
     D 8200 rw 0 inert(MAKER) "internal function number";

@@ -19,6 +19,7 @@ pub mod pid_thermal;
 pub mod pulses;
 pub mod rotate;
 pub mod scale;
+pub mod scope;
 pub mod serial;
 pub mod system;
 pub mod text;

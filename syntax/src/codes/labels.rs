@@ -50,8 +50,8 @@ super::codes! {
     right: "EI\nFEND\nI001\nLD X2\nOUT Y1\nIRET\nEND\n";
 
     INPUT_SHARED = "E0441" "input-shared" Error Some(6511),
-    "fast input used by a counter and an interrupt",
-    "Each fast input serves one purpose: a high-speed counter or an input interrupt.",
+    "fast input used by a counter and something else",
+    "Each fast input serves one purpose: a high-speed counter, an input interrupt or pulse catch.",
     wrong: "EI\nLD M8000\nOUT C251 K100\nFEND\nI101\nLD X2\nOUT Y0\nIRET\nEND\n",
     right: "EI\nLD M8000\nOUT C251 K100\nFEND\nI201\nLD X3\nOUT Y0\nIRET\nEND\n";
 

@@ -85,6 +85,12 @@ super::codes! {
     wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nCALL P1\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nOUT Y0\nSRET\nEND\n";
 
+    MEASURED_INPUT = "W0216" "measured-input" Warning None,
+    "SPD on an input that serves something else",
+    "Each fast input should serve one purpose: SPD, a high-speed counter, an input interrupt or pulse catch.",
+    wrong: "LD M8000\nOUT C235 K100\nLD X7\nSPD X0 K100 D0\nEND\n",
+    right: "LD M8000\nOUT C235 K100\nLD X7\nSPD X1 K100 D0\nEND\n";
+
     STEPS_DIFFER = "W0501" "steps-differ" Warning None,
     "step number that does not fit the instructions before it",
     "The source numbers its steps, and the number differs from what the instructions before it take on this model: the model may be another one, or a row is missing.",
