@@ -83,12 +83,18 @@ impl Writer<'_> {
         all.into_iter().filter(|_| self.rng.percent(60)).collect()
     }
 
-    /// A counter of the first inputs, sometimes, with comparisons at the count. HM's count in other ways.
+    /// A counter of the first inputs, sometimes, with comparisons at the count and a table.
     fn high_speed_counter(&mut self) {
-        if self.model == ModelId::Hm || self.rng.percent(75) {
+        if self.rng.percent(75) {
             return;
         }
-        let counter = 235 + [0, 6, 9, 11, 12, 16, 19][self.rng.below(7) as usize];
+        let hm = self.model == ModelId::Hm;
+        let counters = if hm {
+            [235, 239, 241, 244, 248, 250, 254]
+        } else {
+            [235, 241, 244, 246, 247, 251, 254]
+        };
+        let counter = counters[self.rng.below(7) as usize];
         self.logic(1);
         let preset = self.rng.below(5);
         self.line(format!("OUT C{counter} K{preset}"));
@@ -96,8 +102,17 @@ impl Writer<'_> {
             if self.rng.percent(60) {
                 self.logic(1);
                 let bit = ["Y000", "M10", "S20"][self.rng.below(3) as usize];
-                self.line(format!("{compare} C{counter} {bit}"));
+                let zone = if hm { " K0" } else { "" };
+                self.line(format!("{compare} C{counter} {bit}{zone}"));
             }
+        }
+        if self.rng.percent(50) {
+            self.logic(1);
+            self.line(if hm {
+                format!("DHSCT D1000 K3 C{counter} M16 K6")
+            } else {
+                format!("DHSZ D0 K3 C{counter} M8130")
+            });
         }
     }
 

@@ -257,6 +257,44 @@ pub fn pattern_table(model: ModelId) -> &'static TableMode {
     }
 }
 
+/// Registers of an input axis of HM, which show a count (hm-motion-controller §8.2.2).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Axis {
+    /// The input that counts.
+    pub input: u32,
+    /// Pair for the count.
+    pub count: u32,
+    /// Pair for the upper half of the count as 64 bits.
+    pub upper: u32,
+    /// Pair for the count at the last interrupt of one of two inputs.
+    pub captured: u32,
+    /// These inputs.
+    pub capture: [u32; 2],
+}
+
+/// HM's input axes.
+const AXES: &[Axis] = &[
+    Axis {
+        input: 0,
+        count: 200,
+        upper: 202,
+        captured: 206,
+        capture: [4, 5],
+    },
+    Axis {
+        input: 2,
+        count: 250,
+        upper: 252,
+        captured: 256,
+        capture: [6, 7],
+    },
+];
+
+/// The input axes of a model.
+pub fn axes(model: ModelId) -> &'static [Axis] {
+    if model == ModelId::Hm { AXES } else { &[] }
+}
+
 /// Registers that count the rising edges of inputs from X000 on (hm-motion-controller §5.7).
 pub fn edge_counts(model: ModelId) -> Option<std::ops::RangeInclusive<u32>> {
     (model == ModelId::Hm).then_some(8160..=8167)

@@ -160,6 +160,20 @@ pub fn pulse_catch(model: ModelId) -> Option<&'static PulseCatch> {
     PULSE_CATCH.iter().find(|row| row.models.has(model))
 }
 
+/// Models on which interrupts of counters come last (l01s-programming §6.4), and not first (h1u-h2u-programming §4.3.1).
+const COUNTERS_LAST: ModelSet = ModelSet::of(&[ModelId::L01s]);
+
+/// Of interrupts that are requested together, those of the lower rank run first.
+pub fn rank(model: ModelId, source: Source) -> u32 {
+    match source {
+        Source::Comparison { .. } if COUNTERS_LAST.has(model) => 3,
+        Source::Comparison { .. } => 0,
+        Source::Input { .. } => 1,
+        Source::Period { .. } => 2,
+        Source::PulsesEnd { .. } => 4,
+    }
+}
+
 /// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests, or an advanced interrupt.
 pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
     if HM.has(model) {

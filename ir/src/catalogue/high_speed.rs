@@ -7,10 +7,15 @@ use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, Operand, OperandKind};
 
-const COUNTERS: &str = "high-speed counters";
 const PULSES: &str = "pulse output";
 /// Counters that count apart from the scan.
 const FAST: &[(DeviceClass, u32, u32)] = &[(DeviceClass::C, 235, 255)];
+/// They and the ring counters.
+const COUNTS: &[(DeviceClass, u32, u32)] = &[
+    (DeviceClass::C, 235, 255),
+    (DeviceClass::D, 8099, 8099),
+    (DeviceClass::D, 8398, 8398),
+];
 /// Interrupt pointers of counters.
 const COUNTER_INTERRUPTS: &[(DeviceClass, u32, u32)] = &[
     (DeviceClass::I, 10, 10),
@@ -270,11 +275,11 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(13, 13)
         .on(FX3U)
         .takes(&[
-            src("S", Classes::C.or(Classes::D)).plain(),
+            src("S", Classes::C.or(Classes::D)).plain().numbers(COUNTS),
             dst("D", DATA),
             count("n", 0, 1),
         ])
-        .todo(COUNTERS)
+        .lower(Lower::MoveCount)
         .text("D = the present value of counter S; with n = 1 the counter is then set to 0."),
     fast("HSCT", 280, "Table compare by high-speed counter")
         .forms(W32)

@@ -521,6 +521,8 @@ pub enum Lower {
     Compare(Join, CmpOp),
     /// MOV: copies S to D.
     Move,
+    /// HCMOV: copies the count S to D and may set it to 0.
+    MoveCount,
     /// CML: complements S to D.
     MoveNot,
     /// COMRD: a device's comment, which the compiler knows.

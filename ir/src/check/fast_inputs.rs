@@ -1,12 +1,12 @@
 //! Fast inputs: high-speed counters, interrupts, pulse catch and SPD that want the same terminal, and interrupts of one source.
 
-use super::Code;
 use super::pointers::Pointers;
+use super::{Code, fast_units};
 use crate::catalogue::{Basic, Lower};
-use crate::high_speed;
+use crate::high_speed::{self, Kind};
 use crate::interrupts::{self, Source};
 use crate::model::{ModelId, ModelSet};
-use rungc_syntax::{DeviceClass, Diagnostics, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 
 /// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
 const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::of(&[ModelId::Hm]);
@@ -19,6 +19,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
     let others = others(code, &interrupts);
     inputs_shared(code, &others, &counters, out);
     measured_inputs(code, &others, &counters, out);
+    fast_units::check(code, &others, &counters, out);
     counters_share(code, &counters, out);
     never_enabled(code, &interrupts, out);
 }
@@ -88,12 +89,13 @@ fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagn
 }
 
 /// A high-speed counter that the program drives.
-struct Counter {
+pub(super) struct Counter {
     number: u32,
+    pub(super) kind: Kind,
     /// What it counts, resets and starts by.
     inputs: Vec<u32>,
     /// Its first coil.
-    coil: usize,
+    pub(super) coil: usize,
 }
 
 /// The high-speed counters that the program drives, each once.
@@ -115,6 +117,7 @@ fn counters(code: &Code) -> Vec<Counter> {
         if let Some(counter) = table.iter().find(|counter| counter.number == number) {
             found.push(Counter {
                 number,
+                kind: counter.kind,
                 inputs: counter.inputs().collect(),
                 coil: i,
             });
@@ -124,13 +127,13 @@ fn counters(code: &Code) -> Vec<Counter> {
 }
 
 /// What else looks at the edges of an input.
-struct Other {
+pub(super) struct Other {
     input: u32,
     /// `an interrupt`.
     name: &'static str,
     /// `requests an interrupt`.
     does: &'static str,
-    at: usize,
+    pub(super) at: usize,
 }
 
 /// Interrupts of inputs, and relays that catch pulses.
@@ -195,11 +198,7 @@ fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut 
 /// SPD on an input that serves something else. The manuals advise against it, but it counts all the same (h1u-h2u-programming
 /// §4.3.6 allows what §4.3.1 forbids).
 fn measured_inputs(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
-    for i in 0..code.len {
-        let measures = matches!(code.inst(i).map(|inst| inst.lower), Some(Lower::Density));
-        let Some(input) = code.device(i, 0).filter(|_| measures) else {
-            continue;
-        };
+    for (i, input) in measured(code) {
         let counter = counters
             .iter()
             .find(|counter| counter.inputs.contains(&input.number))
@@ -220,6 +219,14 @@ fn measured_inputs(code: &Code, others: &[Other], counters: &[Counter], out: &mu
             out.push(diagnostic);
         }
     }
+}
+
+/// The instructions SPD and their inputs.
+pub(super) fn measured(code: &Code) -> impl Iterator<Item = (usize, Device)> {
+    (0..code.len).filter_map(|i| {
+        let measures = matches!(code.inst(i)?.lower, Lower::Density);
+        Some((i, code.device(i, 0).filter(|_| measures)?))
+    })
 }
 
 fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {

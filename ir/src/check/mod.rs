@@ -7,6 +7,7 @@ mod accesses;
 mod blocks;
 mod coils;
 mod fast_inputs;
+mod fast_units;
 mod labels;
 mod once;
 mod pairs;

@@ -14,6 +14,8 @@ const CARRY: u32 = 8022;
 /// On if a product or a quotient is 0, if a quotient is too large (FX3G, FX3U).
 const ZERO_PRODUCT: u32 = 8304;
 const LARGE_QUOTIENT: u32 = 8306;
+/// The ring counter that is one word.
+const RING_COUNTER: u32 = 8099;
 /// Division by zero.
 const DIVISION: u16 = 6706;
 
@@ -31,6 +33,7 @@ impl Lowerer<'_> {
         match lower {
             Lower::Move => self.move_value(false),
             Lower::MoveNot => self.move_value(true),
+            Lower::MoveCount => self.move_count(),
             Lower::Comment => self.device_comment(),
             Lower::Cmp => self.compare(),
             Lower::Zcp => self.compare_zone(),
@@ -89,6 +92,32 @@ impl Lowerer<'_> {
         }
         let target = self.result(1, &mut guards);
         self.guarded(guards, |this| this.store(target, value));
+    }
+
+    /// HCMOV. The ring counter of tenths of milliseconds is one word.
+    fn move_count(&mut self) {
+        let (Some(&OperandKind::Device(counter, None)), Some(clear)) =
+            (self.operand(0), self.operand(2))
+        else {
+            return;
+        };
+        let clear = matches!(clear, OperandKind::Decimal(1, _) | OperandKind::Hex(1, _));
+        let mut guards = Guards::default();
+        let from = OperandKind::Device(counter, None);
+        let is_word = counter.class == DeviceClass::D && counter.number == RING_COUNTER;
+        let mut value = self.value(&from, !is_word, &mut guards);
+        if is_word {
+            value = self.add(Expr::Widen(value));
+        }
+        let target = self.result(1, &mut guards);
+        let cleared = self.target(&from, 0, !is_word, !is_word, &mut guards);
+        self.guarded(guards, |this| {
+            this.store(target, value);
+            if clear {
+                let zero = this.int(0, !is_word);
+                this.store(cleared, zero);
+            }
+        });
     }
 
     fn compare(&mut self) {

@@ -5,7 +5,8 @@ use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use crate::catalogue::{Basic, CmpOp, Comparison};
 use crate::high_speed::{
-    self, COMPARE_AT_RESET, CROSSING, Counter, EDGE_RESET, Kind, NO_RESET, RESET_RELAYS, ZONES,
+    self, Axis, COMPARE_AT_RESET, CROSSING, Counter, EDGE_RESET, Kind, NO_RESET, RESET_RELAYS,
+    ZONES,
 };
 use crate::interrupts::Source;
 use crate::node::{CellId, EdgeKind, Expr, ExprId, FlagId, Place, Stmt};
@@ -96,9 +97,9 @@ impl Lowerer<'_> {
     pub(super) fn high_speed_coil(&mut self, device: Device) {
         let used = &self.high_speed.used;
         let Some(used) = used.iter().find(|u| u.counter.number == device.number) else {
-            let span = self.instr().span;
-            let message = format!("`OUT {device}` is not implemented yet: high-speed counters");
-            return self.report(codes::NOT_IMPLEMENTED.at(span, message));
+            let span = self.instr().operands[0].span;
+            let message = format!("`{device}` counts no input of {}", self.model.name);
+            return self.report(codes::NO_DEVICE.at(span, message));
         };
         let (on, preset) = (used.on, used.preset);
         let drive = self.drive();
@@ -282,6 +283,7 @@ impl Lowerer<'_> {
                 self.reset_edge(used, reset, &compares);
             }
         }
+        self.high_speed.used = used;
     }
 
     fn count_edges(&mut self, used: &Used, compares: &[&Compare]) {
@@ -374,6 +376,7 @@ impl Lowerer<'_> {
                 down,
                 preset,
             });
+            this.show_on_axis(used.counter);
             let shown = DIRECTION + number;
             if used.counter.kind != Kind::One && this.specials.has(DeviceClass::M, shown) {
                 this.write_device(DeviceClass::M, shown, down);
@@ -382,6 +385,65 @@ impl Lowerer<'_> {
                 this.act(compare);
             }
         });
+    }
+
+    /// The registers of an input axis show the count, if something looks at them.
+    fn show_on_axis(&mut self, counter: &Counter) {
+        let Some(axis) = self.axis(counter) else {
+            return;
+        };
+        let count = self.add(Expr::ReadPair(counter_place(counter.number)));
+        if self.looks_at_pair(axis.count) {
+            self.emit(Stmt::WritePair(fixed(DeviceClass::D, axis.count), count));
+        }
+        if self.looks_at_pair(axis.upper) {
+            let zero = self.add(Expr::I32(0));
+            let negative = self.add(Expr::Cmp(CmpOp::Lt, count, zero));
+            let negative = self.add(Expr::BitToInt(negative));
+            let negative = self.add(Expr::Widen(negative));
+            let upper = self.add(Expr::Neg(negative));
+            self.emit(Stmt::WritePair(fixed(DeviceClass::D, axis.upper), upper));
+        }
+    }
+
+    /// The input axis of a counter's input.
+    fn axis(&self, counter: &Counter) -> Option<&'static Axis> {
+        let input = counter.counts.first();
+        let mut axes = high_speed::axes(self.model.id).iter();
+        axes.find(|axis| Some(&axis.input) == input)
+    }
+
+    /// Input axes show what their counters hold before each scan, too.
+    pub(super) fn show_axes(&mut self) {
+        let counters: Vec<&Counter> = self.high_speed.used.iter().map(|u| u.counter).collect();
+        for counter in counters {
+            self.show_on_axis(counter);
+        }
+    }
+
+    /// An edge of an input interrupts: the registers of its axis show the count.
+    pub(super) fn capture_count(&mut self, input: u32) {
+        let mut axes = high_speed::axes(self.model.id).iter();
+        let Some(axis) = axes.find(|axis| axis.capture.contains(&input)) else {
+            return;
+        };
+        let used = &self.high_speed.used;
+        let counter = used
+            .iter()
+            .find(|used| used.counter.counts.first() == Some(&axis.input));
+        if let Some(number) = counter.map(|used| used.counter.number)
+            && self.looks_at_pair(axis.captured)
+        {
+            let count = self.add(Expr::ReadPair(counter_place(number)));
+            self.emit(Stmt::WritePair(fixed(DeviceClass::D, axis.captured), count));
+        }
+    }
+
+    fn looks_at_pair(&self, register: u32) -> bool {
+        let class = DeviceClass::D;
+        [register, register + 1].into_iter().any(|number| {
+            self.observed.contains(&(class, number)) || self.names(Device { class, number })
+        })
     }
 
     fn reset_edge(&mut self, used: &Used, reset: u32, compares: &[&Compare]) {

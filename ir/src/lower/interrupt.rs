@@ -305,9 +305,13 @@ impl Lowerer<'_> {
             match source {
                 Source::Input { number, kind } => {
                     let captured = self.captured(number, kind);
+                    let interrupts = |this: &mut Self| {
+                        this.set_flag_to(flag, true);
+                        this.capture_count(number);
+                    };
                     self.on_edge(number, kind, |this| match captured {
-                        Some(captured) => this.when(captured, |this| this.set_flag_to(flag, true)),
-                        None => this.set_flag_to(flag, true),
+                        Some(captured) => this.when(captured, interrupts),
+                        None => interrupts(this),
                     });
                 }
                 Source::PulsesEnd { output } => {
@@ -359,18 +363,18 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The body of the function that takes interrupts: requests of one source in the order of their routines.
+    /// The body of the function that takes interrupts: advanced ones first, then the others by their sources' ranks, those of the same
+    /// rank in the order of their routines.
     pub(super) fn take_interrupts(&mut self) {
         let Some((enabled, function)) = self.interrupts.function else {
             return;
         };
         let Interrupts {
-            mut requests,
-            flags,
+            requests,
+            mut flags,
             ..
         } = std::mem::take(&mut self.interrupts);
-        // Those of the same kind keep the order of their routines.
-        requests.sort_by_key(|request| !matches!(request.what, What::Process { .. }));
+        flags.sort_by_key(|&(source, _)| interrupts::rank(self.model.id, source));
         let body = self.body(|this| {
             for &(source, flag) in &flags {
                 this.keep_requests(&requests, source, flag);

@@ -105,6 +105,8 @@ struct Lowerer<'a> {
     free_running: BTreeMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
+    /// Devices that tests or a monitor look at.
+    observed: &'a [(DeviceClass, u32)],
     /// How many SPD there are so far.
     densities: usize,
     /// Statement above a network that has not begun yet.
@@ -112,7 +114,7 @@ struct Lowerer<'a> {
 }
 
 impl<'a> Lowerer<'a> {
-    fn new(resolved: &'a Resolved<'a>, options: &LowerOptions) -> Self {
+    fn new(resolved: &'a Resolved<'a>, options: &'a LowerOptions) -> Self {
         let program = resolved.program;
         let model = resolved.model;
         let flow = Flow::of(resolved);
@@ -137,6 +139,7 @@ impl<'a> Lowerer<'a> {
             free_running: BTreeMap::new(),
             high_speed: high_speed::HighSpeed::default(),
             edges: edges::Edges::default(),
+            observed: &options.observe,
             densities: 0,
             flow,
             diagnostics: Diagnostics::new(),
@@ -163,8 +166,8 @@ impl<'a> Lowerer<'a> {
                 });
             }
         }
-        self.find_interrupts();
         self.find_counters();
+        self.find_interrupts();
         for region in 0..self.flow.regions.len() {
             let body = self.region(region);
             let function = self.flow.regions[region].function as usize;

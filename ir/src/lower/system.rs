@@ -40,6 +40,8 @@ const FORCED_STOP: u32 = 8037;
 const RING_COUNTER: (u32, u32) = (8099, 8099);
 /// Relay and registers of the ring counter of milliseconds; L01S has only the registers.
 const SLOW_RING_COUNTER: (u32, [u32; 2]) = (8398, [8398, 8399]);
+/// Units of 50 us since power-on.
+const SHORT_TICK: u32 = 8007;
 /// Milliseconds since power-on, low and high word.
 const TICK: [u32; 2] = [8008, 8009];
 /// Second, minute, hour, day, month, year, weekday.
@@ -87,6 +89,7 @@ impl Lowerer<'_> {
             this.slow_ring_counter();
             this.analog_inputs();
             this.virtual_inputs();
+            this.show_axes();
             this.real_time_clock();
         })
     }
@@ -242,8 +245,15 @@ impl Lowerer<'_> {
         });
     }
 
-    /// D8008 and D8009 (HM): the milliseconds since power-on.
+    /// D8007 to D8009 (HM): the time since power-on in units of 50 us, and in milliseconds.
     fn tick(&mut self) {
+        if self.keeps(D, SHORT_TICK) {
+            let now = self.add(Expr::Sys(SysValue::NowMs));
+            let units = self.add(Expr::I32(20));
+            let now = self.add(Expr::Bin(BinOp::Mul, now, units));
+            let word = self.add(Expr::Narrow(now));
+            self.emit(Stmt::WriteWord(fixed(D, SHORT_TICK), word));
+        }
         let [low, high] = TICK.map(|register| self.keeps(D, register));
         let now = self.add(Expr::Sys(SysValue::NowMs));
         if low {

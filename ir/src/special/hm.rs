@@ -1,6 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7). Many numbers mean something else than on the other models.
 
-use super::{FAST, HOST, MAKER, MOTION, POWER, SERIAL, Special, specials};
+use super::{HOST, MAKER, MOTION, POWER, SERIAL, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -38,7 +38,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8004 rw 0 inert(HOST) "HFAC0 = the PLC is under remote control";
     D 8005 rw 0 inert(MAKER) "file write password, internal";
     D 8006 r 0 scan "step number of the ladder error";
-    D 8007 r 0 inert(FAST) "50 us timer";
+    D 8007 r 0 scan "50 us timer";
     D 8008 r 0 scan "millisecond tick counter, 32 bit with D8009 (low word)";
     D 8009 r 0 scan "high word of the millisecond tick counter";
     D 8010 r 0 scan "current scan time";

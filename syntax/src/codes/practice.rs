@@ -91,6 +91,13 @@ super::codes! {
     wrong: "LD M8000\nOUT C235 K100\nLD X7\nSPD X0 K100 D0\nEND\n",
     right: "LD M8000\nOUT C235 K100\nLD X7\nSPD X1 K100 D0\nEND\n";
 
+    FAST_UNITS = "W0217" "fast-units" Warning None,
+    "more fast inputs and outputs than the hardware serves",
+    "Fast inputs and outputs of H1U and H2U share 56 units of hardware: a pulse output takes 7, a counter of one input 6, of two 13, of an encoder 17, SPD 4, an input interrupt or pulse catch 1.",
+    model: "h2u",
+    wrong: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nOUT C240 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n",
+    right: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n";
+
     STEPS_DIFFER = "W0501" "steps-differ" Warning None,
     "step number that does not fit the instructions before it",
     "The source numbers its steps, and the number differs from what the instructions before it take on this model: the model may be another one, or a row is missing.",
