@@ -158,6 +158,15 @@ pub fn per_minute(model: ModelId) -> Option<u32> {
     INOVANCE.has(model).then_some(8100)
 }
 
+/// How many comparisons at the count a model makes at a time, tables among them (h1u-h2u-programming §4.3.6); `None`: any number.
+pub fn most_comparisons(model: ModelId) -> Option<u32> {
+    match model {
+        ModelId::H1u | ModelId::H2u | ModelId::Fx2n | ModelId::Fx3g => Some(6),
+        ModelId::Fx3u => Some(32),
+        ModelId::L01s | ModelId::Hm => None,
+    }
+}
+
 /// Models on which a comparison acts when the count crosses the value in either direction, also where the program changes one of
 /// them, and not only at a count that equals it (hm-motion-controller §8.3.14).
 pub const CROSSING: ModelSet = ModelSet::of(&[ModelId::Hm]);

@@ -189,8 +189,10 @@ impl Lowerer<'_> {
             return self.act(compare);
         };
         self.when(starts, |this| {
-            this.emit(Stmt::SetCell(table.rows, rows));
-            this.set_flag_to(begins, true);
+            this.one_more(|this| {
+                this.emit(Stmt::SetCell(table.rows, rows));
+                this.set_flag_to(begins, true);
+            });
         });
     }
 
@@ -204,7 +206,7 @@ impl Lowerer<'_> {
 
     /// A table that is not driven waits for nothing and shows its first row.
     fn stop_table(&mut self, table: &Rows) {
-        self.set_flag_to(table.armed, false);
+        self.disarm(table.armed);
         if let Some(begins) = table.begins {
             self.set_flag_to(begins, false);
         }

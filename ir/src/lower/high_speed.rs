@@ -3,17 +3,20 @@
 use super::Lowerer;
 use super::count_table::Rows;
 use super::operand::{Guards, fixed};
-use crate::catalogue::{Basic, CmpOp, Comparison};
+use crate::catalogue::{Basic, CmpOp, Comparison, Inst, Lower};
 use crate::high_speed::{
     self, Axis, COMPARE_AT_RESET, CROSSING, Counter, EDGE_RESET, Kind, NO_RESET, RESET_RELAYS,
     ZONES,
 };
 use crate::interrupts::Source;
-use crate::node::{CellId, EdgeKind, Expr, ExprId, FlagId, Place, Stmt};
+use crate::node::{BinOp, CellId, EdgeKind, Expr, ExprId, FlagId, Place, Stmt, SysValue};
 use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
 
 /// Relay of a counter: its direction, or what shows it.
 const DIRECTION: u32 = 8000;
+
+/// More comparisons are driven than may be.
+const TOO_MANY_COMPARISONS: u16 = 6760;
 
 /// A counter that the program drives.
 struct Used {
@@ -65,6 +68,8 @@ pub(super) struct HighSpeed {
     pub(super) compares: Vec<Compare>,
     /// Tables that begin when a scan ends.
     pub(super) tables: Vec<Rows>,
+    /// How many comparisons are driven, and how many may be, in a program that has more.
+    limit: Option<(CellId, u32)>,
 }
 
 impl Lowerer<'_> {
@@ -91,6 +96,67 @@ impl Lowerer<'_> {
                 });
             }
         }
+    }
+
+    /// Counts the comparisons that are driven, if the program has more than may be.
+    pub(super) fn limit_comparisons(&mut self) {
+        let instrs = self.resolved.instrs.iter().filter_map(|instr| instr.inst);
+        let compares = |inst: &&Inst| matches!(inst.lower, Lower::HighSpeed(_));
+        let count = instrs.filter(compares).count();
+        let most = high_speed::most_comparisons(self.model.id);
+        if let Some(most) = most.filter(|&most| count > most as usize) {
+            let driven = self.cell("comparisons".to_string(), "how many are driven");
+            self.high_speed.limit = Some((driven, most));
+        }
+    }
+
+    /// None is driven when RUN begins.
+    pub(super) fn forget_comparisons(&mut self) {
+        if let Some((driven, _)) = self.high_speed.limit {
+            let first = self.add(Expr::Sys(SysValue::FirstScan));
+            let none = self.add(Expr::I32(0));
+            self.when(first, |this| this.emit(Stmt::SetCell(driven, none)));
+        }
+    }
+
+    /// What `make` emits is done if one more comparison may be driven; else the instruction faults.
+    pub(super) fn one_more(&mut self, make: impl FnOnce(&mut Self)) {
+        let Some((driven, most)) = self.high_speed.limit else {
+            return make(self);
+        };
+        let count = self.add(Expr::Cell(driven));
+        let most = self.add(Expr::I32(most as i32));
+        let cond = self.add(Expr::Cmp(CmpOp::Lt, count, most));
+        let then = self.body(|this| {
+            this.change_driven(driven, BinOp::Add);
+            make(this);
+        });
+        let step = self.step();
+        let otherwise = vec![Stmt::Fault {
+            code: TOO_MANY_COMPARISONS,
+            step,
+        }];
+        self.emit(Stmt::If {
+            cond,
+            then,
+            otherwise,
+        });
+    }
+
+    fn change_driven(&mut self, driven: CellId, op: BinOp) {
+        let count = self.add(Expr::Cell(driven));
+        let one = self.add(Expr::I32(1));
+        let count = self.add(Expr::Bin(op, count, one));
+        self.emit(Stmt::SetCell(driven, count));
+    }
+
+    /// A comparison is not driven.
+    pub(super) fn disarm(&mut self, armed: FlagId) {
+        if let Some((driven, _)) = self.high_speed.limit {
+            let was = self.add(Expr::Flag(armed));
+            self.when(was, |this| this.change_driven(driven, BinOp::Sub));
+        }
+        self.set_flag_to(armed, false);
     }
 
     /// OUT C235 and up: while the coil is on it counts, outside the scan.
@@ -175,7 +241,7 @@ impl Lowerer<'_> {
         match self.expr(drive) {
             Expr::Bit(true) => then.into_iter().for_each(|stmt| self.emit(stmt)),
             _ => {
-                let otherwise = self.body(|this| this.set_flag_to(armed, false));
+                let otherwise = self.body(|this| this.disarm(armed));
                 self.emit(Stmt::If {
                     cond: drive,
                     then,
@@ -230,7 +296,14 @@ impl Lowerer<'_> {
             let now = self.add(Expr::Cmp(CmpOp::Ge, count, value));
             self.when(begins, |this| this.emit(Stmt::SetFlag(reached, now)));
         }
-        self.set_flag_to(compare.armed, true);
+        if self.high_speed.limit.is_none() {
+            return self.set_flag_to(compare.armed, true);
+        }
+        let armed = self.add(Expr::Flag(compare.armed));
+        let begins = self.not(armed);
+        self.when(begins, |this| {
+            this.one_more(|this| this.set_flag_to(compare.armed, true));
+        });
     }
 
     /// What a comparison looks at, now.

@@ -108,6 +108,14 @@ impl Lowerer<'_> {
                 }
             }
         }
+        // Of routines with one request relay (HM's, of one timer) the last one is known (hm-motion-controller §5.5.5).
+        let mut relays = Vec::new();
+        for i in (0..requests.len()).rev() {
+            match requests[i].what.relay() {
+                Some(relay) if relays.contains(&relay) => drop(requests.remove(i)),
+                relay => relays.extend(relay),
+            }
+        }
         if let Some(catch) = interrupts::pulse_catch(self.model.id) {
             requests.extend(self.caught(catch));
         }

@@ -167,6 +167,7 @@ impl<'a> Lowerer<'a> {
             }
         }
         self.find_counters();
+        self.limit_comparisons();
         self.find_interrupts();
         for region in 0..self.flow.regions.len() {
             let body = self.region(region);

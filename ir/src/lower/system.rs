@@ -80,6 +80,7 @@ impl Lowerer<'_> {
             this.run_flags();
             this.first_levels();
             this.begin_clock();
+            this.forget_comparisons();
             this.clear_masks();
             this.forget_errors();
             this.clocks();
