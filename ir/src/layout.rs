@@ -60,8 +60,13 @@ const STORED: u8 = 1;
 const IN_ARRAY: u8 = 2;
 
 /// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the functions
-/// it calls use (`flags`).
-pub(crate) fn build(module: &mut Module, options: &LowerOptions, flags: &[(DeviceClass, u32)]) {
+/// it calls use (`flags`). They may use devices of a `whole` class by number.
+pub(crate) fn build(
+    module: &mut Module,
+    options: &LowerOptions,
+    flags: &[(DeviceClass, u32)],
+    whole: Option<DeviceClass>,
+) {
     let mut builder = Builder::new(module);
     for function in &module.functions {
         builder.body(&function.body);
@@ -72,6 +77,9 @@ pub(crate) fn build(module: &mut Module, options: &LowerOptions, flags: &[(Devic
     for &(class, number) in options.observe.iter().chain(flags) {
         let place = canonical(module.model, class, number);
         builder.mark(place.0, place.1, 1, false);
+    }
+    if let Some(class) = whole {
+        builder.mark_run(class, 0, false);
     }
     if options.observe_all {
         for range in module.model.ranges {

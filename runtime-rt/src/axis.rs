@@ -70,6 +70,44 @@ pub struct Ramps {
     pub down: u32,
 }
 
+/// A signal that clears the counter of a servo amplifier at the origin. A 0 stands for none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Clear {
+    /// Relay without which there is none.
+    pub enable: u32,
+    /// Output Y on which it is given, unless a register says another.
+    pub output: u32,
+    /// That register.
+    pub register: u32,
+    /// Relay without which the register has no say.
+    pub chooses: u32,
+    /// The hexadecimal digits of the register are those of the output's octal number.
+    pub octal: bool,
+    /// How long it is on, in milliseconds, besides the scan in which it begins.
+    pub ms: u32,
+}
+
+/// The special devices of a return to the origin by DSZR. A 0 stands for none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Home {
+    /// Relay: it returns forward.
+    pub forward: u32,
+    /// Relays of the limit switches: forward, reverse.
+    pub limits: [u32; 2],
+    /// Relay: the DOG is on where its input is off.
+    pub dog_inverted: u32,
+    /// Relay: the zero signal likewise.
+    pub zero_inverted: u32,
+    /// Speeds and times.
+    pub ramps: Ramps,
+    /// Register: speed over the DOG, in Hz.
+    pub creep: u32,
+    /// Pair: speed of the return, in Hz.
+    pub speed: u32,
+    /// Its signal.
+    pub clear: Clear,
+}
+
 /// The special devices of one pulse output. A 0 stands for none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wiring {
@@ -93,7 +131,48 @@ pub struct Wiring {
     pub ramps: Ramps,
     /// Ramps of this output alone.
     pub own: Ramps,
+    /// Relay with which PLSV has ramps.
+    pub slides: u32,
+    /// Relays of limit switches, forward and reverse, at which all instructions come down.
+    pub limits: [u32; 2],
+    /// Relay that shows that an instruction came to an end before its time.
+    pub aborted: u32,
+    /// Relay with which the unit of PWM is 1 µs instead of 1 ms.
+    pub micro: u32,
+    /// Register with the unit of PWM: 0 and 1 for 10 µs, 2 for 1 ms, 3 for 10 ms.
+    pub unit: u32,
+    /// Signal of ZRN.
+    pub zrn_clear: Clear,
+    /// DSZR.
+    pub home: Home,
 }
+
+const NO_RAMPS: Ramps = Ramps {
+    base: 0,
+    highest: 0,
+    up: 0,
+    down: 0,
+};
+
+const NO_CLEAR: Clear = Clear {
+    enable: 0,
+    output: 0,
+    register: 0,
+    chooses: 0,
+    octal: false,
+    ms: 0,
+};
+
+const NO_HOME: Home = Home {
+    forward: 0,
+    limits: [0; 2],
+    dog_inverted: 0,
+    zero_inverted: 0,
+    ramps: NO_RAMPS,
+    creep: 0,
+    speed: 0,
+    clear: NO_CLEAR,
+};
 
 const NONE: Wiring = Wiring {
     position: 0,
@@ -104,18 +183,15 @@ const NONE: Wiring = Wiring {
     driven: 0,
     restart: 0,
     changes: 0,
-    ramps: Ramps {
-        base: 0,
-        highest: 0,
-        up: 0,
-        down: 0,
-    },
-    own: Ramps {
-        base: 0,
-        highest: 0,
-        up: 0,
-        down: 0,
-    },
+    ramps: NO_RAMPS,
+    own: NO_RAMPS,
+    slides: 0,
+    limits: [0; 2],
+    aborted: 0,
+    micro: 0,
+    unit: 0,
+    zrn_clear: NO_CLEAR,
+    home: NO_HOME,
 };
 
 /// What D8145 to D8148 say for all outputs (h1u-h2u-programming §4.3.11).
@@ -150,6 +226,45 @@ const fn inovance(output: u32, position: u32, sum: u32, stop: u32, busy: u32) ->
             up: 8104 + output,
             down: 8165 + output,
         },
+        aborted: 8429,
+        micro: 8095 + output,
+        // For one scan (h1u-h2u-programming §8.9).
+        zrn_clear: Clear {
+            enable: 8140,
+            register: 8156 + output,
+            ..NO_CLEAR
+        },
+        home: Home {
+            clear: Clear {
+                enable: 8441 + 10 * output,
+                output: 4 + output,
+                register: 8484 + output,
+                chooses: 8484 + output,
+                octal: false,
+                ms: 20,
+            },
+            ..home(8440 + 10 * output)
+        },
+        ..NONE
+    }
+}
+
+/// The relays and registers of a return, which lie alike from this number on.
+const fn home(first: u32) -> Home {
+    Home {
+        forward: first + 2,
+        limits: [first + 3, first + 4],
+        dog_inverted: first + 5,
+        zero_inverted: first + 6,
+        ramps: Ramps {
+            base: first + 2,
+            highest: first + 3,
+            up: first + 8,
+            down: first + 9,
+        },
+        creep: first + 5,
+        speed: first + 6,
+        clear: NO_CLEAR,
     }
 }
 
@@ -167,24 +282,59 @@ const fn tens(output: u32) -> Wiring {
             up: 8348 + ten,
             down: 8349 + ten,
         },
+        limits: [8343 + ten, 8344 + ten],
+        aborted: 8329,
+        home: home(8340 + ten),
         ..NONE
     }
 }
 
-const L01S: [Wiring; 4] = [tens(0), tens(1), tens(2), tens(3)];
+/// L01S has neither ramps of PLSV, nor a clear signal, nor an inverted DOG.
+const fn l01s(output: u32) -> Wiring {
+    Wiring {
+        unit: 8473 + output,
+        home: Home {
+            dog_inverted: 0,
+            ..home(8340 + 10 * output)
+        },
+        ..tens(output)
+    }
+}
+
+const L01S: [Wiring; 4] = [l01s(0), l01s(1), l01s(2), l01s(3)];
+
+const fn fx3(output: u32) -> Wiring {
+    let clear = Clear {
+        enable: 8341 + 10 * output,
+        output: 4 + output,
+        register: 8464 + output,
+        chooses: 8464 + output,
+        octal: true,
+        ms: 20,
+    };
+    Wiring {
+        slides: 8338,
+        zrn_clear: clear,
+        home: Home {
+            clear,
+            ..home(8340 + 10 * output)
+        },
+        ..tens(output)
+    }
+}
 
 /// The first two outputs also have the devices of FX2N.
-const fn fx3(output: u32) -> Wiring {
+const fn fx3_as_fx2n(output: u32) -> Wiring {
     Wiring {
         pulses: 8140 + 2 * output,
         sum: 8136,
         busy: [8340 + 10 * output, 8147 + output],
         stop: [8349 + 10 * output, 8145 + output],
-        ..tens(output)
+        ..fx3(output)
     }
 }
 
-const FX3: [Wiring; 4] = [fx3(0), fx3(1), tens(2), tens(3)];
+const FX3: [Wiring; 4] = [fx3_as_fx2n(0), fx3_as_fx2n(1), fx3(2), fx3(3)];
 
 const fn fx2n(output: u32) -> Wiring {
     Wiring {
@@ -231,9 +381,21 @@ impl Pulses {
     /// Highest speed in Hz.
     pub const fn highest_hz(self) -> u32 {
         match self {
-            Pulses::Fx2n => 20_000,
             Pulses::L01s => 200_000,
-            Pulses::Without | Pulses::Inovance | Pulses::Fx3 => 100_000,
+            Pulses::Without | Pulses::Inovance | Pulses::Fx2n | Pulses::Fx3 => 100_000,
+        }
+    }
+
+    /// Whether DRVI and DRVA raise a speed below √(highest speed / 2·time) to it.
+    pub const fn raises_speeds(self) -> bool {
+        !matches!(self, Pulses::L01s)
+    }
+
+    /// The fewest pulses that PLSR sends (h1u-h2u-programming §4.3.6).
+    pub const fn fewest_with_ramps(self) -> u32 {
+        match self {
+            Pulses::Inovance | Pulses::Fx2n => 110,
+            Pulses::Without | Pulses::L01s | Pulses::Fx3 => 1,
         }
     }
 
@@ -246,31 +408,49 @@ impl Pulses {
     }
 }
 
+/// Which registers an instruction looks at besides its operands, and those in which pulses are counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Looks {
+    /// The position, and speeds and times of ramps.
+    pub ramps: bool,
+    /// Those of DSZR.
+    pub home: bool,
+    /// The unit of PWM.
+    pub unit: bool,
+    /// The outputs for clear signals.
+    pub clears: bool,
+}
+
+impl Ramps {
+    const fn registers(self) -> [u32; 5] {
+        let high = self.highest + (self.highest > 0) as u32;
+        [self.base, self.highest, high, self.up, self.down]
+    }
+}
+
 impl Wiring {
-    /// The registers that instructions look at besides their operands, for those of PLSY and PWM without ramps.
-    pub fn registers(&self, with_ramps: bool) -> impl Iterator<Item = u32> {
-        let Ramps {
-            base,
-            highest,
-            up,
-            down,
-        } = self.ramps;
-        let ramps = [
-            self.position,
-            self.position + 1,
-            base,
-            highest,
-            highest + 1,
-            up,
-            down,
-        ];
-        let counters = [self.pulses, self.sum]
+    /// The registers that an instruction looks at.
+    pub fn registers(&self, looks: Looks) -> impl Iterator<Item = u32> {
+        let home = self.home;
+        let pair = |low: u32| [low, if low > 0 { low + 1 } else { 0 }];
+        let counters = pair(self.pulses).into_iter().chain(pair(self.sum));
+        let ramps = pair(self.position)
             .into_iter()
-            .flat_map(|low| [low, low + 1]);
-        let own = self.own;
-        let own = [own.base, own.highest, own.highest + 1, own.up, own.down];
-        let ramps = ramps.into_iter().chain(own).filter(move |_| with_ramps);
-        counters.chain(ramps).filter(|&register| register > 1)
+            .chain(self.ramps.registers())
+            .chain(self.own.registers())
+            .filter(move |_| looks.ramps);
+        let home = home
+            .ramps
+            .registers()
+            .into_iter()
+            .chain(pair(home.speed))
+            .chain([home.creep])
+            .filter(move |_| looks.home);
+        let unit = looks.unit.then_some(self.unit);
+        let clears = [self.zrn_clear.register, self.home.clear.register];
+        let clears = clears.into_iter().filter(move |_| looks.clears);
+        let all = counters.chain(ramps).chain(home).chain(unit).chain(clears);
+        all.filter(|&register| register > 0)
     }
 }
 
@@ -314,7 +494,7 @@ pub fn advance(plc: &mut dyn Plc, now_us: u32) {
             continue;
         };
         let count = axis.pass(now_us);
-        if stops {
+        if stops && !(axis.generator.modulates() && running) {
             axis.halt();
         }
         let busy = axis.generator.millihertz() > 0;
@@ -336,14 +516,24 @@ mod tests {
 
     #[test]
     fn registers_are_those_that_a_model_has() {
-        let of = |wiring: &Wiring| wiring.registers(true).collect::<std::vec::Vec<u32>>();
+        let of = |wiring: &Wiring, looks| {
+            let registers = wiring.registers(looks);
+            registers.collect::<std::vec::Vec<u32>>()
+        };
+        let ramps = Looks {
+            ramps: true,
+            ..Looks::default()
+        };
         assert_eq!(
-            of(&INOVANCE[2]),
+            of(&INOVANCE[2], ramps),
             [
                 8150, 8151, 8150, 8151, 8145, 8146, 8147, 8148, 8148, 8036, 8054, 8055, 8106, 8167
             ]
         );
-        assert_eq!(of(&L01S[1]).len(), 7);
-        assert_eq!(L01S[0].registers(false).count(), 0);
+        assert_eq!(
+            of(&L01S[1], ramps),
+            [8350, 8351, 8352, 8353, 8354, 8358, 8359]
+        );
+        assert_eq!(of(&L01S[0], Looks::default()), []);
     }
 }

@@ -43,7 +43,7 @@ mod virtual_hal;
 pub mod word;
 
 pub use access::Access;
-pub use axis::{Axis, Pulses, Ramps, Wiring, advance as advance_pulses};
+pub use axis::{Axis, Clear, Home, Looks, Pulses, Ramps, Wiring, advance as advance_pulses};
 pub use cx::{Cx, call};
 pub use edge::Edge;
 pub use fault::{Done, Fault, report, trip_watchdog};

@@ -112,11 +112,7 @@ impl Generator {
             reverse: train.reverse,
             ..Generator::new()
         };
-        self.square = if self.up == 0 {
-            square(self.speed)
-        } else {
-            self.lowest
-        };
+        self.square = self.first_square();
         self.hold_back();
         self.rate = self.square.isqrt() as u32;
     }
@@ -157,14 +153,26 @@ impl Generator {
         self.stopped = true;
     }
 
-    /// Changes the speed of a train that is sent, by its ramps if it has any.
+    /// Changes the speed of a train that is sent, by its ramps if it has any; at 0 it waits.
     pub fn set_speed(&mut self, speed: u32) {
         self.speed = speed;
-        self.lowest = self.lowest.min(square(speed));
+        if speed > 0 {
+            self.lowest = self.lowest.min(square(speed));
+        }
         if self.busy && (self.up == 0 || self.square == 0) {
-            self.square = square(speed);
+            self.square = self.first_square();
             self.hold_back();
             self.rate = self.square.isqrt() as u32;
+        }
+    }
+
+    /// Square of the speed with which it leaves a standstill.
+    fn first_square(&self) -> u64 {
+        let wanted = square(self.speed);
+        if self.up == 0 {
+            wanted
+        } else {
+            wanted.min(self.lowest)
         }
     }
 
@@ -233,6 +241,8 @@ impl Generator {
         }
         let wanted = square(self.speed);
         self.square = match (self.square < wanted, self.up, self.down) {
+            // Below the lowest speed it stands still.
+            (false, _, 1..) if wanted == 0 && self.square <= self.lowest => 0,
             (true, up @ 1.., _) => wanted.min(self.square + up),
             (false, _, down @ 1..) => wanted.max(self.square.saturating_sub(down)),
             _ => wanted,
@@ -264,6 +274,20 @@ impl Generator {
         self.busy
     }
 
+    /// Whether it comes down to its end, after all pulses or by [`Generator::stop`].
+    pub fn is_ending(&self) -> bool {
+        if !self.busy || self.total == 0 || self.down == 0 {
+            return false;
+        }
+        let above = self.square.saturating_sub(self.lowest);
+        u64::from(self.total - self.sent) <= above.div_ceil(self.down) + 1
+    }
+
+    /// Whether [`Generator::stop`] is bringing it down.
+    pub fn is_stopping(&self) -> bool {
+        self.busy && self.stopped
+    }
+
     /// Whether the last train was sent to its end.
     pub fn is_complete(&self) -> bool {
         !self.busy && !self.stopped && self.total != 0 && self.sent >= self.total
@@ -282,7 +306,12 @@ impl Generator {
     /// The present speed in millihertz; 0 if idle.
     pub fn millihertz(&self) -> u32 {
         if self.modulates {
-            (FULL / self.full) as u32
+            let changes = self.on > 0 && u64::from(self.on) < self.full;
+            if changes {
+                (FULL / self.full) as u32
+            } else {
+                0
+            }
         } else {
             self.rate
         }

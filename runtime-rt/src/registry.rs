@@ -1,6 +1,7 @@
 //! The list of runtime functions. The catalogue names one in a row's `lower`; the interpreter calls it through
 //! [`RtFn::call`], emitted Rust through the function of the same name in [`crate::fnc`], emitted C through the C ABI.
 
+use crate::axis::Looks;
 use crate::cx::Cx;
 use crate::fault::Done;
 use crate::fnc;
@@ -16,8 +17,33 @@ pub struct Needs {
     pub hal: bool,
     /// One of its operands names a pulse output ([`crate::Axis`]).
     pub pulses: bool,
-    /// It looks at the speeds and times of ramps ([`crate::Ramps`]).
+    /// It looks at the position of the output and at the speeds and times of ramps ([`crate::Looks`]).
     pub ramps: bool,
+    /// It looks at the speeds and times of a return to the origin.
+    pub home: bool,
+    /// It looks at the unit of PWM.
+    pub unit: bool,
+    /// It gives a clear signal on an output Y that a register may name.
+    pub clears: bool,
+}
+
+impl Needs {
+    /// What it looks at.
+    pub const fn looks(self) -> Looks {
+        let Needs {
+            ramps,
+            home,
+            unit,
+            clears,
+            ..
+        } = self;
+        Looks {
+            ramps,
+            home,
+            unit,
+            clears,
+        }
+    }
 }
 
 macro_rules! registry {
@@ -50,7 +76,16 @@ macro_rules! registry {
             pub const fn needs(self) -> Needs {
                 #[allow(unused_mut, reason = "functions that need nothing change nothing")]
                 match self { $(RtFn::$variant => {
-                    let mut needs = Needs { state: false, always: false, hal: false, pulses: false, ramps: false };
+                    let mut needs = Needs {
+                        state: false,
+                        always: false,
+                        hal: false,
+                        pulses: false,
+                        ramps: false,
+                        home: false,
+                        unit: false,
+                        clears: false,
+                    };
                     $($(needs.$need = true;)*)?
                     needs
                 })* }
@@ -376,6 +411,22 @@ registry! {
     Mtr = keys::mtr(s, d1, d2, n) [state, always];
     /// PLSY (FNC 57): pulses.
     Plsy = pulses::plsy(s1, s2, d) [state, always, pulses];
+    /// PWM (FNC 58): pulses of a width and a period.
+    Pwm = pulses::pwm(s1, s2, d) [state, always, pulses, unit];
+    /// PLSR (FNC 59): pulses with ramps.
+    Plsr = pulses::plsr(s1, s2, s3, d) [state, always, pulses, ramps];
+    /// DSZR (FNC 150): return to the origin.
+    Dszr = position::dszr(s1, s2, d1, d2) [state, always, pulses, ramps, home, clears];
+    /// ABS (FNC 155): absolute position of a servo.
+    Abs = servo::abs(s, d1, d2) [state, always];
+    /// ZRN (FNC 156): return to the origin, without turning round.
+    Zrn = position::zrn(s1, s2, s3, d) [state, always, pulses, ramps, clears];
+    /// PLSV (FNC 157): pulses of a variable speed.
+    Plsv = position::plsv(s, d1, d2) [state, always, pulses, ramps];
+    /// DRVI (FNC 158): relative move.
+    Drvi = position::drvi(s1, s2, d1, d2) [state, always, pulses, ramps];
+    /// DRVA (FNC 159): absolute move.
+    Drva = position::drva(s1, s2, d1, d2) [state, always, pulses, ramps];
     /// TKY (FNC 70): ten keys.
     Tky = keys::tky(s, d1, d2) [state, always];
     /// HKY (FNC 71): matrix of 16 keys.

@@ -256,7 +256,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .on(NOT_HM)
         .takes(&[src("S1", VALUES).limits(0, 32767), src("S2", VALUES).limits(1, 32767), PULSE_OUTPUT])
-        .todo(PULSES)
+        .call(RtFn::Pwm)
         .text("Sends pulses S1 ms wide with a period of S2 ms on output D as long as it is driven."),
     fast("PLSR", 59, "Pulse output with ramps")
         .forms(W16_W32)
@@ -268,7 +268,8 @@ pub(super) const ROWS: &[Inst] = &[
         ])
         .flags(&["M8029"])
         .errors(&[6770])
-        .todo(PULSES)
+        .call(RtFn::Plsr)
+        .lower_on(&[(HM, Lower::Todo(PULSES))])
         .text("Sends S2 pulses on output D with ramps of S3 ms up to S1 Hz and down. HM: an axis instead of D."),
     fast("HCMOV", 189, "Read a high-speed counter")
         .forms(W32)

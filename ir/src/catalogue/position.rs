@@ -2,8 +2,9 @@
 
 use super::high_speed::{AXIS, PULSE_OUTPUT};
 use super::row::*;
-use super::{Classes, Inst, Param};
+use super::{Classes, Inst, Lower, Param};
 use crate::model::ModelId;
+use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
 const PULSES: &str = "pulse output";
@@ -53,6 +54,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(NOT_HM.except(&[ModelId::Fx2n]))
         .takes(SEARCH)
         .variants(&[on(L01S.and(&[ModelId::Fx3g, ModelId::Fx3u])).forms(W16), on(INOVANCE).takes(SEARCH_INOVANCE)])
+        .call(RtFn::Dszr)
         .text("Runs the axis of output D1 to its origin by the signals DOG S1 and zero S2, searching the DOG if it starts past it."),
     position("DVIT", 151, "Interrupt positioning")
         .on(FX3U.and(&[ModelId::Hm]))
@@ -70,10 +72,12 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(13, 13)
         .on(NOT_HM.except(&[ModelId::L01s]))
         .takes(&[bit("S", BITS).len(3), coil("D1", COILS).len(3), dst("D2", RESULTS)])
+        .call(RtFn::Abs)
         .text("Reads the absolute position of a servo amplifier by three inputs and three outputs into the pair D2."),
     position("ZRN", 156, "Zero return")
         .on(NOT_HM)
         .takes(RETURN)
+        .call(RtFn::Zrn)
         .text("Runs output D back at S1 Hz until the DOG signal S3, then at S2 Hz until it is off: the origin."),
     position("PLSV", 157, "Variable-speed pulses")
         .steps(7, 13)
@@ -81,13 +85,19 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             on(HM).forms(W32).takes(SPEED_HM),
         ])
+        .call(RtFn::Plsv)
+        .lower_on(&[(HM, Lower::Todo(PULSES))])
         .text("Sends pulses of |S| Hz on D1 while driven, the sign of S on D2; S may change. HM: an axis instead of D1 and D2."),
     position("DRVI", 158, "Relative positioning")
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
+        .call(RtFn::Drvi)
+        .lower_on(&[(HM, Lower::Todo(PULSES))])
         .text("Moves by S1 pulses at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
     position("DRVA", 159, "Absolute positioning")
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
+        .call(RtFn::Drva)
+        .lower_on(&[(HM, Lower::Todo(PULSES))])
         .text("Moves to position S1 at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
 ];

@@ -6,7 +6,7 @@ use crate::catalogue::{Extent, Inst, Param, Rule, Shape};
 use crate::node::{Arg, EdgeKind, Place, Stmt};
 use crate::resolve::Form;
 use crate::runs::is_counter32;
-use rungc_rt::RtFn;
+use rungc_rt::{Clear, Looks, RtFn};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
 use std::borrow::Cow;
 
@@ -17,7 +17,7 @@ impl Lowerer<'_> {
         let step = self.step();
         let slot = self.slot(needs.state);
         if needs.pulses {
-            self.use_outputs(inst, needs.ramps);
+            self.use_outputs(inst, needs.looks());
         }
         let drive = self.drive();
         let drive = if form.pulse {
@@ -45,7 +45,7 @@ impl Lowerer<'_> {
     }
 
     /// The program sends pulses at the outputs that the instruction names; what it looks at besides is stored.
-    fn use_outputs(&mut self, inst: &Inst, with_ramps: bool) {
+    fn use_outputs(&mut self, inst: &Inst, looks: Looks) {
         let operands = &self.instr().operands;
         let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
         for (kind, param) in kinds.iter().zip(inst.params_of(&kinds, self.model)) {
@@ -59,10 +59,28 @@ impl Lowerer<'_> {
                 self.module.pulse_outputs.insert(place, number);
             }
             let wiring = self.model.pulses.outputs().get(number as usize);
-            let registers = wiring.into_iter().flat_map(|w| w.registers(with_ramps));
+            let registers = wiring.into_iter().flat_map(|w| w.registers(looks));
             let registers = registers.map(|register| (DeviceClass::D, register));
             self.specials.flags.extend(registers);
+            if let Some(wiring) = wiring.filter(|_| looks.clears) {
+                self.use_clear_signal(&wiring.zrn_clear);
+                self.use_clear_signal(&wiring.home.clear);
+            }
         }
+    }
+
+    /// The output of a clear signal is stored: all outputs, if the program may choose another one.
+    fn use_clear_signal(&mut self, clear: &Clear) {
+        if clear.enable == 0 {
+            return;
+        }
+        if self.specials.has(DeviceClass::D, clear.register) {
+            self.specials.whole = Some(DeviceClass::Y);
+        }
+        let mut words = self.model.special_words();
+        let chosen = words.find(|word| clear.chooses == 0 && word.0 == clear.register);
+        let output = chosen.map_or(clear.output, |word| word.1 as u32);
+        self.specials.flags.push((DeviceClass::Y, output));
     }
 
     /// MOV with the buffer memory of a module on one side, which is what FROM and TO do; whether it is such a MOV.

@@ -58,7 +58,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
     if diagnostics.has_errors() {
         return Err(diagnostics);
     }
-    layout::build(&mut module, options, &specials.flags);
+    layout::build(&mut module, options, &specials.flags, specials.whole);
     module.comments = resolved
         .program
         .comments

@@ -18,6 +18,8 @@ pub(super) struct Specials {
     registers: Vec<bool>,
     /// Those that the called functions use as flags.
     pub(super) flags: Vec<(DeviceClass, u32)>,
+    /// A class that called functions may access anywhere.
+    pub(super) whole: Option<DeviceClass>,
     /// Whether the program writes one of M8000–M8003.
     pub(super) writes_run_flags: bool,
 }
@@ -28,6 +30,7 @@ impl Specials {
             relays: vec![options.observe_all; COUNT],
             registers: vec![options.observe_all; COUNT],
             flags: Vec::new(),
+            whole: None,
             writes_run_flags: false,
         };
         for &(class, number) in &options.observe {

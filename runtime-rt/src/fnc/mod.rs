@@ -16,11 +16,13 @@ pub mod modules;
 pub mod move_;
 pub mod pid;
 pub mod pid_thermal;
+pub mod position;
 pub mod pulses;
 pub mod rotate;
 pub mod scale;
 pub mod scope;
 pub mod serial;
+pub mod servo;
 pub mod system;
 pub mod text;
 

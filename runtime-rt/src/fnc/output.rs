@@ -1,17 +1,19 @@
 //! What the instructions for pulse outputs have in common: when one of them begins, and who has the output.
 //!
-//! Word 0 of an instruction's memory keeps whether it was driven, word 1 how far it is, word 2 the relay with which it begins anew.
+//! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is, word 2 the relay with which it begins anew, word 3
+//! whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one, and since when that is on.
 
-use crate::axis::{Axis, Wiring, is_on, set_relays};
+use crate::axis::{Axis, Clear, Ramps, Wiring, is_on, long, set_relays};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
+use crate::plc::Class;
 use crate::pulse::Train;
 use crate::special::M_COMPLETE;
 
 /// How far an instruction is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(i32)]
-pub(super) enum Phase {
+enum Phase {
     /// It has not begun, was stopped, or had the output taken from it.
     Idle = 0,
     /// It sends.
@@ -43,6 +45,68 @@ pub(super) struct Output {
     pub wiring: &'static Wiring,
 }
 
+/// Limits of the times of ramps, in milliseconds (h1u-h2u-programming §4.3.11).
+const RAMP_MS: (i32, i32) = (50, 5000);
+/// Lowest speed of positioning, in Hz.
+const LOWEST_HZ: u32 = 10;
+/// Lowest speeds of DSZR but for the base and the creep speed, in Hz.
+const LOWEST_RETURN_HZ: i32 = 715;
+
+/// Speeds and times of ramps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ramp {
+    /// Speed that ramps begin and end with, in Hz.
+    base: u32,
+    /// Highest speed, in Hz.
+    highest: u32,
+    up_ms: u32,
+    down_ms: u32,
+    raises_speeds: bool,
+}
+
+impl Ramp {
+    /// A train of `total` pulses at `hz`, at most the highest speed; a speed that ramps cannot begin with is raised, if the model does so.
+    pub fn train(&self, hz: u32, total: u32, reverse: bool) -> Train {
+        let train = self.train_as_told(hz.max(LOWEST_HZ), reverse);
+        let lowest = train.up / 4;
+        let raised = self.raises_speeds && u64::from(train.speed).pow(2) < lowest;
+        Train {
+            speed: if raised {
+                (lowest - 1).isqrt() as u32 + 1
+            } else {
+                train.speed
+            },
+            total,
+            ..train
+        }
+    }
+
+    /// A train without end at `hz`, at most the highest speed.
+    pub fn train_as_told(&self, hz: u32, reverse: bool) -> Train {
+        let up = Train::slope(self.highest, self.up_ms);
+        let base = 1000 * u64::from(self.base);
+        Train {
+            speed: 1000 * hz.min(self.highest),
+            // What a steady acceleration leaves a standstill with: √(highest speed / 2·time).
+            lowest: (base * base).max(up / 4),
+            up,
+            down: Train::slope(self.highest, self.down_ms),
+            total: 0,
+            reverse,
+        }
+    }
+}
+
+/// Speeds of DSZR.
+pub(super) struct HomeSpeeds {
+    /// Its ramps.
+    pub ramp: Ramp,
+    /// Speed of the return, in Hz.
+    pub fast: u32,
+    /// Speed over the DOG, in Hz.
+    pub creep: u32,
+}
+
 impl Output {
     /// That of operand `i`.
     pub fn of(cx: &Cx, i: usize) -> Result<Output, Fault> {
@@ -58,21 +122,44 @@ impl Output {
         cx.plc.axis(self.number).ok_or(Fault::DEVICE)
     }
 
+    /// Whether the model has a special relay, and it is on.
+    pub fn has_on(self, cx: &Cx, relay: u32) -> bool {
+        is_on(cx.plc, &[relay])
+    }
+
     /// A speed in the model's range, in millihertz; 0 remains 0.
     pub fn millihertz(self, cx: &Cx, hz: u32) -> u32 {
         1000 * hz.min(cx.plc.pulses().highest_hz())
     }
 
     /// What the instruction has to do in this scan. An output that another instruction uses is taken only while the relay for that is on.
+    /// It is done when its train is.
     pub fn turn(self, cx: &mut Cx) -> Result<Turn, Fault> {
+        let turn = self.turn_resting(cx)?;
+        let axis = *self.axis(cx)?;
+        if turn != Turn::Sends {
+            return Ok(turn);
+        }
+        if axis.generator.is_complete() {
+            self.enter(cx, Phase::Done);
+            return Ok(Turn::Rest);
+        }
+        if self.is_at_limit(cx, axis.generator.is_reverse()) {
+            self.axis(cx)?.generator.stop();
+            self.fail(cx)?;
+            return Ok(Turn::Rest);
+        }
+        Ok(Turn::Sends)
+    }
+
+    /// What the instruction has to do in this scan, if it is it that says when it is done.
+    pub fn turn_resting(self, cx: &mut Cx) -> Result<Turn, Fault> {
         let (drive, slot) = (cx.drive(), cx.site.slot);
         let was_driven = cx.was_driven(0);
-        let restart = self.wiring.restart != 0 && cx.special(self.wiring.restart);
+        let restart = self.has_on(cx, self.wiring.restart);
         let had_restart = core::mem::replace(&mut cx.state().0[2], restart.into()) != 0;
-        let stops = is_on(cx.plc, &self.wiring.stop);
-        let axis = self.axis(cx)?;
-        let (mine, busy) = (axis.owner == slot, axis.generator.is_busy());
-        let complete = axis.generator.is_complete();
+        let axis = *self.axis(cx)?;
+        let mine = axis.owner == slot;
         if !drive {
             return Ok(match (was_driven, mine) {
                 (true, true) => Turn::Released,
@@ -83,60 +170,226 @@ impl Output {
         if !was_driven || (restart && !had_restart) || phase == Phase::Begins as i32 {
             self.enter(cx, Phase::Idle);
             cx.set_special(M_COMPLETE, false);
-            if stops {
+            set_relays(cx.plc, &[self.wiring.aborted], false);
+            if is_on(cx.plc, &self.wiring.stop) {
                 return Ok(Turn::Rest);
             }
-            if busy && !restart {
+            if axis.generator.is_busy() && !restart {
                 return Err(Fault(cx.plc.pulses().conflict()));
             }
             self.enter(cx, Phase::Begins);
             return Ok(Turn::Start);
         }
-        if phase != Phase::Sends as i32 {
-            return Ok(Turn::Rest);
-        }
-        if mine && busy {
+        if phase == Phase::Sends as i32 && mine {
             return Ok(Turn::Sends);
         }
-        let done = mine && complete;
-        self.enter(cx, if done { Phase::Done } else { Phase::Idle });
+        if phase == Phase::Sends as i32 {
+            self.enter(cx, Phase::Idle);
+        }
         Ok(Turn::Rest)
     }
 
-    /// The instruction gets so far.
-    pub fn enter(self, cx: &mut Cx, phase: Phase) {
+    fn enter(self, cx: &mut Cx, phase: Phase) {
         cx.state().0[1] = phase as i32;
     }
 
-    /// The instruction sends a train, whose pulses are counted in the pair of registers `counter`.
-    pub fn start(self, cx: &mut Cx, train: Train, counter: u32) {
+    /// The instruction is done.
+    pub fn finish(self, cx: &mut Cx) {
+        self.enter(cx, Phase::Done);
+    }
+
+    /// The instruction has come to an end before its time.
+    pub fn fail(self, cx: &mut Cx) -> Done {
+        self.enter(cx, Phase::Idle);
+        set_relays(cx.plc, &[self.wiring.aborted], true);
+        self.axis(cx)?.owner = 0;
+        Ok(())
+    }
+
+    fn is_at_limit(self, cx: &Cx, reverse: bool) -> bool {
+        is_on(cx.plc, &[self.wiring.limits[usize::from(reverse)]])
+    }
+
+    /// The instruction sends a train, whose pulses are counted in the pair of registers `counter`, unless a limit switch forbids it.
+    pub fn start(self, cx: &mut Cx, train: Train, counter: u32) -> Done {
+        if self.is_at_limit(cx, train.reverse) {
+            return self.fail(cx);
+        }
+        self.run(cx, train, counter)
+    }
+
+    /// The same without regard to limit switches.
+    pub fn run(self, cx: &mut Cx, train: Train, counter: u32) -> Done {
         let slot = cx.site.slot;
         self.enter(cx, Phase::Sends);
-        if let Some(axis) = cx.plc.axis(self.number) {
-            axis.generator.start(train);
-            axis.owner = slot;
-            axis.counter = counter as u16;
-            axis.ended = false;
-        }
+        let axis = self.axis(cx)?;
+        axis.generator.start(train);
+        axis.owner = slot;
+        axis.counter = counter as u16;
+        axis.ended = false;
+        Ok(())
     }
 
     /// Shows in the special relays how far the instruction is. One whose drive is off has nothing to show but that it has gone off.
     pub fn show(self, cx: &mut Cx) -> Done {
-        let slot = cx.site.slot;
+        let (slot, drive) = (cx.site.slot, cx.drive());
         let axis = self.axis(cx)?;
-        let (busy, mine) = (axis.generator.millihertz() > 0, axis.owner == slot);
+        let busy = axis.generator.millihertz() > 0;
+        if !drive && axis.owner == slot {
+            axis.owner = 0;
+        }
         set_relays(cx.plc, &self.wiring.busy, busy);
-        let drive = cx.drive();
         let phase = cx.state().0[1];
         if drive {
             cx.set_special(M_COMPLETE, phase == Phase::Done as i32);
-        } else if phase != Phase::Idle as i32 {
+            if phase != Phase::Idle as i32 {
+                cx.state().0[3] = 1;
+                set_relays(cx.plc, &[self.wiring.driven], true);
+            }
+            return Ok(());
+        }
+        if phase != Phase::Idle as i32 {
             self.enter(cx, Phase::Idle);
             cx.set_special(M_COMPLETE, false);
         }
-        if !drive && mine {
-            self.axis(cx)?.owner = 0;
+        if core::mem::take(&mut cx.state().0[3]) != 0 {
+            set_relays(cx.plc, &[self.wiring.driven, self.wiring.aborted], false);
         }
         Ok(())
     }
+
+    /// Changes how many pulses the train has, if the relay for that is on and it does not come down yet.
+    pub fn change_total(self, cx: &mut Cx, total: u32) -> Done {
+        if total > 0 && self.has_on(cx, self.wiring.changes) {
+            let generator = &mut self.axis(cx)?.generator;
+            if !generator.is_ending() {
+                generator.set_total(total);
+            }
+        }
+        Ok(())
+    }
+
+    /// Ramps of positioning: those of this output alone while the relay for that is on.
+    pub fn ramp(self, cx: &Cx) -> Ramp {
+        if self.has_own(cx) {
+            self.ramp_of(cx, self.wiring.own)
+        } else {
+            self.ramp_for_all(cx)
+        }
+    }
+
+    /// Ramps of positioning, whatever that relay says.
+    pub fn ramp_for_all(self, cx: &Cx) -> Ramp {
+        self.ramp_of(cx, self.wiring.ramps)
+    }
+
+    fn has_own(self, cx: &Cx) -> bool {
+        self.wiring.own.down != 0 && self.has_on(cx, self.wiring.changes)
+    }
+
+    /// Time of the way down of this output alone, while the relay for that is on.
+    pub fn own_down_ms(self, cx: &Cx) -> Option<i32> {
+        self.has_own(cx)
+            .then(|| ramp_ms(cx, self.wiring.own.down) as i32)
+    }
+
+    fn ramp_of(self, cx: &Cx, ramps: Ramps) -> Ramp {
+        let most = cx.plc.pulses().highest_hz();
+        let highest = u32::try_from(long(cx.plc, ramps.highest)).unwrap_or(0);
+        let highest = highest.clamp(LOWEST_HZ, most);
+        let base = u32::try_from(cx.special_word(ramps.base)).unwrap_or(0);
+        Ramp {
+            base: base.min(highest / 10),
+            highest,
+            up_ms: ramp_ms(cx, ramps.up),
+            down_ms: ramp_ms(cx, ramps.down),
+            raises_speeds: cx.plc.pulses().raises_speeds(),
+        }
+    }
+
+    /// Speeds of DSZR. Those that contradict each other are an error, others are held in their limits (h1u-h2u-programming §4.3.11).
+    pub fn home_speeds(self, cx: &Cx) -> Result<HomeSpeeds, Fault> {
+        let home = self.wiring.home;
+        let most = cx.plc.pulses().highest_hz() as i32;
+        let highest = long(cx.plc, home.ramps.highest);
+        let base = i32::from(cx.special_word(home.ramps.base));
+        let creep = i32::from(cx.special_word(home.creep));
+        let fast = long(cx.plc, home.speed);
+        if creep < 0 || creep < base || fast < base || highest < creep {
+            return Err(Fault::DEVICE);
+        }
+        let highest = highest.clamp(LOWEST_RETURN_HZ, most);
+        Ok(HomeSpeeds {
+            ramp: Ramp {
+                base: base.clamp(0, highest) as u32,
+                highest: highest as u32,
+                up_ms: ramp_ms(cx, home.ramps.up),
+                down_ms: ramp_ms(cx, home.ramps.down),
+                raises_speeds: false,
+            },
+            fast: fast.clamp(LOWEST_RETURN_HZ, highest) as u32,
+            creep: creep.clamp(LOWEST_HZ as i32, highest) as u32,
+        })
+    }
+
+    /// Whether PLSV has ramps.
+    pub fn slides(self, cx: &Cx) -> bool {
+        self.has_on(cx, self.wiring.slides)
+    }
+
+    /// Unit of PWM.
+    pub fn pwm_unit_us(self, cx: &Cx) -> u32 {
+        match self.wiring.unit {
+            0 if self.has_on(cx, self.wiring.micro) => 1,
+            0 => 1000,
+            unit => match cx.special_word(unit) {
+                0 | 1 => 10,
+                3 => 10_000,
+                _ => 1000,
+            },
+        }
+    }
+
+    /// Gives a clear signal, if the relay for that is on.
+    pub fn begin_clear_signal(self, cx: &mut Cx, clear: Clear) {
+        if !self.has_on(cx, clear.enable) {
+            return;
+        }
+        let chosen = clear.register != 0 && (clear.chooses == 0 || self.has_on(cx, clear.chooses));
+        let output = match (chosen, cx.special_word(clear.register) as u16) {
+            (false, _) => Some(clear.output),
+            (true, number) if clear.octal => from_octal_digits(number),
+            (true, number) => Some(number.into()),
+        };
+        if let Some(output) = output
+            && cx.plc.set_bit(Class::Y, output, true).is_some()
+        {
+            let now_ms = cx.plc.sys().now_ms as i32;
+            let state = cx.state();
+            state.0[6] = output as i32 + 1;
+            state.0[7] = now_ms;
+        }
+    }
+
+    /// Ends it when its time is over.
+    pub fn end_clear_signal(self, cx: &mut Cx, clear: Clear) {
+        let now_ms = cx.plc.sys().now_ms;
+        let [.., output, since] = cx.state().0;
+        if output > 0 && now_ms.wrapping_sub(since as u32) > clear.ms {
+            cx.state().0[6] = 0;
+            let _ = cx.plc.set_bit(Class::Y, output as u32 - 1, false);
+        }
+    }
+}
+
+/// The time of a ramp in a register.
+fn ramp_ms(cx: &Cx, register: u32) -> u32 {
+    i32::from(cx.special_word(register)).clamp(RAMP_MS.0, RAMP_MS.1) as u32
+}
+
+/// 16 for H20, which stands for Y020; `None` if a digit is none of the octal ones.
+fn from_octal_digits(digits: u16) -> Option<u32> {
+    let digits = [12, 8, 4, 0].map(|shift| u32::from(digits >> shift & 15));
+    let octal = digits.iter().all(|&digit| digit < 8);
+    octal.then(|| digits.iter().fold(0, |number, digit| 8 * number + digit))
 }
