@@ -202,11 +202,17 @@ const D8145: Ramps = Ramps {
     down: 8148,
 };
 
-/// H1U and H2U, whose second stop relays are those beside DSZR's (h1u-h2u-programming §8.4 to §8.9).
-const INOVANCE: [Wiring; 3] = [
+/// H1U and H2U, whose second stop relays are those beside DSZR's (h1u-h2u-programming §8.4 to §8.9). Y003 and Y004 are those of the MTQ
+/// and MTP types, Y005 to Y007 those of MTP.
+const INOVANCE: [Wiring; 8] = [
     inovance(0, 8140, 8136, 8145, 8147),
     inovance(1, 8142, 8136, 8146, 8148),
     inovance(2, 8150, 0, 8152, 8149),
+    without_dszr(inovance(3, 8152, 0, 8153, 8150)),
+    without_dszr(inovance(4, 8154, 0, 8154, 8151)),
+    of_mtp(5, 8138, 8155, 8144, 8030, 8161),
+    of_mtp(6, 8162, 8156, 8158, 8032, 8196),
+    of_mtp(7, 8170, 8157, 8159, 8172, 8197),
 ];
 
 const fn inovance(output: u32, position: u32, sum: u32, stop: u32, busy: u32) -> Wiring {
@@ -246,6 +252,44 @@ const fn inovance(output: u32, position: u32, sum: u32, stop: u32, busy: u32) ->
             ..home(8440 + 10 * output)
         },
         ..NONE
+    }
+}
+
+/// The types with more than three outputs have no DSZR.
+const fn without_dszr(wiring: Wiring) -> Wiring {
+    Wiring {
+        busy: [wiring.busy[0], 0],
+        stop: [wiring.stop[0], 0],
+        driven: 0,
+        home: NO_HOME,
+        ..wiring
+    }
+}
+
+/// The last three outputs of MTP have their devices elsewhere, and their pulses cause no interrupts.
+const fn of_mtp(
+    output: u32,
+    position: u32,
+    stop: u32,
+    busy: u32,
+    highest: u32,
+    clear: u32,
+) -> Wiring {
+    Wiring {
+        changes: 8136 + output,
+        own: Ramps {
+            base: 8088 + output,
+            highest,
+            up: 8082 + output,
+            down: 8085 + output,
+        },
+        micro: 0,
+        zrn_clear: Clear {
+            enable: 8140,
+            register: clear,
+            ..NO_CLEAR
+        },
+        ..without_dszr(inovance(output, position, 0, stop, busy))
     }
 }
 

@@ -50,7 +50,7 @@ pub(super) const H2U: Model = Model {
     annunciators_are_states: true,
     value_error: 6707,
     pulses: Pulses::Inovance,
-    pulse_outputs: &[(Y, 0, 2)],
+    pulse_outputs: &[(Y, 0, 7)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: false,
     steps_per_operand: None,

@@ -99,7 +99,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8135 rw 0 by("pulse outputs") "Y0: separate acceleration/deceleration times and change of the pulse count while running";
     M 8136-8137 rw 0 by("pulse outputs") "Y1–2: as M8135";
     M 8140 rw 0 by("ZRN") "ZRN: CLR signal output enabled";
-    M 8141-8143 rw 0 inert(PULSES) "interrupt inputs X0-X5 may stop the pulses of Y0–2";
+    M 8141-8143 rw 0 inert(PULSES) "interrupt inputs X0-X5 may stop the pulses of Y0–2; on MTP M8141–8143 mean for Y5–7 what M8135 does, and work so";
     M 8145-8146 rw 0 by("pulse outputs") "stop pulse output Y000–001";
     M 8147-8149 r 0 by("pulse outputs") "Y000–002 pulse output busy";
     M 8152 rw 0 by("pulse outputs") "stop pulse output Y002";
@@ -288,10 +288,10 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8148 rw 100 by("ZRN, DRVI, DRVA") "DRVI/DRVA acceleration/deceleration time, ms";
     D 8150 rw 0 by("pulse outputs") "Y002 accumulated pulses of PLSY/PLSR, low word";
     D 8151 rw 0 by("pulse outputs") "high word of D8150";
-    D 8152 rw 0 inert(PULSES) "Y003 accumulated pulses of PLSY/PLSR, low word";
-    D 8153 rw 0 inert(PULSES) "high word of D8152";
-    D 8154 rw 0 inert(PULSES) "Y004 accumulated pulses of PLSY/PLSR, low word";
-    D 8155 rw 0 inert(PULSES) "high word of D8154";
+    D 8152 rw 0 by("pulse outputs") "Y003 accumulated pulses of PLSY/PLSR, low word";
+    D 8153 rw 0 by("pulse outputs") "high word of D8152";
+    D 8154 rw 0 by("pulse outputs") "Y004 accumulated pulses of PLSY/PLSR, low word";
+    D 8155 rw 0 by("pulse outputs") "high word of D8154";
     D 8156 rw 5 by("ZRN") "ZRN clear signal output of Y0: default 5 = Y005";
     D 8157 rw 6 by("ZRN") "ZRN clear signal output of Y1: default 6 = Y006";
     D 8158 rw 7 by("ZRN") "ZRN clear signal output of Y2: default 7 = Y007";
@@ -443,10 +443,35 @@ pub(super) const H1U: &[Special] = specials! {
 
 /// What only H2U has.
 pub(super) const H2U: &[Special] = specials! {
+    M 8088-8089 rw 0 by("pulse outputs") "Y3–4 (MTQ, MTP): as M8085";
+    M 8093-8094 rw 0 scan "Y3–4 pulse-finished interrupt I505–506 enabled";
+    M 8098 rw 0 by("PWM") "PWM on Y3: unit us instead of ms";
+    M 8138-8139 rw 0 by("pulse outputs") "Y3–4 (MTQ, MTP): as M8135";
+    M 8144 r 0 by("pulse outputs") "Y005 (MTP) pulse output busy";
+    M 8150-8151 r 0 by("pulse outputs") "Y003–004 (MTQ, MTP) pulse output busy";
+    M 8153-8157 rw 0 by("pulse outputs") "stop pulse output Y003–007 (MTQ, MTP)";
+    M 8158-8159 r 0 by("pulse outputs") "Y006–007 (MTP) pulse output busy";
     M 8309 rw 0 inert(LATCHES) "lets the fixed latched area become changeable";
     D 8001 r 24120 scan "model and version";
     D 8002 r 24 scan "program capacity in k steps";
+    D 8030-8033 rw 0 by("DRVI, DRVA") "maximum speeds of Y005–006 (MTP), 32 bits, when M8141–8142 is on";
+    D 8037-8038 rw 100 by("DRVI, DRVA") "bias speed of Y003–004 (MTQ, MTP) when M8138–8139 is on";
+    D 8056 rw -31072 by("DRVI, DRVA") "maximum speed of Y003 (MTQ, MTP), low word, used when M8138 is on";
+    D 8057 rw 1 by("DRVI, DRVA") "high word of D8056";
+    D 8058 rw -31072 by("DRVI, DRVA") "maximum speed of Y004 (MTQ, MTP), low word, used when M8139 is on";
+    D 8059 rw 1 by("DRVI, DRVA") "high word of D8058";
+    D 8087-8092 rw 100 by("DRVI, DRVA") "Y005–007 (MTP): acceleration times, then deceleration times (ms), when M8141–8143 is on";
+    D 8093-8095 rw 0 by("DRVI, DRVA") "Y005–007 (MTP): bias speeds when M8141–8143 is on";
     D 8101 r 24120 scan "model and version";
     D 8102 r 24 scan "capacity given to the user program in k steps";
+    D 8107-8108 rw 100 by("DRVI, DRVA") "acceleration time on Y003–004 (MTQ, MTP) (ms) when M8138–8139 is on";
+    D 8138-8139 rw 0 by("pulse outputs") "Y005 (MTP) position, 32 bits";
+    D 8159 rw 8 by("ZRN") "ZRN clear signal output of Y3: default 8 = Y010";
+    D 8160 rw 9 by("ZRN") "ZRN clear signal output of Y4: default 9 = Y011";
+    D 8168-8169 rw 100 by("PLSR, DRVI, DRVA") "deceleration time on Y003–004 (MTQ, MTP) (ms) when M8138–8139 is on";
+    D 8170-8171 rw 0 by("pulse outputs") "Y007 (MTP) position, 32 bits";
+    D 8172 rw 0 by("DRVI, DRVA") "maximum speed of Y007 (MTP), low word, when M8143 is on";
+    D 8196 rw 14 by("ZRN") "ZRN clear signal output of Y6: default 14 = Y016";
+    D 8197 rw 15 by("ZRN") "ZRN clear signal output of Y7: default 15 = Y017";
     D 8198 r 10224 inert(CAN) "identification as a CANlink remote device";
 };
