@@ -68,6 +68,26 @@ pub(crate) fn read(path: &Path) -> Result<Source, LoadError> {
 pub(crate) fn from_toml<T: DeserializeOwned>(source: &Source) -> Result<T, Vec<Problem>> {
     toml::from_str(&source.text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start);
-        vec![Problem::at(source, at, error.message().to_string())]
+        vec![Problem::at(source, at, plain(error.message()))]
     })
+}
+
+/// What the reader of TOML says, in the words of TOML rather than of Rust.
+fn plain(message: &str) -> String {
+    let words = [
+        ("expected f64", "expected a number"),
+        ("expected u16", "expected a whole number"),
+        ("expected u32", "expected a whole number"),
+        ("expected i32", "expected a whole number"),
+        (
+            "invalid type: map, expected a sequence",
+            "tables of this name are written in double brackets",
+        ),
+        ("invalid type: map", "invalid type: table"),
+        ("expected a sequence", "expected a list in brackets"),
+    ];
+    let message = message.to_string();
+    words
+        .iter()
+        .fold(message, |text, (from, to)| text.replace(from, to))
 }

@@ -288,6 +288,17 @@ input = "X001"
             "[[axis]]\noutput = \"Y000\"\nhomee = \"X000\"\n",
         ),
         ("unknown_part", "[[motor]]\noutput = \"Y000\"\n"),
+        ("no_number", "[[axis]]\noutput = \"Y000\"\nspeed = \"5\"\n"),
+        ("no_list", "[[axis]]\noutput = \"Y000\"\ntravel = 5\n"),
+        (
+            "long_list",
+            "[[axis]]\noutput = \"Y000\"\ntravel = [0, 5, 6]\n",
+        ),
+        ("single_brackets", "[axis]\noutput = \"Y000\"\n"),
+        (
+            "direction",
+            "[[axis]]\noutput = \"Y000\"\ndirection = \"Y0\"\n",
+        ),
         ("wrong_type", "[[axis]]\noutput = 0\n"),
         ("no_toml", "[[axis]\n"),
     ] {

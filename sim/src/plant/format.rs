@@ -146,9 +146,9 @@ struct RawAxis {
     reverse: Option<Spanned<String>>,
     speed: Option<Spanned<f64>>,
     start: Option<Spanned<f64>>,
-    travel: Option<Spanned<[f64; 2]>>,
+    travel: Option<Spanned<Vec<f64>>>,
     home: Option<Spanned<String>>,
-    home_at: Option<Spanned<[f64; 2]>>,
+    home_at: Option<Spanned<Vec<f64>>>,
     forward_limit: Option<Spanned<String>>,
     forward_limit_at: Option<Spanned<f64>>,
     reverse_limit: Option<Spanned<String>>,
@@ -179,7 +179,7 @@ struct RawEncoder {
 #[serde(deny_unknown_fields)]
 struct RawSwitch {
     input: Spanned<String>,
-    at: Spanned<[f64; 2]>,
+    at: Spanned<Vec<f64>>,
     every: Option<Spanned<f64>>,
 }
 
@@ -343,6 +343,10 @@ impl<'t> Reader<'t> {
                     Some(direction) => Some(self.output(direction)?),
                     None => None,
                 };
+                if let (Some(name), true) = (&raw.direction, direction == Some(number)) {
+                    let message = "the direction is told by another output than the pulses";
+                    self.report(name.span().start, message);
+                }
                 if let (None, Some(on)) = (direction, &raw.direction_on) {
                     self.report(on.span().start, "this goes with `direction`");
                 }
@@ -685,9 +689,13 @@ impl<'t> Reader<'t> {
         None
     }
 
-    fn range(&mut self, value: &Spanned<[f64; 2]>, per_unit: f64) -> Option<[f64; 2]> {
+    fn range(&mut self, value: &Spanned<Vec<f64>>, per_unit: f64) -> Option<[f64; 2]> {
         let at = value.span().start;
-        let [from, to] = value.get_ref().map(|value| value * per_unit);
+        let &[from, to] = value.get_ref().as_slice() else {
+            self.report(at, "this is written [from, to]");
+            return None;
+        };
+        let [from, to] = [from, to].map(|value| value * per_unit);
         if !(from.abs() <= LONGEST && to.abs() <= LONGEST) {
             self.report(at, "this length is too great");
             return None;

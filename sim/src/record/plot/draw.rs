@@ -35,10 +35,28 @@ const LANE_FILL: &str = "#d6e6f2";
 
 /// What the picture is drawn on: where times are, and the elements so far.
 struct Canvas {
-    seconds: f64,
-    /// Times that are marked.
+    /// What times are told in.
+    unit: Unit,
+    duration_ms: f64,
+    /// Times that are marked, in milliseconds, with their labels.
     marks: Vec<(f64, String)>,
     group: Group,
+}
+
+/// A unit of time: its name and its milliseconds.
+type Unit = (&'static str, f64);
+
+/// Units of time, each with the longest time that is told in it, in milliseconds.
+const UNITS: [(f64, Unit); 3] = [
+    (1000.0, ("ms", 1.0)),
+    (600_000.0, ("s", 1000.0)),
+    (7_200_000.0, ("min", 60_000.0)),
+];
+
+/// The unit that a run of this many milliseconds is told in.
+fn unit(duration_ms: f64) -> Unit {
+    let fits = UNITS.iter().find(|&&(longest, _)| duration_ms < longest);
+    fits.map_or(("h", 3_600_000.0), |&(_, unit)| unit)
 }
 
 /// A panel's place: its upper edge, its height, and its scale.
@@ -64,12 +82,15 @@ impl Frame {
 
 /// The picture.
 pub(super) fn draw(plot: &Plot) -> String {
-    let seconds = plot.duration_ms.max(1) as f64 / 1000.0;
+    let duration_ms = plot.duration_ms.max(1) as f64;
+    let unit = unit(duration_ms);
+    let marks = Ticks::around(0.0, duration_ms / unit.1, 10.0).labels();
     let mut canvas = Canvas {
-        seconds,
-        marks: Ticks::around(0.0, seconds, 10.0)
-            .labels()
-            .filter(|&(mark, _)| mark <= seconds)
+        unit,
+        duration_ms,
+        marks: marks
+            .map(|(at, label)| (at * unit.1, label))
+            .filter(|&(at_ms, _)| at_ms <= duration_ms * (1.0 + 1e-9))
             .collect(),
         group: Group::new()
             .set("font-family", "Helvetica, Arial, sans-serif")
@@ -107,8 +128,8 @@ impl Canvas {
         self.group = group.add(element.into());
     }
 
-    fn x(&self, seconds: f64) -> f64 {
-        LEFT + (WIDTH - LEFT - RIGHT) * seconds / self.seconds
+    fn x(&self, at_ms: f64) -> f64 {
+        LEFT + (WIDTH - LEFT - RIGHT) * at_ms / self.duration_ms
     }
 
     /// A panel whose frame begins at `top`; returns where it ends.
@@ -138,7 +159,7 @@ impl Canvas {
         }
         for (i, (_, id)) in panel.curves.iter().enumerate() {
             let (colour, dash) = STROKES[i % STROKES.len()];
-            let points = self.places(&plot.curves[id.0], frame, plot.duration_ms);
+            let points = self.places(&plot.curves[id.0], frame);
             let curve = Polyline::new()
                 .set("points", joined(&points))
                 .set("fill", "none")
@@ -187,7 +208,7 @@ impl Canvas {
                 self.add(line([LEFT, top], [WIDTH - RIGHT, top], GRID));
             }
             self.add(text(LEFT - 8.0, top + LANE / 2.0 + 4.0, "end", name));
-            let points = self.places(&plot.curves[id.0], frame, plot.duration_ms);
+            let points = self.places(&plot.curves[id.0], frame);
             let (Some(&[first, _]), Some(&[last, _])) = (points.first(), points.last()) else {
                 continue;
             };
@@ -212,18 +233,19 @@ impl Canvas {
 
     /// The labels of the times below everything.
     fn times(&mut self, y: f64) {
-        for (seconds, label) in self.marks.clone() {
-            let x = self.x(seconds);
+        for (at_ms, label) in self.marks.clone() {
+            let x = self.x(at_ms);
             self.add(line([x, y], [x, y + 4.0], INK));
             self.add(text(x, y + 18.0, "middle", &label));
         }
         let middle = (LEFT + WIDTH - RIGHT) / 2.0;
-        self.add(text(middle, y + 36.0, "middle", "time (s)"));
+        let title = format!("time ({})", self.unit.0);
+        self.add(text(middle, y + 36.0, "middle", &title));
     }
 
     fn time_lines(&mut self, frame: Frame) {
-        for (seconds, _) in self.marks.clone() {
-            let x = self.x(seconds);
+        for (at_ms, _) in self.marks.clone() {
+            let x = self.x(at_ms);
             self.add(line([x, frame.top], [x, frame.bottom()], GRID));
         }
     }
@@ -242,7 +264,7 @@ impl Canvas {
     }
 
     /// Where the points of a curve are, without those that change nothing.
-    fn places(&self, curve: &Curve, frame: Frame, duration_ms: u64) -> Vec<[f64; 2]> {
+    fn places(&self, curve: &Curve, frame: Frame) -> Vec<[f64; 2]> {
         let mut places: Vec<[f64; 2]> = Vec::new();
         let mut put = |place: [f64; 2]| {
             if places.last() != Some(&place) {
@@ -251,7 +273,7 @@ impl Canvas {
         };
         let mut held = None;
         for (at_ms, value) in curve.points() {
-            let [x, y] = [self.x(at_ms as f64 / 1000.0), frame.y(value)].map(rounded);
+            let [x, y] = [self.x(at_ms as f64), frame.y(value)].map(rounded);
             if let Some(y) = held.filter(|_| curve.shape == Shape::Step) {
                 put([x, y]);
             }
@@ -259,7 +281,7 @@ impl Canvas {
             held = Some(y);
         }
         if let Some(y) = held.filter(|_| curve.shape == Shape::Step) {
-            put([rounded(self.x(duration_ms as f64 / 1000.0)), y]);
+            put([rounded(self.x(self.duration_ms)), y]);
         }
         thinned(&places)
     }

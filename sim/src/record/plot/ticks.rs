@@ -67,7 +67,7 @@ impl Ticks {
     }
 
     /// Each tick and its label.
-    pub(super) fn labels(&self) -> impl Iterator<Item = (f64, String)> {
+    pub(super) fn labels(self) -> impl Iterator<Item = (f64, String)> {
         let decimals = usize::try_from(-self.exponent).unwrap_or(0);
         (self.first..=self.last).map(move |number| {
             let value = self.value(number);
