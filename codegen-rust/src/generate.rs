@@ -277,8 +277,9 @@ pub fn function_name(function: &Function) -> String {
 /// Name of the struct: `box_filler` is `BoxFiller`.
 fn type_name(module: &str) -> Ident {
     /// What the emitted files import.
-    const TAKEN: [&str; 19] = [
+    const TAKEN: [&str; 21] = [
         "Access",
+        "Axis",
         "Class",
         "Counter16",
         "Counter32",
@@ -290,6 +291,7 @@ fn type_name(module: &str) -> Ident {
         "Option",
         "Plc",
         "Program",
+        "Pulses",
         "Runs",
         "Site",
         "Some",
@@ -321,7 +323,16 @@ mod tests {
 
     #[test]
     fn type_names_are_identifiers_of_their_own() {
-        let names = ["motor", "box_filler", "4you", "timer", "self", "", "plc"];
+        let names = [
+            "motor",
+            "box_filler",
+            "4you",
+            "timer",
+            "self",
+            "",
+            "plc",
+            "axis",
+        ];
         let names = names.map(|name| type_name(name).to_string());
         assert_eq!(
             names,
@@ -332,7 +343,8 @@ mod tests {
                 "TimerPlc",
                 "SelfPlc",
                 "PlcPlc",
-                "PlcPlc"
+                "PlcPlc",
+                "AxisPlc"
             ]
         );
     }
