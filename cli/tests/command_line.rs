@@ -406,6 +406,50 @@ fn machines_are_wired_to_programs() {
     assert_eq!(code(path, &args), 2);
 }
 
+/// A run in real time is ended by Ctrl-C, and what it has recorded by then is written.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_its_recording() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["run", "motor.il", "--real-time", "--for", "1h"])
+        .args([
+            "--vcd",
+            "motor.vcd",
+            "--plot",
+            "motor.svg",
+            "--watch",
+            "Y000",
+        ])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first line is written when the handler is there.
+    let mut begun = [0; 10];
+    child
+        .stdout
+        .as_mut()
+        .unwrap()
+        .read_exact(&mut begun)
+        .unwrap();
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    assert!(text(&output.stderr).contains("rungc: interrupted at"));
+    let written = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(written("motor.vcd").contains("$enddefinitions"));
+    assert!(written("motor.svg").trim_end().ends_with("</svg>"));
+}
+
 #[test]
 fn run_draws_a_diagram() {
     let folder = folder(&[

@@ -1,6 +1,7 @@
 //! `rungc run`.
 
 mod device;
+mod interruption;
 mod plotting;
 mod recording;
 mod simulate;

@@ -1,5 +1,6 @@
 //! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
 
+use super::interruption;
 use super::plotting::Plotting;
 use super::recording::Recording;
 use super::view::{Column, Kind, View};
@@ -86,8 +87,12 @@ impl Run<'_> {
             plant,
             now_ms: 0,
         };
+        if simulation.writes() {
+            interruption::note();
+        }
         let outcome = simulation.run(args)?;
-        let end_ms = match simulation.machine.watchdog_tripped() {
+        let cut_short = simulation.machine.watchdog_tripped() || interruption::is_asked();
+        let end_ms = match cut_short {
             false => args.duration,
             true => simulation.now_ms,
         };
@@ -120,6 +125,10 @@ impl Simulation<'_> {
                 ));
                 return Ok(Outcome::Failed);
             }
+            if interruption::is_asked() {
+                tell(&format!("rungc: interrupted at {} ms", self.now_ms));
+                return Ok(self.outcome());
+            }
             if self.now_ms + args.scan > args.duration {
                 break;
             }
@@ -142,11 +151,20 @@ impl Simulation<'_> {
                 late.target, late.at_ms
             ));
         }
-        let damaged = self.plant.as_ref().and_then(Plant::collision);
-        Ok(match damaged {
+        Ok(self.outcome())
+    }
+
+    /// How the run has gone.
+    fn outcome(&self) -> Outcome {
+        match self.plant.as_ref().and_then(Plant::collision) {
             Some(_) => Outcome::Failed,
             None => Outcome::Success,
-        })
+        }
+    }
+
+    /// Whether it writes files.
+    fn writes(&self) -> bool {
+        self.recording.is_some() || self.plotting.is_some()
     }
 
     fn scan(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {

@@ -38,6 +38,8 @@ struct Canvas {
     /// What times are told in.
     unit: Unit,
     duration_ms: f64,
+    /// Until when values are held that do not change any more.
+    last_ms: f64,
     /// Times that are marked, in milliseconds, with their labels.
     marks: Vec<(f64, String)>,
     group: Group,
@@ -88,6 +90,7 @@ pub(super) fn draw(plot: &Plot) -> String {
     let mut canvas = Canvas {
         unit,
         duration_ms,
+        last_ms: plot.last_ms as f64,
         marks: marks
             .map(|(at, label)| (at * unit.1, label))
             .filter(|&(at_ms, _)| at_ms <= duration_ms * (1.0 + 1e-9))
@@ -281,7 +284,7 @@ impl Canvas {
             held = Some(y);
         }
         if let Some(y) = held.filter(|_| curve.shape == Shape::Step) {
-            put([rounded(self.x(self.duration_ms)), y]);
+            put([rounded(self.x(self.last_ms)), y]);
         }
         thinned(&places)
     }

@@ -40,6 +40,8 @@ struct Panel {
 pub struct Plot {
     title: String,
     duration_ms: u64,
+    /// Time of the last point.
+    last_ms: u64,
     curves: Vec<Curve>,
     panels: Vec<Panel>,
     lanes: Vec<(String, CurveId)>,
@@ -51,6 +53,7 @@ impl Plot {
         Plot {
             title: title.to_string(),
             duration_ms,
+            last_ms: 0,
             curves: Vec::new(),
             panels: Vec::new(),
             lanes: Vec::new(),
@@ -96,6 +99,7 @@ impl Plot {
 
     /// A curve has this value at this time. Times do not go back.
     pub fn point(&mut self, curve: CurveId, at_ms: u64, value: f64) {
+        self.last_ms = at_ms;
         self.curves[curve.0].push(at_ms, value);
     }
 
