@@ -1,0 +1,86 @@
+//! Calling the command line and looking at what it does.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+/// A start-stop circuit with a timer and a counted edge.
+pub const MOTOR: &str = "\
+LD X000      ; start
+OR M0
+ANI X001     ; stop
+OUT M0       ; motor latch
+LD M0
+OUT T0 K3
+LD T0
+OUT Y000     ; main contactor
+LDP X002
+ADD D0 K1 D0
+LD>= D0 K10
+SET Y001
+END
+";
+
+/// A folder of its own with these files.
+pub fn folder(files: &[(&str, &[u8])]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content) in files {
+        fs::write(folder.path().join(name), content).unwrap();
+    }
+    folder
+}
+
+pub fn rungc(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .unwrap()
+}
+
+pub fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Times differ from run to run, paths and numbers of errors from system to system.
+pub fn normal(text: &str, folder: &Path) -> String {
+    let text = text.replace(&folder.display().to_string(), "FOLDER");
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        let mut line = line.to_owned();
+        if let Some((before, rest)) = line.split_once(") in ") {
+            let rest = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+            line = format!("{before}) in …{rest}");
+        }
+        if let Some((before, _)) = line.split_once(" failed (") {
+            line = format!("{before} failed (… s)");
+        }
+        lines.push(line);
+    }
+    lines.join("\n")
+}
+
+/// What was called, what it printed and how it ended.
+pub fn shown(folder: &Path, args: &[&str]) -> String {
+    let output = rungc(folder, args);
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    for printed in [&out, &err] {
+        assert!(
+            !printed.contains('\u{1b}'),
+            "colours without a terminal: {printed}"
+        );
+        assert!(!printed.contains("panicked"), "{printed}");
+    }
+    let code = output.status.code().unwrap();
+    let args = args.join(" ");
+    format!(
+        "$ rungc {args}\n{}\n--- standard error\n{}\n--- exit code {code}",
+        normal(&out, folder),
+        normal(&err, folder)
+    )
+}
+
+pub fn code(folder: &Path, args: &[&str]) -> i32 {
+    rungc(folder, args).status.code().unwrap()
+}
