@@ -207,6 +207,11 @@ typedef struct rungc_area {
      */
     uint32_t count;
     /**
+     * How many numbers it is from a device to the next one in memory: 1, or more in an array of so many columns, each as long as the
+     * longest has to be.
+     */
+    uint32_t columns;
+    /**
      * Where they begin in the struct, in bytes.
      */
     size_t offset;

@@ -141,6 +141,12 @@ impl Writer<'_, '_> {
     }
 
     fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
+        if self.access_round(code, place) {
+            code.push_str(" = ");
+            self.grid_value(code, value);
+            code.push(';');
+            return;
+        }
         if place.index.is_some() {
             self.helpers.put(what, place.class);
             let _ = write!(
@@ -162,7 +168,10 @@ impl Writer<'_, '_> {
                 (DeviceClass::T | DeviceClass::C, _) => ".value = ",
                 _ => " = ",
             });
-            self.expr(code, value, Around::Exact);
+            match self.module.layout.grid(place.class, place.number) {
+                Some(_) => self.grid_value(code, value),
+                None => self.expr(code, value, Around::Exact),
+            }
             code.push(';');
         }
     }

@@ -137,6 +137,9 @@ impl Writer<'_, '_> {
                 self.expr(out, *index, Around::Exact);
                 out.push(']');
             }
+            Expr::Stride(_, by) => {
+                let _ = write!(out, "{by} * (int32_t){}", self.round);
+            }
             Expr::Flag(flag) => {
                 out.push_str("plc->");
                 out.push_str(&module.flags[flag.0 as usize].name);
@@ -212,11 +215,46 @@ impl Writer<'_, '_> {
             Expr::Cmp(op, l, r) if self.module.ty(l) != Ty::F32 && !self.named.contains_key(&a) => {
                 self.compare(out, op.opposite(), l, r, around);
             }
+            _ if self.numbers || self.is_number(a) => {
+                self.in_parentheses(out, around != Around::Exact, |w, out| {
+                    w.expr(out, a, Around::Operand("^"));
+                    out.push_str(" ^ 1");
+                })
+            }
             _ => {
                 out.push('!');
                 self.expr(out, a, Around::Unary);
             }
         }
+    }
+
+    /// Whether a `Bit` is written as an integer: one from an array of columns, or made of such.
+    fn is_number(&self, e: ExprId) -> bool {
+        if self.module.layout.grids.is_empty() || self.named.contains_key(&e) {
+            return false;
+        }
+        match *self.module.expr(e) {
+            Expr::ReadBit(place) => self.module.layout.grid(place.class, place.number).is_some(),
+            Expr::Not(a) => self.is_number(a),
+            Expr::And(a, b) | Expr::Or(a, b) => self.is_number(a) || self.is_number(b),
+            _ => false,
+        }
+    }
+
+    /// Writes a value for an element of an array of columns.
+    pub fn grid_value(&mut self, out: &mut String, value: ExprId) {
+        let small = matches!(
+            self.module.expr(value),
+            Expr::ReadBit(_) | Expr::And(..) | Expr::Or(..) | Expr::Not(_) | Expr::Bit(_)
+        );
+        if !small {
+            out.push_str("(uint8_t)");
+        }
+        self.expr(
+            out,
+            value,
+            if small { Around::Exact } else { Around::Unary },
+        );
     }
 
     fn compare(&mut self, out: &mut String, op: CmpOp, a: ExprId, b: ExprId, around: Around) {
@@ -275,6 +313,8 @@ impl Writer<'_, '_> {
         if self.is_not(operands[0]) && !self.is_not(operands[1]) && self.is_compound(operands[1]) {
             operands.swap(0, 1);
         }
+        let outside = self.numbers;
+        self.numbers |= self.is_number(id);
         let mut texts: Vec<String> = Vec::with_capacity(operands.len());
         let mut calls = 0;
         for operand in operands {
@@ -289,6 +329,7 @@ impl Writer<'_, '_> {
             }
             texts.push(text);
         }
+        self.numbers = outside;
         // Of several calls only those are made that matter, and clang would suspect a slip.
         let op = match op {
             "&" if calls > 1 => " && ",
@@ -522,6 +563,9 @@ impl Writer<'_, '_> {
     }
 
     fn read_bit(&mut self, out: &mut String, place: &Place) {
+        if self.access_round(out, place) {
+            return;
+        }
         if place.index.is_some() {
             return self.indexed_call(out, "bit", place, 0);
         }
@@ -529,6 +573,17 @@ impl Writer<'_, '_> {
             out.push_str("false");
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".done");
+        }
+    }
+
+    /// Writes the expression of a device of the present round of a loop; false for any other.
+    pub fn access_round(&self, out: &mut String, place: &Place) -> bool {
+        match place.index.map(|index| self.module.expr(index)) {
+            Some(&Expr::Stride(_, by)) => {
+                self.fields
+                    .access_round(out, (place.class, place.number), by, &self.round)
+            }
+            _ => false,
         }
     }
 

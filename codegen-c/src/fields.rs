@@ -86,6 +86,10 @@ pub struct Field {
     pub count: u32,
     /// An array.
     pub array: bool,
+    /// A loop over rungs goes through it ([`rungc_ir::layout::Grid`]): its bits are numbers, which compilers vectorise best.
+    pub grid: bool,
+    /// How many columns the array has, each of which holds every so manieth device: 1 unless it is a grid.
+    pub columns: u32,
     /// Whether the array's name carries the number it begins with.
     numbered: bool,
     /// What each is.
@@ -103,6 +107,47 @@ impl Field {
             (true, _) => write!(out, "{prefix}"),
             (false, true) => write!(out, "{prefix}{:o}", self.first),
             (false, false) => write!(out, "{prefix}{}", self.first),
+        };
+    }
+
+    /// How many columns and rows an array has.
+    pub fn size(&self) -> (u32, u32) {
+        (self.columns, self.count.div_ceil(self.columns))
+    }
+
+    /// The dimensions of an array: `[10]`, `[10][32]`.
+    pub fn dimensions(&self) -> String {
+        match self.size() {
+            (1, rows) => format!("[{rows}]"),
+            (columns, rows) => format!("[{columns}][{rows}]"),
+        }
+    }
+
+    /// Where in an array a device is: `[3]`, `[3][0]`.
+    pub fn subscript(&self, number: u32) -> String {
+        let n = number - self.first;
+        match self.columns {
+            1 => format!("[{n}]"),
+            columns => format!("[{}][{}]", n % columns, n / columns),
+        }
+    }
+
+    /// Writes where in an array the device is whose number stands in a variable: `[n]`, `[n - 16]`.
+    pub fn element(&self, out: &mut String, number: &str, unsigned: &str) {
+        let distance = match self.first {
+            0 => number.to_string(),
+            first => format!("{number} - {first}{unsigned}"),
+        };
+        let _ = match (self.columns, self.first) {
+            (1, _) => write!(out, "[{distance}]"),
+            (columns, 0) => write!(
+                out,
+                "[{distance} % {columns}{unsigned}][{distance} / {columns}{unsigned}]"
+            ),
+            (columns, _) => write!(
+                out,
+                "[({distance}) % {columns}{unsigned}][({distance}) / {columns}{unsigned}]"
+            ),
         };
     }
 
@@ -167,6 +212,9 @@ impl<'m> Fields<'m> {
         let mut fields: Vec<Field> = Vec::new();
         let mut merged: Vec<(DeviceClass, Run)> = Vec::new();
         for &(class, run, array) in &runs {
+            let grid = module.layout.grid(class, run.first);
+            let columns = grid.map_or(1, |grid| grid.columns);
+            let first = grid.map_or(0, |grid| grid.first);
             let Some(kind) = Kind::of(class, run.first) else {
                 continue;
             };
@@ -177,6 +225,8 @@ impl<'m> Fields<'m> {
                     first,
                     count: 1,
                     array,
+                    grid: grid.is_some(),
+                    columns,
                     numbered: true,
                     kind,
                     section: section(run.keep),
@@ -186,6 +236,8 @@ impl<'m> Fields<'m> {
             match fields.last_mut() {
                 Some(last)
                     if last.array
+                        && last.grid == grid.is_some()
+                        && (!last.grid || last.first == first)
                         && last.class == class
                         && last.kind == kind
                         && last.end() == run.first =>
@@ -200,6 +252,8 @@ impl<'m> Fields<'m> {
                     first: run.first,
                     count: run.count,
                     array,
+                    grid: grid.is_some(),
+                    columns,
                     numbered: run.first != 0,
                     kind,
                     section: section(run.keep),
@@ -247,10 +301,10 @@ impl<'m> Fields<'m> {
         fields.get(i).filter(|f| number < f.end())
     }
 
-    /// The array that holds `count` devices from `number` on.
+    /// The array that holds `count` devices from `number` on, one behind the other.
     pub fn array(&self, class: DeviceClass, number: u32, count: u32) -> Option<&Field> {
         self.find(class, number)
-            .filter(|f| f.array && f.end() - number >= count)
+            .filter(|f| f.array && !f.grid && f.end() - number >= count)
     }
 
     /// The runs of a field that power-off treats alike.
@@ -272,7 +326,9 @@ impl<'m> Fields<'m> {
         };
         out.push_str("plc->");
         field.name(out);
-        if field.array {
+        if field.columns > 1 {
+            out.push_str(&field.subscript(number));
+        } else if field.array {
             // D100[103 - 100] keeps the device's own number in sight.
             let _ = match field.first {
                 0 => write!(out, "[{number}]"),
@@ -280,6 +336,33 @@ impl<'m> Fields<'m> {
                 first => write!(out, "[{number} - {first}]"),
             };
         }
+        true
+    }
+
+    /// Writes the expression of a device of a loop's present round, whose number stands in `variable`; false if it is not stored so.
+    pub fn access_round(
+        &self,
+        out: &mut String,
+        (class, number): (DeviceClass, u32),
+        by: u32,
+        variable: &str,
+    ) -> bool {
+        let Some(field) = self
+            .find(class, number)
+            .filter(|f| f.grid && f.columns == by)
+        else {
+            return false;
+        };
+        out.push_str("plc->");
+        field.name(out);
+        let n = number - field.first;
+        if by > 1 {
+            let _ = write!(out, "[{}]", n % by);
+        }
+        let _ = match n / by {
+            0 => write!(out, "[{variable}]"),
+            row => write!(out, "[{row} + {variable}]"),
+        };
         true
     }
 

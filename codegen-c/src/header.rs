@@ -73,7 +73,8 @@ fn devices(out: &mut String, size: &mut Size, fields: &Fields) {
             section = Some(field.section);
         }
         let (bytes, align) = field.kind.size();
-        size.add(bytes * field.count, align);
+        let (columns, rows) = field.size();
+        size.add(bytes * columns * rows, align);
         field_line(out, fields, field);
     }
     if section.is_some() {
@@ -154,10 +155,15 @@ impl Size {
 
 fn field_line(out: &mut String, fields: &Fields, field: &Field) {
     let (class, first) = (field.class, field.first);
-    let mut line = format!("    {} ", field.kind.c_type());
+    let ty = if field.grid {
+        "uint8_t"
+    } else {
+        field.kind.c_type()
+    };
+    let mut line = format!("    {ty} ");
     field.name(&mut line);
     if field.array {
-        let _ = write!(line, "[{}]", field.count);
+        line.push_str(&field.dimensions());
     }
     line.push(';');
     let mut comment = String::new();
@@ -168,6 +174,13 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
             class.number(first),
             class.number(field.end() - 1)
         );
+        if field.grid {
+            comment.push_str(", 0 or 1");
+        }
+        if field.columns > 1 {
+            let n = class.number(first + 1);
+            let _ = write!(comment, ", in {} columns: [1][0] is {n}", field.columns);
+        }
         for run in fields
             .runs(field)
             .filter(|run| field.section == Section::Mixed && run.is_latched())
@@ -192,8 +205,8 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
         for number in first..field.end() {
             if let Some(text) = fields.comment(class, number) {
                 let comment = format!(
-                    "  [{}] {}: {}",
-                    number - first,
+                    "  {} {}: {}",
+                    field.subscript(number),
                     class.number(number),
                     text::comment(text)
                 );

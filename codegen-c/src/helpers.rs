@@ -307,10 +307,7 @@ impl Printer<'_> {
                     field.end()
                 ),
             };
-            let _ = match field.first {
-                0 => write!(name, "[n]"),
-                first => write!(name, "[n - {first}]"),
-            };
+            field.element(&mut name, "n", "");
             line(
                 out,
                 Device {

@@ -60,6 +60,15 @@ pub enum Node<'m> {
         /// What.
         body: Vec<Node<'m>>,
     },
+    /// A loop over rungs that are alike.
+    Repeat {
+        /// How often.
+        count: u32,
+        /// What.
+        body: Vec<Node<'m>>,
+        /// The last round's last network.
+        last: u32,
+    },
     /// The switch over parts.
     Parts {
         /// State and C function of each.
@@ -216,6 +225,13 @@ impl<'m> Builder<'m> {
             Stmt::For { count, body } => Node::For {
                 count: *count,
                 body: inner(body),
+            },
+            Stmt::Repeat {
+                count, body, last, ..
+            } => Node::Repeat {
+                count: *count,
+                body: inner(body),
+                last: *last,
             },
             Stmt::Parts(parts) => {
                 weight += 2 * parts.len() as u64;

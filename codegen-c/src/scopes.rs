@@ -108,6 +108,7 @@ impl Scopes<'_, '_> {
                     self.uses(*count);
                     self.block(body);
                 }
+                Node::Repeat { body, .. } => self.block(body),
                 Node::Parts { .. } | Node::Stretch(_) => {}
             }
         }

@@ -154,6 +154,8 @@ fn areas(name: &str, fields: &Fields) -> Vec<String> {
                 if *last + 1 == place
                     && first.class == field.class
                     && first.kind == field.kind
+                    && !first.grid
+                    && !field.grid
                     && first.first + *count == field.first =>
             {
                 *last = place;
@@ -167,10 +169,11 @@ fn areas(name: &str, fields: &Fields) -> Vec<String> {
             let mut member = String::new();
             field.name(&mut member);
             format!(
-                "{{{}, {}, {}, {count}, offsetof({name}_plc, {member})}}",
+                "{{{}, {}, {}, {count}, {}, offsetof({name}_plc, {member})}}",
                 class_name(field.class),
                 kind_name(field.kind),
-                field.first
+                field.first,
+                field.columns
             )
         })
         .collect()

@@ -325,6 +325,15 @@ impl Printer<'_> {
             for run in self.fields.runs(field).filter(|run| wanted(run)) {
                 let mut array = String::from("plc->");
                 field.name(&mut array);
+                if field.columns > 1 {
+                    let (first, end) = (run.first, run.first + run.count);
+                    field.element(&mut array, "n", "u");
+                    let _ = writeln!(
+                        out,
+                        "    for (unsigned n = {first}; n < {end}; n++) {{\n        {array} = 0;\n    }}"
+                    );
+                    continue;
+                }
                 let _ = writeln!(
                     out,
                     "    memset(&{array}[{}], 0, {} * sizeof {array}[0]);",
@@ -498,18 +507,16 @@ impl Printer<'_> {
         for field in fields.iter().filter(|f| f.array) {
             let mut array = String::from("plc->");
             field.name(&mut array);
-            let _ = match field.first {
-                0 => write!(
-                    out,
-                    "    if (terminal < {}u) {{\n        return {array}[terminal];\n    }}\n",
-                    field.end()
-                ),
-                first => write!(
-                    out,
-                    "    if (terminal >= {first}u && terminal < {}u) {{\n        return {array}[terminal - {first}u];\n    }}\n",
-                    field.end()
-                ),
+            field.element(&mut array, "terminal", "u");
+            let end = field.end();
+            let condition = match field.first {
+                0 => format!("terminal < {end}u"),
+                first => format!("terminal >= {first}u && terminal < {end}u"),
             };
+            let _ = write!(
+                out,
+                "    if ({condition}) {{\n        return {array};\n    }}\n"
+            );
         }
         let single: Vec<&Field> = fields.iter().filter(|f| !f.array).collect();
         if single.is_empty() {

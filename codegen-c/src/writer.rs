@@ -35,6 +35,10 @@ pub struct Writer<'a, 'm> {
     function: usize,
     /// Loops around the current statement.
     loops: usize,
+    /// Whether an operand beside is a number, so that `!` would seem a slip.
+    pub(crate) numbers: bool,
+    /// Variable that counts the rounds of the loop over rungs.
+    pub(crate) round: String,
     /// Parts that have been given a name in this function.
     names: u32,
 }
@@ -53,6 +57,8 @@ impl<'a, 'm> Writer<'a, 'm> {
             plain_timers: HashMap::new(),
             function: 0,
             loops: 0,
+            numbers: false,
+            round: String::new(),
             names: 0,
         };
         for function in &plan.functions {
@@ -74,7 +80,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                     self.count_timers(then);
                     self.count_timers(otherwise);
                 }
-                Node::For { body, .. } => self.count_timers(body),
+                Node::For { body, .. } | Node::Repeat { body, .. } => self.count_timers(body),
                 _ => {}
             }
         }
@@ -241,7 +247,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             Node::Stmt(stmt) => for_exprs(stmt, &mut |&e| roots.push(e)),
             Node::If { cond, .. } => roots.push(*cond),
             Node::For { count, .. } => roots.push(*count),
-            Node::Parts { .. } | Node::Stretch(_) => {}
+            Node::Repeat { .. } | Node::Parts { .. } | Node::Stretch(_) => {}
         }
         self.name_parts(out, &roots, indent);
         self.node_with_names(out, node, indent);
@@ -301,6 +307,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                 otherwise,
             } => self.branch(out, *cond, (then, otherwise), indent),
             Node::For { count, body } => self.repeat(out, *count, body, indent),
+            Node::Repeat { count, body, last } => self.rounds(out, (*count, *last), body, indent),
             Node::Parts { parts, leaves } => self.parts(out, parts, *leaves, indent),
             Node::Stretch(function) => self.stretch(out, *function, indent),
         }
@@ -333,10 +340,7 @@ impl<'a, 'm> Writer<'a, 'm> {
     }
 
     fn repeat(&mut self, out: &mut String, count: ExprId, body: &[Node<'m>], indent: usize) {
-        let variable = match self.loops {
-            n @ 0..6 => char::from(b'i' + n as u8).to_string(),
-            n => format!("i{n}"),
-        };
+        let variable = self.loop_variable();
         let mut code = String::new();
         if let Expr::I16(times) = *self.module.expr(count) {
             let _ = write!(
@@ -350,6 +354,50 @@ impl<'a, 'm> Writer<'a, 'm> {
             let _ = write!(code, "); {variable} > 0; {variable}--) {{");
         }
         text::line(out, indent, &code, None);
+        self.loops += 1;
+        self.nodes(out, body, indent + 4);
+        self.loops -= 1;
+        text::line(out, indent, "}", None);
+    }
+
+    fn loop_variable(&self) -> String {
+        match self.loops {
+            n @ 0..6 => char::from(b'i' + n as u8).to_string(),
+            n => format!("i{n}"),
+        }
+    }
+
+    /// A loop over rungs that the program repeats.
+    fn rounds(
+        &mut self,
+        out: &mut String,
+        (count, last): (u32, u32),
+        body: &[Node<'m>],
+        indent: usize,
+    ) {
+        let variable = self.loop_variable();
+        let step = |network: u32| {
+            self.module
+                .networks
+                .get(network as usize)
+                .map_or(0, |n| n.step)
+        };
+        let first = body.iter().find_map(|node| match node {
+            Node::Stmt(Stmt::Network(network)) => Some(step(*network)),
+            _ => None,
+        });
+        if !out.ends_with("{\n") {
+            out.push('\n');
+        }
+        let comment = format!(
+            "/* steps {} to {}: {count} times the same rungs, each time with the next devices */",
+            first.unwrap_or_default(),
+            step(last)
+        );
+        text::line(out, indent, &comment, None);
+        let head = format!("for (unsigned {variable} = 0; {variable} < {count}; {variable}++) {{");
+        text::line(out, indent, &head, None);
+        self.round = variable;
         self.loops += 1;
         self.nodes(out, body, indent + 4);
         self.loops -= 1;
@@ -602,7 +650,7 @@ fn calls_runtime(nodes: &[Node]) -> bool {
         Node::If {
             then, otherwise, ..
         } => calls_runtime(then) || calls_runtime(otherwise),
-        Node::For { body, .. } => calls_runtime(body),
+        Node::For { body, .. } | Node::Repeat { body, .. } => calls_runtime(body),
         Node::Parts { .. } | Node::Stretch(_) => false,
     })
 }

@@ -181,6 +181,10 @@ impl Generator<'_> {
                 let (table, index) = (self.table(table), self.expr(index));
                 Code::atom(quote!(plc.#table[#index as usize]))
             }
+            Expr::Stride(_, by) => {
+                let by = Literal::i32_unsuffixed(by as i32);
+                Code::atom(quote!((#by * i as i32)))
+            }
             Expr::Flag(flag) => {
                 let flag = self.flag(flag);
                 Code::atom(quote!(plc.#flag))
@@ -297,8 +301,23 @@ impl Generator<'_> {
         })
     }
 
+    /// The device of a loop's present round.
+    pub fn cell_of_round(&self, place: Place) -> Option<TokenStream> {
+        match *self.module.expr(place.index?) {
+            Expr::Stride(_, by) => {
+                let device = (place.class, place.number);
+                self.storage
+                    .cell_of_round(device, by, &quote::format_ident!("i"))
+            }
+            _ => None,
+        }
+    }
+
     fn read_bit(&mut self, place: Place) -> Code {
         let plc = quote!(plc);
+        if let Some(cell) = self.cell_of_round(place) {
+            return Code::atom(cell);
+        }
         if place.index.is_some() {
             let (class, number) = self.indexed(place);
             return Code::atom(quote!(plc.bit_at(#class, #number)));
@@ -400,7 +419,11 @@ impl Generator<'_> {
         let field = self.storage.find(place.class, place.number)?;
         let offset = place.number - field.area.first;
         let is_bits = field.elem == crate::storage::Elem::Bit;
-        if !field.area.array || !is_bits || offset + count > field.area.count {
+        if !field.area.array
+            || field.columns().is_some()
+            || !is_bits
+            || offset + count > field.area.count
+        {
             return None;
         }
         let name = &field.name;

@@ -6,6 +6,7 @@ use crate::storage::{Elem, Field};
 use crate::{expr::literal32, format};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
+use rungc_ir::layout::Area;
 use rungc_ir::node::{FunctionKind, MAX_JUMPS, Stmt};
 use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_syntax::DeviceClass;
@@ -66,6 +67,10 @@ impl Generator<'_> {
             if area.count > 1 {
                 text.push_str(&format!("–{}", area.class.number(field.last())));
             }
+            if let Some(grid) = field.columns() {
+                let second = area.class.number(area.first + 1);
+                text.push_str(&format!(" in {} columns, [1][0] is {second}", grid.columns));
+            }
             text.push_str(latched);
             let named = (area.first..=field.last())
                 .filter_map(|n| Some((n, self.device_comment(area.class, n)?)))
@@ -92,12 +97,7 @@ impl Generator<'_> {
             Elem::Bit | Elem::Word => format_ident!("{}", field.elem.type_name()),
             _ => self.rt(field.elem.type_name()),
         };
-        if field.area.array {
-            let count = Literal::u32_unsuffixed(field.area.count);
-            quote!([#ty; #count])
-        } else {
-            quote!(#ty)
-        }
+        dimensions(field, quote!(#ty))
     }
 
     /// A field's value at power-on, special registers' apart.
@@ -110,12 +110,7 @@ impl Generator<'_> {
                 quote!(#ty::new())
             }
         };
-        if field.area.array {
-            let count = Literal::u32_unsuffixed(field.area.count);
-            quote!([#zero; #count])
-        } else {
-            zero
-        }
+        dimensions(field, zero)
     }
 
     /// What is no device: name, type, value at power-on, meaning.
@@ -242,18 +237,27 @@ impl Generator<'_> {
     }
 
     /// The statements that set fields to 0.
-    fn zeroing(&mut self, pick: impl Fn(&Field) -> bool) -> TokenStream {
+    fn zeroing(&mut self, pick: impl Fn(&Area) -> bool) -> TokenStream {
         let fields = self.storage.fields.clone();
         let mut out = TokenStream::new();
-        for field in fields.iter().filter(|field| pick(field)) {
+        for field in &fields {
             let (name, zero) = (&field.name, self.zero(field));
-            out.extend(quote!(self.#name = #zero;));
+            if field.parts.iter().all(&pick) {
+                out.extend(quote!(self.#name = #zero;));
+                continue;
+            }
+            for part in field.parts.iter().filter(|part| pick(part)) {
+                let [first, end] = [part.first, part.first + part.count]
+                    .map(|number| number_literal(part.class, number));
+                let cell = Self::matched(field);
+                out.extend(quote!(for number in #first..#end { #cell = false; }));
+            }
         }
         out
     }
 
     fn clear(&mut self, latched: bool) -> TokenStream {
-        let statements = self.zeroing(|field| field.area.is_cleared(latched));
+        let statements = self.zeroing(|area| area.is_cleared(latched));
         let (name, doc) = if latched {
             (
                 format_ident!("clear_latched"),
@@ -417,8 +421,7 @@ impl Generator<'_> {
                 }
             }
         });
-        let kept = |field: &Field| field.area.latched || field.area.is_cleared(false);
-        let others = self.zeroing(|field| !kept(field));
+        let others = self.zeroing(|area| !area.latched && !area.is_cleared(false));
         let preset = (!self.preset().is_empty()).then(|| quote!(self.preset();));
         let contacts =
             (!self.module.model.keeps_contacts).then(|| self.each_timer_and_counter(&quote!(done)));
@@ -572,6 +575,17 @@ impl Generator<'_> {
         if !field.area.array {
             return quote!(self.#name);
         }
+        if let Some(grid) = field.columns() {
+            let columns = Literal::u32_unsuffixed(grid.columns);
+            let n = match field.area.first {
+                0 => quote!(number),
+                first => {
+                    let first = number_literal(field.area.class, first);
+                    quote!((number - #first))
+                }
+            };
+            return quote!(self.#name[(#n % #columns) as usize][(#n / #columns) as usize]);
+        }
         match (field.area.first, field.area.count) {
             (_, 1) => quote!(self.#name[0]),
             (0, _) => quote!(self.#name[number as usize]),
@@ -699,6 +713,19 @@ fn writer(
         match #key { #arms _ => return #absent }
         Some(())
     })
+}
+
+/// What an array has of each element: of a type the array's type, of a value its value.
+fn dimensions(field: &Field, element: TokenStream) -> TokenStream {
+    if let Some(grid) = field.columns() {
+        let [columns, rows] = [grid.columns, grid.rows()].map(Literal::u32_unsuffixed);
+        return quote!([[#element; #rows]; #columns]);
+    }
+    if !field.area.array {
+        return element;
+    }
+    let count = Literal::u32_unsuffixed(field.area.count);
+    quote!([#element; #count])
 }
 
 /// A device number as its class writes it.

@@ -147,6 +147,9 @@ impl Generator<'_> {
                 let body = self.body(body);
                 quote!(for _ in 0..#count { #body })
             }
+            Stmt::Repeat {
+                count, body, last, ..
+            } => self.rounds(*count, body, *last),
             Stmt::CallSub(n) => self.call_sub(*n),
             Stmt::Return => quote!(return;),
             Stmt::Parts(parts) => self.parts(parts),
@@ -174,6 +177,26 @@ impl Generator<'_> {
             Stmt::Clear { latched: false } => quote!(plc.clear_general();),
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
         }
+    }
+
+    /// A loop over rungs that the program repeats.
+    fn rounds(&mut self, count: u32, body: &[Stmt], last: u32) -> TokenStream {
+        let step = |n: u32| self.module.networks.get(n as usize).map_or(0, |n| n.step);
+        let first = body.iter().find_map(|stmt| match stmt {
+            Stmt::Network(n) => Some(step(*n)),
+            _ => None,
+        });
+        let (first, last) = (first.unwrap_or(self.step), step(last));
+        let text = format!(
+            "steps {first} to {last}: {count} times the same rungs, each time with the next devices"
+        );
+        let comment = match self.with_comments {
+            true => self.comments.line(&text),
+            false => TokenStream::new(),
+        };
+        let rounds = Literal::u32_unsuffixed(count);
+        let body = self.statements(body, 0..body.len());
+        quote!(#comment for i in 0..#rounds { #body })
     }
 
     fn network(&mut self, n: u32) -> TokenStream {
@@ -254,6 +277,9 @@ impl Generator<'_> {
 
     fn write_bit(&mut self, place: Place, value: ExprId) -> TokenStream {
         let value = self.expr(value);
+        if let Some(cell) = self.cell_of_round(place) {
+            return quote!(#cell = #value;);
+        }
         if place.index.is_some() {
             let (class, number) = self.indexed(place);
             return quote!(plc.set_bit_at(#class, #number, #value););

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use rungc_ir::layout::{Area, Layout};
+use rungc_ir::layout::{Area, Grid, Layout};
 use rungc_ir::runs::FIRST_COUNTER32;
 use rungc_syntax::DeviceClass;
 
@@ -53,6 +53,10 @@ pub struct Field {
     pub area: Area,
     /// What each of them is.
     pub elem: Elem,
+    /// How the array is divided into columns, if a loop over rungs goes through it.
+    pub grid: Option<Grid>,
+    /// The parts of the area that are kept in the same cases; more than one only if it has columns.
+    pub parts: Vec<Area>,
 }
 
 impl Field {
@@ -67,6 +71,29 @@ impl Field {
             name: Ident::new(&name, Span::call_site()),
             elem: Elem::of(area.class, area.first),
             area,
+            grid: None,
+            parts: vec![area],
+        }
+    }
+
+    /// The grid, if it has more than one column.
+    pub fn columns(&self) -> Option<Grid> {
+        self.grid.filter(|grid| grid.columns > 1)
+    }
+
+    /// An array of columns.
+    fn of_grid(grid: Grid, parts: Vec<Area>) -> Self {
+        let area = Area {
+            class: grid.class,
+            first: grid.first,
+            count: grid.count,
+            array: true,
+            latched: parts.iter().all(|part| part.latched),
+        };
+        Field {
+            grid: Some(grid),
+            parts,
+            ..Field::new(area)
         }
     }
 
@@ -88,6 +115,16 @@ impl Storage {
     pub fn new(layout: &Layout) -> Self {
         let mut fields = Vec::new();
         for area in &layout.areas {
+            if let Some(grid) = layout.grid(area.class, area.first) {
+                if area.first == grid.first {
+                    let inside = |a: &&Area| {
+                        a.class == grid.class && a.first >= grid.first && a.first < grid.end()
+                    };
+                    let parts = layout.areas.iter().filter(inside).copied().collect();
+                    fields.push(Field::of_grid(*grid, parts));
+                }
+                continue;
+            }
             if !area.array {
                 fields.extend((0..area.count).map(|i| {
                     Field::new(Area {
@@ -133,12 +170,42 @@ impl Storage {
     pub fn cell(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
         let field = self.find(class, number)?;
         let name = &field.name;
+        if let Some(grid) = field.columns() {
+            let (column, row) = grid.place(number);
+            let [column, row] = [column, row].map(Literal::u32_unsuffixed);
+            return Some(quote!(#plc.#name[#column][#row]));
+        }
         Some(if field.area.array {
             let i = Literal::u32_unsuffixed(number - field.area.first);
             quote!(#plc.#name[#i])
         } else {
             quote!(#plc.#name)
         })
+    }
+
+    /// The place of a device of a loop's present round, whose number is in `variable`.
+    pub fn cell_of_round(
+        &self,
+        (class, number): (DeviceClass, u32),
+        by: u32,
+        variable: &Ident,
+    ) -> Option<TokenStream> {
+        let field = self.find(class, number)?;
+        let grid = field.grid.filter(|grid| grid.columns == by)?;
+        let name = &field.name;
+        let (column, row) = grid.place(number);
+        let column = field.columns().map(|_| {
+            let column = Literal::u32_unsuffixed(column);
+            quote!([#column])
+        });
+        let row = match row {
+            0 => quote!(#variable),
+            row => {
+                let row = Literal::u32_unsuffixed(row);
+                quote!(#row + #variable)
+            }
+        };
+        Some(quote!(plc.#name #column [#row]))
     }
 
     /// Where its state as a bit is.

@@ -5,3 +5,4 @@
 pub mod operands;
 pub mod random;
 pub mod rng;
+pub mod stations;

@@ -5,6 +5,7 @@
 use rungc_golden::operands::candidates;
 use rungc_golden::random::program;
 use rungc_golden::rng::Rng;
+use rungc_golden::stations;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
 use rungc_rt::Class;
@@ -56,7 +57,10 @@ fn samples(seed: u64, count: u64) -> Vec<Sample> {
         // All of a program follows from its seed, so that one program can be run again alone.
         let seed = seed.wrapping_add(i);
         let (model, pool) = &pools[(seed % pools.len() as u64) as usize];
-        let text = program(seed, *model, pool, 8 + (seed % 20) as u32);
+        let text = match seed % 9 {
+            0 => stations::program(seed),
+            _ => program(seed, *model, pool, 8 + (seed % 20) as u32),
+        };
         let modules = compiled(&text, seed, *model, true)
             .and_then(|optimised| Ok((optimised, compiled(&text, seed, *model, false)?)));
         match modules {

@@ -53,6 +53,12 @@ fn traffic_light() {
     check("traffic_light", ModelId::Fx3u);
 }
 
+/// Rungs that are repeated become a loop.
+#[test]
+fn clamps() {
+    check("clamps", ModelId::Fx3u);
+}
+
 #[test]
 fn conveyor() {
     check("conveyor", ModelId::H2u);

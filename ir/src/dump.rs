@@ -26,6 +26,13 @@ pub fn dump(module: &Module) -> String {
     for area in &module.layout.areas {
         out.line(&format!("store {}", area_text(area)));
     }
+    for grid in &module.layout.grids {
+        let first = grid.class.number(grid.first);
+        out.line(&format!(
+            "{first}[{}] in {} columns",
+            grid.count, grid.columns
+        ));
+    }
     for &(number, value) in &module.initial_words {
         out.line(&format!("D{number} begins as {value}"));
     }
@@ -118,6 +125,9 @@ impl Out<'_> {
                 }
             }
             Stmt::For { count, body } => self.block(&format!("for {}", self.expr(*count)), body),
+            Stmt::Repeat {
+                count, round, body, ..
+            } => self.block(&format!("repeat {count} times: t{}", round.0), body),
             Stmt::Parts(parts) => {
                 self.line("parts {");
                 self.indent += 1;
@@ -218,7 +228,11 @@ impl Out<'_> {
             Stmt::Stop => "stop".into(),
             Stmt::Clear { latched: true } => "clear latched".into(),
             Stmt::Clear { latched: false } => "clear general".into(),
-            Stmt::Network(_) | Stmt::If { .. } | Stmt::For { .. } | Stmt::Parts(_) => String::new(),
+            Stmt::Network(_)
+            | Stmt::If { .. }
+            | Stmt::For { .. }
+            | Stmt::Repeat { .. }
+            | Stmt::Parts(_) => String::new(),
         }
     }
 
@@ -333,6 +347,7 @@ impl Out<'_> {
                 format!("K{digits}{}{wide}", self.place(place))
             }
             Expr::Cell(cell) => self.cell(*cell),
+            Expr::Stride(round, by) => format!("{by} * t{}", round.0),
             Expr::Entry(table, index) => format!("{}[{}]", self.table(*table), self.expr(*index)),
             Expr::Flag(flag) => self.flag(*flag),
             Expr::Sys(SysValue::Running) => "running".into(),

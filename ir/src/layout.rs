@@ -35,14 +35,56 @@ impl Area {
     }
 }
 
+/// Bits that a [`Stmt::Repeat`] goes through: an array of columns, each of which has every so manieth device. The devices lie in areas
+/// that are arrays.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Grid {
+    /// Class.
+    pub class: DeviceClass,
+    /// First number.
+    pub first: u32,
+    /// How many; need not be a multiple of the columns.
+    pub count: u32,
+    /// How many columns: how far the devices of a column are apart. At least 1.
+    pub columns: u32,
+}
+
+impl Grid {
+    /// In which column a device is, and where in that.
+    pub fn place(&self, number: u32) -> (u32, u32) {
+        let n = number.wrapping_sub(self.first);
+        (n % self.columns, n / self.columns)
+    }
+
+    /// Length of a column.
+    pub fn rows(&self) -> u32 {
+        self.count.div_ceil(self.columns)
+    }
+
+    /// One past the last number.
+    pub fn end(&self) -> u32 {
+        self.first + self.count
+    }
+}
+
 /// All stored devices, sorted by class and number, disjoint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layout {
     /// The areas.
     pub areas: Vec<Area>,
+    /// Arrays of several columns, sorted and disjoint likewise.
+    pub grids: Vec<Grid>,
 }
 
 impl Layout {
+    /// The array of columns that holds a device.
+    pub fn grid(&self, class: DeviceClass, number: u32) -> Option<&Grid> {
+        let after = |g: &Grid| (g.class, g.first) <= (class, number);
+        let i = self.grids.partition_point(after).checked_sub(1)?;
+        let grid = self.grids.get(i)?;
+        (grid.class == class && number < grid.end()).then_some(grid)
+    }
+
     /// The area that holds a device.
     pub fn area(&self, class: DeviceClass, number: u32) -> Option<&Area> {
         let i = self
@@ -220,7 +262,7 @@ impl<'m> Builder<'m> {
                 self.body(then);
                 self.body(otherwise);
             }
-            Stmt::For { body, .. } => self.body(body),
+            Stmt::For { body, .. } | Stmt::Repeat { body, .. } => self.body(body),
             Stmt::Parts(parts) => parts.iter().for_each(|part| self.body(&part.body)),
             Stmt::Call {
                 function,
@@ -293,6 +335,9 @@ impl<'m> Builder<'m> {
             }
         }
         areas.sort_by_key(|area| (area.class, area.first));
-        Layout { areas }
+        Layout {
+            areas,
+            grids: Vec::new(),
+        }
     }
 }

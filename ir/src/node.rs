@@ -92,7 +92,8 @@ pub struct Place {
     pub class: DeviceClass,
     /// Number without the index.
     pub number: u32,
-    /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold. Where such an
+    /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold; that of an
+    /// [`Expr::Stride`] does. Where an indexed
     /// access meets a device that the model has but the layout does not store, it reads 0 and a write goes nowhere. An indexed
     /// access of a word of C200 and up reads the low word, and writes the sign-extended word.
     pub index: Option<ExprId>,
@@ -211,6 +212,8 @@ pub enum Expr {
     Cell(CellId),
     /// `I32`: entry of a table. The index, an `I32`, must be known to be at least 0 and less than the table's length.
     Entry(TableId, ExprId),
+    /// `I32`: the number of a round of the [`Stmt::Repeat`] around, times so much (at least 1). Stands as the index of a place only.
+    Stride(TempId, u32),
     /// Not, of a `Bit`.
     Not(ExprId),
     /// And, of two `Bit`s; both are evaluated (they have no effects).
@@ -402,6 +405,19 @@ pub enum Stmt {
         count: ExprId,
         /// What.
         body: Body,
+    },
+    /// Executes the body `count` times, for rungs that the program repeats with other devices. `round` (`I32`) is 0, 1, 2 …, and leads to the
+    /// devices of each round ([`Expr::Stride`]), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
+    /// apart. The body has neither loops nor jumps.
+    Repeat {
+        /// How often, at least 2.
+        count: u32,
+        /// Number of the round.
+        round: TempId,
+        /// What.
+        body: Body,
+        /// The last round's last network, for a comment.
+        last: u32,
     },
     /// Calls [`Module::functions`]`[n]`.
     CallSub(u32),
@@ -652,9 +668,12 @@ pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         | Expr::Narrow(_)
         | Expr::HighWord(_)
         | Expr::BitToInt(_) => Ty::I16,
-        Expr::I32(_) | Expr::ReadPair(_) | Expr::Widen(_) | Expr::Cell(_) | Expr::Entry(..) => {
-            Ty::I32
-        }
+        Expr::I32(_)
+        | Expr::ReadPair(_)
+        | Expr::Widen(_)
+        | Expr::Cell(_)
+        | Expr::Stride(..)
+        | Expr::Entry(..) => Ty::I32,
         Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
         Expr::Temp(temp) => temps[temp.0 as usize],
         Expr::ReadNibbles { wide, .. } => {

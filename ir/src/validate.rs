@@ -59,6 +59,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::ReadWordBit(_, bit) => bit < 16,
         Expr::InRange { count, .. } => count > 0,
         Expr::Cell(cell) => (cell.0 as usize) < module.cells.len(),
+        Expr::Stride(round, by) => by > 0 && module.temps.get(round.0 as usize) == Some(&Ty::I32),
         Expr::Entry(table, index) => {
             (table.0 as usize) < module.tables.len() && ty(index) == Ty::I32
         }
@@ -169,6 +170,13 @@ impl Checker<'_> {
                 self.body(body)?;
                 Ok(true)
             }
+            Stmt::Repeat { round, body, .. } => {
+                let begin = self.log.len();
+                self.assign(*round);
+                self.body(body)?;
+                self.forget(begin);
+                Ok(true)
+            }
             Stmt::Parts(parts) => {
                 let outer = self.labels.len();
                 self.labels
@@ -243,7 +251,7 @@ impl Checker<'_> {
             return Some(format!("{id:?} does not exist"));
         };
         let here = match *expr {
-            Expr::Temp(temp) if !self.assigned[temp.0 as usize] => {
+            Expr::Temp(temp) | Expr::Stride(temp, _) if !self.assigned[temp.0 as usize] => {
                 Some(format!("{temp:?} is not assigned on every path"))
             }
             Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
@@ -258,8 +266,11 @@ impl Checker<'_> {
 
     /// The first of `count` devices from a place on that the model has and the layout lacks.
     fn unstored(&self, place: Place, count: u32) -> Option<String> {
-        if place.index.is_some() {
-            return None;
+        if let Some(index) = place.index {
+            return match *self.module.expr(index) {
+                Expr::Stride(_, by) => self.no_column(place, by),
+                _ => None,
+            };
         }
         (place.number..place.number + count)
             .find(|&number| {
@@ -267,6 +278,14 @@ impl Checker<'_> {
                     && self.module.layout.area(place.class, number).is_none()
             })
             .map(|number| format!("{} is not stored", place.class.number(number)))
+    }
+
+    /// The device of a loop's rounds, if it lies in no grid that they go through.
+    fn no_column(&self, place: Place, by: u32) -> Option<String> {
+        let grid = self.module.layout.grid(place.class, place.number);
+        let name = place.class.number(place.number);
+        grid.is_none_or(|grid| grid.columns != by)
+            .then(|| format!("{name} lies in no grid of {by} columns"))
     }
 
     fn unstored_pair(&self, place: Place) -> Option<String> {
@@ -327,6 +346,7 @@ impl Checker<'_> {
             Stmt::Reset(place) => (true, self.unstored(place, 1)),
             Stmt::If { cond, .. } => (is(cond, Ty::Bit), None),
             Stmt::For { count, .. } => (is(count, Ty::I16), None),
+            Stmt::Repeat { count, round, .. } => (count > 1 && temp_is(round, Ty::I32), None),
             Stmt::Call {
                 ref args,
                 drive,

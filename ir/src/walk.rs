@@ -42,6 +42,7 @@ fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
         | Expr::Temp(_)
         | Expr::Sys(_)
         | Expr::Flag(_)
+        | Expr::Stride(..)
         | Expr::Cell(_) => [None, None],
     }
 }
@@ -96,6 +97,7 @@ macro_rules! for_exprs {
                     drive.$iter().for_each(f);
                 }
                 Stmt::Network(_)
+                | Stmt::Repeat { .. }
                 | Stmt::CallSub(_)
                 | Stmt::Return
                 | Stmt::TimerGoesOn { .. }
@@ -124,7 +126,7 @@ pub fn bodies(stmt: &Stmt) -> impl Iterator<Item = &Body> {
         Stmt::If {
             then, otherwise, ..
         } => ([Some(then), Some(otherwise)], &[]),
-        Stmt::For { body, .. } => ([Some(body), None], &[]),
+        Stmt::For { body, .. } | Stmt::Repeat { body, .. } => ([Some(body), None], &[]),
         Stmt::Parts(parts) => ([None, None], parts),
         _ => ([None, None], &[]),
     };

@@ -214,3 +214,79 @@ fn functions_do_not_recurse() {
     assert!(with(|_| Stmt::CallSub(1)).is_err_and(|e| e.contains("circle")));
     assert!(with(|_| Stmt::CallSub(9)).is_err_and(|e| e.contains("does not exist")));
 }
+
+/// A row of stations, five rungs each, and what stands behind it.
+fn stations(count: u32, rungs: impl Fn(u32) -> String, behind: &str) -> String {
+    let row: String = (0..count).map(rungs).collect();
+    main_of(&format!("{row}{behind}END\n"))
+}
+
+/// Rungs of one station.
+fn station(n: u32) -> String {
+    let (own, x) = (100 + 10 * n, 2 * n);
+    (0..5)
+        .map(|j| {
+            format!(
+                "LD X{x:03o}\nANI M{}\nOR M{own}\nAND M1\nOUT M{}\n",
+                own + j,
+                own + j
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn repeated_rungs_become_a_loop() {
+    let main = stations(12, station, "");
+    assert!(main.starts_with("repeat 12 times: t0 {\n"), "{main}");
+    let first =
+        "M[100 + 10 * t0] := (((X[0o0 + 2 * t0] & !M[100 + 10 * t0]) | M[100 + 10 * t0]) & M1)";
+    assert!(main.contains(first), "{main}");
+    assert_eq!(main.lines().count(), 7, "{main}");
+}
+
+#[test]
+fn few_rounds_stay_as_written() {
+    let main = stations(3, station, "");
+    assert!(!main.contains("repeat"), "{main}");
+}
+
+#[test]
+fn a_round_that_differs_ends_the_loop() {
+    let odd = |n: u32| match n {
+        12 => station(n).replace("AND M1", "ANI M1"),
+        _ => station(n),
+    };
+    let main = stations(20, odd, "");
+    assert!(main.starts_with("repeat 12 times"), "{main}");
+    assert!(main.contains("M220 := "), "{main}");
+}
+
+#[test]
+fn devices_needed_in_a_row_are_no_loop() {
+    for behind in [
+        "LD X0\nMOV K1M0Z0 D0\n",
+        "LD X0\nBMOV K1M100 K1M200 K2\n",
+    ] {
+        let main = stations(12, station, behind);
+        assert!(!main.contains("repeat"), "{main}");
+    }
+    // Only the first stations are needed so.
+    let main = stations(12, station, "LD X0\nMOV K2M104 D0\n");
+    assert!(main.contains("repeat 10 times"), "{main}");
+    // A single relay of the row may be named in any way.
+    let main = stations(12, station, "LD X0\nBON D0 M104 K3\nRST M113\n");
+    assert!(main.contains("repeat"), "{main}");
+}
+
+#[test]
+fn rows_go_on_over_the_border_of_latched_relays() {
+    let far = |n: u32| station(n + 30);
+    let text: String = (0..16).map(far).collect();
+    let module = module(&format!("{text}END\n"), true);
+    let text = dump(&module);
+    assert!(text.contains("repeat 16 times"), "{text}");
+    assert!(text.contains("store M400[100]\n"), "{text}");
+    assert!(text.contains("store M500[55] latched\n"), "{text}");
+    assert!(text.contains("M400[155] in 10 columns\n"), "{text}");
+}

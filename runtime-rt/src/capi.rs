@@ -50,6 +50,9 @@ pub struct Area {
     pub first: u32,
     /// How many.
     pub count: u32,
+    /// How many numbers it is from a device to the next one in memory: 1, or more in an array of so many columns, each as long as the
+    /// longest has to be.
+    pub columns: u32,
     /// Where they begin in the struct, in bytes.
     pub offset: usize,
 }
@@ -207,7 +210,9 @@ impl Map {
                 Kind::Counters16 => size_of::<Counter16>(),
                 Kind::Counters32 => size_of::<Counter32>(),
             };
-            let offset = area.offset + (number - area.first) as usize * size;
+            let (n, columns) = (number - area.first, area.columns.max(1));
+            let place = n % columns * area.count.div_ceil(columns) + n / columns;
+            let offset = area.offset + place as usize * size;
             // SAFETY: an area's elements lie inside the program's struct, which `plc` points to.
             return Found::At(area.kind, unsafe { self.plc.cast::<u8>().add(offset) });
         }

@@ -66,6 +66,9 @@ impl<'m> Machine<'m> {
                 }
             }
             Expr::Cell(cell) => Value::I32(self.cells[cell.0 as usize]),
+            Expr::Stride(round, by) => {
+                Value::I32(int(self.temps[round.0 as usize]).wrapping_mul(by as i32))
+            }
             Expr::Entry(table, index) => {
                 let index = int(self.eval(index));
                 Value::I32(self.tables[table.0 as usize][index as usize])
@@ -216,6 +219,17 @@ impl<'m> Machine<'m> {
                     if !self.spend() {
                         return Flow::OutOfTime;
                     }
+                    let flow = self.run(body, hal);
+                    if flow != Flow::Next {
+                        return flow;
+                    }
+                }
+            }
+            Stmt::Repeat {
+                count, round, body, ..
+            } => {
+                for n in 0..*count {
+                    self.temps[round.0 as usize] = Value::I32(n as i32);
                     let flow = self.run(body, hal);
                     if flow != Flow::Next {
                         return flow;

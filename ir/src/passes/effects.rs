@@ -119,6 +119,7 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         | Stmt::Count { number, .. } => Writes::Run(DeviceClass::C, number, number),
         Stmt::If { .. }
         | Stmt::For { .. }
+        | Stmt::Repeat { .. }
         | Stmt::Parts(_)
         | Stmt::Call { .. }
         | Stmt::CallSub(_)

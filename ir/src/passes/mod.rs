@@ -1,11 +1,12 @@
 //! Passes over a module. None changes what a scan does to any device.
 //!
 //! [`optimise`] rewrites the module twice: the first round leaves conditions with fewer uses, which the second puts where they are
-//! used, so that emitted code reads as one would write it by hand.
+//! used, so that emitted code reads as one would write it by hand. In the end rungs that are repeated with other devices become loops.
 
 mod effects;
 mod fold;
 mod inline;
+mod repeat;
 mod rewrite;
 
 use crate::node::Module;
@@ -13,8 +14,8 @@ use crate::node::Module;
 /// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins neighbouring branches
 /// with one condition, and removes code that cannot be reached or whose results nothing uses.
 pub fn optimise(module: &mut Module) {
-    for _ in 0..2 {
-        rewrite::run(module);
+    for pass in [rewrite::run, rewrite::run, repeat::run] {
+        pass(module);
         debug_assert_eq!(crate::validate::validate(module), Ok(()));
     }
 }

@@ -115,6 +115,23 @@ impl Rewriter<'_> {
                 self.temps.set_available(Vec::new());
                 out.push(Stmt::For { count, body });
             }
+            Stmt::Repeat {
+                count,
+                round,
+                body,
+                last,
+            } => {
+                self.settle(out);
+                self.temps.set_available(Vec::new());
+                let body = self.body(body);
+                self.temps.set_available(Vec::new());
+                out.push(Stmt::Repeat {
+                    count,
+                    round,
+                    body,
+                    last,
+                });
+            }
             Stmt::Parts(parts) => {
                 self.settle(out);
                 self.parts(parts, out);

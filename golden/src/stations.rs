@@ -1,0 +1,104 @@
+//! Random programs of equal stations: the same rungs again and again, with other devices.
+
+use crate::rng::Rng;
+
+/// What all stations of a row have in common.
+struct Row {
+    rungs: Vec<Rung>,
+    /// Relay of the first station from which the others count, and how far the stations are apart.
+    base: u32,
+    apart: u32,
+    stations: u32,
+}
+
+/// Contacts and coils, each a verb and what it names.
+struct Rung(Vec<(&'static str, Named)>);
+
+/// What a station names.
+#[derive(Clone, Copy)]
+enum Named {
+    /// An input or output, and how far that of the next station is.
+    Terminal(char, u32, u32),
+    /// A relay of its own, of the one before or of the next one.
+    Own(u32),
+    /// A relay of all.
+    Shared(u32),
+}
+
+/// A program of a few rows of stations, with some rungs between them.
+pub fn program(seed: u64) -> String {
+    let mut rng = Rng::new(seed);
+    let mut lines = Vec::new();
+    for _ in 0..1 + rng.below(3) {
+        let row = Row::new(&mut rng);
+        row.write(&mut lines);
+        lines.push(format!("LD X{:03o}", rng.below(16)));
+        lines.push(format!(
+            "OUT M{}",
+            row.base + rng.below(row.apart * row.stations)
+        ));
+    }
+    lines.push("END".into());
+    lines.join("\n") + "\n"
+}
+
+impl Row {
+    fn new(rng: &mut Rng) -> Row {
+        let apart = 2 + rng.below(10);
+        let base = rng.pick(&[20, 100, 450, 490, 700]).unwrap_or(20) + rng.below(10);
+        let rungs = (0..1 + rng.below(5))
+            .map(|_| Rung::new(rng, apart))
+            .collect();
+        Row {
+            rungs,
+            base,
+            apart,
+            stations: 2 + rng.below(40),
+        }
+    }
+
+    fn write(&self, lines: &mut Vec<String>) {
+        for station in 0..self.stations {
+            let own = self.base + self.apart * station;
+            for (verb, named) in self.rungs.iter().flat_map(|rung| &rung.0) {
+                lines.push(match *named {
+                    // Rows are longer than terminals last, and begin anew.
+                    Named::Terminal(class, number, apart) => {
+                        format!("{verb} {class}{:03o}", (number + apart * station) % 40)
+                    }
+                    Named::Own(number) => format!("{verb} M{}", own + number - self.apart),
+                    Named::Shared(number) => format!("{verb} M{number}"),
+                });
+            }
+        }
+    }
+}
+
+impl Rung {
+    fn new(rng: &mut Rng, apart: u32) -> Rung {
+        let named = |rng: &mut Rng| match rng.below(10) {
+            0..=2 => Named::Terminal('X', rng.below(8), 1 + rng.below(4)),
+            3 => Named::Terminal('Y', rng.below(8), 2),
+            4 => Named::Shared(rng.below(10)),
+            5 => Named::Own(rng.below(3 * apart)),
+            _ => Named::Own(apart + rng.below(apart)),
+        };
+        let verbs: &[&str] = &["AND", "ANI", "OR", "ORI"];
+        let mut parts = vec![(rng.pick(&["LD", "LDI"]).unwrap_or("LD"), named(rng))];
+        for _ in 0..1 + rng.below(5) {
+            parts.push((rng.pick(verbs).unwrap_or("AND"), named(rng)));
+        }
+        for _ in 0..1 + rng.below(2) {
+            let verb = rng
+                .pick(&["OUT", "OUT", "OUT", "SET", "RST"])
+                .unwrap_or("OUT");
+            let target = match rng.below(8) {
+                0 => Named::Terminal('Y', rng.below(8), 2),
+                1 => Named::Shared(10 + rng.below(5)),
+                _ => Named::Own(apart + rng.below(apart)),
+            };
+            parts.push((verb, target));
+        }
+        Rung(parts)
+    }
+}

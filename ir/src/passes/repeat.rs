@@ -1,0 +1,535 @@
+//! Machines are built of equal stations, and their programs repeat the same rungs with other devices. This pass finds such rungs, where
+//! each device is as far from the one before as in the round before, and makes a loop of them ([`Stmt::Repeat`]) that C and Rust
+//! compilers vectorise. The rounds run in the program's order, so nothing has to be proved but that they are alike.
+
+use crate::layout::{Area, Grid, Layout};
+use crate::model::Model;
+use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
+use crate::runs::is_special;
+use crate::walk::{bodies, for_exprs, operands};
+use rungc_syntax::DeviceClass;
+use std::collections::HashMap;
+use std::collections::hash_map::DefaultHasher;
+use std::hash::{Hash, Hasher};
+
+/// Fewer rounds stay as they are written.
+const LEAST_ROUNDS: usize = 4;
+/// How many operations a loop has to save: below, a program is easier to read with each device by its name.
+const LEAST_SAVED: u64 = 200;
+/// How many statements a round may have.
+const LONGEST_ROUND: usize = 100;
+
+/// How many operations a statement of a round may be.
+const LARGEST_STATEMENT: u64 = 500;
+
+/// Makes loops of repeated rungs.
+pub(super) fn run(module: &mut Module) {
+    for n in 0..module.functions.len() {
+        let body = std::mem::take(&mut module.functions[n].body);
+        module.functions[n].body = roll(module, body);
+    }
+}
+
+fn roll(module: &mut Module, body: Body) -> Body {
+    let shapes: Vec<Option<Shape>> = body.iter().map(|stmt| shape(module, stmt)).collect();
+    let spans = spans(module, &body);
+    let mut out = Body::with_capacity(body.len());
+    let mut at = 0;
+    while at < body.len() {
+        let found = Group::find(module, &body, &shapes, at)
+            .filter(|group| group.keeps_to_itself(&body, &spans))
+            .filter(|group| group.store(module));
+        match found {
+            Some(group) => {
+                out.push(group.repeat(module, &body));
+                at += group.length * group.rounds;
+            }
+            None => {
+                out.push(body[at].clone());
+                at += 1;
+            }
+        }
+    }
+    out
+}
+
+/// What statements have in common that differ in their devices only.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Shape {
+    hash: u64,
+    /// How many operations they are.
+    size: u64,
+}
+
+/// The shape of a statement that a loop may have; `None` for any other.
+fn shape(module: &Module, stmt: &Stmt) -> Option<Shape> {
+    let mut hasher = DefaultHasher::new();
+    let mut size = 0;
+    add_stmt(module, stmt, &mut hasher, &mut size)?;
+    Some(Shape {
+        hash: hasher.finish(),
+        size,
+    })
+}
+
+fn add_stmt(
+    module: &Module,
+    stmt: &Stmt,
+    hasher: &mut DefaultHasher,
+    size: &mut u64,
+) -> Option<()> {
+    std::mem::discriminant(stmt).hash(hasher);
+    *size += 1;
+    match stmt {
+        Stmt::Network(_) => *size -= 1,
+        Stmt::Let(_, value) => add_expr(module, *value, hasher, size)?,
+        Stmt::WriteBit(place, value) => {
+            add_place(*place, hasher)?;
+            add_expr(module, *value, hasher, size)?;
+        }
+        Stmt::If {
+            cond,
+            then,
+            otherwise,
+        } => {
+            add_expr(module, *cond, hasher, size)?;
+            for body in [then, otherwise] {
+                body.len().hash(hasher);
+                for stmt in body {
+                    add_stmt(module, stmt, hasher, size)?;
+                }
+            }
+        }
+        _ => return None,
+    }
+    Some(())
+}
+
+fn add_expr(module: &Module, id: ExprId, hasher: &mut DefaultHasher, size: &mut u64) -> Option<()> {
+    let expr = module.expr(id);
+    std::mem::discriminant(expr).hash(hasher);
+    *size += 1;
+    if *size > LARGEST_STATEMENT {
+        return None;
+    }
+    match expr {
+        Expr::ReadBit(place) => add_place(*place, hasher),
+        Expr::Temp(temp) => (module.temps.get(temp.0 as usize) == Some(&Ty::Bit)).then_some(()),
+        Expr::Bit(_)
+        | Expr::Sys(_)
+        | Expr::Flag(_)
+        | Expr::Not(_)
+        | Expr::And(..)
+        | Expr::Or(..) => {
+            operands(expr).try_for_each(|operand| add_expr(module, operand, hasher, size))
+        }
+        _ => None,
+    }
+}
+
+fn add_place(place: Place, hasher: &mut DefaultHasher) -> Option<()> {
+    use DeviceClass::{M, S, X, Y};
+    place.class.hash(hasher);
+    (place.index.is_none() && matches!(place.class, X | Y | M | S)).then_some(())
+}
+
+/// From which statement of a body to which each temporary is used.
+fn spans(module: &Module, body: &Body) -> Vec<Option<(usize, usize)>> {
+    let mut spans = vec![None; module.temps.len()];
+    for (at, stmt) in body.iter().enumerate() {
+        let mut note = |temp: TempId| {
+            let span = spans[temp.0 as usize].get_or_insert((at, at));
+            span.1 = at;
+        };
+        each_temp(module, stmt, &mut note);
+    }
+    spans
+}
+
+fn each_temp(module: &Module, stmt: &Stmt, note: &mut impl FnMut(TempId)) {
+    if let Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } = stmt {
+        note(*temp);
+    }
+    let mut open = Vec::new();
+    for_exprs(stmt, &mut |id| open.push(*id));
+    while let Some(id) = open.pop() {
+        if let Expr::Temp(temp) = module.expr(id) {
+            note(*temp);
+        }
+        open.extend(operands(module.expr(id)));
+    }
+    for body in bodies(stmt) {
+        for stmt in body {
+            each_temp(module, stmt, note);
+        }
+    }
+}
+
+/// Rungs that are repeated.
+struct Group {
+    /// First statement.
+    first: usize,
+    /// Statements of a round.
+    length: usize,
+    rounds: usize,
+    /// The devices of the first round, in the order in which it names them, and how far from each that of the next round is.
+    devices: Vec<(DeviceClass, u32, u32)>,
+}
+
+impl Group {
+    /// The group that begins with a network and saves the most.
+    fn find(module: &Module, body: &Body, shapes: &[Option<Shape>], first: usize) -> Option<Group> {
+        if !matches!(body[first], Stmt::Network(_)) {
+            return None;
+        }
+        let rest = shapes[first..]
+            .iter()
+            .take_while(|shape| shape.is_some())
+            .count();
+        let longest = LONGEST_ROUND.min(rest / LEAST_ROUNDS);
+        let mut best: Option<(u64, Group)> = None;
+        for length in 1..=longest {
+            if !matches!(body[first + length], Stmt::Network(_)) {
+                continue;
+            }
+            let (one, two) = (first + length, first + 2 * length);
+            if shapes[first..one] != shapes[one..two] {
+                continue;
+            }
+            let size: u64 = shapes[first..one].iter().flatten().map(|s| s.size).sum();
+            let Some(group) = Group::of_length(module, body, shapes, (first, length)) else {
+                continue;
+            };
+            let saved = (group.rounds as u64 - 1) * size;
+            let enough = group.rounds >= LEAST_ROUNDS && saved >= LEAST_SAVED;
+            if enough && best.as_ref().is_none_or(|(most, _)| saved > *most) {
+                best = Some((saved, group));
+            }
+        }
+        best.map(|(_, group)| group)
+    }
+
+    /// As many rounds of this length as are alike.
+    fn of_length(
+        module: &Module,
+        body: &Body,
+        shapes: &[Option<Shape>],
+        (first, length): (usize, usize),
+    ) -> Option<Group> {
+        let round = |n: usize| first + n * length..first + (n + 1) * length;
+        let devices_of = |n| Pair::of(module, &body[round(0)], body.get(round(n))?);
+        let devices: Vec<_> = devices_of(1)?
+            .into_iter()
+            .map(|(class, number, next)| Some((class, number, next.checked_sub(number)?)))
+            .collect::<Option<_>>()?;
+        let is_next = |n: usize| {
+            let same = shapes.get(round(n)) == Some(&shapes[round(0)]);
+            let found = same.then(|| devices_of(n)).flatten();
+            found.is_some_and(|found| {
+                let expected = devices
+                    .iter()
+                    .map(|&(class, number, by)| (class, number, number + n as u32 * by));
+                found.into_iter().eq(expected)
+            })
+        };
+        let most = |&(class, number, by): &(DeviceClass, u32, u32)| {
+            last_alike(module.model, class, number).map_or(0, |last| (last - number) / by + 1)
+        };
+        let moving = devices.iter().filter(|device| device.2 > 0);
+        let most = moving.map(most).min().unwrap_or(0) as usize;
+        let rounds = (2..most).take_while(|&n| is_next(n)).count() + 2;
+        (rounds <= most).then_some(Group {
+            first,
+            length,
+            rounds,
+            devices,
+        })
+    }
+
+    /// Whether what a round gives to temporaries is used in that round only.
+    fn keeps_to_itself(&self, body: &Body, spans: &[Option<(usize, usize)>]) -> bool {
+        (0..self.rounds).all(|n| {
+            let first = self.first + n * self.length;
+            let round = first..first + self.length;
+            let mut inside = true;
+            for stmt in &body[round.clone()] {
+                each_let(stmt, &mut |temp| {
+                    let span = spans.get(temp.0 as usize).copied().flatten();
+                    inside &=
+                        span.is_none_or(|(from, to)| round.contains(&from) && round.contains(&to));
+                });
+            }
+            inside
+        })
+    }
+
+    /// Makes the areas that the rounds go through; false if the devices are needed otherwise.
+    fn store(&self, module: &mut Module) -> bool {
+        let mut layout = module.layout.clone();
+        let reached = self.rounds as u32 - 1;
+        let stored =
+            self.devices
+                .iter()
+                .filter(|device| device.2 > 0)
+                .all(|&(class, number, by)| {
+                    spread(
+                        &mut layout,
+                        module.model,
+                        (class, number, number + reached * by),
+                        by,
+                    )
+                });
+        if stored {
+            module.layout = layout;
+        }
+        stored
+    }
+
+    /// The loop.
+    fn repeat(&self, module: &mut Module, body: &Body) -> Stmt {
+        let round = TempId(module.temps.len() as u32);
+        module.temps.push(Ty::I32);
+        let mut maker = Maker {
+            module,
+            round,
+            strides: self.devices.iter().map(|device| device.2),
+        };
+        let statements = &body[self.first..self.first + self.length];
+        let inner = statements.iter().map(|stmt| maker.stmt(stmt)).collect();
+        let last = self.first + (self.rounds - 1) * self.length;
+        let networks = body[last..last + self.length].iter().rev();
+        let last = networks.filter_map(|stmt| match stmt {
+            Stmt::Network(network) => Some(*network),
+            _ => None,
+        });
+        Stmt::Repeat {
+            count: self.rounds as u32,
+            round,
+            body: inner,
+            last: last.into_iter().next().unwrap_or_default(),
+        }
+    }
+}
+
+fn each_let(stmt: &Stmt, f: &mut impl FnMut(TempId)) {
+    if let Stmt::Let(temp, _) = stmt {
+        f(*temp);
+    }
+    bodies(stmt).flatten().for_each(|stmt| each_let(stmt, f));
+}
+
+/// Two rounds side by side.
+struct Pair<'m> {
+    module: &'m Module,
+    /// Temporaries of the first round, and what they are in the other.
+    temps: HashMap<TempId, TempId>,
+    /// Devices of both.
+    devices: Vec<(DeviceClass, u32, u32)>,
+}
+
+impl<'m> Pair<'m> {
+    /// The devices of two rounds in the order in which they name them; `None` if the rounds differ otherwise.
+    fn of(
+        module: &'m Module,
+        one: &[Stmt],
+        other: &[Stmt],
+    ) -> Option<Vec<(DeviceClass, u32, u32)>> {
+        let mut pair = Pair {
+            module,
+            temps: HashMap::new(),
+            devices: Vec::new(),
+        };
+        pair.body(one, other)?;
+        Some(pair.devices)
+    }
+
+    fn body(&mut self, one: &[Stmt], other: &[Stmt]) -> Option<()> {
+        if one.len() != other.len() {
+            return None;
+        }
+        let mut both = one.iter().zip(other);
+        both.try_for_each(|(one, other)| self.stmt(one, other))
+    }
+
+    fn stmt(&mut self, one: &Stmt, other: &Stmt) -> Option<()> {
+        match (one, other) {
+            (Stmt::Network(_), Stmt::Network(_)) => Some(()),
+            (&Stmt::Let(temp, value), &Stmt::Let(with, other)) => {
+                self.expr(value, other)?;
+                self.temps.insert(temp, with);
+                Some(())
+            }
+            (&Stmt::WriteBit(place, value), &Stmt::WriteBit(to, other)) => {
+                self.place(place, to)?;
+                self.expr(value, other)
+            }
+            (
+                Stmt::If {
+                    cond,
+                    then,
+                    otherwise,
+                },
+                Stmt::If {
+                    cond: other_cond,
+                    then: other_then,
+                    otherwise: other_otherwise,
+                },
+            ) => {
+                self.expr(*cond, *other_cond)?;
+                self.body(then, other_then)?;
+                self.body(otherwise, other_otherwise)
+            }
+            _ => None,
+        }
+    }
+
+    fn expr(&mut self, one: ExprId, other: ExprId) -> Option<()> {
+        match (*self.module.expr(one), *self.module.expr(other)) {
+            (Expr::ReadBit(place), Expr::ReadBit(with)) => self.place(place, with),
+            (Expr::Temp(temp), Expr::Temp(with)) => {
+                (self.temps.get(&temp).copied().unwrap_or(temp) == with).then_some(())
+            }
+            (Expr::Not(a), Expr::Not(b)) => self.expr(a, b),
+            (Expr::And(a, b), Expr::And(c, d)) | (Expr::Or(a, b), Expr::Or(c, d)) => {
+                self.expr(a, c)?;
+                self.expr(b, d)
+            }
+            (one, other) => (one == other).then_some(()),
+        }
+    }
+
+    fn place(&mut self, one: Place, other: Place) -> Option<()> {
+        let same = one.class == other.class && one.index.is_none() && other.index.is_none();
+        self.devices.push((one.class, one.number, other.number));
+        same.then_some(())
+    }
+}
+
+/// Makes the body of a loop of a first round.
+struct Maker<'m, S> {
+    module: &'m mut Module,
+    round: TempId,
+    /// How far the devices are from those of the next round, in the order in which the round names them.
+    strides: S,
+}
+
+impl<S: Iterator<Item = u32>> Maker<'_, S> {
+    fn body(&mut self, body: &Body) -> Body {
+        body.iter().map(|stmt| self.stmt(stmt)).collect()
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) -> Stmt {
+        match stmt {
+            Stmt::Let(temp, value) => Stmt::Let(*temp, self.expr(*value)),
+            Stmt::WriteBit(place, value) => {
+                let place = self.place(*place);
+                Stmt::WriteBit(place, self.expr(*value))
+            }
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => Stmt::If {
+                cond: self.expr(*cond),
+                then: self.body(then),
+                otherwise: self.body(otherwise),
+            },
+            other => other.clone(),
+        }
+    }
+
+    fn expr(&mut self, id: ExprId) -> ExprId {
+        let expr = match *self.module.expr(id) {
+            Expr::ReadBit(place) => Expr::ReadBit(self.place(place)),
+            Expr::Not(a) => Expr::Not(self.expr(a)),
+            Expr::And(a, b) => Expr::And(self.expr(a), self.expr(b)),
+            Expr::Or(a, b) => Expr::Or(self.expr(a), self.expr(b)),
+            _ => return id,
+        };
+        self.module.add(expr)
+    }
+
+    fn place(&mut self, place: Place) -> Place {
+        let by = self.strides.next().unwrap_or_default();
+        let index = (by > 0).then(|| self.module.add(Expr::Stride(self.round, by)));
+        Place { index, ..place }
+    }
+}
+
+/// The last device behind one that the model has without a gap, and that is as little special.
+fn last_alike(model: &Model, class: DeviceClass, number: u32) -> Option<u32> {
+    let mut runs = model.runs(class).into_iter();
+    let (_, last) = runs.find(|(first, last)| (first..=last).contains(&&number))?;
+    (!is_special(class, number) && !is_special(class, last)).then_some(last)
+}
+
+/// Stores the devices from `first` to `last` of a class in an array of so many columns, together with its neighbours if they are stored so;
+/// false if they are needed in another order.
+fn spread(
+    layout: &mut Layout,
+    model: &Model,
+    (class, first, last): (DeviceClass, u32, u32),
+    columns: u32,
+) -> bool {
+    // A gap of less than a round belongs to both neighbours.
+    let touches = |grid: &Grid| {
+        let gap = if grid.columns == columns {
+            columns - 1
+        } else {
+            0
+        };
+        grid.class == class && grid.first <= last + 1 + gap && first <= grid.end() + gap
+    };
+    let grids = &mut layout.grids;
+    let before = |grid: &&Grid| !touches(grid) && (grid.class, grid.first) < (class, first);
+    let from = grids.iter().take_while(before).count();
+    let to = from
+        + grids[from..]
+            .iter()
+            .take_while(|grid| touches(grid))
+            .count();
+    let joined = &grids[from..to];
+    if joined.iter().any(|grid| grid.columns != columns) {
+        return false;
+    }
+    let first = joined.first().map_or(first, |grid| grid.first.min(first));
+    let end = joined.last().map_or(0, Grid::end).max(last + 1);
+    let areas = &mut layout.areas;
+    let begin = areas.partition_point(|a| (a.class, a.first + a.count) <= (class, first));
+    let behind = areas.partition_point(|a| (a.class, a.first) < (class, end));
+    let in_grid = |area: &Area| {
+        joined
+            .iter()
+            .any(|g| (g.first..g.end()).contains(&area.first))
+    };
+    if areas[begin..behind]
+        .iter()
+        .any(|area| area.array && !in_grid(area))
+    {
+        return false;
+    }
+    let ranges = model
+        .ranges_of(class)
+        .filter(|r| r.first < end && first <= r.last);
+    let new: Vec<Area> = ranges
+        .map(|range| {
+            let (from, to) = (range.first.max(first), range.last.min(end - 1));
+            Area {
+                class,
+                first: from,
+                count: to - from + 1,
+                array: true,
+                latched: range.latched,
+            }
+        })
+        .collect();
+    areas.splice(begin..behind, new);
+    let grid = Grid {
+        class,
+        first,
+        count: end - first,
+        columns,
+    };
+    grids.splice(from..to, [grid]);
+    true
+}
