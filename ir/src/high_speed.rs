@@ -190,8 +190,10 @@ pub struct TableMode {
     pub masked: bool,
     /// Register of the row that waits.
     pub row: Option<u32>,
-    /// Relay that is on for a scan when the last row was reached.
+    /// Relay that is on when the last row was reached, …
     pub done: Option<u32>,
+    /// … for a scan; else until the table begins again or is not driven.
+    pub done_for_a_scan: bool,
     /// What the row that waits says, shown instead of done.
     pub shows: Option<Shown>,
 }
@@ -215,6 +217,7 @@ const OUTPUTS: TableMode = TableMode {
     masked: false,
     row: Some(8130),
     done: Some(8131),
+    done_for_a_scan: true,
     shows: None,
 };
 
@@ -223,6 +226,7 @@ const FREQUENCIES: TableMode = TableMode {
     relay: Some(8132),
     row: Some(8131),
     done: Some(8133),
+    done_for_a_scan: false,
     shows: Some(Shown {
         word: 8132,
         count: 8134,

@@ -103,6 +103,7 @@ impl Lowerer<'_> {
             values: Vec::new(),
             reached: None,
             action: Action::Rows(table.clone()),
+            at: self.at,
         };
         let then = self.body(|this| {
             this.guarded_or(
@@ -212,6 +213,9 @@ impl Lowerer<'_> {
         }
         let zero = self.add(Expr::I32(0));
         self.emit(Stmt::SetCell(table.row, zero));
+        if !table.mode.done_for_a_scan {
+            self.show_done(table, false);
+        }
         self.show_number(table);
         if let Some(shown) = table.mode.shows {
             for register in [shown.word, shown.count] {
@@ -223,9 +227,8 @@ impl Lowerer<'_> {
     /// When the scan ends, tables that were driven in it begin, and the relays of those that have ended go off.
     pub(super) fn begin_tables(&mut self) {
         for table in std::mem::take(&mut self.high_speed.tables) {
-            if let Some(done) = table.mode.done.filter(|&relay| self.specials.has(M, relay)) {
-                let off = self.bit_const(false);
-                self.write_device(M, done, off);
+            if table.mode.done_for_a_scan {
+                self.show_done(&table, false);
             }
             let Some(begins) = table.begins else {
                 continue;
@@ -335,10 +338,7 @@ impl Lowerer<'_> {
             self.when(ended, |this| {
                 let zero = this.add(Expr::I32(0));
                 this.emit(Stmt::SetCell(table.row, zero));
-                if let Some(done) = table.mode.done.filter(|&relay| this.specials.has(M, relay)) {
-                    let on = this.bit_const(true);
-                    this.write_device(M, done, on);
-                }
+                this.show_done(table, true);
             });
         }
         self.show_row(table);
@@ -353,6 +353,14 @@ impl Lowerer<'_> {
             let count = self.add(Expr::Entry(table.counts, row));
             self.show_pair(shown.word, word);
             self.show_pair(shown.count, count);
+        }
+    }
+
+    /// Whether the last row was reached.
+    fn show_done(&mut self, table: &Rows, on: bool) {
+        if let Some(relay) = table.mode.done.filter(|&relay| self.specials.has(M, relay)) {
+            let on = self.bit_const(on);
+            self.write_device(M, relay, on);
         }
     }
 

@@ -45,6 +45,8 @@ pub(super) struct Compare {
     /// Whether the count was not below the value; `None` where only an equal count acts.
     pub(super) reached: Option<FlagId>,
     pub(super) action: Action,
+    /// Its instruction.
+    pub(super) at: usize,
 }
 
 /// What a comparison does.
@@ -226,6 +228,7 @@ impl Lowerer<'_> {
             values: cells.iter().map(|&(cell, _)| cell).collect(),
             reached,
             action,
+            at: self.at,
         };
         let then = self.body(|this| {
             this.guarded(guards, |this| {
@@ -322,21 +325,22 @@ impl Lowerer<'_> {
     ) -> Option<Action> {
         let device = match *target {
             OperandKind::Device(device, None) => device,
+            // The index counts at the moment of the comparison.
+            OperandKind::Device(device, Some(_)) if is_coil(device.class) => device,
             OperandKind::WordBit(_, _, None) if comparison != Comparison::Zone => {
                 let on = comparison == Comparison::Set;
                 return Some(Action::Switch(target.clone(), on));
             }
             _ => return None,
         };
+        let counts_itself = matches!(counted, Counted::Counter(number) if number == device.number);
         Some(match (comparison, device.class) {
             (Comparison::Zone, _) => Action::Zone(target.clone()),
             (Comparison::Set, DeviceClass::I) => {
                 let pointer = device.number;
                 Action::Request(self.request_flag(Source::Comparison { pointer })?)
             }
-            (Comparison::Reset, DeviceClass::C) if matches!(counted, Counted::Counter(number) if number == device.number) => {
-                Action::Reset
-            }
+            (Comparison::Reset, DeviceClass::C) if counts_itself => Action::Reset,
             (_, DeviceClass::C | DeviceClass::I) => return None,
             _ => Action::Switch(target.clone(), comparison == Comparison::Set),
         })
@@ -548,6 +552,13 @@ impl Lowerer<'_> {
 
     /// A comparison looks at the count.
     pub(super) fn act(&mut self, compare: &Compare) {
+        // An error is one of the instruction, wherever it shows itself.
+        let at = std::mem::replace(&mut self.at, compare.at);
+        self.act_now(compare);
+        self.at = at;
+    }
+
+    fn act_now(&mut self, compare: &Compare) {
         let count = self.count_of(compare);
         let values: Vec<ExprId> = compare
             .values
@@ -622,6 +633,11 @@ impl Lowerer<'_> {
             });
         });
     }
+}
+
+/// Whether a class has bits that a program switches.
+fn is_coil(class: DeviceClass) -> bool {
+    matches!(class, DeviceClass::Y | DeviceClass::M | DeviceClass::S)
 }
 
 fn counter_place(number: u32) -> Place {

@@ -95,7 +95,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8130 rw 0 by("HSZ") "HSZ table (comparison platform) mode";
     M 8131 r 0 by("HSZ") "used with M8130: on for a scan when the last row of the table was reached";
     M 8132 rw 0 by("HSZ") "HSZ & PLSY speed-pattern mode";
-    M 8133 r 0 by("HSZ") "used with M8132: on for a scan when the last row of the table was reached";
+    M 8133 r 0 by("HSZ") "used with M8132: on when the last row of the table was reached";
     M 8135 rw 0 by("pulse outputs") "Y0: separate acceleration/deceleration times and change of the pulse count while running";
     M 8136-8137 rw 0 by("pulse outputs") "Y1–2: as M8135";
     M 8140 rw 0 by("ZRN") "ZRN: CLR signal output enabled";

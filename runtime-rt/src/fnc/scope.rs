@@ -20,6 +20,9 @@ const TAKEN: u32 = 8039;
 /// Words and first register of two channels.
 const CHANNELS: [[u32; 2]; 2] = [[8040, 8041], [8042, 8043]];
 
+/// The last register of a record.
+const LAST_REGISTER: u32 = 7999;
+
 /// What [`STATE`] shows, and what starts the oscilloscope there.
 const WAITING: i16 = 0;
 const SAMPLING: i16 = 1;
@@ -113,7 +116,8 @@ fn sample(cx: &mut Cx, passed: i32) {
         for [words, first] in recording.channels {
             for register in (first..).take(words as usize) {
                 let value = u32::try_from(register).map_or(0, |register| cx.special_word(register));
-                if let Ok(next) = u32::try_from(recording.next) {
+                // What lies behind the registers of the user is not overwritten.
+                if let Ok(next @ ..=LAST_REGISTER) = u32::try_from(recording.next) {
                     cx.set_special_word(next, value);
                 }
                 recording.next += 1;
