@@ -308,6 +308,53 @@ pub fn axes(model: ModelId) -> &'static [Axis] {
     if model == ModelId::Hm { AXES } else { &[] }
 }
 
+/// What measures the pulses of an input.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Meter {
+    /// The input.
+    pub input: u32,
+    /// First of three pairs of registers: the ring counter at the rising edge, at the falling edge, the width or the period.
+    pub registers: u32,
+    /// Relays of which all must be on; none: it always measures.
+    pub measures: &'static [u32],
+    /// While this relay is on it measures periods.
+    pub period: Option<u32>,
+}
+
+const fn meter(input: u32, registers: u32, measures: &'static [u32], period: Option<u32>) -> Meter {
+    Meter {
+        input,
+        registers,
+        measures,
+        period,
+    }
+}
+
+/// FX3G's.
+const FX3G_METERS: &[Meter] = &[
+    meter(0, 8074, &[8075, 8076], Some(8080)),
+    meter(1, 8080, &[8075, 8077], Some(8081)),
+    meter(3, 8086, &[8075, 8078], Some(8082)),
+    meter(4, 8092, &[8075, 8079], Some(8083)),
+];
+
+/// L01S's, of which the manual tells the registers only (l01s-programming, table of special registers).
+const L01S_METERS: &[Meter] = &[
+    meter(0, 8074, &[], None),
+    meter(1, 8080, &[], None),
+    meter(3, 8086, &[], None),
+    meter(4, 8092, &[], None),
+];
+
+/// What measures pulses on a model.
+pub fn meters(model: ModelId) -> &'static [Meter] {
+    match model {
+        ModelId::Fx3g => FX3G_METERS,
+        ModelId::L01s => L01S_METERS,
+        _ => &[],
+    }
+}
+
 /// Registers that count the rising edges of inputs from X000 on (hm-motion-controller §5.7).
 pub fn edge_counts(model: ModelId) -> Option<std::ops::RangeInclusive<u32>> {
     (model == ModelId::Hm).then_some(8160..=8167)

@@ -4,6 +4,7 @@
 //! whole, [`lower`] makes a [`Module`], [`passes`] simplify it, [`validate`] holds it to the rules of [`node`].
 //! No output language and no file format is known here.
 
+pub mod axes;
 pub mod catalogue;
 pub mod check;
 pub mod compile;

@@ -535,6 +535,8 @@ pub enum Lower {
     Arith(ArithOp),
     /// Arithmetic that saturates (HM).
     ArithSaturating(ArithOp),
+    /// Sets these parameters of an axis (HM).
+    Axis(&'static [u32]),
     /// A comparison that acts at the count of a high-speed counter.
     HighSpeed(Comparison),
     /// SPD: counts pulses of an input in windows of time.

@@ -45,24 +45,31 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Ends an advanced interrupt."),
     motion("AXPO", "Bind an axis to an output")
         .takes(&[AXIS, count("D2", 0, 8), any("D3").limits(0, 1)])
+        .lower(Lower::Axis(&[0, 1]))
         .text("Binds virtual axis D1 to output D2; D3 enables its direction output."),
     motion("AXPU", "Units of an axis")
         .takes(&[AXIS, any("D2"), any("D3"), any("D4")])
+        .lower(Lower::Axis(&[2, 3, 4]))
         .text("Sets the axis's units of time (ms), pulses and length."),
     motion("AXSP", "Speeds of an axis")
         .takes(&[AXIS, any("D2"), any("D3")])
+        .lower(Lower::Axis(&[5, 6]))
         .text("Sets the axis's highest speed D2 and start speed D3."),
     motion("AXAS", "Acceleration of an axis")
         .takes(&[AXIS, any("D2")])
+        .lower(Lower::Axis(&[7]))
         .text("Sets the axis's highest acceleration."),
     motion("AXEI", "Inputs of an axis")
         .takes(&[AXIS, any("D2"), any("D3"), any("D4"), any("D5")])
+        .lower(Lower::Axis(&[8, 9, 10, 11]))
         .text("Says by masks which inputs are DOG, zero, left and right limit of the axis."),
     motion("AXOSP", "Homing speeds of an axis")
         .takes(&[AXIS, any("D2"), any("D3")])
+        .lower(Lower::Axis(&[12, 13]))
         .text("Sets the axis's homing speed D2 and creep speed D3."),
     motion("AXOX", "Homing mode of an axis")
         .takes(&[AXIS, any("D2"), any("D3"), any("D4")])
+        .lower(Lower::Axis(&[14, 16, 15]))
         .text("Sets the axis's event word and how many zero signals and pulses homing counts."),
     motion("HOME", "Return to the origin")
         .takes(&[AXIS])

@@ -34,6 +34,7 @@ impl Lowerer<'_> {
             Lower::Move => self.move_value(false),
             Lower::MoveNot => self.move_value(true),
             Lower::MoveCount => self.move_count(),
+            Lower::Axis(parameters) => self.axis_parameters(parameters),
             Lower::Comment => self.device_comment(),
             Lower::Cmp => self.compare(),
             Lower::Zcp => self.compare_zone(),

@@ -518,9 +518,9 @@ impl Lowerer<'_> {
 
     fn looks_at_pair(&self, register: u32) -> bool {
         let class = DeviceClass::D;
-        [register, register + 1].into_iter().any(|number| {
-            self.observed.contains(&(class, number)) || self.names(Device { class, number })
-        })
+        [register, register + 1]
+            .into_iter()
+            .any(|number| self.looks_at(Device { class, number }))
     }
 
     fn reset_edge(&mut self, used: &Used, reset: u32, compares: &[&Compare]) {

@@ -5,6 +5,7 @@
 //! as items and made into structured statements when their body ends (`flow`). What the layout stores is found last.
 
 mod arith;
+mod axes;
 mod build;
 mod call;
 mod coil;
@@ -18,6 +19,7 @@ mod interrupt;
 mod logic;
 mod operand;
 mod parts;
+mod pulse_width;
 mod special;
 mod stl;
 mod system;
@@ -177,6 +179,7 @@ impl<'a> Lowerer<'a> {
         self.module.run_states = self.module.states;
         self.counter_edges();
         self.edge_counts();
+        self.pulse_widths();
         self.module.functions[0].body = self.begin_function();
         self.module.functions[2].body = self.end_function();
         self.take_interrupts();

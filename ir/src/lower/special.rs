@@ -135,6 +135,11 @@ impl Specials {
 }
 
 impl Lowerer<'_> {
+    /// Whether an instruction names a device, or something observes it.
+    pub(super) fn looks_at(&self, device: Device) -> bool {
+        self.observed.contains(&(device.class, device.number)) || self.names(device)
+    }
+
     /// Whether an instruction names a device, among others or with an index.
     pub(super) fn names(&self, device: Device) -> bool {
         (0..self.resolved.instrs.len()).any(|i| {

@@ -91,6 +91,7 @@ impl Lowerer<'_> {
             this.analog_inputs();
             this.virtual_inputs();
             this.show_axes();
+            this.axis_defaults();
             this.real_time_clock();
         })
     }

@@ -66,7 +66,6 @@ pub(super) const ALL: &[Special] = specials! {
     M 8068 rw 0 scan "operation error, kept; its step in D8068";
     M 8069 rw 0 inert(HARDWARE) "checks the I/O bus";
     M 8070-8073 rw 0 inert(LINK) "parallel link";
-    M 8075-8079 rw 0 inert(TRACE) "sampling trace";
     M 8099 rw 0 scan "starts the ring counter D8099";
     M 8109 r 0 inert(HARDWARE) "output refresh error, number in D8109";
     M 8121 r 0 inert(SERIAL) "RS waits to send";
@@ -118,7 +117,6 @@ pub(super) const ALL: &[Special] = specials! {
     D 8068 rw 0 scan "step of the operation error, kept";
     D 8069 r 0 scan "step of the error of M8065–M8067";
     D 8070 rw 500 inert(LINK) "error time of the parallel link in ms";
-    D 8074-8098 rw 0 inert(TRACE) "sampling trace";
     D 8099 rw 0 scan "ring counter of 0.1 ms";
     D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
@@ -146,8 +144,10 @@ pub(super) const ALL: &[Special] = specials! {
 
 /// FX2N: version 3.10, 8 k steps.
 pub(super) const FX2N: &[Special] = specials! {
+    M 8075-8079 rw 0 inert(TRACE) "sampling trace";
     D 8001 r 24310 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps";
+    D 8074-8098 rw 0 inert(TRACE) "sampling trace";
     D 8102 r 8 scan "program capacity in k steps";
     D 8145 rw 0 by("ZRN, DRVI, DRVA") "base speed in Hz";
     D 8146 rw -31072 by("ZRN, DRVI, DRVA") "highest speed in Hz, low word";
@@ -241,16 +241,24 @@ pub(super) const FX3: &[Special] = specials! {
 
 /// FX3G: version 2.00, 32 k steps.
 pub(super) const FX3G: &[Special] = specials! {
+    M 8075 rw 0 scan "pulses of X000, X001, X003 and X004 are measured";
+    M 8076-8079 rw 0 scan "measures the pulses of X000, X001, X003, X004";
+    M 8080-8083 rw 0 scan "measures their periods instead of their widths";
     M 8329 r 0 by("pulse outputs") "an instruction ended abnormally";
     D 8001 r 26200 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
     D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
+    D 8074-8079 r 0 scan "X000: ring counter of 1/6 us at the rising and the falling edge, width or period of the pulse in 10 us";
+    D 8080-8085 r 0 scan "X001: the same";
+    D 8086-8091 r 0 scan "X003: the same";
+    D 8092-8097 r 0 scan "X004: the same";
     D 8101 r 26200 scan "model and version";
     D 8102 r 32 scan "program capacity in k steps";
 };
 
 /// FX3U: version 3.20, 64 k steps.
 pub(super) const FX3U: &[Special] = specials! {
+    M 8075-8079 rw 0 inert(TRACE) "sampling trace";
     M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
     M 8091 rw 0 by("BINDA, COMRD") "no zero behind the characters";
     M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
@@ -259,6 +267,7 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8380-8392 rw 0 inert(FAST) "inputs and modes of high-speed counters";
     D 8001 r 24320 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
+    D 8074-8098 rw 0 inert(TRACE) "sampling trace";
     D 8101 r 16320 scan "model and version";
     D 8102 r 64 scan "program capacity in k steps";
     D 8310 rw 1 by("RND") "state of RND, low word";
