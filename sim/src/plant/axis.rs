@@ -49,8 +49,8 @@ pub struct Axis {
     pub(super) per_unit: f64,
     pub(super) drive: Drive,
     pub(super) position: f64,
-    /// What it was driven in the last millisecond in which it moved, and whether that was the last millisecond.
-    pub(super) way: (f64, bool),
+    /// How far it has moved in the last millisecond.
+    pub(super) moved: f64,
     /// The ends of its way.
     pub(super) travel: Option<[f64; 2]>,
     pub(super) switches: Vec<Switch>,
@@ -102,13 +102,18 @@ impl Axis {
         self.position / self.per_unit
     }
 
-    /// Its speed in units a second, negative when it goes back; `hz` tells how many pulses an output sends a second.
-    pub fn speed(&self, hz: impl FnOnce(u32) -> f64) -> f64 {
-        let (way, moves) = self.way;
+    /// Its speed in units a second, negative when it goes back. `hz` tells how many pulses an output sends a second, negative in
+    /// reverse, `is_on` whether an output is on.
+    pub fn speed(&self, hz: impl Fn(u32) -> f64, is_on: impl Fn(u32) -> bool) -> f64 {
         let speed = match self.drive {
-            Drive::Pulses { output, .. } => hz(output).copysign(way),
-            Drive::Outputs { .. } if moves => way * 1000.0,
-            Drive::Outputs { .. } => 0.0,
+            Drive::Pulses {
+                output, direction, ..
+            } => match direction {
+                None => hz(output),
+                Some((told_by, forward)) if is_on(told_by) == forward => hz(output).abs(),
+                Some(_) => -hz(output).abs(),
+            },
+            Drive::Outputs { .. } => self.moved * 1000.0,
         };
         speed / self.per_unit
     }
@@ -165,8 +170,8 @@ impl Axis {
         moments: &mut Vec<Moment>,
     ) {
         let speed = self.drive.follow(see);
+        self.moved = 0.0;
         if speed == 0.0 {
-            self.way.1 = false;
             return;
         }
         let from = self.position;
@@ -183,7 +188,7 @@ impl Axis {
         for switch in &self.switches {
             switch.pass(from, to, speed, moments);
         }
-        self.way = (speed, to != from);
+        self.moved = to - from;
         self.position = to;
     }
 }

@@ -318,7 +318,7 @@ impl<'t> Reader<'t> {
             per_unit,
             drive,
             position,
-            way: (0.0, false),
+            moved: 0.0,
             travel,
             switches,
             collision: None,
@@ -598,7 +598,7 @@ impl<'t> Reader<'t> {
                 Some(RawEnd::Extended) => length,
                 _ => 0.0,
             },
-            way: (0.0, false),
+            moved: 0.0,
             travel: Some([0.0, length]),
             switches: switches
                 .map(|(input, marks)| Switch { input, marks })

@@ -62,16 +62,23 @@ impl Reading {
             }
             Target::Frequency(n) => {
                 machine.bit(Class::Y, n)?;
-                Reading::Float(hertz(machine, n))
+                Reading::Float(hertz(machine, n).abs())
             }
         })
     }
 }
 
-/// The pulses that an output sends a second.
+/// The pulses that an output sends a second, negative for those that count down.
 pub fn hertz(machine: &Machine, output: u32) -> f64 {
-    let axis = machine.pulse_output(output);
-    axis.map_or(0.0, |axis| f64::from(axis.generator.millihertz()) / 1000.0)
+    let Some(axis) = machine.pulse_output(output) else {
+        return 0.0;
+    };
+    let hertz = f64::from(axis.generator.millihertz()) / 1000.0;
+    if axis.generator.is_reverse() && hertz > 0.0 {
+        -hertz
+    } else {
+        hertz
+    }
 }
 
 fn pair(machine: &Machine, class: Class, number: u32) -> Option<i32> {

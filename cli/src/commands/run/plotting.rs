@@ -1,6 +1,8 @@
 //! `rungc run --plot`: what is drawn, and the file.
 
 use super::super::{Failure, Fresh};
+use rungc_ir::Module;
+use rungc_rt::Program;
 use rungc_sim::Machine;
 use rungc_sim::plant::{Axis, Plant};
 use rungc_sim::plctest::Target;
@@ -23,6 +25,17 @@ enum Subject {
     Frequency(u32),
     /// A watched device.
     Watched(Target),
+}
+
+/// A watched device with the comment that the program has on it.
+fn named(target: Target, module: &Module) -> String {
+    let name = super::name(target);
+    let (class, number, _) = target.devices(0);
+    let mut comments = module.comments.iter();
+    match comments.find(|(c, n, _)| (*c, *n) == (class, number)) {
+        Some((_, _, comment)) => format!("{name} {comment}"),
+        None => name,
+    }
 }
 
 /// What a device holds, as far as it can be drawn.
@@ -73,7 +86,7 @@ impl Plotting {
             curves.push((hertz, Subject::Frequency(output)));
         }
         for &target in watched {
-            let name = super::name(target);
+            let name = named(target, module);
             let curve = match Reading::of(machine, target) {
                 Some(Reading::Bit(_)) => plot.lane(&name),
                 Some(Reading::Integer(..) | Reading::Float(_)) => {
@@ -103,17 +116,11 @@ impl Plotting {
                 Subject::Position(i) => axes.get(i).map(Axis::position),
                 Subject::Speed(i) => {
                     let hz = |output| hertz(machine, output);
-                    axes.get(i).map(|axis| axis.speed(hz))
+                    let is_on = |output| machine.output(output);
+                    axes.get(i).map(|axis| axis.speed(hz, is_on))
                 }
                 Subject::Pulses(n) => number(machine, Target::Pulses(n)),
-                Subject::Frequency(n) => machine.pulse_output(n).map(|output| {
-                    let hz = hertz(machine, n);
-                    if output.generator.is_reverse() {
-                        -hz
-                    } else {
-                        hz
-                    }
-                }),
+                Subject::Frequency(n) => Some(hertz(machine, n)),
                 Subject::Watched(target) => number(machine, target),
             };
             if let Some(value) = value {

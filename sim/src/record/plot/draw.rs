@@ -8,7 +8,8 @@ use svg::node::element::{Element, Group, Line, Polygon, Polyline, Rectangle, Tex
 
 /// Size of the picture and its parts, in pixels.
 const WIDTH: f64 = 900.0;
-const LEFT: f64 = 84.0;
+/// Left of the panels, for scales and the names of lanes: so much at least and at most.
+const LEFT: [f64; 2] = [84.0, 260.0];
 const RIGHT: f64 = 20.0;
 const HEAD: f64 = 34.0;
 /// Above a panel, for its title and legend.
@@ -35,6 +36,8 @@ const LANE_FILL: &str = "#d6e6f2";
 
 /// What the picture is drawn on: where times are, and the elements so far.
 struct Canvas {
+    /// Left edge of the panels.
+    left: f64,
     /// What times are told in.
     unit: Unit,
     duration_ms: f64,
@@ -87,7 +90,10 @@ pub(super) fn draw(plot: &Plot) -> String {
     let duration_ms = plot.duration_ms.max(1) as f64;
     let unit = unit(duration_ms);
     let marks = Ticks::around(0.0, duration_ms / unit.1, 10.0).labels();
+    let names = plot.lanes.iter().map(|(name, _)| 20.0 + width(name));
+    let left = names.fold(LEFT[0], f64::max).min(LEFT[1]);
     let mut canvas = Canvas {
+        left,
         unit,
         duration_ms,
         last_ms: plot.last_ms as f64,
@@ -100,7 +106,7 @@ pub(super) fn draw(plot: &Plot) -> String {
             .set("font-size", 12)
             .set("fill", INK),
     };
-    let title = text(LEFT, 22.0, "start", &plot.title);
+    let title = text(left, 22.0, "start", &plot.title);
     canvas.add(title.set("font-size", 15).set("font-weight", "bold"));
     let mut top = HEAD;
     for panel in &plot.panels {
@@ -132,7 +138,7 @@ impl Canvas {
     }
 
     fn x(&self, at_ms: f64) -> f64 {
-        LEFT + (WIDTH - LEFT - RIGHT) * at_ms / self.duration_ms
+        self.left + (WIDTH - self.left - RIGHT) * at_ms / self.duration_ms
     }
 
     /// A panel whose frame begins at `top`; returns where it ends.
@@ -149,7 +155,7 @@ impl Canvas {
             least: ticks.least(),
             greatest: ticks.greatest(),
         };
-        self.add(text(LEFT, top - 9.0, "start", &panel.title).set("font-weight", "bold"));
+        self.add(text(self.left, top - 9.0, "start", &panel.title).set("font-weight", "bold"));
         if panel.curves.iter().any(|(name, _)| *name != panel.title) {
             self.legend(panel, top - 9.0);
         }
@@ -157,8 +163,8 @@ impl Canvas {
         for (value, label) in ticks.labels() {
             let y = frame.y(value);
             let colour = if value == 0.0 { "#999999" } else { GRID };
-            self.add(line([LEFT, y], [WIDTH - RIGHT, y], colour));
-            self.add(text(LEFT - 8.0, y + 4.0, "end", &label));
+            self.add(line([self.left, y], [WIDTH - RIGHT, y], colour));
+            self.add(text(self.left - 8.0, y + 4.0, "end", &label));
         }
         for (i, (_, id)) in panel.curves.iter().enumerate() {
             let (colour, dash) = STROKES[i % STROKES.len()];
@@ -208,9 +214,14 @@ impl Canvas {
                 ..all
             };
             if i > 0 {
-                self.add(line([LEFT, top], [WIDTH - RIGHT, top], GRID));
+                self.add(line([self.left, top], [WIDTH - RIGHT, top], GRID));
             }
-            self.add(text(LEFT - 8.0, top + LANE / 2.0 + 4.0, "end", name));
+            self.add(text(
+                self.left - 8.0,
+                top + LANE / 2.0 + 4.0,
+                "end",
+                &shortened(name),
+            ));
             let points = self.places(&plot.curves[id.0], frame);
             let (Some(&[first, _]), Some(&[last, _])) = (points.first(), points.last()) else {
                 continue;
@@ -241,7 +252,7 @@ impl Canvas {
             self.add(line([x, y], [x, y + 4.0], INK));
             self.add(text(x, y + 18.0, "middle", &label));
         }
-        let middle = (LEFT + WIDTH - RIGHT) / 2.0;
+        let middle = (self.left + WIDTH - RIGHT) / 2.0;
         let title = format!("time ({})", self.unit.0);
         self.add(text(middle, y + 36.0, "middle", &title));
     }
@@ -256,9 +267,9 @@ impl Canvas {
     fn border(&mut self, frame: Frame) {
         self.add(
             Rectangle::new()
-                .set("x", number(LEFT))
+                .set("x", number(self.left))
                 .set("y", number(frame.top))
-                .set("width", number(WIDTH - LEFT - RIGHT))
+                .set("width", number(WIDTH - self.left - RIGHT))
                 .set("height", number(frame.height))
                 .set("fill", "none")
                 .set("stroke", INK)
@@ -363,8 +374,24 @@ fn text(x: f64, y: f64, anchor: &str, content: &str) -> Text {
         .set("text-anchor", anchor)
 }
 
+/// A name as long as there is room for left of a lane.
+fn shortened(name: &str) -> String {
+    if width(name) + 20.0 <= LEFT[1] {
+        return name.to_string();
+    }
+    let mut room = LEFT[1] - 32.0;
+    let fits = |c: &char| {
+        room -= char_width(*c);
+        room >= 0.0
+    };
+    name.chars().take_while(fits).chain(['…']).collect()
+}
+
 /// About how wide a text is: what is not Latin is taken for wide.
 fn width(content: &str) -> f64 {
-    let of = |c: char| if c < '\u{2000}' { 7.0 } else { 12.0 };
-    content.chars().map(of).sum()
+    content.chars().map(char_width).sum()
+}
+
+fn char_width(c: char) -> f64 {
+    if c < '\u{2000}' { 7.0 } else { 12.0 }
 }

@@ -13,7 +13,7 @@ pub(super) struct Ticks {
 }
 
 impl Ticks {
-    /// About `count` ticks over a range, which they enclose.
+    /// About `count` ticks over a range, which they enclose but for a fiftieth of it at each end.
     pub(super) fn around(least: f64, greatest: f64, count: f64) -> Ticks {
         let (least, greatest) = match greatest - least > 0.0 {
             true => (least, greatest),
@@ -39,9 +39,10 @@ impl Ticks {
             }
         };
         let step = factor as f64 * 10_f64.powi(exponent);
+        let slack = (greatest - least) / 50.0;
         Ticks {
-            first: (least / step + 1e-9).floor() as i64,
-            last: (greatest / step - 1e-9).ceil() as i64,
+            first: ((least + slack) / step).floor() as i64,
+            last: ((greatest - slack) / step).ceil() as i64,
             factor,
             exponent,
         }
@@ -116,6 +117,7 @@ mod tests {
             "0 10'000 20'000 30'000 40'000 50'000"
         );
         assert_eq!(labels(7.0, 7.0), "6.0 6.5 7.0 7.5 8.0");
+        assert_eq!(labels(-0.1, 140.9), "0 50 100 150");
         assert_eq!(labels(0.0, 0.0), "-1.0 -0.5 0.0 0.5 1.0");
         assert_eq!(labels(-32768.0, 32767.0), "-40'000 -20'000 0 20'000 40'000");
     }
