@@ -86,12 +86,43 @@ fn the_example_of_machines_runs() {
     );
     let (printed, succeeded) = rungc(folder.path(), &["test", "feeder.plctest.toml"]);
     assert!(succeeded, "{printed}");
-    let command = blocks(&page, "", "$ rungc run").concat();
+    let command = blocks(&page, "", "$ rungc run feeder").concat();
     let args = command.trim().strip_prefix("$ rungc ").unwrap();
     let (printed, succeeded) = rungc(folder.path(), &args.split(' ').collect::<Vec<_>>());
     assert!(succeeded, "{printed}");
     let counted = printed.lines().any(|line| line.ends_with("·    █      1"));
     assert!(counted, "{printed}");
+}
+
+#[test]
+fn the_diagram_is_what_the_command_draws() {
+    let page = fs::read_to_string(root().join("docs/machines.md")).unwrap();
+    let examples = root().join("golden/examples");
+    let machine = fs::read_to_string(examples.join("drill.machine.toml")).unwrap();
+    assert_eq!(
+        blocks(&page, "toml", "# The machine of drill.il")[0],
+        machine
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let copies = folder.path().join("golden/examples");
+    fs::create_dir_all(&copies).unwrap();
+    for name in ["drill.il", "drill.machine.toml"] {
+        fs::copy(examples.join(name), copies.join(name)).unwrap();
+    }
+    let command = blocks(&page, "", "$ rungc run golden/").concat();
+    let args = command.trim().strip_prefix("$ rungc ").unwrap();
+    let (printed, succeeded) = rungc(folder.path(), &args.split(' ').collect::<Vec<_>>());
+    assert!(succeeded, "{printed}");
+    let drawn = fs::read_to_string(folder.path().join("docs/drill.svg")).unwrap();
+    let kept = root().join("docs/drill.svg");
+    if std::env::var_os("UPDATE_DOCS").is_some() {
+        fs::write(&kept, &drawn).unwrap();
+    }
+    let same = fs::read_to_string(&kept).is_ok_and(|kept| kept == drawn);
+    assert!(
+        same,
+        "docs/drill.svg is not what the command draws: remake it with UPDATE_DOCS=1"
+    );
 }
 
 #[test]
