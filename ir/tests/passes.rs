@@ -264,10 +264,7 @@ fn a_round_that_differs_ends_the_loop() {
 
 #[test]
 fn devices_needed_in_a_row_are_no_loop() {
-    for behind in [
-        "LD X0\nMOV K1M0Z0 D0\n",
-        "LD X0\nBMOV K1M100 K1M200 K2\n",
-    ] {
+    for behind in ["LD X0\nMOV K1M0Z0 D0\n", "LD X0\nBMOV K1M100 K1M200 K2\n"] {
         let main = stations(12, station, behind);
         assert!(!main.contains("repeat"), "{main}");
     }

@@ -182,10 +182,9 @@ impl Group {
         if !matches!(body[first], Stmt::Network(_)) {
             return None;
         }
-        let rest = shapes[first..]
-            .iter()
-            .take_while(|shape| shape.is_some())
-            .count();
+        let most = LONGEST_ROUND * LEAST_ROUNDS;
+        let near = shapes[first..].iter().take(most);
+        let rest = near.take_while(|shape| shape.is_some()).count();
         let longest = LONGEST_ROUND.min(rest / LEAST_ROUNDS);
         let mut best: Option<(u64, Group)> = None;
         for length in 1..=longest {
