@@ -415,6 +415,10 @@ typedef struct rungc_hal {
      * Sets an output terminal now.
      */
     void (*set_output)(void *context, uint16_t number, bool on);
+    /**
+     * Keeps the interrupt from coming that calls the program's `pulse_timer`, or lets it come again.
+     */
+    void (*hold_pulses)(void *context, bool hold);
 } rungc_hal;
 
 /**
@@ -560,6 +564,18 @@ typedef struct rungc_axis {
      * A train was sent to its end, and nobody has asked yet.
      */
     bool ended;
+    /**
+     * Whether the pin is on.
+     */
+    bool on;
+    /**
+     * Whether the pin is on where a pulse is off.
+     */
+    bool inverted;
+    /**
+     * Pulses that have ended, but are not counted in registers yet.
+     */
+    int32_t uncounted;
 } rungc_axis;
 
 #ifdef __cplusplus
@@ -595,6 +611,12 @@ bool rungc_get_long(struct rungc_map *map, rungc_class class_, uint32_t number, 
  * Counts the pulses that have been sent by `now_us`, in microseconds since power-on, wrapping.
  */
 void rungc_advance_pulses(struct rungc_map *map, uint32_t now_us);
+
+/**
+ * Drives the pins of all pulse outputs at `now_us`; returns after how many microseconds the next one changes, `UINT32_MAX` if none does.
+ */
+uint32_t rungc_pulse_timer(struct rungc_map *map,
+                           uint32_t now_us);
 
 /**
  * Pulses that output Y `number` has sent since power-on; those in reverse count down.

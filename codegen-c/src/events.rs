@@ -138,6 +138,15 @@ pub fn prototypes(module: &Module) -> String {
              void {name}_tick({name}_plc *plc, uint32_t now_ms);\n"
         );
     }
+    if module.sends_pulses() {
+        let _ = write!(
+            out,
+            "\n/* Drives the pins of pulse outputs (rungc_hal.set_output) at `now_us`, microseconds since power-on, wrapping; returns after how many\n   \
+             of them the next one changes, UINT32_MAX if none does. Call it then, and after each scan, which may begin pulses. An interrupt may\n   \
+             call it that rungc_hal.hold_pulses can keep from coming. */\n\
+             uint32_t {name}_pulse_timer({name}_plc *plc, uint32_t now_us);\n"
+        );
+    }
     if interrupts(module).is_some() {
         let _ = write!(
             out,
@@ -160,6 +169,12 @@ pub fn functions(module: &Module) -> String {
     let mut out = input_edge(module);
     if module.takes_time() {
         out.push_str(&tick(module));
+    }
+    if module.sends_pulses() {
+        let _ = write!(
+            out,
+            "uint32_t {name}_pulse_timer({name}_plc *plc, uint32_t now_us)\n{{\n    rungc_map map = {name}_map(plc);\n\n    return rungc_pulse_timer(&map, now_us);\n}}\n\n"
+        );
     }
     if let Some(at) = interrupts(module) {
         let mut function = String::new();

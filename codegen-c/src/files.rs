@@ -135,14 +135,17 @@ fn runtime_header() -> String {
     RUNGC_RT_H.replace("/* INSTRUCTIONS */\n", &prototypes)
 }
 
-/// How the runtime library is built.
-const LIBRARY_RULE: &str = "\
+/// Where the runtime library is; `make` wants to know it before the first rule that needs it.
+const LIBRARY_PATH: &str = "\
 # The runtime library: `make TARGET=thumbv7em-none-eabihf CC=arm-none-eabi-gcc` for a microcontroller (rustup target add ...).
 ifdef TARGET
 TARGET_FLAG = --target $(TARGET)
 endif
 LIBRARY = rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a
+";
 
+/// How it is built.
+const LIBRARY_RULE: &str = "\
 $(LIBRARY): $(shell find rungc-rt/src -name '*.rs') rungc-rt/Cargo.toml
 \tcd rungc-rt && cargo rustc --release --crate-type staticlib --features staticlib $(TARGET_FLAG)
 
@@ -173,9 +176,10 @@ fn makefile(name: &str, sources: &[String], headers: &str, main: bool, runtime: 
         "# `make` builds {what}; `make CC=arm-none-eabi-gcc CFLAGS=...` builds for another machine.\n\
          CFLAGS ?= -std=c99 -O2 -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections\n\
          LDFLAGS ?= -Wl,--gc-sections\n\
-         OBJECTS = {}\n\nall: {target}{library}\n\n{}{link}\n\n$(OBJECTS): {headers}\n\n\
+         OBJECTS = {}\n{}\nall: {target}{library}\n\n{}{link}\n\n$(OBJECTS): {headers}\n\n\
          clean:\n\trm -rf $(OBJECTS) {target}{}\n\n.PHONY: all clean\n",
         objects.join(" "),
+        if runtime { LIBRARY_PATH } else { "" },
         if runtime { LIBRARY_RULE } else { "" },
         if runtime { " rungc-rt/target" } else { "" },
     )

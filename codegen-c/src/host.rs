@@ -30,7 +30,11 @@ pub fn main_file(module: &Module) -> String {
         );
     }
     let mut outputs = String::new();
-    for (number, _) in terminals(&fields, DeviceClass::Y) {
+    // Those that send pulses would be printed all the time.
+    let quiet = |number: &u32| module.pulse_outputs.contains(number);
+    let terminals_y = terminals(&fields, DeviceClass::Y);
+    for (number, _) in terminals_y.iter().filter(|(number, _)| !quiet(number)) {
+        let number = *number;
         let label = DeviceClass::Y.number(number).to_string();
         let text = fields
             .comment(DeviceClass::Y, number)

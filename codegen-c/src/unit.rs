@@ -503,6 +503,12 @@ impl Printer<'_> {
             out,
             "bool {name}_output(const {name}_plc *plc, unsigned terminal)\n{{\n    if ({off}) {{\n        return false;\n    }}\n"
         );
+        for (i, output) in self.module.pulse_outputs.iter().enumerate() {
+            let _ = write!(
+                out,
+                "    if (terminal == {output}u && plc->axis[{i}].on) {{\n        return true;\n    }}\n"
+            );
+        }
         let fields = self.fields.of_class(DeviceClass::Y);
         for field in fields.iter().filter(|f| f.array) {
             let mut array = String::from("plc->");

@@ -89,6 +89,7 @@ fn header() -> String {
         "hal.rs",
         "pulse.rs",
         "axis.rs",
+        "wiring.rs",
         "capi.rs",
         "capi_virtual.rs",
     ];

@@ -186,6 +186,34 @@ impl Generator<'_> {
         })
     }
 
+    /// The method that drives the pins of pulse outputs.
+    pub fn pulse_timer(&mut self) -> Option<TokenStream> {
+        if !self.module.sends_pulses() {
+            return None;
+        }
+        let (hal, timer) = (self.rt("Hal"), self.rt("pulse_timer"));
+        Some(quote! {
+            fn pulse_timer(&mut self, hal: &mut dyn #hal, now_us: u32) -> Option<u32> {
+                #timer(self, hal, now_us)
+            }
+        })
+    }
+
+    /// Whether the pin of an output is on, of those that send pulses.
+    pub fn pins(&self) -> Option<TokenStream> {
+        if !self.module.sends_pulses() {
+            return None;
+        }
+        let arms = self.module.pulse_outputs.iter().map(|&output| {
+            let field = axis_field(output);
+            let number = Literal::u32_unsuffixed(output);
+            quote!(#number => self.#field.on,)
+        });
+        Some(quote! {
+            let pulse = match number { #(#arms)* _ => false };
+        })
+    }
+
     /// The methods by which instructions find pulse outputs.
     pub fn axis_methods(&mut self) -> Option<TokenStream> {
         if !self.module.sends_pulses() {

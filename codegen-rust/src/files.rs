@@ -368,6 +368,10 @@ fn host(generator: &Generator, crate_name: &str) -> String {
     let fields = &generator.storage.fields;
     for field in fields.iter().filter(|f| f.area.class == DeviceClass::Y) {
         for number in field.area.first..=field.last() {
+            // Those that send pulses would be printed all the time.
+            if generator.module.pulse_outputs.contains(&number) {
+                continue;
+            }
             let comment = generator
                 .device_comment(DeviceClass::Y, number)
                 .unwrap_or_default();

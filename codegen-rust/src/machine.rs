@@ -380,6 +380,13 @@ impl Generator<'_> {
         let jumps = self
             .jumps_back
             .then(|| quote!(self.jumps_left = MAX_JUMPS_BACK;));
+        let pulse_timer = self.pulse_timer();
+        let pins = self.pins();
+        let image = quote!(#plc_trait::bit(self, #class, number).unwrap_or(false));
+        let level = match pins {
+            Some(_) => quote!((pulse | #image)),
+            None => image,
+        };
         self.uses.plc = false;
         self.item_of(quote! {
             impl #program for #name {
@@ -397,8 +404,10 @@ impl Generator<'_> {
                     if running { self.forget(); } else #stop
                 }
                 #power_cycle
+                #pulse_timer
                 fn output(&self, number: u32) -> bool {
-                    #keep #off & #plc_trait::bit(self, #class, number).unwrap_or(false)
+                    #pins
+                    #keep #off & #level
                 }
             }
         })

@@ -12,7 +12,7 @@
 //!
 //! The Makefile beside emitted C that needs it does the same with the sources that are emitted along.
 
-use crate::axis::{Axis, Pulses, advance};
+use crate::axis::{Axis, advance, pulse_timer};
 use crate::cx::Cx;
 use crate::fault::{Done, report};
 use crate::hal::{Clock, Hal};
@@ -20,6 +20,7 @@ use crate::operand::Operand;
 use crate::plc::{Class, Plc, Site, State, Sys};
 use crate::runs::FIRST_COUNTER32;
 use crate::timing::{Counter16, Counter32, Timer};
+use crate::wiring::Pulses;
 use core::ffi::c_void;
 
 /// What an area of devices is made of.
@@ -156,6 +157,8 @@ pub struct HalTable {
     pub input: Option<extern "C" fn(context: *mut c_void, number: u16, on: *mut bool) -> bool>,
     /// Sets an output terminal now.
     pub set_output: Option<extern "C" fn(context: *mut c_void, number: u16, on: bool)>,
+    /// Keeps the interrupt from coming that calls the program's `pulse_timer`, or lets it come again.
+    pub hold_pulses: Option<extern "C" fn(context: *mut c_void, hold: bool)>,
 }
 
 /// A program's devices: its struct, what it looks like, and the hardware.
@@ -472,6 +475,13 @@ impl Hal for Board {
             set_output(table.context, number, value);
         }
     }
+
+    fn hold_pulses(&mut self, hold: bool) {
+        if let Some((table, hold_pulses)) = self.table().and_then(|t| t.hold_pulses.map(|f| (t, f)))
+        {
+            hold_pulses(table.context, hold);
+        }
+    }
 }
 
 /// Runs an instruction: what the exported functions are made of.
@@ -536,7 +546,17 @@ pub extern "C" fn rungc_get_long(
 /// Counts the pulses that have been sent by `now_us`, in microseconds since power-on, wrapping.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_advance_pulses(map: &mut Map, now_us: u32) {
+    let mut hal = Board { table: map.hal };
+    hal.hold_pulses(true);
     advance(map, now_us);
+    hal.hold_pulses(false);
+}
+
+/// Drives the pins of all pulse outputs at `now_us`; returns after how many microseconds the next one changes, `UINT32_MAX` if none does.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_pulse_timer(map: &mut Map, now_us: u32) -> u32 {
+    let mut hal = Board { table: map.hal };
+    pulse_timer(map, &mut hal, now_us).unwrap_or(u32::MAX)
 }
 
 /// Pulses that output Y `number` has sent since power-on; those in reverse count down.

@@ -69,6 +69,7 @@ pub extern "C" fn rungc_virtual_hal() -> HalTable {
         analog: Some(analog),
         input: None,
         set_output: None,
+        hold_pulses: None,
     }
 }
 

@@ -155,9 +155,14 @@ pub trait Hal {
         let _ = number;
         None
     }
-    /// Sets an output terminal now, outside the output refresh (REF).
+    /// Sets an output terminal now, outside the output refresh: REF, and [`crate::Program::pulse_timer`] for the pins of pulse outputs.
     fn set_output(&mut self, number: u16, value: bool) {
         let _ = (number, value);
+    }
+    /// Keeps the interrupt from coming that calls [`crate::Program::pulse_timer`], or lets it come again, for the few microseconds in which
+    /// an instruction changes what an output sends. For a host that has no such interrupt there is nothing to do.
+    fn hold_pulses(&mut self, hold: bool) {
+        let _ = hold;
     }
 }
 

@@ -40,10 +40,11 @@ mod runs;
 pub mod special;
 mod timing;
 mod virtual_hal;
+mod wiring;
 pub mod word;
 
 pub use access::Access;
-pub use axis::{Axis, Clear, Home, Looks, Pulses, Ramps, Wiring, advance as advance_pulses};
+pub use axis::{Axis, advance as advance_pulses, pulse_timer};
 pub use cx::{Cx, call};
 pub use edge::Edge;
 pub use fault::{Done, Fault, report, trip_watchdog};
@@ -55,3 +56,4 @@ pub use registry::{Needs, RtFn};
 pub use runs::{FIRST_COUNTER32, FIRST_SPECIAL, Runs};
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
 pub use virtual_hal::VirtualHal;
+pub use wiring::{Clear, Home, Looks, Pulses, Ramps, Wiring};

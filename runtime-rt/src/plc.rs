@@ -1,6 +1,7 @@
 //! The devices of a PLC as instructions see them.
 
-use crate::axis::{Axis, Pulses};
+use crate::axis::Axis;
+use crate::wiring::Pulses;
 
 /// Device class. The numbers are part of the C ABI.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]

@@ -27,6 +27,14 @@ pub trait Program: Plc {
         let _ = hal;
     }
 
+    /// Drives the pins of pulse outputs ([`Hal::set_output`]) at `now_us`, microseconds since power-on, wrapping, and returns after how many
+    /// microseconds the next one changes; `None` if none does. Call it then, and after each scan, which may begin a train. An interrupt
+    /// may call it where [`Hal::hold_pulses`] can keep it from coming. Without it pulses are counted, but no pins driven.
+    fn pulse_timer(&mut self, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
+        let _ = (hal, now_us);
+        None
+    }
+
     /// How many pulses output Y `number` has sent since power-on; those in reverse count down.
     fn pulses_sent(&mut self, number: u32) -> i32 {
         self.axis(number).map_or(0, |axis| axis.sent)
@@ -49,6 +57,7 @@ pub trait Program: Plc {
     /// are kept only if the key register holds the key.
     fn power_cycle(&mut self);
 
-    /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP without M8033.
+    /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP without M8033. One that sends pulses
+    /// is also on while its pulse is.
     fn output(&self, number: u32) -> bool;
 }

@@ -1,10 +1,10 @@
 //! The list of runtime functions. The catalogue names one in a row's `lower`; the interpreter calls it through
 //! [`RtFn::call`], emitted Rust through the function of the same name in [`crate::fnc`], emitted C through the C ABI.
 
-use crate::axis::Looks;
 use crate::cx::Cx;
 use crate::fault::Done;
 use crate::fnc;
+use crate::wiring::Looks;
 
 /// What a function needs from the program around it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]

@@ -211,6 +211,10 @@ impl Program for Machine<'_> {
         }
     }
 
+    fn pulse_timer(&mut self, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
+        rungc_rt::pulse_timer(self, hal, now_us)
+    }
+
     fn set_running(&mut self, running: bool) {
         if !self.sys.set_running(running) {
             return;
@@ -239,7 +243,8 @@ impl Program for Machine<'_> {
         let driven = self.sys.running || (self.special(M_KEEP_IN_STOP) && !self.watchdog_tripped);
         driven
             && !self.special(M_OUTPUTS_OFF)
-            && self.devices.bit(Class::Y, number).unwrap_or(false)
+            && (self.devices.bit(Class::Y, number).unwrap_or(false)
+                || self.pulse_output(number).is_some_and(|axis| axis.on))
     }
 }
 

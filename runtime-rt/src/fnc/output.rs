@@ -3,12 +3,13 @@
 //! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is, word 2 the relay with which it begins anew, word 3
 //! whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one, and since when that is on.
 
-use crate::axis::{Axis, Clear, Ramps, Wiring, is_on, long, set_relays};
+use crate::axis::{Axis, is_on, long, set_relays};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
 use crate::pulse::Train;
 use crate::special::M_COMPLETE;
+use crate::wiring::{Clear, Ramps, Wiring};
 
 /// How far an instruction is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,6 +36,14 @@ pub(super) enum Turn {
     Sends,
     /// It sent, and its drive has gone off.
     Released,
+}
+
+/// Runs an instruction while no interrupt sends pulses.
+pub(super) fn held(cx: &mut Cx, instruction: impl FnOnce(&mut Cx) -> Done) -> Done {
+    cx.hal.hold_pulses(true);
+    let done = instruction(cx);
+    cx.hal.hold_pulses(false);
+    done
 }
 
 /// The output of an instruction.
@@ -227,6 +236,7 @@ impl Output {
         axis.owner = slot;
         axis.counter = counter as u16;
         axis.ended = false;
+        axis.show();
         Ok(())
     }
 
@@ -235,6 +245,7 @@ impl Output {
         let (slot, drive) = (cx.site.slot, cx.drive());
         let axis = self.axis(cx)?;
         let busy = axis.generator.millihertz() > 0;
+        axis.show();
         if !drive && axis.owner == slot {
             axis.owner = 0;
         }

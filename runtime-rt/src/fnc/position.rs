@@ -1,7 +1,7 @@
 //! Positioning: FNC 156 to 159 (h1u-h2u-programming §4.3.11, §8.5, §8.7; l01s-programming §7.2). Positions are counted in the registers
 //! of the output; forward counts up.
 
-use super::output::{Output, Turn};
+use super::output::{Output, Turn, held};
 use crate::axis::{long, set_long};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -13,14 +13,16 @@ const BEGAN: usize = 4;
 /// DRVI S1 S2 D1 D2 (FNC 158): moves by S1 pulses at S2 Hz with ramps; pulses on D1, D2 on if forward. It comes down when its drive goes off.
 /// While the relay for that is on, S1 may change until it comes down.
 pub fn drvi(cx: &mut Cx) -> Done {
-    move_by(cx, |cx, _, _| cx.read(0))
+    held(cx, |cx| move_by(cx, |cx, _, _| cx.read(0)))
 }
 
 /// DRVA S1 S2 D1 D2 (FNC 159): moves to position S1 as DRVI does.
 pub fn drva(cx: &mut Cx) -> Done {
-    move_by(cx, |cx, output, began| {
-        let from = began.unwrap_or_else(|| long(cx.plc, output.wiring.position));
-        Ok(cx.read(0)?.saturating_sub(from))
+    held(cx, |cx| {
+        move_by(cx, |cx, output, began| {
+            let from = began.unwrap_or_else(|| long(cx.plc, output.wiring.position));
+            Ok(cx.read(0)?.saturating_sub(from))
+        })
     })
 }
 
@@ -61,6 +63,10 @@ fn move_by(
 /// PLSV S D1 D2 (FNC 157): sends pulses of |S| Hz on D1 as long as it is driven; D2 is on if S is positive, forward. S may change at any
 /// time: at once, or with ramps where the model has a relay for that and it is on.
 pub fn plsv(cx: &mut Cx) -> Done {
+    held(cx, do_plsv)
+}
+
+fn do_plsv(cx: &mut Cx) -> Done {
     let output = Output::of(cx, 1)?;
     match output.turn(cx)? {
         Turn::Start => begin_plsv(cx, output)?,
@@ -108,6 +114,10 @@ const STAGE: usize = 4;
 /// ZRN S1 S2 S3 D (FNC 156): runs back at S1 Hz until S3 is on, then at S2 Hz until it is off: there it stops at once, the position is 0,
 /// and a clear signal is given if the relay for that is on.
 pub fn zrn(cx: &mut Cx) -> Done {
+    held(cx, do_zrn)
+}
+
+fn do_zrn(cx: &mut Cx) -> Done {
     let output = Output::of(cx, 3)?;
     output.end_clear_signal(cx, output.wiring.zrn_clear);
     let turn = output.turn(cx)?;
@@ -176,6 +186,10 @@ const ZERO_WAS_ON: usize = 5;
 /// DOG S1 is on, creeps until S1 is off and then to the next rise of the zero signal S2, where it stops at once. Begun over the DOG or
 /// behind it, at the limit, it first runs back until the DOG is left. With S1 = S2 the fall of the DOG is the origin.
 pub fn dszr(cx: &mut Cx) -> Done {
+    held(cx, do_dszr)
+}
+
+fn do_dszr(cx: &mut Cx) -> Done {
     let output = Output::of(cx, 2)?;
     output.end_clear_signal(cx, output.wiring.home.clear);
     match output.turn_resting(cx)? {

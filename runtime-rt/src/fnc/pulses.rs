@@ -1,7 +1,7 @@
 //! Pulses without a position: FNC 57 to 59 (h1u-h2u-programming §4.3.6, §8.7; l01s-programming §7.2, §7.3). What an instruction asks
 //! of an output goes on between scans; see [`crate::Axis`].
 
-use super::output::{Output, Turn};
+use super::output::{Output, Turn, held};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::pulse::Train;
@@ -9,6 +9,10 @@ use crate::pulse::Train;
 /// PLSY S1 S2 D (FNC 57): sends S2 pulses of S1 Hz on D, or with S2 = 0 pulses without end, and stops at once with its drive. S1 may
 /// change at any time, S2 while the relay for that is on.
 pub fn plsy(cx: &mut Cx) -> Done {
+    held(cx, do_plsy)
+}
+
+fn do_plsy(cx: &mut Cx) -> Done {
     let output = Output::of(cx, 2)?;
     match output.turn(cx)? {
         Turn::Start => {
@@ -48,6 +52,10 @@ const RAMP_MS: (i32, i32) = (50, 5000);
 /// ramps begin and end with √(S1 / 2·S3). While the relay for that is on, S2 may change until it comes down, and the way down has a time of
 /// its own.
 pub fn plsr(cx: &mut Cx) -> Done {
+    held(cx, do_plsr)
+}
+
+fn do_plsr(cx: &mut Cx) -> Done {
     let output = Output::of(cx, 3)?;
     match output.turn(cx)? {
         Turn::Start => {
@@ -83,6 +91,10 @@ pub fn plsr(cx: &mut Cx) -> Done {
 /// PWM S1 S2 D (FNC 58): sends pulses of width S1 and period S2 on D, in milliseconds or in the unit that special devices say, as long as it
 /// is driven. Both may change at any time.
 pub fn pwm(cx: &mut Cx) -> Done {
+    held(cx, do_pwm)
+}
+
+fn do_pwm(cx: &mut Cx) -> Done {
     let output = Output::of(cx, 2)?;
     match output.turn_resting(cx)? {
         turn @ (Turn::Start | Turn::Sends) => {
