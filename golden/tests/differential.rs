@@ -112,15 +112,16 @@ fn requests(class: DeviceClass, number: u32) -> Vec<Request> {
     }
 }
 
-/// All stored devices, of each area at most so many.
+/// All stored devices, of each area at most so many, and what pulse outputs send.
 fn stored(module: &Module, most: u32) -> Vec<Request> {
     let areas = module.layout.areas.iter();
-    areas
-        .flat_map(|area| {
-            let numbers = area.first..area.first + area.count.min(most);
-            numbers.flat_map(|number| requests(area.class, number))
-        })
-        .collect()
+    let devices = areas.flat_map(|area| {
+        let numbers = area.first..area.first + area.count.min(most);
+        numbers.flat_map(|number| requests(area.class, number))
+    });
+    let outputs = module.pulse_outputs.iter();
+    let pulses = outputs.flat_map(|&n| [Request::Pulses(n), Request::Frequency(n)]);
+    devices.chain(pulses).collect()
 }
 
 /// What happens to a program before a scan.
