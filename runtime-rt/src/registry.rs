@@ -397,6 +397,8 @@ registry! {
     RingCounter = system::ring_counter() [always];
     /// The oscilloscope of HM, each millisecond.
     Oscilloscope = scope::oscilloscope(n, d) [state];
+    /// PTAB: points of a segment.
+    Ptab = tables::ptab(s, d, n) [state, always];
     /// FROM of L01S: module 0 is the host's analog inputs if there is no other.
     FromHost = modules::from_host(m1, m2, d, n) [hal];
     /// TO of L01S: module 0 is the host's analog outputs if there is no other.

@@ -543,6 +543,8 @@ pub enum Lower {
     Density,
     /// A runtime function.
     Call(RtFn),
+    /// A runtime function of which one instruction of a program runs at a time: while it is driven, others are not.
+    Exclusive(RtFn),
     /// Not there yet: a compile error names the instruction and this reason.
     Todo(&'static str),
 }

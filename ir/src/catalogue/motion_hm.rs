@@ -3,6 +3,7 @@
 use super::high_speed::AXIS;
 use super::row::*;
 use super::{Basic, Drive, Inst, Lower, Param, Rule, Spelling};
+use rungc_rt::RtFn;
 
 const MOTION: &str = "axis motion";
 
@@ -86,6 +87,7 @@ pub(super) const ROWS: &[Inst] = &[
             table("D2").open_ended(),
             any("D3"),
         ])
+        .lower(Lower::Exclusive(RtFn::Ptab))
         .text("Appends a segment as the eleven words at D1 say to the point table at D2, one point for each interval D3."),
     wide("PTOUT", "Follow a point table")
         .takes(&[AXIS, table("D2").open_ended(), table("D3"), src("D4", CONSTANTS.or(DATA)), any("D5").limits(0, 1)])

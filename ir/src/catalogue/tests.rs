@@ -190,7 +190,7 @@ fn every_runtime_function_has_a_row() {
         rungc_rt::RtFn::Oscilloscope,
     ];
     for function in rungc_rt::RtFn::ALL {
-        let calls = |lower: &Lower| matches!(lower, Lower::Call(called) if called == function);
+        let calls = |lower: &Lower| matches!(lower, Lower::Call(called) | Lower::Exclusive(called) if called == function);
         let reached = all()
             .any(|inst| calls(&inst.lower) || inst.lower_on.iter().any(|(_, lower)| calls(lower)));
         assert!(reached || of_the_scan.contains(function), "{function:?}");

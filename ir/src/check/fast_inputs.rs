@@ -11,6 +11,9 @@ use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 /// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
 const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::of(&[ModelId::Hm]);
 
+/// Models on which counters of one input may take turns (hm-motion-controller §8.2.2).
+const COUNTERS_TAKE_TURNS: ModelSet = ModelSet::of(&[ModelId::Hm]);
+
 /// Checks who uses the fast inputs.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
     let interrupts = interrupts(code.model().id, pointers);
@@ -230,6 +233,9 @@ pub(super) fn measured(code: &Code) -> impl Iterator<Item = (usize, Device)> {
 }
 
 fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {
+    if COUNTERS_TAKE_TURNS.has(code.model().id) {
+        return;
+    }
     for (n, second) in counters.iter().enumerate() {
         for first in &counters[..n] {
             let Some(&input) = second

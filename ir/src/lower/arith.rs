@@ -45,6 +45,7 @@ impl Lowerer<'_> {
             | Lower::HighSpeed(_)
             | Lower::Density
             | Lower::Call(_)
+            | Lower::Exclusive(_)
             | Lower::Todo(_) => {}
         }
     }

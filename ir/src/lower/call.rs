@@ -2,8 +2,8 @@
 
 use super::Lowerer;
 use crate::Model;
-use crate::catalogue::{Extent, Inst, Param, Rule, Shape};
-use crate::node::{Arg, EdgeKind, Place, Stmt};
+use crate::catalogue::{CmpOp, Extent, Inst, Lower, Param, Rule, Shape};
+use crate::node::{Arg, CellId, EdgeKind, Expr, ExprId, Place, Stmt, SysValue};
 use crate::resolve::Form;
 use crate::runs::is_counter32;
 use rungc_rt::{Clear, Looks, RtFn};
@@ -42,6 +42,72 @@ impl Lowerer<'_> {
         } else {
             self.when(drive, |this| call(this, None));
         }
+    }
+
+    /// If a program has several instructions of which one runs at a time, a cell says which.
+    pub(super) fn find_exclusive(&mut self) {
+        let instrs = self.resolved.instrs.iter().filter_map(|instr| instr.inst);
+        let exclusive = instrs.filter(|inst| matches!(inst.lower, Lower::Exclusive(_)));
+        if exclusive.count() > 1 {
+            let meaning = "which of the instructions runs that run one at a time";
+            let runs = self.cell("runs_alone".to_string(), meaning);
+            self.exclusive = Some((runs, 0));
+        }
+    }
+
+    /// None runs when RUN begins.
+    pub(super) fn forget_exclusive(&mut self) {
+        if let Some((runs, _)) = self.exclusive {
+            let first = self.add(Expr::Sys(SysValue::FirstScan));
+            let none = self.add(Expr::I32(0));
+            self.when(first, |this| this.emit(Stmt::SetCell(runs, none)));
+        }
+    }
+
+    /// Calls a function that does nothing while another of its kind is driven.
+    pub(super) fn exclusive_call(&mut self, inst: &Inst, function: RtFn) {
+        let slot = self.slot(function.needs().state);
+        let mut drive = self.drive();
+        if let Some((runs, before)) = &mut self.exclusive {
+            *before += 1;
+            let (runs, own) = (*runs, *before);
+            drive = self.alone(drive, runs, own);
+        }
+        let form = self.resolution().form;
+        let args = self.args(inst, form);
+        let step = self.step();
+        self.emit(Stmt::Call {
+            function,
+            wide: form.wide,
+            args,
+            drive: Some(drive),
+            slot,
+            step,
+        });
+    }
+
+    /// Whether an instruction is driven and no other runs; it then runs until it is not driven any more.
+    fn alone(&mut self, drive: ExprId, runs: CellId, own: i32) -> ExprId {
+        let drive = self.settled(drive);
+        let (none, own) = (self.add(Expr::I32(0)), self.add(Expr::I32(own)));
+        let running = self.add(Expr::Cell(runs));
+        let free = self.add(Expr::Cmp(CmpOp::Eq, running, none));
+        let mine = self.add(Expr::Cmp(CmpOp::Eq, running, own));
+        let may = self.or(free, mine);
+        let driven = self.and(drive, may);
+        let driven = self.settled(driven);
+        let off = self.not(drive);
+        let ends = self.and(off, mine);
+        self.emit(Stmt::If {
+            cond: driven,
+            then: vec![Stmt::SetCell(runs, own)],
+            otherwise: vec![Stmt::If {
+                cond: ends,
+                then: vec![Stmt::SetCell(runs, none)],
+                otherwise: Vec::new(),
+            }],
+        });
+        driven
     }
 
     /// The program sends pulses at the outputs that the instruction names; what it looks at besides is stored.

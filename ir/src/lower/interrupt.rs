@@ -1,18 +1,16 @@
 //! Interrupt routines: which there are, and when they run.
 
 use super::Lowerer;
+use super::advanced::Section;
 use super::operand::fixed;
-use super::parts::Item;
-use crate::catalogue::{Basic, CmpOp};
-use crate::high_speed;
+use crate::catalogue::Basic;
 use crate::interrupts::{
     self, Advanced, Capture, Gate, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch, Source,
 };
 use crate::node::{
-    BinOp, Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue,
+    Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue,
 };
 use rungc_syntax::{
-    Device,
     DeviceClass::{D, M},
     codes,
 };
@@ -23,17 +21,14 @@ const SCOPE_STATE: u32 = 8038;
 /// Name of the flag that EI sets.
 const ENABLED: &str = "interrupts_enabled";
 
-/// Places where routines go on are labels with numbers above this, which no pointer has.
-pub(super) const FIRST_PLACE: u32 = 0x1_0000;
-
 /// What requests one thing to be done.
-struct Request {
-    source: Option<Source>,
-    what: What,
+pub(super) struct Request {
+    pub(super) source: Option<Source>,
+    pub(super) what: What,
 }
 
 /// What is done on request.
-enum What {
+pub(super) enum What {
     /// A routine runs.
     Routine { function: u32, interrupt: Interrupt },
     /// A routine runs, or goes on where it was left.
@@ -59,17 +54,6 @@ impl What {
     }
 }
 
-/// A routine that may be left in the middle.
-struct Section {
-    /// Its function.
-    function: u32,
-    interrupt: Advanced,
-    /// Where it goes on: 0 is its begin.
-    at: CellId,
-    /// How many other places there are.
-    places: u32,
-}
-
 /// The interrupts of a program.
 #[derive(Default)]
 pub(super) struct Interrupts {
@@ -77,9 +61,9 @@ pub(super) struct Interrupts {
     /// The flags that sources set.
     flags: Vec<(Source, FlagId)>,
     /// Routines that may be left in the middle.
-    sections: Vec<Section>,
+    pub(super) sections: Vec<Section>,
     /// Registers of edges, and what they said when they were last read.
-    captures: Vec<(&'static Capture, CellId)>,
+    pub(super) captures: Vec<(&'static Capture, CellId)>,
     /// The flag that EI sets, and the function that takes interrupts; `None` if there is nothing to take.
     function: Option<(FlagId, u32)>,
 }
@@ -140,162 +124,6 @@ impl Lowerer<'_> {
         self.interrupts.requests = requests;
         self.interrupts.flags = flags;
         self.interrupts.function = Some((enabled, function));
-    }
-
-    /// An advanced interrupt's routine.
-    fn section(&mut self, number: u32, function: u32, interrupt: Advanced) -> Request {
-        let at = self.cell(format!("i{number}_at"), "where the routine goes on");
-        self.interrupts.sections.push(Section {
-            function,
-            interrupt,
-            at,
-            places: 0,
-        });
-        Request {
-            source: interrupt.source,
-            what: What::Process {
-                function,
-                interrupt,
-                at,
-            },
-        }
-    }
-
-    /// Finds the registers of edges that the program names, and that its interrupts depend on.
-    fn find_captures(&mut self, requests: &[Request]) {
-        for capture in interrupts::captures(self.model.id) {
-            let captured = |request: &Request| matches!(request.source, Some(Source::Input { number, .. }) if capture.inputs.contains(&number));
-            let named = self.names(Device {
-                class: D,
-                number: capture.register,
-            });
-            if named && requests.iter().any(captured) {
-                let name = format!("x{:03o}_edges", capture.inputs[0]);
-                let cell = self.cell(name, "which edges interrupt");
-                self.interrupts.captures.push((capture, cell));
-            }
-        }
-    }
-
-    /// A counter is reset: a register of edges is read.
-    pub(super) fn read_captures(&mut self, counter: u32) {
-        let table = high_speed::counters(self.model.id);
-        let Some(counter) = table.iter().find(|row| row.number == counter) else {
-            return;
-        };
-        for i in 0..self.interrupts.captures.len() {
-            let (capture, cell) = self.interrupts.captures[i];
-            if counter.counts.contains(&capture.counted) {
-                self.read_capture(capture, cell);
-            }
-        }
-    }
-
-    fn read_capture(&mut self, capture: &Capture, cell: CellId) {
-        let edges = self.add(Expr::ReadWord(fixed(D, capture.register)));
-        let edges = self.add(Expr::Widen(edges));
-        self.emit(Stmt::SetCell(cell, edges));
-    }
-
-    /// When the first scan ends, registers of edges are read.
-    pub(super) fn first_captures(&mut self) {
-        let captures = std::mem::take(&mut self.interrupts.captures);
-        if captures.is_empty() {
-            return;
-        }
-        let first = self.add(Expr::Sys(SysValue::FirstScan));
-        self.when(first, |this| {
-            for (capture, cell) in captures {
-                this.read_capture(capture, cell);
-            }
-        });
-    }
-
-    /// Whether an edge interrupts; `None`: always.
-    fn captured(&mut self, input: u32, kind: EdgeKind) -> Option<ExprId> {
-        let mut captures = self.interrupts.captures.iter();
-        let &(capture, cell) = captures.find(|(capture, _)| capture.inputs.contains(&input))?;
-        let Some((mask, value)) = capture.demands(input, kind) else {
-            return Some(self.bit_const(false));
-        };
-        let edges = self.add(Expr::Cell(cell));
-        let mask = self.add(Expr::I32(mask));
-        let edges = self.add(Expr::Bin(BinOp::And, edges, mask));
-        let value = self.add(Expr::I32(value));
-        Some(self.add(Expr::Cmp(CmpOp::Eq, edges, value)))
-    }
-
-    /// PROC: the next entry goes on here.
-    pub(super) fn process_begins(&mut self) {
-        if let Some((place, at)) = self.new_place() {
-            self.emit_place(at, place);
-            self.out.push(Item::Label(place));
-        }
-    }
-
-    /// PEND: the routine is left; driven, the next entry goes on behind it.
-    pub(super) fn process_ends(&mut self) {
-        let drive = self.drive();
-        let Some((place, at)) = self.new_place() else {
-            return;
-        };
-        self.when(drive, |this| this.emit_place(at, place));
-        self.emit(Stmt::Return);
-        self.out.push(Item::Label(place));
-        self.logic.stack.clear();
-    }
-
-    /// PRET, or what ends an advanced interrupt's routine instead.
-    pub(super) fn end_interrupt(&mut self) {
-        let function = self.flow.function();
-        let mut sections = self.interrupts.sections.iter();
-        if let Some(section) = sections.find(|section| section.function == function) {
-            let active = section.interrupt.active;
-            let off = self.bit_const(false);
-            self.write_device(M, active, off);
-        }
-        self.return_here();
-    }
-
-    /// One more place at which the routine at hand goes on, and where that is kept.
-    fn new_place(&mut self) -> Option<(u32, CellId)> {
-        if !self.open.is_empty() {
-            let span = self.instr().span;
-            let message = format!(
-                "`{}` in a loop or a state is not implemented yet",
-                self.instr()
-            );
-            self.report(codes::NOT_IMPLEMENTED.at(span, message));
-            return None;
-        }
-        let function = self.flow.function();
-        let mut sections = self.interrupts.sections.iter_mut();
-        let section = sections.find(|section| section.function == function)?;
-        section.places += 1;
-        Some((FIRST_PLACE + section.places, section.at))
-    }
-
-    fn emit_place(&mut self, at: CellId, place: u32) {
-        let place = self.add(Expr::I32((place - FIRST_PLACE) as i32));
-        self.emit(Stmt::SetCell(at, place));
-    }
-
-    /// The routine at hand begins with jumps to the places where it goes on, the last one first, so that they nest.
-    pub(super) fn enter_places(&mut self) {
-        let function = self.flow.function();
-        let mut sections = self.interrupts.sections.iter();
-        let Some(section) = sections.find(|section| section.function == function) else {
-            return;
-        };
-        let (at, places) = (section.at, section.places);
-        let behind = std::mem::take(&mut self.out);
-        for n in (1..=places).rev() {
-            let at = self.add(Expr::Cell(at));
-            let place = self.add(Expr::I32(n as i32));
-            let cond = self.add(Expr::Cmp(CmpOp::Eq, at, place));
-            self.push_jump(cond, FIRST_PLACE + n);
-        }
-        self.out.extend(behind);
     }
 
     /// A flag for each source, and what sets it.
@@ -478,46 +306,8 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Runs an advanced interrupt's routine from its begin, or goes on with it. A request for that from before is forgotten at its
-    /// begin.
-    fn serve_process(&mut self, what: &What) {
-        let What::Process {
-            function,
-            interrupt,
-            at,
-        } = *what
-        else {
-            return;
-        };
-        let allowed = self.allowed(Gate::Forbids(interrupt.mask));
-        let relay = |this: &mut Self, relay| this.add(Expr::ReadBit(fixed(M, relay)));
-        let (request, active) = (interrupt.request, interrupt.active);
-        let asked = relay(self, request);
-        let is_active = relay(self, active);
-        let idle = self.not(is_active);
-        let begins = self.and(asked, idle);
-        let begins = self.and(begins, allowed);
-        self.when(begins, |this| {
-            let (off, on) = (this.bit_const(false), this.bit_const(true));
-            this.write_device(M, request, off);
-            this.write_device(M, interrupt.again, off);
-            this.write_device(M, active, on);
-            let begin = this.add(Expr::I32(0));
-            this.emit(Stmt::SetCell(at, begin));
-            this.emit(Stmt::CallSub(function));
-        });
-        let again = relay(self, interrupt.again);
-        let goes_on = self.and(again, is_active);
-        let goes_on = self.and(goes_on, allowed);
-        self.when(goes_on, |this| {
-            let off = this.bit_const(false);
-            this.write_device(M, interrupt.again, off);
-            this.emit(Stmt::CallSub(function));
-        });
-    }
-
     /// Whether a routine may run; a relay that nothing looks at stays as it is at power-on.
-    fn allowed(&mut self, gate: Gate) -> ExprId {
+    pub(super) fn allowed(&mut self, gate: Gate) -> ExprId {
         let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate;
         let on = if self.specials.has(M, relay) {
             self.add(Expr::ReadBit(fixed(M, relay)))

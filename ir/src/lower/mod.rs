@@ -4,10 +4,12 @@
 //! operands become expressions and places with the conditions under which they exist (`operand`). Jumps and loops are collected
 //! as items and made into structured statements when their body ends (`flow`). What the layout stores is found last.
 
+mod advanced;
 mod arith;
 mod axes;
 mod build;
 mod call;
+mod capture;
 mod coil;
 mod comment;
 mod count_table;
@@ -27,7 +29,7 @@ mod system;
 use crate::catalogue::{Basic, Drive, Inst, Join, Lower};
 use crate::layout;
 use crate::model::Model;
-use crate::node::{Function, FunctionKind, Module, Network, Stmt};
+use crate::node::{CellId, Function, FunctionKind, Module, Network, Stmt};
 use crate::resolve::{Resolution, Resolved};
 use flow::{Flow, Open};
 use parts::Item;
@@ -107,6 +109,8 @@ struct Lowerer<'a> {
     free_running: BTreeMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
+    /// Which of the instructions runs that run one at a time, from 1, and how many there are so far.
+    exclusive: Option<(CellId, i32)>,
     /// Devices that tests or a monitor look at.
     observed: &'a [(DeviceClass, u32)],
     /// How many SPD there are so far.
@@ -141,6 +145,7 @@ impl<'a> Lowerer<'a> {
             free_running: BTreeMap::new(),
             high_speed: high_speed::HighSpeed::default(),
             edges: edges::Edges::default(),
+            exclusive: None,
             observed: &options.observe,
             densities: 0,
             flow,
@@ -170,6 +175,7 @@ impl<'a> Lowerer<'a> {
         }
         self.find_counters();
         self.limit_comparisons();
+        self.find_exclusive();
         self.find_interrupts();
         for region in 0..self.flow.regions.len() {
             let body = self.region(region);
@@ -236,6 +242,7 @@ impl<'a> Lowerer<'a> {
             Lower::Basic(basic) => self.basic(basic),
             Lower::Compare(join, op) => self.compare_contact(join, op),
             Lower::Call(function) => self.call(inst, function),
+            Lower::Exclusive(function) => self.exclusive_call(inst, function),
             Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
             Lower::Density => self.density(),
             Lower::Todo(what) => self.not_implemented(inst, what),

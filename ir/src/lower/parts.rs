@@ -1,6 +1,6 @@
 //! Jumps become structured statements where they nest, and parts with labels where they do not.
 
-use super::interrupt::FIRST_PLACE;
+use super::advanced::FIRST_PLACE;
 use crate::node::{Body, ExprId, LabelId, Part, Stmt};
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -81,6 +81,7 @@ impl Lowerer<'_> {
             this.first_levels();
             this.begin_clock();
             this.forget_comparisons();
+            this.forget_exclusive();
             this.clear_masks();
             this.forget_errors();
             this.clocks();

@@ -24,6 +24,7 @@ pub mod scope;
 pub mod serial;
 pub mod servo;
 pub mod system;
+pub mod tables;
 pub mod text;
 
 #[cfg(test)]
