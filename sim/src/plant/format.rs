@@ -21,6 +21,9 @@ const FASTEST: f64 = 1_000_000.0;
 /// How many cycles of an encoder a pulse may make at most.
 const CYCLES_PER_PULSE: f64 = 10.0;
 
+/// The shortest length after which something comes again.
+const SHORTEST: f64 = 1e-6;
+
 const TOO_OFTEN: &str = "this comes more often than 10 times a pulse, or a million times a second";
 
 /// The greatest length, in pulses or units: beyond the 32 bits that a PLC counts.
@@ -719,7 +722,7 @@ impl<'t> Reader<'t> {
     /// A length after which something comes again.
     fn period(&mut self, value: &Spanned<f64>, per_unit: f64, fastest: f64) -> Option<f64> {
         let every = value.get_ref() * per_unit;
-        let fits = every * fastest >= 1.0 && every <= LONGEST;
+        let fits = every * fastest >= 1.0 && (SHORTEST..=LONGEST).contains(&every);
         if !fits {
             let message = match every > 0.0 {
                 true if every > LONGEST => "this length is too great",

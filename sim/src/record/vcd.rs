@@ -206,6 +206,10 @@ mod tests {
         vcd.change(125, 2, Reading::Integer(5, 16)).unwrap();
         vcd.change(2000, 3, Reading::Float(-1.25)).unwrap();
         vcd.end(3000).unwrap();
+        let mut parser = vcd::Parser::new(&out[..]);
+        let header = parser.parse_header().unwrap();
+        assert!(header.find_var(&["my_program", "inputs", "X010"]).is_some());
+        assert!(parser.all(|command| command.is_ok()));
         insta::assert_snapshot!(String::from_utf8(out).unwrap());
     }
 }
