@@ -5,7 +5,7 @@ use super::operand::{Guards, Target, fixed};
 use crate::axes;
 use crate::node::{Expr, Stmt, SysValue};
 use rungc_syntax::DeviceClass::D;
-use rungc_syntax::{Device, OperandKind};
+use rungc_syntax::OperandKind;
 
 impl Lowerer<'_> {
     /// AXPO and its like: the operands behind the axis are these parameters of it.
@@ -35,9 +35,8 @@ impl Lowerer<'_> {
 
     /// When RUN begins, the parameters that something looks at have their values; the first scan may set others.
     pub(super) fn axis_defaults(&mut self) {
-        let looked_at = |&(number, _): &(u32, i16)| self.looks_at(Device { class: D, number });
         let mut defaults = axes::defaults(self.model.id);
-        defaults.retain(looked_at);
+        defaults.retain(|&(register, _)| self.looks_at(register));
         if defaults.is_empty() {
             return;
         }

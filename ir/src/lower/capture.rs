@@ -7,17 +7,14 @@ use crate::catalogue::CmpOp;
 use crate::high_speed;
 use crate::interrupts::{self, Capture, Source};
 use crate::node::{BinOp, CellId, EdgeKind, Expr, ExprId, Stmt, SysValue};
-use rungc_syntax::{Device, DeviceClass::D};
+use rungc_syntax::DeviceClass::D;
 
 impl Lowerer<'_> {
     /// Finds the registers of edges that the program names, and that its interrupts depend on.
     pub(super) fn find_captures(&mut self, requests: &[Request]) {
         for capture in interrupts::captures(self.model.id) {
             let captured = |request: &Request| matches!(request.source, Some(Source::Input { number, .. }) if capture.inputs.contains(&number));
-            let named = self.names(Device {
-                class: D,
-                number: capture.register,
-            });
+            let named = self.names(capture.register);
             if named && requests.iter().any(captured) {
                 let name = format!("x{:03o}_edges", capture.inputs[0]);
                 let cell = self.cell(name, "which edges interrupt");

@@ -517,10 +517,7 @@ impl Lowerer<'_> {
     }
 
     fn looks_at_pair(&self, register: u32) -> bool {
-        let class = DeviceClass::D;
-        [register, register + 1]
-            .into_iter()
-            .any(|number| self.looks_at(Device { class, number }))
+        self.looks_at(register) || self.looks_at(register + 1)
     }
 
     fn reset_edge(&mut self, used: &Used, reset: u32, compares: &[&Compare]) {

@@ -36,6 +36,7 @@ use parts::Item;
 use rungc_rt::TimerKind;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, codes};
 use special::Specials;
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// What to know besides the program.
@@ -113,6 +114,8 @@ struct Lowerer<'a> {
     exclusive: Option<(CellId, i32)>,
     /// Devices that tests or a monitor look at.
     observed: &'a [(DeviceClass, u32)],
+    /// The ordinary registers that instructions name, once it was asked.
+    named: OnceCell<Vec<bool>>,
     /// How many SPD there are so far.
     densities: usize,
     /// Statement above a network that has not begun yet.
@@ -147,6 +150,7 @@ impl<'a> Lowerer<'a> {
             edges: edges::Edges::default(),
             exclusive: None,
             observed: &options.observe,
+            named: OnceCell::new(),
             densities: 0,
             flow,
             diagnostics: Diagnostics::new(),

@@ -5,7 +5,7 @@ use super::{LowerOptions, Lowerer};
 use crate::catalogue::{Drive, Lower, Role};
 use crate::resolve::Resolved;
 use crate::runs::FIRST_SPECIAL;
-use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rungc_syntax::{DeviceClass, OperandKind};
 
 /// More than any model has.
 const COUNT: usize = 1000;
@@ -135,31 +135,55 @@ impl Specials {
 }
 
 impl Lowerer<'_> {
-    /// Whether an instruction names a device, or something observes it.
-    pub(super) fn looks_at(&self, device: Device) -> bool {
-        self.observed.contains(&(device.class, device.number)) || self.names(device)
+    /// Whether an instruction names an ordinary register, among others or with an index, or something observes it.
+    pub(super) fn looks_at(&self, register: u32) -> bool {
+        self.observed.contains(&(DeviceClass::D, register)) || self.names(register)
     }
 
-    /// Whether an instruction names a device, among others or with an index.
-    pub(super) fn names(&self, device: Device) -> bool {
-        (0..self.resolved.instrs.len()).any(|i| {
-            let operands = &self.resolved.program.instrs[i].operands;
-            let resolution = &self.resolved.instrs[i];
+    /// Whether an instruction names an ordinary register, among others or with an index.
+    pub(super) fn names(&self, register: u32) -> bool {
+        let named = self.named.get_or_init(|| self.named_registers());
+        named.get(register as usize).copied().unwrap_or(false)
+    }
+
+    /// The ordinary registers that instructions name.
+    fn named_registers(&self) -> Vec<bool> {
+        let mut named = vec![false; FIRST_SPECIAL as usize];
+        for (instr, resolution) in self
+            .resolved
+            .program
+            .instrs
+            .iter()
+            .zip(&self.resolved.instrs)
+        {
             let Some(inst) = resolution.inst else {
-                return false;
+                continue;
             };
-            let extents = extents(inst, resolution.form, operands, self.model);
-            operands.iter().zip(extents).any(|(operand, extent)| {
-                let (first, indexed) = match operand.kind {
-                    OperandKind::Device(first, index) => (first, index.is_some()),
-                    OperandKind::WordBit(first, _, index) => (first, index.is_some()),
-                    _ => return false,
+            let extents = extents(inst, resolution.form, &instr.operands, self.model);
+            for (operand, extent) in instr.operands.iter().zip(extents) {
+                let (device, index) = match operand.kind {
+                    OperandKind::Device(device, index) => (device, index),
+                    OperandKind::WordBit(device, _, index) => (device, index),
+                    _ => continue,
                 };
-                let end = extent.map_or(u32::MAX, |count| first.number.saturating_add(count));
-                first.class == device.class
-                    && (indexed || (first.number..end).contains(&device.number))
-            })
-        })
+                if device.class != DeviceClass::D {
+                    continue;
+                }
+                let (first, count) = match index {
+                    Some(_) => (0, usize::MAX),
+                    None => (
+                        device.number as usize,
+                        extent.map_or(usize::MAX, |n| n as usize),
+                    ),
+                };
+                named
+                    .iter_mut()
+                    .skip(first)
+                    .take(count)
+                    .for_each(|mark| *mark = true);
+            }
+        }
+        named
     }
 }
 
