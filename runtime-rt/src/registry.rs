@@ -398,7 +398,11 @@ registry! {
     /// The oscilloscope of HM, each millisecond.
     Oscilloscope = scope::oscilloscope(n, d) [state];
     /// PTAB: points of a segment.
-    Ptab = tables::ptab(s, d, n) [state, always];
+    Ptab = segment::ptab(s, d, n) [state, always];
+    /// PCTAB: the cam table of a cut.
+    Pctab = cut::pctab(s, d) [state, always];
+    /// PBTAB: the way back of a cam table.
+    Pbtab = cut::pbtab(s, d) [state, always];
     /// FROM of L01S: module 0 is the host's analog inputs if there is no other.
     FromHost = modules::from_host(m1, m2, d, n) [hal];
     /// TO of L01S: module 0 is the host's analog outputs if there is no other.

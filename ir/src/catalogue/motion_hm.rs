@@ -109,8 +109,10 @@ pub(super) const ROWS: &[Inst] = &[
         .text("The axis follows register D3 along the cam table at D2; the 28 words at D5 say when it engages and disengages."),
     wide("PCTAB", "Cam table")
         .takes(&[both("D1", DATA).word().len(16), table("D2").open_ended()])
+        .lower(Lower::Exclusive(RtFn::Pctab))
         .text("Builds the cam table at D2 of a flying cut as the sixteen words at D1 say."),
     wide("PBTAB", "Return of a cam table")
         .takes(&[both("D1", DATA).word().len(12), table("D2").open_ended()])
+        .lower(Lower::Exclusive(RtFn::Pbtab))
         .text("Appends the way back to the cam table at D2 as the twelve words at D1 say."),
 ];

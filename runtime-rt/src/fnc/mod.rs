@@ -6,6 +6,7 @@ mod output;
 pub mod block;
 pub mod cassette;
 pub mod clock;
+pub mod cut;
 pub mod data;
 pub mod display;
 pub mod float;
@@ -21,10 +22,11 @@ pub mod pulses;
 pub mod rotate;
 pub mod scale;
 pub mod scope;
+pub mod segment;
 pub mod serial;
 pub mod servo;
 pub mod system;
-pub mod tables;
+pub mod table;
 pub mod text;
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
-//! Point tables of HM: where a slave is while its master goes on (hm-motion-controller §8.3.4).
+//! Segments of point tables of HM: where a slave is while its master goes on (hm-motion-controller §8.3.4).
 
+use super::table::{Maker, make};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 
@@ -14,12 +15,6 @@ const ACCELERATION: i32 = 7;
 const TIME_UNIT: i32 = 8;
 const PULSE_UNIT: i32 = 9;
 const STATE: i32 = 10;
-
-/// What [`STATE`] shows.
-const IDLE: i16 = 0;
-const RUNNING: i16 = 16;
-const DONE: i16 = 32;
-const WRONG: i16 = 64;
 
 /// How the speed changes over the segment.
 #[derive(Clone, Copy)]
@@ -48,7 +43,7 @@ struct Segment {
 
 impl Segment {
     /// The segment that the parameters tell; `None` if they make no sense.
-    fn of(cx: &Cx) -> Result<Option<Self>, Fault> {
+    fn told(cx: &Cx) -> Result<Option<Self>, Fault> {
         let number = |offset| cx.word(0, offset).map(i128::from);
         let unsigned = |offset| cx.word(0, offset).map(|word| i128::from(word as u16));
         let curve = match cx.word(0, KIND)? {
@@ -92,7 +87,7 @@ impl Segment {
     }
 
     /// Pulses up to a point.
-    fn position(&self, point: i32) -> i32 {
+    fn way_to(&self, point: i32) -> i32 {
         let (at, range) = (i128::from(point) * self.interval, self.range);
         let (part, whole) = match self.curve {
             Curve::Even => (at * at, range * range),
@@ -133,64 +128,34 @@ fn rounded(a: i128, b: i128) -> i128 {
     (if a < 0 { a - half } else { a + half }) / b
 }
 
-/// PTAB: appends the points of a segment to a table, one each millisecond. Memory: the state, the points so far.
-pub fn ptab(cx: &mut Cx) -> Done {
-    let dt = cx.dt_ms();
-    let state = cx.state().0[0];
-    if !cx.drive() {
-        if state == i32::from(IDLE) {
-            return Ok(());
+impl Maker for Segment {
+    const STATE: i32 = STATE;
+
+    fn of(cx: &Cx) -> Result<Option<Self>, Fault> {
+        Segment::told(cx)
+    }
+
+    fn points(&self) -> i32 {
+        self.points
+    }
+
+    fn position(&self, point: i32) -> i32 {
+        self.way_to(point)
+    }
+
+    fn end(&self, cx: &mut Cx) -> Done {
+        if self.by_speed {
+            cx.set_dword(0, DISPLACEMENT, self.displacement())?;
+        } else {
+            cx.set_word(0, END_SPEED, self.end_speed())?;
         }
-        return show(cx, IDLE);
+        cx.set_word(0, ACCELERATION, self.acceleration())
     }
-    if state == i32::from(IDLE) {
-        cx.state().0[1] = 0;
-        let begins = match Segment::of(cx)? {
-            Some(segment) => fits(cx, &segment)?,
-            None => false,
-        };
-        return show(cx, if begins { RUNNING } else { WRONG });
-    }
-    if state != i32::from(RUNNING) {
-        return Ok(());
-    }
-    let Some(segment) = Segment::of(cx)? else {
-        return show(cx, WRONG);
-    };
-    let before = cx.state().0[1];
-    let now = before.saturating_add(dt).min(segment.points);
-    let count = cx.dword(1, 0)?;
-    let origin = cx.dword(1, 2 * count)?;
-    for point in before + 1..=now {
-        let position = origin.wrapping_add(segment.position(point));
-        cx.set_dword(1, 2 * (count + point), position)?;
-    }
-    cx.state().0[1] = now;
-    if now < segment.points {
-        return Ok(());
-    }
-    cx.set_dword(1, 0, count + segment.points)?;
-    if segment.by_speed {
-        cx.set_dword(0, DISPLACEMENT, segment.displacement())?;
-    } else {
-        cx.set_word(0, END_SPEED, segment.end_speed())?;
-    }
-    cx.set_word(0, ACCELERATION, segment.acceleration())?;
-    show(cx, DONE)
 }
 
-/// Whether the table has a point to go on from, and registers for all points.
-fn fits(cx: &Cx, segment: &Segment) -> Result<bool, Fault> {
-    let count = cx.dword(1, 0)?;
-    let last = count
-        .checked_add(segment.points)
-        .and_then(|points| points.checked_mul(2));
-    Ok(count > 0 && last.is_some_and(|last| cx.dword(1, last).is_ok()))
-}
-
-fn show(cx: &mut Cx, state: i16) -> Done {
-    cx.state().0[0] = state.into();
-    cx.set_word(0, STATE, state)
+/// PTAB: appends the points of a segment to a table. Memory: that of [`make`].
+pub fn ptab(cx: &mut Cx) -> Done {
+    make::<Segment>(cx)
 }
 
 #[cfg(test)]
