@@ -28,6 +28,16 @@ fn tools(programs: &[&str]) -> bool {
     missing.is_empty()
 }
 
+/// `make`, in the folder of the C example, with another folder for what it makes.
+fn make(target: &str, build: &Path) -> Command {
+    let mut make = Command::new("make");
+    make.arg(target)
+        .arg(format!("BUILD={}", build.display()))
+        .arg(format!("RUNGC={}", env!("CARGO_BIN_EXE_rungc")))
+        .current_dir(examples().join("c"));
+    make
+}
+
 /// What the lamps do. QEMU prints some kinds of semihosting to standard output, others to standard error.
 fn lamps(output: &Output) -> String {
     let printed = [&*output.stdout, &*output.stderr].concat();
@@ -43,14 +53,57 @@ fn traffic_light_in_c() {
         return;
     }
     let build = tempfile::tempdir().unwrap();
-    let output = Command::new("make")
-        .arg("run")
-        .arg(format!("BUILD={}", build.path().display()))
-        .arg(format!("RUNGC={}", env!("CARGO_BIN_EXE_rungc")))
-        .current_dir(examples().join("c"))
+    let output = make("run", build.path()).output().unwrap();
+    insta::assert_snapshot!("traffic_light", lamps(&output));
+}
+
+/// How often a pin of port D goes on, by what QEMU saw of writes to the register that sets (low half) and resets (high half) pins.
+fn pulses(log: &str, pin: u32) -> usize {
+    let writes = log.lines().filter_map(|line| {
+        let value =
+            line.strip_prefix("GPIOD: unimplemented device write (size 4, offset 0x018, value 0x")?;
+        u32::from_str_radix(value.trim_end_matches(')'), 16).ok()
+    });
+    let mut on = false;
+    let mut count = 0;
+    for write in writes {
+        let goes_on = write >> pin & 1 == 1;
+        count += usize::from(goes_on && !on);
+        on = goes_on || on && write >> (pin + 16) & 1 == 0;
+    }
+    assert!(!on, "the last pulse has ended");
+    count
+}
+
+#[test]
+fn stepper_in_c() {
+    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+        return;
+    }
+    let Some(cargo) = cargo() else {
+        return leave_out(&format!("Rust for {TARGET} (rustup target add {TARGET})"));
+    };
+    let build = tempfile::tempdir().unwrap();
+    let log = build.path().join("log");
+    let mut make = make("run-stepper", build.path());
+    for (name, value) in cargo.get_envs() {
+        match value {
+            Some(value) => make.env(name, value),
+            None => make.env_remove(name),
+        };
+    }
+    let output = make
+        .arg(format!("CARGO={}", cargo.get_program().display()))
+        .arg(format!("QEMU_OPTIONS=-d unimp -D {}", log.display()))
         .output()
         .unwrap();
-    insta::assert_snapshot!("traffic_light", lamps(&output));
+    let printed =
+        String::from_utf8_lossy(&[&*output.stdout, &*output.stderr].concat()).into_owned();
+    assert!(output.status.success(), "{printed}");
+    // As long as the simulator takes.
+    assert!(printed.contains("done after 0344 ms"), "{printed}");
+    let log = std::fs::read_to_string(log).unwrap();
+    assert_eq!(pulses(&log, 11), 1000);
 }
 
 /// A cargo that can build for the microcontroller: rustup's with the target, or a distribution's with the sources of `core`.

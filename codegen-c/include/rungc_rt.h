@@ -538,6 +538,10 @@ typedef struct rungc_generator {
      * A signal of a fixed width and period.
      */
     bool modulates;
+    /**
+     * It has begun, and no pin shows it yet.
+     */
+    bool fresh;
 } rungc_generator;
 
 /**
@@ -576,6 +580,10 @@ typedef struct rungc_axis {
      * Pulses that have ended, but are not counted in registers yet.
      */
     int32_t uncounted;
+    /**
+     * A timer drives the pin, whose time is another than that of scans.
+     */
+    bool timed;
 } rungc_axis;
 
 #ifdef __cplusplus

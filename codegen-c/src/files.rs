@@ -138,6 +138,7 @@ fn runtime_header() -> String {
 /// Where the runtime library is; `make` wants to know it before the first rule that needs it.
 const LIBRARY_PATH: &str = "\
 # The runtime library: `make TARGET=thumbv7em-none-eabihf CC=arm-none-eabi-gcc` for a microcontroller (rustup target add ...).
+CARGO ?= cargo
 ifdef TARGET
 TARGET_FLAG = --target $(TARGET)
 endif
@@ -147,7 +148,7 @@ LIBRARY = rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a
 /// How it is built.
 const LIBRARY_RULE: &str = "\
 $(LIBRARY): $(shell find rungc-rt/src -name '*.rs') rungc-rt/Cargo.toml
-\tcd rungc-rt && cargo rustc --release --crate-type staticlib --features staticlib $(TARGET_FLAG)
+\tcd rungc-rt && $(CARGO) rustc --release --crate-type staticlib --features staticlib $(TARGET_FLAG)
 
 ";
 

@@ -25,6 +25,8 @@ pub struct Axis {
     pub inverted: bool,
     /// Pulses that have ended, but are not counted in registers yet.
     pub uncounted: i32,
+    /// A timer drives the pin, whose time is another than that of scans.
+    pub timed: bool,
 }
 
 impl Axis {
@@ -39,6 +41,7 @@ impl Axis {
             on: false,
             inverted: false,
             uncounted: 0,
+            timed: false,
         }
     }
 
@@ -47,10 +50,15 @@ impl Axis {
         core::mem::take(&mut self.ended)
     }
 
-    /// Lets time pass. This is all that an interrupt does.
-    fn pass(&mut self, now_us: u32) {
+    /// Lets time pass, for the pin if there is one to be driven. This is all that an interrupt does.
+    fn pass(&mut self, now_us: u32, pin: bool) {
         let was_busy = self.generator.is_busy();
-        let count = self.generator.advance(now_us) as i32;
+        let count = if pin {
+            self.generator.step(now_us)
+        } else {
+            self.generator.advance(now_us)
+        };
+        let count = count as i32;
         self.ended |= was_busy && self.generator.is_complete();
         let count = if self.generator.is_reverse() {
             count.wrapping_neg()
@@ -116,7 +124,9 @@ pub fn advance(plc: &mut dyn Plc, now_us: u32) {
             continue;
         };
         axis.inverted = inverts && axis.generator.modulates();
-        axis.pass(now_us);
+        if !axis.timed {
+            axis.pass(now_us, false);
+        }
         let count = core::mem::take(&mut axis.uncounted);
         if stops && !(axis.generator.modulates() && running) {
             axis.halt();
@@ -141,9 +151,12 @@ pub fn pulse_timer(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<
         let Some(axis) = plc.axis(output.into()) else {
             continue;
         };
-        axis.pass(now_us);
+        if !core::mem::replace(&mut axis.timed, true) {
+            axis.generator.set_time(now_us);
+        }
+        axis.pass(now_us, true);
         hal.set_output(output, axis.on);
-        let edge = axis.generator.next_edge();
+        let edge = axis.generator.wait(now_us);
         next = match (next, edge) {
             (Some(a), Some(b)) => Some(u32::min(a, b)),
             (a, b) => a.or(b),

@@ -72,6 +72,8 @@ pub struct Generator {
     stopped: bool,
     /// A signal of a fixed width and period.
     modulates: bool,
+    /// It has begun, and no pin shows it yet.
+    fresh: bool,
 }
 
 impl Generator {
@@ -94,6 +96,7 @@ impl Generator {
             reverse: false,
             stopped: false,
             modulates: false,
+            fresh: false,
         }
     }
 
@@ -110,6 +113,7 @@ impl Generator {
             on: (FULL / 2) as u32,
             busy: true,
             reverse: train.reverse,
+            fresh: true,
             ..Generator::new()
         };
         self.square = self.first_square();
@@ -125,6 +129,7 @@ impl Generator {
                 busy: true,
                 modulates: true,
                 rate: 1,
+                fresh: true,
                 ..Generator::new()
             };
         }
@@ -207,6 +212,38 @@ impl Generator {
             self.passed(pulses as u32);
         }
         count
+    }
+
+    /// The same for a host that drives a pin: at most one edge of the signal passes, so that the pin has every pulse. A host that comes late
+    /// sends the next edges sooner, but none before its time is half over; what it is later than that, the train is longer.
+    pub fn step(&mut self, now_us: u32) -> u32 {
+        if core::mem::take(&mut self.fresh) {
+            self.now_us = now_us;
+        }
+        let passed = now_us.wrapping_sub(self.now_us);
+        if passed > u32::MAX / 2 {
+            return 0;
+        }
+        let Some(wait) = self.next_edge().filter(|&wait| wait <= passed) else {
+            return self.advance(now_us);
+        };
+        let count = self.advance(self.now_us.wrapping_add(wait));
+        let late = passed - wait;
+        let most = self.next_edge().map_or(0, |next| next / 2);
+        self.now_us = now_us.wrapping_sub(late.min(most));
+        count
+    }
+
+    /// Microseconds from `now_us` to when the output changes next; `None` if it does not.
+    pub fn wait(&self, now_us: u32) -> Option<u32> {
+        let passed = now_us.wrapping_sub(self.now_us);
+        let passed = if passed > u32::MAX / 2 { 0 } else { passed };
+        Some(self.next_edge()?.saturating_sub(passed))
+    }
+
+    /// From now on the time is this.
+    pub fn set_time(&mut self, now_us: u32) {
+        self.now_us = now_us;
     }
 
     /// How many pulses, the present one included, have its speed for certain.
@@ -479,6 +516,29 @@ mod tests {
             sent += generator.advance(now);
         }
         assert_eq!(sent, i32::MAX as u32);
+    }
+
+    #[test]
+    fn a_pin_has_every_pulse_however_late_it_is_driven() {
+        let mut numbers = Numbers(4);
+        for _ in 0..200 {
+            let train = Train {
+                total: 1 + numbers.below(500) as u32,
+                ..numbers.train()
+            };
+            let mut generator = Generator::new();
+            generator.start(train);
+            let mut now = numbers.below(1 << 32) as u32;
+            let (mut on, mut rises, mut count) = (false, 0, 0);
+            while generator.is_busy() {
+                count += generator.step(now);
+                rises += u32::from(generator.level() && !on);
+                on = generator.level();
+                let late = numbers.below(300) as u32;
+                now = now.wrapping_add(generator.wait(now).unwrap_or(0) + late);
+            }
+            assert_eq!((rises, count), (train.total, train.total), "{train:?}");
+        }
     }
 
     #[test]

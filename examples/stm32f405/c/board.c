@@ -2,7 +2,9 @@
 #include "board.h"
 
 /* The core's clock: 16 MHz behind reset; QEMU's machine has 168 MHz. */
-#ifndef CPU_HZ
+#ifdef DEMO
+#define CPU_HZ 168000000u
+#else
 #define CPU_HZ 16000000u
 #endif
 
@@ -17,20 +19,28 @@
 
 #define FIRST_LAMP 11u
 
-static volatile uint32_t milliseconds;
+static volatile uint32_t milliseconds, microseconds;
 
 void systick_handler(void);
 
 void systick_handler(void)
 {
-    milliseconds++;
+    static uint32_t part_us;
+
+    microseconds += BOARD_TICK_US;
+    part_us += BOARD_TICK_US;
+    if (part_us >= 1000u) {
+        part_us -= 1000u;
+        milliseconds++;
+    }
+    board_tick_handler(microseconds);
 }
 
 void board_init(void)
 {
     RCC_AHB1ENR |= 1u << 0 | 1u << 3; /* clocks of ports A and D */
     GPIOD_MODER = (GPIOD_MODER & 0x003FFFFFu) | 0x55400000u; /* PD11 to PD15 are outputs */
-    SYSTICK_LOAD = CPU_HZ / 1000u - 1u;
+    SYSTICK_LOAD = CPU_HZ / 1000000u * BOARD_TICK_US - 1u;
     SYSTICK_VAL = 0;
     SYSTICK_CTRL = 7; /* core clock, interrupt, on */
 }
@@ -38,6 +48,20 @@ void board_init(void)
 uint32_t board_millis(void)
 {
     return milliseconds;
+}
+
+uint32_t board_micros(void)
+{
+    return microseconds;
+}
+
+void board_hold_interrupts(bool hold)
+{
+    if (hold) {
+        __asm__ volatile("cpsid i" ::: "memory");
+    } else {
+        __asm__ volatile("cpsie i" ::: "memory");
+    }
 }
 
 void board_sleep(void)

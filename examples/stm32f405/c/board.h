@@ -11,6 +11,16 @@ void board_init(void);
 /* Milliseconds since board_init. */
 uint32_t board_millis(void);
 
+/* Microseconds since board_init, wrapping; they go on in steps of BOARD_TICK_US. */
+#define BOARD_TICK_US 50u
+uint32_t board_micros(void);
+
+/* The program's: called in an interrupt each BOARD_TICK_US. */
+void board_tick_handler(uint32_t now_us);
+
+/* Keeps interrupts from coming, or lets them come again. */
+void board_hold_interrupts(bool hold);
+
 /* Sleeps until the next interrupt. */
 void board_sleep(void);
 
