@@ -6,3 +6,19 @@ pub mod operands;
 pub mod random;
 pub mod rng;
 pub mod stations;
+
+use rungc_ir::compile::{CompileOptions, compile};
+use rungc_ir::{ModelId, Module};
+
+/// The module of a list that compiles for a model.
+pub fn module(text: &str, model: ModelId) -> Module {
+    let read = rungc_frontend::read_text("test.il", text);
+    let options = CompileOptions {
+        model: Some(model),
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    compiled
+        .module
+        .unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
+}

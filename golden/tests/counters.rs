@@ -1,22 +1,10 @@
 //! High-speed counters, held to models of their own: random ways of an encoder, random tables.
 
+use rungc_golden::module;
 use rungc_golden::rng::Rng;
-use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
 use rungc_rt::{Class, NoHal, Plc, Program};
 use rungc_sim::Machine;
-
-fn module(text: &str) -> Module {
-    let read = rungc_frontend::read_text("test.il", text);
-    let options = CompileOptions {
-        model: Some(ModelId::H2u),
-        ..CompileOptions::default()
-    };
-    let compiled = compile(&read.program, &options);
-    compiled
-        .module
-        .unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
-}
 
 /// Inputs, and the machine that they belong to.
 struct Bench<'m> {
@@ -62,6 +50,7 @@ impl Bench<'_> {
 fn an_encoder_is_counted_to_the_edge() {
     let module = module(
         "LD M8000\nOUT M8195\nOUT C251 K1000000\nOUT C253 K1000000\nLD X010\nOUT M8197\nEND\n",
+        ModelId::H2u,
     );
     for seed in 0..20 {
         let mut rng = Rng::new(seed);
@@ -86,7 +75,10 @@ fn an_encoder_is_counted_to_the_edge() {
 
 #[test]
 fn a_hundred_thousand_cycles_there_and_back_end_where_they_began() {
-    let module = module("LD M8000\nOUT M8195\nOUT C251 K1000000\nEND\n");
+    let module = module(
+        "LD M8000\nOUT M8195\nOUT C251 K1000000\nEND\n",
+        ModelId::H2u,
+    );
     let mut bench = Bench::new(&module);
     for quarter in (1..=400_000).chain((0..400_000).rev()) {
         bench.turn([0, 1], quarter);
@@ -100,9 +92,12 @@ fn a_hundred_thousand_cycles_there_and_back_end_where_they_began() {
 #[test]
 fn rows_switch_at_their_counts_and_nowhere_else() {
     const ROWS: usize = 8;
-    let module = module(&format!(
-        "LD M8000\nOUT C235 K1000000\nLD X010\nOUT M8235\nLD M0\nDHSZ D0 K{ROWS} C235 M8130\nMOV D8130 D100\nEND\n"
-    ));
+    let module = module(
+        &format!(
+            "LD M8000\nOUT C235 K1000000\nLD X010\nOUT M8235\nLD M0\nDHSZ D0 K{ROWS} C235 M8130\nMOV D8130 D100\nEND\n"
+        ),
+        ModelId::H2u,
+    );
     for seed in 0..20 {
         let mut rng = Rng::new(seed);
         let mut bench = Bench::new(&module);

@@ -1,22 +1,10 @@
 //! Pulse outputs: random moves, changes and stops end with exactly the pulses that were asked for, and no faster than their ramps allow.
 
+use rungc_golden::module;
 use rungc_golden::rng::Rng;
-use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
 use rungc_rt::{Class, NoHal, Plc, Program};
 use rungc_sim::Machine;
-
-fn module(text: &str) -> Module {
-    let read = rungc_frontend::read_text("test.il", text);
-    let options = CompileOptions {
-        model: Some(ModelId::H2u),
-        ..CompileOptions::default()
-    };
-    let compiled = compile(&read.program, &options);
-    compiled
-        .module
-        .unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
-}
 
 /// A machine and its time.
 struct Bench<'m> {
@@ -75,7 +63,10 @@ fn speed(rng: &mut Rng) -> i32 {
 
 #[test]
 fn moves_end_where_they_should_and_keep_to_their_ramps() {
-    let module = module("LD M0\nDDRVI D0 D2 Y0 Y4\nLD M8029\nOUT M1\nEND\n");
+    let module = module(
+        "LD M0\nDDRVI D0 D2 Y0 Y4\nLD M8029\nOUT M1\nEND\n",
+        ModelId::H2u,
+    );
     for seed in 0..150 {
         let mut rng = Rng::new(seed);
         let mut bench = Bench::new(&module);
@@ -121,7 +112,10 @@ fn moves_end_where_they_should_and_keep_to_their_ramps() {
 
 #[test]
 fn a_move_that_is_stopped_again_and_again_arrives() {
-    let module = module("LD M0\nDDRVA D0 D2 Y0 Y4\nLD M8029\nOUT M1\nLD M2\nOUT M8145\nEND\n");
+    let module = module(
+        "LD M0\nDDRVA D0 D2 Y0 Y4\nLD M8029\nOUT M1\nLD M2\nOUT M8145\nEND\n",
+        ModelId::H2u,
+    );
     for seed in 0..40 {
         let mut rng = Rng::new(seed);
         let mut bench = Bench::new(&module);
@@ -150,7 +144,10 @@ fn a_move_that_is_stopped_again_and_again_arrives() {
 
 #[test]
 fn changes_of_speed_and_number_in_flight_keep_the_number() {
-    let module = module("LD M8000\nOUT M8135\nLD M0\nDPLSY D0 D2 Y0\nLD M8029\nOUT M1\nEND\n");
+    let module = module(
+        "LD M8000\nOUT M8135\nLD M0\nDPLSY D0 D2 Y0\nLD M8029\nOUT M1\nEND\n",
+        ModelId::H2u,
+    );
     for seed in 0..80 {
         let mut rng = Rng::new(seed);
         let mut bench = Bench::new(&module);

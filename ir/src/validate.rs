@@ -304,102 +304,97 @@ impl Checker<'_> {
 
     /// Types of what a statement writes, its handles, the devices it touches.
     fn typed(&self, stmt: &Stmt) -> Result<(), String> {
+        if !self.is_well_typed(stmt) {
+            return Err(format!(
+                "{stmt:?} is ill typed or names what does not exist"
+            ));
+        }
+        match self.unstored_target(stmt) {
+            Some(unstored) => Err(format!("{stmt:?}: {unstored}")),
+            None => Ok(()),
+        }
+    }
+
+    /// What a statement writes that the layout lacks.
+    fn unstored_target(&self, stmt: &Stmt) -> Option<String> {
+        match *stmt {
+            Stmt::WriteBit(place, _)
+            | Stmt::WriteWordBit(place, ..)
+            | Stmt::WriteWord(place, _)
+            | Stmt::Reset(place) => self.unstored(place, 1),
+            Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.unstored_pair(place),
+            Stmt::WriteNibbles { place, digits, .. } => self.unstored(place, 4 * u32::from(digits)),
+            Stmt::Count { number, .. } => {
+                let place = Place {
+                    class: DeviceClass::C,
+                    number,
+                    index: None,
+                };
+                self.unstored(place, 1)
+            }
+            _ => None,
+        }
+    }
+
+    fn is_well_typed(&self, stmt: &Stmt) -> bool {
         let module = self.module;
         let is = |id: ExprId, ty: Ty| module.ty(id) == ty;
         let temp_is = |temp: TempId, ty: Ty| module.temps.get(temp.0 as usize) == Some(&ty);
-        let (well, unstored) = match *stmt {
-            Stmt::Network(n) => ((n as usize) < module.networks.len(), None),
-            Stmt::Let(temp, value) => (temp_is(temp, module.ty(value)), None),
+        match *stmt {
+            Stmt::Network(n) => (n as usize) < module.networks.len(),
+            Stmt::Let(temp, value) => temp_is(temp, module.ty(value)),
             Stmt::Edge {
                 edge, input, out, ..
-            } => (
-                edge.0 < module.edges && is(input, Ty::Bit) && temp_is(out, Ty::Bit),
-                None,
-            ),
-            Stmt::WriteBit(place, value) => (is(value, Ty::Bit), self.unstored(place, 1)),
-            Stmt::WriteWordBit(place, bit, value) => {
-                (bit < 16 && is(value, Ty::Bit), self.unstored(place, 1))
+            } => edge.0 < module.edges && is(input, Ty::Bit) && temp_is(out, Ty::Bit),
+            Stmt::WriteBit(_, value) => is(value, Ty::Bit),
+            Stmt::WriteWordBit(_, bit, value) => bit < 16 && is(value, Ty::Bit),
+            Stmt::WriteWord(_, value) => is(value, Ty::I16),
+            Stmt::WritePair(_, value) => is(value, Ty::I32),
+            Stmt::WriteFloat(_, value) => is(value, Ty::F32),
+            Stmt::WriteNibbles { digits, value, .. } => {
+                (1..=8).contains(&digits) && (is(value, Ty::I16) || is(value, Ty::I32))
             }
-            Stmt::WriteWord(place, value) => (is(value, Ty::I16), self.unstored(place, 1)),
-            Stmt::WritePair(place, value) => (is(value, Ty::I32), self.unstored_pair(place)),
-            Stmt::WriteFloat(place, value) => (is(value, Ty::F32), self.unstored_pair(place)),
-            Stmt::WriteNibbles {
-                place,
-                digits,
-                value,
-            } => (
-                (1..=8).contains(&digits) && (is(value, Ty::I16) || is(value, Ty::I32)),
-                self.unstored(place, 4 * u32::from(digits)),
-            ),
             Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
-                (is(drive, Ty::Bit) && is(preset, Ty::I16), None)
+                is(drive, Ty::Bit) && is(preset, Ty::I16)
             }
             Stmt::Counter32 {
                 drive,
                 down,
                 preset,
                 ..
-            } => (
-                is(drive, Ty::Bit) && is(down, Ty::Bit) && is(preset, Ty::I32),
-                None,
-            ),
-            Stmt::Reset(place) => (true, self.unstored(place, 1)),
-            Stmt::If { cond, .. } => (is(cond, Ty::Bit), None),
-            Stmt::For { count, .. } => (is(count, Ty::I16), None),
-            Stmt::Repeat { count, round, .. } => (count > 1 && temp_is(round, Ty::I32), None),
+            } => is(drive, Ty::Bit) && is(down, Ty::Bit) && is(preset, Ty::I32),
+            Stmt::Count { down, preset, .. } => is(down, Ty::Bit) && is(preset, Ty::I32),
+            Stmt::If { cond, .. } => is(cond, Ty::Bit),
+            Stmt::For { count, .. } => is(count, Ty::I16),
+            Stmt::Repeat { count, round, .. } => count > 1 && temp_is(round, Ty::I32),
             Stmt::Call {
                 ref args,
                 drive,
                 slot,
                 ..
-            } => (
+            } => {
                 slot <= module.states
                     && drive.is_none_or(|drive| is(drive, Ty::Bit))
-                    && args.iter().all(|arg| self.arg(arg)),
-                None,
-            ),
-            Stmt::SetCell(cell, value) => (
-                (cell.0 as usize) < module.cells.len() && is(value, Ty::I32),
-                None,
-            ),
-            Stmt::SetEntry(table, index, value) => (
-                (table.0 as usize) < module.tables.len()
-                    && is(index, Ty::I32)
-                    && is(value, Ty::I32),
-                None,
-            ),
-            Stmt::Count {
-                number,
-                down,
-                preset,
-            } => {
-                let place = Place {
-                    class: DeviceClass::C,
-                    number,
-                    index: None,
-                };
-                let typed = is(down, Ty::Bit) && is(preset, Ty::I32);
-                (typed, self.unstored(place, 1))
+                    && args.iter().all(|arg| self.arg(arg))
             }
-            Stmt::SetFlag(flag, value) => (
-                (flag.0 as usize) < module.flags.len() && is(value, Ty::Bit),
-                None,
-            ),
-            Stmt::CallSub(_)
+            Stmt::SetCell(cell, value) => {
+                (cell.0 as usize) < module.cells.len() && is(value, Ty::I32)
+            }
+            Stmt::SetEntry(table, index, value) => {
+                (table.0 as usize) < module.tables.len() && is(index, Ty::I32) && is(value, Ty::I32)
+            }
+            Stmt::SetFlag(flag, value) => {
+                (flag.0 as usize) < module.flags.len() && is(value, Ty::Bit)
+            }
+            Stmt::Reset(_)
+            | Stmt::CallSub(_)
             | Stmt::Return
             | Stmt::TimerGoesOn { .. }
             | Stmt::Parts(_)
             | Stmt::Goto(_)
             | Stmt::Fault { .. }
             | Stmt::Stop
-            | Stmt::Clear { .. } => (true, None),
-        };
-        match (well, unstored) {
-            (true, None) => Ok(()),
-            (true, Some(unstored)) => Err(format!("{stmt:?}: {unstored}")),
-            (false, _) => Err(format!(
-                "{stmt:?} is ill typed or names what does not exist"
-            )),
+            | Stmt::Clear { .. } => true,
         }
     }
 
