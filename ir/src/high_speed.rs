@@ -360,6 +360,9 @@ pub fn edge_counts(model: ModelId) -> Option<std::ops::RangeInclusive<u32>> {
     (model == ModelId::Hm).then_some(8160..=8167)
 }
 
+/// The first counter that counts pulses of inputs; those below are counted by the program.
+pub const FIRST: u32 = 235;
+
 /// The high-speed counters of a model.
 pub fn counters(model: ModelId) -> &'static [Counter] {
     if model == ModelId::Hm { HM } else { FX }

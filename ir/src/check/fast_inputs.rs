@@ -18,6 +18,7 @@ const COUNTERS_TAKE_TURNS: ModelSet = ModelSet::of(&[ModelId::Hm]);
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
     let interrupts = interrupts(code.model().id, pointers);
     let counters = counters(code);
+    without_input(code, out);
     one_pointer_per_source(code, &interrupts, out);
     let others = others(code, &interrupts);
     inputs_shared(code, &others, &counters, out);
@@ -127,6 +128,26 @@ fn counters(code: &Code) -> Vec<Counter> {
         }
     }
     found
+}
+
+/// Coils of counters that no input of the model drives.
+fn without_input(code: &Code, out: &mut Diagnostics) {
+    let table = high_speed::counters(code.model().id);
+    for i in (0..code.len).filter(|&i| code.basic(i) == Some(Basic::Out)) {
+        let Some(device) = code.device(i, 0) else {
+            continue;
+        };
+        let fast = device.class == DeviceClass::C && device.number >= high_speed::FIRST;
+        if fast && !table.iter().any(|counter| counter.number == device.number) {
+            let message = format!("`{device}` counts no input of {}", code.model().name);
+            let span = code
+                .instr(i)
+                .operands
+                .first()
+                .map_or(code.span(i), |o| o.span);
+            out.push(codes::NO_DEVICE.at(span, message));
+        }
+    }
 }
 
 /// What else looks at the edges of an input.

@@ -3,12 +3,11 @@
 use super::Lowerer;
 use super::operand::{BitTarget, Guards, fixed};
 use crate::catalogue::Basic;
+use crate::high_speed;
 use crate::node::{EdgeKind, Expr, ExprId, Stmt};
 use crate::runs::FIRST_COUNTER32;
 use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
 
-/// Last counter that the program counts; those above count pulses of inputs.
-const LAST_COUNTER32: u32 = 234;
 /// Special relay that gives the direction of C200; the others follow.
 const FIRST_DIRECTION: u32 = 8200;
 
@@ -61,7 +60,7 @@ impl Lowerer<'_> {
 
     fn counter(&mut self, device: Device) {
         let number = device.number;
-        if number > LAST_COUNTER32 {
+        if number >= high_speed::FIRST {
             return self.high_speed_coil(device);
         }
         let drive = self.drive();
