@@ -11,6 +11,101 @@
 #include "rungc.h"
 
 /**
+ * Output to which it is bound.
+ */
+#define OUTPUT 0
+
+/**
+ * 1: it has an output for the direction.
+ */
+#define DIRECTION 1
+
+/**
+ * Unit of time in milliseconds.
+ */
+#define UNIT 2
+
+/**
+ * Highest speed in pulses a unit.
+ */
+#define HIGHEST 5
+
+/**
+ * Speed that ramps begin and end with.
+ */
+#define FIRST 6
+
+/**
+ * Acceleration in pulses a unit, a unit.
+ */
+#define ACCELERATION 7
+
+/**
+ * Inputs of the limit switches, as bits.
+ */
+#define LEFT 10
+
+/**
+ * The right one.
+ */
+#define RIGHT 11
+
+/**
+ * Which signals are looked at, and how, as bits.
+ */
+#define EVENTS 14
+
+/**
+ * Pair: position.
+ */
+#define POSITION 18
+
+/**
+ * State.
+ */
+#define STATE 20
+
+/**
+ * Code of an error.
+ */
+#define ERROR 21
+
+/**
+ * Pulses of the last period.
+ */
+#define INCREMENT 22
+
+/**
+ * Inputs of the emergency stop, as bits.
+ */
+#define EMERGENCY 23
+
+/**
+ * Inputs of the interrupt, as bits.
+ */
+#define INTERRUPT 24
+
+/**
+ * Pair: position at the interrupt.
+ */
+#define INTERRUPT_POSITION 26
+
+/**
+ * How many of them there are.
+ */
+#define COUNT 28
+
+/**
+ * Pair: the pulses of Y000; those of the other outputs follow.
+ */
+#define PULSES 80
+
+/**
+ * How many outputs are counted so.
+ */
+#define OUTPUTS 9
+
+/**
  * Device class. The numbers are part of the C ABI.
  */
 enum rungc_class
@@ -136,6 +231,10 @@ enum rungc_pulses
      * FX3G, FX3U.
      */
     RUNGC_PULSES_FX3 = 4,
+    /**
+     * HM: axes, which are bound to outputs.
+     */
+    RUNGC_PULSES_HM = 5,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -553,9 +652,13 @@ typedef struct rungc_axis {
      */
     struct rungc_generator generator;
     /**
-     * Pulses sent since power-on; those sent in reverse count down.
+     * Pulses sent on the output of this number since power-on; those sent in reverse count down.
      */
     int32_t sent;
+    /**
+     * The output on which it sends; another one than its own if it is an axis that is bound to that.
+     */
+    uint16_t output;
     /**
      * The pair of registers D in which the pulses of this train are counted; 0: none.
      */

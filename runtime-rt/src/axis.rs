@@ -3,6 +3,7 @@
 use crate::hal::Hal;
 use crate::plc::{Class, Plc, Sys};
 use crate::pulse::Generator;
+use crate::wiring::axis;
 use crate::word::{pair, words};
 
 /// A pulse output in a program's memory. All zero is one that is idle.
@@ -11,8 +12,10 @@ use crate::word::{pair, words};
 pub struct Axis {
     /// What it sends.
     pub generator: Generator,
-    /// Pulses sent since power-on; those sent in reverse count down.
+    /// Pulses sent on the output of this number since power-on; those sent in reverse count down.
     pub sent: i32,
+    /// The output on which it sends; another one than its own if it is an axis that is bound to that.
+    pub output: u16,
     /// The pair of registers D in which the pulses of this train are counted; 0: none.
     pub counter: u16,
     /// Private memory of the instruction that sends; 0: none.
@@ -35,6 +38,7 @@ impl Axis {
         Axis {
             generator: Generator::new(),
             sent: 0,
+            output: 0,
             counter: 0,
             owner: 0,
             ended: false,
@@ -65,7 +69,6 @@ impl Axis {
         } else {
             count
         };
-        self.sent = self.sent.wrapping_add(count);
         self.uncounted = self.uncounted.wrapping_add(count);
         self.show();
     }
@@ -131,23 +134,55 @@ pub fn advance(plc: &mut dyn Plc, now_us: u32) {
         if stops && !(axis.generator.modulates() && running) {
             axis.halt();
         }
-        let busy = axis.generator.millihertz() > 0;
-        let counter = u32::from(axis.counter);
-        set_relays(plc, &wiring.busy, busy);
-        if count == 0 || counter == 0 {
-            continue;
+        if wiring.axis == 0 {
+            axis.output = output as u16;
         }
-        for pair in [counter, wiring.sum].into_iter().filter(|&pair| pair != 0) {
-            let total = long(plc, pair).wrapping_add(count);
-            set_long(plc, pair, total);
+        let (target, counter) = (axis.output.into(), axis.counter.into());
+        let busy = axis.generator.millihertz() > 0;
+        set_relays(plc, &wiring.busy, busy);
+        if let Some(target) = plc.axis(target).filter(|_| count != 0) {
+            target.sent = target.sent.wrapping_add(count);
+        }
+        if wiring.axis != 0 {
+            count_axis(plc, wiring.axis, target, count);
+        } else if counter != 0 {
+            add(plc, counter, count);
+            add(plc, wiring.sum, count);
         }
     }
 }
 
+/// Adds to a pair of registers, if there is one.
+fn add(plc: &mut dyn Plc, low: u32, count: i32) {
+    if low != 0 && count != 0 {
+        let total = long(plc, low).wrapping_add(count);
+        set_long(plc, low, total);
+    }
+}
+
+/// Counts pulses of an axis whose registers begin with `first`, and of the output to which it is bound.
+fn count_axis(plc: &mut dyn Plc, first: u32, output: u32, count: i32) {
+    add(plc, first + axis::POSITION, count);
+    add(plc, axis::PULSES + 2 * output, count);
+    let _ = plc.set_word(Class::D, first + axis::INCREMENT, count as i16);
+}
+
+/// The frequency at which an output sends pulses, in millihertz: that of all axes that are bound to it.
+pub fn millihertz<P: Plc + ?Sized>(plc: &mut P, output: u32) -> u32 {
+    let mut sum: u32 = 0;
+    for n in 0..plc.pulses().outputs().len() as u32 {
+        if let Some(axis) = plc.axis(n).filter(|axis| u32::from(axis.output) == output) {
+            sum = sum.saturating_add(axis.generator.millihertz());
+        }
+    }
+    sum
+}
+
 /// Drives the pins of all pulse outputs; see [`crate::Program::pulse_timer`]. It touches nothing of the PLC but [`Plc::axis`].
 pub fn pulse_timer(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
+    let outputs = plc.pulses().outputs().len() as u16;
     let mut next = None;
-    for output in 0..plc.pulses().outputs().len() as u16 {
+    for output in 0..outputs {
         let Some(axis) = plc.axis(output.into()) else {
             continue;
         };
@@ -155,12 +190,20 @@ pub fn pulse_timer(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<
             axis.generator.set_time(now_us);
         }
         axis.pass(now_us, true);
-        hal.set_output(output, axis.on);
         let edge = axis.generator.wait(now_us);
         next = match (next, edge) {
             (Some(a), Some(b)) => Some(u32::min(a, b)),
             (a, b) => a.or(b),
         };
+    }
+    for output in 0..outputs {
+        if plc.axis(output.into()).is_some() {
+            let on = (0..outputs).any(|n| {
+                let axis = plc.axis(n.into());
+                axis.is_some_and(|axis| axis.output == output && axis.on)
+            });
+            hal.set_output(output, on);
+        }
     }
     next
 }

@@ -12,7 +12,7 @@
 //!
 //! The Makefile beside emitted C that needs it does the same with the sources that are emitted along.
 
-use crate::axis::{Axis, advance, pulse_timer};
+use crate::axis::{Axis, advance, millihertz, pulse_timer};
 use crate::cx::Cx;
 use crate::fault::{Done, report};
 use crate::hal::{Clock, Hal};
@@ -568,8 +568,7 @@ pub extern "C" fn rungc_pulses_sent(map: &mut Map, number: u32) -> i32 {
 /// The frequency at which output Y `number` sends pulses now, in millihertz.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_pulse_millihertz(map: &mut Map, number: u32) -> u32 {
-    map.axis(number)
-        .map_or(0, |axis| axis.generator.millihertz())
+    millihertz(map, number)
 }
 
 /// Sets the 32-bit value of a counter from C200 on or of a pair of words.

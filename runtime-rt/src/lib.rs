@@ -44,7 +44,7 @@ mod wiring;
 pub mod word;
 
 pub use access::Access;
-pub use axis::{Axis, advance as advance_pulses, pulse_timer};
+pub use axis::{Axis, advance as advance_pulses, millihertz as pulse_millihertz, pulse_timer};
 pub use cx::{Cx, call};
 pub use edge::Edge;
 pub use fault::{Done, Fault, report, trip_watchdog};

@@ -42,8 +42,7 @@ pub trait Program: Plc {
 
     /// The frequency at which output Y `number` sends pulses now, in millihertz.
     fn pulse_millihertz(&mut self, number: u32) -> u32 {
-        self.axis(number)
-            .map_or(0, |axis| axis.generator.millihertz())
+        crate::pulse_millihertz(self, number)
     }
 
     /// The RUN/STOP switch. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;

@@ -188,6 +188,15 @@ impl Generator {
         }
     }
 
+    /// Ends a train without end after so many pulses more.
+    pub fn end_in(&mut self, pulses: u32) {
+        if self.busy && self.total == 0 {
+            self.total = self.sent.saturating_add(pulses.max(1));
+            self.hold_back();
+            self.rate = self.square.isqrt() as u32;
+        }
+    }
+
     /// Counts the pulses that have ended since the last call. Call it at least every half an hour; time that goes back stands still.
     pub fn advance(&mut self, now_us: u32) -> u32 {
         let passed = now_us.wrapping_sub(self.now_us);

@@ -423,6 +423,18 @@ registry! {
     Plsr = pulses::plsr(s1, s2, s3, d) [state, always, pulses, ramps];
     /// DSZR (FNC 150): return to the origin.
     Dszr = position::dszr(s1, s2, d1, d2) [state, always, pulses, ramps, home, clears];
+    /// DPLSY of HM: pulses on an axis.
+    AxisPlsy = axes::axis_plsy(d1, d2, axis) [state, always, pulses];
+    /// DPLSR of HM: pulses with ramps of a time.
+    AxisPlsr = axes::axis_plsr(d1, d2, d3, axis) [state, always, pulses];
+    /// DDRVI of HM: relative move.
+    AxisDrvi = axes::axis_drvi(d1, d2, axis) [state, always, pulses];
+    /// DDRVA of HM: absolute move.
+    AxisDrva = axes::axis_drva(d1, d2, axis) [state, always, pulses];
+    /// DDVIT of HM: move from an interrupt on.
+    AxisDvit = axes::axis_dvit(d1, d2, axis) [state, always, pulses];
+    /// DPLSV of HM: pulses of a variable speed.
+    AxisPlsv = axes::axis_plsv(d1, axis) [state, always, pulses];
     /// ABS (FNC 155): absolute position of a servo.
     Abs = servo::abs(s, d1, d2) [state, always];
     /// ZRN (FNC 156): return to the origin, without turning round.

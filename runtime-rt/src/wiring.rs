@@ -54,6 +54,8 @@ pub struct Home {
 /// The special devices of one pulse output. A 0 stands for none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wiring {
+    /// First register of an axis (HM), whose registers say everything.
+    pub axis: u32,
     /// Pair: the position, which positioning instructions count.
     pub position: u32,
     /// Pair: the pulses of PLSY and PLSR.
@@ -120,6 +122,7 @@ const NO_HOME: Home = Home {
 };
 
 const NONE: Wiring = Wiring {
+    axis: 0,
     position: 0,
     pulses: 0,
     sum: 0,
@@ -341,6 +344,64 @@ const fn fx2n(output: u32) -> Wiring {
 
 const FX2N: [Wiring; 2] = [fx2n(0), fx2n(1)];
 
+/// An axis of HM has fifty registers (hm-motion-controller §8.2.3): their places among them.
+pub mod axis {
+    /// Output to which it is bound.
+    pub const OUTPUT: u32 = 0;
+    /// 1: it has an output for the direction.
+    pub const DIRECTION: u32 = 1;
+    /// Unit of time in milliseconds.
+    pub const UNIT: u32 = 2;
+    /// Highest speed in pulses a unit.
+    pub const HIGHEST: u32 = 5;
+    /// Speed that ramps begin and end with.
+    pub const FIRST: u32 = 6;
+    /// Acceleration in pulses a unit, a unit.
+    pub const ACCELERATION: u32 = 7;
+    /// Inputs of the limit switches, as bits.
+    pub const LEFT: u32 = 10;
+    /// The right one.
+    pub const RIGHT: u32 = 11;
+    /// Which signals are looked at, and how, as bits.
+    pub const EVENTS: u32 = 14;
+    /// Pair: position.
+    pub const POSITION: u32 = 18;
+    /// State.
+    pub const STATE: u32 = 20;
+    /// Code of an error.
+    pub const ERROR: u32 = 21;
+    /// Pulses of the last period.
+    pub const INCREMENT: u32 = 22;
+    /// Inputs of the emergency stop, as bits.
+    pub const EMERGENCY: u32 = 23;
+    /// Inputs of the interrupt, as bits.
+    pub const INTERRUPT: u32 = 24;
+    /// Pair: position at the interrupt.
+    pub const INTERRUPT_POSITION: u32 = 26;
+    /// How many of them there are.
+    pub const COUNT: u32 = 28;
+    /// Pair: the pulses of Y000; those of the other outputs follow.
+    pub const PULSES: u32 = 80;
+    /// How many outputs are counted so.
+    pub const OUTPUTS: u32 = 9;
+}
+
+const fn of_axis(number: u32) -> Wiring {
+    Wiring {
+        axis: 300 + 50 * number,
+        ..NONE
+    }
+}
+
+const HM: [Wiring; 6] = [
+    of_axis(0),
+    of_axis(1),
+    of_axis(2),
+    of_axis(3),
+    of_axis(4),
+    of_axis(5),
+];
+
 /// The pulse outputs of a family of models.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(u8)]
@@ -355,6 +416,8 @@ pub enum Pulses {
     Fx2n = 3,
     /// FX3G, FX3U.
     Fx3 = 4,
+    /// HM: axes, which are bound to outputs.
+    Hm = 5,
 }
 
 impl Pulses {
@@ -366,6 +429,7 @@ impl Pulses {
             Pulses::L01s => &L01S,
             Pulses::Fx2n => &FX2N,
             Pulses::Fx3 => &FX3,
+            Pulses::Hm => &HM,
         }
     }
 
@@ -373,6 +437,7 @@ impl Pulses {
     pub const fn highest_hz(self) -> u32 {
         match self {
             Pulses::L01s => 200_000,
+            Pulses::Hm => 600_000,
             Pulses::Without | Pulses::Inovance | Pulses::Fx2n | Pulses::Fx3 => 100_000,
         }
     }
@@ -386,7 +451,7 @@ impl Pulses {
     pub const fn fewest_with_ramps(self) -> u32 {
         match self {
             Pulses::Inovance | Pulses::Fx2n => 110,
-            Pulses::Without | Pulses::L01s | Pulses::Fx3 => 1,
+            Pulses::Without | Pulses::L01s | Pulses::Fx3 | Pulses::Hm => 1,
         }
     }
 
@@ -440,7 +505,16 @@ impl Wiring {
         let unit = looks.unit.then_some(self.unit);
         let clears = [self.zrn_clear.register, self.home.clear.register];
         let clears = clears.into_iter().filter(move |_| looks.clears);
+        let of_axis = match self.axis {
+            0 => 0..0,
+            first => first..first + axis::COUNT,
+        };
+        let outputs = match self.axis {
+            0 => 0..0,
+            _ => axis::PULSES..axis::PULSES + 2 * axis::OUTPUTS,
+        };
         let all = counters.chain(ramps).chain(home).chain(unit).chain(clears);
+        let all = all.chain(of_axis).chain(outputs);
         all.filter(|&register| register > 0)
     }
 }

@@ -7,7 +7,6 @@ use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, Operand, OperandKind};
 
-const PULSES: &str = "pulse output";
 /// Counters that count apart from the scan.
 const FAST: &[(DeviceClass, u32, u32)] = &[(DeviceClass::C, 235, 255)];
 /// They and the ring counters.
@@ -115,7 +114,7 @@ const HM_TABLE: &[Param] = &[
 ];
 const HM_FORMS: Variant = on(HM).forms(W32);
 /// HM names the axis instead of an output.
-pub(super) const AXIS: Param = src("axis", CONSTANTS).word().limits(0, 5).plain();
+pub(super) const AXIS: Param = src("axis", CONSTANTS).word().limits(0, 5).plain().pulses();
 const HM_PULSES: &[Param] = &[
     src("D1", CONSTANTS.or(DATA)),
     src("D2", CONSTANTS.or(DATA)).limits(-16_000_000, 16_000_000),
@@ -250,7 +249,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8029"])
         .errors(&[6770, 6771])
         .call(RtFn::Plsy)
-        .lower_on(&[(HM, Lower::Todo(PULSES))])
+        .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsy))])
         .text("Sends S2 pulses of S1 Hz on output D; S2 = 0: without end. HM: D1 the frequency, D2 the number, and an axis."),
     fast("PWM", 58, "Pulse width modulation")
         .steps(7, 7)
@@ -269,7 +268,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8029"])
         .errors(&[6770])
         .call(RtFn::Plsr)
-        .lower_on(&[(HM, Lower::Todo(PULSES))])
+        .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsr))])
         .text("Sends S2 pulses on output D with ramps of S3 ms up to S1 Hz and down. HM: an axis instead of D."),
     fast("HCMOV", 189, "Read a high-speed counter")
         .forms(W32)

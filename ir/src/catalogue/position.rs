@@ -60,6 +60,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U.and(&[ModelId::Hm]))
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
+        .lower_on(&[(HM, Lower::Call(RtFn::AxisDvit))])
         .text("Runs at S2 Hz until the interrupt input of the axis, then sends S1 pulses more."),
     position("TBL", 152, "Positioning by a table")
         .forms(W32)
@@ -86,18 +87,18 @@ pub(super) const ROWS: &[Inst] = &[
             on(HM).forms(W32).takes(SPEED_HM),
         ])
         .call(RtFn::Plsv)
-        .lower_on(&[(HM, Lower::Todo(PULSES))])
+        .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsv))])
         .text("Sends pulses of |S| Hz on D1 while driven, the sign of S on D2; S may change. HM: an axis instead of D1 and D2."),
     position("DRVI", 158, "Relative positioning")
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
         .call(RtFn::Drvi)
-        .lower_on(&[(HM, Lower::Todo(PULSES))])
+        .lower_on(&[(HM, Lower::Call(RtFn::AxisDrvi))])
         .text("Moves by S1 pulses at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
     position("DRVA", 159, "Absolute positioning")
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
         .call(RtFn::Drva)
-        .lower_on(&[(HM, Lower::Todo(PULSES))])
+        .lower_on(&[(HM, Lower::Call(RtFn::AxisDrva))])
         .text("Moves to position S1 at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
 ];

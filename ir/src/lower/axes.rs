@@ -36,7 +36,9 @@ impl Lowerer<'_> {
     /// When RUN begins, the parameters that something looks at have their values; the first scan may set others.
     pub(super) fn axis_defaults(&mut self) {
         let mut defaults = axes::defaults(self.model.id);
-        defaults.retain(|&(register, _)| self.looks_at(register));
+        defaults.retain(|&(register, _)| {
+            self.specials.flags.contains(&(D, register)) || self.looks_at(register)
+        });
         if defaults.is_empty() {
             return;
         }

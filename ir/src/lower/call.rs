@@ -115,16 +115,21 @@ impl Lowerer<'_> {
         let operands = &self.instr().operands;
         let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
         for (kind, param) in kinds.iter().zip(inst.params_of(&kinds, self.model)) {
-            let &OperandKind::Device(Device { class, number }, _) = kind else {
+            let number = match *kind {
+                OperandKind::Device(Device { number, .. }, _) => Some(number),
+                OperandKind::Decimal(axis, _) => u32::try_from(axis).ok(),
+                OperandKind::Hex(axis, _) => u32::try_from(axis).ok(),
+                _ => None,
+            };
+            let Some(number) = number.filter(|_| param.sends_pulses) else {
                 continue;
             };
-            if class != DeviceClass::Y || !param.sends_pulses {
-                continue;
-            }
-            if let Err(place) = self.module.pulse_outputs.binary_search(&number) {
+            let wiring = self.model.pulses.outputs().get(number as usize);
+            if wiring.is_some_and(|wiring| wiring.axis != 0) {
+                self.use_axes();
+            } else if let Err(place) = self.module.pulse_outputs.binary_search(&number) {
                 self.module.pulse_outputs.insert(place, number);
             }
-            let wiring = self.model.pulses.outputs().get(number as usize);
             let registers = wiring.into_iter().flat_map(|w| w.registers(looks));
             let registers = registers.map(|register| (DeviceClass::D, register));
             self.specials.flags.extend(registers);
@@ -133,6 +138,14 @@ impl Lowerer<'_> {
                 self.use_clear_signal(&wiring.home.clear);
             }
         }
+    }
+
+    /// An axis may be bound to any output, and has an output for its direction.
+    fn use_axes(&mut self) {
+        let outputs = 0..self.model.pulses.outputs().len() as u32;
+        let directions = outputs.clone().map(|n| (DeviceClass::Y, 0o10 + n));
+        self.specials.flags.extend(directions);
+        self.module.pulse_outputs = outputs.collect();
     }
 
     /// The output of a clear signal is stored: all outputs, if the program may choose another one.

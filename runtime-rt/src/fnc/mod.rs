@@ -3,6 +3,7 @@
 mod digits;
 mod output;
 
+pub mod axes;
 pub mod block;
 pub mod cassette;
 pub mod clock;
