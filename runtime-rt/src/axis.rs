@@ -1,9 +1,9 @@
 //! Pulse outputs: what each is doing.
 
+use crate::axis_place as place;
 use crate::hal::Hal;
 use crate::plc::{Class, Plc, Sys};
 use crate::pulse::Generator;
-use crate::wiring::axis;
 use crate::word::{pair, words};
 
 /// A pulse output in a program's memory. All zero is one that is idle.
@@ -162,9 +162,9 @@ fn add(plc: &mut dyn Plc, low: u32, count: i32) {
 
 /// Counts pulses of an axis whose registers begin with `first`, and of the output to which it is bound.
 fn count_axis(plc: &mut dyn Plc, first: u32, output: u32, count: i32) {
-    add(plc, first + axis::POSITION, count);
-    add(plc, axis::PULSES + 2 * output, count);
-    let _ = plc.set_word(Class::D, first + axis::INCREMENT, count as i16);
+    add(plc, first + place::POSITION, count);
+    add(plc, place::PULSES + 2 * output, count);
+    let _ = plc.set_word(Class::D, first + place::INCREMENT, count as i16);
 }
 
 /// The frequency at which an output sends pulses, in millihertz: that of all axes that are bound to it.

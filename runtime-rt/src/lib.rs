@@ -12,6 +12,7 @@ extern crate std;
 
 mod access;
 mod axis;
+mod axis_place;
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]
 pub mod capi;

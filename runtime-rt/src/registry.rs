@@ -435,6 +435,12 @@ registry! {
     AxisDvit = axes::axis_dvit(d1, d2, axis) [state, always, pulses];
     /// DPLSV of HM: pulses of a variable speed.
     AxisPlsv = axes::axis_plsv(d1, axis) [state, always, pulses];
+    /// PSOUT of HM: move at the highest speed.
+    AxisPsout = axes::axis_psout(axis, d2) [state, always, pulses];
+    /// JOG of HM.
+    AxisJog = axis_jog::axis_jog(axis, d2, d3, d4, d5) [state, always, pulses];
+    /// HOME of HM: return to the origin.
+    AxisHome = axis_home::axis_home(axis) [state, always, pulses];
     /// ABS (FNC 155): absolute position of a servo.
     Abs = servo::abs(s, d1, d2) [state, always];
     /// ZRN (FNC 156): return to the origin, without turning round.

@@ -1,5 +1,7 @@
 //! The special devices of pulse outputs, by family of models.
 
+use crate::axis_place as place;
+
 /// Registers D with the speeds and times of ramps; 0 where the model has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ramps {
@@ -344,48 +346,6 @@ const fn fx2n(output: u32) -> Wiring {
 
 const FX2N: [Wiring; 2] = [fx2n(0), fx2n(1)];
 
-/// An axis of HM has fifty registers (hm-motion-controller §8.2.3): their places among them.
-pub mod axis {
-    /// Output to which it is bound.
-    pub const OUTPUT: u32 = 0;
-    /// 1: it has an output for the direction.
-    pub const DIRECTION: u32 = 1;
-    /// Unit of time in milliseconds.
-    pub const UNIT: u32 = 2;
-    /// Highest speed in pulses a unit.
-    pub const HIGHEST: u32 = 5;
-    /// Speed that ramps begin and end with.
-    pub const FIRST: u32 = 6;
-    /// Acceleration in pulses a unit, a unit.
-    pub const ACCELERATION: u32 = 7;
-    /// Inputs of the limit switches, as bits.
-    pub const LEFT: u32 = 10;
-    /// The right one.
-    pub const RIGHT: u32 = 11;
-    /// Which signals are looked at, and how, as bits.
-    pub const EVENTS: u32 = 14;
-    /// Pair: position.
-    pub const POSITION: u32 = 18;
-    /// State.
-    pub const STATE: u32 = 20;
-    /// Code of an error.
-    pub const ERROR: u32 = 21;
-    /// Pulses of the last period.
-    pub const INCREMENT: u32 = 22;
-    /// Inputs of the emergency stop, as bits.
-    pub const EMERGENCY: u32 = 23;
-    /// Inputs of the interrupt, as bits.
-    pub const INTERRUPT: u32 = 24;
-    /// Pair: position at the interrupt.
-    pub const INTERRUPT_POSITION: u32 = 26;
-    /// How many of them there are.
-    pub const COUNT: u32 = 28;
-    /// Pair: the pulses of Y000; those of the other outputs follow.
-    pub const PULSES: u32 = 80;
-    /// How many outputs are counted so.
-    pub const OUTPUTS: u32 = 9;
-}
-
 const fn of_axis(number: u32) -> Wiring {
     Wiring {
         axis: 300 + 50 * number,
@@ -507,14 +467,20 @@ impl Wiring {
         let clears = clears.into_iter().filter(move |_| looks.clears);
         let of_axis = match self.axis {
             0 => 0..0,
-            first => first..first + axis::COUNT,
+            first => first..first + place::COUNT,
         };
         let outputs = match self.axis {
             0 => 0..0,
-            _ => axis::PULSES..axis::PULSES + 2 * axis::OUTPUTS,
+            _ => place::PULSES..place::PULSES + 2 * place::OUTPUTS,
         };
         let all = counters.chain(ramps).chain(home).chain(unit).chain(clears);
-        let all = all.chain(of_axis).chain(outputs);
+        // How many outputs are in use limits the speed of each.
+        let bindings = match self.axis {
+            0 => &[][..],
+            _ => &HM[..],
+        };
+        let bindings = bindings.iter().map(|wiring| wiring.axis + place::OUTPUT);
+        let all = all.chain(of_axis).chain(outputs).chain(bindings);
         all.filter(|&register| register > 0)
     }
 }

@@ -74,12 +74,15 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Sets the axis's event word and how many zero signals and pulses homing counts."),
     motion("HOME", "Return to the origin")
         .takes(&[AXIS])
+        .call(RtFn::AxisHome)
         .text("Runs the axis to its origin, as AXEI, AXOSP and AXOX say."),
     motion("JOG", "Jog")
         .takes(&[AXIS, any("D2"), any("D3"), any("D4"), any("D5")])
+        .call(RtFn::AxisJog)
         .text("Jogs the axis by D2 pulses, then on and on at speed D3, while an input of mask D4 (forward) or D5 (backward) is on."),
     wide("PSOUT", "Position by pulses")
         .takes(&[AXIS, src("D2", CONSTANTS.or(DATA))])
+        .call(RtFn::AxisPsout)
         .text("Moves the axis by D2 pulses within its highest speed and acceleration."),
     wide("PTAB", "Point table")
         .takes(&[

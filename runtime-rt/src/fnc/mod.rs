@@ -4,6 +4,9 @@ mod digits;
 mod output;
 
 pub mod axes;
+pub mod axis_home;
+pub mod axis_jog;
+mod axis_registers;
 pub mod block;
 pub mod cassette;
 pub mod clock;

@@ -1,0 +1,315 @@
+//! What HM's motion instructions have in common: the registers of an axis (hm-motion-controller §8.2.3), its signals, and who has it.
+//!
+//! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is.
+
+use super::output::held;
+use crate::axis_place as at;
+use crate::cx::Cx;
+use crate::fault::{Done, Fault};
+use crate::plc::Class;
+use crate::pulse::{Generator, Train};
+
+/// States of an axis in its register.
+pub(super) mod state {
+    pub const IDLE: i16 = 0;
+    pub const RUNS: i16 = 16;
+    pub const DONE: i16 = 32;
+    pub const ERROR: i16 = 64;
+    pub const COMES_DOWN: i16 = 144;
+    pub const STOPPED: i16 = 160;
+}
+
+/// Codes of errors in its register.
+pub(super) mod error {
+    pub const NO_OUTPUT: i16 = 2;
+    pub const TOO_FAST: i16 = 3;
+    pub const BELOW_FIRST: i16 = 4;
+    pub const FIRST_TOO_FAST: i16 = 7;
+}
+
+/// Bits of the register of events: for each signal whether it is looked at, and whether it is on where its input is off.
+pub(super) mod event {
+    pub const DOG: (u8, u8) = (0, 4);
+    pub const ZERO: (u8, u8) = (1, 5);
+    pub const LEFT: (u8, u8) = (2, 6);
+    pub const RIGHT: (u8, u8) = (3, 7);
+    pub const INTERRUPT: (u8, u8) = (9, 8);
+    pub const EMERGENCY: (u8, u8) = (11, 10);
+    /// An emergency brings it down instead of stopping it at once.
+    pub const COMES_DOWN: u8 = 12;
+    /// Inputs X instead of the relays from M8096 on.
+    pub const INPUTS: u8 = 13;
+    /// A return counts from the front of the DOG on, not from its end.
+    pub const FROM_FRONT: u8 = 14;
+    /// A return ends with its pulses or with its zero signals, whichever come first.
+    pub const EITHER: u8 = 15;
+}
+
+/// The relays that stand for inputs.
+const RELAYS: u32 = 8096;
+/// Outputs that send pulses, and all that an axis may be bound to: three more are only counted.
+const PULSE_OUTPUTS: i16 = 6;
+const OUTPUTS: i16 = 9;
+/// What the outputs in use share, in millihertz.
+const HIGHEST: u64 = 600_000_000;
+/// The output of the direction of Y000; those of the others follow.
+const DIRECTION: u32 = 0o10;
+
+/// How far an instruction is.
+const PHASE: usize = 1;
+const WAITS: i32 = 0;
+const RUNS: i32 = 1;
+const ENDED: i32 = 2;
+
+/// What an instruction does in a scan in which it is driven and has the axis.
+type Step<'a> = &'a dyn Fn(&mut Cx, Registers) -> Done;
+
+/// Runs a motion: `begin` once the axis of operand `i` is free, `go_on` in the scans after that. When its drive goes off it comes down, or
+/// stops at once.
+pub(super) fn motion(
+    cx: &mut Cx,
+    i: usize,
+    at_once: bool,
+    begin: Step<'_>,
+    go_on: Step<'_>,
+) -> Done {
+    held(cx, |cx| {
+        let axis = Registers::of(cx, i)?;
+        let driven = cx.was_driven(0);
+        let phase = cx.state().0[PHASE];
+        match (cx.drive(), phase) {
+            (true, WAITS) if axis.word(cx, at::STATE) == state::IDLE => match axis.error(cx) {
+                Some(code) => axis.refuse(cx, code),
+                None => begin(cx, axis),
+            },
+            (true, RUNS) if axis.is_mine(cx) => go_on(cx, axis),
+            (true, RUNS) => {
+                cx.state().0[PHASE] = ENDED;
+                Ok(())
+            }
+            (true, _) => Ok(()),
+            (false, _) if driven || phase != WAITS => axis.release(cx, at_once),
+            (false, _) => Ok(()),
+        }
+    })
+}
+
+/// An axis by its registers.
+#[derive(Clone, Copy)]
+pub(super) struct Registers {
+    axis: u32,
+    first: u32,
+}
+
+impl Registers {
+    /// Those of the axis that operand `i` names.
+    fn of(cx: &Cx, i: usize) -> Result<Registers, Fault> {
+        let axis = u32::try_from(cx.read(i)?).map_err(|_| Fault::DEVICE)?;
+        let wiring = cx.plc.pulses().outputs().get(axis as usize);
+        let wiring = wiring.ok_or(Fault::DEVICE)?;
+        Ok(Registers {
+            axis,
+            first: wiring.axis,
+        })
+    }
+
+    /// Number of the register at a place.
+    pub fn register(self, offset: u32) -> u32 {
+        self.first + offset
+    }
+
+    /// Its value.
+    pub fn word(self, cx: &Cx, offset: u32) -> i16 {
+        cx.special_word(self.first + offset)
+    }
+
+    /// Sets it.
+    pub fn set(self, cx: &mut Cx, offset: u32, value: i16) {
+        cx.set_special_word(self.first + offset, value);
+    }
+
+    /// What the axis sends.
+    pub fn generator<'a>(self, cx: &'a mut Cx) -> Result<&'a mut Generator, Fault> {
+        let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
+        Ok(&mut axis.generator)
+    }
+
+    fn is_mine(self, cx: &mut Cx) -> bool {
+        let slot = cx.site.slot;
+        cx.plc.axis(self.axis).is_some_and(|a| a.owner == slot)
+    }
+
+    fn unit_ms(self, cx: &Cx) -> u64 {
+        u64::from(self.word(cx, at::UNIT) as u16).max(1)
+    }
+
+    /// A speed in millihertz.
+    pub fn millihertz(self, cx: &Cx, speed: i32) -> u64 {
+        u64::try_from(speed).unwrap_or(0) * 1_000_000 / self.unit_ms(cx)
+    }
+
+    /// A speed in a register, in millihertz.
+    pub fn speed(self, cx: &Cx, offset: u32) -> u64 {
+        self.millihertz(cx, self.word(cx, offset).into())
+    }
+
+    /// What the highest acceleration adds to the square of a speed at each pulse, in mHz².
+    pub fn slope(self, cx: &Cx) -> u64 {
+        let acceleration = u64::try_from(self.word(cx, at::ACCELERATION)).unwrap_or(0);
+        let unit = self.unit_ms(cx);
+        acceleration.max(1) * 2_000_000_000_000 / (unit * unit)
+    }
+
+    /// A train of `total` pulses at a speed in millihertz, at most the highest, with ramps from `first` on, of the highest acceleration.
+    pub fn train(self, cx: &Cx, speed: u64, first: u64, total: u32) -> Train {
+        let slope = self.slope(cx);
+        Train {
+            speed: speed.min(self.speed(cx, at::HIGHEST)) as u32,
+            lowest: (first * first).max(slope / 4),
+            up: slope,
+            down: slope,
+            total,
+            reverse: false,
+        }
+    }
+
+    /// Whether a bit of the register of events is set.
+    pub fn has(self, cx: &Cx, bit: u8) -> bool {
+        self.word(cx, at::EVENTS) as u16 >> bit & 1 == 1
+    }
+
+    /// Whether a signal of the axis is there, whose inputs a register says.
+    pub fn sees(self, cx: &Cx, inputs: u32, (enable, inverted): (u8, u8)) -> bool {
+        let mask = self.word(cx, inputs) as u16;
+        self.has(cx, enable) && self.is_on(cx, mask, self.has(cx, inverted))
+    }
+
+    /// Whether one of these inputs is on, or off if inverted. They may be relays.
+    pub fn is_on(self, cx: &Cx, mask: u16, inverted: bool) -> bool {
+        let (class, first) = match self.has(cx, event::INPUTS) {
+            true => (Class::X, 0),
+            false => (Class::M, RELAYS),
+        };
+        on_of(cx, class, first, mask, inverted)
+    }
+
+    /// Whether the zero signal is there, whose inputs are never relays.
+    pub fn sees_zero(self, cx: &Cx) -> bool {
+        let (enable, inverted) = event::ZERO;
+        let mask = self.word(cx, at::ZERO) as u16;
+        self.has(cx, enable) && on_of(cx, Class::X, 0, mask, self.has(cx, inverted))
+    }
+
+    /// What is wrong with the parameters.
+    fn error(self, cx: &Cx) -> Option<i16> {
+        let (highest, first) = (self.word(cx, at::HIGHEST), self.word(cx, at::FIRST));
+        let output = self.word(cx, at::OUTPUT);
+        let sends = (0..PULSE_OUTPUTS).contains(&output);
+        let most = if sends {
+            HIGHEST / outputs_in_use(cx)
+        } else {
+            HIGHEST
+        };
+        if !(0..OUTPUTS).contains(&output) {
+            Some(error::NO_OUTPUT)
+        } else if highest <= 0 || self.millihertz(cx, highest.into()) > most {
+            Some(error::TOO_FAST)
+        } else if first < 0 || first > highest {
+            Some(error::FIRST_TOO_FAST)
+        } else {
+            None
+        }
+    }
+
+    /// Begins nothing, and shows why.
+    pub fn refuse(self, cx: &mut Cx, code: i16) -> Done {
+        self.set(cx, at::ERROR, code);
+        self.end(cx, state::ERROR);
+        Ok(())
+    }
+
+    /// The instruction has come to its end.
+    pub fn end(self, cx: &mut Cx, state: i16) {
+        cx.state().0[PHASE] = ENDED;
+        self.set(cx, at::STATE, state);
+    }
+
+    /// Stops at once, at the end of the motion.
+    pub fn stop(self, cx: &mut Cx, state: i16) -> Done {
+        self.generator(cx)?.halt();
+        self.end(cx, state);
+        Ok(())
+    }
+
+    /// It comes down with its ramp, and is stopped then.
+    pub fn come_down(self, cx: &mut Cx) -> Done {
+        self.generator(cx)?.stop();
+        self.set(cx, at::STATE, state::COMES_DOWN);
+        Ok(())
+    }
+
+    /// Whether it has an output for its direction; without, all goes forward.
+    pub fn has_direction(self, cx: &Cx) -> bool {
+        let sends = (0..PULSE_OUTPUTS).contains(&self.word(cx, at::OUTPUT));
+        self.word(cx, at::DIRECTION) == 1 && sends
+    }
+
+    /// Sends a train, in reverse if it is asked for and there is an output for the direction.
+    pub fn start(self, cx: &mut Cx, train: Train, reverse: bool) -> Done {
+        let output = self.word(cx, at::OUTPUT) as u32;
+        let has_direction = self.has_direction(cx);
+        let reverse = reverse && has_direction;
+        if has_direction {
+            let _ = cx.plc.set_bit(Class::Y, DIRECTION + output, !reverse);
+        }
+        let slot = cx.site.slot;
+        cx.state().0[PHASE] = RUNS;
+        self.set(cx, at::ERROR, 0);
+        self.set(cx, at::STATE, state::RUNS);
+        let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
+        axis.owner = slot;
+        axis.output = output as u16;
+        axis.generator.start(Train { reverse, ..train });
+        axis.show();
+        Ok(())
+    }
+
+    /// The drive is off: what runs comes down, and the axis is free once it is at rest.
+    fn release(self, cx: &mut Cx, at_once: bool) -> Done {
+        let slot = cx.site.slot;
+        let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
+        if axis.owner == slot {
+            match at_once {
+                true => axis.generator.halt(),
+                false => axis.generator.stop(),
+            }
+            axis.show();
+            if axis.generator.is_busy() {
+                self.set(cx, at::STATE, state::COMES_DOWN);
+                return Ok(());
+            }
+            axis.owner = 0;
+        }
+        if cx.state().0[PHASE] != WAITS {
+            cx.state().0[PHASE] = WAITS;
+            self.set(cx, at::STATE, state::IDLE);
+        }
+        Ok(())
+    }
+}
+
+/// Whether one of the devices from `first` on that a mask names is on, or off if inverted.
+fn on_of(cx: &Cx, class: Class, first: u32, mask: u16, inverted: bool) -> bool {
+    let mut named = (0..16).filter(|n| mask >> n & 1 == 1);
+    named.any(|n| cx.plc.bit(class, first + n).unwrap_or(false) != inverted)
+}
+
+/// How many outputs axes are bound to, of those that send pulses; at least 1.
+fn outputs_in_use(cx: &Cx) -> u64 {
+    let axes = cx.plc.pulses().outputs().iter();
+    let bound = axes.map(|wiring| cx.special_word(wiring.axis + at::OUTPUT));
+    let mask = bound
+        .filter(|output| (0..PULSE_OUTPUTS).contains(output))
+        .fold(0u32, |mask, output| mask | 1 << output);
+    mask.count_ones().max(1).into()
+}
