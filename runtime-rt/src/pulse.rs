@@ -188,6 +188,21 @@ impl Generator {
         }
     }
 
+    /// Adds pulses to a train that has an end, and is not being stopped.
+    pub fn extend(&mut self, pulses: u32) {
+        if self.busy && self.total != 0 && !self.stopped {
+            self.total = self.total.saturating_add(pulses);
+        }
+    }
+
+    /// Pulses that have not ended of a train that has an end.
+    pub fn remaining(&self) -> u32 {
+        match self.busy {
+            true => self.total.saturating_sub(self.sent),
+            false => 0,
+        }
+    }
+
     /// Ends a train without end after so many pulses more.
     pub fn end_in(&mut self, pulses: u32) {
         if self.busy && self.total == 0 {

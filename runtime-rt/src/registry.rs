@@ -437,6 +437,10 @@ registry! {
     AxisPlsv = axes::axis_plsv(d1, axis) [state, always, pulses];
     /// PSOUT of HM: move at the highest speed.
     AxisPsout = axes::axis_psout(axis, d2) [state, always, pulses];
+    /// GEAR of HM: follows a master.
+    AxisGear = axis_follow::axis_gear(axis, d2, d3, d4, d5) [state, always, pulses];
+    /// PTOUT of HM: follows a table.
+    AxisPtout = axis_follow::axis_ptout(axis, d2, d3, d4, d5) [state, always, pulses];
     /// JOG of HM.
     AxisJog = axis_jog::axis_jog(axis, d2, d3, d4, d5) [state, always, pulses];
     /// HOME of HM: return to the origin.

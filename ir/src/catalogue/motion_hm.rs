@@ -94,12 +94,14 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Appends a segment as the eleven words at D1 say to the point table at D2, one point for each interval D3."),
     wide("PTOUT", "Follow a point table")
         .takes(&[AXIS, table("D2").open_ended(), table("D3"), src("D4", CONSTANTS.or(DATA)), any("D5").limits(0, 1)])
+        .call(RtFn::AxisPtout)
         .text("Moves the axis along the point table at D2 as register D3 goes through its range D4; D5 = 1 starts again at its end."),
     motion("IPL", "Insert pulses")
         .takes(&[AXIS, any("D2")])
         .text("Sends D2 pulses more in each millisecond while driven."),
     motion("GEAR", "Electronic gear")
         .takes(&[AXIS, table("D2").word().len(2), any("D3").limits(0, 1), any("D4"), any("D5")])
+        .call(RtFn::AxisGear)
         .text("The axis follows register D2 by the ratio D4/D5; D3 says whether its value or its change counts."),
     wide("CAM", "Electronic cam")
         .takes(&[

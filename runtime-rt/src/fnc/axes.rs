@@ -134,10 +134,7 @@ fn train(cx: &Cx, axis: Registers, order: &Order) -> Train {
     let wanted = axis.millihertz(cx, order.speed);
     let total = order.count.unsigned_abs();
     match order.kind {
-        Kind::Steady => {
-            let speed = wanted.min(axis.speed(cx, at::HIGHEST));
-            Train::steady(speed as u32, total)
-        }
+        Kind::Steady => axis.steady(cx, wanted, total),
         Kind::Timed => {
             let train = axis.train(cx, wanted.max(first), first, total);
             let rise = u64::from(train.speed).saturating_sub(first);

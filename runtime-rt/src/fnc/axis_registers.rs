@@ -173,6 +173,12 @@ impl Registers {
         }
     }
 
+    /// A train of `total` pulses at one speed in millihertz, at most the highest.
+    pub fn steady(self, cx: &Cx, speed: u64, total: u32) -> Train {
+        let speed = speed.min(self.speed(cx, at::HIGHEST));
+        Train::steady(speed as u32, total)
+    }
+
     /// Whether a bit of the register of events is set.
     pub fn has(self, cx: &Cx, bit: u8) -> bool {
         self.word(cx, at::EVENTS) as u16 >> bit & 1 == 1
@@ -254,21 +260,29 @@ impl Registers {
         self.word(cx, at::DIRECTION) == 1 && sends
     }
 
-    /// Sends a train, in reverse if it is asked for and there is an output for the direction.
-    pub fn start(self, cx: &mut Cx, train: Train, reverse: bool) -> Done {
-        let output = self.word(cx, at::OUTPUT) as u32;
-        let has_direction = self.has_direction(cx);
-        let reverse = reverse && has_direction;
-        if has_direction {
-            let _ = cx.plc.set_bit(Class::Y, DIRECTION + output, !reverse);
-        }
+    /// The instruction has the axis from now on.
+    pub fn take(self, cx: &mut Cx) -> Done {
+        let output = self.word(cx, at::OUTPUT) as u16;
         let slot = cx.site.slot;
         cx.state().0[PHASE] = RUNS;
         self.set(cx, at::ERROR, 0);
         self.set(cx, at::STATE, state::RUNS);
         let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
         axis.owner = slot;
-        axis.output = output as u16;
+        axis.output = output;
+        Ok(())
+    }
+
+    /// Takes the axis and sends a train, in reverse if it is asked for and there is an output for the direction.
+    pub fn start(self, cx: &mut Cx, train: Train, reverse: bool) -> Done {
+        self.take(cx)?;
+        let has_direction = self.has_direction(cx);
+        let reverse = reverse && has_direction;
+        if has_direction {
+            let output = DIRECTION + self.word(cx, at::OUTPUT) as u32;
+            let _ = cx.plc.set_bit(Class::Y, output, !reverse);
+        }
+        let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
         axis.generator.start(Train { reverse, ..train });
         axis.show();
         Ok(())

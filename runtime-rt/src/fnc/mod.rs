@@ -4,6 +4,7 @@ mod digits;
 mod output;
 
 pub mod axes;
+pub mod axis_follow;
 pub mod axis_home;
 pub mod axis_jog;
 mod axis_registers;

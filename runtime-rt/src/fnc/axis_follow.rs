@@ -1,0 +1,151 @@
+//! Axes that follow a master of HM: GEAR and PTOUT (hm-motion-controller §8.4.1, §8.3.5). Each scan hands over as many pulses as the master
+//! has moved on, which are spread over the time of a scan.
+//!
+//! Memory: words 0 and 1 see `axis_registers`; word 2 the pulses not handed over yet, word 3 the master before, word 4 the rest of a division
+//! or the place in the table, word 5 the position in the table.
+
+use super::axis_registers::{Registers, motion, state};
+use crate::axis_place as at;
+use crate::cx::Cx;
+use crate::fault::{Done, Fault};
+use crate::operand::OperandKind;
+use crate::plc::Class;
+
+/// Words of the memory.
+const PENDING: usize = 2;
+const MASTER: usize = 3;
+const REST: usize = 4;
+const PLACE: usize = 5;
+
+/// GEAR D1 D2 D3 D4 D5: axis D1 follows register D2, a count (D3 = 0) or what it has moved on (1), by D4 / D5. It stops at once with its drive.
+pub fn axis_gear(cx: &mut Cx) -> Done {
+    motion(cx, 0, true, &begin_gear, &gear)
+}
+
+/// What the master has counted: that of an axis or input whose increment is named is its position, so that no increment is lost.
+fn count_of_master(cx: &Cx) -> Result<i32, Fault> {
+    if let Some(position) = position_of_increment(cx) {
+        let word = |n| cx.plc.word(Class::D, n).ok_or(Fault::DEVICE);
+        return Ok(crate::word::pair(word(position)?, word(position + 1)?));
+    }
+    cx.dword(1, 0)
+}
+
+/// The position to which an increment belongs, if the master is one of an output axis.
+fn position_of_increment(cx: &Cx) -> Option<u32> {
+    let operand = cx.ops.get(1)?;
+    if operand.kind != OperandKind::Device || operand.class != Class::D {
+        return None;
+    }
+    let named = u32::try_from(operand.value).ok()?;
+    let mut axes = cx.plc.pulses().outputs().iter();
+    axes.find(|wiring| wiring.axis + at::INCREMENT == named)
+        .map(|wiring| wiring.axis + at::POSITION)
+}
+
+fn begin_gear(cx: &mut Cx, axis: Registers) -> Done {
+    let master = count_of_master(cx)?;
+    let state = cx.state();
+    state.0[PENDING..].fill(0);
+    state.0[MASTER] = master;
+    axis.take(cx)
+}
+
+fn gear(cx: &mut Cx, axis: Registers) -> Done {
+    let increments = cx.word(2, 0)? == 1 && position_of_increment(cx).is_none();
+    let moved = if increments {
+        cx.word(1, 0)?.into()
+    } else {
+        let master = count_of_master(cx)?;
+        master.wrapping_sub(core::mem::replace(&mut cx.state().0[MASTER], master))
+    };
+    let [top, bottom] = [i64::from(cx.word(3, 0)?), i64::from(cx.word(4, 0)?)];
+    let (top, bottom) = if bottom == 0 { (1, 1) } else { (top, bottom) };
+    let whole = i64::from(moved) * top + i64::from(cx.state().0[REST]);
+    cx.state().0[REST] = whole.rem_euclid(bottom) as i32;
+    hand_over(cx, axis, whole.div_euclid(bottom) as i32)
+}
+
+/// PTOUT D1 D2 D3 D4 D5: axis D1 follows the table D2 while the master D3 moves through the range D4, once (D5 = 0) or again and again. It
+/// stops at once with its drive.
+pub fn axis_ptout(cx: &mut Cx) -> Done {
+    motion(cx, 0, true, &begin_table, &table)
+}
+
+fn begin_table(cx: &mut Cx, axis: Registers) -> Done {
+    let master = cx.dword(2, 0)?;
+    let first = cx.dword(1, 2)?;
+    let state = cx.state();
+    state.0[PENDING..].fill(0);
+    state.0[MASTER] = master;
+    state.0[PLACE] = first;
+    axis.take(cx)
+}
+
+fn table(cx: &mut Cx, axis: Registers) -> Done {
+    let steps = i64::from(cx.dword(1, 0)?) - 1;
+    let range = i64::from(cx.dword(3, 0)?);
+    if steps < 1 || range < 1 {
+        return Err(Fault::VALUE);
+    }
+    let again = cx.dword(4, 0)? == 1;
+    let master = cx.dword(2, 0)?;
+    let mut moved = i64::from(master.wrapping_sub(cx.state().0[MASTER])).max(0);
+    let mut pulses = 0;
+    while again && moved >= range {
+        pulses += go_to(cx, steps, range, range)?;
+        let first = cx.dword(1, 2)?;
+        let state = cx.state();
+        state.0[MASTER] = state.0[MASTER].wrapping_add(range as i32);
+        state.0[PLACE] = first;
+        moved -= range;
+    }
+    let moved = moved.min(range);
+    pulses += go_to(cx, steps, moved, range)?;
+    hand_over(cx, axis, pulses)?;
+    if moved == range && cx.state().0[PENDING] == 0 && !axis.generator(cx)?.is_busy() {
+        axis.end(cx, state::DONE);
+    }
+    Ok(())
+}
+
+/// The pulses to the place in the table where the master has moved by so much of its range, between two of its points.
+fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i32, Fault> {
+    let point = |cx: &Cx, n: i64| -> Result<i64, Fault> {
+        let offset = i32::try_from(2 + 2 * n).map_err(|_| Fault::DEVICE)?;
+        cx.dword(1, offset).map(i64::from)
+    };
+    let along = moved * steps;
+    let (n, part) = (along / range, along % range);
+    let from = point(cx, n)?;
+    let place = match part {
+        0 => from,
+        _ => from + (point(cx, n + 1)? - from) * part / range,
+    };
+    let place = place as i32;
+    let before = core::mem::replace(&mut cx.state().0[PLACE], place);
+    Ok(place.wrapping_sub(before))
+}
+
+/// Hands pulses over to the axis. Those in the other direction wait until it rests.
+fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
+    let pending = cx.state().0[PENDING].wrapping_add(pulses);
+    cx.state().0[PENDING] = pending;
+    let reverse = pending < 0 && axis.has_direction(cx);
+    let generator = *axis.generator(cx)?;
+    if pending == 0 || (generator.is_busy() && generator.is_reverse() != reverse) {
+        return Ok(());
+    }
+    cx.state().0[PENDING] = 0;
+    let count = pending.unsigned_abs();
+    let left = u64::from(generator.remaining()) + u64::from(count);
+    let wanted = left * 1_000_000 / cx.dt_ms().max(1) as u64;
+    let train = axis.steady(cx, wanted, count);
+    if generator.is_busy() {
+        let generator = axis.generator(cx)?;
+        generator.extend(count);
+        generator.set_speed(train.speed);
+        return Ok(());
+    }
+    axis.start(cx, train, reverse)
+}
