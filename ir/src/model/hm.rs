@@ -23,7 +23,7 @@ pub(super) const HM: Model = Model {
     annunciators_are_states: false,
     value_error: 6707,
     pulses: Pulses::Hm,
-    pulse_outputs: &[(Y, 0, 5)],
+    pulse_outputs: &[],
     notations: Classes::NONE,
     bare_names: true,
     steps_per_operand: Some((2, 3)),
