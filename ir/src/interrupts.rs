@@ -135,10 +135,7 @@ pub struct PulseCatch {
 
 const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
 const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
-/// Models that clear the relays that forbid interrupts when they go from RUN to STOP (l01s-programming §6.4).
-pub const MASKS_CLEARED_IN_STOP: ModelSet =
-    ModelSet::of(&[ModelId::L01s, ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
-/// The relays that forbid interrupts on those models.
+/// The relays that forbid interrupts on all models but HM.
 pub const MASKS: std::ops::RangeInclusive<u32> = 8050..=8059;
 
 /// Pulse catch (h1u-h2u-programming §3.8).

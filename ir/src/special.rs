@@ -9,6 +9,7 @@ mod mitsubishi;
 
 use crate::model::ModelId;
 use rungc_syntax::DeviceClass;
+use std::ops::RangeInclusive;
 
 /// Whether a program may write it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -86,6 +87,32 @@ const fn tables(model: ModelId) -> &'static [&'static [Special]] {
         ModelId::Fx3g => &[mitsubishi::ALL, mitsubishi::FX3, mitsubishi::FX3G],
         ModelId::Fx3u => &[mitsubishi::ALL, mitsubishi::FX3, mitsubishi::FX3U],
     }
+}
+
+/// Relays that forbid interrupts (l01s-programming §6.4).
+const MASKS: RangeInclusive<u32> = 8050..=8059;
+/// Relays with which a program steers DSZR and clear signals (h1u-h2u-programming §4.3.11).
+const HOME_H2U: &[RangeInclusive<u32>] = &[
+    8441..=8442,
+    8445..=8446,
+    8449..=8449,
+    8451..=8452,
+    8455..=8456,
+    8459..=8459,
+    8461..=8462,
+    8465..=8466,
+    8469..=8469,
+    8484..=8486,
+];
+
+/// Relays that go off when the model goes from RUN to STOP.
+pub fn cleared_in_stop(model: ModelId) -> impl Iterator<Item = u32> {
+    let relays: &'static [RangeInclusive<u32>] = match model {
+        ModelId::H1u | ModelId::H2u => HOME_H2U,
+        ModelId::L01s | ModelId::Fx2n | ModelId::Fx3g | ModelId::Fx3u => &[MASKS],
+        ModelId::Hm => &[],
+    };
+    relays.iter().cloned().flatten()
 }
 
 // Why a device is inert.

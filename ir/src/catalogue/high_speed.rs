@@ -29,6 +29,22 @@ const FAST_COUNTER: Param = src("S2", Classes::C).numbers(FAST);
 pub(super) const PULSE_OUTPUT: Param = coil("D", Classes::Y).plain().pulses();
 const LIKE_FX: ModelSet = FX.and(&[ModelId::L01s]);
 
+/// The greatest number of pulses, and any speed; those above the model's are held to it.
+const NUMBER: i64 = i32::MAX as i64;
+const PLSR: &[Param] = &[
+    src("S1", VALUES).limits(0, NUMBER),
+    src("S2", VALUES).limits(0, NUMBER),
+    src("S3", VALUES).limits(0, NUMBER),
+    PULSE_OUTPUT,
+];
+/// Models that cannot send fewer than 110 pulses with ramps.
+const PLSR_110: &[Param] = &[
+    src("S1", VALUES).limits(0, NUMBER),
+    src("S2", VALUES).limits(110, NUMBER),
+    src("S3", VALUES).limits(0, NUMBER),
+    PULSE_OUTPUT,
+];
+
 const SET: &[Param] = &[
     src("S1", VALUES),
     FAST_COUNTER,
@@ -241,7 +257,7 @@ pub(super) const ROWS: &[Inst] = &[
     fast("PLSY", 57, "Pulse output")
         .forms(W16_W32)
         .steps(7, 13)
-        .takes(&[src("S1", VALUES), src("S2", VALUES), PULSE_OUTPUT])
+        .takes(&[src("S1", VALUES).limits(0, NUMBER), src("S2", VALUES).limits(0, NUMBER), PULSE_OUTPUT])
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_PULSES),
@@ -254,16 +270,21 @@ pub(super) const ROWS: &[Inst] = &[
     fast("PWM", 58, "Pulse width modulation")
         .steps(7, 7)
         .on(NOT_HM)
-        .takes(&[src("S1", VALUES).limits(0, 32767), src("S2", VALUES).limits(1, 32767), PULSE_OUTPUT])
+        .takes(&[
+            src("S1", VALUES).limits(0, 32767).rules(&[Rule::AtMost(1)]),
+            src("S2", VALUES).limits(1, 32767),
+            PULSE_OUTPUT,
+        ])
         .call(RtFn::Pwm)
         .text("Sends pulses S1 ms wide with a period of S2 ms on output D as long as it is driven."),
     fast("PLSR", 59, "Pulse output with ramps")
         .forms(W16_W32)
         .steps(9, 17)
-        .takes(&[src("S1", VALUES), src("S2", VALUES), src("S3", VALUES), PULSE_OUTPUT])
+        .takes(PLSR)
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_RAMP),
+            on(INOVANCE.and(&[ModelId::Fx2n])).takes(PLSR_110),
         ])
         .flags(&["M8029"])
         .errors(&[6770])

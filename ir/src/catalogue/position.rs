@@ -32,11 +32,12 @@ const SEARCH: &[Param] = &[
 ];
 /// The types of H1U and H2U with more than three outputs have no DSZR.
 const SEARCH_INOVANCE: &[Param] = &[
-    bit("S1", BITS),
+    bit("S1", BITS).numbers(SEARCH_RELAYS),
     bit("S2", Classes::X),
     PULSE_OUTPUT.numbers(&[(DeviceClass::Y, 0, 2)]),
-    coil("D2", Classes::Y.or(Classes::M)),
+    coil("D2", Classes::Y.or(Classes::M)).numbers(SEARCH_RELAYS),
 ];
+const SEARCH_RELAYS: &[(DeviceClass, u32, u32)] = &[(DeviceClass::M, 0, 1023)];
 
 const fn position(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.11")

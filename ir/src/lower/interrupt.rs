@@ -4,12 +4,8 @@ use super::Lowerer;
 use super::advanced::Section;
 use super::operand::fixed;
 use crate::catalogue::Basic;
-use crate::interrupts::{
-    self, Advanced, Capture, Gate, Interrupt, MASKS, MASKS_CLEARED_IN_STOP, PulseCatch, Source,
-};
-use crate::node::{
-    Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue,
-};
+use crate::interrupts::{self, Advanced, Capture, Gate, Interrupt, PulseCatch, Source};
+use crate::node::{Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt};
 use rungc_syntax::{
     DeviceClass::{D, M},
     codes,
@@ -319,25 +315,6 @@ impl Lowerer<'_> {
             Gate::Forbids(_) => self.not(on),
             Gate::Allows(_) => on,
         }
-    }
-
-    /// Models that clear the masks in STOP do so before the next scan.
-    pub(super) fn clear_masks(&mut self) {
-        if !MASKS_CLEARED_IN_STOP.has(self.model.id) {
-            return;
-        }
-        let masks: Vec<u32> = MASKS.filter(|&mask| self.keeps(M, mask)).collect();
-        if masks.is_empty() {
-            return;
-        }
-        let running = self.add(Expr::Sys(SysValue::Running));
-        let stopped = self.not(running);
-        self.when(stopped, |this| {
-            for mask in masks {
-                let off = this.bit_const(false);
-                this.write_device(M, mask, off);
-            }
-        });
     }
 }
 

@@ -82,7 +82,7 @@ impl Lowerer<'_> {
             this.begin_clock();
             this.forget_comparisons();
             this.forget_exclusive();
-            this.clear_masks();
+            this.clear_in_stop();
             this.forget_errors();
             this.clocks();
             this.scan_times();
@@ -139,6 +139,24 @@ impl Lowerer<'_> {
     /// Whether a special device is one that the scan keeps on this model.
     fn scan_has(&self, class: DeviceClass, number: u32) -> bool {
         special::find(self.model.id, class, number).is_some_and(special::Special::is_kept_by_scan)
+    }
+
+    /// Relays that STOP clears are off before the next scan.
+    fn clear_in_stop(&mut self) {
+        let relays: Vec<u32> = special::cleared_in_stop(self.model.id)
+            .filter(|&relay| self.specials.has(M, relay))
+            .collect();
+        if relays.is_empty() {
+            return;
+        }
+        let running = self.add(Expr::Sys(SysValue::Running));
+        let stopped = self.not(running);
+        self.when(stopped, |this| {
+            for relay in relays {
+                let off = this.bit_const(false);
+                this.write_device(M, relay, off);
+            }
+        });
     }
 
     /// M8000 to M8003.

@@ -92,6 +92,8 @@ const H1U_RANGES: &[Range] = &[
     general(I, 300, 301),
     general(I, 400, 401),
     general(I, 500, 501),
+    // Its three outputs' (h1u-h2u-programming §4.3.1).
+    general(I, 502, 504),
     general(I, 601, 699),
     general(I, 701, 799),
     general(I, 801, 899),
