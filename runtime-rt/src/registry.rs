@@ -441,6 +441,8 @@ registry! {
     AxisGear = axis_follow::axis_gear(axis, d2, d3, d4, d5) [state, always, pulses];
     /// PTOUT of HM: follows a table.
     AxisPtout = axis_follow::axis_ptout(axis, d2, d3, d4, d5) [state, always, pulses];
+    /// IPL of HM: inserts pulses.
+    AxisIpl = axis_follow::axis_ipl(axis, d2) [state, always, pulses];
     /// JOG of HM.
     AxisJog = axis_jog::axis_jog(axis, d2, d3, d4, d5) [state, always, pulses];
     /// HOME of HM: return to the origin.

@@ -98,7 +98,8 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Moves the axis along the point table at D2 as register D3 goes through its range D4; D5 = 1 starts again at its end."),
     motion("IPL", "Insert pulses")
         .takes(&[AXIS, any("D2")])
-        .text("Sends D2 pulses more in each millisecond while driven."),
+        .call(RtFn::AxisIpl)
+        .text("Inserts D2 pulses into what the axis sends, in the next millisecond, each time it is executed with its drive on."),
     motion("GEAR", "Electronic gear")
         .takes(&[AXIS, table("D2").word().len(2), any("D3").limits(0, 1), any("D4"), any("D5")])
         .call(RtFn::AxisGear)

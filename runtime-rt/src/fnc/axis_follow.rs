@@ -1,15 +1,19 @@
 //! Axes that follow a master of HM: GEAR and PTOUT (hm-motion-controller §8.4.1, §8.3.5). Each scan hands over as many pulses as the master
 //! has moved on, which are spread over the time of a scan.
 //!
-//! Memory: words 0 and 1 see `axis_registers`; word 2 the pulses not handed over yet, word 3 the master before, word 4 the rest of a division
+//! IPL adds pulses (§8.3.6).
+//!
+//! Memory: words 0 and 1 see `axis_registers`; word 2 the pulses not handed over yet, word 3 the master, or the pulses of IPL, before, word 4 the rest of a division
 //! or the place in the table, word 5 the position in the table.
 
 use super::axis_registers::{Registers, motion, state};
+use super::output::held;
 use crate::axis_place as at;
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
 use crate::plc::Class;
+use crate::pulse::Train;
 
 /// Words of the memory.
 const PENDING: usize = 2;
@@ -148,4 +152,47 @@ fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
         return Ok(());
     }
     axis.start(cx, train, reverse)
+}
+
+/// IPL D1 D2: inserts D2 pulses into what axis D1 sends, in the next millisecond, each time it is executed with its drive on. Its highest
+/// speed does not limit them, and it may be running. Without a pause of one execution before it, a change of direction is lost.
+pub fn axis_ipl(cx: &mut Cx) -> Done {
+    held(cx, insert)
+}
+
+fn insert(cx: &mut Cx) -> Done {
+    let axis = Registers::of(cx, 0)?;
+    if !axis.has_output(cx) {
+        return Ok(());
+    }
+    let count = if cx.drive() {
+        i32::from(cx.word(1, 0)?)
+    } else {
+        0
+    };
+    let before = core::mem::replace(&mut cx.state().0[MASTER], count);
+    let has_direction = axis.has_direction(cx);
+    let turns = count.signum() * before.signum() < 0;
+    let lost = turns && has_direction;
+    let state = cx.state();
+    if !lost {
+        state.0[PENDING] = state.0[PENDING].wrapping_add(count);
+    }
+    let pending = state.0[PENDING];
+    let reverse = pending < 0 && has_direction;
+    let generator = *axis.generator(cx)?;
+    let busy = generator.is_busy();
+    let takes_more = generator.remaining() > 0 && !generator.is_stopping();
+    let waits = busy && (!takes_more || generator.is_reverse() != reverse);
+    if pending == 0 || waits {
+        return Ok(());
+    }
+    cx.state().0[PENDING] = 0;
+    let count = pending.unsigned_abs();
+    if busy {
+        axis.generator(cx)?.extend(count);
+        return Ok(());
+    }
+    let speed = (u64::from(count) * 1_000_000).min(axis.most(cx));
+    axis.send(cx, Train::steady(speed as u32, count), reverse)
 }

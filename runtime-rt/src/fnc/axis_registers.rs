@@ -103,7 +103,7 @@ pub(super) struct Registers {
 
 impl Registers {
     /// Those of the axis that operand `i` names.
-    fn of(cx: &Cx, i: usize) -> Result<Registers, Fault> {
+    pub fn of(cx: &Cx, i: usize) -> Result<Registers, Fault> {
         let axis = u32::try_from(cx.read(i)?).map_err(|_| Fault::DEVICE)?;
         let wiring = cx.plc.pulses().outputs().get(axis as usize);
         let wiring = wiring.ok_or(Fault::DEVICE)?;
@@ -206,19 +206,27 @@ impl Registers {
         self.has(cx, enable) && on_of(cx, Class::X, 0, mask, self.has(cx, inverted))
     }
 
-    /// What is wrong with the parameters.
-    fn error(self, cx: &Cx) -> Option<i16> {
-        let (highest, first) = (self.word(cx, at::HIGHEST), self.word(cx, at::FIRST));
-        let output = self.word(cx, at::OUTPUT);
-        let sends = (0..PULSE_OUTPUTS).contains(&output);
-        let most = if sends {
+    /// Whether it is bound to an output.
+    pub fn has_output(self, cx: &Cx) -> bool {
+        (0..OUTPUTS).contains(&self.word(cx, at::OUTPUT))
+    }
+
+    /// The highest speed that the outputs in use leave it, in millihertz.
+    pub fn most(self, cx: &Cx) -> u64 {
+        let sends = (0..PULSE_OUTPUTS).contains(&self.word(cx, at::OUTPUT));
+        if sends {
             HIGHEST / outputs_in_use(cx)
         } else {
             HIGHEST
-        };
-        if !(0..OUTPUTS).contains(&output) {
+        }
+    }
+
+    /// What is wrong with the parameters.
+    fn error(self, cx: &Cx) -> Option<i16> {
+        let (highest, first) = (self.word(cx, at::HIGHEST), self.word(cx, at::FIRST));
+        if !self.has_output(cx) {
             Some(error::NO_OUTPUT)
-        } else if highest <= 0 || self.millihertz(cx, highest.into()) > most {
+        } else if highest <= 0 || self.millihertz(cx, highest.into()) > self.most(cx) {
             Some(error::TOO_FAST)
         } else if first < 0 || first > highest {
             Some(error::FIRST_TOO_FAST)
@@ -276,6 +284,12 @@ impl Registers {
     /// Takes the axis and sends a train, in reverse if it is asked for and there is an output for the direction.
     pub fn start(self, cx: &mut Cx, train: Train, reverse: bool) -> Done {
         self.take(cx)?;
+        self.send(cx, train, reverse)
+    }
+
+    /// Sends a train, whoever has the axis.
+    pub fn send(self, cx: &mut Cx, train: Train, reverse: bool) -> Done {
+        let number = self.word(cx, at::OUTPUT) as u16;
         let has_direction = self.has_direction(cx);
         let reverse = reverse && has_direction;
         if has_direction {
@@ -283,6 +297,7 @@ impl Registers {
             let _ = cx.plc.set_bit(Class::Y, output, !reverse);
         }
         let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
+        axis.output = number;
         axis.generator.start(Train { reverse, ..train });
         axis.show();
         Ok(())
