@@ -105,11 +105,31 @@ const HOME_H2U: &[RangeInclusive<u32>] = &[
     8484..=8486,
 ];
 
+/// The masks, and the relays with which a program of FX3G and FX3U steers positioning.
+const MASKS_AND_HOME_FX3: &[RangeInclusive<u32>] = &[
+    MASKS,
+    8338..=8338,
+    8341..=8342,
+    8345..=8347,
+    8349..=8349,
+    8351..=8352,
+    8355..=8357,
+    8359..=8359,
+    8361..=8362,
+    8365..=8367,
+    8369..=8369,
+    8371..=8372,
+    8375..=8377,
+    8379..=8379,
+    8464..=8467,
+];
+
 /// Relays that go off when the model goes from RUN to STOP.
 pub fn cleared_in_stop(model: ModelId) -> impl Iterator<Item = u32> {
     let relays: &'static [RangeInclusive<u32>] = match model {
         ModelId::H1u | ModelId::H2u => HOME_H2U,
-        ModelId::L01s | ModelId::Fx2n | ModelId::Fx3g | ModelId::Fx3u => &[MASKS],
+        ModelId::L01s | ModelId::Fx2n => &[MASKS],
+        ModelId::Fx3g | ModelId::Fx3u => MASKS_AND_HOME_FX3,
         ModelId::Hm => &[],
     };
     relays.iter().cloned().flatten()
