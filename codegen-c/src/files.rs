@@ -1,11 +1,12 @@
 //! Puts units into files.
 
+use crate::board;
 use crate::events;
 use crate::fields::Fields;
 use crate::header;
 use crate::text;
 use crate::unit::{self, Unit};
-use crate::{Options, OutFile, RUNGC_H, RUNGC_RT_H};
+use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H};
 use rungc_ir::Module;
 use rungc_rt::RtFn;
 use std::fmt::Write;
@@ -61,13 +62,29 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         sources.push(path.clone());
         files.push(file(path, text));
     }
-    files.extend(shared(unit.runtime));
+    let takes_events = module.takes_events();
+    if takes_events {
+        let named = |path: &str, text: String| {
+            let banner = banner(module, path);
+            file(path, format!("/* {banner} */\n{text}"))
+        };
+        let path = format!("{name}_board.c");
+        files.push(named(&format!("{name}_board.h"), board::header(module)));
+        files.push(named(&path, board::source(module, unit.runtime)));
+        sources.push(path);
+    }
+    files.extend(shared(unit.runtime, takes_events));
     if options.main {
         files.push(file("main.c", crate::host::main_file(module)));
         sources.push("main.c".to_string());
     }
     let mut headers = format!("{name}.h rungc.h");
-    headers.push_str(if unit.runtime { " rungc_rt.h" } else { "" });
+    if unit.runtime || takes_events {
+        headers.push_str(" rungc_rt.h");
+    }
+    if takes_events {
+        let _ = write!(headers, " {name}_board.h rungc_board.h");
+    }
     if several {
         let _ = write!(headers, " {name}_internal.h");
     }
@@ -95,11 +112,17 @@ fn header_file(module: &Module, unit: &Unit) -> String {
     )
 }
 
-/// What all programs share: rungc.h, and if the runtime library is needed its header and its sources.
-fn shared(runtime: bool) -> Vec<OutFile> {
+/// What all programs share: rungc.h, the header of boards for those that take events, and if the runtime library is needed its sources.
+/// Its header has the types that describe a board, too.
+fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
     let mut files = vec![file("rungc.h", RUNGC_H.to_string())];
-    if runtime {
+    if runtime || board {
         files.push(file("rungc_rt.h", runtime_header()));
+    }
+    if board {
+        files.push(file("rungc_board.h", RUNGC_BOARD_H.to_string()));
+    }
+    if runtime {
         for (path, text) in rungc_rt_sources::files() {
             let mut text = text.to_string();
             if path == "Cargo.toml" {
@@ -243,7 +266,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         names.push(format!("cases_{}.c", i + 1));
         files.push(file(format!("cases_{}.c", i + 1), text));
     }
-    files.extend(shared(true));
+    files.extend(shared(true, false));
     files.push(file(
         "Makefile",
         makefile("batch", &names, "cases.h rungc.h rungc_rt.h", true, true),

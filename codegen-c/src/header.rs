@@ -295,6 +295,12 @@ pub fn embedding(module: &Module, fields: &Fields) -> String {
         let line = format!(" *     {code:column$}{text}");
         let _ = writeln!(out, "{}", line.trim_end());
     }
+    if module.takes_events() {
+        let _ = write!(
+            out,
+            " *\n * Or describe the board once (rungc_board.h): {name}_poll of {name}_board.h then does all this.\n"
+        );
+    }
     let _ = write!(
         out,
         " *\n * It needs sizeof({name}_plc) bytes of RAM and little stack; no heap, no recursion. To keep latched devices, save the\n \

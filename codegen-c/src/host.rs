@@ -77,7 +77,8 @@ fn inputs_of(module: &Module, fields: &Fields) -> BTreeMap<u32, String> {
     inputs
 }
 
-fn terminals(fields: &Fields, class: DeviceClass) -> Vec<(u32, String)> {
+/// The terminals that the program looks at, and the fields that they have.
+pub fn terminals(fields: &Fields, class: DeviceClass) -> Vec<(u32, String)> {
     let numbers = fields.of_class(class).iter().flat_map(|f| f.first..f.end());
     numbers
         .map(|number| {

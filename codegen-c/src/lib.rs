@@ -1,11 +1,13 @@
 //! C99 from rungc's IR.
 //!
-//! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all programs share, and,
-//! only if the program calls the runtime, the runtime's sources. [`batch`] makes one executable of many programs, for tests.
+//! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all programs share, only if
+//! the program calls the runtime, the runtime's sources, and only if it takes events, the wiring between it and a board. [`batch`]
+//! makes one executable of many programs, for tests.
 //!
 //! How a program becomes C: `fields` decides on the struct, `plan` divides the program into functions of bounded size,
 //! `scopes` finds where temporaries live, `writer` and `expr` write statements and expressions, `unit` puts it all together.
 
+mod board;
 mod devices;
 mod events;
 mod expr;
@@ -46,6 +48,9 @@ const RUNGC_H: &str = include_str!("../include/rungc.h");
 
 /// The header of the runtime library, made by cbindgen (see `tests/header.rs`).
 const RUNGC_RT_H: &str = include_str!("../include/rungc_rt.h");
+
+/// The header that describes a board.
+const RUNGC_BOARD_H: &str = include_str!("../include/rungc_board.h");
 
 /// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make` builds it as
 /// `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.

@@ -1,3 +1,6 @@
+#ifndef RUNGC_RT_OPERANDS_H
+#define RUNGC_RT_OPERANDS_H
+
 /* Operands as programs write them: rungc_K(5), rungc_E(1.5f), rungc_D(100), rungc_group(4, rungc_M(0)), rungc_bit_of(rungc_D(0), 15). */
 static inline rungc_operand rungc_device(rungc_class device_class, int32_t number)
 {
@@ -116,3 +119,5 @@ static inline rungc_site rungc_wide_at(uint32_t step)
     site.wide = true;
     return site;
 }
+
+#endif /* RUNGC_RT_OPERANDS_H */

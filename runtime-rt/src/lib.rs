@@ -13,6 +13,7 @@ extern crate std;
 mod access;
 mod axis;
 mod axis_place;
+pub mod board;
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]
 pub mod capi;

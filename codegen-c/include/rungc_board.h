@@ -1,0 +1,116 @@
+/*
+ * rungc_board.h: a board, described once. NAME_poll of a program's NAME_board.h does all wiring between it and the program.
+ *
+ * Types only: a program that does not call the runtime library needs nothing to be linked. Times are microseconds since the board
+ * began, wrapping after 71 minutes. Inputs and outputs have plain numbers: 8 is X010.
+ */
+#ifndef RUNGC_BOARD_H
+#define RUNGC_BOARD_H
+
+#include "rungc_rt.h"
+
+/* A change of an input. */
+typedef struct rungc_edge {
+    uint16_t input; /* the input X */
+    bool on;        /* whether it went on */
+} rungc_edge;
+
+/* What a hardware counter has counted: pulses of one input, or quarters of an encoder's cycle. */
+typedef struct rungc_count {
+    uint16_t input;   /* the input X; of an encoder that of phase A */
+    uint16_t phase_b; /* of an encoder: the input X of phase B; of pulses: as `input` */
+    uint32_t from;    /* of an encoder: what the timer showed when last asked. Its two lowest bits are the phases: 0 both off, 1 A on,
+                         2 both on, 3 B on */
+    int32_t count;    /* how many since then; of an encoder those in which B leads are negative */
+} rungc_count;
+
+/* A board. What it lacks is NULL; only `now_us` has to be there. `hal.context` is handed to each function. */
+typedef struct rungc_board {
+    /* Pins and what instructions ask: `input` is called before each scan, `set_output` behind it, behind edges and counts, and for
+       pulses; `hold_pulses` keeps the interrupt from coming that calls NAME_on_timer, or lets it come again. It is not nested. */
+    rungc_hal hal;
+
+    /* Time: microseconds since the board began, wrapping. The steps in which they go on are those in which all else is on time. */
+    uint32_t (*now_us)(void *context);
+
+    /* Edges: an interrupt notes each in a queue. Gives the oldest one that was not taken yet; false if there is none. */
+    bool (*next_edge)(void *context, rungc_edge *edge);
+
+    /* Counters, for rates at which an interrupt for each edge is too slow. Gives what this one has counted since last asked, which may
+       be nothing; false behind the last one, they are numbered from 0. The program gets it as that many edges, so its comparisons act
+       at the count. */
+    bool (*counted)(void *context, unsigned counter, rungc_count *count);
+
+    /* Pulses: arms the timer whose interrupt calls NAME_on_timer, in so many microseconds; 0: as soon as it can, UINT32_MAX: not at
+       all. Without it pulses are as exact as NAME_poll is called often. */
+    void (*wake_in)(void *context, uint32_t us);
+
+    /* Bit n: X n (0 to 31) follows edges and counts and not `hal.input`, so that the phases of an encoder stay in order. */
+    uint32_t followed;
+
+    /* From the begin of a scan to the begin of the next one, below 2^31; 0: a scan at each NAME_poll. */
+    uint32_t period_us;
+
+    /* Private. */
+    uint32_t now_ms;      /* the program's time */
+    uint32_t millisecond; /* when this millisecond began */
+    uint32_t next_scan;   /* when the next scan begins */
+    uint32_t scan_us;     /* how long the last one took */
+    bool began;           /* NAME_poll was called */
+} rungc_board;
+
+/* The first poll: whether it is. */
+static inline bool rungc_board_begins(rungc_board *board, uint32_t now_us)
+{
+    const bool first = !board->began;
+
+    if (first) {
+        board->began = true;
+        board->millisecond = now_us;
+        board->next_scan = now_us;
+    }
+    return first;
+}
+
+/* Time goes on: whether it is another millisecond. */
+static inline bool rungc_board_passes(rungc_board *board, uint32_t now_us)
+{
+    const uint32_t passed = (now_us - board->millisecond) / 1000u;
+
+    board->millisecond += passed * 1000u;
+    board->now_ms += passed;
+    return passed != 0u;
+}
+
+/* Whether a scan is to begin. Those that were missed are left out. */
+static inline bool rungc_board_scans(rungc_board *board, uint32_t now_us)
+{
+    const uint32_t late = now_us - board->next_scan;
+
+    if (late > UINT32_MAX / 2u) {
+        return false;
+    }
+    board->next_scan = ((late < board->period_us) ? board->next_scan : now_us) + board->period_us;
+    return true;
+}
+
+/* Keeps the timer's interrupt from coming, or lets it come again. */
+static inline void rungc_board_hold(const rungc_board *board, bool hold)
+{
+    if (board->hal.hold_pulses != NULL) {
+        board->hal.hold_pulses(board->hal.context, hold);
+    }
+}
+
+/* Phases of an encoder in a quarter of its cycle. */
+static inline bool rungc_phase_a(uint32_t quarter)
+{
+    return ((quarter + 1u) & 2u) != 0u;
+}
+
+static inline bool rungc_phase_b(uint32_t quarter)
+{
+    return (quarter & 2u) != 0u;
+}
+
+#endif

@@ -1,0 +1,335 @@
+//! A board, described once by four small traits, and the [`Driver`] that does all wiring between it and a program.
+//!
+//! Times are microseconds since the board began, wrapping after 71 minutes. Inputs and outputs have plain numbers: 8 is X010.
+//!
+//! ```
+//! use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt, PulseOutput, Setup, Timebase};
+//! use rungc_rt::{Hal, Program};
+//!
+//! /// Eight inputs, six outputs, and a time; nothing that interrupts, counts or wakes.
+//! struct Desk {
+//!     inputs: u8,
+//!     outputs: [bool; 6],
+//!     now_us: u32,
+//! }
+//!
+//! impl Hal for Desk {
+//!     fn input(&mut self, number: u16) -> Option<bool> {
+//!         (number < 8).then_some(self.inputs >> number & 1 == 1)
+//!     }
+//!     fn set_output(&mut self, number: u16, value: bool) {
+//!         if let Some(on) = self.outputs.get_mut(usize::from(number)) {
+//!             *on = value;
+//!         }
+//!     }
+//! }
+//!
+//! impl Timebase for Desk {
+//!     fn now_us(&mut self) -> u32 {
+//!         self.now_us
+//!     }
+//! }
+//!
+//! impl EdgeInterrupt for Desk {}
+//! impl CounterInput for Desk {}
+//! impl PulseOutput for Desk {}
+//!
+//! fn run(program: impl Program, desk: Desk) -> ! {
+//!     let setup = Setup { inputs: 8, outputs: 6, scan_us: 5000 };
+//!     let mut driver = Driver::new(program, desk, setup);
+//!     loop {
+//!         driver.poll();
+//!     }
+//! }
+//! ```
+
+use crate::hal::Hal;
+use crate::plc::Class;
+use crate::program::Program;
+
+/// What time it is.
+pub trait Timebase {
+    /// Microseconds since the board began, wrapping. The steps in which they go on are those in which pulses and scans are on time.
+    fn now_us(&mut self) -> u32;
+}
+
+/// A change of an input.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct InputEdge {
+    /// The input X.
+    pub input: u32,
+    /// Whether it went on.
+    pub level: bool,
+}
+
+/// Inputs of which each edge interrupts the processor. The interrupt notes the edge in a queue; the main loop takes it from there.
+pub trait EdgeInterrupt {
+    /// The oldest edge that was noted and not taken yet.
+    fn next_edge(&mut self) -> Option<InputEdge> {
+        None
+    }
+
+    /// Whether the edges of this input are noted. Its X then follows them and not [`Hal::input`], so that the phases of an encoder stay
+    /// in order; the first scan alone takes it from the pin.
+    fn notes_edges(&self, input: u32) -> bool {
+        let _ = input;
+        false
+    }
+}
+
+/// What a hardware counter has counted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Counted {
+    /// A timer with an external clock has counted pulses.
+    Pulses {
+        /// The input X.
+        input: u32,
+        /// How many since last asked.
+        count: u32,
+    },
+    /// A timer in encoder mode has counted quarters of a cycle.
+    Quarters {
+        /// The input X of phase A.
+        a: u32,
+        /// The input X of phase B.
+        b: u32,
+        /// What the timer showed when last asked, wrapping. Its two lowest bits are the phases: 0 both off, 1 A on, 2 both on, 3 B on.
+        from: u32,
+        /// Quarters since then; those in which B leads are negative.
+        count: i32,
+    },
+}
+
+/// Inputs that a hardware counter counts, for rates at which an interrupt for each edge is too slow. The program gets them as that many
+/// edges, so its comparisons act at the count; but only as soon as the main loop asks.
+pub trait CounterInput {
+    /// What this counter has counted since last asked, which may be nothing. Counters are numbered from 0; `None` behind the last one.
+    fn counted(&mut self, counter: u32) -> Option<Counted> {
+        let _ = counter;
+        None
+    }
+
+    /// Whether a hardware counter has this input. Its X then follows the counts and not [`Hal::input`].
+    fn counts(&self, input: u32) -> bool {
+        let _ = input;
+        false
+    }
+}
+
+/// Pins that pulses are sent on: [`Hal::set_output`] sets them, and a timer says when.
+pub trait PulseOutput: Hal {
+    /// Arms the timer whose interrupt calls [`Driver::on_timer`], in so many microseconds: 0 is as soon as it can, `None` not at all. A
+    /// board without one leaves it as it is: its pulses are as exact as [`Driver::poll`] is called often.
+    fn wake_in(&mut self, us: Option<u32>) {
+        let _ = us;
+    }
+}
+
+/// A whole board: whatever has all four traits.
+pub trait Board: Timebase + EdgeInterrupt + CounterInput + PulseOutput {}
+
+impl<T: Timebase + EdgeInterrupt + CounterInput + PulseOutput> Board for T {}
+
+/// How a program runs on a board.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Setup {
+    /// Inputs X from 0 on that a scan reads with [`Hal::input`].
+    pub inputs: u16,
+    /// Outputs Y from 0 on that a scan sets with [`Hal::set_output`].
+    pub outputs: u16,
+    /// From the begin of a scan to the begin of the next one, in microseconds, below 2^31; 0: one at each [`Driver::poll`].
+    pub scan_us: u32,
+}
+
+/// A program on a board.
+#[derive(Clone, Debug)]
+pub struct Driver<P, B> {
+    /// The program and its devices.
+    pub program: P,
+    /// The board.
+    pub board: B,
+    setup: Setup,
+    /// When the millisecond began that it is, by the board's time; `None` before the first poll.
+    millisecond: Option<u32>,
+    /// Milliseconds since the first poll.
+    now_ms: u32,
+    /// When the next scan begins.
+    next_scan: u32,
+    /// How long the last one took, in microseconds.
+    scan_us: u32,
+}
+
+impl<P: Program, B: Board> Driver<P, B> {
+    /// A program that is at its power-on, on a board. Nothing happens yet.
+    pub fn new(program: P, board: B, setup: Setup) -> Self {
+        Driver {
+            program,
+            board,
+            setup,
+            millisecond: None,
+            now_ms: 0,
+            next_scan: 0,
+            scan_us: 0,
+        }
+    }
+
+    /// Milliseconds since the first [`Driver::poll`], wrapping: the program's time.
+    pub fn now_ms(&self) -> u32 {
+        self.now_ms
+    }
+
+    /// Does what is to be done by now. Call it in the main loop, as often as can be and at least once in half an hour: a millisecond, an
+    /// edge or a count is as late as this is. Edges come first, each with the interrupt routine that it requests, then counts and
+    /// milliseconds, then a scan if its time has come, then outputs and pulses.
+    pub fn poll(&mut self) {
+        let now_us = self.board.now_us();
+        if self.millisecond.is_none() {
+            self.millisecond = Some(now_us);
+            self.next_scan = now_us;
+            self.refresh_inputs(true);
+        }
+        let edges = self.take_edges();
+        let counts = self.take_counts();
+        if self.pass(now_us) {
+            self.program.tick(self.now_ms);
+        }
+        self.program.take_interrupts(&mut self.board);
+        let scans = has_come(self.next_scan, now_us);
+        if scans {
+            self.next_scan = following(self.next_scan, self.setup.scan_us, now_us);
+            self.refresh_inputs(false);
+            self.scan();
+        }
+        if scans || edges || counts {
+            self.write_outputs();
+        }
+        self.on_timer();
+    }
+
+    /// Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones. Call it in the timer's interrupt,
+    /// where nothing else uses the driver; [`Driver::poll`] does the same at its end. One that has to wait for a scan sends late, but
+    /// neither loses a pulse nor sends one too many.
+    pub fn on_timer(&mut self) {
+        let now_us = self.board.now_us();
+        let wait = self.program.pulse_timer(&mut self.board, now_us);
+        self.board.wake_in(wait);
+    }
+
+    /// Time goes on; whether it is another millisecond.
+    fn pass(&mut self, now_us: u32) -> bool {
+        let began = self.millisecond.unwrap_or(now_us);
+        let passed = now_us.wrapping_sub(began) / 1000;
+        self.millisecond = Some(began.wrapping_add(passed * 1000));
+        self.now_ms = self.now_ms.wrapping_add(passed);
+        passed > 0
+    }
+
+    /// Takes the edges that interrupts noted; whether there were any.
+    fn take_edges(&mut self) -> bool {
+        let mut any = false;
+        while let Some(InputEdge { input, level }) = self.board.next_edge() {
+            any = true;
+            self.change(input, level);
+            self.program.take_interrupts(&mut self.board);
+        }
+        any
+    }
+
+    /// Takes what hardware counters have counted; whether that was anything.
+    fn take_counts(&mut self) -> bool {
+        let mut any = false;
+        let mut counter = 0;
+        while let Some(counted) = self.board.counted(counter) {
+            counter += 1;
+            match counted {
+                Counted::Pulses { input, count } => {
+                    any |= count > 0;
+                    for _ in 0..count {
+                        self.change(input, true);
+                        self.change(input, false);
+                    }
+                }
+                Counted::Quarters { a, b, from, count } => {
+                    any |= count != 0;
+                    self.turn([a, b], from, count);
+                }
+            }
+        }
+        any
+    }
+
+    /// An encoder turns by `count` quarters of a cycle. In each of them one phase changes.
+    fn turn(&mut self, inputs: [u32; 2], from: u32, count: i32) {
+        for (input, level) in inputs.into_iter().zip(phases(from)) {
+            let _ = self.program.set_bit(Class::X, input, level);
+        }
+        let mut quarter = from;
+        for _ in 0..count.unsigned_abs() {
+            let before = phases(quarter);
+            quarter = quarter.wrapping_add_signed(count.signum());
+            let changes = before.into_iter().zip(phases(quarter));
+            for (input, (before, level)) in inputs.into_iter().zip(changes) {
+                if level != before {
+                    self.change(input, level);
+                }
+            }
+        }
+    }
+
+    /// An input changes.
+    fn change(&mut self, input: u32, level: bool) {
+        // A program that does not look at this X takes notice of its edges all the same.
+        let _ = self.program.set_bit(Class::X, input, level);
+        self.program.input_edge(input, level);
+    }
+
+    /// Reads the pins of inputs; unless `all` are wanted, of those that neither interrupts nor counters follow.
+    fn refresh_inputs(&mut self, all: bool) {
+        for number in 0..self.setup.inputs {
+            let input = u32::from(number);
+            let followed = self.board.notes_edges(input) || self.board.counts(input);
+            if (all || !followed)
+                && let Some(level) = self.board.input(number)
+            {
+                let _ = self.program.set_bit(Class::X, input, level);
+            }
+        }
+    }
+
+    /// A scan.
+    fn scan(&mut self) {
+        let begin = self.board.now_us();
+        self.program
+            .scan(&mut self.board, self.now_ms, self.scan_us);
+        self.scan_us = self.board.now_us().wrapping_sub(begin);
+    }
+
+    /// Sets the pins of outputs, which a scan has changed, or a comparison at its count. The timer has those that send pulses.
+    fn write_outputs(&mut self) {
+        for number in 0..self.setup.outputs {
+            if self.program.axis(number.into()).is_none() {
+                let on = self.program.output(number.into());
+                self.board.set_output(number, on);
+            }
+        }
+    }
+}
+
+/// Phases A and B of an encoder in a quarter of its cycle.
+fn phases(quarter: u32) -> [bool; 2] {
+    [matches!(quarter % 4, 1 | 2), quarter % 4 >= 2]
+}
+
+/// Whether a moment has come.
+fn has_come(moment: u32, now_us: u32) -> bool {
+    now_us.wrapping_sub(moment) <= u32::MAX / 2
+}
+
+/// The moment a period behind another one; those that were missed are left out.
+fn following(moment: u32, period: u32, now_us: u32) -> u32 {
+    if now_us.wrapping_sub(moment) < period {
+        moment.wrapping_add(period)
+    } else {
+        now_us.wrapping_add(period)
+    }
+}
