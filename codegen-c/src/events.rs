@@ -2,16 +2,10 @@
 
 use crate::writer::function_name;
 use rungc_ir::Module;
-use rungc_ir::node::{Cell, EdgeKind, Flag, FunctionKind, Stmt};
+use rungc_ir::node::{Cell, EdgeKind, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
 use std::collections::BTreeSet;
 use std::fmt::Write;
-
-/// The flags with a period, and their periods in milliseconds.
-fn periods(module: &Module) -> impl Iterator<Item = (&Flag, u32)> {
-    let flags = module.flags.iter();
-    flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
-}
 
 /// The edges that mean something: function number, terminal, which.
 fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
@@ -34,7 +28,7 @@ fn clocks(module: &Module) -> impl Iterator<Item = &Cell> {
 
 /// Whether the time between scans means something.
 pub fn follows_time(module: &Module) -> bool {
-    module.sends_pulses() || periods(module).next().is_some() || clocks(module).next().is_some()
+    module.sends_pulses() || module.periods().next().is_some() || clocks(module).next().is_some()
 }
 
 /// The flags that are set outside the scan, perhaps in an interrupt handler.
@@ -79,7 +73,7 @@ pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
         let declaration = format!("{volatile}bool {};", flag.name);
         (declaration, flag.meaning.to_string(), 1)
     });
-    let since = periods(module).map(|(flag, _)| {
+    let since = module.periods().map(|(flag, _)| {
         let comment = "when this period began".to_string();
         (format!("uint32_t {}_since;", flag.name), comment, 4)
     });
@@ -102,7 +96,7 @@ pub fn forget(module: &Module) -> String {
     for flag in &module.flags {
         let _ = writeln!(out, "    plc->{} = false;", flag.name);
     }
-    for (flag, _) in periods(module) {
+    for (flag, _) in module.periods() {
         let _ = writeln!(out, "    plc->{}_since = plc->sys.now_ms;", flag.name);
     }
     out
@@ -216,7 +210,7 @@ pub fn count_pulses(module: &Module) -> String {
 fn tick(module: &Module) -> String {
     let name = &module.name;
     let mut out = format!("void {name}_tick({name}_plc *plc, uint32_t now_ms)\n{{\n");
-    for (flag, ms) in periods(module) {
+    for (flag, ms) in module.periods() {
         let flag = &flag.name;
         let _ = write!(
             out,

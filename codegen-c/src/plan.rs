@@ -66,8 +66,8 @@ pub enum Node<'m> {
         count: u32,
         /// What.
         body: Vec<Node<'m>>,
-        /// The last round's last network.
-        last: u32,
+        /// Steps of its first and last network.
+        steps: (u32, u32),
     },
     /// The switch over parts.
     Parts {
@@ -227,11 +227,11 @@ impl<'m> Builder<'m> {
                 body: inner(body),
             },
             Stmt::Repeat {
-                count, body, last, ..
+                count, body, steps, ..
             } => Node::Repeat {
                 count: *count,
                 body: inner(body),
-                last: *last,
+                steps: *steps,
             },
             Stmt::Parts(parts) => {
                 weight += 2 * parts.len() as u64;

@@ -307,7 +307,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                 otherwise,
             } => self.branch(out, *cond, (then, otherwise), indent),
             Node::For { count, body } => self.repeat(out, *count, body, indent),
-            Node::Repeat { count, body, last } => self.rounds(out, (*count, *last), body, indent),
+            Node::Repeat { count, body, steps } => self.rounds(out, (*count, *steps), body, indent),
             Node::Parts { parts, leaves } => self.parts(out, parts, *leaves, indent),
             Node::Stretch(function) => self.stretch(out, *function, indent),
         }
@@ -371,28 +371,16 @@ impl<'a, 'm> Writer<'a, 'm> {
     fn rounds(
         &mut self,
         out: &mut String,
-        (count, last): (u32, u32),
+        (count, (first, last)): (u32, (u32, u32)),
         body: &[Node<'m>],
         indent: usize,
     ) {
         let variable = self.loop_variable();
-        let step = |network: u32| {
-            self.module
-                .networks
-                .get(network as usize)
-                .map_or(0, |n| n.step)
-        };
-        let first = body.iter().find_map(|node| match node {
-            Node::Stmt(Stmt::Network(network)) => Some(step(*network)),
-            _ => None,
-        });
         if !out.ends_with("{\n") {
             out.push('\n');
         }
         let comment = format!(
-            "/* steps {} to {}: {count} times the same rungs, each time with the next devices */",
-            first.unwrap_or_default(),
-            step(last)
+            "/* steps {first} to {last}: {count} times the same rungs, each time with the next devices */"
         );
         text::line(out, indent, &comment, None);
         let head = format!("for (unsigned {variable} = 0; {variable} < {count}; {variable}++) {{");
@@ -615,11 +603,7 @@ pub fn function_name(out: &mut String, module: &Module, function: usize) {
         Some(FunctionKind::Subroutine(p)) => write!(out, "{name}_P{p}"),
         Some(FunctionKind::Interrupt(i)) => write!(out, "{name}_I{i:03}"),
         Some(FunctionKind::InputEdge { input, kind }) => {
-            let what = match kind {
-                EdgeKind::Rising => "rises",
-                EdgeKind::Falling => "falls",
-            };
-            write!(out, "{name}_X{input:03o}_{what}")
+            write!(out, "{name}_X{input:03o}_{}", kind.verb())
         }
         Some(FunctionKind::TakeInterrupts) => write!(out, "{name}_interrupts"),
         Some(FunctionKind::Main) | None => write!(out, "{name}_program"),

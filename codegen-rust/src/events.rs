@@ -38,17 +38,11 @@ impl Generator<'_> {
         format_ident!("{}", self.module.tables[table.0 as usize].name)
     }
 
-    /// The flags with a period, and their periods in milliseconds.
-    fn periods(&self) -> impl Iterator<Item = (&Flag, u32)> {
-        let flags = self.module.flags.iter();
-        flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
-    }
-
     /// The fields that flags need; RUN begins with them as at power-on.
     pub fn flag_fields(&self) -> Vec<Hidden> {
         let flags = self.module.flags.iter();
         let flags = flags.map(|f| (flag_field(f), quote!(bool), quote!(false), f.meaning));
-        let since = self.periods().map(|(flag, _)| {
+        let since = self.module.periods().map(|(flag, _)| {
             let meaning = "when this period began";
             (since_field(flag), quote!(u32), quote!(0), meaning)
         });
@@ -76,7 +70,7 @@ impl Generator<'_> {
             let field = flag_field(flag);
             quote!(self.#field = false;)
         });
-        let since = self.periods().map(|(flag, _)| {
+        let since = self.module.periods().map(|(flag, _)| {
             let field = since_field(flag);
             quote!(self.#field = self.sys.now_ms;)
         });
@@ -115,6 +109,7 @@ impl Generator<'_> {
             return None;
         }
         let periods: Vec<TokenStream> = self
+            .module
             .periods()
             .map(|(flag, ms)| {
                 let (field, since) = (flag_field(flag), since_field(flag));

@@ -6,7 +6,7 @@ use crate::storage::Storage;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeKind, ExprId, Function, FunctionKind, LabelId, TempId, Ty};
+use rungc_ir::node::{ExprId, Function, FunctionKind, LabelId, TempId, Ty};
 use rungc_ir::walk::operands;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -263,11 +263,7 @@ pub fn function_name(function: &Function) -> String {
         FunctionKind::End => "end_scan".to_string(),
         FunctionKind::Subroutine(n) => format!("subroutine_p{n}"),
         FunctionKind::InputEdge { input, kind } => {
-            let what = match kind {
-                EdgeKind::Rising => "rises",
-                EdgeKind::Falling => "falls",
-            };
-            format!("x{input:03o}_{what}")
+            format!("x{input:03o}_{}", kind.verb())
         }
         FunctionKind::TakeInterrupts => "interrupts".to_string(),
         FunctionKind::Interrupt(n) => format!("interrupt_i{n:03}"),

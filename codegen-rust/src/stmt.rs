@@ -148,8 +148,8 @@ impl Generator<'_> {
                 quote!(for _ in 0..#count { #body })
             }
             Stmt::Repeat {
-                count, body, last, ..
-            } => self.rounds(*count, body, *last),
+                count, body, steps, ..
+            } => self.rounds(*count, body, *steps),
             Stmt::CallSub(n) => self.call_sub(*n),
             Stmt::Return => quote!(return;),
             Stmt::Parts(parts) => self.parts(parts),
@@ -180,13 +180,7 @@ impl Generator<'_> {
     }
 
     /// A loop over rungs that the program repeats.
-    fn rounds(&mut self, count: u32, body: &[Stmt], last: u32) -> TokenStream {
-        let step = |n: u32| self.module.networks.get(n as usize).map_or(0, |n| n.step);
-        let first = body.iter().find_map(|stmt| match stmt {
-            Stmt::Network(n) => Some(step(*n)),
-            _ => None,
-        });
-        let (first, last) = (first.unwrap_or(self.step), step(last));
+    fn rounds(&mut self, count: u32, body: &[Stmt], (first, last): (u32, u32)) -> TokenStream {
         let text = format!(
             "steps {first} to {last}: {count} times the same rungs, each time with the next devices"
         );

@@ -87,11 +87,7 @@ impl Out<'_> {
             FunctionKind::Subroutine(pointer) => format!("subroutine P{pointer}"),
             FunctionKind::Interrupt(pointer) => format!("interrupt I{pointer:03}"),
             FunctionKind::InputEdge { input, kind } => {
-                let kind = match kind {
-                    EdgeKind::Rising => "rises",
-                    EdgeKind::Falling => "falls",
-                };
-                format!("X{input:03o} {kind}")
+                format!("X{input:03o} {}", kind.verb())
             }
             FunctionKind::TakeInterrupts => "take interrupts".to_string(),
         };

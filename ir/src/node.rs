@@ -254,6 +254,16 @@ pub enum EdgeKind {
     Falling,
 }
 
+impl EdgeKind {
+    /// What the input does, for names: `rises`.
+    pub fn verb(self) -> &'static str {
+        match self {
+            EdgeKind::Rising => "rises",
+            EdgeKind::Falling => "falls",
+        }
+    }
+}
+
 /// Operand of a call of the runtime.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Arg {
@@ -416,8 +426,8 @@ pub enum Stmt {
         round: TempId,
         /// What.
         body: Body,
-        /// The last round's last network, for a comment.
-        last: u32,
+        /// Steps of the first and the last of its networks in the program, for a comment.
+        steps: (u32, u32),
     },
     /// Calls [`Module::functions`]`[n]`.
     CallSub(u32),
@@ -629,6 +639,12 @@ impl Module {
     /// Whether it has pulse outputs.
     pub fn sends_pulses(&self) -> bool {
         !self.pulse_outputs.is_empty()
+    }
+
+    /// The flags with a period, and their periods in milliseconds.
+    pub fn periods(&self) -> impl Iterator<Item = (&Flag, u32)> {
+        let flags = self.flags.iter();
+        flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
     }
 
     /// Whether a host has to tell it how time goes on between scans.

@@ -295,17 +295,18 @@ impl Group {
         };
         let statements = &body[self.first..self.first + self.length];
         let inner = statements.iter().map(|stmt| maker.stmt(stmt)).collect();
-        let last = self.first + (self.rounds - 1) * self.length;
-        let networks = body[last..last + self.length].iter().rev();
-        let last = networks.filter_map(|stmt| match stmt {
-            Stmt::Network(network) => Some(*network),
+        let all = &body[self.first..self.first + self.rounds * self.length];
+        let mut steps = all.iter().filter_map(|stmt| match stmt {
+            Stmt::Network(network) => Some(maker.module.networks.get(*network as usize)?.step),
             _ => None,
         });
+        let first = steps.next().unwrap_or_default();
+        let last = steps.next_back().unwrap_or(first);
         Stmt::Repeat {
             count: self.rounds as u32,
             round,
             body: inner,
-            last: last.into_iter().next().unwrap_or_default(),
+            steps: (first, last),
         }
     }
 }

@@ -119,7 +119,7 @@ impl Rewriter<'_> {
                 count,
                 round,
                 body,
-                last,
+                steps,
             } => {
                 self.settle(out);
                 self.temps.set_available(Vec::new());
@@ -129,7 +129,7 @@ impl Rewriter<'_> {
                     count,
                     round,
                     body,
-                    last,
+                    steps,
                 });
             }
             Stmt::Parts(parts) => {
