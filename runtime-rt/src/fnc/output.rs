@@ -46,6 +46,14 @@ pub(super) fn held(cx: &mut Cx, instruction: impl FnOnce(&mut Cx) -> Done) -> Do
     done
 }
 
+/// The first two operands, which are not negative.
+pub(super) fn unsigned(cx: &Cx) -> Result<[u32; 2], Fault> {
+    match [cx.read(0)?, cx.read(1)?].map(u32::try_from) {
+        [Ok(first), Ok(second)] => Ok([first, second]),
+        _ => Err(Fault::VALUE),
+    }
+}
+
 /// The output of an instruction.
 #[derive(Clone, Copy)]
 pub(super) struct Output {
@@ -55,9 +63,9 @@ pub(super) struct Output {
 }
 
 /// Limits of the times of ramps, in milliseconds (h1u-h2u-programming §4.3.11).
-const RAMP_MS: (i32, i32) = (50, 5000);
-/// Lowest speed of positioning, in Hz.
-const LOWEST_HZ: u32 = 10;
+pub(super) const RAMP_MS: (i32, i32) = (50, 5000);
+/// Lowest speed of a train with ramps, in Hz.
+pub(super) const LOWEST_HZ: u32 = 10;
 /// Lowest speeds of DSZR but for the base and the creep speed, in Hz.
 const LOWEST_RETURN_HZ: i32 = 715;
 

@@ -1,7 +1,7 @@
 //! Positioning: FNC 156 to 159 (h1u-h2u-programming §4.3.11, §8.5, §8.7; l01s-programming §7.2). Positions are counted in the registers
 //! of the output; forward counts up.
 
-use super::output::{Output, Turn, held};
+use super::output::{Output, Turn, held, unsigned};
 use crate::axis::{long, set_long};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -123,10 +123,7 @@ fn do_zrn(cx: &mut Cx) -> Done {
     let turn = output.turn(cx)?;
     match turn {
         Turn::Start | Turn::Sends => {
-            let [fast, creep] = [cx.read(0)?, cx.read(1)?].map(u32::try_from);
-            let (Ok(fast), Ok(creep)) = (fast, creep) else {
-                return Err(Fault::VALUE);
-            };
+            let [fast, creep] = unsigned(cx)?;
             let near = cx.bit(2, 0)?;
             if turn == Turn::Start {
                 let ramp = output.ramp_for_all(cx);

@@ -1,7 +1,7 @@
 //! Pulses without a position: FNC 57 to 59 (h1u-h2u-programming §4.3.6, §8.7; l01s-programming §7.2, §7.3). What an instruction asks
 //! of an output goes on between scans; see [`crate::Axis`].
 
-use super::output::{Output, Turn, held};
+use super::output::{LOWEST_HZ, Output, RAMP_MS, Turn, held, unsigned};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::pulse::Train;
@@ -35,18 +35,6 @@ fn do_plsy(cx: &mut Cx) -> Done {
     }
     output.show(cx)
 }
-
-/// The first two operands, which are not negative.
-fn unsigned(cx: &Cx) -> Result<[u32; 2], Fault> {
-    match [cx.read(0)?, cx.read(1)?].map(u32::try_from) {
-        [Ok(first), Ok(second)] => Ok([first, second]),
-        _ => Err(Fault::VALUE),
-    }
-}
-
-/// Limits of PLSR: speed in Hz, time in milliseconds.
-const LOWEST_HZ: u32 = 10;
-const RAMP_MS: (i32, i32) = (50, 5000);
 
 /// PLSR S1 S2 S3 D (FNC 59): sends S2 pulses on D, in S3 ms up to S1 Hz and in as many down, and comes down when its drive goes off. The
 /// ramps begin and end with √(S1 / 2·S3). While the relay for that is on, S2 may change until it comes down, and the way down has a time of
