@@ -16,6 +16,7 @@ mod files;
 mod header;
 mod helpers;
 mod host;
+mod places;
 mod plan;
 mod runtime;
 mod scopes;
@@ -25,6 +26,7 @@ mod unit;
 mod walk;
 mod writer;
 
+pub use places::Places;
 use rungc_ir::Module;
 
 /// What to emit.

@@ -271,7 +271,7 @@ pub fn function_name(function: &Function) -> String {
 }
 
 /// Name of the struct: `box_filler` is `BoxFiller`.
-fn type_name(module: &str) -> Ident {
+pub(crate) fn type_name(module: &str) -> Ident {
     /// What the emitted files import.
     const TAKEN: [&str; 21] = [
         "Access",

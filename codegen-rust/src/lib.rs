@@ -15,9 +15,11 @@ mod format;
 mod function;
 mod generate;
 mod machine;
+mod places;
 mod stmt;
 mod storage;
 
+pub use places::Places;
 use rungc_ir::Module;
 
 /// What to emit.

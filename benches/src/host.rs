@@ -1,0 +1,221 @@
+//! Time on this machine: all implementations of a program in one executable, timed in turns.
+
+use crate::ladder::{Kind, Ladder};
+use crate::problem::{Problem, Result};
+use crate::subject::{self, CSubject, Code, RustSubject};
+use crate::table::{Cell, Table};
+use crate::tools;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The program that times.
+const HOST_C: &str = include_str!("../templates/host.c");
+
+/// Scans after each of which all devices are compared.
+const CHECKED_SCANS: u32 = 3000;
+
+/// C compilers, in the order of the table.
+const COMPILERS: [&str; 2] = ["gcc", "clang"];
+
+/// How thoroughly to time.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// How often each implementation has its turn.
+    pub rounds: u32,
+    /// About how long a turn is.
+    pub turn_us: u32,
+}
+
+/// One implementation, and what came out.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// What it is.
+    pub code: Code,
+    /// Its compiler.
+    pub compiler: String,
+    /// Nanoseconds that a scan took, in each round; or why there are none.
+    pub result: std::result::Result<Vec<f64>, String>,
+}
+
+impl Timed {
+    /// The fastest round, in nanoseconds a scan.
+    pub fn fastest(&self) -> Option<f64> {
+        let times = self.result.as_ref().ok()?;
+        times.iter().copied().reduce(f64::min)
+    }
+
+    /// How many times as long as `other` it takes: the median of all rounds, since both had their turns in each.
+    pub fn ratio(&self, other: &Timed) -> Option<f64> {
+        let (mine, others) = (self.result.as_ref().ok()?, other.result.as_ref().ok()?);
+        median(mine.iter().zip(others).map(|(a, b)| a / b).collect())
+    }
+}
+
+/// The middle one; `None` of nothing.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// What one implementation is built from and as.
+struct Build {
+    code: Code,
+    compiler: String,
+    prefix: String,
+    objects: Result<Vec<PathBuf>>,
+}
+
+/// Builds all implementations, checks that they do the same, and times them. With no rounds it only checks.
+pub fn time(ladder: &Ladder, compilers: &[&str], rust: bool, effort: Effort) -> Result<Vec<Timed>> {
+    let folder = tools::folder()?;
+    let mut builds = Vec::new();
+    for compiler in compilers {
+        for code in [Code::Hand, Code::C] {
+            builds.push(build_c(ladder, code, compiler, folder.path()));
+        }
+    }
+    if rust {
+        builds.push(build_rust(ladder, folder.path()));
+    }
+    let missing = |b: &&Build| matches!(&b.objects, Err(problem) if !problem.is_missing());
+    if let Some(i) = builds.iter().position(|b| missing(&b)) {
+        return builds.swap_remove(i).objects.map(|_| Vec::new());
+    }
+    let lines = run(&builds, folder.path(), effort)?;
+    let mut lines = lines.into_iter();
+    Ok(builds
+        .into_iter()
+        .map(|build| Timed {
+            code: build.code,
+            compiler: build.compiler,
+            result: match build.objects {
+                Ok(_) => Ok(lines.next().unwrap_or_default()),
+                Err(problem) => Err(problem.to_string()),
+            },
+        })
+        .collect())
+}
+
+fn build_c(ladder: &Ladder, code: Code, compiler: &str, folder: &Path) -> Build {
+    let prefix = match code {
+        Code::Hand => format!("hand_{compiler}"),
+        _ => format!("c_{compiler}"),
+    };
+    let objects = tools::need(&[compiler]).and_then(|()| {
+        let subject = CSubject::new(code, ladder, &prefix, folder)?;
+        let mut objects = subject.compile(compiler, &["-O2"])?;
+        objects.program.push(objects.adaptor);
+        Ok(objects.program)
+    });
+    Build {
+        code,
+        compiler: format!("{compiler} -O2"),
+        prefix,
+        objects,
+    }
+}
+
+fn build_rust(ladder: &Ladder, folder: &Path) -> Build {
+    let prefix = "rust".to_string();
+    let library = RustSubject::new(ladder, &prefix, folder)
+        .and_then(|subject| subject.build(tools::cargo(), None, "3"));
+    Build {
+        code: Code::Rust,
+        compiler: "rustc -O3".to_string(),
+        prefix,
+        objects: library.map(|library| vec![library]),
+    }
+}
+
+/// Links what could be built, runs it; what each prints of its times.
+fn run(builds: &[Build], folder: &Path, effort: Effort) -> Result<Vec<Vec<f64>>> {
+    let built: Vec<&Build> = builds.iter().filter(|b| b.objects.is_ok()).collect();
+    let Some(linker) = COMPILERS.iter().find(|compiler| tools::is_there(compiler)) else {
+        return Err(Problem::Missing(COMPILERS.join(" or ")));
+    };
+    let prefixes: Vec<&str> = built.iter().map(|b| b.prefix.as_str()).collect();
+    subject::write_list(folder, &prefixes)?;
+    tools::write(&folder.join("host.c"), HOST_C)?;
+    let program = folder.join("host");
+    let objects = built
+        .iter()
+        .filter_map(|b| b.objects.as_ref().ok())
+        .flatten();
+    tools::run(
+        Command::new(linker)
+            .args(["-std=c99", "-O2", "-o"])
+            .args([&program, &folder.join("host.c")])
+            .args(objects)
+            .args(["-lpthread", "-ldl", "-lm"]),
+    )?;
+    let mut command = Command::new(&program);
+    command.args([CHECKED_SCANS, effort.rounds, effort.turn_us].map(|n| n.to_string()));
+    let output = tools::run(&mut command)?;
+    same_checksums(&output)?;
+    let times = |line: &str| {
+        line.split(' ')
+            .skip(3)
+            .filter_map(|n| n.parse().ok())
+            .collect()
+    };
+    Ok(output.lines().map(times).collect())
+}
+
+/// All implementations must have done the same.
+fn same_checksums(output: &str) -> Result<()> {
+    let sums = |line: &str| {
+        line.split(' ')
+            .skip(1)
+            .take(2)
+            .map(str::to_string)
+            .collect::<Vec<_>>()
+    };
+    let mut all = output.lines().map(sums);
+    let first = all.next();
+    match all.all(|sums| Some(&sums) == first.as_ref()) {
+        true => Ok(()),
+        false => Err(Problem::Wrong(format!("implementations differ:\n{output}"))),
+    }
+}
+
+/// The table for programs of several sizes.
+pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
+    let mut table = Table::new(
+        format!("Time of a scan on this machine: `{}`", kind.name()),
+        &[
+            "steps",
+            "code",
+            "compiler",
+            "ns/scan",
+            "ns/step",
+            "× hand, gcc",
+            "× hand, clang",
+        ],
+    );
+    for &size in sizes {
+        let ladder = Ladder::new(kind, size);
+        let all = time(&ladder, &COMPILERS, true, effort)?;
+        for timed in &all {
+            let mut row = vec![
+                Cell::count(ladder.steps.into()),
+                timed.code.title().into(),
+                timed.compiler.as_str().into(),
+            ];
+            match (&timed.result, timed.fastest()) {
+                (Err(why), _) => row.push(why.as_str().into()),
+                (Ok(_), None) => row.push("not timed".into()),
+                (Ok(_), Some(fastest)) => {
+                    row.push(Cell::number(fastest, 1));
+                    row.push(Cell::number(fastest / f64::from(ladder.steps), 4));
+                    let hands = all.iter().filter(|t| t.code == Code::Hand);
+                    row.extend(hands.map(|hand| match timed.ratio(hand) {
+                        Some(ratio) => Cell::number(ratio, 2),
+                        None => "–".into(),
+                    }));
+                }
+            }
+            table.row(row);
+        }
+    }
+    Ok(table)
+}

@@ -1,0 +1,142 @@
+//! The C that an engineer would write by hand for a program: a struct of arrays of all devices that the machine has, one assignment
+//! for each coil, functions of 200 rungs. It knows nothing of PLCs beyond what the program does, so it is no slower for that: a timer
+//! counts milliseconds and knows no current value in its units, arithmetic sets no flags.
+
+use super::Kind;
+use super::{Action, Chain, Contact, Device, Ladder, Operation, RELAYS, Rung, TERMINALS};
+use std::fmt::Write;
+
+/// Rungs of a function.
+const PART: usize = 200;
+
+/// Timers, counters and registers of `mixed`; a long at the last register needs one more.
+const MIXED_DEVICES: &str = "struct timer T[200]; struct counter C[100]; int16_t D[201];";
+
+/// What `mixed` uses.
+const MIXED: &str = include_str!("../../templates/hand_mixed.h");
+
+/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` also with the milliseconds
+/// since the last scan.
+pub fn header(ladder: &Ladder, prefix: &str) -> String {
+    let mut out = String::from("#include <stdbool.h>\n#include <stdint.h>\n#include <string.h>\n");
+    let mut devices = format!("bool X[{TERMINALS}], Y[{TERMINALS}], M[{RELAYS}];");
+    if takes_time(ladder) {
+        out.push_str(MIXED);
+        let edges = ladder.rungs.iter().filter(|r| has_edge(&r.action)).count();
+        // Writing to a String does not fail.
+        let _ = write!(devices, " {MIXED_DEVICES} bool edge[{}];", edges.max(1));
+    }
+    let _ = writeln!(out, "struct plc {{ {devices} }};");
+    let _ = writeln!(out, "void {prefix}_scan(struct plc *p{});", time(ladder).0);
+    out
+}
+
+/// The program, to be compiled with its header included.
+pub fn source(ladder: &Ladder, prefix: &str) -> String {
+    let (parameter, argument) = time(ladder);
+    let mut out = String::new();
+    let mut edges = 0;
+    for (i, rungs) in ladder.rungs.chunks(PART).enumerate() {
+        let _ = writeln!(out, "static void part{i}(struct plc *p{parameter}) {{");
+        if takes_time(ladder) {
+            out.push_str("  (void)dt;\n");
+        }
+        for rung in rungs {
+            let text = statement(rung, edges);
+            let _ = writeln!(out, "  {text}");
+            edges += u32::from(has_edge(&rung.action));
+        }
+        out.push_str("}\n");
+    }
+    let _ = writeln!(out, "void {prefix}_scan(struct plc *p{parameter}) {{");
+    for i in 0..ladder.rungs.chunks(PART).len() {
+        let _ = writeln!(out, "  part{i}(p{argument});");
+    }
+    out.push_str("}\n");
+    out
+}
+
+/// Whether a scan is told the time: there are timers.
+pub fn takes_time(ladder: &Ladder) -> bool {
+    ladder.kind == Kind::Mixed
+}
+
+/// Parameter and argument for the time since the last scan.
+fn time(ladder: &Ladder) -> (&'static str, &'static str) {
+    match takes_time(ladder) {
+        true => (", uint32_t dt", ", dt"),
+        false => ("", ""),
+    }
+}
+
+/// Where the struct has a device.
+pub fn place((class, number): Device) -> String {
+    format!("{}[{number}]", class.prefix())
+}
+
+fn has_edge(action: &Action) -> bool {
+    matches!(action, Action::MoveOnce(..) | Action::IncrementOnce(_))
+}
+
+fn contact(contact: &Contact) -> String {
+    let not = if contact.negated { "!" } else { "" };
+    format!("{not}p->{}", place(contact.device))
+}
+
+fn chain(chain: &Chain) -> String {
+    let first = contact(&chain.first);
+    chain.rest.iter().fold(first, |text, (next, parallel)| {
+        let operator = if *parallel { '|' } else { '&' };
+        format!("({text} {operator} {})", contact(next))
+    })
+}
+
+fn statement(rung: &Rung, edge: u32) -> String {
+    let first = chain(&rung.chain);
+    let on = match &rung.block {
+        None => first,
+        Some((block, parallel)) => {
+            let operator = if *parallel { '|' } else { '&' };
+            format!("({first} {operator} {})", chain(block))
+        }
+    };
+    match rung.action {
+        Action::Coil(device) => format!("p->{} = {on};", place(device)),
+        Action::Timer(n, preset) => {
+            format!("timer_run(&p->T[{n}], {on}, {}, dt);", preset * 100)
+        }
+        Action::Counter(n, preset) => format!("counter_run(&p->C[{n}], {on}, {preset});"),
+        Action::Constant(value, to) => format!("if ({on}) p->D[{to}] = {value};"),
+        Action::MoveOnce(from, to) => {
+            format!("if (rising(&p->edge[{edge}], {on})) p->D[{to}] = p->D[{from}];")
+        }
+        Action::IncrementOnce(n) => {
+            format!("if (rising(&p->edge[{edge}], {on})) p->D[{n}] = (int16_t)(p->D[{n}] + 1);")
+        }
+        Action::Compare(d, value, m) => {
+            let (greater, less) = (m, m + 2);
+            let equal = m + 1;
+            format!(
+                "if ({on}) {{ p->M[{greater}] = p->D[{d}] > {value}; p->M[{equal}] = p->D[{d}] == {value}; \
+                 p->M[{less}] = p->D[{d}] < {value}; }}"
+            )
+        }
+        Action::Arithmetic(operation, registers) => arithmetic(&on, operation, registers),
+        Action::Set(n) => format!("if ({on}) p->M[{n}] = true;"),
+        Action::Reset(n) => format!("if ({on}) p->M[{n}] = false;"),
+    }
+}
+
+fn arithmetic(on: &str, operation: Operation, [a, b, to]: [u32; 3]) -> String {
+    let operator = match operation {
+        Operation::Add => '+',
+        Operation::Sub => '-',
+        Operation::And => '&',
+        Operation::AddLong => {
+            return format!(
+                "if ({on}) put_long(&p->D[{to}], get_long(&p->D[{a}]) + get_long(&p->D[{b}]));"
+            );
+        }
+    };
+    format!("if ({on}) p->D[{to}] = (int16_t)(p->D[{a}] {operator} p->D[{b}]);")
+}

@@ -1,0 +1,191 @@
+//! Programs to measure: plausible ladders of any length, made of random numbers.
+//!
+//! | kind | what it is like |
+//! |---|---|
+//! | `contacts` | rungs of series and parallel contacts, each coil driven once; contacts are inputs, outputs, recent relays, a few mode flags, and relays from anywhere |
+//! | `stations` | the same eight rungs again and again, each time with the devices of the next station, as machines of several equal stations are programmed |
+//! | `mixed` | `contacts` with timers, counters, moves, arithmetic, SET and RST |
+//!
+//! [`list`](Ladder::list) is the program as an instruction list, [`hand::source`] the C that an engineer would write for it.
+
+mod generate;
+pub mod hand;
+mod list;
+
+use rungc_syntax::DeviceClass;
+use std::collections::BTreeSet;
+
+/// Inputs X000 to X177 and outputs Y000 to Y177.
+pub const TERMINALS: u32 = 128;
+
+/// Relays M0 to M7679.
+pub const RELAYS: u32 = 7680;
+
+/// Relays that no rung drives in `contacts`: the modes of a machine.
+pub const FLAGS: u32 = 16;
+
+/// What a program is like.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, clap::ValueEnum)]
+pub enum Kind {
+    /// Contacts and coils.
+    Contacts,
+    /// Equal stations.
+    Stations,
+    /// Timers, counters and arithmetic as well.
+    Mixed,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Kind; 3] = [Kind::Contacts, Kind::Stations, Kind::Mixed];
+
+    /// As written in tables and names of programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Contacts => "contacts",
+            Kind::Stations => "stations",
+            Kind::Mixed => "mixed",
+        }
+    }
+}
+
+/// A device: class and number.
+pub type Device = (DeviceClass, u32);
+
+/// A contact.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Contact {
+    /// Of which device.
+    pub device: Device,
+    /// Closed while the device is off.
+    pub negated: bool,
+}
+
+/// Contacts, each in series or in parallel with everything in front of it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Chain {
+    /// The first contact.
+    pub first: Contact,
+    /// The others, and whether each is in parallel.
+    pub rest: Vec<(Contact, bool)>,
+}
+
+impl Chain {
+    fn contacts(&self) -> impl Iterator<Item = &Contact> {
+        std::iter::once(&self.first).chain(self.rest.iter().map(|(contact, _)| contact))
+    }
+}
+
+/// What a rung's contacts drive. Numbers are those of devices: T, C, D, M.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Action {
+    /// OUT Y or M.
+    Coil(Device),
+    /// OUT T, in units of 100 ms.
+    Timer(u32, u32),
+    /// OUT C.
+    Counter(u32, u32),
+    /// MOV K D.
+    Constant(u32, u32),
+    /// MOVP D D.
+    MoveOnce(u32, u32),
+    /// INCP D.
+    IncrementOnce(u32),
+    /// CMP D K M: the relay and the two behind it are on if the register is greater, equal, less.
+    Compare(u32, u32, u32),
+    /// ADD, SUB, WAND or DADD, D D D.
+    Arithmetic(Operation, [u32; 3]),
+    /// SET M.
+    Set(u32),
+    /// RST M.
+    Reset(u32),
+}
+
+/// What [`Action::Arithmetic`] does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Operation {
+    /// 16-bit sum.
+    Add,
+    /// 16-bit difference.
+    Sub,
+    /// Bit by bit.
+    And,
+    /// 32-bit sum of pairs.
+    AddLong,
+}
+
+/// Contacts and what they drive.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Rung {
+    /// The contacts.
+    pub chain: Chain,
+    /// A second block of contacts, and whether it is in parallel with the first.
+    pub block: Option<(Chain, bool)>,
+    /// What they drive.
+    pub action: Action,
+}
+
+/// A program.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Ladder {
+    /// What it is like.
+    pub kind: Kind,
+    /// Its rungs.
+    pub rungs: Vec<Rung>,
+    /// Program steps, as these programs count them: one for each contact, coil and END, 3 to 13 for other instructions.
+    pub steps: u32,
+}
+
+impl Ladder {
+    /// A program of about so many steps. There is room for 766 stations; a program of them does not get longer.
+    pub fn new(kind: Kind, steps: u32) -> Self {
+        Self::with_seed(kind, steps, 1)
+    }
+
+    /// Another one of the same kind.
+    pub fn with_seed(kind: Kind, steps: u32, seed: u32) -> Self {
+        generate::ladder(kind, steps, seed)
+    }
+
+    /// The program as an instruction list.
+    pub fn list(&self) -> String {
+        list::list(self)
+    }
+
+    /// All devices but inputs, in order: what is compared between implementations.
+    pub fn devices(&self) -> Vec<Device> {
+        let mut devices = BTreeSet::new();
+        for rung in &self.rungs {
+            let blocks = rung.block.iter().map(|(chain, _)| chain);
+            let chains = std::iter::once(&rung.chain).chain(blocks);
+            devices.extend(chains.flat_map(Chain::contacts).map(|c| c.device));
+            devices.extend(rung.action.devices());
+        }
+        devices.retain(|(class, _)| *class != DeviceClass::X);
+        devices.into_iter().collect()
+    }
+}
+
+impl Action {
+    /// The devices that it reads and writes.
+    fn devices(&self) -> Vec<Device> {
+        use DeviceClass::{C, D, M, T};
+        match *self {
+            Action::Coil(device) => vec![device],
+            Action::Timer(n, _) => vec![(T, n)],
+            Action::Counter(n, _) => vec![(C, n)],
+            Action::Constant(_, to) => vec![(D, to)],
+            Action::MoveOnce(from, to) => vec![(D, from), (D, to)],
+            Action::IncrementOnce(n) => vec![(D, n)],
+            Action::Compare(register, _, relay) => {
+                vec![(D, register), (M, relay), (M, relay + 1), (M, relay + 2)]
+            }
+            Action::Arithmetic(Operation::AddLong, registers) => registers
+                .iter()
+                .flat_map(|&n| [(D, n), (D, n + 1)])
+                .collect(),
+            Action::Arithmetic(_, registers) => registers.iter().map(|&n| (D, n)).collect(),
+            Action::Set(n) | Action::Reset(n) => vec![(M, n)],
+        }
+    }
+}

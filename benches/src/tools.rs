@@ -1,0 +1,117 @@
+//! The programs of others that are needed: compilers, linkers, QEMU.
+
+use crate::problem::{Problem, Result};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// What a microcontroller's code is built for.
+pub const TARGET: &str = "thumbv7em-none-eabihf";
+
+/// C compiler for a microcontroller.
+pub const ARM_GCC: &str = "arm-none-eabi-gcc";
+
+/// QEMU for a microcontroller.
+pub const QEMU: &str = "qemu-system-arm";
+
+/// Whether a program is there.
+pub fn is_there(program: &str) -> bool {
+    let mut command = Command::new(program);
+    command.arg("--version").stdin(Stdio::null());
+    command.output().is_ok_and(|output| output.status.success())
+}
+
+/// Says which program is missing, if one is.
+pub fn need(programs: &[&str]) -> Result<()> {
+    match programs.iter().find(|program| !is_there(program)) {
+        Some(missing) => Err(Problem::Missing((*missing).to_string())),
+        None => Ok(()),
+    }
+}
+
+/// First line of what a program says of its version.
+pub fn version(program: &str) -> String {
+    let output = Command::new(program).arg("--version").output();
+    let text = output.map(|o| String::from_utf8_lossy(&o.stdout).into_owned());
+    let line = text
+        .ok()
+        .and_then(|text| text.lines().next().map(str::to_string));
+    line.unwrap_or_else(|| format!("{program}: not installed"))
+}
+
+/// Runs a program; its standard output.
+pub fn run(command: &mut Command) -> Result<String> {
+    let (out, error) = run_both(command)?;
+    let _ = error;
+    Ok(out)
+}
+
+/// Runs a program; its standard output and standard error.
+pub fn run_both(command: &mut Command) -> Result<(String, String)> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = match command.stdin(Stdio::null()).output() {
+        Ok(output) => output,
+        Err(_) => return Err(Problem::Missing(name)),
+    };
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, error) = (text(&output.stdout), text(&output.stderr));
+    match output.status.success() {
+        true => Ok((out, error)),
+        false => Err(Problem::Failed {
+            command: format!("{command:?}"),
+            output: format!("{out}{error}"),
+        }),
+    }
+}
+
+/// Writes a file, with the folders it lies in.
+pub fn write(path: &Path, text: &str) -> Result<()> {
+    let at = |error| Problem::File {
+        path: path.to_path_buf(),
+        error,
+    };
+    path.parent()
+        .map_or(Ok(()), std::fs::create_dir_all)
+        .map_err(at)?;
+    std::fs::write(path, text).map_err(at)
+}
+
+/// A folder for what is built, removed when it is dropped.
+pub fn folder() -> Result<tempfile::TempDir> {
+    tempfile::tempdir().map_err(|error| Problem::File {
+        path: std::env::temp_dir(),
+        error,
+    })
+}
+
+/// A cargo that builds for this machine.
+pub fn cargo() -> Command {
+    without_toolchain(Command::new("cargo"))
+}
+
+/// A cargo that can build for a microcontroller: rustup's with the target, or a distribution's with the sources of `core`.
+pub fn embedded_cargo() -> Result<Command> {
+    let libraries =
+        run(Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]))?;
+    if Path::new(libraries.trim()).exists() {
+        return Ok(cargo());
+    }
+    if !Path::new("/usr/lib/rustlib/src/rust/library").exists() {
+        return Err(Problem::Missing(format!(
+            "Rust for {TARGET} (rustup target add {TARGET})"
+        )));
+    }
+    let mut cargo = without_toolchain(Command::new("/usr/bin/cargo"));
+    cargo
+        .env("RUSTC", "/usr/bin/rustc")
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("CARGO_UNSTABLE_BUILD_STD", "core");
+    Ok(cargo)
+}
+
+/// What an outer cargo has set is not for the inner one.
+fn without_toolchain(mut cargo: Command) -> Command {
+    for variable in ["CARGO", "RUSTUP_TOOLCHAIN", "RUSTFLAGS", "LD_LIBRARY_PATH"] {
+        cargo.env_remove(variable);
+    }
+    cargo
+}

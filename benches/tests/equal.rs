@@ -1,0 +1,45 @@
+//! The programs are the ones that figures are known for, and all implementations of them do the same.
+
+use rungc_benches::host::{self, Effort};
+use rungc_benches::ladder::{Kind, Ladder};
+use rungc_benches::tools;
+
+/// FNV-1a.
+fn hash(text: &str) -> u32 {
+    let step = |hash: u32, byte: u8| (hash ^ u32::from(byte)).wrapping_mul(16_777_619);
+    text.bytes().fold(2_166_136_261, step)
+}
+
+#[test]
+fn programs_are_always_the_same() {
+    // A change here makes all figures that were ever measured worthless.
+    let seen = Kind::ALL.map(|kind| {
+        let ladder = Ladder::new(kind, 5000);
+        (ladder.steps, hash(&ladder.list()))
+    });
+    let known = [
+        (5008, 515_626_344),
+        (4962, 54_186_890),
+        (5000, 1_592_193_184),
+    ];
+    assert_eq!(seen, known);
+}
+
+#[test]
+fn implementations_do_the_same() {
+    if !tools::is_there("gcc") {
+        eprintln!("not run: there is no gcc");
+        return;
+    }
+    // Checked only: not timed.
+    let effort = Effort {
+        rounds: 0,
+        turn_us: 0,
+    };
+    for kind in Kind::ALL {
+        let ladder = Ladder::new(kind, 1000);
+        if let Err(problem) = host::time(&ladder, &["gcc"], false, effort) {
+            panic!("{}: {problem}", kind.name());
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! Where a host that reads and writes devices itself finds them.
+
+use crate::fields::Fields;
+use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
+
+/// Where the devices of an emitted program are in its struct.
+pub struct Places<'m> {
+    fields: Fields<'m>,
+}
+
+impl<'m> Places<'m> {
+    /// Those of a program.
+    pub fn new(module: &'m Module) -> Self {
+        Places {
+            fields: Fields::new(module),
+        }
+    }
+
+    /// The member that holds a device: `M0`, `D[100]`, `M16[1][0]`; `None` if it is not stored. X, Y, M and S are bytes that are 0
+    /// or 1, D and the like `int16_t`, timers and counters structs (`rungc.h`).
+    pub fn of(&self, class: DeviceClass, number: u32) -> Option<String> {
+        let mut expression = String::new();
+        let stored = self.fields.access(&mut expression, class, number);
+        stored.then(|| expression.trim_start_matches("plc->").to_string())
+    }
+}

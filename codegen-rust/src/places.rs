@@ -1,0 +1,36 @@
+//! Where a host that reads and writes devices itself finds them.
+
+use crate::generate::type_name;
+use crate::storage::Storage;
+use quote::quote;
+use rungc_ir::Module;
+use rungc_syntax::DeviceClass;
+
+/// Where the devices of an emitted program are in its struct.
+pub struct Places {
+    storage: Storage,
+    type_name: String,
+}
+
+impl Places {
+    /// Those of a program.
+    pub fn new(module: &Module) -> Self {
+        Places {
+            storage: Storage::new(&module.layout),
+            type_name: type_name(&module.name).to_string(),
+        }
+    }
+
+    /// Name of the struct.
+    pub fn type_name(&self) -> &str {
+        &self.type_name
+    }
+
+    /// The field that holds a device: `m0`, `d[100]`, `m16[1][0]`; `None` if it is not stored. X, Y, M and S are `bool`, D and the
+    /// like `i16`, timers and counters structs of `rungc_rt`.
+    pub fn of(&self, class: DeviceClass, number: u32) -> Option<String> {
+        let cell = self.storage.cell(&quote!(plc), class, number)?.to_string();
+        let text: String = cell.split_whitespace().collect();
+        Some(text.trim_start_matches("plc.").to_string())
+    }
+}
