@@ -23,6 +23,11 @@ pub enum Source {
         /// Pointer I.
         pointer: u32,
     },
+    /// A row of [`CountRows`].
+    Row {
+        /// Pointer I.
+        pointer: u32,
+    },
     /// A train of pulses has been sent to its end.
     PulsesEnd {
         /// Output Y.
@@ -157,18 +162,118 @@ pub fn pulse_catch(model: ModelId) -> Option<&'static PulseCatch> {
     PULSE_CATCH.iter().find(|row| row.models.has(model))
 }
 
-/// Models on which interrupts of counters come last (l01s-programming §6.4), and not first (h1u-h2u-programming §4.3.1).
-const COUNTERS_LAST: ModelSet = ModelSet::of(&[ModelId::L01s]);
+/// A table of counts of one high-speed counter: rows wait for theirs one after the other, and request an interrupt each
+/// (h1u-h2u-programming §4.3.1, §8.7).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct CountRows {
+    /// The relay while which is on the table is at work.
+    pub enable: u32,
+    /// Register: the counter's number.
+    pub counter: u32,
+    /// Register: how many rows there are, at most as many as pointers.
+    pub rows: u32,
+    /// Register: the number of the first register D of the rows, which are pairs.
+    pub first: u32,
+    /// Register that shows the row that waits, from 0.
+    pub row: u32,
+    /// Relay that goes on when the last row was reached, behind which the first one waits again.
+    pub done: u32,
+    /// Pointer of the first row.
+    pub pointer: u32,
+    /// How many pointers there are.
+    pub most: u32,
+}
 
-/// Of interrupts that are requested together, those of the lower rank run first.
-pub fn rank(model: ModelId, source: Source) -> u32 {
-    match source {
-        Source::Comparison { .. } if COUNTERS_LAST.has(model) => 3,
-        Source::Comparison { .. } => 0,
-        Source::Input { .. } => 1,
-        Source::Period { .. } => 2,
-        Source::PulsesEnd { .. } => 4,
+impl CountRows {
+    /// Its pointers.
+    pub fn pointers(&self) -> std::ops::Range<u32> {
+        self.pointer..self.pointer + self.most
     }
+}
+
+/// H1U's and H2U's.
+const COUNT_ROWS: &CountRows = &CountRows {
+    enable: 8084,
+    counter: 8084,
+    rows: 8085,
+    first: 8086,
+    row: 8131,
+    done: 8133,
+    pointer: 507,
+    most: 24,
+};
+
+/// The table of counts of a model.
+pub fn count_rows(model: ModelId) -> Option<&'static CountRows> {
+    INOVANCE.has(model).then_some(COUNT_ROWS)
+}
+
+/// What requests interrupts, to tell which comes first.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Counter,
+    Input,
+    Timer,
+    Pulses,
+}
+
+/// In which order interrupts run that are requested together.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Precedence {
+    models: ModelSet,
+    /// The first kind runs first. Without kinds, and within one, the lower pointer runs first.
+    kinds: &'static [Kind],
+    /// Requests that DI keeps waiting run in the order in which they came; only of those that came at once the kind tells. Else it
+    /// does of all.
+    pub first_come: bool,
+}
+
+impl Precedence {
+    /// Interrupts of the lower rank run first.
+    pub fn rank(&self, source: Source) -> usize {
+        let kind = match source {
+            Source::Comparison { .. } | Source::Row { .. } => Kind::Counter,
+            Source::Input { .. } => Kind::Input,
+            Source::Period { .. } => Kind::Timer,
+            Source::PulsesEnd { .. } => Kind::Pulses,
+        };
+        let place = self.kinds.iter().position(|&known| known == kind);
+        place.unwrap_or(self.kinds.len())
+    }
+}
+
+const PRECEDENCES: &[Precedence] = &[
+    // h1u-h2u-programming §4.3.1.
+    Precedence {
+        models: INOVANCE,
+        kinds: &[Kind::Counter, Kind::Input, Kind::Timer, Kind::Pulses],
+        first_come: true,
+    },
+    // l01s-programming §6.4, which names the kinds alone; of timers I6 comes first (§6.4.2).
+    Precedence {
+        models: ModelSet::of(&[ModelId::L01s]),
+        kinds: &[Kind::Input, Kind::Timer, Kind::Counter],
+        first_come: false,
+    },
+    // hm-motion-controller §5.5.4 speaks of priorities, but names none. Relays keep the requests, and not when they came.
+    Precedence {
+        models: HM,
+        kinds: &[],
+        first_come: false,
+    },
+];
+
+/// The FX family: the lower pointer runs first of those that come at once.
+const FX: Precedence = Precedence {
+    models: ModelSet::of(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]),
+    kinds: &[],
+    first_come: true,
+};
+
+/// In which order a model's interrupts run.
+pub fn precedence(model: ModelId) -> &'static Precedence {
+    let mut table = PRECEDENCES.iter();
+    table.find(|row| row.models.has(model)).unwrap_or(&FX)
 }
 
 /// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests, or an advanced interrupt.
@@ -199,12 +304,22 @@ pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
                 gate: Gate::Allows(8090 + output),
             });
         }
-        _ => return None,
+        _ => return row_interrupt(model, number),
     };
     Some(Interrupt {
         source: Some(source),
         request: None,
         gate: Gate::Forbids(MASKS.start() + group),
+    })
+}
+
+/// I507 to I530: the rows of a table of counts.
+fn row_interrupt(model: ModelId, number: u32) -> Option<Interrupt> {
+    let table = count_rows(model)?;
+    table.pointers().contains(&number).then_some(Interrupt {
+        source: Some(Source::Row { pointer: number }),
+        request: None,
+        gate: Gate::Allows(table.enable),
     })
 }
 
@@ -288,12 +403,41 @@ mod tests {
         assert_eq!(h2u(10), Some((counter, gate(8059))));
         let pulses = Some(Source::PulsesEnd { output: 1 });
         assert_eq!(h2u(503), Some((pulses, Gate::Allows(8091))));
-        assert_eq!((h2u(600), h2u(507)), (None, None));
+        let row = Some(Source::Row { pointer: 530 });
+        assert_eq!(h2u(530), Some((row, Gate::Allows(8084))));
+        assert_eq!((h2u(600), h2u(531)), (None, None));
+        assert_eq!(find(ModelId::L01s, 507), None);
         let hm = |number| find(ModelId::Hm, number).map(|found| (found.source, found.request));
         assert_eq!(hm(1), Some((None, Some(8033))));
         assert_eq!(hm(301), Some((input(7, EdgeKind::Rising), Some(8039))));
         assert_eq!(hm(700), Some((period(100), Some(8041))));
         assert_eq!(hm(10), Some((period(1), Some(8043))));
         assert_eq!((hm(50), hm(900)), (Some((None, Some(8047))), None));
+    }
+
+    #[test]
+    fn each_model_has_its_order() {
+        let order = |model| {
+            let mut sources = [
+                Source::PulsesEnd { output: 0 },
+                Source::Period { ms: 5 },
+                Source::Comparison { pointer: 10 },
+                Source::Input {
+                    number: 0,
+                    kind: EdgeKind::Rising,
+                },
+            ];
+            sources.sort_by_key(|&source| precedence(model).rank(source));
+            sources
+        };
+        let [counter, input, timer, pulses] = order(ModelId::H2u);
+        assert_eq!(counter, Source::Comparison { pointer: 10 });
+        assert_eq!(
+            (timer, pulses),
+            (Source::Period { ms: 5 }, Source::PulsesEnd { output: 0 })
+        );
+        assert_eq!(order(ModelId::L01s), [input, timer, counter, pulses]);
+        // Pointers alone tell.
+        assert_eq!(order(ModelId::Fx3u), [pulses, timer, counter, input]);
     }
 }

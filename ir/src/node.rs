@@ -519,7 +519,8 @@ pub enum FunctionKind {
     Interrupt(u32),
     /// Runs the interrupt routines that are requested. `Main` calls it at the begin of each network, `End` at its begin, and a host
     /// may between two scans ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt
-    /// routine is itself.
+    /// routine is itself. What is requested between two of these moments counts as requested together: then
+    /// [`crate::interrupts::precedence`] tells which comes first.
     TakeInterrupts,
     /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.
     InputEdge {

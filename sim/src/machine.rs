@@ -14,6 +14,41 @@ use rungc_rt::{Axis, Class, Hal, NoHal, Operand, Plc, Program, Pulses, State, Sy
 /// number can tell that a scan does not end.
 const STATEMENTS_PER_MS: u64 = 10_000;
 
+/// The functions that a host asks for, by their places in the module.
+struct Entries {
+    take_interrupts: Option<usize>,
+    /// By input terminal: of its falling, and of its rising edge.
+    edges: Vec<[Option<usize>; 2]>,
+}
+
+impl Entries {
+    fn of(module: &Module) -> Self {
+        let mut entries = Entries {
+            take_interrupts: None,
+            edges: Vec::new(),
+        };
+        for (i, function) in module.functions.iter().enumerate() {
+            match function.kind {
+                FunctionKind::TakeInterrupts => entries.take_interrupts = Some(i),
+                FunctionKind::InputEdge { input, kind } => {
+                    let input = input as usize;
+                    if entries.edges.len() <= input {
+                        entries.edges.resize(input + 1, [None; 2]);
+                    }
+                    entries.edges[input][usize::from(kind == EdgeKind::Rising)] = Some(i);
+                }
+                _ => {}
+            }
+        }
+        entries
+    }
+
+    /// The function of an edge.
+    fn edge(&self, input: u32, level: bool) -> Option<usize> {
+        *self.edges.get(input as usize)?.get(usize::from(level))?
+    }
+}
+
 /// A program and its devices, executed by reading the IR.
 ///
 /// In STOP a scan runs only the function `Begin`, which brings the clocks up to date. A scan that executes more than
@@ -21,6 +56,7 @@ const STATEMENTS_PER_MS: u64 = 10_000;
 /// D8061 = 6105 and goes to STOP with all outputs off.
 pub struct Machine<'m> {
     pub(crate) module: &'m Module,
+    entries: Entries,
     pub(crate) devices: Devices,
     pub(crate) temps: Vec<Value>,
     pub(crate) edges: Vec<bool>,
@@ -45,6 +81,7 @@ impl<'m> Machine<'m> {
     pub fn new(module: &'m Module) -> Self {
         let mut machine = Machine {
             module,
+            entries: Entries::of(module),
             devices: Devices::new(module.model),
             temps: module.temps.iter().map(|&ty| Value::zero(ty)).collect(),
             edges: vec![false; module.edges as usize],
@@ -132,9 +169,9 @@ impl<'m> Machine<'m> {
             && self.devices.bit(Class::M, number).unwrap_or(false)
     }
 
-    /// Runs the function of this kind, if there is one.
-    fn run_function(&mut self, hal: &mut dyn Hal, kind: &FunctionKind) -> Flow {
-        match self.module.functions.iter().find(|f| f.kind == *kind) {
+    /// Runs a function, if there is one.
+    fn run_function(&mut self, hal: &mut dyn Hal, function: Option<usize>) -> Flow {
+        match function.and_then(|i| self.module.functions.get(i)) {
             Some(function) => self.run(&function.body, hal),
             None => Flow::Next,
         }
@@ -158,13 +195,10 @@ impl Program for Machine<'_> {
         self.advance_pulses(now_ms.wrapping_mul(1000));
         self.restart_watchdog();
 
-        let functions: &[FunctionKind] = if self.sys.running {
-            &[FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
-        } else {
-            &[FunctionKind::Begin]
-        };
-        for kind in functions {
-            if self.run_function(hal, kind) == Flow::OutOfTime {
+        // A module's first functions are `Begin`, `Main`, `End`.
+        let functions = if self.sys.running { 0..3 } else { 0..1 };
+        for function in functions {
+            if self.run_function(hal, Some(function)) == Flow::OutOfTime {
                 self.trip_watchdog();
                 break;
             }
@@ -173,15 +207,9 @@ impl Program for Machine<'_> {
     }
 
     fn input_edge(&mut self, number: u32, level: bool) {
-        let kind = if level {
-            EdgeKind::Rising
-        } else {
-            EdgeKind::Falling
-        };
-        let input = number;
         self.restart_watchdog();
         // It holds no loop, so it comes to its end.
-        self.run_function(&mut NoHal, &FunctionKind::InputEdge { input, kind });
+        self.run_function(&mut NoHal, self.entries.edge(number, level));
     }
 
     fn tick(&mut self, now_ms: u32) {
@@ -206,7 +234,7 @@ impl Program for Machine<'_> {
             return;
         }
         self.restart_watchdog();
-        if self.run_function(hal, &FunctionKind::TakeInterrupts) == Flow::OutOfTime {
+        if self.run_function(hal, self.entries.take_interrupts) == Flow::OutOfTime {
             self.trip_watchdog();
         }
     }

@@ -223,7 +223,10 @@ impl Walk<'_, '_> {
                 self.in_advanced_interrupt(i);
                 self.end_routine(i, Kind::Interrupt);
             }
-            Some(Basic::Proc | Basic::Pend) => self.in_advanced_interrupt(i),
+            Some(Basic::Proc | Basic::Pend) => {
+                self.in_advanced_interrupt(i);
+                self.in_no_loop(i);
+            }
             Some(Basic::Fend) => self.fend(i),
             _ => {}
         }
@@ -249,6 +252,22 @@ impl Walk<'_, '_> {
                 .help("the advanced interrupts are I900 to I907");
             self.report(diagnostic);
         }
+    }
+
+    /// The next entry of an advanced interrupt leads behind PROC or PEND, and PEND leaves the routine: in a loop, one would run without
+    /// its FOR and the other without its NEXT, which belong together (hm-motion-controller §5.4.3, §5.4.4).
+    fn in_no_loop(&mut self, i: usize) {
+        let Some(&around) = self.loops.last() else {
+            return;
+        };
+        let name = &self.code.instr(i).mnemonic;
+        let message = format!("`{name}` leads into a loop");
+        let diagnostic = codes::INTO_LOOP
+            .at(self.code.span(i), message)
+            .label("the routine is left or entered here …")
+            .other(self.code.span(around as usize), "… inside this loop")
+            .help("put the whole loop between PROC and PEND");
+        self.report(diagnostic);
     }
 
     fn push(&mut self, kind: Kind, at: usize) {

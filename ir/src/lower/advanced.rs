@@ -7,7 +7,7 @@ use super::parts::Item;
 use crate::catalogue::CmpOp;
 use crate::interrupts::{Advanced, Gate};
 use crate::node::{CellId, Expr, Stmt};
-use rungc_syntax::{DeviceClass::M, codes};
+use rungc_syntax::DeviceClass::M;
 
 /// Places where routines go on are labels with numbers above this, which no pointer has.
 pub(super) const FIRST_PLACE: u32 = 0x1_0000;
@@ -36,6 +36,7 @@ impl Lowerer<'_> {
         Request {
             source: interrupt.source,
             what: What::Process {
+                pointer: number,
                 function,
                 interrupt,
                 at,
@@ -75,17 +76,8 @@ impl Lowerer<'_> {
         self.return_here();
     }
 
-    /// One more place at which the routine at hand goes on, and where that is kept.
+    /// One more place at which the routine at hand goes on, and where that is kept. The checks have seen that it stands in no loop.
     fn new_place(&mut self) -> Option<(u32, CellId)> {
-        if !self.open.is_empty() {
-            let span = self.instr().span;
-            let message = format!(
-                "`{}` in a loop or a state is not implemented yet",
-                self.instr()
-            );
-            self.report(codes::NOT_IMPLEMENTED.at(span, message));
-            return None;
-        }
         let function = self.flow.function();
         let mut sections = self.interrupts.sections.iter_mut();
         let section = sections.find(|section| section.function == function)?;
@@ -123,6 +115,7 @@ impl Lowerer<'_> {
             function,
             interrupt,
             at,
+            ..
         } = *what
         else {
             return;

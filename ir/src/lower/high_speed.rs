@@ -459,6 +459,7 @@ impl Lowerer<'_> {
             for compare in compares {
                 this.act(compare);
             }
+            this.rows_at_count(number, down);
         });
     }
 

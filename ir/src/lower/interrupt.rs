@@ -3,9 +3,11 @@
 use super::Lowerer;
 use super::advanced::Section;
 use super::operand::fixed;
-use crate::catalogue::Basic;
-use crate::interrupts::{self, Advanced, Capture, Gate, Interrupt, PulseCatch, Source};
-use crate::node::{Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt};
+use crate::catalogue::{Basic, CmpOp};
+use crate::interrupts::{self, Advanced, Capture, CountRows, Gate, Interrupt, PulseCatch, Source};
+use crate::node::{
+    BinOp, Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue, Ty,
+};
 use rungc_syntax::{
     DeviceClass::{D, M},
     codes,
@@ -26,9 +28,14 @@ pub(super) struct Request {
 /// What is done on request.
 pub(super) enum What {
     /// A routine runs.
-    Routine { function: u32, interrupt: Interrupt },
+    Routine {
+        pointer: u32,
+        function: u32,
+        interrupt: Interrupt,
+    },
     /// A routine runs, or goes on where it was left.
     Process {
+        pointer: u32,
         function: u32,
         interrupt: Advanced,
         at: CellId,
@@ -48,6 +55,14 @@ impl What {
             What::Catch(_) | What::Scope => None,
         }
     }
+
+    /// The routine's pointer: of those that are requested together and have the same rank, the lower one runs first.
+    fn pointer(&self) -> Option<u32> {
+        match *self {
+            What::Routine { pointer, .. } | What::Process { pointer, .. } => Some(pointer),
+            What::Catch(_) | What::Scope => None,
+        }
+    }
 }
 
 /// The interrupts of a program.
@@ -60,8 +75,20 @@ pub(super) struct Interrupts {
     pub(super) sections: Vec<Section>,
     /// Registers of edges, and what they said when they were last read.
     pub(super) captures: Vec<(&'static Capture, CellId)>,
+    /// A table of counts, and which of its rows waits.
+    pub(super) rows: Option<(&'static CountRows, CellId)>,
+    /// Requests that DI keeps waiting, if they run in the order in which they came.
+    stored: Option<Stored>,
     /// The flag that EI sets, and the function that takes interrupts; `None` if there is nothing to take.
     function: Option<(FlagId, u32)>,
+}
+
+/// Requests that wait for EI.
+struct Stored {
+    /// How many there are.
+    count: CellId,
+    /// The place of each source's among them, from 1; 0: it has none.
+    places: Vec<CellId>,
 }
 
 impl Lowerer<'_> {
@@ -77,6 +104,7 @@ impl Lowerer<'_> {
                 Some(interrupt) => requests.push(Request {
                     source: interrupt.source,
                     what: What::Routine {
+                        pointer: region.number,
                         function: region.function,
                         interrupt,
                     },
@@ -88,14 +116,8 @@ impl Lowerer<'_> {
                 }
             }
         }
-        // Of routines with one request relay (HM's, of one timer) the last one is known (hm-motion-controller §5.5.5).
-        let mut relays = Vec::new();
-        for i in (0..requests.len()).rev() {
-            match requests[i].what.relay() {
-                Some(relay) if relays.contains(&relay) => drop(requests.remove(i)),
-                relay => relays.extend(relay),
-            }
-        }
+        keep_last_of_relays(&mut requests);
+        requests.sort_by_key(|request| request.what.pointer());
         if let Some(catch) = interrupts::pulse_catch(self.model.id) {
             requests.extend(self.caught(catch));
         }
@@ -111,7 +133,9 @@ impl Lowerer<'_> {
         }
         let enabled = self.flag(ENABLED.to_string(), "EI was executed", None);
         self.find_captures(&requests);
+        self.find_rows(&requests);
         let flags = self.request_flags(&requests);
+        self.interrupts.stored = self.stored_requests(&requests, &flags);
         let function = self.module.functions.len() as u32;
         self.module.functions.push(Function {
             kind: FunctionKind::TakeInterrupts,
@@ -149,11 +173,58 @@ impl Lowerer<'_> {
                 Source::PulsesEnd { output } => {
                     self.module.flags[flag.0 as usize].pulses_end = Some(output);
                 }
-                Source::Period { .. } | Source::Comparison { .. } => {}
+                Source::Period { .. } | Source::Comparison { .. } | Source::Row { .. } => {}
             }
             flags.push((source, flag));
         }
+        let precedence = interrupts::precedence(self.model.id);
+        // Those of one rank stay in the order of their pointers.
+        flags.sort_by_key(|&(source, _)| precedence.rank(source));
         flags
+    }
+
+    /// Places of requests that wait for EI, in a program that has more than one and a DI.
+    fn stored_requests(
+        &mut self,
+        requests: &[Request],
+        flags: &[(Source, FlagId)],
+    ) -> Option<Stored> {
+        let mut instructions = 0..self.resolved.instrs.len();
+        let waits = instructions.any(|i| self.basic_at(i) == Some(Basic::Di));
+        let first_come = interrupts::precedence(self.model.id).first_come;
+        let routines = requests.iter().filter(|r| r.what.pointer().is_some());
+        if !waits || !first_come || routines.count() < 2 {
+            return None;
+        }
+        let count = self.cell("stored".to_string(), "how many requests wait for EI");
+        let places = flags.iter().map(|&(source, _)| {
+            let name = format!("{}_at", flag_name(source));
+            self.cell(name, "its place among the requests that wait")
+        });
+        Some(Stored {
+            count,
+            places: places.collect(),
+        })
+    }
+
+    /// No request waits when RUN begins.
+    pub(super) fn forget_stored(&mut self) {
+        let Some(stored) = &self.interrupts.stored else {
+            return;
+        };
+        let cells: Vec<CellId> = stored
+            .places
+            .iter()
+            .copied()
+            .chain([stored.count])
+            .collect();
+        let first = self.add(Expr::Sys(SysValue::FirstScan));
+        let none = self.add(Expr::I32(0));
+        self.when(first, |this| {
+            for cell in cells {
+                this.emit(Stmt::SetCell(cell, none));
+            }
+        });
     }
 
     /// The flag that a source sets, if it requests something.
@@ -195,26 +266,29 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The body of the function that takes interrupts: advanced ones first, then the others by their sources' ranks, those of the same
-    /// rank in the order of their routines.
+    /// The body of the function that takes interrupts: advanced ones first, then those that waited for EI, then the others by their
+    /// sources' ranks.
     pub(super) fn take_interrupts(&mut self) {
         let Some((enabled, function)) = self.interrupts.function else {
             return;
         };
         let Interrupts {
             requests,
-            mut flags,
+            flags,
+            stored,
             ..
         } = std::mem::take(&mut self.interrupts);
-        flags.sort_by_key(|&(source, _)| interrupts::rank(self.model.id, source));
         let body = self.body(|this| {
             for &(source, flag) in &flags {
                 this.keep_requests(&requests, source, flag);
             }
-            let on = this.add(Expr::Flag(enabled));
-            this.when(on, |this| {
+            let cond = this.add(Expr::Flag(enabled));
+            let then = this.body(|this| {
                 for request in &requests {
                     this.serve_process(&request.what);
+                }
+                if let Some(stored) = &stored {
+                    this.serve_stored(stored, &requests, &flags);
                 }
                 for &(source, flag) in &flags {
                     this.serve_source(&requests, source, flag);
@@ -223,8 +297,71 @@ impl Lowerer<'_> {
                     this.serve_relay(&request.what);
                 }
             });
+            let otherwise = this.body(|this| {
+                if let Some(stored) = &stored {
+                    this.store_requests(stored, &flags);
+                }
+            });
+            this.emit(Stmt::If {
+                cond,
+                then,
+                otherwise,
+            });
         });
         self.module.functions[function as usize].body = body;
+    }
+
+    /// While interrupts are disabled, new requests take their places.
+    fn store_requests(&mut self, stored: &Stored, flags: &[(Source, FlagId)]) {
+        for (&(_, flag), &place) in flags.iter().zip(&stored.places) {
+            let asked = self.add(Expr::Flag(flag));
+            let zero = self.add(Expr::I32(0));
+            let at = self.add(Expr::Cell(place));
+            let has_none = self.add(Expr::Cmp(CmpOp::Eq, at, zero));
+            let is_new = self.and(asked, has_none);
+            self.when(is_new, |this| {
+                let next = this.one_behind(stored.count);
+                this.emit(Stmt::SetCell(stored.count, next));
+                let next = this.add(Expr::Cell(stored.count));
+                this.emit(Stmt::SetCell(place, next));
+            });
+        }
+    }
+
+    /// Requests that waited run in the order of their places.
+    fn serve_stored(&mut self, stored: &Stored, requests: &[Request], flags: &[(Source, FlagId)]) {
+        let zero = self.add(Expr::I32(0));
+        let count = self.add(Expr::Cell(stored.count));
+        let any = self.add(Expr::Cmp(CmpOp::Gt, count, zero));
+        self.when(any, |this| {
+            let turn = this.temp(Ty::I32);
+            this.emit(Stmt::Let(turn, zero));
+            let body = this.body(|this| {
+                let one = this.add(Expr::I32(1));
+                let before = this.add(Expr::Temp(turn));
+                let next = this.add(Expr::Bin(BinOp::Add, before, one));
+                this.emit(Stmt::Let(turn, next));
+                for (&(source, flag), &place) in flags.iter().zip(&stored.places) {
+                    let turn = this.add(Expr::Temp(turn));
+                    let at = this.add(Expr::Cell(place));
+                    let is_next = this.add(Expr::Cmp(CmpOp::Eq, at, turn));
+                    this.when(is_next, |this| {
+                        this.emit(Stmt::SetCell(place, zero));
+                        this.serve_source(requests, source, flag);
+                    });
+                }
+            });
+            let count = this.add(Expr::Narrow(count));
+            this.emit(Stmt::For { count, body });
+            this.emit(Stmt::SetCell(stored.count, zero));
+        });
+    }
+
+    /// One more than a cell holds.
+    fn one_behind(&mut self, cell: CellId) -> ExprId {
+        let value = self.add(Expr::Cell(cell));
+        let one = self.add(Expr::I32(1));
+        self.add(Expr::Bin(BinOp::Add, value, one))
     }
 
     /// Relays keep the requests of a source, whether interrupts are enabled or not.
@@ -270,6 +407,7 @@ impl Lowerer<'_> {
                     What::Routine {
                         function,
                         interrupt,
+                        ..
                     } => {
                         let allowed = this.allowed(interrupt.gate);
                         this.when(allowed, |this| this.emit(Stmt::CallSub(function)));
@@ -285,6 +423,7 @@ impl Lowerer<'_> {
         let What::Routine {
             function,
             interrupt,
+            ..
         } = *what
         else {
             return;
@@ -318,6 +457,17 @@ impl Lowerer<'_> {
     }
 }
 
+/// Of routines with one request relay (HM's, of one timer) the last one is known (hm-motion-controller §5.5.5).
+fn keep_last_of_relays(requests: &mut Vec<Request>) {
+    let mut relays = Vec::new();
+    for i in (0..requests.len()).rev() {
+        match requests[i].what.relay() {
+            Some(relay) if relays.contains(&relay) => drop(requests.remove(i)),
+            relay => relays.extend(relay),
+        }
+    }
+}
+
 /// What a source requests.
 fn of(requests: &[Request], source: Source) -> impl Iterator<Item = &Request> {
     requests
@@ -336,7 +486,9 @@ fn flag_name(source: Source) -> String {
             format!("x{number:03o}_{what}")
         }
         Source::Period { ms } => format!("passed_{ms}ms"),
-        Source::Comparison { pointer } => format!("i{pointer:03}_requested"),
+        Source::Comparison { pointer } | Source::Row { pointer } => {
+            format!("i{pointer:03}_requested")
+        }
         Source::PulsesEnd { output } => format!("y{output:03o}_ended"),
     }
 }

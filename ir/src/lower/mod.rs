@@ -12,6 +12,7 @@ mod call;
 mod capture;
 mod coil;
 mod comment;
+mod count_rows;
 mod count_table;
 mod density;
 mod edges;

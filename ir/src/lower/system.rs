@@ -81,6 +81,7 @@ impl Lowerer<'_> {
             this.first_levels();
             this.begin_clock();
             this.forget_comparisons();
+            this.forget_stored();
             this.forget_exclusive();
             this.clear_in_stop();
             this.forget_errors();
@@ -101,6 +102,7 @@ impl Lowerer<'_> {
         self.body(|this| {
             this.interruptible();
             this.begin_tables();
+            this.begin_rows();
             this.first_captures();
             for (number, kind) in std::mem::take(&mut this.free_running) {
                 this.emit(Stmt::TimerGoesOn { number, kind });

@@ -94,6 +94,7 @@ const H1U_RANGES: &[Range] = &[
     general(I, 500, 501),
     // Its three outputs' (h1u-h2u-programming §4.3.1).
     general(I, 502, 504),
+    general(I, 507, 530),
     general(I, 601, 699),
     general(I, 701, 799),
     general(I, 801, 899),
@@ -135,6 +136,7 @@ const H2U_RANGES: &[Range] = &[
     general(I, 400, 401),
     general(I, 500, 501),
     general(I, 502, 506),
+    general(I, 507, 530),
     general(I, 601, 699),
     general(I, 701, 799),
     general(I, 801, 899),

@@ -74,6 +74,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8077 r 0 inert(TRACE) "sampling trace running";
     M 8078 r 0 inert(TRACE) "sampling trace finished";
     M 8079 r 0 inert(TRACE) "sampling trace exceeds the count in D8075";
+    M 8084 rw 0 by("I507-I530") "a table of counts interrupts: those of the counter D8084 (not on XP types)";
     M 8085 rw 0 by("pulse outputs") "Y0 pulse output re-initialise: lets the next pulse instruction start at once without the previous one";
     M 8086-8087 rw 0 by("pulse outputs") "Y1–2 pulse output re-initialise";
     M 8090-8092 rw 0 scan "Y0–2 pulse-finished interrupt I502–504 enabled";
@@ -95,7 +96,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8130 rw 0 by("HSZ") "HSZ table (comparison platform) mode";
     M 8131 r 0 by("HSZ") "used with M8130: on for a scan when the last row of the table was reached";
     M 8132 rw 0 by("HSZ") "HSZ & PLSY speed-pattern mode";
-    M 8133 r 0 by("HSZ") "used with M8132: on when the last row of the table was reached";
+    M 8133 r 0 by("HSZ, I507-I530") "used with M8132 or M8084: on when the last row of the table was reached";
     M 8135 rw 0 by("pulse outputs") "Y0: separate acceleration/deceleration times and change of the pulse count while running";
     M 8136-8137 rw 0 by("pulse outputs") "Y1–2: as M8135";
     M 8140 rw 0 by("ZRN") "ZRN: CLR signal output enabled";
@@ -246,6 +247,9 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8078 rw 0 inert(TRACE) "sampling trace: device number of the trigger condition";
     D 8079 r 0 inert(TRACE) "sampling trace: data pointer";
     D 8080-8081 rw 0 inert(TRACE) "sampling trace: bit device No.0–1";
+    D 8084 rw 0 by("I507-I530") "number of the high-speed counter whose counts interrupt while M8084 is on, 235-255";
+    D 8085 rw 0 by("I507-I530") "how many rows the table of counts has, at most 24";
+    D 8086 rw 0 by("I507-I530") "number of the first register D of the table of counts, which are 32 bits wide";
     D 8096-8098 rw 0 inert(TRACE) "sampling trace: word device No.0–2";
     D 8099 rw 0 scan "high-speed ring counter 0-32767, +1 each 0.1 ms while M8099 is on";
     D 8104-8106 rw 100 by("DRVI, DRVA") "acceleration time of DRVI/DRVA on Y0–2 (ms) when M8135–8137 is on";
@@ -271,7 +275,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8128 rw 0 inert(SERIAL) "COM1: computer link on-demand number of data";
     D 8129 rw 10 inert(SERIAL) "COM1: time-out, unit 10 ms";
     D 8130 r 0 by("HSZ") "HSZ table mode: present record number";
-    D 8131 r 0 by("HSZ") "HSZ & PLSY speed pattern: present record number";
+    D 8131 r 0 by("HSZ, I507-I530") "present record number of the HSZ & PLSY speed pattern, or of M8084's table";
     D 8132 r 0 by("HSZ") "HSZ & PLSY speed pattern: frequency, low word";
     D 8133 r 0 by("HSZ") "HSZ & PLSY speed pattern: frequency, high word";
     D 8134 r 0 by("HSZ") "HSZ & PLSY speed pattern: compare pulse count, low word";

@@ -27,7 +27,8 @@ super::codes! {
 
     INTO_LOOP = "E0434" "into-loop" Error Some(6607),
     "jump into a loop",
-    "A jump from outside to a label between FOR and NEXT would run a loop that was never begun.",
+    "A jump from outside to a label between FOR and NEXT would run a loop that was never begun. The same holds for PROC and PEND \
+     of HM's advanced interrupts, at which a routine is left and entered again.",
     wrong: "LD X0\nCJ P1\nFOR K2\nP1\nLD X1\nOUT Y0\nNEXT\nEND\n",
     right: "LD X0\nCJ P1\nFOR K2\nLD X1\nOUT Y0\nNEXT\nP1\nEND\n";
 
