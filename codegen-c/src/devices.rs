@@ -39,11 +39,25 @@ impl Writer<'_, '_> {
                 drive,
                 preset,
             } => self.timer(code, (number, kind), drive, preset),
+            Stmt::TimerAt {
+                place,
+                drive,
+                preset,
+            }
+            | Stmt::Counter16At {
+                place,
+                drive,
+                preset,
+            } => self.indexed_coil(code, &place, drive, preset),
             Stmt::TimerGoesOn { number, kind } => {
                 code.push_str("plc_timer_go_on(&");
                 self.fields.access(code, DeviceClass::T, number);
                 let _ = write!(code, ", &plc->sys, {}u, ", kind.unit_ms.max(1));
-                self.timer_options(code, number, kind);
+                let kind = TimerKind {
+                    latches_preset: self.latches(number, kind),
+                    ..kind
+                };
+                timer_options(code, kind);
                 code.push_str(");");
             }
             Stmt::Counter16 {
@@ -86,25 +100,33 @@ impl Writer<'_, '_> {
         drive: ExprId,
         preset: ExprId,
     ) {
-        let latches = self.latches(number, kind);
-        let plain = !latches && !kind.free_running && !kind.overruns && !kind.stepwise;
-        let family = match (plain, kind.unit_ms) {
-            (true, 1 | 10 | 100) if kind.accumulating => {
-                format!("plc_retentive_{}ms", kind.unit_ms)
-            }
-            (true, 1 | 10 | 100) => format!("plc_timer_{}ms", kind.unit_ms),
-            _ => "plc_timer_run".to_string(),
+        let kind = TimerKind {
+            latches_preset: self.latches(number, kind),
+            ..kind
         };
-        let _ = write!(code, "{family}(&");
-        self.fields.access(code, DeviceClass::T, number);
-        code.push_str(", ");
-        self.expr(code, drive, Around::Exact);
-        code.push_str(", ");
-        self.expr(code, preset, Around::Exact);
-        code.push_str(", &plc->sys");
-        if family == "plc_timer_run" {
-            let _ = write!(code, ", {}u, ", kind.unit_ms.max(1));
-            self.timer_options(code, number, kind);
+        let mut timer = String::new();
+        self.fields.access(&mut timer, DeviceClass::T, number);
+        let [drive, preset] = [drive, preset].map(|argument| {
+            let mut text = String::new();
+            self.expr(&mut text, argument, Around::Exact);
+            text
+        });
+        run_timer(code, kind, &timer, &drive, &preset);
+    }
+
+    /// A coil of a timer or counter that an index leads to.
+    fn indexed_coil(&mut self, code: &mut String, place: &Place, drive: ExprId, preset: ExprId) {
+        self.helpers.out(place.class);
+        let _ = write!(
+            code,
+            "{}_out_{}(plc, ",
+            self.module.name,
+            place.class.prefix()
+        );
+        self.number(code, place, 0);
+        for argument in [drive, preset] {
+            code.push_str(", ");
+            self.expr(code, argument, Around::Exact);
         }
         code.push_str(");");
     }
@@ -112,22 +134,6 @@ impl Writer<'_, '_> {
     /// Whether a timer has to remember the preset with which it began: a constant that only one coil names cannot change.
     fn latches(&self, number: u32, kind: TimerKind) -> bool {
         kind.latches_preset && self.plain_timers.get(&number) != Some(&1)
-    }
-
-    fn timer_options(&self, code: &mut String, number: u32, kind: TimerKind) {
-        let options = [
-            (kind.accumulating, "PLC_RETENTIVE"),
-            (kind.free_running, "PLC_FREE_RUNNING"),
-            (self.latches(number, kind), "PLC_LATCHES_PRESET"),
-            (kind.overruns, "PLC_OVERRUNS"),
-            (kind.stepwise, "PLC_STEPWISE"),
-        ];
-        let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
-        if set.is_empty() {
-            code.push_str("0u");
-        } else {
-            code.push_str(&set.join(" | "));
-        }
     }
 
     fn counter(&mut self, code: &mut String, function: &str, number: u32, arguments: &[ExprId]) {
@@ -324,5 +330,41 @@ impl Writer<'_, '_> {
         };
         self.fields.access(&mut name, place.class, place.number);
         let _ = write!(code, "{}(&{name});", reset_function(field.kind));
+    }
+}
+
+/// Writes the call that runs a timer.
+pub fn run_timer(code: &mut String, kind: TimerKind, timer: &str, drive: &str, preset: &str) {
+    let plain = !kind.latches_preset && !kind.free_running && !kind.overruns && !kind.stepwise;
+    let unit = kind.unit_ms;
+    let family = match (plain, unit) {
+        (true, 1 | 10 | 100) if kind.accumulating => Some("retentive"),
+        (true, 1 | 10 | 100) => Some("timer"),
+        _ => None,
+    };
+    let arguments = format!("(&{timer}, {drive}, {preset}, &plc->sys");
+    let _ = match family {
+        Some(family) => write!(code, "plc_{family}_{unit}ms{arguments}"),
+        None => write!(code, "plc_timer_run{arguments}, {}u, ", unit.max(1)),
+    };
+    if family.is_none() {
+        timer_options(code, kind);
+    }
+    code.push_str(");");
+}
+
+fn timer_options(code: &mut String, kind: TimerKind) {
+    let options = [
+        (kind.accumulating, "PLC_RETENTIVE"),
+        (kind.free_running, "PLC_FREE_RUNNING"),
+        (kind.latches_preset, "PLC_LATCHES_PRESET"),
+        (kind.overruns, "PLC_OVERRUNS"),
+        (kind.stepwise, "PLC_STEPWISE"),
+    ];
+    let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
+    if set.is_empty() {
+        code.push_str("0u");
+    } else {
+        code.push_str(&set.join(" | "));
     }
 }

@@ -1,5 +1,6 @@
 //! Functions of a program for devices whose number is only known at run time, emitted where the program indexes.
 
+use crate::devices::run_timer;
 use crate::fields::{Field, Fields, Kind};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
@@ -21,6 +22,8 @@ enum Helper {
     PutBits,
     /// RST.
     Reset,
+    /// OUT of a timer or a 16-bit counter.
+    Out,
 }
 
 /// The functions that a program needs.
@@ -66,6 +69,11 @@ impl Helpers {
     /// `motor_reset_T`.
     pub fn reset(&mut self, class: DeviceClass) {
         self.needed.insert((Helper::Reset, class));
+    }
+
+    /// `motor_out_T`.
+    pub fn out(&mut self, class: DeviceClass) {
+        self.needed.insert((Helper::Out, class));
     }
 
     /// Writes them.
@@ -133,7 +141,36 @@ impl Printer<'_> {
                 }
                 writeln!(out, "}}\n")
             }
+            Helper::Out => self.out(out, class),
         };
+    }
+
+    /// OUT of a timer, as its number has it, or of a 16-bit counter.
+    fn out(&self, out: &mut String, class: DeviceClass) -> std::fmt::Result {
+        let (name, c) = (self.name, class.prefix());
+        let _ = write!(
+            out,
+            "/* OUT of {c} n, which exists. */\n\
+             static inline void {name}_out_{c}({name}_plc *plc, int32_t n, bool drive, int16_t preset)\n{{\n"
+        );
+        if class == DeviceClass::C {
+            self.each(out, class, Some(Kind::Counter16), |out, device| {
+                let _ = write!(out, "plc_count16(&{device}, drive, preset); return;");
+            });
+            return writeln!(out, "}}\n");
+        }
+        for timers in self.module.model.timers {
+            // The index leads anywhere in the run, so all of it is in one array.
+            if let Some(field) = self.fields.find(class, timers.first) {
+                let mut device = String::from("plc->");
+                field.name(&mut device);
+                field.element(&mut device, "n", "");
+                let _ = write!(out, "    if (n <= {}) {{\n        ", timers.last);
+                run_timer(out, timers.kind, &device, "drive", "preset");
+                out.push_str("\n        return;\n    }\n");
+            }
+        }
+        writeln!(out, "}}\n")
     }
 
     /// Whether devices exist.

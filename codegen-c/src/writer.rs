@@ -10,6 +10,7 @@ use crate::walk;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeId, EdgeKind, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
 use rungc_ir::walk::{for_exprs, operands};
+use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 use std::fmt::Write;
 
@@ -73,6 +74,13 @@ impl<'a, 'm> Writer<'a, 'm> {
                 Node::Stmt(Stmt::Timer { number, preset, .. }) => {
                     let constant = matches!(self.module.expr(*preset), Expr::I16(_));
                     *self.plain_timers.entry(*number).or_default() += if constant { 1 } else { 2 };
+                }
+                // An index may lead to any of them.
+                Node::Stmt(Stmt::TimerAt { .. }) => {
+                    for field in self.fields.of_class(DeviceClass::T) {
+                        self.plain_timers
+                            .extend((field.first..field.end()).map(|number| (number, 2)));
+                    }
                 }
                 Node::If {
                     then, otherwise, ..

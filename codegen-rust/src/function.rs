@@ -1,7 +1,6 @@
 //! Functions: the module's own, and those that its long bodies are split into.
 
 use crate::analysis::{self, Declared, Temps};
-use crate::format;
 use crate::generate::{Generator, Item, function_name};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
@@ -33,6 +32,7 @@ impl Generator<'_> {
                 self.function(n, function);
             }
         }
+        self.indexed_coils();
     }
 
     fn function(&mut self, n: usize, function: &Function) {
@@ -124,23 +124,12 @@ impl Generator<'_> {
         let allow = (parameters.len() > MAX_PARAMETERS).then(|| {
             quote!(#[allow(clippy::too_many_arguments, reason = "a piece of a longer function")])
         });
-        let doc = format!(" {doc}");
-        let doc = self.with_comments.then(|| quote!(#[doc = #doc]));
-        let tokens = quote! {
+        let doc = self.doc(doc);
+        self.item_of(quote! {
             #doc
             #allow
             fn #name(#(#parameters),*) #returns { #body }
-        };
-        let comments = std::mem::take(&mut self.comments);
-        let text = if self.with_comments {
-            format::format(tokens, &comments)
-        } else {
-            tokens.to_string()
-        };
-        Item {
-            text,
-            uses: std::mem::take(&mut self.uses),
-        }
+        })
     }
 
     /// The statements of a body; of a long one, calls of the functions that it is split into.

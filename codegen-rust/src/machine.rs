@@ -697,7 +697,8 @@ impl Generator<'_> {
         self.item_of(quote!(#doc pub(crate) const DEVICES: #runs = #runs(&[#(#rows),*]);))
     }
 
-    fn item_of(&mut self, tokens: TokenStream) -> Item {
+    /// The text of some items, and what they use.
+    pub fn item_of(&mut self, tokens: TokenStream) -> Item {
         let comments = std::mem::take(&mut self.comments);
         Item {
             text: if self.with_comments {

@@ -1,6 +1,7 @@
 //! Statements of the IR as statements of Rust.
 
 use crate::analysis::{self, Declared};
+use crate::coils::{OUT_COUNTER, OUT_TIMER};
 use crate::expr::{Code, Shape, literal32};
 use crate::generate::{Generator, function_name};
 use proc_macro2::{Literal, TokenStream};
@@ -126,6 +127,16 @@ impl Generator<'_> {
             | Stmt::Counter16 { .. }
             | Stmt::Counter32 { .. }
             | Stmt::Count { .. } => self.coil(stmt),
+            Stmt::TimerAt {
+                place,
+                drive,
+                preset,
+            } => self.indexed_coil(OUT_TIMER, *place, *drive, *preset),
+            Stmt::Counter16At {
+                place,
+                drive,
+                preset,
+            } => self.indexed_coil(OUT_COUNTER, *place, *drive, *preset),
             Stmt::SetFlag(flag, value) => {
                 let (flag, value) = (self.flag(*flag), self.expr(*value));
                 quote!(plc.#flag = #value;)
@@ -211,7 +222,7 @@ impl Generator<'_> {
     }
 
     /// The comment of a device, behind the statement that writes it.
-    fn end_comment(&mut self, class: DeviceClass, number: u32) -> TokenStream {
+    pub fn end_comment(&mut self, class: DeviceClass, number: u32) -> TokenStream {
         match self.device_comment(class, number) {
             Some(text) if self.with_comments => self.comments.end(text),
             _ => TokenStream::new(),
@@ -372,75 +383,6 @@ impl Generator<'_> {
                 .unwrap_or_else(|| quote!(_))
         });
         quote!([#(#cells),*] = #unpack(#value);)
-    }
-
-    /// OUT T and OUT C.
-    fn coil(&mut self, stmt: &Stmt) -> TokenStream {
-        let plc = quote!(plc);
-        let mut before = TokenStream::new();
-        let mut method = format_ident!("run");
-        let (class, number, arguments) = match *stmt {
-            Stmt::Timer {
-                number,
-                kind,
-                drive,
-                preset,
-            } => {
-                let kind = self.timer_kind(kind);
-                let drive = named_drive(self.expr(drive), &mut before);
-                let preset = self.expr(preset);
-                let arguments = quote!(#kind, #drive, #preset, plc.sys.now_ms, plc.sys.dt_ms);
-                (DeviceClass::T, number, arguments)
-            }
-            Stmt::Counter16 {
-                number,
-                drive,
-                preset,
-            } => {
-                let drive = named_drive(self.expr(drive), &mut before);
-                let preset = self.expr(preset);
-                (DeviceClass::C, number, quote!(#drive, #preset))
-            }
-            Stmt::Counter32 {
-                number,
-                drive,
-                down,
-                preset,
-            } => {
-                let drive = named_drive(self.expr(drive), &mut before);
-                let down = self.expr(down);
-                let preset = self.expr(preset);
-                (DeviceClass::C, number, quote!(#drive, #down, #preset))
-            }
-            Stmt::Count {
-                number,
-                down,
-                preset,
-            } => {
-                let (down, preset) = (self.expr(down), self.expr(preset));
-                method = format_ident!("count");
-                (DeviceClass::C, number, quote!(#down, #preset))
-            }
-            _ => return TokenStream::new(),
-        };
-        let Some(cell) = self.storage.cell(&plc, class, number) else {
-            return TokenStream::new();
-        };
-        let comment = self.end_comment(class, number);
-        quote!(#before #cell.#method(#arguments); #comment)
-    }
-
-    fn reset(&mut self, place: Place) -> TokenStream {
-        if place.index.is_some() {
-            let (class, number) = self.indexed(place);
-            return quote!(plc.reset_at(#class, #number););
-        }
-        let cell = self.storage.cell(&quote!(plc), place.class, place.number);
-        let comment = self.end_comment(place.class, place.number);
-        match cell {
-            Some(cell) => quote!(#cell.reset(); #comment),
-            None => TokenStream::new(),
-        }
     }
 
     fn branches(&mut self, cond: ExprId, then: &[Stmt], otherwise: &[Stmt]) -> TokenStream {
@@ -643,7 +585,7 @@ impl Generator<'_> {
     }
 
     /// Class and number of a device that the runtime is handed.
-    fn operand_place(&mut self, place: Place) -> (TokenStream, TokenStream) {
+    pub fn operand_place(&mut self, place: Place) -> (TokenStream, TokenStream) {
         let class = self.class(place.class);
         let number = match place.index {
             None => literal32(place.number as i32, false).tokens,
@@ -651,16 +593,6 @@ impl Generator<'_> {
         };
         (class, number)
     }
-}
-
-/// A drive that would not fit on a coil's line gets one of its own.
-fn named_drive(drive: Code, before: &mut TokenStream) -> TokenStream {
-    const LONG: usize = 40;
-    if drive.tokens.to_string().len() <= LONG {
-        return drive.tokens;
-    }
-    before.extend(quote!(let drive = #drive;));
-    quote!(drive)
 }
 
 /// Whether the statements jump to one of the parts.

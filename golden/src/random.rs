@@ -299,6 +299,7 @@ impl Writer<'_> {
             return format!("{join}{wide}{operator} {left} {right}");
         }
         let bit = self.bit();
+        let bit = self.indexed(bit);
         let verb = match (join, self.rng.below(8)) {
             ("LD", 0..=1) => "LDI",
             ("AND", 0..=1) => "ANI",
@@ -325,6 +326,19 @@ impl Writer<'_> {
         }
     }
 
+    /// The operand of a basic instruction, sometimes with an index register, where the model takes one.
+    fn indexed(&mut self, operand: String) -> String {
+        if self.rng.percent(75) {
+            return operand;
+        }
+        let register = self.rng.pick(&["Z0", "V1"]).unwrap_or("Z0");
+        let indexed = format!("{operand}{register}");
+        match accepted(&format!("LD {indexed}"), self.model) {
+            true => indexed,
+            false => operand,
+        }
+    }
+
     fn coil(&mut self) -> String {
         let n = self.rng.below(16);
         match self.rng.below(3) {
@@ -339,6 +353,11 @@ impl Writer<'_> {
             0 => format!("D{}", self.rng.below(24)),
             _ => format!("K{}", self.rng.below(12)),
         };
+        let timer = format!(
+            "T{}",
+            [n % 6, 196, 200, 246, 250][self.rng.below(5) as usize]
+        );
+        let (timer, counter) = (self.indexed(timer), self.indexed(format!("C{}", n % 3)));
         let line = match self.rng.below(20) {
             0..=2 => self.coil(),
             3 => format!("SET M{n}"),
@@ -346,8 +365,8 @@ impl Writer<'_> {
             5 => format!("SET Y{n:03o}"),
             6 => format!("RST Y{n:03o}"),
             7 => format!("{} M{n}", self.rng.pick(&["PLS", "PLF"]).unwrap_or("PLS")),
-            8 => format!("OUT T{} {preset}", n % 6),
-            9 => format!("OUT C{} {preset}", n % 3),
+            8 => format!("OUT {timer} {preset}"),
+            9 => format!("OUT {counter} {preset}"),
             10 => format!("OUT C{} {preset}", 200 + n % 3),
             11 => format!(
                 "RST {}",

@@ -59,6 +59,12 @@ fn clamps() {
     check("clamps", ModelId::Fx3u);
 }
 
+/// Timers and counters that an index leads to.
+#[test]
+fn fillers() {
+    check("fillers", ModelId::Fx3u);
+}
+
 #[test]
 fn conveyor() {
     check("conveyor", ModelId::H2u);

@@ -181,6 +181,16 @@ impl Out<'_> {
                 e(drive),
                 e(preset)
             ),
+            Stmt::TimerAt {
+                place,
+                drive,
+                preset,
+            } => self.coil_at("timer", place, *drive, *preset),
+            Stmt::Counter16At {
+                place,
+                drive,
+                preset,
+            } => self.coil_at("counter", place, *drive, *preset),
             Stmt::TimerGoesOn { number, kind } => {
                 format!("timer T{number} {} goes on", timer_text(kind))
             }
@@ -230,6 +240,11 @@ impl Out<'_> {
             | Stmt::Repeat { .. }
             | Stmt::Parts(_) => String::new(),
         }
+    }
+
+    fn coil_at(&self, what: &str, place: &Place, drive: ExprId, preset: ExprId) -> String {
+        let (place, drive, preset) = (self.place(place), self.expr(drive), self.expr(preset));
+        format!("{what} {place} drive {drive} preset {preset}")
     }
 
     fn cell(&self, cell: CellId) -> String {

@@ -247,6 +247,8 @@ impl<'m> Builder<'m> {
             Stmt::WriteBit(place, _)
             | Stmt::WriteWordBit(place, ..)
             | Stmt::WriteWord(place, _)
+            | Stmt::TimerAt { place, .. }
+            | Stmt::Counter16At { place, .. }
             | Stmt::Reset(place) => self.place(*place, 1),
             Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.pair(*place),
             Stmt::WriteNibbles { place, digits, .. } => self.place(*place, 4 * u32::from(*digits)),

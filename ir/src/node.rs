@@ -362,6 +362,16 @@ pub enum Stmt {
         /// `I16`.
         preset: ExprId,
     },
+    /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
+    /// ([`crate::Model::timer`]).
+    TimerAt {
+        /// The timer, which has an index.
+        place: Place,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
     /// END processing of a timer that goes on in scans that jump over its coil: [`rungc_rt::Timer::go_on`].
     TimerGoesOn {
         /// Number.
@@ -373,6 +383,15 @@ pub enum Stmt {
     Counter16 {
         /// Number.
         number: u32,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
+    /// OUT C0–C199 with an index: as [`Stmt::Counter16`] of the counter that the place names.
+    Counter16At {
+        /// The counter, which has an index.
+        place: Place,
         /// `Bit`.
         drive: ExprId,
         /// `I16`.

@@ -321,6 +321,8 @@ impl Checker<'_> {
             Stmt::WriteBit(place, _)
             | Stmt::WriteWordBit(place, ..)
             | Stmt::WriteWord(place, _)
+            | Stmt::TimerAt { place, .. }
+            | Stmt::Counter16At { place, .. }
             | Stmt::Reset(place) => self.unstored(place, 1),
             Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.unstored_pair(place),
             Stmt::WriteNibbles { place, digits, .. } => self.unstored(place, 4 * u32::from(digits)),
@@ -357,6 +359,16 @@ impl Checker<'_> {
             Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
                 is(drive, Ty::Bit) && is(preset, Ty::I16)
             }
+            Stmt::TimerAt {
+                place,
+                drive,
+                preset,
+            }
+            | Stmt::Counter16At {
+                place,
+                drive,
+                preset,
+            } => place.index.is_some() && is(drive, Ty::Bit) && is(preset, Ty::I16),
             Stmt::Counter32 {
                 drive,
                 down,

@@ -76,6 +76,12 @@ macro_rules! for_exprs {
                     f(drive);
                     f(preset);
                 }
+                Stmt::TimerAt { place, drive, preset }
+                | Stmt::Counter16At { place, drive, preset } => {
+                    place.index.$iter().for_each(&mut *f);
+                    f(drive);
+                    f(preset);
+                }
                 Stmt::Counter32 { drive, down, preset, .. } => {
                     f(drive);
                     f(down);

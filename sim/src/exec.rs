@@ -3,7 +3,7 @@
 use crate::devices::rt_class;
 use crate::machine::Machine;
 use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue};
-use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, report};
+use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, TimerKind, report};
 
 /// Value of an expression or temporary.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -353,7 +353,9 @@ impl<'m> Machine<'m> {
                 }
             }
             Stmt::Timer { .. }
+            | Stmt::TimerAt { .. }
             | Stmt::Counter16 { .. }
+            | Stmt::Counter16At { .. }
             | Stmt::Counter32 { .. }
             | Stmt::Count { .. } => self.coil(stmt),
             // Stmt::Network marks a place; all others are control flow, which `step` handles.
@@ -369,21 +371,30 @@ impl<'m> Machine<'m> {
                 kind,
                 drive,
                 preset,
+            } => self.timer(number, kind, drive, preset),
+            Stmt::TimerAt {
+                place,
+                drive,
+                preset,
             } => {
-                let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
-                let (now, dt) = (self.sys.now_ms, self.sys.dt_ms);
-                if let Some(timer) = self.devices.timer(number) {
-                    timer.run(kind, drive, preset, now, dt);
+                if let Some((_, number)) = self.device(place)
+                    && let Some(kind) = self.module.model.timer(number)
+                {
+                    self.timer(number, kind, drive, preset);
                 }
             }
             Stmt::Counter16 {
                 number,
                 drive,
                 preset,
+            } => self.counter16(number, drive, preset),
+            Stmt::Counter16At {
+                place,
+                drive,
+                preset,
             } => {
-                let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
-                if let Some(counter) = self.devices.counter16(number) {
-                    counter.run(drive, preset);
+                if let Some((_, number)) = self.device(place) {
+                    self.counter16(number, drive, preset);
                 }
             }
             Stmt::Counter32 {
@@ -408,6 +419,21 @@ impl<'m> Machine<'m> {
                 }
             }
             _ => {}
+        }
+    }
+
+    fn timer(&mut self, number: u32, kind: TimerKind, drive: ExprId, preset: ExprId) {
+        let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
+        let (now, dt) = (self.sys.now_ms, self.sys.dt_ms);
+        if let Some(timer) = self.devices.timer(number) {
+            timer.run(kind, drive, preset, now, dt);
+        }
+    }
+
+    fn counter16(&mut self, number: u32, drive: ExprId, preset: ExprId) {
+        let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
+        if let Some(counter) = self.devices.counter16(number) {
+            counter.run(drive, preset);
         }
     }
 

@@ -15,9 +15,24 @@ const BIT_OF_WORD: Classes = Classes::WORD_BIT;
 /// The models that count steps as FX2N does.
 const LIKE_FX2N: ModelSet = INOVANCE.and(&[ModelId::Fx2n]);
 
+/// Beyond the last of a class: what does not exist is told as such, and its other operands are taken for what they are meant to be.
+const ANY: u32 = u32::MAX;
+
+/// What the basic instructions of FX3U take no index register with: states, special relays, 32-bit counters, bits of words and words
+/// (FX3 programming manual §5.7, §7.13). Other models index in applied instructions only.
+const DIRECT: &[(DeviceClass, u32, u32)] = &[
+    (DeviceClass::S, 0, ANY),
+    (DeviceClass::M, 8000, ANY),
+    (DeviceClass::C, 200, ANY),
+    (DeviceClass::D, 0, ANY),
+    (DeviceClass::R, 0, ANY),
+    (DeviceClass::V, 0, ANY),
+    (DeviceClass::Z, 0, ANY),
+];
+
 const CONTACT: &[Param] = &[bit("S", CONTACTS).plain()];
 /// FX3U: contacts of bits of words, and index registers.
-const CONTACT_3U: &[Param] = &[bit("S", CONTACTS.or(BIT_OF_WORD))];
+const CONTACT_3U: &[Param] = &[bit("S", CONTACTS.or(BIT_OF_WORD)).unindexed(DIRECT)];
 
 const fn basic(name: &'static str, title: &'static str, basic: Basic) -> Inst {
     row(name, title, "h1u-h2u-programming §4.2").lower(Lower::Basic(basic))
@@ -104,38 +119,47 @@ const KD: Classes = Classes::K.or(Classes::D);
 const KDR: Classes = KD.or(Classes::R);
 const KHDR: Classes = KDR.or(Classes::H);
 
-/// Beyond the last of a class: what does not exist is told as such, and its other operands are taken for what they are meant to be.
-const ANY: u32 = u32::MAX;
+/// Coils of FX3U: bits of words, and index registers.
+const COIL_3U: &[Param] = &[coil("D", COILS.or(BIT_OF_WORD)).unindexed(DIRECT)];
 
 const OUT: &[Variant] = &[
     first(LIKE_FX2N, T)
         .steps(3, 3)
         .takes(&[coil("D", T).plain(), preset(KD).plain()]),
-    first(LIKE_FX3, T)
+    first(FX3U, T)
         .steps(3, 3)
         .takes(&[coil("D", T), preset(KDR)]),
+    first(LIKE_FX3, T)
+        .steps(3, 3)
+        .takes(&[coil("D", T).plain(), preset(KDR).plain()]),
     first(HM, T)
         .steps(5, 5)
         .takes(&[coil("D", T).plain(), preset(KHDR).plain()]),
     first_in(LIKE_FX2N, C, 0, 199)
         .steps(3, 3)
         .takes(&[coil("D", C).plain(), preset(KD).plain()]),
-    first_in(LIKE_FX3, C, 0, 199)
+    first_in(FX3U, C, 0, 199)
         .steps(3, 3)
         .takes(&[coil("D", C), preset(KDR)]),
+    first_in(LIKE_FX3, C, 0, 199)
+        .steps(3, 3)
+        .takes(&[coil("D", C).plain(), preset(KDR).plain()]),
     first_in(HM, C, 0, 199)
         .steps(5, 5)
         .takes(&[coil("D", C).plain(), preset(KHDR).plain()]),
     first_in(LIKE_FX2N, C, 200, ANY)
         .steps(5, 5)
         .takes(&[coil("D", C).plain(), preset_32(KD).plain()]),
+    first_in(FX3U, C, 200, ANY)
+        .steps(5, 5)
+        .takes(&[coil("D", C).unindexed(DIRECT), preset_32(KDR)]),
     first_in(LIKE_FX3, C, 200, ANY)
         .steps(5, 5)
-        .takes(&[coil("D", C), preset_32(KDR)]),
+        .takes(&[coil("D", C).plain(), preset_32(KDR).plain()]),
     first_in(HM, C, 200, ANY)
         .steps(7, 7)
         .takes(&[coil("D", C).plain(), preset_32(KHDR).plain()]),
-    on(FX3U).takes(&[coil("D", COILS.or(BIT_OF_WORD))]),
+    on(FX3U).takes(COIL_3U),
     BIT_STEPS[0],
     BIT_STEPS[1],
     BIT_STEPS[2],
@@ -145,7 +169,7 @@ const OUT: &[Variant] = &[
 ];
 
 const SET: &[Variant] = &[
-    on(FX3U).takes(&[coil("D", COILS.or(BIT_OF_WORD))]),
+    on(FX3U).takes(COIL_3U),
     BIT_STEPS[0],
     BIT_STEPS[1],
     BIT_STEPS[2],
@@ -164,7 +188,7 @@ const fn reset(classes: Classes) -> Param {
 }
 
 const RST: &[Variant] = &[
-    on(FX3U).takes(&[reset(RESETTABLE.or(BIT_OF_WORD))]),
+    on(FX3U).takes(&[reset(RESETTABLE.or(BIT_OF_WORD)).unindexed(DIRECT)]),
     first(NOT_HM, T.or(C)).steps(2, 2),
     first(HM, REGISTERS).steps(3, 3),
     first(ModelSet::ALL, DATA.or(INDEX)).steps(3, 3),

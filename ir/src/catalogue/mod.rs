@@ -291,6 +291,8 @@ pub struct Param {
     pub rules: &'static [Rule],
     /// Whether it may carry an index register.
     pub indexable: bool,
+    /// Devices of these classes and numbers, first to last, that may not, although others may.
+    pub unindexed: &'static [(DeviceClass, u32, u32)],
     /// Whether it may be left out (only last ones).
     pub optional: bool,
 }

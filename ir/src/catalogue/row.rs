@@ -203,6 +203,7 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
         sends_pulses: false,
         rules: &[],
         indexable: true,
+        unindexed: &[],
         optional: false,
     }
 }
@@ -354,6 +355,11 @@ impl Param {
             sends_pulses,
             ..self
         }
+    }
+
+    /// No index register with these devices.
+    pub(super) const fn unindexed(self, unindexed: &'static [(DeviceClass, u32, u32)]) -> Self {
+        Param { unindexed, ..self }
     }
 
     /// No index register.

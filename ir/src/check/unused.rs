@@ -73,7 +73,8 @@ impl<'a, 'p> Unused<'a, 'p> {
             return;
         }
         match basic {
-            Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) => {
+            // Which device an index leads to is not known.
+            Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) if access.count.is_some() => {
                 self.coils.push((access.first, access.span))
             }
             Some(_) if access.reads() && access.count == Some(1) => {

@@ -2,23 +2,23 @@
 
 use super::Lowerer;
 use super::operand::{BitTarget, Guards, fixed};
-use crate::catalogue::Basic;
+use crate::catalogue::{Basic, CmpOp};
 use crate::high_speed;
 use crate::node::{EdgeKind, Expr, ExprId, Stmt};
 use crate::runs::FIRST_COUNTER32;
-use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Index, OperandKind};
 
 /// Special relay that gives the direction of C200; the others follow.
 const FIRST_DIRECTION: u32 = 8200;
 
 impl Lowerer<'_> {
     pub(super) fn coil(&mut self) {
+        use DeviceClass::{C, T};
         match self.operand(0) {
-            Some(&OperandKind::Device(device, _)) if device.class == DeviceClass::T => {
-                self.timer(device)
-            }
-            Some(&OperandKind::Device(device, _)) if device.class == DeviceClass::C => {
-                self.counter(device)
+            Some(&OperandKind::Device(device, None)) if device.class == T => self.timer(device),
+            Some(&OperandKind::Device(device, None)) if device.class == C => self.counter(device),
+            Some(&OperandKind::Device(device, Some(index))) if matches!(device.class, T | C) => {
+                self.indexed_coil(device, index);
             }
             Some(&OperandKind::Device(device, None)) if self.is_transition(device) => {
                 self.transition(device.number);
@@ -48,7 +48,7 @@ impl Lowerer<'_> {
             self.free_running.insert(number, kind);
         }
         let drive = self.drive();
-        self.with_preset(false, |this, preset| {
+        self.with_preset(false, Guards::default(), |this, preset| {
             this.emit(Stmt::Timer {
                 number,
                 kind,
@@ -65,7 +65,7 @@ impl Lowerer<'_> {
         }
         let drive = self.drive();
         if number < FIRST_COUNTER32 {
-            return self.with_preset(false, |this, preset| {
+            return self.with_preset(false, Guards::default(), |this, preset| {
                 this.emit(Stmt::Counter16 {
                     number,
                     drive,
@@ -79,7 +79,7 @@ impl Lowerer<'_> {
         } else {
             self.bit_const(false)
         };
-        self.with_preset(true, |this, preset| {
+        self.with_preset(true, Guards::default(), |this, preset| {
             this.emit(Stmt::Counter32 {
                 number,
                 drive,
@@ -89,16 +89,55 @@ impl Lowerer<'_> {
         });
     }
 
-    pub(super) fn with_preset(&mut self, wide: bool, make: impl FnOnce(&mut Self, ExprId)) {
+    /// OUT T and OUT C0–C199 with an index: a timer that the index leads to is of the kind that its number has.
+    fn indexed_coil(&mut self, device: Device, index: Index) {
+        let timer = device.class == DeviceClass::T;
+        if timer && self.flow.skips() {
+            self.keep_free_running();
+        }
+        let drive = self.drive();
+        let mut guards = Guards::default();
+        let place = self.place(device, Some(index), 1, false, &mut guards);
+        if let (false, Some(index)) = (timer, place.index) {
+            // A 32-bit counter does not count as a 16-bit one.
+            let room = self.add(Expr::I32(FIRST_COUNTER32 as i32 - device.number as i32));
+            guards.demand(self.add(Expr::Cmp(CmpOp::Lt, index, room)));
+        }
+        self.with_preset(false, guards, |this, preset| {
+            this.emit(match timer {
+                true => Stmt::TimerAt {
+                    place,
+                    drive,
+                    preset,
+                },
+                false => Stmt::Counter16At {
+                    place,
+                    drive,
+                    preset,
+                },
+            });
+        });
+    }
+
+    /// Any of the timers that go on in scans that do not execute their coils may be driven.
+    fn keep_free_running(&mut self) {
+        for timers in self.model.timers.iter().filter(|t| t.kind.free_running) {
+            let numbers = timers.first..=timers.last;
+            self.free_running
+                .extend(numbers.map(|number| (number, timers.kind)));
+        }
+    }
+
+    /// Emits a coil with its preset, the second operand; nothing but a fault where `guards` do not hold.
+    pub(super) fn with_preset(
+        &mut self,
+        wide: bool,
+        mut guards: Guards,
+        make: impl FnOnce(&mut Self, ExprId),
+    ) {
         let Some(operand) = self.operand(1) else {
             return;
         };
-        if matches!(self.operand(0), Some(OperandKind::Device(_, Some(_)))) {
-            let span = self.instr().operands[0].span;
-            let message = "timers and counters with an index register are not implemented yet";
-            return self.report(codes::NOT_IMPLEMENTED.at(span, message));
-        }
-        let mut guards = Guards::default();
         let preset = self.value(operand, wide, &mut guards);
         self.guarded(guards, |this| make(this, preset));
     }

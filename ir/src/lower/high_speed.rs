@@ -169,7 +169,7 @@ impl Lowerer<'_> {
         };
         let (on, preset) = (used.on, used.preset);
         let drive = self.drive();
-        self.with_preset(true, |this, value| {
+        self.with_preset(true, Guards::default(), |this, value| {
             this.emit(Stmt::SetCell(preset, value));
             this.emit(Stmt::SetFlag(on, drive));
         });

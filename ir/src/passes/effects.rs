@@ -106,6 +106,8 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         Stmt::WriteBit(at, _)
         | Stmt::WriteWordBit(at, ..)
         | Stmt::WriteWord(at, _)
+        | Stmt::TimerAt { place: at, .. }
+        | Stmt::Counter16At { place: at, .. }
         | Stmt::Reset(at) => place(at, 1),
         Stmt::WritePair(at, _) | Stmt::WriteFloat(at, _) => place(at, 2),
         Stmt::WriteNibbles {

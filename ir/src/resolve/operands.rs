@@ -84,7 +84,7 @@ impl Checker {
         }
         if let Some(index) = index_of(kind)
             && let Some(diagnostic) =
-                indexes_itself(span, kind).or_else(|| self.index(place, span, index, param))
+                indexes_itself(span, kind).or_else(|| self.index(place, operand, index, param))
         {
             return Some(diagnostic);
         }
@@ -116,14 +116,29 @@ impl Checker {
     }
 
     /// What is wrong with an index register, if anything.
-    fn index(&self, place: &Place, span: Span, index: Index, param: &Param) -> Option<Diagnostic> {
+    fn index(
+        &self,
+        place: &Place,
+        operand: &Operand,
+        index: Index,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        let span = operand.span;
         let register = Device {
             class: index.class,
             number: index.number,
         };
-        if !param.indexable {
+        let barred = |device: Device| {
+            let mut barred = param.unindexed.iter();
+            barred.any(|&(class, first, last)| {
+                device.class == class && (first..=last).contains(&device.number)
+            })
+        };
+        let direct = device_of(&operand.kind).filter(|device| barred(*device));
+        if !param.indexable || direct.is_some() {
+            let with = direct.map_or_else(String::new, |device| format!(" with `{device}`"));
             let message = format!(
-                "operand {} of `{}` cannot take an index register on {}",
+                "operand {} of `{}` cannot take an index register{with} on {}",
                 param.name, place.instr.mnemonic, self.model.name
             );
             return Some(
@@ -334,6 +349,16 @@ fn index_of(kind: &OperandKind) -> Option<Index> {
         | OperandKind::Hex(_, index)
         | OperandKind::Buffer { index, .. } => index,
         OperandKind::Float(_) | OperandKind::Text(_) => None,
+    }
+}
+
+/// The device that an operand names or begins with.
+fn device_of(kind: &OperandKind) -> Option<Device> {
+    match *kind {
+        OperandKind::Device(device, _)
+        | OperandKind::WordBit(device, ..)
+        | OperandKind::Nibbles(_, device, _) => Some(device),
+        _ => None,
     }
 }
 

@@ -15,7 +15,7 @@ super::codes! {
 
     NOT_INDEXABLE = "E0103" "not-indexable" Error Some(6503),
     "index register where none is allowed",
-    "Contacts, coils and other basic instructions take no index register on these models, and neither do counts, pointers and the devices that the hardware binds to an instruction.",
+    "Contacts, coils and other basic instructions take an index register on FX3U only, and there not with states, special relays, 32-bit counters, words and their bits. Counts, pointers and the devices that the hardware binds to an instruction take none either.",
     model: "h2u",
     wrong: "LD M0Z0\nOUT Y0\nEND\n",
     right: "LD M8000\nMOV K1M0Z0 K1M10\nLD M10\nOUT Y0\nEND\n";

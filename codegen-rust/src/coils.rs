@@ -1,0 +1,191 @@
+//! Coils of timers and counters, and RST of them.
+
+use crate::expr::Code;
+use crate::generate::Generator;
+use crate::storage::{Elem, Field};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use rungc_ir::node::{ExprId, Place, Stmt};
+use rungc_syntax::DeviceClass;
+
+/// What runs a timer that an index leads to.
+pub const OUT_TIMER: &str = "out_timer";
+/// What runs a 16-bit counter that an index leads to.
+pub const OUT_COUNTER: &str = "out_counter";
+
+impl Generator<'_> {
+    /// OUT T and OUT C.
+    pub fn coil(&mut self, stmt: &Stmt) -> TokenStream {
+        let plc = quote!(plc);
+        let mut before = TokenStream::new();
+        let mut method = format_ident!("run");
+        let (class, number, arguments) = match *stmt {
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => {
+                let kind = self.timer_kind(kind);
+                let drive = named_drive(self.expr(drive), &mut before);
+                let preset = self.expr(preset);
+                let arguments = quote!(#kind, #drive, #preset, plc.sys.now_ms, plc.sys.dt_ms);
+                (DeviceClass::T, number, arguments)
+            }
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => {
+                let drive = named_drive(self.expr(drive), &mut before);
+                let preset = self.expr(preset);
+                (DeviceClass::C, number, quote!(#drive, #preset))
+            }
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => {
+                let drive = named_drive(self.expr(drive), &mut before);
+                let down = self.expr(down);
+                let preset = self.expr(preset);
+                (DeviceClass::C, number, quote!(#drive, #down, #preset))
+            }
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => {
+                let (down, preset) = (self.expr(down), self.expr(preset));
+                method = format_ident!("count");
+                (DeviceClass::C, number, quote!(#down, #preset))
+            }
+            _ => return TokenStream::new(),
+        };
+        let Some(cell) = self.storage.cell(&plc, class, number) else {
+            return TokenStream::new();
+        };
+        let comment = self.end_comment(class, number);
+        quote!(#before #cell.#method(#arguments); #comment)
+    }
+
+    /// A coil of a timer or counter that an index leads to.
+    pub fn indexed_coil(
+        &mut self,
+        function: &str,
+        place: Place,
+        drive: ExprId,
+        preset: ExprId,
+    ) -> TokenStream {
+        let function = format_ident!("{function}");
+        let (_, number) = self.operand_place(place);
+        let mut before = TokenStream::new();
+        let drive = named_drive(self.expr(drive), &mut before);
+        let preset = self.expr(preset);
+        quote!(#before #function(plc, #number, #drive, #preset);)
+    }
+
+    pub fn reset(&mut self, place: Place) -> TokenStream {
+        if place.index.is_some() {
+            let (class, number) = self.indexed(place);
+            return quote!(plc.reset_at(#class, #number););
+        }
+        let cell = self.storage.cell(&quote!(plc), place.class, place.number);
+        let comment = self.end_comment(place.class, place.number);
+        match cell {
+            Some(cell) => quote!(#cell.reset(); #comment),
+            None => TokenStream::new(),
+        }
+    }
+
+    /// Writes the functions for coils that an index leads to, if there are any.
+    pub fn indexed_coils(&mut self) {
+        let (mut timers, mut counters) = (false, false);
+        for function in &self.module.functions {
+            rungc_ir::walk::statements(&function.body, &mut |stmt| {
+                timers |= matches!(stmt, Stmt::TimerAt { .. });
+                counters |= matches!(stmt, Stmt::Counter16At { .. });
+            });
+        }
+        if timers {
+            let arms = self.timer_arms();
+            let body = quote! {
+                let (timer, kind) = match number { #arms _ => return };
+                timer.run(kind, drive, preset, plc.sys.now_ms, plc.sys.dt_ms);
+            };
+            self.coil_function("OUT of a timer by its number.", OUT_TIMER, body);
+        }
+        if counters {
+            let arms = self.counter_arms();
+            let body = quote! {
+                let counter = match number { #arms _ => return };
+                counter.run(drive, preset);
+            };
+            self.coil_function("OUT of a 16-bit counter by its number.", OUT_COUNTER, body);
+        }
+    }
+
+    fn coil_function(&mut self, doc: &str, name: &str, body: TokenStream) {
+        self.uses.plc = true;
+        let (doc, name, plc) = (self.doc(doc), format_ident!("{name}"), &self.type_name);
+        let item = quote! {
+            #doc
+            fn #name(plc: &mut #plc, number: i32, drive: bool, preset: i16) { #body }
+        };
+        let item = self.item_of(item);
+        self.items.push(item);
+    }
+
+    /// The timers and their kinds, by number.
+    fn timer_arms(&mut self) -> TokenStream {
+        let mut arms = TokenStream::new();
+        for field in self.storage.fields.clone() {
+            for timers in self.module.model.timers {
+                let first = timers.first.max(field.area.first);
+                let last = timers.last.min(field.last());
+                if field.elem == Elem::Timer && first <= last {
+                    let (cell, kind) = (by_number(&field), self.timer_kind(timers.kind));
+                    let [first, last] = [first, last].map(Literal::u32_unsuffixed);
+                    arms.extend(quote!(#first..=#last => (&mut #cell, #kind),));
+                }
+            }
+        }
+        arms
+    }
+
+    /// The 16-bit counters, by number.
+    fn counter_arms(&self) -> TokenStream {
+        let fields = self.storage.fields.iter();
+        fields
+            .filter(|field| field.elem == Elem::Counter16)
+            .map(|field| {
+                let cell = by_number(field);
+                let [first, last] = [field.area.first, field.last()].map(Literal::u32_unsuffixed);
+                quote!(#first..=#last => &mut #cell,)
+            })
+            .collect()
+    }
+}
+
+/// The device of an array whose number is in a variable. What an index leads to is stored in arrays.
+fn by_number(field: &Field) -> TokenStream {
+    let name = &field.name;
+    match field.area.first {
+        0 => quote!(plc.#name[number as usize]),
+        first => {
+            let first = Literal::u32_unsuffixed(first);
+            quote!(plc.#name[(number - #first) as usize])
+        }
+    }
+}
+
+/// A drive that would not fit on a coil's line gets one of its own.
+fn named_drive(drive: Code, before: &mut TokenStream) -> TokenStream {
+    const LONG: usize = 40;
+    if drive.tokens.to_string().len() <= LONG {
+        return drive.tokens;
+    }
+    before.extend(quote!(let drive = #drive;));
+    quote!(drive)
+}
