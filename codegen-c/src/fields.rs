@@ -285,6 +285,12 @@ impl<'m> Fields<'m> {
         &self.fields[from..to]
     }
 
+    /// How many bytes the devices take, without what stands between them for alignment.
+    pub fn bytes(&self) -> u64 {
+        let bytes = |field: &Field| u64::from(field.count) * u64::from(field.kind.size().0);
+        self.fields.iter().map(bytes).sum()
+    }
+
     /// The fields in the order of the struct.
     pub fn in_struct_order(&self) -> Vec<&Field> {
         let mut fields: Vec<&Field> = self.fields.iter().collect();

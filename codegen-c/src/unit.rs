@@ -19,6 +19,9 @@ use std::fmt::Write;
 /// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to divide.
 const FILE_WEIGHT: u64 = 60_000;
 
+/// Up to how many output terminals are told apart by a `switch`.
+const FEW_TERMINALS: usize = 8;
+
 /// A module's C text.
 pub struct Unit {
     /// Struct and prototypes of the API, for the header.
@@ -532,6 +535,11 @@ impl Printer<'_> {
             out.push_str("    return false;\n}\n\n");
             return;
         }
+        let terminals = single.last().map_or(0, |last| last.first + 1);
+        if single.len() > FEW_TERMINALS && terminals <= 3 * single.len() as u32 {
+            self.output_table(&single, out);
+            return;
+        }
         out.push_str("    switch (terminal) {\n");
         for field in single {
             let mut device = String::from("plc->");
@@ -539,5 +547,29 @@ impl Printer<'_> {
             let _ = writeln!(out, "    case {}:\n        return {device};", field.first);
         }
         out.push_str("    default:\n        return false;\n    }\n}\n\n");
+    }
+
+    /// The rest of the function where a table of places is smaller than a branch for each terminal.
+    fn output_table(&self, terminals: &[&Field], out: &mut String) {
+        let name = self.name();
+        let bits = if self.fields.bytes() < 60_000 { 16 } else { 32 };
+        let _ = write!(
+            out,
+            "    /* Where each terminal is stored; UINT{bits}_MAX: the program has nothing on it. */\n    static const uint{bits}_t place[] = {{\n"
+        );
+        let mut next = 0;
+        for field in terminals {
+            for _ in next..field.first {
+                let _ = writeln!(out, "        UINT{bits}_MAX,");
+            }
+            let mut device = String::new();
+            field.name(&mut device);
+            let _ = writeln!(out, "        offsetof({name}_plc, {device}),");
+            next = field.end();
+        }
+        let _ = write!(
+            out,
+            "    }};\n    return terminal < {next}u && place[terminal] != UINT{bits}_MAX\n        && *((const bool *)plc + place[terminal]);\n}}\n\n"
+        );
     }
 }

@@ -58,6 +58,15 @@ shapes! {
     latched: Hm, "LD X0\nOUT M0\nMOV K1 D1000\nMOV K2 D0\nEND";
 }
 
+/// Many output terminals are found by a table of places, gaps in it included.
+#[test]
+fn many_outputs() {
+    let list = "LD X0\nOUT Y0\nOUT Y1\nOUT Y2\nOUT Y3\nOUT Y4\nOUT Y5\nOUT Y6\nOUT Y10\nLD X1\nOUT Y7\nOUT Y12\nEND";
+    let module = module(list, ModelId::Fx3u);
+    let on = "shape_plc plc;\nshape_init(&plc);\nplc.X0 = true;\nshape_scan(&plc, 0, 0);\nfor (unsigned i = 0; i < 20; i++) {\nputchar(shape_output(&plc, i) ? '1' : '0');\n}\nputs(\"\");";
+    assert_eq!(run_c(&module, on), "11111110100000000000\n");
+}
+
 #[test]
 fn instructions_of_the_runtime() {
     let list =
