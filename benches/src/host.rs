@@ -12,7 +12,7 @@ use std::process::Command;
 const HOST_C: &str = include_str!("../templates/host.c");
 
 /// Scans after each of which all devices are compared.
-const CHECKED_SCANS: u32 = 3000;
+pub const CHECKED_SCANS: u32 = 3000;
 
 /// C compilers, in the order of the table.
 const COMPILERS: [&str; 2] = ["gcc", "clang"];
@@ -33,21 +33,36 @@ pub struct Timed {
     pub code: Code,
     /// Its compiler.
     pub compiler: String,
-    /// Nanoseconds that a scan took, in each round; or why there are none.
-    pub result: std::result::Result<Vec<f64>, String>,
+    /// What came out, or why nothing did.
+    pub result: std::result::Result<Outcome, String>,
+}
+
+/// What came out.
+#[derive(Clone, Debug, Default)]
+pub struct Outcome {
+    /// Checksum of the states of all devices after each of [`CHECKED_SCANS`] scans.
+    pub sum: u32,
+    /// Nanoseconds that a scan took, in each round.
+    pub times: Vec<f64>,
 }
 
 impl Timed {
     /// The fastest round, in nanoseconds a scan.
     pub fn fastest(&self) -> Option<f64> {
-        let times = self.result.as_ref().ok()?;
-        times.iter().copied().reduce(f64::min)
+        let outcome = self.result.as_ref().ok()?;
+        outcome.times.iter().copied().reduce(f64::min)
     }
 
     /// How many times as long as `other` it takes: the median of all rounds, since both had their turns in each.
     pub fn ratio(&self, other: &Timed) -> Option<f64> {
         let (mine, others) = (self.result.as_ref().ok()?, other.result.as_ref().ok()?);
-        median(mine.iter().zip(others).map(|(a, b)| a / b).collect())
+        median(
+            mine.times
+                .iter()
+                .zip(&others.times)
+                .map(|(a, b)| a / b)
+                .collect(),
+        )
     }
 }
 
@@ -127,8 +142,8 @@ fn build_rust(ladder: &Ladder, folder: &Path) -> Build {
     }
 }
 
-/// Links what could be built, runs it; what each prints of its times.
-fn run(builds: &[Build], folder: &Path, effort: Effort) -> Result<Vec<Vec<f64>>> {
+/// Links what could be built, runs it; what each prints.
+fn run(builds: &[Build], folder: &Path, effort: Effort) -> Result<Vec<Outcome>> {
     let built: Vec<&Build> = builds.iter().filter(|b| b.objects.is_ok()).collect();
     let Some(linker) = COMPILERS.iter().find(|compiler| tools::is_there(compiler)) else {
         return Err(Problem::Missing(COMPILERS.join(" or ")));
@@ -152,13 +167,19 @@ fn run(builds: &[Build], folder: &Path, effort: Effort) -> Result<Vec<Vec<f64>>>
     command.args([CHECKED_SCANS, effort.rounds, effort.turn_us].map(|n| n.to_string()));
     let output = tools::run(&mut command)?;
     same_checksums(&output)?;
-    let times = |line: &str| {
-        line.split(' ')
-            .skip(3)
-            .filter_map(|n| n.parse().ok())
-            .collect()
-    };
-    Ok(output.lines().map(times).collect())
+    Ok(output.lines().map(outcome).collect())
+}
+
+/// A line of what `host.c` prints.
+fn outcome(line: &str) -> Outcome {
+    let mut words = line.split(' ').skip(1);
+    let sum = words
+        .next()
+        .and_then(|sum| u32::from_str_radix(sum, 16).ok());
+    Outcome {
+        sum: sum.unwrap_or_default(),
+        times: words.skip(1).filter_map(|n| n.parse().ok()).collect(),
+    }
 }
 
 /// All implementations must have done the same.

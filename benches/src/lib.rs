@@ -1,9 +1,13 @@
 //! Benchmarks of rungc: what it emits, beside the C that an engineer would write by hand, in the same run and with the same compilers;
 //! how long compiling takes; how fast the interpreter is. `docs/benchmarks.md` tells the method.
 
+pub mod compile;
+pub mod embedded;
 pub mod host;
+pub mod interp;
 pub mod ladder;
 pub mod problem;
+pub mod pulses;
 pub mod random;
 pub mod subject;
 pub mod table;

@@ -1,10 +1,12 @@
 //! `cargo run --release -p rungc-benches`: prints tables, and writes JSON.
 
 use clap::{Parser, ValueEnum};
+use rungc_benches::compile::{self, Work};
 use rungc_benches::host::{self, Effort};
 use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
 use rungc_benches::table::Table;
+use rungc_benches::{embedded, interp, pulses};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -20,6 +22,12 @@ struct Args {
     /// What to measure; by default everything.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
     only: Vec<Section>,
+    /// Do one piece of work, which another process measures.
+    #[arg(long, hide = true, requires = "steps")]
+    work: Option<Work>,
+    /// Length of the program for --work.
+    #[arg(long, hide = true)]
+    steps: Option<u32>,
 }
 
 /// What is measured.
@@ -31,6 +39,16 @@ enum Section {
     Stations,
     /// Time of a scan with timers, counters and arithmetic.
     Mixed,
+    /// Bytes on a microcontroller.
+    Size,
+    /// Instructions of a scan on a microcontroller.
+    Icount,
+    /// How long compiling takes, and how much memory.
+    Compile,
+    /// How fast the interpreter is.
+    Interp,
+    /// How fast pulse outputs are simulated.
+    Pulses,
 }
 
 impl Section {
@@ -39,25 +57,62 @@ impl Section {
             Section::Contacts => time(Kind::Contacts, quick),
             Section::Stations => time(Kind::Stations, quick),
             Section::Mixed => time(Kind::Mixed, quick),
+            Section::Size => Ok(vec![
+                embedded::size_table(embedded_sizes(quick))?,
+                embedded::image_table()?,
+            ]),
+            Section::Icount => Ok(vec![embedded::count_table(embedded_sizes(quick))?]),
+            Section::Compile => Ok(vec![
+                compile::table(compiled_sizes(quick), if quick { 2 } else { 5 })?,
+                compile::native_table(16_000)?,
+            ]),
+            Section::Interp => Ok(vec![interp::table(10_000, effort(quick))?]),
+            Section::Pulses => Ok(vec![pulses::table(if quick { 2 } else { 10 })?]),
         }
     }
 }
 
-fn time(kind: Kind, quick: bool) -> Result<Vec<Table>> {
-    let effort = Effort {
+fn effort(quick: bool) -> Effort {
+    Effort {
         rounds: if quick { 21 } else { 51 },
         turn_us: 2000,
-    };
+    }
+}
+
+fn time(kind: Kind, quick: bool) -> Result<Vec<Table>> {
     let sizes: &[u32] = match (quick, kind) {
         (true, _) => &[1000],
         (false, Kind::Stations) => &[1000, 5000, 100_000],
         (false, _) => &[1000, 10_000, 100_000],
     };
-    Ok(vec![host::table(kind, sizes, effort)?])
+    Ok(vec![host::table(kind, sizes, effort(quick))?])
+}
+
+/// Lengths of programs that fit into a microcontroller.
+fn embedded_sizes(quick: bool) -> &'static [u32] {
+    if quick { &[1000] } else { &[1000, 5000] }
+}
+
+/// Lengths of programs that are compiled.
+fn compiled_sizes(quick: bool) -> &'static [u32] {
+    if quick {
+        &[10_000, 100_000]
+    } else {
+        &[10_000, 100_000, 1_000_000]
+    }
 }
 
 fn main() -> ExitCode {
     let args = Args::parse();
+    if let (Some(work), Some(steps)) = (args.work, args.steps) {
+        return match compile::work_once(work, steps) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(problem) => {
+                eprintln!("{problem}");
+                ExitCode::FAILURE
+            }
+        };
+    }
     let mut all = Vec::new();
     let mut failed = false;
     for &section in Section::value_variants() {

@@ -16,6 +16,15 @@ const SUBJECT_H: &str = include_str!("../templates/subject.h");
 /// The adaptor of emitted Rust.
 const RUST_ADAPTOR: &str = include_str!("../templates/adaptor.rs");
 
+/// How far the input that changes before a scan is from the one before: all of them have their turn (`templates/subject.h`).
+pub const INPUT_STRIDE: usize = 37;
+
+/// Where Rust is built: beside the workspace's own output, so that what all programs share is built once.
+const RUST_OUTPUT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../target/benches");
+
+/// The runtime that emitted Rust depends on.
+const RUNTIME: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../runtime-rt");
+
 /// What is measured.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Code {
@@ -50,9 +59,9 @@ pub struct CSubject {
 /// An implementation of a program in Rust.
 #[derive(Clone, Debug)]
 pub struct RustSubject {
-    /// Begin of its names.
-    pub prefix: String,
     folder: PathBuf,
+    /// Of the crate.
+    name: String,
 }
 
 /// Object files.
@@ -66,7 +75,12 @@ pub struct Objects {
 
 /// The program as the compiler's IR, with names that begin with `name`.
 pub fn module(ladder: &Ladder, name: &str) -> Result<Module> {
-    let read = rungc_frontend::read_text("ladder.il", &ladder.list());
+    module_of(&ladder.list(), name)
+}
+
+/// A list as the compiler's IR.
+pub fn module_of(list: &str, name: &str) -> Result<Module> {
+    let read = rungc_frontend::read_text("ladder.il", list);
     let options = CompileOptions {
         model: Some(ModelId::Fx3u),
         name: Some(name.to_string()),
@@ -74,12 +88,7 @@ pub fn module(ladder: &Ladder, name: &str) -> Result<Module> {
         ..CompileOptions::default()
     };
     let module = compile(&read.program, &options).module;
-    module.ok_or_else(|| {
-        Problem::Wrong(format!(
-            "a program of {} steps does not compile",
-            ladder.steps
-        ))
-    })
+    module.ok_or_else(|| Problem::Wrong(format!("{name} does not compile")))
 }
 
 /// The devices that change from scan to scan: all inputs and the mode flags.
@@ -224,7 +233,7 @@ fn rust_adaptor(ladder: &Ladder, module: &Module, prefix: &str) -> Result<String
     for device in inputs() {
         // Writing to a String does not fail.
         let _ = match place(device) {
-            Some(place) => writeln!(input_list, "    &raw mut PLC.{place} as *mut u8,"),
+            Some(place) => writeln!(input_list, "    &raw mut (*PLC).{place} as *mut u8,"),
             None => writeln!(input_list, "    &raw mut NOWHERE,"),
         };
     }
@@ -233,7 +242,7 @@ fn rust_adaptor(ladder: &Ladder, module: &Module, prefix: &str) -> Result<String
     for (place, bytes) in &devices {
         let _ = writeln!(
             device_list,
-            "    Device {{ at: &raw const PLC.{place} as *const u8, bytes: {bytes} }},"
+            "    Device {{ at: &raw const (*PLC).{place} as *const u8, bytes: {bytes} }},"
         );
     }
     Ok(RUST_ADAPTOR
@@ -284,35 +293,34 @@ impl RustSubject {
     pub fn new(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<Self> {
         let folder = folder.join(prefix);
         let module = module(ladder, prefix)?;
-        let files = rungc_codegen_rust::emit(&module, &rungc_codegen_rust::Options::default());
-        for file in files {
+        let options = rungc_codegen_rust::Options {
+            main: false,
+            runtime: rungc_codegen_rust::Runtime::At(RUNTIME.to_string()),
+        };
+        for file in rungc_codegen_rust::emit(&module, &options) {
             let text = match file.path.as_str() {
                 "Cargo.toml" => file.text.replace("[workspace]\n", ""),
                 _ => file.text,
             };
             tools::write(&folder.join("program").join(&file.path), &text)?;
         }
+        let name = format!("{prefix}_{}_{}", ladder.kind.name(), ladder.steps);
         let manifest = format!(
-            "[package]\nname = \"adaptor\"\nedition = \"2024\"\n\n[lib]\npath = \"lib.rs\"\ncrate-type = [\"staticlib\"]\n\n\
-             [dependencies]\n{prefix} = {{ path = \"program\" }}\nrungc-rt = {{ path = \"program/rungc-rt\" }}\n\n\
+            "[package]\nname = {name:?}\nedition = \"2024\"\n\n[lib]\npath = \"lib.rs\"\ncrate-type = [\"staticlib\"]\n\n\
+             [dependencies]\n{prefix} = {{ path = \"program\" }}\nrungc-rt = {{ path = {RUNTIME:?} }}\n\n\
              [profile.release]\npanic = \"abort\"\n\n[workspace]\nmembers = [\"program\"]\n"
         );
         tools::write(&folder.join("Cargo.toml"), &manifest)?;
-        tools::write(
-            &folder.join("lib.rs"),
-            &rust_adaptor(ladder, &module, prefix)?,
-        )?;
-        Ok(RustSubject {
-            prefix: prefix.to_string(),
-            folder,
-        })
+        let adaptor = rust_adaptor(ladder, &module, prefix)?;
+        tools::write(&folder.join("lib.rs"), &adaptor)?;
+        Ok(RustSubject { folder, name })
     }
 
     /// Builds it as a static library. With a target, what is needed to build for that is in `cargo`.
     pub fn build(&self, mut cargo: Command, target: Option<&str>, level: &str) -> Result<PathBuf> {
-        let output = self.folder.join("target");
+        let output = Path::new(RUST_OUTPUT).join(level);
         cargo
-            .args(["build", "--release", "--quiet", "--offline"])
+            .args(["build", "--release", "--quiet"])
             .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level)
             .env("CARGO_TARGET_DIR", &output)
             .current_dir(&self.folder);
@@ -322,7 +330,7 @@ impl RustSubject {
             library.push(target);
         }
         tools::run(&mut cargo)?;
-        Ok(library.join("release/libadaptor.a"))
+        Ok(library.join(format!("release/lib{}.a", self.name)))
     }
 }
 

@@ -1,8 +1,9 @@
 //! An emitted program as a subject to measure (subject.h).
 #![cfg_attr(target_os = "none", no_std)]
-#![allow(static_mut_refs, unused_unsafe)]
+#![allow(unused_unsafe)]
 
 use core::ffi::c_char;
+use core::mem::MaybeUninit;
 use rungc_rt::{NoHal, Program};
 
 #[cfg(target_os = "none")]
@@ -33,15 +34,17 @@ pub struct Shared<T>(T);
 unsafe impl<T> Sync for Shared<T> {}
 
 static mut NOWHERE: u8 = 0;
-static mut PLC: @PROGRAM@ = <@PROGRAM@>::new();
+/// As C has it: without contents until it is reset.
+static mut MEMORY: MaybeUninit<@PROGRAM@> = MaybeUninit::uninit();
+const PLC: *mut @PROGRAM@ = &raw mut MEMORY as *mut @PROGRAM@;
 
 extern "C" fn reset() {
-    unsafe { PLC = <@PROGRAM@>::new() }
+    unsafe { PLC.write(<@PROGRAM@>::new()) }
 }
 
 #[unsafe(no_mangle)]
 pub extern "C" fn @PREFIX@_one_scan(now_ms: u32) {
-    unsafe { (*(&raw mut PLC)).scan(&mut NoHal, now_ms, 0) }
+    unsafe { (*PLC).scan(&mut NoHal, now_ms, 0) }
 }
 
 static INPUTS: Shared<[*mut u8; @INPUTS@]> = Shared(unsafe { [

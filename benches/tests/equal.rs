@@ -1,6 +1,7 @@
 //! The programs are the ones that figures are known for, and all implementations of them do the same.
 
 use rungc_benches::host::{self, Effort};
+use rungc_benches::interp;
 use rungc_benches::ladder::{Kind, Ladder};
 use rungc_benches::tools;
 
@@ -38,8 +39,14 @@ fn implementations_do_the_same() {
     };
     for kind in Kind::ALL {
         let ladder = Ladder::new(kind, 1000);
-        if let Err(problem) = host::time(&ladder, &["gcc"], false, effort) {
-            panic!("{}: {problem}", kind.name());
+        let all = match host::time(&ladder, &["gcc"], false, effort) {
+            Ok(all) => all,
+            Err(problem) => panic!("{}: {problem}", kind.name()),
+        };
+        let interpreter = interp::checksum(&ladder, host::CHECKED_SCANS).unwrap();
+        for timed in all {
+            let sum = timed.result.unwrap().sum;
+            assert_eq!(sum, interpreter, "{:?} of {}", timed.code, kind.name());
         }
     }
 }

@@ -152,8 +152,25 @@ impl Ladder {
         list::list(self)
     }
 
+    /// Bytes that the devices in use take, one for each bit: what a program needs at least.
+    pub fn device_bytes(&self) -> u32 {
+        let bytes = |class| match class {
+            DeviceClass::T => 8,
+            DeviceClass::C => 4,
+            DeviceClass::D => 2,
+            _ => 1,
+        };
+        self.used().iter().map(|(class, _)| bytes(*class)).sum()
+    }
+
     /// All devices but inputs, in order: what is compared between implementations.
     pub fn devices(&self) -> Vec<Device> {
+        let mut devices: BTreeSet<Device> = self.used();
+        devices.retain(|(class, _)| *class != DeviceClass::X);
+        devices.into_iter().collect()
+    }
+
+    fn used(&self) -> BTreeSet<Device> {
         let mut devices = BTreeSet::new();
         for rung in &self.rungs {
             let blocks = rung.block.iter().map(|(chain, _)| chain);
@@ -161,8 +178,7 @@ impl Ladder {
             devices.extend(chains.flat_map(Chain::contacts).map(|c| c.device));
             devices.extend(rung.action.devices());
         }
-        devices.retain(|(class, _)| *class != DeviceClass::X);
-        devices.into_iter().collect()
+        devices
     }
 }
 
