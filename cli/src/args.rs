@@ -1,6 +1,7 @@
 //! Arguments of the command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use rungc_firmware::target::{self, Target};
 use rungc_ir::ModelId;
 use rungc_syntax::{Severity, codes, diag};
 use std::path::PathBuf;
@@ -102,7 +103,27 @@ pub struct BuildArgs {
     /// What to make.
     #[arg(long, value_enum)]
     pub emit: Emit,
-    /// Folder (c, rust) or file (bin, ir) to write; for ir the default is standard output.
+    /// The machine to build for: `host`, or what rustc calls it, such as thumbv7em-none-eabihf. An image is for its board's.
+    #[arg(long, value_parser = target, value_name = "TARGET")]
+    pub target: Option<&'static Target>,
+    /// The board that an image is for (docs/boards.md); with c, the sources of the image.
+    #[arg(long, value_name = "FILE")]
+    pub board: Option<PathBuf>,
+    /// Inputs that switch themselves in an image, for a simulator: `X000=1@2s`; may be repeated or separated by commas.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "INPUT=VALUE[@TIME]",
+        requires = "board"
+    )]
+    pub set: Vec<String>,
+    /// When an image ends the simulator that it runs in: `30s`.
+    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME", requires = "board")]
+    pub duration: Option<u64>,
+    /// What cargo is told besides, such as `-Zbuild-std=core`; may be repeated.
+    #[arg(long, value_name = "ARG", allow_hyphen_values = true)]
+    pub cargo_arg: Vec<String>,
+    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Name of the program in the emitted code; by default made from the file's name.
@@ -229,6 +250,10 @@ pub enum Emit {
     Rust,
     /// An executable for this machine (through C).
     Bin,
+    /// A folder with a static library and its headers (through C).
+    Lib,
+    /// An image for a board (through C).
+    Elf,
 }
 
 /// What `convert` writes.
@@ -268,6 +293,13 @@ fn warning(name: &str) -> Result<&'static str, String> {
         Severity::Warning => Ok(code.id),
         Severity::Error => Err("an error cannot be left out".to_string()),
     }
+}
+
+fn target(name: &str) -> Result<&'static Target, String> {
+    target::find(name).ok_or_else(|| {
+        let names: Vec<_> = target::ALL.iter().map(|target| target.triple).collect();
+        format!("no such target; there are {}", names.join(", "))
+    })
 }
 
 fn model(name: &str) -> Result<ModelId, String> {

@@ -1,31 +1,16 @@
 //! The examples for a microcontroller build with what the README says and run under QEMU. Without the tools a test says what is missing and
 //! that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
+mod tools;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use tools::{cargo, leave_out, no_rust, tools};
 
 const TARGET: &str = "thumbv7em-none-eabihf";
 
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/stm32f405")
-}
-
-fn is_there(program: &str) -> bool {
-    Command::new(program).arg("--version").output().is_ok()
-}
-
-/// Says that a test does not run, or fails where it has to.
-fn leave_out(missing: &str) {
-    let required = std::env::var_os("RUNGC_REQUIRE_EMBEDDED").is_some();
-    assert!(!required, "missing: {missing}");
-    eprintln!("not run: there is no {missing}");
-}
-
-/// Whether all programs are there, or the test is to be left out.
-fn tools(programs: &[&str]) -> bool {
-    let missing: Vec<_> = programs.iter().filter(|name| !is_there(name)).collect();
-    missing.iter().for_each(|name| leave_out(name));
-    missing.is_empty()
 }
 
 /// `make`, in the folder of the C example, with another folder for what it makes.
@@ -80,8 +65,8 @@ fn stepper_in_c() {
     if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
         return;
     }
-    let Some(cargo) = cargo() else {
-        return leave_out(&format!("Rust for {TARGET} (rustup target add {TARGET})"));
+    let Some(cargo) = cargo(TARGET) else {
+        return leave_out(&no_rust(TARGET));
     };
     let build = tempfile::tempdir().unwrap();
     let log = build.path().join("log");
@@ -106,42 +91,13 @@ fn stepper_in_c() {
     assert_eq!(pulses(&log, 11), 1000);
 }
 
-/// A cargo that can build for the microcontroller: rustup's with the target, or a distribution's with the sources of `core`.
-fn cargo() -> Option<Command> {
-    let libraries = Command::new("rustc")
-        .args(["--print", "target-libdir", "--target", TARGET])
-        .output()
-        .ok()?;
-    let folder = String::from_utf8(libraries.stdout).ok()?;
-    let mut cargo = if Path::new(folder.trim()).exists() {
-        Command::new("cargo")
-    } else if Path::new("/usr/lib/rustlib/src/rust/library").exists() {
-        let mut cargo = Command::new("/usr/bin/cargo");
-        cargo
-            .env("RUSTC", "/usr/bin/rustc")
-            .env("RUSTC_BOOTSTRAP", "1")
-            .env("CARGO_UNSTABLE_BUILD_STD", "core")
-            .env(
-                "CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER",
-                "arm-none-eabi-ld",
-            );
-        cargo
-    } else {
-        return None;
-    };
-    for variable in ["CARGO", "RUSTUP_TOOLCHAIN", "RUSTFLAGS", "LD_LIBRARY_PATH"] {
-        cargo.env_remove(variable);
-    }
-    Some(cargo)
-}
-
 #[test]
 fn traffic_light_in_rust() {
     if !tools(&["arm-none-eabi-ld", "qemu-system-arm"]) {
         return;
     }
-    let Some(mut cargo) = cargo() else {
-        return leave_out(&format!("Rust for {TARGET} (rustup target add {TARGET})"));
+    let Some(mut cargo) = cargo(TARGET) else {
+        return leave_out(&no_rust(TARGET));
     };
     let folder = tempfile::tempdir().unwrap();
     let from = examples().join("rust");

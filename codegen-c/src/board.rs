@@ -1,4 +1,4 @@
-//! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events.
+//! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events and where it is asked for.
 
 use crate::events;
 use crate::fields::Fields;
@@ -9,6 +9,14 @@ use std::fmt::Write;
 
 /// What stands around the program's own.
 const BOARD_C: &str = include_str!("../include/board.c");
+
+/// What takes edges and counts.
+const EVENTS_C: &str = include_str!("../include/board_events.c");
+
+/// What a poll does with them.
+const TAKE_EVENTS: &str = "    const bool edges = take_edges(plc, board);
+    const bool counts = take_counts(plc, board);
+";
 
 /// The functions that a program with pulses has besides.
 const ON_TIMER: &str = "
@@ -80,7 +88,14 @@ pub fn source(module: &Module, runtime: bool) -> String {
         true => format!("{indent}PROGRAM_take_interrupts(plc);\n"),
         false => String::new(),
     };
+    let (events, take, changes) = match module.takes_events() {
+        true => (EVENTS_C, TAKE_EVENTS, "scans || edges || counts"),
+        false => ("", "", "scans"),
+    };
     let mut text = BOARD_C
+        .replace("/* EVENTS */\n", events)
+        .replace("/* TAKE */\n", take)
+        .replace("/* CHANGES */", changes)
         .replace("/* INPUTS */", &inputs)
         .replace("/* OUTPUTS */", &outputs)
         .replace("/* CASES */", &cases)

@@ -62,8 +62,8 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         sources.push(path.clone());
         files.push(file(path, text));
     }
-    let takes_events = module.takes_events();
-    if takes_events {
+    let wired = options.board || module.takes_events();
+    if wired {
         let named = |path: &str, text: String| {
             let banner = banner(module, path);
             file(path, format!("/* {banner} */\n{text}"))
@@ -73,16 +73,16 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         files.push(named(&path, board::source(module, unit.runtime)));
         sources.push(path);
     }
-    files.extend(shared(unit.runtime, takes_events));
+    files.extend(shared(unit.runtime, wired));
     if options.main {
         files.push(file("main.c", crate::host::main_file(module)));
         sources.push("main.c".to_string());
     }
     let mut headers = format!("{name}.h rungc.h");
-    if unit.runtime || takes_events {
+    if unit.runtime || wired {
         headers.push_str(" rungc_rt.h");
     }
-    if takes_events {
+    if wired {
         let _ = write!(headers, " {name}_board.h rungc_board.h");
     }
     if several {
@@ -171,7 +171,7 @@ LIBRARY = rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a
 /// How it is built.
 const LIBRARY_RULE: &str = "\
 $(LIBRARY): $(shell find rungc-rt/src -name '*.rs') rungc-rt/Cargo.toml
-\tcd rungc-rt && $(CARGO) rustc --release --crate-type staticlib --features staticlib $(TARGET_FLAG)
+\tcd rungc-rt && $(CARGO) rustc --release --crate-type staticlib --features staticlib $(TARGET_FLAG) $(CARGOFLAGS)
 
 ";
 

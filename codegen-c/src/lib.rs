@@ -1,8 +1,8 @@
 //! C99 from rungc's IR.
 //!
 //! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all programs share, only if
-//! the program calls the runtime, the runtime's sources, and only if it takes events, the wiring between it and a board. [`batch`]
-//! makes one executable of many programs, for tests.
+//! the program calls the runtime, the runtime's sources, and if it takes events or it is asked for, the wiring between it and a board.
+//! [`batch`] makes one executable of many programs, for tests.
 //!
 //! How a program becomes C: `fields` decides on the struct, `plan` divides the program into functions of bounded size,
 //! `scopes` finds where temporaries live, `writer` and `expr` write statements and expressions, `unit` puts it all together.
@@ -34,6 +34,8 @@ use rungc_ir::Module;
 pub struct Options {
     /// Also a `main.c` for a Linux host that scans in real time.
     pub main: bool,
+    /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that does always has it.
+    pub board: bool,
 }
 
 /// A file of the output.

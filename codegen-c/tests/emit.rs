@@ -44,7 +44,7 @@ fn motor() -> rungc_ir::Module {
 
 #[test]
 fn motor_reads_well() {
-    let files = emit(&motor(), &Options { main: false });
+    let files = emit(&motor(), &Options::default());
     for file in files
         .iter()
         .filter(|f| f.path.starts_with("motor") || f.path == "Makefile")

@@ -98,7 +98,15 @@ fn instructions_of_the_runtime() {
 fn the_same_bytes_every_time() {
     let list =
         "FOR D1\nLD X0\nINC D0Z0\nNEXT\nLD X1\nCALL P1\nFEND\nP1\nLD X2\nOUT T0 K10\nSRET\nEND";
-    let emitted = || emit(&module(list, ModelId::H2u), &Options { main: true });
+    let emitted = || {
+        emit(
+            &module(list, ModelId::H2u),
+            &Options {
+                main: true,
+                ..Options::default()
+            },
+        )
+    };
     assert!(emitted() == emitted());
 }
 

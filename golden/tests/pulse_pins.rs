@@ -114,7 +114,7 @@ int main(void)
 fn compiled(module: &Module) -> String {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path();
-    for file in emit(module, &Options { main: false }) {
+    for file in emit(module, &Options::default()) {
         let path = path.join(&file.path);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writing");
         std::fs::write(path, file.text).expect("writing");

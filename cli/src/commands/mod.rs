@@ -5,6 +5,7 @@ pub mod check;
 pub mod convert;
 pub mod explain;
 pub mod run;
+pub mod setting;
 pub mod test;
 
 use crate::args::{Format, Input, Reporting};

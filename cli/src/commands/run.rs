@@ -8,6 +8,7 @@ mod simulate;
 mod view;
 mod wiring;
 
+use super::setting::{Setting, setting, target};
 use super::{Context, Failure, Result, conclude, findings, holder, read, stem, tell};
 use crate::args::RunArgs;
 use crate::report;
@@ -19,14 +20,6 @@ use rungc_sim::record::TEXT_LENGTH;
 use rungc_syntax::DeviceClass;
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// `X000=1@200ms`.
-#[derive(Clone, Debug, PartialEq)]
-struct Setting {
-    at_ms: u64,
-    target: Target,
-    value: f64,
-}
 
 /// How many devices are shown when none are asked for.
 const DEFAULT_COLUMNS: usize = 12;
@@ -103,67 +96,11 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     run.simulate(plant)
 }
 
-fn target(name: &str) -> std::result::Result<Target, Failure> {
-    let upper = upper(name);
-    match Target::parse(&upper).map_err(Failure::Because)? {
-        // A timer or counter is watched by its current value.
-        Target::Bit(class @ (DeviceClass::T | DeviceClass::C), n) => Ok(Target::Current(class, n)),
-        target => Ok(target),
-    }
-}
-
-/// Device letters in upper case, views (`.i32`) as they are.
-fn upper(name: &str) -> String {
-    let (device, view) = name
-        .trim()
-        .split_once('.')
-        .map_or((name.trim(), None), |(d, v)| (d, Some(v)));
-    let device = device.to_uppercase();
-    view.map_or(device.clone(), |view| {
-        format!("{device}.{}", view.to_lowercase())
-    })
-}
-
 /// What a watched device is called: T0 rather than T0.value, since it is seen at once that it is a number.
 fn name(target: Target) -> String {
     match target {
         Target::Current(class, n) => class.number(n).to_string(),
         other => other.to_string(),
-    }
-}
-
-fn setting(text: &str) -> std::result::Result<Setting, Failure> {
-    let wrong = |why: String| Failure::Because(format!("--set {text}: {why}"));
-    let (name, rest) = text
-        .split_once('=')
-        .ok_or_else(|| wrong("write DEVICE=VALUE, for example X000=1@200ms".to_string()))?;
-    let (value, at) = rest
-        .split_once('@')
-        .map_or((rest, None), |(value, at)| (value, Some(at)));
-    let at_ms = at.map_or(Ok(0), crate::time::parse).map_err(wrong)?;
-    let target = target(name).map_err(|error| wrong(error.to_string()))?;
-    let value: f64 = value
-        .trim()
-        .parse()
-        .map_err(|_| wrong(format!("`{value}` is no number")))?;
-    let fits = match target {
-        Target::Bit(..) => value == 0.0 || value == 1.0,
-        Target::Word(..) => value.fract() == 0.0 && (-32768.0..=65535.0).contains(&value),
-        Target::Float(..) => true,
-        Target::Text(..) => return Err(wrong("characters cannot be set here".to_string())),
-        Target::Pulses(_) | Target::Frequency(_) => {
-            return Err(wrong("pulses are the program's to send".to_string()));
-        }
-        _ => value.fract() == 0.0 && (-2_147_483_648.0..=4_294_967_295.0).contains(&value),
-    };
-    if fits {
-        Ok(Setting {
-            at_ms,
-            target,
-            value,
-        })
-    } else {
-        Err(wrong(format!("`{value}` does not fit `{target}`")))
     }
 }
 
@@ -253,34 +190,4 @@ fn default_watch(module: &Module) -> Vec<Target> {
         .chain(relays.map(|n| Target::Bit(DeviceClass::M, n)))
         .take(DEFAULT_COLUMNS)
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn settings_are_read() {
-        let read = setting("x010=1@200ms").unwrap();
-        assert_eq!(
-            read,
-            Setting {
-                at_ms: 200,
-                target: Target::Bit(DeviceClass::X, 8),
-                value: 1.0
-            }
-        );
-        assert_eq!(setting("D0.i32=-70000").unwrap().value, -70000.0);
-        for wrong in [
-            "X000",
-            "X000=2",
-            "X008=1",
-            "D0=70000",
-            "D0=x",
-            "D0=1@soon",
-            "Q1=1",
-        ] {
-            assert!(setting(wrong).is_err(), "{wrong}");
-        }
-    }
 }

@@ -310,7 +310,13 @@ pub fn program_text(module: &Module) -> String {
 /// Builds a program with its host's `main.c`, types these commands, and returns what it prints within four seconds.
 pub fn run_host(module: &Module, commands: &str) -> String {
     let folder = tempfile::tempdir().expect("a folder for the C files");
-    for file in emit(module, &Options { main: true }) {
+    for file in emit(
+        module,
+        &Options {
+            main: true,
+            ..Options::default()
+        },
+    ) {
         std::fs::write(folder.path().join(&file.path), &file.text).expect("writing C");
     }
     for cc in compilers() {

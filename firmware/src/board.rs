@@ -1,0 +1,520 @@
+//! The description of a board, in TOML: docs/boards.md.
+
+use crate::target::{self, Target};
+use rungc_syntax::{DeviceClass, Source};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A board.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Board {
+    /// What it is called.
+    pub name: String,
+    /// Its processor.
+    pub target: &'static Target,
+    /// Where programs and constants are.
+    pub flash: Region,
+    /// Where data and the stack are.
+    pub ram: Region,
+    /// At least so many bytes of RAM are left for the stack.
+    pub stack: u32,
+    /// The clock that SysTick counts, in Hz.
+    pub clock_hz: u32,
+    /// From one tick to the next, in microseconds: the steps in which time goes on.
+    pub tick_us: u32,
+    /// From the begin of a scan to the begin of the next one, in microseconds; 0: one at each tick.
+    pub scan_us: u32,
+    /// Whether outputs that change are printed for a debugger or a simulator.
+    pub console: bool,
+    /// What is written to registers before anything else, in this order.
+    pub setup: Vec<Setup>,
+    /// Pins of inputs X, by plain numbers.
+    pub inputs: BTreeMap<u32, InputPin>,
+    /// Pins of outputs Y.
+    pub outputs: BTreeMap<u32, OutputPin>,
+    /// C functions of the user that stand for fields of `rungc_hal` and `rungc_board`, and `init`; by the fields' names.
+    pub functions: BTreeMap<String, String>,
+    /// C sources and headers with these functions: as named, and where they are.
+    pub sources: Vec<(String, PathBuf)>,
+    /// Handlers of the device's interrupts among these functions, by numbers.
+    pub interrupts: BTreeMap<u32, String>,
+}
+
+/// A run of memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Region {
+    /// First address.
+    pub origin: u32,
+    /// How many bytes.
+    #[serde(deserialize_with = "bytes")]
+    pub length: u32,
+}
+
+/// A change of a register: what it holds, without the bits of `clear`, with those of `set`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setup {
+    /// Its address.
+    pub at: u32,
+    /// Bits that go off.
+    #[serde(default)]
+    pub clear: u32,
+    /// Bits that go on.
+    #[serde(default)]
+    pub set: u32,
+}
+
+/// A bit of a register that an input follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InputPin {
+    /// The register's address.
+    pub at: u32,
+    /// The bit.
+    pub bit: u32,
+    /// The input is on while the bit is off.
+    #[serde(default)]
+    pub inverted: bool,
+}
+
+/// How an output is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputPin {
+    /// A bit of a register, which keeps its other bits.
+    Bit {
+        /// The register's address.
+        at: u32,
+        /// The bit.
+        bit: u32,
+        /// The bit is off while the output is on.
+        inverted: bool,
+    },
+    /// Words written to registers that set and reset pins.
+    Words {
+        /// Address and word that switch it on.
+        on: (u32, u32),
+        /// Address and word that switch it off.
+        off: (u32, u32),
+    },
+}
+
+/// What is wrong with a description, with its place.
+#[derive(Debug, thiserror::Error)]
+pub enum BoardError {
+    /// It cannot be read.
+    #[error("{}: {error}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// It is not as it should be.
+    #[error("{place}: {message}")]
+    Wrong {
+        /// File, line and column.
+        place: String,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Format {
+    name: String,
+    target: toml::Spanned<String>,
+    #[serde(default)]
+    console: Option<Console>,
+    memory: Memory,
+    clock: Clock,
+    #[serde(default)]
+    setup: Vec<Setup>,
+    #[serde(default)]
+    inputs: BTreeMap<toml::Spanned<String>, InputPin>,
+    #[serde(default)]
+    outputs: BTreeMap<toml::Spanned<String>, toml::Spanned<Output>>,
+    #[serde(default)]
+    functions: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
+    #[serde(default)]
+    sources: Vec<toml::Spanned<String>>,
+    #[serde(default)]
+    interrupts: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
+}
+
+#[derive(Deserialize, Clone, Copy)]
+#[serde(rename_all = "lowercase")]
+enum Console {
+    Semihosting,
+    None,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Memory {
+    flash: Region,
+    ram: Region,
+    #[serde(default = "default_stack", deserialize_with = "bytes")]
+    stack: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Clock {
+    hz: toml::Spanned<u32>,
+    #[serde(default = "default_tick_us")]
+    tick_us: u32,
+    #[serde(default = "default_scan_us")]
+    scan_us: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Output {
+    at: u32,
+    off_at: Option<u32>,
+    bit: Option<u32>,
+    #[serde(default)]
+    inverted: bool,
+    on: Option<u32>,
+    off: Option<u32>,
+}
+
+fn default_stack() -> u32 {
+    1024
+}
+
+fn default_tick_us() -> u32 {
+    1000
+}
+
+fn default_scan_us() -> u32 {
+    10_000
+}
+
+/// A number of bytes: `131072` or `"128K"`.
+fn bytes<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<u32, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(
+        untagged,
+        expecting = "a number of bytes: 131072 or \"128K\" or \"1M\""
+    )]
+    enum Size {
+        Number(u32),
+        Text(String),
+    }
+    let read = |text: &str| {
+        let text = text.trim();
+        let (digits, factor) = match text.char_indices().last() {
+            Some((at, 'K')) => (&text[..at], 1024),
+            Some((at, 'M')) => (&text[..at], 1024 * 1024),
+            _ => (text, 1),
+        };
+        let number: u32 = digits.trim().parse().ok()?;
+        number.checked_mul(factor)
+    };
+    match Size::deserialize(reader)? {
+        Size::Number(number) => Ok(number),
+        Size::Text(text) => read(&text).ok_or_else(|| {
+            serde::de::Error::custom(format!(
+                "`{text}` is no size: write for example 131072, \"128K\" or \"1M\""
+            ))
+        }),
+    }
+}
+
+/// Fields of `rungc_hal` and `rungc_board` that a function may stand for, and what the function is.
+pub const FUNCTIONS: [(&str, &str); 13] = [
+    ("init", "void NAME(void)"),
+    (
+        "input",
+        "bool NAME(void *context, uint16_t number, bool *on)",
+    ),
+    (
+        "set_output",
+        "void NAME(void *context, uint16_t number, bool on)",
+    ),
+    ("clock", "bool NAME(void *context, rungc_clock *clock)"),
+    (
+        "set_clock",
+        "bool NAME(void *context, const rungc_clock *clock)",
+    ),
+    (
+        "read_bfm",
+        "bool NAME(void *context, uint16_t unit, uint16_t address, int16_t *value)",
+    ),
+    (
+        "write_bfm",
+        "bool NAME(void *context, uint16_t unit, uint16_t address, int16_t value)",
+    ),
+    (
+        "analog",
+        "bool NAME(void *context, uint8_t channel, int16_t *value)",
+    ),
+    ("hold_pulses", "void NAME(void *context, bool hold)"),
+    ("now_us", "uint32_t NAME(void *context)"),
+    ("next_edge", "bool NAME(void *context, rungc_edge *edge)"),
+    (
+        "counted",
+        "bool NAME(void *context, unsigned counter, rungc_count *count)",
+    ),
+    ("wake_in", "void NAME(void *context, uint32_t us)"),
+];
+
+/// Reads a description. Sources that it names are looked for beside it.
+pub fn load(path: &Path) -> Result<Board, BoardError> {
+    let text = std::fs::read_to_string(path).map_err(|error| BoardError::Io {
+        path: path.to_path_buf(),
+        error,
+    })?;
+    let source = Source::new(path.display().to_string(), text);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    parse(&source, folder)
+}
+
+/// Reads a description whose sources are in `folder`.
+pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
+    let reader = Reader { source };
+    let format: Format = toml::from_str(&source.text).map_err(|error| {
+        let at = error.span().map_or(0, |span| span.start);
+        reader.wrong(at, error.message().to_string())
+    })?;
+    reader.board(format, folder)
+}
+
+struct Reader<'s> {
+    source: &'s Source,
+}
+
+type Spanned = toml::Spanned<String>;
+
+impl Reader<'_> {
+    fn wrong(&self, at: usize, message: String) -> BoardError {
+        let (line, column) = self.source.line_col(at as u32);
+        BoardError::Wrong {
+            place: format!("{}:{line}:{column}", self.source.name),
+            message,
+        }
+    }
+
+    fn at<T>(&self, item: &toml::Spanned<T>, message: String) -> BoardError {
+        self.wrong(item.span().start, message)
+    }
+
+    fn board(&self, format: Format, folder: &Path) -> Result<Board, BoardError> {
+        let target = self.target(&format.target)?;
+        let (clock_hz, tick_us) = self.clock(&format.clock)?;
+        let inputs = format
+            .inputs
+            .into_iter()
+            .map(|(name, pin)| {
+                Ok((
+                    self.terminal(&name, DeviceClass::X)?,
+                    self.input(&name, pin)?,
+                ))
+            })
+            .collect::<Result<_, BoardError>>()?;
+        let outputs = format
+            .outputs
+            .into_iter()
+            .map(|(name, pin)| Ok((self.terminal(&name, DeviceClass::Y)?, self.output(&pin)?)))
+            .collect::<Result<_, BoardError>>()?;
+        let board = Board {
+            name: format.name,
+            target,
+            flash: format.memory.flash,
+            ram: format.memory.ram,
+            stack: format.memory.stack,
+            clock_hz,
+            tick_us,
+            scan_us: format.clock.scan_us,
+            console: matches!(format.console, Some(Console::Semihosting)),
+            setup: format.setup,
+            inputs,
+            outputs,
+            functions: self.functions(format.functions)?,
+            sources: self.sources(&format.sources, folder)?,
+            interrupts: self.interrupts(format.interrupts)?,
+        };
+        self.consistent(&board)?;
+        Ok(board)
+    }
+
+    fn target(&self, name: &Spanned) -> Result<&'static Target, BoardError> {
+        let known: Vec<_> = target::ALL
+            .iter()
+            .filter(|target| target.is_bare())
+            .map(|target| target.triple)
+            .collect();
+        match target::find(name.get_ref()) {
+            Some(target) if target.is_bare() => Ok(target),
+            _ => Err(self.at(
+                name,
+                format!("no such target; there are {}", known.join(", ")),
+            )),
+        }
+    }
+
+    /// The clock's rate, and the tick, which SysTick has to reach with 24 bits.
+    fn clock(&self, clock: &Clock) -> Result<(u32, u32), BoardError> {
+        let hz = *clock.hz.get_ref();
+        let counts = u64::from(hz) * u64::from(clock.tick_us) / 1_000_000;
+        if !(2..=1 << 24).contains(&counts) {
+            return Err(self.at(
+                &clock.hz,
+                format!(
+                    "a tick of {} µs is {counts} counts of this clock; SysTick has 2 to 16 777 216",
+                    clock.tick_us
+                ),
+            ));
+        }
+        Ok((hz, clock.tick_us))
+    }
+
+    fn terminal(&self, name: &Spanned, class: DeviceClass) -> Result<u32, BoardError> {
+        let upper = name.get_ref().to_uppercase();
+        let digits = upper.strip_prefix(class.prefix());
+        digits
+            .and_then(|digits| u32::from_str_radix(digits, 8).ok())
+            .ok_or_else(|| {
+                let what = format!(
+                    "`{}` is no terminal: write {}",
+                    name.get_ref(),
+                    class.number(8)
+                );
+                self.at(name, what)
+            })
+    }
+
+    fn input(&self, name: &Spanned, pin: InputPin) -> Result<InputPin, BoardError> {
+        match pin.bit {
+            0..32 => Ok(pin),
+            _ => Err(self.at(name, "a register has the bits 0 to 31".to_string())),
+        }
+    }
+
+    fn output(&self, pin: &toml::Spanned<Output>) -> Result<OutputPin, BoardError> {
+        let Output {
+            at,
+            off_at,
+            bit,
+            inverted,
+            on,
+            off,
+        } = *pin.get_ref();
+        match (bit, on, off) {
+            (Some(bit @ 0..32), None, None) if off_at.is_none() => {
+                Ok(OutputPin::Bit { at, bit, inverted })
+            }
+            (None, Some(on), Some(off)) if !inverted => Ok(OutputPin::Words {
+                on: (at, on),
+                off: (off_at.unwrap_or(at), off),
+            }),
+            _ => Err(self.at(
+                pin,
+                "an output has either `at` and `bit` (0 to 31, perhaps `inverted`), or `at`, `on` and `off` (perhaps `off_at`)"
+                    .to_string(),
+            )),
+        }
+    }
+
+    fn functions(
+        &self,
+        functions: BTreeMap<Spanned, Spanned>,
+    ) -> Result<BTreeMap<String, String>, BoardError> {
+        let mut known = BTreeMap::new();
+        for (field, function) in functions {
+            let name = field.get_ref().clone();
+            if !FUNCTIONS.iter().any(|(known, _)| *known == name) {
+                let all: Vec<_> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
+                let what = format!("no such function; there are {}", all.join(", "));
+                return Err(self.at(&field, what));
+            }
+            known.insert(name, self.identifier(function)?);
+        }
+        Ok(known)
+    }
+
+    fn interrupts(
+        &self,
+        interrupts: BTreeMap<Spanned, Spanned>,
+    ) -> Result<BTreeMap<u32, String>, BoardError> {
+        let mut known = BTreeMap::new();
+        for (number, handler) in interrupts {
+            let at: Option<u32> = number.get_ref().parse().ok().filter(|n| *n < 480);
+            let at = at.ok_or_else(|| {
+                self.at(
+                    &number,
+                    "a device's interrupt has a number from 0 to 479".to_string(),
+                )
+            })?;
+            known.insert(at, self.identifier(handler)?);
+        }
+        Ok(known)
+    }
+
+    fn identifier(&self, name: Spanned) -> Result<String, BoardError> {
+        let text = name.get_ref();
+        let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let good = text.chars().all(word) && !text.starts_with(|c: char| c.is_ascii_digit());
+        match good && !text.is_empty() {
+            true => Ok(name.into_inner()),
+            false => Err(self.at(&name, format!("`{text}` is no name of a C function"))),
+        }
+    }
+
+    fn sources(
+        &self,
+        sources: &[Spanned],
+        folder: &Path,
+    ) -> Result<Vec<(String, PathBuf)>, BoardError> {
+        let mut known = Vec::new();
+        for source in sources {
+            let name = source.get_ref();
+            let path = folder.join(name);
+            let kind = Path::new(name).extension().and_then(|e| e.to_str());
+            let file = Path::new(name).file_name().and_then(|f| f.to_str());
+            let file = file.filter(|_| matches!(kind, Some("c" | "h")));
+            let Some(file) = file else {
+                let what = format!("`{name}`: sources are files *.c and *.h");
+                return Err(self.at(source, what));
+            };
+            if !path.is_file() {
+                return Err(self.at(source, format!("there is no file {}", path.display())));
+            }
+            known.push((file.to_string(), path));
+        }
+        Ok(known)
+    }
+
+    /// What no single line of it shows.
+    fn consistent(&self, board: &Board) -> Result<(), BoardError> {
+        let both = [
+            ("input", !board.inputs.is_empty(), "[inputs]"),
+            ("set_output", !board.outputs.is_empty(), "[outputs]"),
+        ];
+        for (function, pins, table) in both {
+            if pins && board.functions.contains_key(function) {
+                let what = format!(
+                    "both {table} and the function `{function}`: pins have one or the other"
+                );
+                return Err(self.wrong(0, what));
+            }
+        }
+        let code = board.sources.iter().any(|(name, _)| name.ends_with(".c"));
+        let named = !board.functions.is_empty() || !board.interrupts.is_empty();
+        if named && !code {
+            let what = "functions are named, but no `sources` that have them";
+            return Err(self.wrong(0, what.to_string()));
+        }
+        for (region, name) in [(board.flash, "flash"), (board.ram, "ram")] {
+            if region.origin.checked_add(region.length).is_none() || region.length == 0 {
+                let what = format!("`{name}` has no bytes, or more than addresses reach");
+                return Err(self.wrong(0, what));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,231 @@
+//! Calls of the compilers for another machine, and what to say where one is missing.
+
+use crate::image::OutFile;
+use crate::target::Target;
+use std::env;
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Why nothing was built.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// A compiler or a library for the target is missing.
+    #[error("{0}")]
+    Missing(String),
+    /// A compiler or `make` failed.
+    #[error("{what} failed:\n{said}")]
+    Failed {
+        /// Which.
+        what: String,
+        /// What it printed.
+        said: String,
+    },
+    /// Files could not be written or read.
+    #[error("{}: {error}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+}
+
+/// The compilers for a target, by the environment: `CC_thumbv7em_none_eabihf` and `AR_…` name C's, `CARGO` and `RUSTC` Rust's.
+#[derive(Clone, Debug)]
+pub struct Tools {
+    target: &'static Target,
+    cc: OsString,
+    ar: OsString,
+    cargo: OsString,
+    rustc: OsString,
+    cargo_args: Vec<String>,
+}
+
+fn variable(name: &str, default: &str) -> OsString {
+    env::var_os(name).unwrap_or_else(|| default.into())
+}
+
+fn io(path: &Path) -> impl FnOnce(std::io::Error) -> BuildError + '_ {
+    move |error| BuildError::Io {
+        path: path.to_path_buf(),
+        error,
+    }
+}
+
+impl Tools {
+    /// The compilers for a target; cargo is called with `cargo_args` besides what it needs.
+    pub fn new(target: &'static Target, cargo_args: &[String]) -> Self {
+        let named = |tool: &str, name: &str| {
+            let of_target = format!("{tool}_{}", target.variable());
+            variable(&of_target, name)
+        };
+        Tools {
+            target,
+            cc: named("CC", target.cc),
+            ar: named("AR", target.ar),
+            cargo: variable("CARGO", "cargo"),
+            rustc: variable("RUSTC", "rustc"),
+            cargo_args: cargo_args.to_vec(),
+        }
+    }
+
+    /// Looks whether C can be built.
+    pub fn check_c(&self) -> Result<(), BuildError> {
+        let Target {
+            triple, packages, ..
+        } = self.target;
+        let found = Command::new(&self.cc).arg("--version").output();
+        if found.is_err() {
+            return Err(BuildError::Missing(format!(
+                "there is no {}, which compiles C for {triple}: Debian and Ubuntu have it in `apt install {packages}`; \
+                 CC_{} names another compiler",
+                self.cc.display(),
+                self.target.variable()
+            )));
+        }
+        let folder = tempfile::tempdir().map_err(io(Path::new("temporary folder")))?;
+        let probe = folder.path().join("probe.c");
+        fs::write(&probe, "#include <string.h>\n").map_err(io(&probe))?;
+        let read = Command::new(&self.cc).arg("-E").arg(&probe).output();
+        if !read.is_ok_and(|output| output.status.success()) {
+            return Err(BuildError::Missing(format!(
+                "{} has no C library for {triple} (string.h): Debian and Ubuntu have it in `apt install {packages}`",
+                self.cc.display()
+            )));
+        }
+        Ok(())
+    }
+
+    /// Looks whether Rust can be built. A cargo that is told to build the standard library itself needs none.
+    pub fn check_rust(&self) -> Result<(), BuildError> {
+        let builds_std = env::var_os("CARGO_UNSTABLE_BUILD_STD").is_some()
+            || self.cargo_args.iter().any(|arg| arg.contains("build-std"));
+        if builds_std {
+            return Ok(());
+        }
+        let mut ask = Command::new(&self.rustc);
+        ask.args(["--print", "target-libdir"]);
+        if let Some(name) = self.target.rustc_name() {
+            ask.args(["--target", name]);
+        }
+        let triple = self.target.triple;
+        let Ok(output) = ask.output() else {
+            return Err(BuildError::Missing(format!(
+                "there is no {}: the runtime that the program calls is built with Rust (https://rustup.rs)",
+                self.rustc.display()
+            )));
+        };
+        let folder = String::from_utf8_lossy(&output.stdout);
+        if output.status.success() && Path::new(folder.trim()).is_dir() {
+            return Ok(());
+        }
+        Err(BuildError::Missing(format!(
+            "the Rust toolchain has no library for {triple}: `rustup target add {triple}` gets it"
+        )))
+    }
+
+    /// Runs `make` in a folder for the target.
+    fn make(&self, folder: &Path) -> Result<(), BuildError> {
+        let assign = |name: &str, value: &OsStr| {
+            let mut text = OsString::from(name);
+            text.push("=");
+            text.push(value);
+            text
+        };
+        let mut make = Command::new("make");
+        make.arg("-C")
+            .arg(folder)
+            .arg(assign("CC", &self.cc))
+            .arg(assign("AR", &self.ar))
+            .arg(assign("CARGO", &self.cargo))
+            .arg(assign("CARGOFLAGS", self.cargo_args.join(" ").as_ref()));
+        for variable in ["MAKEFLAGS", "MAKELEVEL", "MFLAGS"] {
+            make.env_remove(variable);
+        }
+        let output = make.output().map_err(|error| {
+            BuildError::Missing(format!(
+                "cannot run make: {error}; it calls the compilers for {}",
+                self.target.triple
+            ))
+        })?;
+        succeeded("make", output)
+    }
+
+    /// Looks for the compilers that sources in C need, and runs `make` on them in a folder of their own.
+    fn build_c(&self, files: &[OutFile]) -> Result<tempfile::TempDir, BuildError> {
+        self.check_c()?;
+        if calls_runtime(files) {
+            self.check_rust()?;
+        }
+        let folder = write(files)?;
+        self.make(folder.path())?;
+        Ok(folder)
+    }
+
+    /// Builds what `make` makes of sources in C under this name: an executable or an image.
+    pub fn c_program(&self, files: &[OutFile], name: &str) -> Result<Vec<u8>, BuildError> {
+        let folder = self.build_c(files)?;
+        read(&folder.path().join(name))
+    }
+
+    /// Builds a library of sources in C: its headers, `libNAME.a`, and if the program calls it the runtime.
+    pub fn c_library(
+        &self,
+        files: &[OutFile],
+        name: &str,
+    ) -> Result<Vec<(String, Vec<u8>)>, BuildError> {
+        let folder = self.build_c(files)?;
+        let is_header = |path: &str| path.ends_with(".h") && path != format!("{name}_internal.h");
+        let mut library: Vec<(String, Vec<u8>)> = files
+            .iter()
+            .filter(|(path, _)| is_header(path))
+            .map(|(path, text)| (path.clone(), text.clone().into_bytes()))
+            .collect();
+        let own = format!("lib{name}.a");
+        library.push((own.clone(), read(&folder.path().join(own))?));
+        if calls_runtime(files) {
+            let triple = self.target.rustc_name().unwrap_or_default();
+            let path = folder
+                .path()
+                .join("rungc-rt/target")
+                .join(triple)
+                .join("release");
+            let runtime = "librungc_rt.a";
+            library.push((runtime.to_string(), read(&path.join(runtime))?));
+        }
+        Ok(library)
+    }
+}
+
+/// Whether the runtime's sources are among the files.
+fn calls_runtime(files: &[OutFile]) -> bool {
+    files.iter().any(|(path, _)| path.contains("rungc-rt/"))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, BuildError> {
+    fs::read(path).map_err(io(path))
+}
+
+fn succeeded(what: &str, output: Output) -> Result<(), BuildError> {
+    if output.status.success() {
+        return Ok(());
+    }
+    Err(BuildError::Failed {
+        what: what.to_string(),
+        said: String::from_utf8_lossy(&output.stderr).into_owned(),
+    })
+}
+
+/// Writes files into a new temporary folder.
+fn write(files: &[OutFile]) -> Result<tempfile::TempDir, BuildError> {
+    let folder = tempfile::tempdir().map_err(io(Path::new("temporary folder")))?;
+    for (path, text) in files {
+        let path = folder.path().join(path);
+        let parent = path.parent().unwrap_or(folder.path());
+        fs::create_dir_all(parent).map_err(io(&path))?;
+        fs::write(&path, text).map_err(io(&path))?;
+    }
+    Ok(folder)
+}

@@ -1,0 +1,86 @@
+//! The sources of an image: a program, a board, and what stands between reset and the first scan.
+
+mod c;
+
+use crate::board::Board;
+use rungc_ir::Module;
+use rungc_ir::node::FunctionKind;
+use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+
+pub use c::project as c_project;
+
+/// A file to write, its path relative to the output folder.
+pub type OutFile = (String, String);
+
+/// What an image does by itself, for a simulator.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Script {
+    /// Inputs that switch themselves and do not follow their pins: milliseconds since the start, X, whether on. In order of time.
+    pub inputs: Vec<(u32, u32, bool)>,
+    /// When the simulator ends, in milliseconds.
+    pub until_ms: Option<u32>,
+}
+
+/// An image to be made.
+#[derive(Clone, Copy, Debug)]
+pub struct Image<'a> {
+    /// The program.
+    pub module: &'a Module,
+    /// The board.
+    pub board: &'a Board,
+    /// What happens by itself.
+    pub script: &'a Script,
+}
+
+/// Numbers of the terminals of a class that a program looks at.
+fn terminals(module: &Module, class: DeviceClass) -> impl Iterator<Item = u32> {
+    let areas = module.layout.areas.iter().filter(move |a| a.class == class);
+    areas.flat_map(|a| a.first..a.first + a.count)
+}
+
+impl Image<'_> {
+    /// Inputs whose edges the program takes, in order.
+    fn watched(&self) -> Vec<u32> {
+        let edges = self.module.functions.iter().filter_map(|f| match f.kind {
+            FunctionKind::InputEdge { input, .. } => Some(input),
+            _ => None,
+        });
+        let mut watched: Vec<u32> = edges.collect();
+        watched.sort_unstable();
+        watched.dedup();
+        watched
+    }
+
+    /// Terminals of the program that the board has no pin for and no function either, by their names.
+    pub fn unconnected(&self) -> Vec<String> {
+        let has = |function: &str| self.board.functions.contains_key(function);
+        let scripted = |n: &u32| self.script.inputs.iter().any(|(_, x, _)| x == n);
+        let inputs = terminals(self.module, DeviceClass::X)
+            .filter(|n| !self.board.inputs.contains_key(n) && !has("input") && !scripted(n));
+        let outputs = terminals(self.module, DeviceClass::Y)
+            .filter(|n| !self.board.outputs.contains_key(n) && !has("set_output"));
+        let name = |class: DeviceClass| move |n: u32| class.number(n).to_string();
+        inputs
+            .map(name(DeviceClass::X))
+            .chain(outputs.map(name(DeviceClass::Y)))
+            .collect()
+    }
+}
+
+/// The linker script, the same for both backends.
+fn linker_script(board: &Board) -> String {
+    let region = |r: crate::board::Region| format!("0x{:08X}, LENGTH = {}", r.origin, r.length);
+    let mut text = format!("/* Memory of {}. */\n", comment(&board.name));
+    let script = include_str!("../templates/image.ld")
+        .replace("/* FLASH */", &region(board.flash))
+        .replace("/* RAM */", &region(board.ram))
+        .replace("/* STACK */", &board.stack.to_string());
+    let _ = write!(text, "{script}");
+    text
+}
+
+/// A text that may stand in a comment.
+fn comment(text: &str) -> String {
+    text.replace(char::is_control, " ").replace("*/", "* /")
+}

@@ -1,0 +1,10 @@
+//! From a compiled program to a library or an image for another machine.
+//!
+//! [`target`] lists the machines, [`board`] reads the description of a board, [`image`] writes the sources of an image for it,
+//! [`sources`] those of a library, and [`build`] calls the compilers.
+
+pub mod board;
+pub mod build;
+pub mod image;
+pub mod sources;
+pub mod target;

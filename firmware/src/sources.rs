@@ -1,0 +1,54 @@
+//! Emitted sources that build for a target as they are.
+
+use crate::image::OutFile;
+use crate::target::Target;
+use rungc_ir::Module;
+
+/// A folder of C whose `make` builds for the target.
+pub fn c(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
+    let options = rungc_codegen_c::Options {
+        main,
+        ..Default::default()
+    };
+    let files = rungc_codegen_c::emit(module, &options).into_iter();
+    files
+        .map(|f| match (f.path.as_str(), target.rustc_name()) {
+            ("Makefile", Some(triple)) => (f.path, makefile(&f.text, target, triple)),
+            _ => (f.path, f.text),
+        })
+        .collect()
+}
+
+/// A Makefile that builds for a target unless it is told otherwise. Its first line tells what it builds.
+fn makefile(text: &str, target: &Target, triple: &str) -> String {
+    let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
+    let Target {
+        cc,
+        ar,
+        flags,
+        title,
+        ..
+    } = target;
+    let optimise = if target.is_bare() { "-Os" } else { "-O2" };
+    let cflags = format!(
+        "-std=c99 {optimise} -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections {flags}"
+    );
+    format!(
+        "{first}\n# For {triple}: {title}.\nCC = {cc}\nAR = {ar}\nCFLAGS = {}\nTARGET = {triple}\n{rest}",
+        cflags.trim_end()
+    )
+}
+
+/// A Rust crate that cargo builds for the target.
+pub fn rust(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
+    let options = rungc_codegen_rust::Options {
+        main,
+        ..Default::default()
+    };
+    let files = rungc_codegen_rust::emit(module, &options).into_iter();
+    let config = target.rustc_name().map(|triple| {
+        let text = format!("[build]\ntarget = \"{triple}\"\n");
+        (".cargo/config.toml".to_string(), text)
+    });
+    files.map(|f| (f.path, f.text)).chain(config).collect()
+}

@@ -1,0 +1,119 @@
+//! The machines that libraries and images are built for: one row each.
+
+/// A machine that code is built for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Target {
+    /// The name by which rustc knows it; `host` for this machine.
+    pub triple: &'static str,
+    /// What it is, for people.
+    pub title: &'static str,
+    /// Its C compiler.
+    pub cc: &'static str,
+    /// What makes libraries of its objects.
+    pub ar: &'static str,
+    /// Debian's packages with these tools and a C library.
+    pub packages: &'static str,
+    /// What the C compiler has to be told of the processor.
+    pub flags: &'static str,
+    /// What runs below a program.
+    pub system: System,
+}
+
+/// What runs below a program.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum System {
+    /// Nothing: images are for a board.
+    Bare,
+    /// Linux, or what this machine has: executables.
+    Linux,
+}
+
+const HOST: Target = Target {
+    triple: "host",
+    title: "this machine",
+    cc: "cc",
+    ar: "ar",
+    packages: "gcc libc6-dev",
+    flags: "",
+    system: System::Linux,
+};
+
+const BARE_PACKAGES: &str = "gcc-arm-none-eabi libnewlib-arm-none-eabi";
+
+const fn cortex(triple: &'static str, title: &'static str, flags: &'static str) -> Target {
+    Target {
+        triple,
+        title,
+        cc: "arm-none-eabi-gcc",
+        ar: "arm-none-eabi-ar",
+        packages: BARE_PACKAGES,
+        flags,
+        system: System::Bare,
+    }
+}
+
+/// All of them.
+pub static ALL: [Target; 6] = [
+    HOST,
+    cortex(
+        "thumbv6m-none-eabi",
+        "Cortex-M0, M0+",
+        "-mcpu=cortex-m0 -mthumb -mfloat-abi=soft",
+    ),
+    cortex(
+        "thumbv7m-none-eabi",
+        "Cortex-M3",
+        "-mcpu=cortex-m3 -mthumb -mfloat-abi=soft",
+    ),
+    cortex(
+        "thumbv7em-none-eabi",
+        "Cortex-M4 and M7 without floating point unit",
+        "-mcpu=cortex-m4 -mthumb -mfloat-abi=soft",
+    ),
+    cortex(
+        "thumbv7em-none-eabihf",
+        "Cortex-M4F and M7F",
+        "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16",
+    ),
+    Target {
+        triple: "armv7-unknown-linux-gnueabihf",
+        title: "32-bit Arm Linux",
+        cc: "arm-linux-gnueabihf-gcc",
+        ar: "arm-linux-gnueabihf-ar",
+        packages: "gcc-arm-linux-gnueabihf libc6-dev-armhf-cross",
+        flags: "",
+        system: System::Linux,
+    },
+];
+
+/// The machine that rungc runs on.
+pub fn host() -> &'static Target {
+    &ALL[0]
+}
+
+/// The target of this name.
+pub fn find(triple: &str) -> Option<&'static Target> {
+    ALL.iter().find(|target| target.triple == triple)
+}
+
+impl Target {
+    /// The name as it stands in names of variables: `thumbv7em_none_eabihf`.
+    pub fn variable(&self) -> String {
+        self.triple.replace('-', "_")
+    }
+
+    /// What `--target` tells rustc and cargo; `None` for this machine.
+    pub fn rustc_name(&self) -> Option<&'static str> {
+        (*self != HOST).then_some(self.triple)
+    }
+
+    /// Whether nothing runs below a program.
+    pub fn is_bare(&self) -> bool {
+        self.system == System::Bare
+    }
+
+    /// Whether code is built for it with a floating point unit, which is off behind reset.
+    pub fn has_fpu(&self) -> bool {
+        self.is_bare() && self.triple.ends_with("hf")
+    }
+}
