@@ -329,7 +329,7 @@ int main(void)
 "#;
 
 fn write(module: &Module, path: &std::path::Path) {
-    for file in emit(module, &Options { main: false }) {
+    for file in emit(module, &Options::default()) {
         let path = path.join(&file.path);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writing");
         std::fs::write(path, file.text).expect("writing");
