@@ -179,7 +179,13 @@ fn native(ladder: &Ladder) -> Result<(Duration, Duration, bool)> {
     let list = ladder.list();
     let start = Instant::now();
     let module = subject::module_of(&list, "ladder")?;
-    let files = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options { main: true });
+    let files = rungc_codegen_c::emit(
+        &module,
+        &rungc_codegen_c::Options {
+            main: true,
+            ..Default::default()
+        },
+    );
     for file in &files {
         tools::write(&folder.path().join(&file.path), &file.text)?;
     }
