@@ -28,48 +28,92 @@ pub fn rt_class(class: DeviceClass) -> Option<Class> {
 struct Presence {
     exists: bool,
     latched: bool,
-    special: bool,
+    /// An input or a special device, which neither M8031 nor M8032 clears.
+    spared: bool,
 }
 
-/// The devices of one class, by number.
+/// Where the devices of a class are in their bank: number 0 at `start`.
+#[derive(Clone, Copy, Default)]
+struct Row {
+    start: u32,
+    length: u32,
+}
+
+/// A bit device in the bank of all bits, which every device of the model is in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct BitSlot(u32);
+
+impl BitSlot {
+    /// The slot so many numbers on in the same class.
+    pub(crate) fn plus(self, numbers: u32) -> Self {
+        BitSlot(self.0.wrapping_add(numbers))
+    }
+}
+
+/// The devices of some classes, one class behind the other.
 struct Bank<T> {
     cells: Vec<T>,
     presence: Vec<Presence>,
+    /// By class.
+    rows: [Row; CLASSES],
 }
 
+/// How many classes are storage.
+const CLASSES: usize = Class::ER as usize + 1;
+
 impl<T: Clone + Default> Bank<T> {
-    /// The devices of `class` whose numbers `wanted` accepts.
-    fn new(model: &'static Model, class: DeviceClass, wanted: impl Fn(u32) -> bool) -> Self {
+    /// The devices of `classes` whose numbers `wanted` accepts.
+    fn new(model: &'static Model, classes: &[DeviceClass], wanted: impl Fn(u32) -> bool) -> Self {
         let mut presence = Vec::new();
-        for range in model.ranges_of(class) {
-            let special = is_special(class, range.first);
-            for number in (range.first..=range.last).filter(|&n| wanted(n)) {
-                let i = number as usize;
-                if presence.len() <= i {
-                    presence.resize(i + 1, Presence::default());
+        let mut rows = [Row::default(); CLASSES];
+        for &name in classes {
+            let Some(class) = rt_class(name) else {
+                continue;
+            };
+            let start = presence.len();
+            for range in model.ranges_of(name) {
+                let spared = class == Class::X || is_special(name, range.first);
+                for number in (range.first..=range.last).filter(|&n| wanted(n)) {
+                    let i = start + number as usize;
+                    if presence.len() <= i {
+                        presence.resize(i + 1, Presence::default());
+                    }
+                    presence[i] = Presence {
+                        exists: true,
+                        latched: range.latched,
+                        spared,
+                    };
                 }
-                presence[i] = Presence {
-                    exists: true,
-                    latched: range.latched,
-                    special,
-                };
             }
+            rows[class as usize] = Row {
+                start: start as u32,
+                length: (presence.len() - start) as u32,
+            };
         }
         Bank {
             cells: vec![T::default(); presence.len()],
             presence,
+            rows,
         }
     }
 
-    fn get(&self, number: u32) -> Option<&T> {
-        let i = number as usize;
-        self.presence.get(i).filter(|p| p.exists)?;
+    /// Where a device is, if the model has it.
+    fn slot(&self, class: Class, number: u32) -> Option<usize> {
+        let row = self.rows[class as usize];
+        if number >= row.length {
+            return None;
+        }
+        let i = (row.start + number) as usize;
+        self.presence[i].exists.then_some(i)
+    }
+
+    fn get(&self, class: Class, number: u32) -> Option<&T> {
+        let i = self.slot(class, number)?;
         self.cells.get(i)
     }
 
-    fn get_mut(&mut self, number: u32) -> Option<&mut T> {
-        let i = number as usize;
-        self.presence.get(i).filter(|p| p.exists)?;
+    fn get_mut(&mut self, class: Class, number: u32) -> Option<&mut T> {
+        let i = self.slot(class, number)?;
         self.cells.get_mut(i)
     }
 
@@ -85,18 +129,11 @@ impl<T: Clone + Default> Bank<T> {
 
 /// All devices of a model.
 pub(crate) struct Devices {
-    x: Bank<bool>,
-    y: Bank<bool>,
-    m: Bank<bool>,
-    s: Bank<bool>,
+    bits: Bank<bool>,
+    words: Bank<i16>,
     timers: Bank<Timer>,
     counters16: Bank<Counter16>,
     counters32: Bank<Counter32>,
-    d: Bank<i16>,
-    r: Bank<i16>,
-    v: Bank<i16>,
-    z: Bank<i16>,
-    er: Bank<i16>,
     /// Other names of index registers among the special registers: (D number, class, number).
     aliases: &'static [(u32, DeviceClass, u32)],
 }
@@ -104,20 +141,14 @@ pub(crate) struct Devices {
 impl Devices {
     /// The devices of `model`, all 0.
     pub(crate) fn new(model: &'static Model) -> Self {
+        use DeviceClass::{C, D, ER, M, R, S, T, V, X, Y, Z};
         let any = |_: u32| true;
         Devices {
-            x: Bank::new(model, DeviceClass::X, any),
-            y: Bank::new(model, DeviceClass::Y, any),
-            m: Bank::new(model, DeviceClass::M, any),
-            s: Bank::new(model, DeviceClass::S, any),
-            timers: Bank::new(model, DeviceClass::T, any),
-            counters16: Bank::new(model, DeviceClass::C, |n| n < FIRST_COUNTER32),
-            counters32: Bank::new(model, DeviceClass::C, |n| n >= FIRST_COUNTER32),
-            d: Bank::new(model, DeviceClass::D, any),
-            r: Bank::new(model, DeviceClass::R, any),
-            v: Bank::new(model, DeviceClass::V, any),
-            z: Bank::new(model, DeviceClass::Z, any),
-            er: Bank::new(model, DeviceClass::ER, any),
+            bits: Bank::new(model, &[X, Y, M, S], any),
+            words: Bank::new(model, &[D, R, V, Z, ER], any),
+            timers: Bank::new(model, &[T], any),
+            counters16: Bank::new(model, &[C], |n| n < FIRST_COUNTER32),
+            counters32: Bank::new(model, &[C], |n| n >= FIRST_COUNTER32),
             aliases: model.index_aliases,
         }
     }
@@ -135,94 +166,89 @@ impl Devices {
         (class, number)
     }
 
-    fn words(&self, class: Class) -> Option<&Bank<i16>> {
-        match class {
-            Class::D => Some(&self.d),
-            Class::R => Some(&self.r),
-            Class::V => Some(&self.v),
-            Class::Z => Some(&self.z),
-            Class::ER => Some(&self.er),
-            _ => None,
-        }
+    /// Where a bit device is; `None` for contacts of timers and counters, which are in their own memory.
+    pub(crate) fn bit_slot(&self, class: Class, number: u32) -> Option<BitSlot> {
+        let i = self.bits.slot(class, number)?;
+        u32::try_from(i).ok().map(BitSlot)
+    }
+
+    /// The bit in a slot.
+    pub(crate) fn bit_at(&self, slot: BitSlot) -> bool {
+        self.bits.cells.get(slot.0 as usize) == Some(&true)
     }
 
     pub(crate) fn bit(&self, class: Class, number: u32) -> Option<bool> {
         match class {
-            Class::X => self.x.get(number).copied(),
-            Class::Y => self.y.get(number).copied(),
-            Class::M => self.m.get(number).copied(),
-            Class::S => self.s.get(number).copied(),
-            Class::T => self.timers.get(number).map(|t| t.done),
-            Class::C if number < FIRST_COUNTER32 => self.counters16.get(number).map(|c| c.done),
-            Class::C => self.counters32.get(number).map(|c| c.done),
-            _ => None,
+            Class::T => self.timers.get(class, number).map(|t| t.done),
+            Class::C if number < FIRST_COUNTER32 => {
+                self.counters16.get(class, number).map(|c| c.done)
+            }
+            Class::C => self.counters32.get(class, number).map(|c| c.done),
+            _ => self.bits.get(class, number).copied(),
         }
     }
 
     pub(crate) fn bit_mut(&mut self, class: Class, number: u32) -> Option<&mut bool> {
         match class {
-            Class::X => self.x.get_mut(number),
-            Class::Y => self.y.get_mut(number),
-            Class::M => self.m.get_mut(number),
-            Class::S => self.s.get_mut(number),
-            Class::T => self.timers.get_mut(number).map(|t| &mut t.done),
+            Class::T => self.timers.get_mut(class, number).map(|t| &mut t.done),
             Class::C if number < FIRST_COUNTER32 => {
-                self.counters16.get_mut(number).map(|c| &mut c.done)
+                let counter = self.counters16.get_mut(class, number);
+                counter.map(|c| &mut c.done)
             }
-            Class::C => self.counters32.get_mut(number).map(|c| &mut c.done),
-            _ => None,
+            Class::C => {
+                let counter = self.counters32.get_mut(class, number);
+                counter.map(|c| &mut c.done)
+            }
+            _ => self.bits.get_mut(class, number),
         }
     }
 
     pub(crate) fn word(&self, class: Class, number: u32) -> Option<i16> {
         let (class, number) = self.canonical(class, number);
         match class {
-            Class::T => self.timers.get(number).map(|t| t.value),
-            Class::C => self.counters16.get(number).map(|c| c.value),
-            _ => self.words(class)?.get(number).copied(),
+            Class::T => self.timers.get(class, number).map(|t| t.value),
+            Class::C => self.counters16.get(class, number).map(|c| c.value),
+            _ => self.words.get(class, number).copied(),
         }
     }
 
     pub(crate) fn word_mut(&mut self, class: Class, number: u32) -> Option<&mut i16> {
         let (class, number) = self.canonical(class, number);
         match class {
-            Class::T => self.timers.get_mut(number).map(|t| &mut t.value),
-            Class::C => self.counters16.get_mut(number).map(|c| &mut c.value),
-            Class::D => self.d.get_mut(number),
-            Class::R => self.r.get_mut(number),
-            Class::V => self.v.get_mut(number),
-            Class::Z => self.z.get_mut(number),
-            Class::ER => self.er.get_mut(number),
-            Class::X | Class::Y | Class::M | Class::S => None,
+            Class::T => self.timers.get_mut(class, number).map(|t| &mut t.value),
+            Class::C => {
+                let counter = self.counters16.get_mut(class, number);
+                counter.map(|c| &mut c.value)
+            }
+            _ => self.words.get_mut(class, number),
         }
     }
 
     pub(crate) fn timer(&mut self, number: u32) -> Option<&mut Timer> {
-        self.timers.get_mut(number)
+        self.timers.get_mut(Class::T, number)
     }
 
     pub(crate) fn counter16(&mut self, number: u32) -> Option<&mut Counter16> {
-        self.counters16.get_mut(number)
+        self.counters16.get_mut(Class::C, number)
     }
 
     pub(crate) fn counter32(&self, number: u32) -> Option<&Counter32> {
-        self.counters32.get(number)
+        self.counters32.get(Class::C, number)
     }
 
     pub(crate) fn counter32_mut(&mut self, number: u32) -> Option<&mut Counter32> {
-        self.counters32.get_mut(number)
+        self.counters32.get_mut(Class::C, number)
     }
 
     /// M8031, M8032 and going to STOP: clears the general or the latched devices. Inputs and special devices stay.
     pub(crate) fn clear(&mut self, latched: bool) {
-        let pick = |p: Presence| p.latched == latched && !p.special;
+        let pick = |p: Presence| p.latched == latched && !p.spared;
         self.each_clear(pick);
     }
 
     /// Power off and on: only latched devices keep their value, if any do, and no coil remembers that it was on.
     pub(crate) fn power_off(&mut self, keeps_latched: bool) {
         let pick = |p: Presence| !(p.latched && keeps_latched);
-        self.x.clear(pick);
         self.each_clear(pick);
         self.forget_coils();
     }
@@ -241,18 +267,8 @@ impl Devices {
     }
 
     fn each_clear(&mut self, pick: impl Fn(Presence) -> bool + Copy) {
-        for bits in [&mut self.y, &mut self.m, &mut self.s] {
-            bits.clear(pick);
-        }
-        for words in [
-            &mut self.d,
-            &mut self.r,
-            &mut self.v,
-            &mut self.z,
-            &mut self.er,
-        ] {
-            words.clear(pick);
-        }
+        self.bits.clear(pick);
+        self.words.clear(pick);
         self.timers.clear(pick);
         self.counters16.clear(pick);
         self.counters32.clear(pick);

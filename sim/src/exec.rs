@@ -1,6 +1,7 @@
 //! What expressions and statements do, as [`rungc_ir::node`] specifies.
 
 use crate::devices::rt_class;
+use crate::logic::{Input, Join, Strided};
 use crate::machine::Machine;
 use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue};
 use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, TimerKind, report};
@@ -78,9 +79,7 @@ impl<'m> Machine<'m> {
             Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
             Expr::Sys(SysValue::NowMs) => Value::I32(self.sys.now_ms as i32),
             Expr::Sys(SysValue::Scan100us) => Value::I32((self.sys.scan_us / 100) as i32),
-            Expr::Not(a) => Value::Bit(!self.on(a)),
-            Expr::And(a, b) => Value::Bit(self.on(a) & self.on(b)),
-            Expr::Or(a, b) => Value::Bit(self.on(a) | self.on(b)),
+            Expr::Not(_) | Expr::And(..) | Expr::Or(..) => Value::Bit(self.on(id)),
             Expr::Cmp(op, a, b) => Value::Bit(match (self.eval(a), self.eval(b)) {
                 (Value::F32(a), Value::F32(b)) => op.holds(a, b),
                 (a, b) => op.holds(int(a), int(b)),
@@ -106,9 +105,38 @@ impl<'m> Machine<'m> {
         }
     }
 
-    /// A `Bit` expression's value.
+    /// A `Bit` expression's value: what its list leaves when its items are executed. The results of the blocks that are open
+    /// are bits of a number, that of the innermost is the lowest.
     pub(crate) fn on(&self, id: ExprId) -> bool {
-        self.eval(id) == Value::Bit(true)
+        let mut blocks = 0u64;
+        for item in self.logic.list(id) {
+            let input = match item.input {
+                Input::Bit(slot) => self.devices.bit_at(slot),
+                Input::Strided(i) => self.strided(i),
+                Input::Contact(class, n) => self.devices.bit(class, n).unwrap_or(false),
+                Input::Temp(temp) => self.temps[temp.0 as usize] == Value::Bit(true),
+                Input::Expr(id) => self.eval(id) == Value::Bit(true),
+                Input::Block => {
+                    let on = blocks & 1 == 1;
+                    blocks >>= 1;
+                    on
+                }
+            };
+            let input = u64::from(input != item.inverted);
+            blocks = match item.join {
+                Join::Load => blocks << 1 | input,
+                Join::And => blocks & (!1 | input),
+                Join::Or => blocks | input,
+            };
+        }
+        blocks & 1 == 1
+    }
+
+    /// A device in this round of the loop around.
+    fn strided(&self, i: u32) -> bool {
+        let Strided { first, round, by } = self.logic.strided[i as usize];
+        let round = int(self.temps[round.0 as usize]) as u32;
+        self.devices.bit_at(first.plus(round.wrapping_mul(by)))
     }
 
     /// The number of the device that a place names now; `None` if the index leads below 0.

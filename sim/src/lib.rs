@@ -6,6 +6,7 @@
 mod devices;
 pub mod engines;
 mod exec;
+mod logic;
 pub mod machine;
 pub mod plant;
 pub mod plctest;

@@ -5,6 +5,7 @@
 
 use crate::devices::Devices;
 use crate::exec::{Flow, Value};
+use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeKind, FunctionKind, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
@@ -57,6 +58,7 @@ impl Entries {
 pub struct Machine<'m> {
     pub(crate) module: &'m Module,
     entries: Entries,
+    pub(crate) logic: Logic,
     pub(crate) devices: Devices,
     pub(crate) temps: Vec<Value>,
     pub(crate) edges: Vec<bool>,
@@ -79,10 +81,12 @@ pub struct Machine<'m> {
 impl<'m> Machine<'m> {
     /// The machine at power-on, in RUN.
     pub fn new(module: &'m Module) -> Self {
+        let devices = Devices::new(module.model);
         let mut machine = Machine {
             module,
             entries: Entries::of(module),
-            devices: Devices::new(module.model),
+            logic: Logic::new(module, &devices),
+            devices,
             temps: module.temps.iter().map(|&ty| Value::zero(ty)).collect(),
             edges: vec![false; module.edges as usize],
             flags: vec![false; module.flags.len()],
@@ -230,7 +234,7 @@ impl Program for Machine<'_> {
     }
 
     fn take_interrupts(&mut self, hal: &mut dyn Hal) {
-        if !self.sys.running {
+        if !self.sys.running || self.entries.take_interrupts.is_none() {
             return;
         }
         self.restart_watchdog();
