@@ -1,5 +1,6 @@
 //! How long compiling takes, and how much memory: from a list to C and Rust, and to a program that runs.
 
+use crate::clock::{self, Clock};
 use crate::ladder::{Kind, Ladder};
 use crate::problem::{Problem, Result};
 use crate::subject;
@@ -69,9 +70,9 @@ impl Work {
 /// the process had in use at most: 0 where the system does not tell.
 pub fn work_once(work: Work, steps: u32) -> Result<()> {
     let list = Ladder::new(Kind::Contacts, steps).list();
-    let start = Instant::now();
+    let clock = Clock::start();
     let bytes = work.run(&list)?;
-    let taken = start.elapsed().as_secs_f64();
+    let taken = clock.taken().as_secs_f64();
     println!("{taken} {} {bytes}", peak_memory_kib().unwrap_or(0));
     Ok(())
 }
@@ -177,7 +178,7 @@ fn native(ladder: &Ladder) -> Result<(Duration, Duration, bool)> {
     tools::need(&["make", "cc"])?;
     let folder = tools::folder()?;
     let list = ladder.list();
-    let start = Instant::now();
+    let clock = Clock::start();
     let module = subject::module_of(&list, "ladder")?;
     let files = rungc_codegen_c::emit(
         &module,
@@ -189,9 +190,13 @@ fn native(ladder: &Ladder) -> Result<(Duration, Duration, bool)> {
     for file in &files {
         tools::write(&folder.path().join(&file.path), &file.text)?;
     }
-    let emitting = start.elapsed();
-    let start = Instant::now();
+    let emitting = clock.taken();
+    let (start, before) = (Instant::now(), clock::of_others());
     tools::run(Command::new("make").arg("-C").arg(folder.path()))?;
+    let making = match (before, clock::of_others()) {
+        (Some(before), Some(now)) => now.saturating_sub(before),
+        _ => start.elapsed(),
+    };
     let library = files.iter().any(|file| file.path.starts_with("rungc-rt/"));
-    Ok((emitting, start.elapsed(), library))
+    Ok((emitting, making, library))
 }

@@ -4,7 +4,8 @@ use crate::ladder::{Kind, Ladder};
 use crate::problem::{Problem, Result};
 use crate::subject::{self, CSubject, Code, RustSubject};
 use crate::table::{Cell, Table};
-use crate::tools::{self, ARM_GCC, TARGET};
+use crate::tools;
+use rungc_firmware::target::CORTEX_M4F;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -32,14 +33,6 @@ const BOARD: [(&str, &str); 4] = [
 ];
 
 const LINKER_SCRIPT: &str = "stm32f405.ld";
-
-/// Which instructions there are.
-const MACHINE: [&str; 4] = [
-    "-mcpu=cortex-m4",
-    "-mthumb",
-    "-mfloat-abi=hard",
-    "-mfpu=fpv4-sp-d16",
-];
 
 /// Scans after each of which all devices are compared, and scans whose instructions are counted.
 const CHECKED_SCANS: u32 = 300;
@@ -173,10 +166,10 @@ fn build_c(
     level: Level,
     folder: &Path,
 ) -> Result<(Vec<PathBuf>, String)> {
-    tools::need(&[ARM_GCC])?;
+    tools::need(&[CORTEX_M4F.cc])?;
     let subject = CSubject::new(code, ladder, prefix, folder)?;
-    let options: Vec<&str> = MACHINE.iter().copied().chain([level.option()]).collect();
-    let mut objects = subject.compile(ARM_GCC, &options)?;
+    let options: Vec<&str> = machine().chain([level.option()]).collect();
+    let mut objects = subject.compile(CORTEX_M4F.cc, &options)?;
     objects.program.push(objects.adaptor);
     Ok((objects.program, format!("{prefix}_scan")))
 }
@@ -187,17 +180,22 @@ fn build_rust(
     level: Level,
     folder: &Path,
 ) -> Result<(Vec<PathBuf>, String)> {
-    let cargo = tools::embedded_cargo()?;
+    let cargo = tools::embedded_cargo(CORTEX_M4F.triple)?;
     let subject = RustSubject::new(ladder, prefix, folder)?;
-    let library = subject.build(cargo, Some(TARGET), level.rust())?;
+    let library = subject.build(cargo, CORTEX_M4F.rustc_name(), level.rust())?;
     Ok((vec![library], format!("{prefix}_one_scan")))
+}
+
+/// What the C compiler has to be told of the processor.
+fn machine() -> impl Iterator<Item = &'static str> {
+    CORTEX_M4F.flags.split_whitespace()
 }
 
 /// A command that links an image.
 fn linker(folder: &Path, image: &Path) -> Command {
-    let mut linker = Command::new(ARM_GCC);
+    let mut linker = Command::new(CORTEX_M4F.cc);
     linker
-        .args(MACHINE)
+        .args(machine())
         .args([
             "-std=c11",
             "-Os",
@@ -244,7 +242,7 @@ struct Counted {
 
 /// Counts in an image of its own, so that none uses what another one brings: Rust's `memset` is not newlib's.
 fn count_instructions(objects: &[PathBuf], prefix: &str, folder: &Path) -> Result<Counted> {
-    tools::need(&[ARM_GCC, tools::QEMU])?;
+    tools::need(&[CORTEX_M4F.cc, tools::QEMU])?;
     subject::write_list(folder, &[prefix])?;
     tools::write(&folder.join("bare.c"), BARE_C)?;
     let image = folder.join(format!("{prefix}-counted.elf"));
@@ -304,7 +302,7 @@ pub fn image_table() -> Result<Table> {
 
 /// Flash and RAM of the blinking lamp, with everything that an image needs.
 pub fn blink() -> Result<(u64, u64)> {
-    tools::need(&[ARM_GCC])?;
+    tools::need(&[CORTEX_M4F.cc])?;
     let folder = board_folder()?;
     let folder = folder.path();
     let module = subject::module_of(BLINK, "blink")?;

@@ -215,7 +215,14 @@ pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
     );
     for &size in sizes {
         let ladder = Ladder::new(kind, size);
-        let all = time(&ladder, &COMPILERS, true, effort)?;
+        let all = match time(&ladder, &COMPILERS, true, effort) {
+            Err(problem) if problem.is_missing() => {
+                let steps = Cell::count(ladder.steps.into());
+                table.row([steps, "all".into(), problem.to_string().into()]);
+                continue;
+            }
+            all => all?,
+        };
         for timed in &all {
             let mut row = vec![
                 Cell::count(ladder.steps.into()),

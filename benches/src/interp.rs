@@ -1,5 +1,6 @@
 //! How fast the interpreter is, which `rungc run` and `rungc test` use.
 
+use crate::clock::Clock;
 use crate::host::{self, Effort};
 use crate::ladder::{Kind, Ladder};
 use crate::problem::Result;
@@ -8,7 +9,7 @@ use crate::table::{Cell, Table};
 use rungc_rt::{NoHal, Plc, Program};
 use rungc_sim::{Machine, rt_class};
 use rungc_syntax::DeviceClass;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A machine whose inputs change as those of all other implementations do (`templates/subject.h`).
 struct Run<'m> {
@@ -81,12 +82,12 @@ fn steps_per_second(ladder: &Ladder, effort: Effort) -> Result<Vec<f64>> {
     let mut run = Run::new(&module);
     let turn = Duration::from_micros(effort.turn_us.into());
     let round = |_| {
-        let (start, mut scans) = (Instant::now(), 0u32);
-        while start.elapsed() < turn {
+        let (clock, mut scans) = (Clock::start(), 0u32);
+        while clock.taken() < turn {
             run.scan();
             scans += 1;
         }
-        f64::from(scans) * f64::from(ladder.steps) / start.elapsed().as_secs_f64()
+        f64::from(scans) * f64::from(ladder.steps) / clock.taken().as_secs_f64()
     };
     Ok((0..effort.rounds).map(round).collect())
 }

@@ -1,4 +1,4 @@
-//! `cargo run --release -p rungc-benches`: prints tables, and writes JSON.
+//! `cargo run --release -p rungc-benches`: prints tables, and writes JSON. `docs/benchmarks.md` tells the method.
 
 use clap::{Parser, ValueEnum};
 use rungc_benches::compile::{self, Work};
@@ -6,8 +6,8 @@ use rungc_benches::host::{self, Effort};
 use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
 use rungc_benches::table::Table;
-use rungc_benches::{embedded, interp, pulses};
-use std::path::PathBuf;
+use rungc_benches::{embedded, interp, pulses, tools};
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Measures what rungc emits beside C written by hand, and rungc itself.
@@ -19,6 +19,9 @@ struct Args {
     /// Also write the tables as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Also put the tables into a page, between the lines `<!-- tables -->` and `<!-- end of the tables -->`.
+    #[arg(long, value_name = "FILE")]
+    update: Option<PathBuf>,
     /// What to measure; by default everything.
     #[arg(long, value_enum, value_delimiter = ',', value_name = "LIST")]
     only: Vec<Section>,
@@ -113,7 +116,8 @@ fn main() -> ExitCode {
             }
         };
     }
-    let mut all = Vec::new();
+    let mut all = vec![tools::table()];
+    println!("{}", all[0]);
     let mut failed = false;
     for &section in Section::value_variants() {
         if !args.only.is_empty() && !args.only.contains(&section) {
@@ -130,16 +134,37 @@ fn main() -> ExitCode {
             }
         }
     }
-    if let Some(path) = args.json
-        && let Err(problem) = write_json(&path, &all)
-    {
-        eprintln!("{}: {problem}", path.display());
-        failed = true;
+    let written = [
+        args.json.map(|path| (write_json(&path, &all), path)),
+        args.update.map(|path| (update(&path, &all), path)),
+    ];
+    for (result, path) in written.into_iter().flatten() {
+        if let Err(problem) = result {
+            eprintln!("{}: {problem}", path.display());
+            failed = true;
+        }
     }
     ExitCode::from(u8::from(failed))
 }
 
-fn write_json(path: &std::path::Path, tables: &[Table]) -> std::io::Result<()> {
+fn write_json(path: &Path, tables: &[Table]) -> std::io::Result<()> {
     let text = serde_json::to_string_pretty(tables)?;
     std::fs::write(path, text + "\n")
+}
+
+/// Replaces the tables of a page.
+fn update(path: &Path, tables: &[Table]) -> std::io::Result<()> {
+    const BEGIN: &str = "<!-- tables -->\n";
+    const END: &str = "<!-- end of the tables -->\n";
+    let page = std::fs::read_to_string(path)?;
+    let parts = page.split_once(BEGIN).and_then(|(before, rest)| {
+        let (_, after) = rest.split_once(END)?;
+        Some((before, after))
+    });
+    let Some((before, after)) = parts else {
+        return Err(std::io::Error::other("there is no place for tables"));
+    };
+    let tables: Vec<String> = tables.iter().map(Table::to_string).collect();
+    let tables = tables.join("\n");
+    std::fs::write(path, format!("{before}{BEGIN}\n{tables}\n{END}{after}"))
 }

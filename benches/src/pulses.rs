@@ -1,12 +1,12 @@
 //! How fast pulse outputs are simulated.
 
+use crate::clock::Clock;
 use crate::problem::{Problem, Result};
 use crate::table::{Cell, Table};
 use rungc_ir::ModelId;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_rt::{Class, Hal, NoHal, Plc, Program};
 use rungc_sim::Machine;
-use std::time::Instant;
 
 /// Four outputs at 100 kHz: steady, with ramps, modulated, to a position.
 const PROGRAM: &str = "\
@@ -45,11 +45,11 @@ fn measure(what: &str, seconds: u32, mut scan: impl FnMut(&mut Machine, u32)) ->
     };
     let mut machine = Machine::new(&module);
     let _ = machine.set_bit(Class::X, 0, true);
-    let start = Instant::now();
+    let clock = Clock::start();
     for now_ms in (0..1000 * seconds).step_by(SCAN_MS as usize) {
         scan(&mut machine, now_ms);
     }
-    let taken = start.elapsed().as_secs_f64();
+    let taken = clock.taken().as_secs_f64();
     let sent = |n| i64::from(machine.pulses_sent(n)).unsigned_abs();
     let pulses: u64 = (0..4).map(sent).sum();
     Ok(vec![

@@ -1,15 +1,11 @@
 //! The programs of others that are needed: compilers, linkers, QEMU.
 
 use crate::problem::{Problem, Result};
+use crate::table::Table;
+use rungc_firmware::target::CORTEX_M4F;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-
-/// What a microcontroller's code is built for.
-pub const TARGET: &str = "thumbv7em-none-eabihf";
-
-/// C compiler for a microcontroller.
-pub const ARM_GCC: &str = "arm-none-eabi-gcc";
 
 /// QEMU for a microcontroller.
 pub const QEMU: &str = "qemu-system-arm";
@@ -32,14 +28,37 @@ pub fn need(programs: &[&str]) -> Result<()> {
     }
 }
 
+/// The machine, and what there is of tools.
+pub fn table() -> Table {
+    let mut table = Table::new("Measured on", &["what", "version"]);
+    table.row(["processor".into(), processor().into()]);
+    for program in ["gcc", "clang", "rustc", CORTEX_M4F.cc, QEMU] {
+        table.row([program.into(), version(program).into()]);
+    }
+    if cfg!(debug_assertions) {
+        table.row([
+            "rungc".into(),
+            "a debug build: times of rungc itself say nothing".into(),
+        ]);
+    }
+    table
+}
+
+/// Name of the processor, where Linux tells it.
+fn processor() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let mut fields = text.lines().filter_map(|line| line.split_once(':'));
+    let name = fields.find(|(field, _)| field.trim() == "model name");
+    name.map_or("not known".to_string(), |(_, name)| name.trim().to_string())
+}
+
 /// First line of what a program says of its version.
-pub fn version(program: &str) -> String {
-    let output = Command::new(program).arg("--version").output();
-    let text = output.map(|o| String::from_utf8_lossy(&o.stdout).into_owned());
-    let line = text
-        .ok()
-        .and_then(|text| text.lines().next().map(str::to_string));
-    line.unwrap_or_else(|| format!("{program}: not installed"))
+fn version(program: &str) -> String {
+    let text = run(Command::new(program).arg("--version"));
+    match text {
+        Ok(text) => text.lines().next().unwrap_or_default().to_string(),
+        Err(_) => "not installed".to_string(),
+    }
 }
 
 /// Runs a program; its standard output.
@@ -134,22 +153,27 @@ pub fn cargo() -> Command {
 }
 
 /// A cargo that can build for a microcontroller: rustup's with the target, or a distribution's with the sources of `core`.
-pub fn embedded_cargo() -> Result<Command> {
+pub fn embedded_cargo(target: &str) -> Result<Command> {
     let libraries =
-        run(Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]))?;
+        run(Command::new("rustc").args(["--print", "target-libdir", "--target", target]))?;
     if Path::new(libraries.trim()).exists() {
         return Ok(cargo());
     }
     if !Path::new("/usr/lib/rustlib/src/rust/library").exists() {
         return Err(Problem::Missing(format!(
-            "Rust for {TARGET} (rustup target add {TARGET})"
+            "Rust for {target} (rustup target add {target})"
         )));
     }
     let mut cargo = without_toolchain(Command::new("/usr/bin/cargo"));
+    let linker = format!(
+        "CARGO_TARGET_{}_LINKER",
+        target.to_uppercase().replace('-', "_")
+    );
     cargo
         .env("RUSTC", "/usr/bin/rustc")
         .env("RUSTC_BOOTSTRAP", "1")
-        .env("CARGO_UNSTABLE_BUILD_STD", "core");
+        .env("CARGO_UNSTABLE_BUILD_STD", "core")
+        .env(linker, "arm-none-eabi-ld");
     Ok(cargo)
 }
 

@@ -11,7 +11,8 @@
 static double now_ns(void)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    /* What others do meanwhile does not count. */
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
 }
 

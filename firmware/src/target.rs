@@ -52,6 +52,13 @@ const fn cortex(triple: &'static str, title: &'static str, flags: &'static str) 
     }
 }
 
+/// The microcontroller of most boards, and of the benchmarks.
+pub const CORTEX_M4F: Target = cortex(
+    "thumbv7em-none-eabihf",
+    "Cortex-M4F and M7F",
+    "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16",
+);
+
 /// All of them.
 pub static ALL: [Target; 6] = [
     HOST,
@@ -70,11 +77,7 @@ pub static ALL: [Target; 6] = [
         "Cortex-M4 and M7 without floating point unit",
         "-mcpu=cortex-m4 -mthumb -mfloat-abi=soft",
     ),
-    cortex(
-        "thumbv7em-none-eabihf",
-        "Cortex-M4F and M7F",
-        "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16",
-    ),
+    CORTEX_M4F,
     Target {
         triple: "armv7-unknown-linux-gnueabihf",
         title: "32-bit Arm Linux",

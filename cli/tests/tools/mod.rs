@@ -1,7 +1,6 @@
 //! Tools for another machine that tests need. Without them a test says what is missing and that it did not run; with
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
-use std::path::Path;
 use std::process::Command;
 
 fn is_there(program: &str) -> bool {
@@ -27,34 +26,7 @@ pub fn no_rust(target: &str) -> String {
     format!("Rust for {target} (rustup target add {target})")
 }
 
-/// A cargo that can build for a microcontroller: rustup's with the target, or a distribution's with the sources of `core`.
+/// A cargo that can build for a microcontroller.
 pub fn cargo(target: &str) -> Option<Command> {
-    let libraries = Command::new("rustc")
-        .args(["--print", "target-libdir", "--target", target])
-        .output()
-        .ok()?;
-    let folder = String::from_utf8(libraries.stdout).ok()?;
-    let mut cargo = if Path::new(folder.trim()).exists() {
-        Command::new("cargo")
-    } else if Path::new("/usr/lib/rustlib/src/rust/library").exists() {
-        let mut cargo = Command::new("/usr/bin/cargo");
-        cargo
-            .env("RUSTC", "/usr/bin/rustc")
-            .env("RUSTC_BOOTSTRAP", "1")
-            .env("CARGO_UNSTABLE_BUILD_STD", "core")
-            .env(
-                format!(
-                    "CARGO_TARGET_{}_LINKER",
-                    target.to_uppercase().replace('-', "_")
-                ),
-                "arm-none-eabi-ld",
-            );
-        cargo
-    } else {
-        return None;
-    };
-    for variable in ["CARGO", "RUSTUP_TOOLCHAIN", "RUSTFLAGS", "LD_LIBRARY_PATH"] {
-        cargo.env_remove(variable);
-    }
-    Some(cargo)
+    rungc_benches::tools::embedded_cargo(target).ok()
 }
