@@ -11,6 +11,11 @@
 #include "rungc.h"
 
 /**
+ * Inputs X whose edges an instruction takes notice of at once if it names them; others are looked at once a scan.
+ */
+#define Wiring_FAST_INPUTS 8
+
+/**
  * Device class. The numbers are part of the C ABI.
  */
 enum rungc_class
@@ -496,6 +501,10 @@ typedef struct rungc_site {
      * Whether the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
      */
     bool drive;
+    /**
+     * An input has changed that the instruction looks at, perhaps between two scans: it is driven as it was last ([`crate::Needs::signals`]).
+     */
+    bool signal;
 } rungc_site;
 
 /**

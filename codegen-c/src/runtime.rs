@@ -5,6 +5,15 @@ use crate::writer::Writer;
 use rungc_ir::node::{Arg, Expr, ExprId, Place, Stmt};
 use std::fmt::Write;
 
+/// Where a [`Stmt::Call`] stands, and what it is.
+struct Site {
+    wide: bool,
+    drive: Option<ExprId>,
+    signal: bool,
+    slot: u16,
+    step: u32,
+}
+
 impl Writer<'_, '_> {
     /// Writes a [`Stmt::Call`].
     pub fn runtime_call(&mut self, code: &mut String, stmt: &Stmt) {
@@ -13,6 +22,7 @@ impl Writer<'_, '_> {
             wide,
             args,
             drive,
+            signal,
             slot,
             step,
         } = stmt
@@ -20,7 +30,14 @@ impl Writer<'_, '_> {
             return;
         };
         let _ = write!(code, "rungc_{}(&map, ", function.name());
-        self.site(code, *wide, *drive, *slot, *step);
+        let site = Site {
+            wide: *wide,
+            drive: *drive,
+            signal: *signal,
+            slot: *slot,
+            step: *step,
+        };
+        self.site(code, &site);
         for i in 0..function.operands().len() {
             code.push_str(", ");
             match args.get(i) {
@@ -32,7 +49,14 @@ impl Writer<'_, '_> {
         code.push_str(");");
     }
 
-    fn site(&mut self, code: &mut String, wide: bool, drive: Option<ExprId>, slot: u16, step: u32) {
+    fn site(&mut self, code: &mut String, site: &Site) {
+        let Site {
+            wide,
+            drive,
+            signal,
+            slot,
+            step,
+        } = *site;
         let always = drive.is_none_or(|e| *self.module.expr(e) == Expr::Bit(true));
         if always && slot == 0 {
             let function = if wide { "rungc_wide_at" } else { "rungc_at" };
@@ -50,6 +74,9 @@ impl Writer<'_, '_> {
         match drive {
             Some(drive) => self.expr(code, drive, Around::Exact),
             None => code.push_str("true"),
+        }
+        if signal {
+            code.push_str(", .signal = true");
         }
         code.push('}');
     }

@@ -149,6 +149,7 @@ fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
                     FunctionKind::Subroutine(_)
                         | FunctionKind::Interrupt(_)
                         | FunctionKind::TakeInterrupts
+                        | FunctionKind::Signals
                         | FunctionKind::InputEdge { .. }
                 )
             );

@@ -614,6 +614,7 @@ pub fn function_name(out: &mut String, module: &Module, function: usize) {
             write!(out, "{name}_X{input:03o}_{}", kind.verb())
         }
         Some(FunctionKind::TakeInterrupts) => write!(out, "{name}_interrupts"),
+        Some(FunctionKind::Signals) => write!(out, "{name}_signals"),
         Some(FunctionKind::Main) | None => write!(out, "{name}_program"),
     };
 }

@@ -229,20 +229,27 @@ impl Generator<'_> {
         })
     }
 
-    fn input_edge(&self) -> TokenStream {
-        let edges: Vec<TokenStream> = self
-            .module
+    fn input_edge(&mut self) -> TokenStream {
+        let module = self.module;
+        let edges: Vec<TokenStream> = module
             .functions
             .iter()
-            .filter_map(|function| match function.kind {
+            .enumerate()
+            .filter_map(|(n, function)| match function.kind {
                 FunctionKind::InputEdge { input, kind } => {
+                    let needs_hal = self.calls.needs_hal.get(n).copied();
+                    // What holds pulses back has the program to itself here.
+                    let hal = needs_hal.unwrap_or(false).then(|| {
+                        let none = self.rt("NoHal");
+                        quote!(, &mut #none)
+                    });
                     let input = Literal::u32_unsuffixed(input);
                     let level = match kind {
                         EdgeKind::Rising => quote!(level),
                         EdgeKind::Falling => quote!(!level),
                     };
                     let name = format_ident!("{}", function_name(function));
-                    Some(quote!(if number == #input && #level { program::#name(self); }))
+                    Some(quote!(if number == #input && #level { program::#name(self #hal); }))
                 }
                 _ => None,
             })

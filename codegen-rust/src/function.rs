@@ -58,6 +58,9 @@ impl Generator<'_> {
             FunctionKind::TakeInterrupts => {
                 "Runs the interrupt routines that are requested.".to_string()
             }
+            FunctionKind::Signals => {
+                "An input has changed at which instructions look that send pulses.".to_string()
+            }
             FunctionKind::Interrupt(i) => self.pointer_doc("Interrupt routine", DeviceClass::I, i),
         };
         let name = self.unique_name(function_name(function));

@@ -266,6 +266,7 @@ pub fn function_name(function: &Function) -> String {
             format!("x{input:03o}_{}", kind.verb())
         }
         FunctionKind::TakeInterrupts => "interrupts".to_string(),
+        FunctionKind::Signals => "signals".to_string(),
         FunctionKind::Interrupt(n) => format!("interrupt_i{n:03}"),
     }
 }

@@ -7,7 +7,6 @@ use crate::generate::{Generator, function_name};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
-use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
@@ -165,14 +164,7 @@ impl Generator<'_> {
             Stmt::Return => quote!(return;),
             Stmt::Parts(parts) => self.parts(parts),
             Stmt::Goto(label) => self.goto(*label),
-            Stmt::Call {
-                function,
-                wide,
-                args,
-                drive,
-                slot,
-                step,
-            } => self.call(*function, *wide, args, *drive, *slot, *step),
+            Stmt::Call { .. } => self.call(stmt),
             Stmt::Fault { code, step } => {
                 let (report, fault) = (self.rt("report"), self.rt("Fault"));
                 let (code, step) = (
@@ -495,15 +487,19 @@ impl Generator<'_> {
         TokenStream::new()
     }
 
-    fn call(
-        &mut self,
-        function: RtFn,
-        wide: bool,
-        args: &[Arg],
-        drive: Option<ExprId>,
-        slot: u16,
-        step: u32,
-    ) -> TokenStream {
+    fn call(&mut self, stmt: &Stmt) -> TokenStream {
+        let Stmt::Call {
+            function,
+            wide,
+            ref args,
+            drive,
+            signal,
+            slot,
+            step,
+        } = *stmt
+        else {
+            return TokenStream::new();
+        };
         let (call, site) = (self.rt("call"), self.rt("Site"));
         self.uses.fnc_imports.insert(function.module());
         let module = format_ident!("{}", function.module());
@@ -520,6 +516,9 @@ impl Generator<'_> {
         if let Some(drive) = drive {
             let drive = self.expr(drive);
             site.extend(quote!(.driven(#drive)));
+        }
+        if signal {
+            site.extend(quote!(.signal()));
         }
         let args: Vec<TokenStream> = args.iter().map(|arg| self.argument(arg)).collect();
         quote!(#call(#module::#name, #site, &[#(#args),*], plc, hal);)

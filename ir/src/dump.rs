@@ -90,6 +90,7 @@ impl Out<'_> {
                 format!("X{input:03o} {}", kind.verb())
             }
             FunctionKind::TakeInterrupts => "take interrupts".to_string(),
+            FunctionKind::Signals => "signals".to_string(),
         };
         self.block(&head, &function.body);
     }
@@ -215,6 +216,7 @@ impl Out<'_> {
                 Some(FunctionKind::Subroutine(pointer)) => format!("call P{pointer}"),
                 Some(FunctionKind::Interrupt(pointer)) => format!("call I{pointer:03}"),
                 Some(FunctionKind::TakeInterrupts) => "take interrupts".into(),
+                Some(FunctionKind::Signals) => "call signals".into(),
                 _ => format!("call function {n}"),
             },
             Stmt::Return => "return".into(),
@@ -273,6 +275,7 @@ impl Out<'_> {
             wide,
             args,
             drive,
+            signal,
             slot,
             ..
         } = stmt
@@ -289,6 +292,9 @@ impl Out<'_> {
         }
         if let Some(drive) = drive {
             let _ = write!(line, " drive {}", self.expr(*drive));
+        }
+        if *signal {
+            line.push_str(" signal");
         }
         line
     }

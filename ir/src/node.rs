@@ -332,7 +332,7 @@ pub enum Stmt {
     SetCell(CellId, ExprId),
     /// Writes the entry of a table that the index (`I32`, as for [`Expr::Entry`]) tells (`I32`).
     SetEntry(TableId, ExprId, ExprId),
-    /// Writes a bit device (Y, M, S, or X by force only).
+    /// Writes a bit device (Y, M, S, or X by force and at its own edge).
     WriteBit(Place, ExprId),
     /// Writes bit 0–15 of a word device.
     WriteWordBit(Place, u8, ExprId),
@@ -467,6 +467,8 @@ pub enum Stmt {
         args: Vec<Arg>,
         /// Drive contact, for functions that are called always; others stand inside an `If`.
         drive: Option<ExprId>,
+        /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in [`FunctionKind::Signals`].
+        signal: bool,
         /// Private memory, for functions that need one; from 1.
         slot: u16,
         /// Step number.
@@ -548,6 +550,9 @@ pub enum FunctionKind {
         /// Which change.
         kind: EdgeKind,
     },
+    /// Calls the instructions that send pulses and look at inputs ([`rungc_rt::Needs::signals`]) once more, with the drive that they had
+    /// last. The edges of these inputs call it, when the device X shows them, and so do interrupts that may give the signal.
+    Signals,
 }
 
 /// A function: no parameters, no result, no recursion.
@@ -589,7 +594,7 @@ pub struct Module {
     /// Private rows of numbers.
     pub tables: Vec<Table>,
     /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, `TakeInterrupts` if there
-    /// are any of these, and one for each edge that means something.
+    /// are any of these, `Signals` if there are any, and one for each edge that means something.
     pub functions: Vec<Function>,
     /// Outputs Y at which instructions send pulses, in order, each once. Their [`rungc_rt::Axis`] is idle at power-on. Pulses are counted
     /// ([`rungc_rt::advance_pulses`]) at the begin of each scan before `Begin`, and each time that a host tells the time

@@ -4,6 +4,7 @@ use crate::axis_place as place;
 use crate::hal::Hal;
 use crate::plc::{Class, Plc, Sys};
 use crate::pulse::Generator;
+use crate::wiring::Wiring;
 use crate::word::{pair, words};
 
 /// A pulse output in a program's memory. All zero is one that is idle.
@@ -79,7 +80,8 @@ impl Axis {
         self.on = sends && self.generator.level() != self.inverted;
     }
 
-    fn halt(&mut self) {
+    /// Its pulses end at once, and no instruction sends any more.
+    pub(crate) fn halt(&mut self) {
         self.generator.halt();
         self.owner = 0;
         self.show();
@@ -130,25 +132,33 @@ pub fn advance(plc: &mut dyn Plc, now_us: u32) {
         if !axis.timed {
             axis.pass(now_us, false);
         }
-        let count = core::mem::take(&mut axis.uncounted);
         if stops && !(axis.generator.modulates() && running) {
             axis.halt();
         }
-        if wiring.axis == 0 {
-            axis.output = output as u16;
-        }
-        let (target, counter) = (axis.output.into(), axis.counter.into());
         let busy = axis.generator.millihertz() > 0;
         set_relays(plc, &wiring.busy, busy);
-        if let Some(target) = plc.axis(target).filter(|_| count != 0) {
-            target.sent = target.sent.wrapping_add(count);
-        }
-        if wiring.axis != 0 {
-            count_axis(plc, wiring.axis, target, count);
-        } else if counter != 0 {
-            add(plc, counter, count);
-            add(plc, wiring.sum, count);
-        }
+        count(plc, output, wiring);
+    }
+}
+
+/// Counts the pulses that have ended and are not counted yet.
+pub(crate) fn count(plc: &mut dyn Plc, output: u32, wiring: &Wiring) {
+    let Some(axis) = plc.axis(output) else {
+        return;
+    };
+    let count = core::mem::take(&mut axis.uncounted);
+    if wiring.axis == 0 {
+        axis.output = output as u16;
+    }
+    let (target, counter) = (axis.output.into(), axis.counter.into());
+    if let Some(target) = plc.axis(target).filter(|_| count != 0) {
+        target.sent = target.sent.wrapping_add(count);
+    }
+    if wiring.axis != 0 {
+        count_axis(plc, wiring.axis, target, count);
+    } else if counter != 0 {
+        add(plc, counter, count);
+        add(plc, wiring.sum, count);
     }
 }
 

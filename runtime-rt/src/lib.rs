@@ -58,4 +58,4 @@ pub use registry::{Needs, RtFn};
 pub use runs::{FIRST_COUNTER32, FIRST_SPECIAL, Runs};
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
 pub use virtual_hal::VirtualHal;
-pub use wiring::{Clear, Home, Looks, Pulses, Ramps, Wiring};
+pub use wiring::{Clear, Home, Interrupt, Looks, Pulses, Ramps, StopInput, Wiring};

@@ -110,6 +110,8 @@ pub struct Site {
     pub wide: bool,
     /// Whether the drive contact is on. Only instructions that [`crate::Needs::always`] run are called with `false`.
     pub drive: bool,
+    /// An input has changed that the instruction looks at, perhaps between two scans: it is driven as it was last ([`crate::Needs::signals`]).
+    pub signal: bool,
 }
 
 impl Site {
@@ -120,6 +122,7 @@ impl Site {
             slot: 0,
             wide: false,
             drive: true,
+            signal: false,
         }
     }
 
@@ -141,6 +144,13 @@ impl Site {
     #[must_use]
     pub const fn driven(mut self, drive: bool) -> Self {
         self.drive = drive;
+        self
+    }
+
+    /// The same because of an input.
+    #[must_use]
+    pub const fn signal(mut self) -> Self {
+        self.signal = true;
         self
     }
 }

@@ -25,6 +25,11 @@ pub struct Needs {
     pub unit: bool,
     /// It gives a clear signal on an output Y that a register may name.
     pub clears: bool,
+    /// It waits for the interrupt input of its output.
+    pub interrupt: bool,
+    /// It looks at inputs X, and is also called at their edges ([`crate::Site::signal`]): at those of the inputs that it names or that
+    /// belong to its output ([`crate::Wiring::inputs`]).
+    pub signals: bool,
 }
 
 impl Needs {
@@ -35,6 +40,7 @@ impl Needs {
             home,
             unit,
             clears,
+            interrupt,
             ..
         } = self;
         Looks {
@@ -42,6 +48,7 @@ impl Needs {
             home,
             unit,
             clears,
+            interrupt,
         }
     }
 }
@@ -85,6 +92,8 @@ macro_rules! registry {
                         home: false,
                         unit: false,
                         clears: false,
+                        interrupt: false,
+                        signals: false,
                     };
                     $($(needs.$need = true;)*)?
                     needs
@@ -422,21 +431,25 @@ registry! {
     /// PLSR (FNC 59): pulses with ramps.
     Plsr = pulses::plsr(s1, s2, s3, d) [state, always, pulses, ramps];
     /// DSZR (FNC 150): return to the origin.
-    Dszr = position::dszr(s1, s2, d1, d2) [state, always, pulses, ramps, home, clears];
+    Dszr = position::dszr(s1, s2, d1, d2) [state, always, pulses, ramps, home, clears, signals];
+    /// DVIT (FNC 151): pulses from an interrupt on.
+    Dvit = position::dvit(s1, s2, d1, d2) [state, always, pulses, ramps, interrupt, signals];
+    /// An input stops the pulses of an output.
+    StopPulses = pulses::stop_pulses(d) [pulses];
     /// DPLSY of HM: pulses on an axis.
-    AxisPlsy = axes::axis_plsy(d1, d2, axis) [state, always, pulses];
+    AxisPlsy = axes::axis_plsy(d1, d2, axis) [state, always, pulses, signals];
     /// DPLSR of HM: pulses with ramps of a time.
-    AxisPlsr = axes::axis_plsr(d1, d2, d3, axis) [state, always, pulses];
+    AxisPlsr = axes::axis_plsr(d1, d2, d3, axis) [state, always, pulses, signals];
     /// DDRVI of HM: relative move.
-    AxisDrvi = axes::axis_drvi(d1, d2, axis) [state, always, pulses];
+    AxisDrvi = axes::axis_drvi(d1, d2, axis) [state, always, pulses, signals];
     /// DDRVA of HM: absolute move.
-    AxisDrva = axes::axis_drva(d1, d2, axis) [state, always, pulses];
+    AxisDrva = axes::axis_drva(d1, d2, axis) [state, always, pulses, signals];
     /// DDVIT of HM: move from an interrupt on.
-    AxisDvit = axes::axis_dvit(d1, d2, axis) [state, always, pulses];
+    AxisDvit = axes::axis_dvit(d1, d2, axis) [state, always, pulses, signals];
     /// DPLSV of HM: pulses of a variable speed.
-    AxisPlsv = axes::axis_plsv(d1, axis) [state, always, pulses];
+    AxisPlsv = axes::axis_plsv(d1, axis) [state, always, pulses, signals];
     /// PSOUT of HM: move at the highest speed.
-    AxisPsout = axes::axis_psout(axis, d2) [state, always, pulses];
+    AxisPsout = axes::axis_psout(axis, d2) [state, always, pulses, signals];
     /// GEAR of HM: follows a master.
     AxisGear = axis_follow::axis_gear(axis, d2, d3, d4, d5) [state, always, pulses];
     /// PTOUT of HM: follows a table.
@@ -444,13 +457,13 @@ registry! {
     /// IPL of HM: inserts pulses.
     AxisIpl = axis_follow::axis_ipl(axis, d2) [state, always, pulses];
     /// JOG of HM.
-    AxisJog = axis_jog::axis_jog(axis, d2, d3, d4, d5) [state, always, pulses];
+    AxisJog = axis_jog::axis_jog(axis, d2, d3, d4, d5) [state, always, pulses, signals];
     /// HOME of HM: return to the origin.
-    AxisHome = axis_home::axis_home(axis) [state, always, pulses];
+    AxisHome = axis_home::axis_home(axis) [state, always, pulses, signals];
     /// ABS (FNC 155): absolute position of a servo.
     Abs = servo::abs(s, d1, d2) [state, always];
     /// ZRN (FNC 156): return to the origin, without turning round.
-    Zrn = position::zrn(s1, s2, s3, d) [state, always, pulses, ramps, clears];
+    Zrn = position::zrn(s1, s2, s3, d) [state, always, pulses, ramps, clears, signals];
     /// PLSV (FNC 157): pulses of a variable speed.
     Plsv = position::plsv(s, d1, d2) [state, always, pulses, ramps];
     /// DRVI (FNC 158): relative move.

@@ -1,6 +1,7 @@
 //! The special devices of pulse outputs, by family of models.
 
 use crate::axis_place as place;
+use core::ops::Range;
 
 /// Registers D with the speeds and times of ramps; 0 where the model has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +54,30 @@ pub struct Home {
     pub clear: Clear,
 }
 
+/// The signal for which DVIT waits. A 0 stands for none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Interrupt {
+    /// Input X that gives it, unless a register says another.
+    pub input: u32,
+    /// Relay with which the register has a say.
+    pub chooses: u32,
+    /// That register: a hexadecimal digit for each output, that of Y000 the lowest. 0 to 7 stand for X000 to X007, 8 for the relay.
+    pub register: u32,
+    /// Relay that gives the signal in an input's place.
+    pub relay: u32,
+    /// Relay: the signal is there where the input is off.
+    pub inverted: u32,
+}
+
+/// An input that stops the pulses of an output. A 0 stands for none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StopInput {
+    /// Relay without which it stops nothing.
+    pub enable: u32,
+    /// Register with the number of the input X.
+    pub register: u32,
+}
+
 /// The special devices of one pulse output. A 0 stands for none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wiring {
@@ -94,6 +119,10 @@ pub struct Wiring {
     pub zrn_clear: Clear,
     /// DSZR.
     pub home: Home,
+    /// DVIT.
+    pub interrupt: Interrupt,
+    /// An input that stops the pulses.
+    pub stop_input: StopInput,
 }
 
 const NO_RAMPS: Ramps = Ramps {
@@ -123,6 +152,19 @@ const NO_HOME: Home = Home {
     clear: NO_CLEAR,
 };
 
+const NO_INTERRUPT: Interrupt = Interrupt {
+    input: 0,
+    chooses: 0,
+    register: 0,
+    relay: 0,
+    inverted: 0,
+};
+
+const NO_STOP_INPUT: StopInput = StopInput {
+    enable: 0,
+    register: 0,
+};
+
 const NONE: Wiring = Wiring {
     axis: 0,
     position: 0,
@@ -143,6 +185,8 @@ const NONE: Wiring = Wiring {
     unit: 0,
     zrn_clear: NO_CLEAR,
     home: NO_HOME,
+    interrupt: NO_INTERRUPT,
+    stop_input: NO_STOP_INPUT,
 };
 
 /// What D8145 to D8148 say for all outputs (h1u-h2u-programming §4.3.11).
@@ -202,17 +246,22 @@ const fn inovance(output: u32, position: u32, sum: u32, stop: u32, busy: u32) ->
             },
             ..home(8440 + 10 * output)
         },
+        stop_input: StopInput {
+            enable: 8141 + output,
+            register: 8161 + output,
+        },
         ..NONE
     }
 }
 
-/// The types with more than three outputs have no DSZR.
+/// The types with more than three outputs have no DSZR, and no inputs that stop pulses.
 const fn without_dszr(wiring: Wiring) -> Wiring {
     Wiring {
         busy: [wiring.busy[0], 0],
         stop: [wiring.stop[0], 0],
         driven: 0,
         home: NO_HOME,
+        stop_input: NO_STOP_INPUT,
         ..wiring
     }
 }
@@ -314,6 +363,13 @@ const fn fx3(output: u32) -> Wiring {
         home: Home {
             clear,
             ..home(8340 + 10 * output)
+        },
+        interrupt: Interrupt {
+            input: output,
+            chooses: 8336,
+            register: 8336,
+            relay: 8460 + output,
+            inverted: 8347 + 10 * output,
         },
         ..tens(output)
     }
@@ -435,6 +491,8 @@ pub struct Looks {
     pub unit: bool,
     /// The outputs for clear signals.
     pub clears: bool,
+    /// The interrupt input.
+    pub interrupt: bool,
 }
 
 impl Ramps {
@@ -444,7 +502,24 @@ impl Ramps {
     }
 }
 
+/// Inputs that the registers of an axis may name.
+const AXIS_INPUTS: u32 = 16;
+
 impl Wiring {
+    /// Inputs X whose edges an instruction takes notice of at once if it names them; others are looked at once a scan.
+    pub const FAST_INPUTS: u32 = 8;
+
+    /// The inputs X, besides those that it names, at which an instruction looks, `chosen` telling whether a register may choose the
+    /// interrupt input.
+    pub fn inputs(&self, looks: Looks, chosen: bool) -> Range<u32> {
+        match (self.axis, looks.interrupt, chosen) {
+            (1.., ..) => 0..AXIS_INPUTS,
+            (_, true, true) => 0..Self::FAST_INPUTS,
+            (_, true, false) => self.interrupt.input..self.interrupt.input + 1,
+            (_, false, _) => 0..0,
+        }
+    }
+
     /// The registers that an instruction looks at.
     pub fn registers(&self, looks: Looks) -> impl Iterator<Item = u32> {
         let home = self.home;
@@ -465,6 +540,8 @@ impl Wiring {
         let unit = looks.unit.then_some(self.unit);
         let clears = [self.zrn_clear.register, self.home.clear.register];
         let clears = clears.into_iter().filter(move |_| looks.clears);
+        let interrupt = looks.interrupt.then_some(self.interrupt.register);
+        let clears = clears.chain(interrupt);
         let of_axis = match self.axis {
             0 => 0..0,
             first => first..first + place::COUNT,

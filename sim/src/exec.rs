@@ -280,6 +280,7 @@ impl<'m> Machine<'m> {
                 wide,
                 args,
                 drive,
+                signal,
                 slot,
                 step,
             } => {
@@ -288,6 +289,7 @@ impl<'m> Machine<'m> {
                     slot: *slot,
                     wide: *wide,
                     drive: drive.is_none_or(|drive| self.on(drive)),
+                    signal: *signal,
                 };
                 self.call(*function, args, site, hal);
             }

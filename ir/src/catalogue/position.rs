@@ -61,6 +61,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(FX3U.and(&[ModelId::Hm]))
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
+        .call(RtFn::Dvit)
         .lower_on(&[(HM, Lower::Call(RtFn::AxisDvit))])
         .text("Runs at S2 Hz until the interrupt input of the axis, then sends S1 pulses more."),
     position("TBL", 152, "Positioning by a table")

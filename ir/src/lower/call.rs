@@ -6,7 +6,7 @@ use crate::catalogue::{CmpOp, Extent, Inst, Lower, Param, Rule, Shape};
 use crate::node::{Arg, CellId, EdgeKind, Expr, ExprId, Place, Stmt, SysValue};
 use crate::resolve::Form;
 use crate::runs::is_counter32;
-use rungc_rt::{Clear, Looks, RtFn};
+use rungc_rt::{Clear, Looks, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
 use std::borrow::Cow;
 
@@ -18,6 +18,9 @@ impl Lowerer<'_> {
         let slot = self.slot(needs.state);
         if needs.pulses {
             self.use_outputs(inst, needs.looks());
+        }
+        if needs.signals {
+            self.find_signals(inst, function, slot);
         }
         let drive = self.drive();
         let drive = if form.pulse {
@@ -33,6 +36,7 @@ impl Lowerer<'_> {
                 wide: form.wide,
                 args,
                 drive,
+                signal: false,
                 slot,
                 step,
             });
@@ -81,6 +85,7 @@ impl Lowerer<'_> {
             wide: form.wide,
             args,
             drive: Some(drive),
+            signal: false,
             slot,
             step,
         });
@@ -115,16 +120,10 @@ impl Lowerer<'_> {
         let operands = &self.instr().operands;
         let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
         for (kind, param) in kinds.iter().zip(inst.params_of(&kinds, self.model)) {
-            let number = match *kind {
-                OperandKind::Device(Device { number, .. }, _) => Some(number),
-                OperandKind::Decimal(axis, _) => u32::try_from(axis).ok(),
-                OperandKind::Hex(axis, _) => u32::try_from(axis).ok(),
-                _ => None,
-            };
-            let Some(number) = number.filter(|_| param.sends_pulses) else {
+            let Some(number) = output_of(kind).filter(|_| param.sends_pulses) else {
                 continue;
             };
-            let wiring = self.model.pulses.outputs().get(number as usize);
+            let wiring = self.wiring_of(kind);
             if wiring.is_some_and(|wiring| wiring.axis != 0) {
                 self.use_axes();
             } else if let Err(place) = self.module.pulse_outputs.binary_search(&number) {
@@ -138,6 +137,12 @@ impl Lowerer<'_> {
                 self.use_clear_signal(&wiring.home.clear);
             }
         }
+    }
+
+    /// The special devices of the output that an operand names.
+    pub(super) fn wiring_of(&self, kind: &OperandKind) -> Option<&'static Wiring> {
+        let number = output_of(kind)?;
+        self.model.pulses.outputs().get(number as usize)
     }
 
     /// An axis may be bound to any output, and has an output for its direction.
@@ -199,6 +204,7 @@ impl Lowerer<'_> {
             wide,
             args,
             drive: None,
+            signal: false,
             slot: 0,
             step,
         });
@@ -221,7 +227,7 @@ impl Lowerer<'_> {
         self.module.states
     }
 
-    fn args(&mut self, inst: &Inst, form: Form) -> Vec<Arg> {
+    pub(super) fn args(&mut self, inst: &Inst, form: Form) -> Vec<Arg> {
         let operands = in_words(inst, &self.instr().operands, self.model);
         let extents = extents(inst, form, &operands, self.model);
         let mut args: Vec<Arg> = operands
@@ -290,6 +296,16 @@ impl Lowerer<'_> {
             index,
             ..self.canonical(device)
         }
+    }
+}
+
+/// The number of the output or axis that an operand names.
+fn output_of(kind: &OperandKind) -> Option<u32> {
+    match *kind {
+        OperandKind::Device(Device { number, .. }, _) => Some(number),
+        OperandKind::Decimal(axis, _) => u32::try_from(axis).ok(),
+        OperandKind::Hex(axis, _) => u32::try_from(axis).ok(),
+        _ => None,
     }
 }
 

@@ -410,7 +410,10 @@ impl Lowerer<'_> {
                         ..
                     } => {
                         let allowed = this.allowed(interrupt.gate);
-                        this.when(allowed, |this| this.emit(Stmt::CallSub(function)));
+                        this.when(allowed, |this| {
+                            this.emit(Stmt::CallSub(function));
+                            this.signals_of_relays();
+                        });
                     }
                     What::Process { .. } | What::Scope => {}
                 }

@@ -23,6 +23,7 @@ mod logic;
 mod operand;
 mod parts;
 mod pulse_width;
+mod signals;
 mod special;
 mod stl;
 mod system;
@@ -111,6 +112,7 @@ struct Lowerer<'a> {
     free_running: BTreeMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
+    signals: signals::Signals,
     /// Which of the instructions runs that run one at a time, from 1, and how many there are so far.
     exclusive: Option<(CellId, i32)>,
     /// Devices that tests or a monitor look at.
@@ -149,6 +151,7 @@ impl<'a> Lowerer<'a> {
             free_running: BTreeMap::new(),
             high_speed: high_speed::HighSpeed::default(),
             edges: edges::Edges::default(),
+            signals: signals::Signals::default(),
             exclusive: None,
             observed: &options.observe,
             named: OnceCell::new(),
@@ -191,6 +194,8 @@ impl<'a> Lowerer<'a> {
         self.counter_edges();
         self.edge_counts();
         self.pulse_widths();
+        self.signal_edges();
+        self.stop_inputs();
         self.module.functions[0].body = self.begin_function();
         self.module.functions[2].body = self.end_function();
         self.take_interrupts();

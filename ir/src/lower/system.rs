@@ -359,6 +359,7 @@ impl Lowerer<'_> {
             wide: false,
             args,
             drive,
+            signal: false,
             slot: if needs.state { self.module.states } else { 0 },
             step: 0,
         });

@@ -5,7 +5,7 @@
 //! has come.
 
 use super::axis_registers::{Registers, error, event, motion, state};
-use crate::axis::{long, set_long};
+use crate::axis::set_long;
 use crate::axis_place as at;
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -89,7 +89,7 @@ pub fn axis_drvi(cx: &mut Cx) -> Done {
 /// DDRVA D1 D2 D3: moves axis D3 to position D1 at D2.
 pub fn axis_drva(cx: &mut Cx) -> Done {
     drive(cx, 2, |cx, axis| {
-        let position = long(cx.plc, axis.register(at::POSITION));
+        let position = axis.position(cx);
         let distance = cx.read(0)?.saturating_sub(position);
         Ok(Order::new(Kind::Move, cx.read(1)?, distance))
     })
@@ -214,7 +214,7 @@ fn watch(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
         Kind::ToInterrupt
             if cx.state().0[INTERRUPTED] == 0 && axis.sees(cx, at::INTERRUPT, event::INTERRUPT) =>
         {
-            let position = long(cx.plc, axis.register(at::POSITION));
+            let position = axis.position(cx);
             set_long(cx.plc, axis.register(at::INTERRUPT_POSITION), position);
             let state = cx.state();
             state.0[INTERRUPTED] = 1;

@@ -3,6 +3,7 @@
 //! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is.
 
 use super::output::held;
+use crate::axis::long;
 use crate::axis_place as at;
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -55,7 +56,7 @@ const HIGHEST: u64 = 600_000_000;
 /// The output of the direction of Y000; those of the others follow.
 const DIRECTION: u32 = 0o10;
 
-/// How far an instruction is.
+/// How far an instruction is, as [`held`] knows it.
 const PHASE: usize = 1;
 const WAITS: i32 = 0;
 const RUNS: i32 = 1;
@@ -121,6 +122,13 @@ impl Registers {
     /// Its value.
     pub fn word(self, cx: &Cx, offset: u32) -> i16 {
         cx.special_word(self.first + offset)
+    }
+
+    /// Its position, with the pulses that are sent and not counted in the register yet.
+    pub fn position(self, cx: &mut Cx) -> i32 {
+        let counted = long(cx.plc, self.register(at::POSITION));
+        let uncounted = cx.plc.axis(self.axis).map_or(0, |axis| axis.uncounted);
+        counted.wrapping_add(uncounted)
     }
 
     /// Sets it.

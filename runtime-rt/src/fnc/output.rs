@@ -1,9 +1,10 @@
 //! What the instructions for pulse outputs have in common: when one of them begins, and who has the output.
 //!
 //! An instruction's memory: word 0 keeps whether it was driven, word 1 how far it is, word 2 the relay with which it begins anew, word 3
-//! whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one, and since when that is on.
+//! whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one, negative until a scan has seen it on, and
+//! since when that is on.
 
-use crate::axis::{Axis, is_on, long, set_relays};
+use crate::axis::{self, Axis, is_on, long, set_relays};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
@@ -38,8 +39,14 @@ pub(super) enum Turn {
     Released,
 }
 
-/// Runs an instruction while no interrupt sends pulses.
+/// Runs an instruction while no interrupt sends pulses. A signal concerns it only while it sends.
 pub(super) fn held(cx: &mut Cx, instruction: impl FnOnce(&mut Cx) -> Done) -> Done {
+    if cx.site.signal {
+        let [driven, phase, ..] = cx.state().0;
+        if driven == 0 || phase != Phase::Sends as i32 {
+            return Ok(());
+        }
+    }
     cx.hal.hold_pulses(true);
     let done = instruction(cx);
     cx.hal.hold_pulses(false);
@@ -68,6 +75,9 @@ pub(super) const RAMP_MS: (i32, i32) = (50, 5000);
 pub(super) const LOWEST_HZ: u32 = 10;
 /// Lowest speeds of DSZR but for the base and the creep speed, in Hz.
 const LOWEST_RETURN_HZ: i32 = 715;
+
+/// A register that says no interrupt input.
+const NO_INTERRUPT_INPUT: Fault = Fault(6763);
 
 /// Speeds and times of ramps.
 #[derive(Clone, Copy, Debug)]
@@ -259,6 +269,10 @@ impl Output {
         }
         set_relays(cx.plc, &self.wiring.busy, busy);
         let phase = cx.state().0[1];
+        if cx.site.signal {
+            // What is shown of the instruction itself is shown in the scan.
+            return Ok(());
+        }
         if drive {
             cx.set_special(M_COMPLETE, phase == Phase::Done as i32);
             if phase != Phase::Idle as i32 {
@@ -369,6 +383,35 @@ impl Output {
         }
     }
 
+    /// Counts the pulses that were sent by now, between two scans too.
+    pub fn count(self, cx: &mut Cx) {
+        axis::count(cx.plc, self.number, self.wiring);
+    }
+
+    /// Stops the pulses at once, whoever sends them.
+    pub fn halt(self, cx: &mut Cx) -> Done {
+        self.axis(cx)?.halt();
+        Ok(())
+    }
+
+    /// Whether the signal is there for which DVIT waits.
+    pub fn is_interrupted(self, cx: &Cx) -> Result<bool, Fault> {
+        let interrupt = self.wiring.interrupt;
+        let input = |number: u32| {
+            let on = cx.plc.bit(Class::X, number).unwrap_or(false);
+            on != self.has_on(cx, interrupt.inverted)
+        };
+        if !self.has_on(cx, interrupt.chooses) {
+            return Ok(input(interrupt.input));
+        }
+        let digits = cx.special_word(interrupt.register) as u16;
+        match u32::from(digits >> (4 * self.number) & 15) {
+            number @ 0..=7 => Ok(input(number)),
+            8 => Ok(self.has_on(cx, interrupt.relay)),
+            _ => Err(NO_INTERRUPT_INPUT),
+        }
+    }
+
     /// Gives a clear signal, if the relay for that is on.
     pub fn begin_clear_signal(self, cx: &mut Cx, clear: Clear) {
         if !self.has_on(cx, clear.enable) {
@@ -383,18 +426,25 @@ impl Output {
         if let Some(output) = output
             && cx.plc.set_bit(Class::Y, output, true).is_some()
         {
-            let now_ms = cx.plc.sys().now_ms as i32;
-            let state = cx.state();
-            state.0[6] = output as i32 + 1;
-            state.0[7] = now_ms;
+            let seen = !cx.site.signal;
+            self.keep_clear_signal(cx, output as i32 + 1, seen);
         }
+    }
+
+    fn keep_clear_signal(self, cx: &mut Cx, output: i32, seen: bool) {
+        let now_ms = cx.plc.sys().now_ms as i32;
+        let state = cx.state();
+        state.0[6] = if seen { output } else { -output };
+        state.0[7] = now_ms;
     }
 
     /// Ends it when its time is over.
     pub fn end_clear_signal(self, cx: &mut Cx, clear: Clear) {
         let now_ms = cx.plc.sys().now_ms;
         let [.., output, since] = cx.state().0;
-        if output > 0 && now_ms.wrapping_sub(since as u32) > clear.ms {
+        if output < 0 && !cx.site.signal {
+            self.keep_clear_signal(cx, -output, true);
+        } else if output > 0 && now_ms.wrapping_sub(since as u32) > clear.ms {
             cx.state().0[6] = 0;
             let _ = cx.plc.set_bit(Class::Y, output as u32 - 1, false);
         }

@@ -1,4 +1,4 @@
-//! Positioning: FNC 156 to 159 (h1u-h2u-programming §4.3.11, §8.5, §8.7; l01s-programming §7.2). Positions are counted in the registers
+//! Positioning: FNC 150, 151, 156 to 159 (h1u-h2u-programming §4.3.11, §8.5, §8.7; l01s-programming §7.2). Positions are counted in the registers
 //! of the output; forward counts up.
 
 use super::output::{Output, Turn, held, unsigned};
@@ -52,6 +52,52 @@ fn move_by(
             let reverse = output.axis(cx)?.generator.is_reverse();
             if (distance < 0) == reverse {
                 output.change_total(cx, distance.unsigned_abs())?;
+            }
+        }
+        Turn::Released => output.axis(cx)?.generator.stop(),
+        Turn::Rest => {}
+    }
+    output.show(cx)
+}
+
+/// Words of the memory of DVIT: whether its signal was there, how many pulses follow it, and whether it has come.
+const SIGNAL_WAS_ON: usize = 5;
+const PULSES: usize = 6;
+const INTERRUPTED: usize = 7;
+
+/// DVIT S1 S2 D1 D2 (FNC 151): runs at S2 Hz with ramps, D2 on if S1 is positive, forward. At the rise of its interrupt signal it goes on by
+/// |S1| pulses, coming down to them; if they are too few for that, at once at a speed from which it can. It comes down when its drive goes
+/// off.
+pub fn dvit(cx: &mut Cx) -> Done {
+    held(cx, do_dvit)
+}
+
+fn do_dvit(cx: &mut Cx) -> Done {
+    let output = Output::of(cx, 2)?;
+    match output.turn(cx)? {
+        Turn::Start => {
+            let (distance, hz) = (cx.read(0)?, cx.read(1)?);
+            let hz = u32::try_from(hz).map_err(|_| Fault::VALUE)?;
+            if distance == 0 {
+                return Err(Fault::VALUE);
+            }
+            let is_on = output.is_interrupted(cx)?;
+            let state = cx.state();
+            state.0[SIGNAL_WAS_ON] = is_on.into();
+            state.0[PULSES] = distance.saturating_abs();
+            state.0[INTERRUPTED] = 0;
+            cx.set_bit(3, 0, distance > 0)?;
+            let train = output.ramp(cx).train(hz, 0, distance < 0);
+            output.start(cx, train, output.wiring.position)?;
+        }
+        Turn::Sends => {
+            let is_on = output.is_interrupted(cx)?;
+            let state = cx.state();
+            let was_on = core::mem::replace(&mut state.0[SIGNAL_WAS_ON], is_on.into()) != 0;
+            if is_on && !was_on && state.0[INTERRUPTED] == 0 {
+                state.0[INTERRUPTED] = 1;
+                let pulses = state.0[PULSES].unsigned_abs();
+                output.axis(cx)?.generator.end_in(pulses);
             }
         }
         Turn::Released => output.axis(cx)?.generator.stop(),
@@ -151,6 +197,7 @@ fn do_zrn(cx: &mut Cx) -> Done {
 /// The output is at its origin.
 fn home(cx: &mut Cx, output: Output) -> Done {
     output.axis(cx)?.generator.halt();
+    output.count(cx);
     set_long(cx.plc, output.wiring.position, 0);
     output.finish(cx);
     Ok(())

@@ -103,6 +103,14 @@ fn do_pwm(cx: &mut Cx) -> Done {
     output.show(cx)
 }
 
+/// Stops the pulses of D at once, because an input says so (h1u-h2u-programming §8.1, M8141 to M8143).
+pub fn stop_pulses(cx: &mut Cx) -> Done {
+    held(cx, |cx| {
+        let output = Output::of(cx, 0)?;
+        output.halt(cx)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use crate::double::{Double, reg};
