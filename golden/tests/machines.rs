@@ -56,11 +56,67 @@ encoder = { a = "X003", b = "X004" }
     file
 }
 
+/// Programs that look for their origin, and one that goes on from an interrupt input: model, name, program.
+const SEARCHES: [(&str, &str, &str); 4] = [
+    ("fx3u", "zrn", "LD M8000\nDZRN K20000 K500 X005 Y000\nEND\n"),
+    (
+        "h2u",
+        "dszr",
+        "LD M8002\nDMOV K20000 D8446\nMOV K500 D8445\nLD M8000\nDSZR X005 X004 Y000 Y004\nEND\n",
+    ),
+    (
+        "fx3u",
+        "dvit",
+        "LD M8002\nSET M8336\nMOV HFFF5 D8336\nLD M8000\nDDVIT K-5000 K20000 Y000 Y004\nEND\n",
+    ),
+    // Its registers name X005 for the DOG and X004 for the zero signal.
+    (
+        "hm",
+        "home",
+        "LD M8002\nAXPO K0 K0 K1\nAXPU K0 K10 K0 K0\nAXSP K0 K500 K0\nAXAS K0 K50\nAXEI K0 K32 K16 K0 K0\n\
+         AXOSP K0 K200 K5\nAXOX K0 H2003 K1 K0\nLD M8000\nHOME K0\nEND\n",
+    ),
+];
+
+/// Where each of them comes to rest.
+const RESTS: [f64; 4] = [-1.0, -91.0, -4016.0, -91.0];
+
+/// Each with scans of several lengths: it comes to rest at the same place, though a scan may be longer than its switch is on.
+fn searches() -> TestFile {
+    let machine = r#"
+[[axis]]
+output = "Y000"
+start = 30000
+home = "X005"
+home_at = [0, 1000]
+zero_phase = "X004"
+zero_phase_every = 100
+"#;
+    let mut test = String::from("model = \"fx3u\"\ntopic = \"scan time\"\n");
+    for ((model, name, program), rest) in SEARCHES.into_iter().zip(RESTS) {
+        for scan_ms in [1, 10, 130, 1000] {
+            test.push_str(&format!(
+                "[[case]]\nname = \"{name}_{scan_ms}_ms\"\nmodel = \"{model}\"\nprogram = '''\n{program}'''\n\
+                 [[case.step]]\nscan_ms = {scan_ms}\nrun_ms = 10000\n\
+                 expect = {{ \"Y000.hz\" = 0 }}\nexpect_position = {{ Y000 = {rest} }}\n"
+            ));
+        }
+    }
+    let mut file = plctest::parse("searches.plctest.toml", &test).unwrap_or_else(|e| panic!("{e}"));
+    let machine = plant::parse("searches.toml", machine).unwrap_or_else(|e| panic!("{e}"));
+    let machine = Arc::new(machine);
+    for case in &mut file.cases {
+        case.machine = Some(machine.clone());
+    }
+    file
+}
+
 #[test]
 fn all_engines_move_the_machines_alike() {
     let mut files = load_all();
     assert!(!files.is_empty());
     files.push(fast());
+    files.push(searches());
     let suite = Suite::compile(files);
     assert!(suite.cases().all(|(_, case)| case.machine.is_some()));
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("machines");

@@ -174,3 +174,79 @@ fn changes_of_speed_and_number_in_flight_keep_the_number() {
         assert_eq!(bench.machine.bit(Class::M, 1), Some(true), "seed {seed}");
     }
 }
+
+#[test]
+fn an_interrupt_input_is_followed_by_exactly_its_pulses() {
+    let module = module(
+        "LD M0\nDDVIT D0 D2 Y0 Y4\nLD M8029\nOUT M1\nEND\n",
+        ModelId::Fx3u,
+    );
+    for seed in 0..100 {
+        let mut rng = Rng::new(seed);
+        let mut bench = Bench::new(&module);
+        let (highest, wanted) = (speed(&mut rng).max(100), speed(&mut rng));
+        // Three seconds, or much less.
+        let most = 3 * wanted.min(highest) as u32;
+        let most = if rng.percent(50) { most } else { 10 };
+        let distance = 1 + rng.below(most) as i32;
+        let distance = if rng.percent(50) { distance } else { -distance };
+        bench.set_long(0, distance);
+        bench.set_long(2, wanted);
+        bench.set_long(8343, highest);
+        for ramp in [8348, 8349] {
+            let ms = 50 + rng.below(3000) as i16;
+            bench.machine.set_word(Class::D, ramp, ms).expect("a ramp");
+        }
+        bench.set(0, true);
+        for _ in 0..=rng.below(20) {
+            bench.run(1 + rng.below(200));
+        }
+        bench.machine.input_edge(0, true);
+        let from = bench.machine.pulses_sent(0);
+        // Shorter than a scan.
+        bench.machine.input_edge(0, false);
+        bench.run(1);
+        for _ in 0..1000 {
+            bench.run(100);
+            if bench.machine.bit(Class::M, 1) == Some(true) {
+                break;
+            }
+        }
+        let sent = bench.machine.pulses_sent(0);
+        assert_eq!(sent, from + distance, "seed {seed}");
+        assert_eq!(bench.long(8340), sent, "seed {seed}");
+    }
+}
+
+/// Its timer has sent pulses that no scan has counted when the end of the near point stops them.
+#[test]
+fn the_origin_is_0_however_pulses_are_driven() {
+    let module = module("LD M0\nZRN K5000 K1000 X3 Y0\nEND\n", ModelId::H2u);
+    for seed in 0..50 {
+        let mut rng = Rng::new(seed);
+        let mut machine = Machine::new(&module);
+        machine.set_bit(Class::M, 0, true).expect("it exists");
+        let mut now_us = 0;
+        let mut edges = [100_000, 150_000]
+            .map(|us| us + rng.below(50_000))
+            .into_iter();
+        let mut next = edges.next();
+        let mut level = false;
+        while now_us < 300_000 {
+            if now_us % 10_000 == 0 {
+                machine.scan(&mut NoHal, now_us / 1000, 0);
+            }
+            machine.pulse_timer(&mut NoHal, now_us);
+            if next.is_some_and(|edge| edge <= now_us) {
+                level = !level;
+                machine.input_edge(3, level);
+                next = edges.next();
+            }
+            now_us += 20;
+        }
+        let sent = machine.pulses_sent(0);
+        assert!(sent < -400, "seed {seed}: {sent}");
+        let position = [8140, 8141].map(|n| machine.word(Class::D, n));
+        assert_eq!(position, [Some(0), Some(0)], "seed {seed}");
+    }
+}

@@ -90,7 +90,7 @@ const fn tables(model: ModelId) -> &'static [&'static [Special]] {
 }
 
 /// Relays that forbid interrupts (l01s-programming §6.4).
-const MASKS: RangeInclusive<u32> = 8050..=8059;
+const MASKS: &[RangeInclusive<u32>] = &[8050..=8059];
 /// Relays with which a program steers DSZR and clear signals (h1u-h2u-programming §4.3.11).
 const HOME_H2U: &[RangeInclusive<u32>] = &[
     8441..=8442,
@@ -105,34 +105,44 @@ const HOME_H2U: &[RangeInclusive<u32>] = &[
     8484..=8486,
 ];
 
-/// The masks, and the relays with which a program of FX3G and FX3U steers positioning.
-const MASKS_AND_HOME_FX3: &[RangeInclusive<u32>] = &[
-    MASKS,
+/// Relays with which a program of FX3G and FX3U steers positioning.
+const HOME_FX3: &[RangeInclusive<u32>] = &[
     8338..=8338,
     8341..=8342,
-    8345..=8347,
+    8345..=8346,
     8349..=8349,
     8351..=8352,
-    8355..=8357,
+    8355..=8356,
     8359..=8359,
     8361..=8362,
-    8365..=8367,
+    8365..=8366,
     8369..=8369,
     8371..=8372,
-    8375..=8377,
+    8375..=8376,
     8379..=8379,
     8464..=8467,
 ];
 
+/// Relays with which a program of FX3U steers DVIT.
+const DVIT: &[RangeInclusive<u32>] = &[
+    8336..=8336,
+    8347..=8347,
+    8357..=8357,
+    8367..=8367,
+    8377..=8377,
+    8460..=8463,
+];
+
 /// Relays that go off when the model goes from RUN to STOP.
 pub fn cleared_in_stop(model: ModelId) -> impl Iterator<Item = u32> {
-    let relays: &'static [RangeInclusive<u32>] = match model {
-        ModelId::H1u | ModelId::H2u => HOME_H2U,
+    let relays: &'static [&'static [RangeInclusive<u32>]] = match model {
+        ModelId::H1u | ModelId::H2u => &[HOME_H2U],
         ModelId::L01s | ModelId::Fx2n => &[MASKS],
-        ModelId::Fx3g | ModelId::Fx3u => MASKS_AND_HOME_FX3,
+        ModelId::Fx3g => &[MASKS, HOME_FX3],
+        ModelId::Fx3u => &[MASKS, HOME_FX3, DVIT],
         ModelId::Hm => &[],
     };
-    relays.iter().cloned().flatten()
+    relays.iter().copied().flatten().cloned().flatten()
 }
 
 // Why a device is inert.
@@ -141,7 +151,7 @@ const HARDWARE: &str = "there is no hardware here that could fail so";
 const CHECKED: &str = "errors of this kind are found before the program runs";
 const HOST: &str = "the host decides when scans begin and whether the PLC is in RUN";
 const FAST: &str = "this use of high-speed inputs is not implemented yet";
-const PULSES: &str = "this use of pulse outputs is not implemented yet";
+const UNCLEAR: &str = "the manual calls it a position in Hz, and that of Y0 reserved; positions are counted in D8140 and its like";
 const LATER: &str = "the model does not do this yet, says its manual";
 const SERIAL: &str = "serial communication is not implemented yet";
 const CAN: &str = "CAN communication is not implemented yet";

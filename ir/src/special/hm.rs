@@ -25,7 +25,7 @@ pub(super) const HM: &[Special] = specials! {
     M 8072-8079 rw 0 by("interrupt routines") "advanced interrupt I900–907 is active: on from entry to PRET";
     M 8080-8087 rw 0 by("interrupt routines") "request of advanced interrupt I900–907: set once (edge) by the ladder, cleared by the system on entry";
     M 8088-8095 rw 0 by("interrupt routines") "process request of I900–907: re-enters an active advanced interrupt at its PROC";
-    M 8096-8111 rw 0 inert(MOTION) "switch input of motion instructions in place of X000–017 (used while Bit13 of the axis event word is 0)";
+    M 8096-8111 rw 0 by("axis motion") "switch input of motion instructions in place of X000–017 (used while Bit13 of the axis event word is 0)";
     M 8160-8163 rw 0 scan "state of the virtual inputs X014..X017";
     M 8200-8234 rw 0 by("OUT C") "count direction of C200..C234: on = down, off = up";
     M 8235 rw 0 by("OUT C") "count direction of the high-speed counter with the same number";

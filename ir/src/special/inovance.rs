@@ -1,7 +1,7 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use super::{
-    CAN, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, POWER, PULSES, SERIAL, Special, TRACE,
+    CAN, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, POWER, SERIAL, Special, TRACE, UNCLEAR,
     specials,
 };
 
@@ -100,7 +100,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8135 rw 0 by("pulse outputs") "Y0: separate acceleration/deceleration times and change of the pulse count while running";
     M 8136-8137 rw 0 by("pulse outputs") "Y1–2: as M8135";
     M 8140 rw 0 by("ZRN") "ZRN: CLR signal output enabled";
-    M 8141-8143 rw 0 inert(PULSES) "interrupt inputs X0-X5 may stop the pulses of Y0–2; on MTP M8141–8143 mean for Y5–7 what M8135 does, and work so";
+    M 8141-8143 rw 0 by("pulse outputs") "Y0–2: the pulses stop when the input goes on whose number D8161–8163 hold; on MTP for Y5–7 what M8135 is";
     M 8145-8146 rw 0 by("pulse outputs") "stop pulse output Y000–001";
     M 8147-8149 r 0 by("pulse outputs") "Y000–002 pulse output busy";
     M 8152 rw 0 by("pulse outputs") "stop pulse output Y002";
@@ -299,7 +299,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8156 rw 5 by("ZRN") "ZRN clear signal output of Y0: default 5 = Y005";
     D 8157 rw 6 by("ZRN") "ZRN clear signal output of Y1: default 6 = Y006";
     D 8158 rw 7 by("ZRN") "ZRN clear signal output of Y2: default 7 = Y007";
-    D 8161-8163 rw 0 inert(PULSES) "Y0–2: interrupt input that stops the pulses";
+    D 8161-8163 rw 0 by("pulse outputs") "Y0–2: input that stops the pulses, 0 to 5 for X000–005 (with M8141–8143)";
     D 8164 rw 0 by("FROM, TO") "FROM/TO transfer count when M8164 is on";
     D 8165 rw 100 by("PLSR, DRVI, DRVA") "deceleration time of PLSR/DRVI/DRVA on Y0 (ms), when M8135 is on";
     D 8166-8167 rw 100 by("PLSR, DRVI, DRVA") "deceleration time on Y1–2 (ms), when M8136–8137 is on";
@@ -407,8 +407,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8447 rw 0 by("DSZR") "high word of D8446";
     D 8448 rw 100 by("DSZR") "DSZR Y0: acceleration time, ms";
     D 8449 rw 100 by("DSZR") "DSZR Y0: deceleration time, ms";
-    D 8450 rw 0 inert(PULSES) "Y1 current value register, 32 bits, low word";
-    D 8451 rw 0 inert(PULSES) "high word of D8450";
+    D 8450 rw 0 inert(UNCLEAR) "Y1 current value register, 32 bits, low word";
+    D 8451 rw 0 inert(UNCLEAR) "high word of D8450";
     D 8452 rw 200 by("DSZR") "DSZR Y1: base speed, Hz";
     D 8453 rw -31072 by("DSZR") "DSZR Y1: maximum speed, Hz, 32 bits, low word";
     D 8454 rw 1 by("DSZR") "high word of D8453";
@@ -417,8 +417,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8457 rw 0 by("DSZR") "high word of D8456";
     D 8458 rw 100 by("DSZR") "DSZR Y1: acceleration time, ms";
     D 8459 rw 100 by("DSZR") "DSZR Y1: deceleration time, ms";
-    D 8460 rw 0 inert(PULSES) "Y2 current value register, 32 bits, low word";
-    D 8461 rw 0 inert(PULSES) "high word of D8460";
+    D 8460 rw 0 inert(UNCLEAR) "Y2 current value register, 32 bits, low word";
+    D 8461 rw 0 inert(UNCLEAR) "high word of D8460";
     D 8462 rw 200 by("DSZR") "DSZR Y2: base speed, Hz";
     D 8463 rw -31072 by("DSZR") "DSZR Y2: maximum speed, Hz, 32 bits, low word";
     D 8464 rw 1 by("DSZR") "high word of D8463";

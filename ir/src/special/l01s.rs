@@ -1,8 +1,8 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use super::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, PULSES, RAW, SERIAL,
-    Special, TRACE, specials,
+    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, RAW, SERIAL, Special,
+    TRACE, specials,
 };
 
 /// Its special devices.
@@ -57,7 +57,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8125 rw 0 inert(SERIAL) "port 2 protocol select together with M8196=1";
     M 8128 r 0 inert(SERIAL) "port 2: RD3A/WR3A received correctly (resets itself)";
     M 8129 r 0 inert(SERIAL) "port 2: RD3A/WR3A communication timeout (resets itself)";
-    M 8151-8154 r 0 inert(PULSES) "busy monitor of pulse axis 5–8";
+    M 8151-8154 r 0 inert(LATER) "busy monitor of pulse axis 5–8";
     M 8160 rw 0 by("XCH") "XCH works as byte swap when on";
     M 8161 rw 0 by("ASCI, HEX, CCD") "8-bit mode for RS/RS2 (and ASCI, HEX, CCD, CRC ...): only the low byte of each register is used";
     M 8170-8177 rw 0 scan "pulse catch of input X000–007: set on its rising edge";
@@ -79,7 +79,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8344 rw 0 by("pulse outputs") "Y000: reverse limit";
     M 8345 rw 0 inert(LATER) "Y000: near-point (DOG) signal logic inverted; DSZR";
     M 8346 rw 0 by("DSZR") "Y000: zero-point signal logic inverted; DSZR";
-    M 8347 rw 0 inert(PULSES) "Y000: interrupt signal logic inverted";
+    M 8347 rw 0 inert(LATER) "Y000: interrupt signal logic inverted";
     M 8348 r 0 by("pulse outputs") "Y000: positioning instruction being driven";
     M 8349 rw 0 by("pulse outputs") "Y000: pulse stop command: on stops pulse output";
     M 8350 r 0 by("pulse outputs") "Y001: pulse output in progress (BUSY/READY monitor)";
@@ -89,7 +89,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8354 rw 0 by("pulse outputs") "Y001: reverse limit";
     M 8355 rw 0 inert(LATER) "Y001: near-point (DOG) signal logic inverted; DSZR";
     M 8356 rw 0 by("DSZR") "Y001: zero-point signal logic inverted; DSZR";
-    M 8357 rw 0 inert(PULSES) "Y001: interrupt signal logic inverted";
+    M 8357 rw 0 inert(LATER) "Y001: interrupt signal logic inverted";
     M 8358 r 0 by("pulse outputs") "Y001: positioning instruction being driven";
     M 8359 rw 0 by("pulse outputs") "Y001: pulse stop command: on stops pulse output";
     M 8360 r 0 by("pulse outputs") "Y002: pulse output in progress (BUSY/READY monitor)";
@@ -99,7 +99,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8364 rw 0 by("pulse outputs") "Y002: reverse limit";
     M 8365 rw 0 inert(LATER) "Y002: near-point (DOG) signal logic inverted; DSZR";
     M 8366 rw 0 by("DSZR") "Y002: zero-point signal logic inverted; DSZR";
-    M 8367 rw 0 inert(PULSES) "Y002: interrupt signal logic inverted";
+    M 8367 rw 0 inert(LATER) "Y002: interrupt signal logic inverted";
     M 8368 r 0 by("pulse outputs") "Y002: positioning instruction being driven";
     M 8369 rw 0 by("pulse outputs") "Y002: pulse stop command: on stops pulse output";
     M 8370 r 0 by("pulse outputs") "Y003: pulse output in progress (BUSY/READY monitor)";
@@ -109,7 +109,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8374 rw 0 by("pulse outputs") "Y003: reverse limit";
     M 8375 rw 0 inert(LATER) "Y003: near-point (DOG) signal logic inverted; DSZR";
     M 8376 rw 0 by("DSZR") "Y003: zero-point signal logic inverted; DSZR";
-    M 8377 rw 0 inert(PULSES) "Y003: interrupt signal logic inverted";
+    M 8377 rw 0 inert(LATER) "Y003: interrupt signal logic inverted";
     M 8378 r 0 by("pulse outputs") "Y003: positioning instruction being driven";
     M 8379 rw 0 by("pulse outputs") "Y003: pulse stop command: on stops pulse output";
     M 8396 rw 0 inert(FAST) "phase of the inputs assigned to C254";
@@ -129,12 +129,12 @@ pub(super) const L01S: &[Special] = specials! {
     M 8427 rw 0 inert(CAN) "CAN standard/extended frame";
     M 8428 rw 0 inert(CAN) "CAN Modbus reply correct";
     M 8429 rw 0 inert(SERIAL) "communication timeout";
-    M 8432-8433 rw 0 inert(PULSES) "interpolation mode";
-    M 8434 rw 0 inert(PULSES) "interpolation relative/absolute";
-    M 8435 rw 0 inert(PULSES) "interpolation clockwise/counter-clockwise";
-    M 8450-8453 rw 0 inert(PULSES) "pulse stop for axis 5–8";
+    M 8432-8433 rw 0 inert(LATER) "interpolation mode";
+    M 8434 rw 0 inert(LATER) "interpolation relative/absolute";
+    M 8435 rw 0 inert(LATER) "interpolation clockwise/counter-clockwise";
+    M 8450-8453 rw 0 inert(LATER) "pulse stop for axis 5–8";
     M 8464-8467 rw 0 inert(LATER) "Y000–003: clear-signal device designation enabled";
-    M 8473-8476 rw 0 inert(PULSES) "PWM: Y000–003 output signal inverted";
+    M 8473-8476 rw 0 by("PWM") "PWM: Y000–003 output signal inverted";
     D 8000 rw 200 scan "watchdog timer (ms)";
     D 8001 r 26232 scan "PLC type and system version";
     D 8002 r 8 scan "memory capacity in k steps; 8 where it is 16 k or more, which D8102 tells";
@@ -195,17 +195,17 @@ pub(super) const L01S: &[Special] = specials! {
     D 8127 rw 0 inert(SERIAL) "start number for slave-side communication request";
     D 8128 rw 0 inert(SERIAL) "data count for slave-side communication request";
     D 8129 rw 0 inert(SERIAL) "port 2 timeout [ms] for RD3A/WR3A; recommended 10..20 at >= 9600 baud, 20..50 below";
-    D 8140 r 0 inert(PULSES) "axis 5 position, low/high (pair)";
-    D 8141 rw 0 inert(PULSES) "axis 6 position";
-    D 8142 r 0 inert(PULSES) "axis 7 position (pair)";
-    D 8143 rw 0 inert(PULSES) "axis 8 position";
-    D 8144 r 0 inert(PULSES) "axis 5 position (pair)";
-    D 8145 rw 0 inert(PULSES) "axis 6 position";
-    D 8146 r 0 inert(PULSES) "axis 7 position (pair)";
-    D 8147 rw 0 inert(PULSES) "axes 5-8: maximum speed";
-    D 8148 rw 0 inert(PULSES) "axes 5-8: acceleration/deceleration time";
-    D 8160 r 0 inert(PULSES) "axis 8 position, low word";
-    D 8161 r 0 inert(PULSES) "axis 8 position, high word";
+    D 8140 r 0 inert(LATER) "axis 5 position, low/high (pair)";
+    D 8141 rw 0 inert(LATER) "axis 6 position";
+    D 8142 r 0 inert(LATER) "axis 7 position (pair)";
+    D 8143 rw 0 inert(LATER) "axis 8 position";
+    D 8144 r 0 inert(LATER) "axis 5 position (pair)";
+    D 8145 rw 0 inert(LATER) "axis 6 position";
+    D 8146 r 0 inert(LATER) "axis 7 position (pair)";
+    D 8147 rw 0 inert(LATER) "axes 5-8: maximum speed";
+    D 8148 rw 0 inert(LATER) "axes 5-8: acceleration/deceleration time";
+    D 8160 r 0 inert(LATER) "axis 8 position, low word";
+    D 8161 r 0 inert(LATER) "axis 8 position, high word";
     D 8169 r 0 inert(MAKER) "access restriction state";
     D 8182 r 0 scan "contents of Z1";
     D 8183 r 0 scan "contents of V1";

@@ -1,8 +1,7 @@
 //! Special devices of FX2N, FX3G and FX3U, from public knowledge of their programming manuals.
 
 use super::{
-    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, POWER, PULSES, SERIAL, Special, TRACE,
-    specials,
+    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, POWER, SERIAL, Special, TRACE, specials,
 };
 
 /// What all three have.
@@ -169,7 +168,6 @@ pub(super) const FX3: &[Special] = specials! {
     M 8342 rw 0 by("DSZR") "Y000: returns forward";
     M 8343-8344 rw 0 by("pulse outputs") "Y000: forward and reverse limit";
     M 8345-8346 rw 0 by("DSZR") "Y000: DOG, zero signal inverted";
-    M 8347 rw 0 inert(PULSES) "Y000: interrupt signal inverted";
     M 8348 r 0 by("pulse outputs") "Y000: an instruction is driven";
     M 8349 rw 0 by("pulse outputs") "stops the pulses of Y000";
     M 8350 r 0 by("pulse outputs") "pulses are sent at Y001";
@@ -177,7 +175,6 @@ pub(super) const FX3: &[Special] = specials! {
     M 8352 rw 0 by("DSZR") "Y001: returns forward";
     M 8353-8354 rw 0 by("pulse outputs") "Y001: forward and reverse limit";
     M 8355-8356 rw 0 by("DSZR") "Y001: DOG, zero signal inverted";
-    M 8357 rw 0 inert(PULSES) "Y001: interrupt signal inverted";
     M 8358 r 0 by("pulse outputs") "Y001: an instruction is driven";
     M 8359 rw 0 by("pulse outputs") "stops the pulses of Y001";
     M 8360 r 0 by("pulse outputs") "pulses are sent at Y002";
@@ -185,7 +182,6 @@ pub(super) const FX3: &[Special] = specials! {
     M 8362 rw 0 by("DSZR") "Y002: returns forward";
     M 8363-8364 rw 0 by("pulse outputs") "Y002: forward and reverse limit";
     M 8365-8366 rw 0 by("DSZR") "Y002: DOG, zero signal inverted";
-    M 8367 rw 0 inert(PULSES) "Y002: interrupt signal inverted";
     M 8368 r 0 by("pulse outputs") "Y002: an instruction is driven";
     M 8369 rw 0 by("pulse outputs") "stops the pulses of Y002";
     M 8370 r 0 by("pulse outputs") "pulses are sent at Y003";
@@ -193,14 +189,11 @@ pub(super) const FX3: &[Special] = specials! {
     M 8372 rw 0 by("DSZR") "Y003: returns forward";
     M 8373-8374 rw 0 by("pulse outputs") "Y003: forward and reverse limit";
     M 8375-8376 rw 0 by("DSZR") "Y003: DOG, zero signal inverted";
-    M 8377 rw 0 inert(PULSES) "Y003: interrupt signal inverted";
     M 8378 r 0 by("pulse outputs") "Y003: an instruction is driven";
     M 8379 rw 0 by("pulse outputs") "stops the pulses of Y003";
     M 8398 rw 0 scan "starts the ring counter D8398";
     M 8401-8429 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
-    M 8460-8463 rw 0 inert(PULSES) "interrupt signals of DVIT, given by the program";
     M 8464-8467 rw 0 by("ZRN, DSZR") "D8464–D8467 hold the outputs of clear signals";
-    D 8336 rw 0 inert(PULSES) "interrupt inputs of DVIT";
     D 8340-8341 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: position";
     D 8342 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: base speed in Hz";
     D 8343 rw -31072 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: highest speed in Hz, low word";
@@ -264,7 +257,13 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
     M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
     M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";
+    M 8336 rw 0 by("DVIT") "D8336 chooses the interrupt inputs";
+    M 8347 rw 0 by("DVIT") "Y000: interrupt signal inverted";
+    M 8357 rw 0 by("DVIT") "Y001: interrupt signal inverted";
+    M 8367 rw 0 by("DVIT") "Y002: interrupt signal inverted";
+    M 8377 rw 0 by("DVIT") "Y003: interrupt signal inverted";
     M 8380-8392 rw 0 inert(FAST) "inputs and modes of high-speed counters";
+    M 8460-8463 rw 0 by("DVIT") "Y000–003: interrupt signals that the program gives, where D8336 says 8";
     D 8001 r 24320 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
     D 8074-8098 rw 0 inert(TRACE) "sampling trace";
@@ -273,4 +272,5 @@ pub(super) const FX3U: &[Special] = specials! {
     D 8310 rw 1 by("RND") "state of RND, low word";
     D 8311 rw 0 by("RND") "state of RND, high word";
     D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";
+    D 8336 rw 0 by("DVIT") "a hexadecimal digit for each output, that of Y000 the lowest: 0 to 7 for X000 to X007, 8 for M8460 to M8463";
 };

@@ -192,15 +192,17 @@ fn go_on(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
 
 /// Emergencies, limits, the interrupt, and changes of speed.
 fn watch(cx: &mut Cx, axis: Registers, order: &Order) -> Done {
-    if axis.word(cx, at::STATE) != state::RUNS {
-        return Ok(());
-    }
     let kind = order.kind;
     if axis.sees(cx, at::EMERGENCY, event::EMERGENCY) {
-        return match axis.has(cx, event::COMES_DOWN) && kind != Kind::Steady {
-            true => axis.come_down(cx),
-            false => axis.stop(cx, state::STOPPED),
+        let comes_down = axis.has(cx, event::COMES_DOWN) && kind != Kind::Steady;
+        return match (comes_down, axis.word(cx, at::STATE)) {
+            (false, _) => axis.stop(cx, state::STOPPED),
+            (true, state::RUNS) => axis.come_down(cx),
+            (true, _) => Ok(()),
         };
+    }
+    if axis.word(cx, at::STATE) != state::RUNS {
+        return Ok(());
     }
     let reverse = axis.generator(cx)?.is_reverse();
     let limit = match reverse {

@@ -43,6 +43,7 @@ proptest! {
         flags in any::<u64>(),
         wide: bool,
         drives in prop::collection::vec(prop::bool::weighted(0.8), 6),
+        signals in prop::collection::vec(prop::bool::weighted(0.3), 6),
         dt in prop_oneof![0..200u32, any::<u32>()],
         function in prop::sample::select(RtFn::ALL),
     ) {
@@ -65,7 +66,8 @@ proptest! {
         for (n, relay) in modes.into_iter().enumerate() {
             plc.set_bit(Class::M, relay, flags >> n & 1 == 1);
         }
-        for drive in drives {
+        for (drive, signal) in drives.into_iter().zip(signals) {
+            plc.site.signal = signal;
             let _ = plc.scan(dt, drive, function, &ops);
         }
     }
