@@ -119,7 +119,7 @@ pub fn prototypes(module: &Module) -> String {
     let when = if edges_only_note(module) {
         "Safe in an interrupt handler: it only notes the edge."
     } else {
-        "Not while a scan runs: it counts at once."
+        "Not while a scan runs: it counts or acts at once."
     };
     let mut out = format!(
         "\n/* An input terminal X (a plain number: 8 is X010) goes on or off. {when} */\n\

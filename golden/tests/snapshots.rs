@@ -80,6 +80,12 @@ fn cutter() {
     check("cutter", ModelId::H2u);
 }
 
+/// An input is taken notice of between two scans.
+#[test]
+fn labels() {
+    check("labels", ModelId::Fx3u);
+}
+
 #[test]
 fn jumps() {
     check("jumps", ModelId::Fx3u);

@@ -10,8 +10,8 @@ pub trait Program: Plc {
     /// special relays that run from power-on (the clocks) are brought up to date.
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
 
-    /// Input terminal X `number` goes on or off. Only programs with interrupts and pulse catch take notice of it; others see their
-    /// inputs as X shows them to a scan. Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
+    /// Input terminal X `number` goes on or off. Only programs take notice of it that have interrupts, pulse catch, high-speed counters, or
+    /// positioning that looks at inputs; others see their inputs as X shows them to a scan. Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
     fn input_edge(&mut self, number: u32, level: bool) {
         let _ = (number, level);
     }
