@@ -144,7 +144,11 @@ const FOUR_FOLD: &[FourFold] = &[
 ];
 
 const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
-/// Models on which a reset input acts as long as it is on, unless [`EDGE_RESET`] is on, and not at all while [`NO_RESET`] is on.
+/// Models on which a counter stays at 0 as long as its reset input is on (h1u-h2u-programming §3.6, l01s-programming §6.3). On the
+/// others it is reset at the edge.
+pub const HELD_BY_RESET: ModelSet =
+    ModelSet::of(&[ModelId::H1u, ModelId::H2u, ModelId::L01s, ModelId::Hm]);
+/// Models with [`EDGE_RESET`] and [`NO_RESET`].
 pub const RESET_RELAYS: ModelSet = INOVANCE;
 /// Only the edge of a reset input resets.
 pub const EDGE_RESET: u32 = 8166;

@@ -44,6 +44,25 @@ const PLSR_110: &[Param] = &[
     src("S3", VALUES).limits(0, NUMBER),
     PULSE_OUTPUT,
 ];
+/// Models that say how long ramps may take.
+const PLSR_INOVANCE: &[Param] = &[
+    src("S1", VALUES).limits(0, NUMBER),
+    src("S2", VALUES).limits(110, NUMBER),
+    src("S3", VALUES).limits(50, 5000),
+    PULSE_OUTPUT,
+];
+const PLSY: &[Param] = &[
+    src("S1", VALUES).limits(0, NUMBER),
+    src("S2", VALUES).limits(0, NUMBER),
+    PULSE_OUTPUT,
+];
+const PLSY_INOVANCE: &[Param] = &[
+    src("S1", VALUES)
+        .limits(0, 32767)
+        .rules(&[Rule::WideLimits(1, 100_000)]),
+    src("S2", VALUES).limits(0, NUMBER),
+    PULSE_OUTPUT,
+];
 
 const SET: &[Param] = &[
     src("S1", VALUES),
@@ -257,10 +276,11 @@ pub(super) const ROWS: &[Inst] = &[
     fast("PLSY", 57, "Pulse output")
         .forms(W16_W32)
         .steps(7, 13)
-        .takes(&[src("S1", VALUES).limits(0, NUMBER), src("S2", VALUES).limits(0, NUMBER), PULSE_OUTPUT])
+        .takes(PLSY)
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_PULSES),
+            on(INOVANCE).takes(PLSY_INOVANCE),
         ])
         .flags(&["M8029"])
         .errors(&[6770, 6771])
@@ -284,7 +304,8 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_RAMP),
-            on(INOVANCE.and(&[ModelId::Fx2n])).takes(PLSR_110),
+            on(ModelSet::of(&[ModelId::Fx2n])).takes(PLSR_110),
+            on(INOVANCE).takes(PLSR_INOVANCE),
         ])
         .flags(&["M8029"])
         .errors(&[6770])

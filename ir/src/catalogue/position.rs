@@ -2,7 +2,7 @@
 
 use super::high_speed::{AXIS, PULSE_OUTPUT};
 use super::row::*;
-use super::{Classes, Inst, Lower, Param};
+use super::{Classes, Inst, Lower, Param, Rule, Variant};
 use crate::model::ModelId;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
@@ -12,10 +12,23 @@ const DIRECTION: Param = coil("D2", COILS);
 const DISTANCE: Param = src("S1", VALUES);
 const SPEED: Param = src("S2", VALUES);
 const MOVE: &[Param] = &[DISTANCE, SPEED, PULSE_OUTPUT, DIRECTION];
+/// A speed of at least 10 Hz that may be told in 32 bits up to the model's highest.
+const fn speed(name: &'static str, wide: &'static [Rule]) -> Param {
+    src(name, VALUES).limits(10, 32767).rules(wide)
+}
+const INOVANCE_HZ: &[Rule] = &[Rule::WideLimits(10, 100_000)];
+const L01S_HZ: &[Rule] = &[Rule::WideLimits(10, 200_000)];
+const MOVE_INOVANCE: &[Param] = &[DISTANCE, speed("S2", INOVANCE_HZ), PULSE_OUTPUT, DIRECTION];
+const MOVE_L01S: &[Param] = &[DISTANCE, speed("S2", L01S_HZ), PULSE_OUTPUT, DIRECTION];
 const MOVE_HM: &[Param] = &[
     src("D1", CONSTANTS.or(DATA)).limits(-16_000_000, 16_000_000),
     src("D2", CONSTANTS.or(DATA)),
     AXIS,
+];
+const MOVE_VARIANTS: &[Variant] = &[
+    on(HM).forms(W32).takes(MOVE_HM),
+    on(INOVANCE).takes(MOVE_INOVANCE),
+    on(L01S).takes(MOVE_L01S),
 ];
 const SPEED_HM: &[Param] = &[src("D1", CONSTANTS.or(DATA)), AXIS];
 const RETURN: &[Param] = &[
@@ -23,6 +36,33 @@ const RETURN: &[Param] = &[
     src("S2", VALUES),
     bit("S3", BITS),
     PULSE_OUTPUT,
+];
+const RETURN_INOVANCE: &[Param] = &[
+    speed("S1", INOVANCE_HZ),
+    speed("S2", &[]),
+    bit("S3", BITS),
+    PULSE_OUTPUT,
+];
+const RETURN_L01S: &[Param] = &[
+    speed("S1", L01S_HZ),
+    src("S2", VALUES),
+    bit("S3", BITS),
+    PULSE_OUTPUT,
+];
+const FREE: &[Param] = &[src("S", VALUES), PULSE_OUTPUT, DIRECTION];
+const FREE_INOVANCE: &[Param] = &[
+    src("S", VALUES)
+        .limits(-32768, 32767)
+        .rules(&[Rule::WideLimits(-100_000, 100_000), Rule::Not(0, 0)]),
+    PULSE_OUTPUT,
+    DIRECTION,
+];
+const FREE_L01S: &[Param] = &[
+    src("S", VALUES)
+        .limits(-32768, 32767)
+        .rules(&[Rule::WideLimits(-200_000, 200_000), Rule::Not(0, 0)]),
+    PULSE_OUTPUT,
+    DIRECTION,
 ];
 const SEARCH: &[Param] = &[
     bit("S1", BITS),
@@ -80,26 +120,29 @@ pub(super) const ROWS: &[Inst] = &[
     position("ZRN", 156, "Zero return")
         .on(NOT_HM)
         .takes(RETURN)
+        .variants(&[on(INOVANCE).takes(RETURN_INOVANCE), on(L01S).takes(RETURN_L01S)])
         .call(RtFn::Zrn)
         .text("Runs output D back at S1 Hz until the DOG signal S3, then at S2 Hz until it is off: the origin."),
     position("PLSV", 157, "Variable-speed pulses")
         .steps(7, 13)
-        .takes(&[src("S", VALUES), PULSE_OUTPUT, DIRECTION])
+        .takes(FREE)
         .variants(&[
             on(HM).forms(W32).takes(SPEED_HM),
+            on(INOVANCE).takes(FREE_INOVANCE),
+            on(L01S).takes(FREE_L01S),
         ])
         .call(RtFn::Plsv)
         .lower_on(&[(HM, Lower::Call(RtFn::AxisPlsv))])
         .text("Sends pulses of |S| Hz on D1 while driven, the sign of S on D2; S may change. HM: an axis instead of D1 and D2."),
     position("DRVI", 158, "Relative positioning")
         .takes(MOVE)
-        .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
+        .variants(MOVE_VARIANTS)
         .call(RtFn::Drvi)
         .lower_on(&[(HM, Lower::Call(RtFn::AxisDrvi))])
         .text("Moves by S1 pulses at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),
     position("DRVA", 159, "Absolute positioning")
         .takes(MOVE)
-        .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
+        .variants(MOVE_VARIANTS)
         .call(RtFn::Drva)
         .lower_on(&[(HM, Lower::Call(RtFn::AxisDrva))])
         .text("Moves to position S1 at S2 Hz with ramps: pulses on D1, direction on D2. HM: an axis instead of D1 and D2."),

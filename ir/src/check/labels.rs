@@ -3,7 +3,7 @@
 use super::Code;
 use super::pointers::{Pointer, Pointers};
 use super::structure::{NONE, Places, Routine};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Operand, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Operand, OperandKind, Span, codes};
 use rustc_hash::FxHashMap;
 
 /// Checks all pointers of a program.
@@ -11,6 +11,9 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
     for (device, pointer) in pointers.iter() {
         defined_once(code, device, pointer, out);
         if device.class != DeviceClass::P {
+            if pointer.labels.is_empty() {
+                no_routine(code, device, pointer, out);
+            }
             continue;
         }
         if code.model().end_pointer == Some(device.number) {
@@ -96,15 +99,37 @@ fn missing(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics
         .chain(&pointer.calls)
         .chain(&pointer.others)
     {
-        let names = |operand: &&Operand| matches!(operand.kind, OperandKind::Device(named, _) if named == device);
-        let operand = code.instr(i).operands.iter().find(names);
-        let span = operand.map_or(code.span(i), |operand| operand.span);
         let diagnostic = codes::NO_LABEL
-            .at(span, format!("there is no label `{device}`"))
+            .at(
+                named_at(code, i, device),
+                format!("there is no label `{device}`"),
+            )
             .label("leads nowhere")
             .help(format!("put the line `{device}` where it should lead"));
         out.push(diagnostic);
     }
+}
+
+fn no_routine(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics) {
+    for &i in &pointer.others {
+        let diagnostic = codes::NO_ROUTINE
+            .at(
+                named_at(code, i, device),
+                format!("there is no interrupt routine `{device}`"),
+            )
+            .label("nothing would run")
+            .help(format!(
+                "put the routine `{device}` behind FEND, with IRET at its end"
+            ));
+        out.push(diagnostic);
+    }
+}
+
+/// Where an instruction names a pointer.
+fn named_at(code: &Code, i: usize, device: Device) -> Span {
+    let names = |operand: &&Operand| matches!(operand.kind, OperandKind::Device(named, _) if named == device);
+    let operand = code.instr(i).operands.iter().find(names);
+    operand.map_or(code.span(i), |operand| operand.span)
 }
 
 fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mut Diagnostics) {

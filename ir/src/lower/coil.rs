@@ -172,8 +172,11 @@ impl Lowerer<'_> {
             _ => {
                 let value = this.bit_const(on);
                 this.write_bits(operand, value);
-                if let (true, &OperandKind::Device(device, None)) = (on, operand) {
-                    this.keep_state(device);
+                if let &OperandKind::Device(device, None) = operand {
+                    if on {
+                        this.keep_state(device);
+                    }
+                    this.relay_changed(device);
                 }
             }
         });

@@ -5,8 +5,8 @@ use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use crate::catalogue::{Basic, CmpOp, Comparison, Inst, Lower};
 use crate::high_speed::{
-    self, Axis, COMPARE_AT_RESET, CROSSING, Counter, EDGE_RESET, Kind, NO_RESET, RESET_RELAYS,
-    ZONES,
+    self, Axis, COMPARE_AT_RESET, CROSSING, Counter, EDGE_RESET, HELD_BY_RESET, Kind, NO_RESET,
+    RESET_RELAYS, ZONES,
 };
 use crate::interrupts::Source;
 use crate::node::{BinOp, CellId, EdgeKind, Expr, ExprId, FlagId, Place, Stmt, SysValue};
@@ -167,12 +167,18 @@ impl Lowerer<'_> {
         let Some(used) = used.iter().find(|u| u.counter.number == device.number) else {
             return;
         };
-        let (on, preset) = (used.on, used.preset);
+        let (counter, on, preset) = (used.counter, used.on, used.preset);
         let drive = self.drive();
         self.with_preset(true, Guards::default(), |this, value| {
             this.emit(Stmt::SetCell(preset, value));
             this.emit(Stmt::SetFlag(on, drive));
         });
+        // What was written to it, or kept since power was on, does not outlast a reset input that is on.
+        if let Some(held) = self.held(counter) {
+            let resets = self.and(drive, held);
+            let place = counter_place(counter.number);
+            self.when(resets, |this| this.emit(Stmt::Reset(place)));
+        }
     }
 
     /// HSCS, HSCR, HSZ, HSCT: while driven, the comparison is armed with its values.
@@ -432,15 +438,7 @@ impl Lowerer<'_> {
             let start = self.level(start);
             counts = self.and(counts, start);
         }
-        if let (Some(reset), true) = (used.counter.reset, RESET_RELAYS.has(self.model.id)) {
-            let mut held = self.level(reset);
-            for relay in [EDGE_RESET, NO_RESET] {
-                if self.specials.has(DeviceClass::M, relay) {
-                    let relay = self.add(Expr::ReadBit(fixed(DeviceClass::M, relay)));
-                    let relay = self.not(relay);
-                    held = self.and(held, relay);
-                }
-            }
+        if let Some(held) = self.held(used.counter) {
             let free = self.not(held);
             counts = self.and(counts, free);
         }
@@ -461,6 +459,22 @@ impl Lowerer<'_> {
             }
             this.rows_at_count(number, down);
         });
+    }
+
+    /// Whether its reset input holds a counter at 0; `None` if none does so.
+    fn held(&mut self, counter: &Counter) -> Option<ExprId> {
+        let reset = counter.reset.filter(|_| HELD_BY_RESET.has(self.model.id))?;
+        let mut held = self.level(reset);
+        if RESET_RELAYS.has(self.model.id) {
+            for relay in [EDGE_RESET, NO_RESET] {
+                if self.specials.has(DeviceClass::M, relay) {
+                    let relay = self.add(Expr::ReadBit(fixed(DeviceClass::M, relay)));
+                    let relay = self.not(relay);
+                    held = self.and(held, relay);
+                }
+            }
+        }
+        Some(held)
     }
 
     /// The registers of an input axis show the count, if something looks at them.

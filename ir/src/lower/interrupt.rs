@@ -9,6 +9,7 @@ use crate::node::{
     BinOp, Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue, Ty,
 };
 use rungc_syntax::{
+    Device,
     DeviceClass::{D, M},
     codes,
 };
@@ -53,6 +54,22 @@ impl What {
             What::Routine { interrupt, .. } => interrupt.request,
             What::Process { interrupt, .. } => Some(interrupt.again),
             What::Catch(_) | What::Scope => None,
+        }
+    }
+
+    /// Whether a relay requests it or says whether it may be done, where relays keep requests.
+    fn heeds(&self, relay: u32) -> bool {
+        match *self {
+            What::Routine { interrupt, .. } => {
+                let (Gate::Forbids(gate) | Gate::Allows(gate)) = interrupt.gate;
+                interrupt
+                    .request
+                    .is_some_and(|request| [request, gate].contains(&relay))
+            }
+            What::Process { interrupt, .. } => {
+                [interrupt.request, interrupt.again, interrupt.mask].contains(&relay)
+            }
+            What::Catch(_) | What::Scope => false,
         }
     }
 
@@ -263,6 +280,14 @@ impl Lowerer<'_> {
     pub(super) fn interruptible(&mut self) {
         if let Some((_, function)) = self.interrupts.function {
             self.emit(Stmt::CallSub(function));
+        }
+    }
+
+    /// An interrupt that a relay now requests, or no longer forbids, does not wait for the end of the network.
+    pub(super) fn relay_changed(&mut self, device: Device) {
+        let heeded = |request: &Request| request.what.heeds(device.number);
+        if device.class == M && self.flow.in_main() && self.interrupts.requests.iter().any(heeded) {
+            self.interruptible();
         }
     }
 

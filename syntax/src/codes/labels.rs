@@ -61,4 +61,10 @@ super::codes! {
     "Each fast input serves one high-speed counter.",
     wrong: "LD M8000\nOUT C235 K100\nLD M8000\nOUT C251 K100\nEND\n",
     right: "LD M8000\nOUT C237 K100\nLD M8000\nOUT C251 K100\nEND\n";
+
+    NO_ROUTINE = "E0443" "no-routine" Error Some(6712),
+    "interrupt without a routine",
+    "DHSCS may request an interrupt instead of setting a bit; its routine must stand behind FEND.",
+    wrong: "EI\nLD M8000\nOUT C235 K100\nDHSCS K50 C235 I010\nFEND\nEND\n",
+    right: "EI\nLD M8000\nOUT C235 K100\nDHSCS K50 C235 I010\nFEND\nI010\nLD M8000\nINC D0\nIRET\nEND\n";
 }
