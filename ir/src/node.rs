@@ -538,10 +538,11 @@ pub enum FunctionKind {
     Subroutine(u32),
     /// An interrupt routine, by its pointer number.
     Interrupt(u32),
-    /// Runs the interrupt routines that are requested. `Main` calls it at the begin of each network, and behind what sets
-    /// or resets a relay that requests or forbids one where relays keep requests (HM); `End` at its begin, and a host may between two scans ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt
-    /// routine is itself. What is requested between two of these moments counts as requested together: then
-    /// [`crate::interrupts::precedence`] tells which comes first.
+    /// Runs the interrupt routines that are requested. `Main` calls it at the begin of each network, and behind what sets or resets
+    /// a relay that requests or forbids one where relays keep requests (HM); `End` at its begin, and a host may between two scans
+    /// ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt routine is itself. What is
+    /// requested between two of these moments counts as requested together: then [`crate::interrupts::precedence`] tells which comes
+    /// first.
     TakeInterrupts,
     /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.
     InputEdge {
