@@ -101,8 +101,11 @@ pub struct BuildArgs {
     #[command(flatten)]
     pub input: Input,
     /// What to make.
-    #[arg(long, value_enum)]
-    pub emit: Emit,
+    #[arg(long, value_enum, required_unless_present = "report")]
+    pub emit: Option<Emit>,
+    /// Tell what the program takes on the target, built from C: flash, RAM, steps of the longest scan, stack (docs/report.md).
+    #[arg(long)]
+    pub report: bool,
     /// The machine to build for: `host`, or what rustc calls it, such as thumbv7em-none-eabihf. An image is for its board's.
     #[arg(long, value_parser = target, value_name = "TARGET")]
     pub target: Option<&'static Target>,

@@ -18,7 +18,7 @@ fn main() -> ExitCode {
     let cx = Context {
         color: color(cli.color),
         taken: match &cli.command {
-            Command::Build(args) => args.emit == Emit::Ir && args.output.is_none(),
+            Command::Build(args) => args.emit == Some(Emit::Ir) && args.output.is_none(),
             Command::Convert(args) => args.output.is_none(),
             Command::Run(_) => true,
             _ => false,

@@ -4,8 +4,11 @@ mod common;
 mod tools;
 
 use common::{MOTOR, code, folder, rungc, shown, text};
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::sync::mpsc;
+use std::time::Duration;
 use tools::{cargo, leave_out, no_rust, tools};
 
 fn repository() -> PathBuf {
@@ -75,6 +78,230 @@ fn an_image_runs() {
     assert_eq!(again.status.code(), Some(2), "it is there already");
 }
 
+/// The other cores, at boards of QEMU's. A micro:bit stands for any Cortex-M0: nothing of its pins is looked at.
+#[test]
+fn images_run_on_other_cores() {
+    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+        return;
+    }
+    let m3 = std::fs::read_to_string(board("boards/mps2-an385.toml")).unwrap();
+    let m0 = m3.replace("thumbv7m", "thumbv6m").replace("4M", "16K");
+    let folder = folder(&[("m3.toml", m3.as_bytes()), ("m0.toml", m0.as_bytes())]);
+    for (board, machine) in [("m3", "mps2-an385"), ("m0", "microbit")] {
+        let image = format!("{board}.elf");
+        let args = ["build", &traffic_light(), "--emit", "elf", "-o", &image];
+        let script = ["--set", "X0=1@2s,X0=0@2.1s", "--for", "30s"];
+        let board = ["--board", &format!("{board}.toml")];
+        let output = rungc(folder.path(), &[&args[..], &script, &board].concat());
+        quiet(&output);
+        let printed = simulated(machine, &folder.path().join(image));
+        insta::assert_snapshot!("traffic_light", printed);
+    }
+}
+
+/// A board whose pins are functions in C. What it shows are two outputs and how often they were set.
+const PANEL: &str = "\
+name = \"Panel\"
+target = \"thumbv7m-none-eabi\"
+sources = [\"panel.c\", \"panel.h\"]
+
+[memory]
+flash = { origin = 0, length = \"64K\" }
+ram = { origin = 0x2000_0000, length = \"16K\" }
+
+[clock]
+hz = 25_000_000
+
+[functions]
+init = \"panel_init\"
+input = \"panel_input\"
+set_output = \"panel_set_output\"
+
+[interrupts]
+5 = \"panel_interrupt\"
+";
+
+const PANEL_C: &str = "\
+#include <stdbool.h>
+#include <stdint.h>
+#include \"panel.h\"
+
+static unsigned reads;
+static bool interrupted;
+
+static void call(uint32_t operation, const void *argument)
+{
+    register uint32_t r0 __asm__(\"r0\") = operation;
+    register const void *r1 __asm__(\"r1\") = argument;
+    __asm__ volatile(\"bkpt 0xAB\" : \"+r\"(r0) : \"r\"(r1) : \"memory\");
+}
+
+void panel_interrupt(void)
+{
+    interrupted = true;
+}
+
+void panel_init(void)
+{
+    *(volatile uint32_t *)0xE000E100u = 1u << 5; /* enabled */
+    *(volatile uint32_t *)0xE000E200u = 1u << 5; /* and requested */
+}
+
+bool panel_input(void *context, uint16_t number, bool *on)
+{
+    (void)context;
+    *on = number == 0u && ++reads > FIRST && interrupted;
+    return true;
+}
+
+void panel_set_output(void *context, uint16_t number, bool on)
+{
+    (void)context;
+    if (number == 0u && on) {
+        call(0x04, \" s  Y000 of the panel\\n\");
+        call(0x18, (const void *)0x20026);
+    }
+}
+";
+
+#[test]
+fn a_board_may_have_functions_of_its_own() {
+    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+        return;
+    }
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("panel.toml", PANEL.as_bytes()),
+        ("panel.c", PANEL_C.as_bytes()),
+        ("panel.h", b"#define FIRST 3u\n"),
+    ]);
+    let args = [
+        "build",
+        "motor.il",
+        "--emit",
+        "elf",
+        "--board",
+        "panel.toml",
+    ];
+    quiet(&rungc(folder.path(), &args));
+    let printed = simulated("mps2-an385", &folder.path().join("motor.elf"));
+    assert_eq!(printed, " s  Y000 of the panel");
+    // The same as sources, which build by themselves.
+    let args = [
+        "build",
+        "motor.il",
+        "--emit",
+        "c",
+        "--board",
+        "panel.toml",
+        "-o",
+        "src",
+    ];
+    quiet(&rungc(folder.path(), &args));
+    let source = folder.path().join("src");
+    let made = Command::new("make")
+        .arg("-C")
+        .arg(&source)
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    assert_eq!(text(&made.stderr), "", "warnings");
+    assert_eq!(simulated("mps2-an385", &source.join("motor.elf")), printed);
+}
+
+const LINUX: &str = "armv7-unknown-linux-gnueabihf";
+
+/// The first line that a program prints whose input is switched on, under QEMU.
+fn first_line(program: &Path, input: &str) -> String {
+    let mut running = Command::new("qemu-arm")
+        .args(["-L", "/usr/arm-linux-gnueabihf"])
+        .arg(program)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let output = running.stdout.take().unwrap();
+    let mut stdin = running.stdin.take().unwrap();
+    writeln!(stdin, "{input}").unwrap();
+    let (sender, receiver) = mpsc::channel();
+    std::thread::spawn(move || {
+        let mut line = String::new();
+        let read = BufReader::new(output).read_line(&mut line);
+        sender.send(read.map(|_| line)).unwrap_or_default();
+    });
+    let line = receiver.recv_timeout(Duration::from_secs(60));
+    running.kill().unwrap();
+    running.wait().unwrap();
+    line.expect("a line within a minute").unwrap()
+}
+
+/// An executable for Linux on 32-bit Arm scans there, with the runtime and without.
+#[test]
+fn executables_run_on_arm_linux() {
+    if !tools(&["make", "arm-linux-gnueabihf-gcc", "qemu-arm"]) {
+        return;
+    }
+    let Some(cargo) = cargo(LINUX) else {
+        return leave_out(&no_rust(LINUX));
+    };
+    let floats =
+        "LD X000\nOUT T0 K3\nLD T0\nDESQR K4 D0\nDEMOV D0 D2\nLD T0\nANDD> D2 K0\nOUT Y000\nEND\n";
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("floats.il", floats.as_bytes()),
+    ]);
+    for program in ["motor", "floats"] {
+        let file = format!("{program}.il");
+        let args = [
+            "build", &file, "--emit", "bin", "--target", LINUX, "-o", program,
+        ];
+        let output = with_cargo(&cargo)
+            .args(args)
+            .current_dir(folder.path())
+            .output();
+        quiet(&output.unwrap());
+        let line = first_line(&folder.path().join(program), "X0=1");
+        assert!(line.contains("Y000 on"), "{line}");
+    }
+}
+
+/// The same in Rust. A distribution's cargo builds the standard library from its sources.
+#[test]
+fn rust_runs_on_arm_linux() {
+    if !tools(&["arm-linux-gnueabihf-gcc", "qemu-arm"]) {
+        return;
+    }
+    let Some(mut cargo) = cargo(LINUX) else {
+        return leave_out(&no_rust(LINUX));
+    };
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let args = [
+        "build", "motor.il", "--emit", "rust", "--main", "--target", LINUX, "-o", "motor",
+    ];
+    quiet(&rungc(folder.path(), &args));
+    if builds_std(&cargo) {
+        cargo.env("CARGO_UNSTABLE_BUILD_STD", "std,panic_abort");
+    }
+    let output = cargo
+        .args(["build", "--quiet"])
+        .env(
+            "CARGO_TARGET_ARMV7_UNKNOWN_LINUX_GNUEABIHF_LINKER",
+            "arm-linux-gnueabihf-gcc",
+        )
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
+        .current_dir(folder.path().join("motor"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let program = folder
+        .path()
+        .join("motor/target")
+        .join(LINUX)
+        .join("debug/motor");
+    let line = first_line(&program, "X0=1");
+    assert!(line.contains("Y000 on"), "{line}");
+}
+
 /// Nothing is written by what cannot be built.
 #[test]
 fn what_is_missing_is_said() {
@@ -116,6 +343,8 @@ fn options_that_do_not_go_together() {
         &["--emit", "c", "--main", "--board", &board],
         &["--emit", "lib", "--main"],
         &["--emit", "lib", "--target", "pdp11"],
+        &["--emit", "rust", "--report"],
+        &["--report", "--format", "sarif"],
         &["--emit", "elf", "--board", "none.toml"],
         &["--emit", "elf", "--board", "wrong.toml"],
         &["--emit", "elf", "--board", &board, "--set", "D0=1"],
@@ -174,4 +403,108 @@ fn with_cargo(cargo: &Command) -> Command {
     }
     rungc.env("CARGO", cargo.get_program());
     rungc
+}
+
+/// A text without the sizes that another version of a compiler would change.
+fn without_sizes(text: &str) -> String {
+    let measured = ["flash", "RAM", "a scan", "image"];
+    let lines = text.lines().map(|line| {
+        let measured = measured
+            .iter()
+            .any(|what| line.trim_start().starts_with(what));
+        match measured {
+            true => line
+                .replace(|c: char| c.is_ascii_digit(), "")
+                .split_whitespace()
+                .collect::<Vec<_>>()
+                .join(" "),
+            false => line.to_string(),
+        }
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Interrupts, a loop whose count is in a device, a call, a jump back.
+const BUSY: &str = "\
+EI
+LD X010
+OUT Y000
+FOR D10
+LD M8000
+ADD D0 K1 D0
+NEXT
+FOR K5
+LD M8000
+ADD D1 K1 D1
+NEXT
+P1
+LD X011
+CALL P0
+LD X012
+CJ P1
+FEND
+P0
+LD M8000
+INC D2
+SRET
+I001
+LD M8000
+INC D3
+IRET
+END
+";
+
+#[test]
+fn what_a_program_takes_is_reported() {
+    if !tools(&["make", "arm-none-eabi-gcc"]) {
+        return;
+    }
+    let folder = folder(&[("busy.il", BUSY.as_bytes())]);
+    let mut said = Vec::new();
+    for (file, place) in [
+        (traffic_light(), ["--board", &board("stm32f405/board.toml")]),
+        (traffic_light(), ["--target", "thumbv6m-none-eabi"]),
+        ("busy.il".to_string(), ["--target", "thumbv7m-none-eabi"]),
+        ("busy.il".to_string(), ["--target", "host"]),
+    ] {
+        let args = [&["build", &file, "--report"][..], &place].concat();
+        let output = rungc(folder.path(), &args);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        said.push(without_sizes(&text(&output.stdout)));
+    }
+    insta::assert_snapshot!("report", said.join("\n\n"));
+}
+
+#[test]
+fn a_report_for_tools() {
+    if !tools(&["make", "arm-none-eabi-gcc"]) {
+        return;
+    }
+    let folder = folder(&[]);
+    let args = ["build", &traffic_light(), "--report", "--format", "json"];
+    let board = ["--board", &board("stm32f405/board.toml")];
+    let output = rungc(folder.path(), &[&args[..], &board].concat());
+    let read: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let report = &read["report"];
+    let number = |pointer: &str| report.pointer(pointer).and_then(|n| n.as_u64()).unwrap();
+    // The goal of a small image, which holds far from what compilers change.
+    assert!((500..4096).contains(&number("/flash")), "{report}");
+    assert!((100..512).contains(&number("/ram")), "{report}");
+    assert!((8..512).contains(&number("/stack/scan")), "{report}");
+    assert!(number("/stack/image") > number("/stack/scan"), "{report}");
+    assert_eq!(number("/scan/steps"), 52);
+    let areas = report["devices"]["areas"].as_array().unwrap();
+    let sum: u64 = areas
+        .iter()
+        .map(|area| area["bytes"].as_u64().unwrap())
+        .sum();
+    assert_eq!(sum + number("/devices/private"), number("/devices/bytes"));
+    let outputs = areas.iter().find(|area| area["class"] == "Y").unwrap();
+    assert_eq!(outputs["devices"], 5);
+}
+
+/// Whether this cargo builds the standard library itself.
+fn builds_std(cargo: &Command) -> bool {
+    let mut set = cargo.get_envs();
+    set.any(|(name, value)| name == "CARGO_UNSTABLE_BUILD_STD" && value.is_some())
 }

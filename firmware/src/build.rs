@@ -2,6 +2,8 @@
 
 use crate::image::OutFile;
 use crate::target::Target;
+use rungc_ir::Module;
+use rungc_ir::node::{Function, FunctionKind};
 use std::env;
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -183,20 +185,77 @@ impl Tools {
             .filter(|(path, _)| is_header(path))
             .map(|(path, text)| (path.clone(), text.clone().into_bytes()))
             .collect();
-        let own = format!("lib{name}.a");
-        library.push((own.clone(), read(&folder.path().join(own))?));
-        if calls_runtime(files) {
-            let triple = self.target.rustc_name().unwrap_or_default();
-            let path = folder
-                .path()
-                .join("rungc-rt/target")
-                .join(triple)
-                .join("release");
-            let runtime = "librungc_rt.a";
-            library.push((runtime.to_string(), read(&path.join(runtime))?));
+        for built in self.libraries(files, name) {
+            let file = built.file_name().unwrap_or_default().to_string_lossy();
+            library.push((file.into_owned(), read(&folder.path().join(&built))?));
         }
         Ok(library)
     }
+
+    /// The static libraries that sources in C become, in the order in which a linker wants them.
+    fn libraries(&self, files: &[OutFile], name: &str) -> Vec<PathBuf> {
+        let triple = self.target.rustc_name().unwrap_or_default();
+        let runtime = Path::new("rungc-rt/target").join(triple);
+        let runtime = runtime.join("release/librungc_rt.a");
+        let own = PathBuf::from(format!("lib{name}.a"));
+        let runtime = calls_runtime(files).then_some(runtime);
+        std::iter::once(own).chain(runtime).collect()
+    }
+
+    /// Builds sources in C and links all of the program that a host calls, and nothing else, as an executable to be measured. Its struct is
+    /// called `plc`.
+    pub fn c_probe(&self, files: &[OutFile], module: &Module) -> Result<Vec<u8>, BuildError> {
+        let folder = self.build_c(files)?;
+        let source = folder.path().join("probe.c");
+        fs::write(&source, probe(module)).map_err(io(&source))?;
+        let mut link = Command::new(&self.cc);
+        link.current_dir(folder.path())
+            .args(self.target.flags.split_whitespace())
+            .args(["-std=c11", "-Os", "--specs=nano.specs", "-nostartfiles"])
+            .args([
+                "-Wl,--gc-sections,-e,probe,-z,noexecstack",
+                "-o",
+                "probe.elf",
+                "probe.c",
+            ])
+            .args(self.libraries(files, &module.name));
+        let output = link.output().map_err(io(Path::new(&self.cc)))?;
+        succeeded("the linker", output)?;
+        read(&folder.path().join("probe.elf"))
+    }
+}
+
+/// What calls all of a program that a host calls.
+fn probe(module: &Module) -> String {
+    let mut calls = String::new();
+    let takes = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
+    for (there, call) in [
+        (true, "PROGRAM_init(&plc);"),
+        (true, "PROGRAM_scan(&plc, argument, argument);"),
+        (true, "result = PROGRAM_output(&plc, argument);"),
+        (
+            module.takes_events(),
+            "PROGRAM_input_edge(&plc, argument, result);",
+        ),
+        (module.takes_time(), "PROGRAM_tick(&plc, argument);"),
+        (
+            module.functions.iter().any(takes),
+            "PROGRAM_take_interrupts(&plc);",
+        ),
+        (
+            module.sends_pulses(),
+            "argument = PROGRAM_pulse_timer(&plc, argument);",
+        ),
+    ] {
+        if there {
+            calls.push_str(&format!("    {call}\n"));
+        }
+    }
+    format!(
+        "#include \"PROGRAM.h\"\n\nPROGRAM_plc plc;\nvolatile uint32_t argument;\nvolatile bool result;\nvoid probe(void);\n\n\
+         void probe(void)\n{{\n{calls}}}\n"
+    )
+    .replace("PROGRAM", &module.name)
 }
 
 /// Whether the runtime's sources are among the files.

@@ -21,6 +21,7 @@ pub mod runs;
 pub mod special;
 pub mod validate;
 pub mod walk;
+pub mod worst;
 
 pub use model::{Model, ModelId, ModelSet};
 pub use node::Module;

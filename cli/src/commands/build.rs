@@ -5,12 +5,13 @@ use super::{
     Context, Failure, Outcome, Result, conclude, counted, findings, holder, read, say, stem, tell,
     write_executable, write_file,
 };
-use crate::args::{BuildArgs, Emit};
+use crate::args::{BuildArgs, Emit, Format};
 use crate::progress;
 use crate::report;
 use rungc_firmware::board::{self, Board};
 use rungc_firmware::build::Tools;
 use rungc_firmware::image::{self, Image, Script};
+use rungc_firmware::report::{self as firmware, Report};
 use rungc_firmware::sources;
 use rungc_firmware::target::{self, Target};
 use rungc_ir::compile::{self, CompileOptions};
@@ -42,32 +43,58 @@ pub fn run(args: &BuildArgs, cx: Context) -> Result {
         ..CompileOptions::default()
     };
     let compiled = progress::spin("compiling", || compile::compile(&read.program, &options));
-    let findings = findings(&args.input, &read, &compiled);
+    let mut findings = findings(&args.input, &read, &compiled);
     let module = match compiled.module {
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, &args.input.reporting, cx, String::new),
     };
-    let written = emit(args, &module, target, image.as_ref())?;
-    match written {
-        Some(path) => conclude(&findings, &args.input.reporting, cx, || {
-            format!(
-                "    Emitted {} ({}, {})",
-                path.display(),
-                module.model.name.to_uppercase(),
-                counted(module.steps as usize, "step")
-            )
-        }),
-        None => report::print(&findings, &args.input.reporting, cx.color, cx.taken)
-            .map(|()| Outcome::Success)
-            .map_err(Failure::from),
+    let job = Job {
+        args,
+        module: &module,
+        target,
+        image: image.as_ref(),
+    };
+    let written = match args.emit {
+        Some(what) => job.emit(what)?,
+        None => None,
+    };
+    if args.report {
+        findings.takes = Some(job.measure(written.as_deref())?);
     }
+    let reporting = &args.input.reporting;
+    if args.emit == Some(Emit::Ir) && written.is_none() {
+        return report::print(&findings, reporting, cx.color, cx.taken)
+            .map(|()| Outcome::Success)
+            .map_err(Failure::from);
+    }
+    if let (Some(takes), Format::Human) = (&findings.takes, reporting.format) {
+        say(&takes.to_string())?;
+    }
+    conclude(&findings, reporting, cx, || {
+        let (what, path) = match &written {
+            Some(path) => ("Emitted", path.display()),
+            None => ("Measured", args.input.file.display()),
+        };
+        format!(
+            "{what:>11} {path} ({}, {})",
+            module.model.name.to_uppercase(),
+            counted(module.steps as usize, "step")
+        )
+    })
 }
 
 /// The target, if the options go together.
 fn fitting(args: &BuildArgs) -> std::result::Result<&'static Target, Failure> {
     let wrong = |why: &str| Err(Failure::Because(why.to_string()));
+    if args.report && args.input.reporting.format == Format::Sarif {
+        return wrong("--report: SARIF has no place for it; --format json has");
+    }
     let target = args.target.unwrap_or(target::host());
-    match args.emit {
+    let Some(emit) = args.emit else {
+        return Ok(target);
+    };
+    match emit {
+        Emit::Ir | Emit::Rust if args.report => wrong("--report: what is measured is built from C"),
         Emit::Ir if args.target.is_some() => wrong("--target: the IR is the same for all targets"),
         Emit::Ir | Emit::Rust | Emit::Bin | Emit::Lib if args.board.is_some() => {
             wrong("--board: an image is made by --emit elf, its sources by --emit c")
@@ -151,81 +178,126 @@ fn because(error: impl std::fmt::Display) -> Failure {
     Failure::Because(error.to_string())
 }
 
-/// Writes what was asked for; returns where, or `None` for standard output.
-fn emit(
-    args: &BuildArgs,
-    module: &Module,
+/// A program to be emitted.
+struct Job<'a> {
+    args: &'a BuildArgs,
+    module: &'a Module,
     target: &'static Target,
-    image: Option<&ForImage>,
-) -> std::result::Result<Option<PathBuf>, Failure> {
-    let output = |default: String| {
-        args.output
-            .clone()
-            .unwrap_or_else(|| PathBuf::from(default))
-    };
-    let name = &module.name;
-    let tools = |target| Tools::new(target, &args.cargo_arg);
-    let path = match (args.emit, image) {
-        (Emit::Ir, _) => {
-            let text = dump::dump(module);
-            match &args.output {
-                None => say(&text)?,
-                Some(path) => write_file(path, text.as_bytes(), args.force)?,
+    image: Option<&'a ForImage>,
+}
+
+type Built<T> = std::result::Result<T, Failure>;
+
+impl Job<'_> {
+    /// The target, which an image has from its board.
+    fn target(&self) -> &'static Target {
+        self.image.map_or(self.target, |image| image.board.target)
+    }
+
+    fn tools(&self) -> Tools {
+        Tools::new(self.target(), &self.args.cargo_arg)
+    }
+
+    /// Where to write.
+    fn output(&self, default: String) -> PathBuf {
+        let given = self.args.output.clone();
+        given.unwrap_or_else(|| PathBuf::from(default))
+    }
+
+    /// Writes what was asked for; returns where, or `None` for standard output.
+    fn emit(&self, what: Emit) -> Built<Option<PathBuf>> {
+        let (module, name, main) = (self.module, &self.module.name, self.args.main);
+        let path = match what {
+            Emit::Ir => return self.ir(),
+            Emit::C => {
+                let files = match self.image {
+                    Some(image) => image.sources(module)?,
+                    None => sources::c(module, self.target, main),
+                };
+                self.folder(format!("{name}-c"), || Ok(texts(files)))?
             }
-            return Ok(args.output.clone());
+            Emit::Rust => self.folder(format!("{name}-rust"), || {
+                Ok(texts(sources::rust(module, self.target, main)))
+            })?,
+            Emit::Lib => self.folder(format!("{name}-lib"), || self.library())?,
+            Emit::Bin => self.program(name.clone(), || {
+                let files = sources::c(module, self.target, true);
+                let built = progress::spin("building", || self.tools().c_program(&files, name));
+                built.map_err(because)
+            })?,
+            Emit::Elf => self.program(format!("{name}.elf"), || self.elf())?,
+        };
+        Ok(Some(path))
+    }
+
+    fn ir(&self) -> Built<Option<PathBuf>> {
+        let text = dump::dump(self.module);
+        match &self.args.output {
+            None => say(&text)?,
+            Some(path) => write_file(path, text.as_bytes(), self.args.force)?,
         }
-        (Emit::C, None) => {
-            let path = output(format!("{name}-c"));
-            write_folder(
-                &path,
-                &texts(sources::c(module, target, args.main)),
-                args.force,
-            )?;
-            path
+        Ok(self.args.output.clone())
+    }
+
+    /// Writes a folder with what `make` makes; whether it may be written is known before.
+    fn folder(
+        &self,
+        default: String,
+        make: impl FnOnce() -> Built<Vec<OutFile>>,
+    ) -> Built<PathBuf> {
+        let path = self.output(default);
+        free(&path, self.args.force)?;
+        write_folder(&path, &make()?, self.args.force)?;
+        Ok(path)
+    }
+
+    /// The same of an executable file.
+    fn program(&self, default: String, make: impl FnOnce() -> Built<Vec<u8>>) -> Built<PathBuf> {
+        let path = self.output(default);
+        vacant(&path, self.args.force)?;
+        write_executable(&path, &make()?, self.args.force)?;
+        Ok(path)
+    }
+
+    fn library(&self) -> Built<Vec<OutFile>> {
+        let files = sources::c(self.module, self.target, false);
+        let name = &self.module.name;
+        progress::spin("building", || self.tools().c_library(&files, name)).map_err(because)
+    }
+
+    fn elf(&self) -> Built<Vec<u8>> {
+        let image = self
+            .image
+            .ok_or_else(|| because("an image is for a board"))?;
+        let files = image.sources(self.module)?;
+        let file = format!("{}.elf", self.module.name);
+        progress::spin("building", || self.tools().c_program(&files, &file)).map_err(because)
+    }
+
+    /// What the program takes. An image that was written is measured as it is.
+    fn measure(&self, written: Option<&Path>) -> Built<Report> {
+        let (module, target) = (self.module, self.target());
+        if let Some(image) = self.image {
+            let data = match written.filter(|_| self.args.emit == Some(Emit::Elf)) {
+                Some(path) => fs::read(path).map_err(|error| at(path, error))?,
+                None => self.elf()?,
+            };
+            return firmware::of_image(module, target, Some(&image.board), &data).map_err(because);
         }
-        (Emit::C, Some(image)) => {
-            let path = output(format!("{name}-c"));
-            write_folder(&path, &texts(image.sources(module)?), args.force)?;
-            path
-        }
-        (Emit::Rust, _) => {
-            let path = output(format!("{name}-rust"));
-            write_folder(
-                &path,
-                &texts(sources::rust(module, target, args.main)),
-                args.force,
-            )?;
-            path
-        }
-        (Emit::Lib, _) => {
-            let path = output(format!("{name}-lib"));
-            free(&path, args.force)?;
+        if target.is_bare() {
             let files = sources::c(module, target, false);
-            let built = progress::spin("building", || tools(target).c_library(&files, name));
-            write_folder(&path, &built.map_err(because)?, args.force)?;
-            path
+            let data = progress::spin("building", || self.tools().c_probe(&files, module));
+            let data = data.map_err(because)?;
+            return firmware::of_image(module, target, None, &data).map_err(because);
         }
-        (Emit::Bin, _) => {
-            let path = output(name.clone());
-            vacant(&path, args.force)?;
-            let files = sources::c(module, target, true);
-            let built = progress::spin("building", || tools(target).c_program(&files, name));
-            write_executable(&path, &built.map_err(because)?, args.force)?;
-            path
-        }
-        (Emit::Elf, Some(image)) => {
-            let file = format!("{name}.elf");
-            let path = output(file.clone());
-            vacant(&path, args.force)?;
-            let files = image.sources(module)?;
-            let tools = tools(image.board.target);
-            let built = progress::spin("building", || tools.c_program(&files, &file));
-            write_executable(&path, &built.map_err(because)?, args.force)?;
-            path
-        }
-        (Emit::Elf, None) => return Err(Failure::Because("an image is for a board".to_string())),
-    };
-    Ok(Some(path))
+        let own = format!("lib{}.a", module.name);
+        let library = self.library()?;
+        let (_, data) = library
+            .iter()
+            .find(|(path, _)| *path == own)
+            .ok_or_else(|| because("no library was built"))?;
+        firmware::of_library(module, target, data).map_err(because)
+    }
 }
 
 /// Files as they are written.

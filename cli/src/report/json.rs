@@ -1,6 +1,7 @@
 //! Diagnostics as one JSON object.
 
 use super::Findings;
+use rungc_firmware::report::Report as Takes;
 use rungc_syntax::{Severity, Span, codes};
 use serde::Serialize;
 use std::io;
@@ -15,6 +16,8 @@ struct Output<'a> {
     errors: usize,
     warnings: usize,
     diagnostics: Vec<Item<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    report: Option<&'a Takes>,
 }
 
 #[derive(Serialize)]
@@ -101,6 +104,7 @@ pub fn render(findings: &Findings) -> io::Result<String> {
                 plc_error: d.plc_error,
             })
             .collect(),
+        report: findings.takes.as_ref(),
     };
     Ok(serde_json::to_string_pretty(&output)?)
 }

@@ -5,6 +5,7 @@ mod json;
 mod sarif;
 
 use crate::args::{Format, Reporting};
+use rungc_firmware::report::Report as Takes;
 use rungc_ir::compile::Compiled;
 use rungc_syntax::{Diagnostic, Diagnostics, Program, Severity};
 use std::io::{self, Write};
@@ -20,6 +21,8 @@ pub struct Findings<'a> {
     pub size: Option<Size>,
     /// The findings that count, ordered by place.
     pub diagnostics: Vec<Diagnostic>,
+    /// What it takes on a machine, if that was asked for.
+    pub takes: Option<Takes>,
 }
 
 /// What a program is for, and how long it is.
@@ -61,6 +64,7 @@ impl<'a> Findings<'a> {
             program: Some(program),
             size: None,
             diagnostics,
+            takes: None,
         }
     }
 
@@ -71,6 +75,7 @@ impl<'a> Findings<'a> {
             program: None,
             size: None,
             diagnostics: vec![why],
+            takes: None,
         }
     }
 
