@@ -6,7 +6,7 @@
 //! Memory: words 0 and 1 see `axis_registers`; word 2 the pulses not handed over yet, word 3 the master, or the pulses of IPL, before, word 4 the rest of a division
 //! or the place in the table, word 5 the position in the table.
 
-use super::axis_registers::{Registers, motion, state};
+use super::axis_registers::{Registers, error, motion, state};
 use super::output::held;
 use crate::axis_place as at;
 use crate::cx::Cx;
@@ -131,8 +131,13 @@ fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i32, Fault> 
     Ok(place.wrapping_sub(before))
 }
 
-/// Hands pulses over to the axis. Those in the other direction wait until it rests.
+/// Hands pulses over to the axis. Those in the other direction wait until it rests. More than its output could send in the time of a scan
+/// are an error.
 fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
+    let wanted = u64::from(pulses.unsigned_abs()) * 1_000_000 / cx.dt_ms().max(1) as u64;
+    if wanted > axis.most(cx) {
+        return axis.fail(cx, error::OVERSPEED);
+    }
     let pending = cx.state().0[PENDING].wrapping_add(pulses);
     cx.state().0[PENDING] = pending;
     let reverse = pending < 0 && axis.has_direction(cx);

@@ -22,6 +22,7 @@ pub(super) mod state {
 
 /// Codes of errors in its register.
 pub(super) mod error {
+    pub const OVERSPEED: i16 = 1;
     pub const NO_OUTPUT: i16 = 2;
     pub const TOO_FAST: i16 = 3;
     pub const BELOW_FIRST: i16 = 4;
@@ -248,6 +249,12 @@ impl Registers {
         self.set(cx, at::ERROR, code);
         self.end(cx, state::ERROR);
         Ok(())
+    }
+
+    /// Stops at once, and shows why.
+    pub fn fail(self, cx: &mut Cx, code: i16) -> Done {
+        self.set(cx, at::ERROR, code);
+        self.stop(cx, state::ERROR)
     }
 
     /// The instruction has come to its end.
