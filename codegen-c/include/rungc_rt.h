@@ -186,6 +186,10 @@ enum rungc_operand_kind
      * Text number `value` of the program.
      */
     RUNGC_OPERAND_KIND_TEXT = 5,
+    /**
+     * Word `value` of the buffer memory of module `digits`.
+     */
+    RUNGC_OPERAND_KIND_BUFFER = 6,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -460,28 +464,6 @@ typedef struct rungc_map {
 } rungc_map;
 
 /**
- * An operand, its index register already added.
- */
-typedef struct rungc_operand {
-    /**
-     * How to read it.
-     */
-    rungc_operand_kind kind;
-    /**
-     * Device class, where it is a device.
-     */
-    rungc_class class_;
-    /**
-     * Digits of a group, or the bit of a word.
-     */
-    uint8_t digits;
-    /**
-     * Device number, constant, or bits of a float.
-     */
-    int32_t value;
-} rungc_operand;
-
-/**
  * Where a call stands in the program.
  */
 typedef struct rungc_site {
@@ -506,6 +488,28 @@ typedef struct rungc_site {
      */
     bool signal;
 } rungc_site;
+
+/**
+ * An operand, its index register already added.
+ */
+typedef struct rungc_operand {
+    /**
+     * How to read it.
+     */
+    rungc_operand_kind kind;
+    /**
+     * Device class, where it is a device.
+     */
+    rungc_class class_;
+    /**
+     * Digits of a group, the bit of a word, or the number of a module.
+     */
+    uint8_t digits;
+    /**
+     * Device number, address, constant, or bits of a float.
+     */
+    int32_t value;
+} rungc_operand;
 
 /**
  * One pulse output. All zero is one that is idle.
@@ -608,6 +612,19 @@ extern "C" {
 #endif // __cplusplus
 
 /**
+ * The value of an operand, of the width of the form; false after a fault, which is shown in the program's special devices.
+ */
+bool rungc_fetch(struct rungc_map *map,
+                 struct rungc_site site,
+                 struct rungc_operand from,
+                 int32_t *value);
+
+/**
+ * Writes a value of the width of the form to an operand, as an instruction does.
+ */
+void rungc_send(struct rungc_map *map, struct rungc_site site, struct rungc_operand to, int32_t value);
+
+/**
  * State of a bit device, for hosts that find devices by number; false if the model has none of that number.
  */
 bool rungc_get_bit(const struct rungc_map *map, rungc_class class_, uint32_t number, bool *on);
@@ -707,7 +724,7 @@ bool rungc_virtual_set_clock(uint16_t year, uint8_t month, uint8_t day, uint8_t 
 #ifndef RUNGC_RT_OPERANDS_H
 #define RUNGC_RT_OPERANDS_H
 
-/* Operands as programs write them: rungc_K(5), rungc_E(1.5f), rungc_D(100), rungc_group(4, rungc_M(0)), rungc_bit_of(rungc_D(0), 15). */
+/* Operands as programs write them: rungc_K(5), rungc_E(1.5f), rungc_D(100), rungc_U(0, 5), rungc_group(4, rungc_M(0)), rungc_bit_of(rungc_D(0), 15). */
 static inline rungc_operand rungc_device(rungc_class device_class, int32_t number)
 {
     rungc_operand operand;
@@ -751,6 +768,14 @@ static inline rungc_operand rungc_bit_of(rungc_operand word, uint8_t bit)
     word.kind = RUNGC_OPERAND_KIND_WORD_BIT;
     word.digits = bit;
     return word;
+}
+
+static inline rungc_operand rungc_U(uint8_t module, int32_t address)
+{
+    rungc_operand operand = rungc_device(RUNGC_CLASS_D, address);
+    operand.kind = RUNGC_OPERAND_KIND_BUFFER;
+    operand.digits = module;
+    return operand;
 }
 
 static inline rungc_operand rungc_X(int32_t number)

@@ -3,6 +3,7 @@
 use crate::expr::{Around, float, integer};
 use crate::writer::Writer;
 use rungc_ir::node::{Arg, Expr, ExprId, Place, Stmt};
+use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 /// Where a [`Stmt::Call`] stands, and what it is.
@@ -47,6 +48,56 @@ impl Writer<'_, '_> {
             }
         }
         code.push_str(");");
+    }
+
+    /// Writes a [`Stmt::Fetch`], without what it assigns, or a [`Stmt::Send`].
+    pub fn transfer(&mut self, code: &mut String, stmt: &Stmt) {
+        match stmt {
+            Stmt::Fetch {
+                from,
+                wide,
+                value,
+                step,
+                ..
+            } => {
+                self.operand_call(code, "fetch", (*wide, *step), from);
+                let cell = &self.module.cells[value.0 as usize].name;
+                let _ = write!(code, ", &plc->{cell});");
+            }
+            Stmt::Send {
+                to,
+                wide,
+                value,
+                step,
+            } => {
+                self.operand_call(code, "send", (*wide, *step), to);
+                code.push_str(", ");
+                self.expr(code, *value, Around::Exact);
+                code.push_str(");");
+            }
+            _ => {}
+        }
+    }
+
+    /// The begin of a call that reads or writes an operand.
+    fn operand_call(
+        &mut self,
+        code: &mut String,
+        function: &str,
+        (wide, step): (bool, u32),
+        arg: &Arg,
+    ) {
+        let _ = write!(code, "rungc_{function}(&map, ");
+        let site = Site {
+            wide,
+            drive: None,
+            signal: false,
+            slot: 0,
+            step,
+        };
+        self.site(code, &site);
+        code.push_str(", ");
+        self.argument(code, arg);
     }
 
     fn site(&mut self, code: &mut String, site: &Site) {
@@ -99,6 +150,21 @@ impl Writer<'_, '_> {
                 code.push_str("rungc_bit_of(");
                 self.device(code, place);
                 let _ = write!(code, ", {bit})");
+            }
+            Arg::Buffer {
+                module,
+                address,
+                index,
+            } => {
+                // An address is indexed as a device's number is.
+                let place = Place {
+                    class: DeviceClass::D,
+                    number: *address,
+                    index: *index,
+                };
+                let _ = write!(code, "rungc_U({module}, ");
+                self.number(code, &place, 0);
+                code.push(')');
             }
             Arg::Text(text) => {
                 let _ = write!(code, "rungc_string({text})");

@@ -139,6 +139,7 @@ impl Scopes<'_, '_> {
                     EdgeKind::Falling => "falling",
                 },
             ),
+            Stmt::Fetch { there, .. } => self.assigns(*there, "fetched"),
             _ => {}
         }
     }

@@ -7,8 +7,8 @@ use crate::plan::Plan;
 use crate::table;
 use crate::writer::{Writer, function_name};
 use rungc_ir::Module;
-use rungc_ir::node::{FunctionKind, MAX_JUMPS, Stmt};
-use rungc_ir::walk::statements;
+use rungc_ir::node::{FunctionKind, MAX_JUMPS};
+use rungc_ir::walk::{calls_runtime, statements};
 use rungc_rt::special::{
     D_ANY_ERROR, D_WATCHDOG, M_ANY_ERROR, M_KEEP_IN_STOP, M_OPERATION_ERROR, M_OUTPUTS_OFF,
     M_WATCHDOG, OPERATION_ERROR_BCD, WATCHDOG_BCD, WATCHDOG_CODE,
@@ -110,9 +110,7 @@ fn is_empty(module: &Module, root: usize) -> bool {
 pub fn uses_runtime(module: &Module) -> bool {
     let mut uses = false;
     for function in &module.functions {
-        statements(&function.body, &mut |stmt| {
-            uses |= matches!(stmt, Stmt::Call { .. })
-        });
+        statements(&function.body, &mut |stmt| uses |= calls_runtime(stmt));
     }
     uses
 }

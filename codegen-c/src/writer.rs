@@ -558,6 +558,13 @@ impl<'a, 'm> Writer<'a, 'm> {
                     code = format!("return {};", self.state_name(root, state));
                 }
             }
+            Stmt::Fetch { there, .. } => {
+                if self.plan.temps[there.0 as usize].used > 0 {
+                    code = self.assigned_temp(*there);
+                }
+                self.transfer(&mut code, stmt);
+            }
+            Stmt::Send { .. } => self.transfer(&mut code, stmt),
             Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
             Stmt::Fault { code: fault, step } => {
                 self.faults = true;
@@ -639,7 +646,7 @@ fn zero(ty: Ty) -> &'static str {
 
 fn calls_runtime(nodes: &[Node]) -> bool {
     nodes.iter().any(|node| match node {
-        Node::Stmt(stmt) => matches!(stmt, Stmt::Call { .. }),
+        Node::Stmt(stmt) => rungc_ir::walk::calls_runtime(stmt),
         Node::If {
             then, otherwise, ..
         } => calls_runtime(then) || calls_runtime(otherwise),

@@ -1,7 +1,7 @@
 #ifndef RUNGC_RT_OPERANDS_H
 #define RUNGC_RT_OPERANDS_H
 
-/* Operands as programs write them: rungc_K(5), rungc_E(1.5f), rungc_D(100), rungc_group(4, rungc_M(0)), rungc_bit_of(rungc_D(0), 15). */
+/* Operands as programs write them: rungc_K(5), rungc_E(1.5f), rungc_D(100), rungc_U(0, 5), rungc_group(4, rungc_M(0)), rungc_bit_of(rungc_D(0), 15). */
 static inline rungc_operand rungc_device(rungc_class device_class, int32_t number)
 {
     rungc_operand operand;
@@ -45,6 +45,14 @@ static inline rungc_operand rungc_bit_of(rungc_operand word, uint8_t bit)
     word.kind = RUNGC_OPERAND_KIND_WORD_BIT;
     word.digits = bit;
     return word;
+}
+
+static inline rungc_operand rungc_U(uint8_t module, int32_t address)
+{
+    rungc_operand operand = rungc_device(RUNGC_CLASS_D, address);
+    operand.kind = RUNGC_OPERAND_KIND_BUFFER;
+    operand.digits = module;
+    return operand;
 }
 
 static inline rungc_operand rungc_X(int32_t number)

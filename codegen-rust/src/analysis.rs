@@ -2,7 +2,9 @@
 
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, LabelId, Stmt, TempId};
-use rungc_ir::walk::{bodies, called_functions, callees, for_exprs, operands, statements};
+use rungc_ir::walk::{
+    assigned, bodies, called_functions, callees, for_exprs, operands, statements,
+};
 use std::collections::HashMap;
 
 /// A body, by where its statements lie in memory while the module is borrowed.
@@ -37,14 +39,6 @@ pub fn reachable(module: &Module, roots: &[ExprId]) -> Vec<ExprId> {
     // Operands have lower handles.
     found.sort_unstable();
     found
-}
-
-/// The temporary that a statement assigns.
-pub fn assigned(stmt: &Stmt) -> Option<TempId> {
-    match stmt {
-        Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } => Some(*temp),
-        _ => None,
-    }
 }
 
 /// The temporaries that a statement itself reads.
@@ -250,7 +244,7 @@ pub fn weight(module: &Module, stmt: &Stmt) -> usize {
 fn calls_runtime(stmts: &[Stmt]) -> bool {
     let mut found = false;
     statements(stmts, &mut |stmt| {
-        found |= matches!(stmt, Stmt::Call { .. })
+        found |= rungc_ir::walk::calls_runtime(stmt)
     });
     found
 }

@@ -6,7 +6,7 @@ use crate::expr::{Code, Shape, literal32};
 use crate::generate::{Generator, function_name};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
+use rungc_ir::node::{Arg, CellId, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
@@ -20,7 +20,7 @@ impl Generator<'_> {
             let lets = self.hoist(&analysis::expressions(stmt));
             out.extend(lets);
             if self.is_asked_once(stmt, next) {
-                self.inlined = analysis::assigned(stmt).zip(self.edge(stmt));
+                self.inlined = rungc_ir::walk::assigned(stmt).zip(self.edge(stmt));
             } else {
                 let tokens = self.statement(stmt);
                 out.extend(tokens);
@@ -165,6 +165,29 @@ impl Generator<'_> {
             Stmt::Parts(parts) => self.parts(parts),
             Stmt::Goto(label) => self.goto(*label),
             Stmt::Call { .. } => self.call(stmt),
+            Stmt::Fetch {
+                from,
+                wide,
+                value,
+                there,
+                step,
+            } => self.fetch(from, (*wide, *step), *value, *there),
+            Stmt::Send {
+                to,
+                wide,
+                value,
+                step,
+            } => {
+                let (send, site) = (self.rt("send"), self.site(*step, *wide));
+                let (to, is_narrow) = (self.argument(to), !wide);
+                let value = self.typed(*value);
+                let value = if is_narrow {
+                    quote!(i32::from(#value))
+                } else {
+                    value.tokens
+                };
+                quote!(#send(#site, #to, #value, plc, hal);)
+            }
             Stmt::Fault { code, step } => {
                 let (report, fault) = (self.rt("report"), self.rt("Fault"));
                 let (code, step) = (
@@ -500,15 +523,11 @@ impl Generator<'_> {
         else {
             return TokenStream::new();
         };
-        let (call, site) = (self.rt("call"), self.rt("Site"));
+        let call = self.rt("call");
         self.uses.fnc_imports.insert(function.module());
         let module = format_ident!("{}", function.module());
         let name = format_ident!("{}", function.name());
-        let step = Literal::u32_unsuffixed(step);
-        let mut site = quote!(#site::at(#step));
-        if wide {
-            site.extend(quote!(.wide()));
-        }
+        let mut site = self.site(step, wide);
         if slot != 0 {
             let slot = Literal::u16_unsuffixed(slot);
             site.extend(quote!(.slot(#slot)));
@@ -522,6 +541,29 @@ impl Generator<'_> {
         }
         let args: Vec<TokenStream> = args.iter().map(|arg| self.argument(arg)).collect();
         quote!(#call(#module::#name, #site, &[#(#args),*], plc, hal);)
+    }
+
+    /// Where an instruction stands, and its form.
+    fn site(&mut self, step: u32, wide: bool) -> TokenStream {
+        let site = self.rt("Site");
+        let step = Literal::u32_unsuffixed(step);
+        let wide = wide.then(|| quote!(.wide()));
+        quote!(#site::at(#step)#wide)
+    }
+
+    fn fetch(
+        &mut self,
+        from: &Arg,
+        (wide, step): (bool, u32),
+        value: CellId,
+        there: TempId,
+    ) -> TokenStream {
+        let (fetch, site) = (self.rt("fetch"), self.site(step, wide));
+        let (from, cell) = (self.argument(from), self.cell(value));
+        let fetched = quote! {
+            #fetch(#site, #from, plc, hal).map(|value| plc.#cell = value).is_some()
+        };
+        self.bind(there, fetched)
     }
 
     fn argument(&mut self, arg: &Arg) -> TokenStream {
@@ -574,6 +616,19 @@ impl Generator<'_> {
                 let bit = Literal::u8_unsuffixed(bit);
                 let (class, number) = self.operand_place(place);
                 quote!(#operand::word_bit(#class, #number, #bit))
+            }
+            Arg::Buffer {
+                module,
+                address,
+                index,
+            } => {
+                let operand = self.rt("Operand");
+                let module = Literal::u8_unsuffixed(module);
+                let address = match index {
+                    None => literal32(address as i32, false).tokens,
+                    Some(index) => self.offset(address as i32, index),
+                };
+                quote!(#operand::buffer(#module, #address))
             }
             Arg::Text(n) => {
                 let operand = self.rt("Operand");

@@ -10,6 +10,9 @@ use rungc_syntax::DeviceClass;
 /// How many devices of a class programs use, so that instructions meet each other's results.
 const CROWD: u32 = 24;
 
+/// How many words of the buffer memory of module 0 programs use.
+pub const BUFFER_WORDS: u32 = 16;
+
 /// Special relays that change what instructions do or show what they did.
 const FLAGS: [u32; 9] = [8020, 8021, 8022, 8024, 8029, 8160, 8161, 8168, 8067];
 
@@ -91,7 +94,7 @@ fn each(classes: Classes) -> Vec<Classes> {
 }
 
 fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<String> {
-    let class = rng.pick(&each(param.classes))?;
+    let class = rng.pick(&each(param.classes_on(model)))?;
     let wide = form.wide && param.shape == Shape::Value || param.shape == Shape::Pair;
     if class == Classes::K || class == Classes::H {
         let bits = if wide { 32 } else { 16 };
@@ -120,7 +123,13 @@ fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<St
             .collect();
         return Some(format!("\"{text}\""));
     }
-    let mut text = device(rng, (param, model), class, wide)?;
+    let mut text = if class == Classes::BUFFER {
+        // There is no module 1.
+        let module = u32::from(rng.percent(5));
+        format!("U{module}\\G{}", rng.below(BUFFER_WORDS))
+    } else {
+        device(rng, (param, model), class, wide)?
+    };
     if param.indexable && rng.percent(12) {
         text.push_str(rng.pick(&["Z0", "Z1", "V0", "V1"])?);
     }

@@ -1,6 +1,6 @@
 //! Random programs: well-formed by construction, drawing on the whole catalogue.
 
-use crate::operands::{Candidate, accepted};
+use crate::operands::{BUFFER_WORDS, Candidate, accepted};
 use crate::rng::Rng;
 use rungc_ir::ModelId;
 use std::collections::BTreeMap;
@@ -75,7 +75,7 @@ impl Writer<'_> {
         } else {
             ([1, 100], [8050, 8051, 8056, 8057])
         };
-        let all = [edges[0], edges[1], 607, 710];
+        let all = [edges[0], edges[1], 610, 710];
         self.line("LD M8002");
         for mask in masks {
             self.line(format!("RST M{mask}"));
@@ -317,6 +317,9 @@ impl Writer<'_> {
 
     fn word(&mut self, wide: bool) -> String {
         match self.rng.below(6) {
+            4 if self.rng.percent(20) && accepted("MOV U0\\G0 D0", self.model) => {
+                format!("U0\\G{}", self.rng.below(BUFFER_WORDS))
+            }
             0 if !wide => format!("T{}", self.rng.below(6)),
             0 => format!("C{}", 200 + self.rng.below(3)),
             1 if !wide => format!("C{}", self.rng.below(3)),

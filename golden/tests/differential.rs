@@ -2,10 +2,11 @@
 //!
 //! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or another one.
 
-use rungc_golden::operands::candidates;
+use rungc_golden::operands::{BUFFER_WORDS, candidates};
 use rungc_golden::random::program;
 use rungc_golden::rng::Rng;
 use rungc_golden::stations;
+use rungc_ir::catalogue::Classes;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
 use rungc_rt::Class;
@@ -121,12 +122,23 @@ fn stored(module: &Module, most: u32) -> Vec<Request> {
     });
     let outputs = module.pulse_outputs.iter();
     let pulses = outputs.flat_map(|&n| [Request::Pulses(n), Request::Frequency(n)]);
-    devices.chain(pulses).collect()
+    let buffer = buffer_words(module).map(|address| Request::Bfm(0, address));
+    devices.chain(pulses).chain(buffer).collect()
+}
+
+/// The words of the buffer memory of module 0 that a program may name.
+fn buffer_words(module: &Module) -> std::ops::Range<u16> {
+    let has = module.model.notations.meets(Classes::BUFFER);
+    0..if has { BUFFER_WORDS as u16 + 4 } else { 0 }
 }
 
 /// What happens to a program before a scan.
 fn events(rng: &mut Rng, module: &Module, first: bool) -> Vec<Request> {
     let mut events = Vec::new();
+    if first {
+        let words = buffer_words(module);
+        events.extend(words.map(|n| Request::SetBfm(0, n, rng.value(16) as i16)));
+    }
     for area in &module.layout.areas {
         for number in area.first..area.first + area.count.min(64) {
             let special = number >= 8000;

@@ -222,6 +222,27 @@ impl Out<'_> {
             Stmt::Return => "return".into(),
             Stmt::Goto(label) => format!("goto L{}", label.0),
             Stmt::Call { .. } => self.call(stmt),
+            Stmt::Fetch {
+                from,
+                wide,
+                value,
+                there,
+                ..
+            } => format!(
+                "t{} = fetch {}{} to {}",
+                there.0,
+                self.arg(from),
+                if *wide { ":32" } else { "" },
+                self.cell(*value)
+            ),
+            Stmt::Send {
+                to, wide, value, ..
+            } => format!(
+                "send {}{} := {}",
+                self.arg(to),
+                if *wide { ":32" } else { "" },
+                e(value)
+            ),
             Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
             Stmt::SetCell(cell, value) => format!("{} := {}", self.cell(*cell), e(value)),
             Stmt::SetEntry(table, index, value) => {
@@ -323,6 +344,14 @@ impl Out<'_> {
             } => format!("K{digits}{}{}", self.place(place), count(extent)),
             Arg::WordBit { place, bit, .. } => format!("{}.{bit:X}", self.place(place)),
             Arg::Text(n) => format!("{:?}", self.module.texts[*n as usize]),
+            Arg::Buffer {
+                module,
+                address,
+                index,
+            } => match index {
+                None => format!("U{module}\\G{address}"),
+                Some(index) => format!("U{module}\\G[{address} + {}]", self.expr(*index)),
+            },
         }
     }
 

@@ -279,6 +279,8 @@ impl<'m> Builder<'m> {
                     self.mark_run(DeviceClass::Z, 0, false);
                 }
             }
+            Stmt::Fetch { from, wide, .. } => self.arg(from, *wide),
+            Stmt::Send { to, wide, .. } => self.arg(to, *wide),
             Stmt::Network(_)
             | Stmt::Let(..)
             | Stmt::Edge { .. }
@@ -307,7 +309,7 @@ impl<'m> Builder<'m> {
             Arg::WordBit { place, bit, extent } => {
                 self.extent(place, extent.map(|bits| words_of_bits(bit, bits)));
             }
-            Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) => {}
+            Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
         }
     }
 

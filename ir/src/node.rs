@@ -28,8 +28,8 @@ pub enum Ty {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct ExprId(pub u32);
 
-/// Handle of a temporary; its type is in [`Module::temps`]. Assigned by [`Stmt::Let`] or [`Stmt::Edge`] before any use on every
-/// path, in the same [`Function`], which may be in a body around or before the use; some are assigned in several places.
+/// Handle of a temporary; its type is in [`Module::temps`]. Assigned by [`Stmt::Let`], [`Stmt::Edge`] or [`Stmt::Fetch`] before any use on
+/// every path, in the same [`Function`], which may be in a body around or before the use; some are assigned in several places.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct TempId(pub u32);
 
@@ -306,6 +306,15 @@ pub enum Arg {
     },
     /// Text number in [`Module::texts`].
     Text(u32),
+    /// A word of the buffer memory of a module, or the first of several.
+    Buffer {
+        /// Number of the module.
+        module: u8,
+        /// Address.
+        address: u32,
+        /// What to add to the address (`I32`).
+        index: Option<ExprId>,
+    },
 }
 
 /// A statement.
@@ -471,6 +480,30 @@ pub enum Stmt {
         signal: bool,
         /// Private memory, for functions that need one; from 1.
         slot: u16,
+        /// Step number.
+        step: u32,
+    },
+    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with `step`.
+    Fetch {
+        /// What is read.
+        from: Arg,
+        /// 32 bits of it.
+        wide: bool,
+        /// Receives the value, sign-extended; stays as it is after a fault.
+        value: CellId,
+        /// Receives whether there was no fault.
+        there: TempId,
+        /// Step number.
+        step: u32,
+    },
+    /// Writes an operand that only the runtime can ([`rungc_rt::send`]). A fault is reported with `step`.
+    Send {
+        /// What is written.
+        to: Arg,
+        /// 32 bits of it.
+        wide: bool,
+        /// `I32` if `wide`, else `I16`.
+        value: ExprId,
         /// Step number.
         step: u32,
     },

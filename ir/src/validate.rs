@@ -159,7 +159,7 @@ impl Checker<'_> {
         }
         self.typed(stmt)?;
         match stmt {
-            Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } => {
+            Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } | Stmt::Fetch { there: temp, .. } => {
                 self.assign(*temp);
                 Ok(true)
             }
@@ -389,6 +389,20 @@ impl Checker<'_> {
                     && drive.is_none_or(|drive| is(drive, Ty::Bit))
                     && args.iter().all(|arg| self.arg(arg))
             }
+            Stmt::Fetch {
+                ref from,
+                value,
+                there,
+                ..
+            } => {
+                (value.0 as usize) < module.cells.len() && temp_is(there, Ty::Bit) && self.arg(from)
+            }
+            Stmt::Send {
+                ref to,
+                wide,
+                value,
+                ..
+            } => is(value, if wide { Ty::I32 } else { Ty::I16 }) && self.arg(to),
             Stmt::SetCell(cell, value) => {
                 (cell.0 as usize) < module.cells.len() && is(value, Ty::I32)
             }
@@ -413,7 +427,7 @@ impl Checker<'_> {
     fn arg(&self, arg: &Arg) -> bool {
         let index = |index: &Option<ExprId>| index.is_none_or(|id| self.module.ty(id) == Ty::I32);
         match arg {
-            Arg::Const { index: at, .. } => index(at),
+            Arg::Const { index: at, .. } | Arg::Buffer { index: at, .. } => index(at),
             Arg::Device { place, .. } | Arg::Nibbles { place, .. } => index(&place.index),
             Arg::WordBit { place, bit, .. } => *bit < 16 && index(&place.index),
             Arg::Text(n) => (*n as usize) < self.module.texts.len(),

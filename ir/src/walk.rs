@@ -1,6 +1,6 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
-use crate::node::{Arg, Body, Expr, ExprId, FunctionKind, Module, Part, Stmt};
+use crate::node::{Arg, Body, Expr, ExprId, FunctionKind, Module, Part, Stmt, TempId};
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
@@ -49,7 +49,18 @@ fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
 
 /// A function over the expressions that a statement evaluates, to look at them or to replace them.
 macro_rules! for_exprs {
-    ($(#[$doc:meta])* $name:ident, $iter:ident $(, $mutable:tt)?) => {
+    ($(#[$doc:meta])* $name:ident, $index_of:ident, $iter:ident $(, $mutable:tt)?) => {
+        fn $index_of(arg: &$($mutable)? Arg) -> Option<&$($mutable)? ExprId> {
+            let index = match arg {
+                Arg::Const { index, .. } | Arg::Buffer { index, .. } => index,
+                Arg::Device { place, .. }
+                | Arg::Nibbles { place, .. }
+                | Arg::WordBit { place, .. } => &$($mutable)? place.index,
+                Arg::Float(_) | Arg::Text(_) => return None,
+            };
+            index.$iter().next()
+        }
+
         $(#[$doc])*
         pub fn $name(stmt: &$($mutable)? Stmt, f: &mut impl FnMut(&$($mutable)? ExprId)) {
             match stmt {
@@ -92,15 +103,18 @@ macro_rules! for_exprs {
                 Stmt::For { count, .. } => f(count),
                 Stmt::Call { args, drive, .. } => {
                     for arg in args {
-                        match arg {
-                            Arg::Const { index, .. } => index.$iter().for_each(&mut *f),
-                            Arg::Device { place, .. }
-                            | Arg::Nibbles { place, .. }
-                            | Arg::WordBit { place, .. } => place.index.$iter().for_each(&mut *f),
-                            Arg::Float(_) | Arg::Text(_) => {}
+                        if let Some(index) = $index_of(arg) {
+                            f(index);
                         }
                     }
                     drive.$iter().for_each(f);
+                }
+                Stmt::Fetch { from, .. } => $index_of(from).into_iter().for_each(f),
+                Stmt::Send { to, value, .. } => {
+                    if let Some(index) = $index_of(to) {
+                        f(index);
+                    }
+                    f(value);
                 }
                 Stmt::Network(_)
                 | Stmt::Repeat { .. }
@@ -119,11 +133,29 @@ macro_rules! for_exprs {
 
 for_exprs! {
     /// Calls `f` with the expressions that a statement itself evaluates, without those of the bodies inside it.
-    for_exprs, iter
+    for_exprs, index_of, iter
 }
 for_exprs! {
     /// Calls `f` with the expressions that a statement itself evaluates, to replace them.
-    for_exprs_mut, iter_mut, mut
+    for_exprs_mut, index_of_mut, iter_mut, mut
+}
+
+/// The temporary that a statement gives a value.
+pub fn assigned(stmt: &Stmt) -> Option<TempId> {
+    match stmt {
+        Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } | Stmt::Fetch { there: temp, .. } => {
+            Some(*temp)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a statement itself calls the runtime.
+pub fn calls_runtime(stmt: &Stmt) -> bool {
+    matches!(
+        stmt,
+        Stmt::Call { .. } | Stmt::Fetch { .. } | Stmt::Send { .. }
+    )
 }
 
 /// The bodies directly inside a statement.

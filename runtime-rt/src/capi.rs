@@ -13,7 +13,7 @@
 //! The Makefile beside emitted C that needs it does the same with the sources that are emitted along.
 
 use crate::axis::{Axis, advance, millihertz, pulse_timer};
-use crate::cx::Cx;
+use crate::cx::{Cx, fetch, send};
 use crate::fault::{Done, report};
 use crate::hal::{Clock, Hal};
 use crate::operand::Operand;
@@ -244,23 +244,13 @@ impl Map {
             class,
             i32::try_from(number).unwrap_or(i32::MAX),
         )];
-        what(&mut Cx {
-            plc: self,
-            hal: &mut hal,
-            ops: &ops,
-            site: Site::at(0).wide(),
-        })
+        what(&mut Cx::new(self, &mut hal, &ops, Site::at(0).wide()))
     }
 
     /// Runs an instruction and reports its fault.
     fn call(&mut self, function: fn(&mut Cx) -> Done, site: Site, ops: &[Operand]) {
         let mut hal = Board { table: self.hal };
-        let done = function(&mut Cx {
-            plc: self,
-            hal: &mut hal,
-            ops,
-            site,
-        });
+        let done = function(&mut Cx::new(self, &mut hal, ops, site));
         if let Err(fault) = done {
             report(self, fault, site.step);
         }
@@ -506,6 +496,21 @@ macro_rules! export {
     };
 }
 pub(crate) use export;
+
+/// The value of an operand, of the width of the form; false after a fault, which is shown in the program's special devices.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_fetch(map: &mut Map, site: Site, from: Operand, value: &mut i32) -> bool {
+    let mut hal = Board { table: map.hal };
+    let fetched = fetch(site, from, map, &mut hal);
+    fetched.map(|fetched| *value = fetched).is_some()
+}
+
+/// Writes a value of the width of the form to an operand, as an instruction does.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_send(map: &mut Map, site: Site, to: Operand, value: i32) {
+    let mut hal = Board { table: map.hal };
+    send(site, to, value, map, &mut hal);
+}
 
 /// State of a bit device, for hosts that find devices by number; false if the model has none of that number.
 #[unsafe(no_mangle)]

@@ -5,13 +5,15 @@ use crate::hal::Hal;
 use crate::operand::{Operand, OperandKind};
 use crate::plc::{Class, Plc, Site, State};
 use crate::runs::FIRST_COUNTER32;
+use crate::word;
+use core::cell::RefCell;
 
 /// What an instruction works on. Operands are named by position, from 0; offsets count devices from the named one.
 pub struct Cx<'a> {
     /// The devices.
     pub plc: &'a mut dyn Plc,
-    /// The hardware.
-    pub hal: &'a mut dyn Hal,
+    /// The hardware. Buffer memory is read as any other operand is, by shared reference.
+    pub hal: RefCell<&'a mut dyn Hal>,
     /// The operands in order.
     pub ops: &'a [Operand],
     /// Where the call stands, and its form.
@@ -26,13 +28,26 @@ pub fn call(
     plc: &mut dyn Plc,
     hal: &mut dyn Hal,
 ) {
-    let done = function(&mut Cx {
-        plc,
-        hal,
-        ops,
-        site,
-    });
+    let done = function(&mut Cx::new(plc, hal, ops, site));
     if let Err(fault) = done {
+        report(plc, fault, site.step);
+    }
+}
+
+/// The value of an operand, of the width of the form; `None` after a fault, which is reported.
+pub fn fetch(site: Site, from: Operand, plc: &mut dyn Plc, hal: &mut dyn Hal) -> Option<i32> {
+    match Cx::new(plc, hal, &[from], site).read(0) {
+        Ok(value) => Some(value),
+        Err(fault) => {
+            report(plc, fault, site.step);
+            None
+        }
+    }
+}
+
+/// Writes a value of the width of the form to an operand, or reports a fault.
+pub fn send(site: Site, to: Operand, value: i32, plc: &mut dyn Plc, hal: &mut dyn Hal) {
+    if let Err(fault) = Cx::new(plc, hal, &[to], site).write(0, value) {
         report(plc, fault, site.step);
     }
 }
@@ -46,7 +61,22 @@ fn at(operand: Operand, offset: i32) -> Result<u32, Fault> {
         .ok_or(Fault::DEVICE)
 }
 
-impl Cx<'_> {
+impl<'a> Cx<'a> {
+    /// A context.
+    pub fn new(plc: &'a mut dyn Plc, hal: &'a mut dyn Hal, ops: &'a [Operand], site: Site) -> Self {
+        Cx {
+            plc,
+            hal: RefCell::new(hal),
+            ops,
+            site,
+        }
+    }
+
+    /// The hardware.
+    pub fn hal(&mut self) -> &mut dyn Hal {
+        *self.hal.get_mut()
+    }
+
     fn op(&self, i: usize) -> Result<Operand, Fault> {
         self.ops.get(i).copied().ok_or(Fault::DEVICE)
     }
@@ -112,6 +142,7 @@ impl Cx<'_> {
                 self.plc.word(op.class, n).ok_or(Fault::DEVICE)
             }
             OperandKind::Nibbles => self.group(op, offset, 4).map(|v| v as i16),
+            OperandKind::Buffer => self.buffer(op, offset),
             OperandKind::WordBit | OperandKind::Text => Err(Fault::DEVICE),
         }
     }
@@ -131,6 +162,7 @@ impl Cx<'_> {
                 self.plc.set_word(op.class, n, value).ok_or(Fault::DEVICE)
             }
             OperandKind::Nibbles => self.set_group(op, offset, 4, i32::from(value)),
+            OperandKind::Buffer => self.set_buffer(op, offset, value),
             _ => Err(Fault::DEVICE),
         }
     }
@@ -142,6 +174,10 @@ impl Cx<'_> {
         match op.kind {
             OperandKind::Const | OperandKind::Float => Ok(op.value),
             OperandKind::Nibbles => self.group(op, offset, 8),
+            OperandKind::Buffer => {
+                let low = self.buffer(op, offset)?;
+                Ok(word::pair(low, self.buffer(op, offset.saturating_add(1))?))
+            }
             OperandKind::Device => {
                 let n = at(op, offset)?;
                 if op.class == Class::C && n >= FIRST_COUNTER32 {
@@ -161,6 +197,13 @@ impl Cx<'_> {
         let op = self.op(i)?;
         match op.kind {
             OperandKind::Nibbles => self.set_group(op, offset, 8, value),
+            OperandKind::Buffer => {
+                let behind = offset.saturating_add(1);
+                self.buffer(op, behind)?;
+                let [low, high] = word::words(value);
+                self.set_buffer(op, offset, low)?;
+                self.set_buffer(op, behind, high)
+            }
             OperandKind::Device => {
                 let n = at(op, offset)?;
                 if op.class == Class::C && n >= FIRST_COUNTER32 {
@@ -349,10 +392,15 @@ impl Cx<'_> {
     /// groups.
     fn elem_offset(&self, i: usize, n: i32) -> Result<i32, Fault> {
         let op = self.op(i)?;
-        let pairs = self.site.wide
-            && op.kind == OperandKind::Device
-            && !(op.class == Class::C && op.value >= FIRST_COUNTER32 as i32);
-        Ok(if pairs { n.saturating_mul(2) } else { n })
+        let pairs = match op.kind {
+            OperandKind::Device => !(op.class == Class::C && op.value >= FIRST_COUNTER32 as i32),
+            kind => kind == OperandKind::Buffer,
+        };
+        Ok(if self.site.wide && pairs {
+            n.saturating_mul(2)
+        } else {
+            n
+        })
     }
 
     /// Element `n` of the table at operand `i`: a word, or a pair in the 32-bit form. Every element of a constant is the constant.
@@ -411,7 +459,9 @@ impl Cx<'_> {
 
     /// Whether operand `b` begins behind operand `a` in the same class, so that a block copied from `a` to `b` must be copied from its end.
     pub fn begins_behind(&self, a: usize, b: usize) -> bool {
-        matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a.class == b.class && b.value > a.value)
+        matches!((self.op(a), self.op(b)), (Ok(a), Ok(b))
+            if (a.kind, a.class) == (b.kind, b.class) && b.value > a.value
+                && (a.kind != OperandKind::Buffer || a.digits == b.digits))
     }
 
     /// State of special relay `number`.
@@ -432,6 +482,29 @@ impl Cx<'_> {
     /// Sets special register `number`, if the program looks at it.
     pub fn set_special_word(&mut self, number: u32, value: i16) {
         let _ = self.plc.set_word(Class::D, number, value);
+    }
+
+    /// Module and address of word number `offset` behind the one that `op` names.
+    fn buffer_place(op: Operand, offset: i32) -> Result<(u16, u16), Fault> {
+        let address = op.value.checked_add(offset);
+        let address = address.and_then(|address| u16::try_from(address).ok());
+        Ok((op.digits.into(), address.ok_or(Fault::MODULE)?))
+    }
+
+    /// A word of the buffer memory of a module.
+    fn buffer(&self, op: Operand, offset: i32) -> Result<i16, Fault> {
+        let (module, address) = Self::buffer_place(op, offset)?;
+        let hal = self.hal.try_borrow_mut().ok();
+        hal.and_then(|mut hal| hal.read_bfm(module, address))
+            .ok_or(Fault::MODULE)
+    }
+
+    /// Writes one.
+    fn set_buffer(&mut self, op: Operand, offset: i32, value: i16) -> Done {
+        let (module, address) = Self::buffer_place(op, offset)?;
+        self.hal()
+            .write_bfm(module, address, value)
+            .ok_or(Fault::MODULE)
     }
 
     /// Element `offset` of a group, at most `max` digits of it.

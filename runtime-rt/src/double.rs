@@ -143,12 +143,7 @@ impl Double {
     pub fn call(&mut self, function: RtFn, ops: &[Operand]) -> Done {
         let mut hal = core::mem::take(&mut self.hal);
         let site = self.site;
-        let done = function.call(&mut Cx {
-            plc: self,
-            hal: &mut hal as &mut dyn Hal,
-            ops,
-            site,
-        });
+        let done = function.call(&mut Cx::new(self, &mut hal as &mut dyn Hal, ops, site));
         self.hal = hal;
         done
     }

@@ -47,7 +47,7 @@ pub mod word;
 
 pub use access::Access;
 pub use axis::{Axis, advance as advance_pulses, millihertz as pulse_millihertz, pulse_timer};
-pub use cx::{Cx, call};
+pub use cx::{Cx, call, fetch, send};
 pub use edge::Edge;
 pub use fault::{Done, Fault, report, trip_watchdog};
 pub use hal::{Clock, Hal, NoHal};

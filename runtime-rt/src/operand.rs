@@ -18,6 +18,8 @@ pub enum OperandKind {
     WordBit = 4,
     /// Text number `value` of the program.
     Text = 5,
+    /// Word `value` of the buffer memory of module `digits`.
+    Buffer = 6,
 }
 
 /// An operand, its index register already added.
@@ -28,9 +30,9 @@ pub struct Operand {
     pub kind: OperandKind,
     /// Device class, where it is a device.
     pub class: Class,
-    /// Digits of a group, or the bit of a word.
+    /// Digits of a group, the bit of a word, or the number of a module.
     pub digits: u8,
-    /// Device number, constant, or bits of a float.
+    /// Device number, address, constant, or bits of a float.
     pub value: i32,
 }
 
@@ -82,6 +84,16 @@ impl Operand {
             class,
             digits: bit,
             value: number,
+        }
+    }
+
+    /// A word of the buffer memory of a module.
+    pub const fn buffer(module: u8, address: i32) -> Self {
+        Operand {
+            kind: OperandKind::Buffer,
+            class: Class::D,
+            digits: module,
+            value: address,
         }
     }
 

@@ -4,7 +4,7 @@ use crate::devices::rt_class;
 use crate::logic::{Input, Join, Strided};
 use crate::machine::Machine;
 use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue};
-use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, TimerKind, report};
+use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, TimerKind, fetch, report, send};
 
 /// Value of an expression or temporary.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -26,6 +26,14 @@ pub(crate) enum Flow {
     Goto(LabelId),
     /// The scan executed too many statements.
     OutOfTime,
+}
+
+/// Where a driven instruction stands, in its 16-bit or 32-bit form.
+fn site_of_form(step: u32, wide: bool) -> Site {
+    Site {
+        wide,
+        ..Site::at(step)
+    }
 }
 
 /// Sign-extends to 32 bits; the width of an `I16` is restored when the result is stored.
@@ -293,6 +301,29 @@ impl<'m> Machine<'m> {
                 };
                 self.call(*function, args, site, hal);
             }
+            Stmt::Fetch {
+                from,
+                wide,
+                value,
+                there,
+                step,
+            } => {
+                let (site, from) = (site_of_form(*step, *wide), self.operand(from));
+                let fetched = fetch(site, from, self, hal);
+                if let Some(fetched) = fetched {
+                    self.cells[value.0 as usize] = fetched;
+                }
+                self.temps[there.0 as usize] = Value::Bit(fetched.is_some());
+            }
+            Stmt::Send {
+                to,
+                wide,
+                value,
+                step,
+            } => {
+                let (to, value) = (self.operand(to), int(self.eval(*value)));
+                send(site_of_form(*step, *wide), to, value, self, hal);
+            }
             Stmt::Fault { code, step } => report(self, Fault(*code), *step),
             Stmt::Stop => rungc_rt::Program::set_running(self, false),
             Stmt::Clear { latched } => self.devices.clear(*latched),
@@ -507,12 +538,7 @@ impl<'m> Machine<'m> {
         let mut ops = std::mem::take(&mut self.operands);
         ops.clear();
         ops.extend(args.iter().map(|arg| self.operand(arg)));
-        let done = function.call(&mut Cx {
-            plc: self,
-            hal,
-            ops: &ops,
-            site,
-        });
+        let done = function.call(&mut Cx::new(self, hal, &ops, site));
         self.operands = ops;
         if let Err(fault) = done {
             report(self, fault, site.step);
@@ -543,6 +569,14 @@ impl<'m> Machine<'m> {
             }
             Arg::WordBit { place, bit, .. } => Operand::word_bit(class(place), indexed(place), bit),
             Arg::Text(index) => Operand::text(index as i32),
+            Arg::Buffer {
+                module,
+                address,
+                index,
+            } => {
+                let index = index.map_or(0, |index| int(self.eval(index)));
+                Operand::buffer(module, (address as i32).wrapping_add(index))
+            }
         }
     }
 }

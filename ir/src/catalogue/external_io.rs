@@ -43,13 +43,13 @@ const MODULE_FX: Param = count("m1", 0, 7).also(DATA);
 const FROM_FX: &[Param] = &[
     MODULE_FX,
     ADDRESS.also(DATA),
-    dst("D", RESULTS).per(3),
+    dst("D", RESULTS.without(Classes::BUFFER)).per(3),
     NUMBER.also(DATA),
 ];
 const TO_FX: &[Param] = &[
     MODULE_FX,
     ADDRESS.also(DATA),
-    src("S", VALUES).per(3),
+    src("S", VALUES.without(Classes::BUFFER)).per(3),
     NUMBER.also(DATA),
 ];
 /// Modbus access under the name of an analog module's instruction: the port stands before D, the data behind it.

@@ -6,16 +6,18 @@ use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
 
 /// Floats, and integers that become floats.
-const NUMBERS: Classes = CONSTANTS.or(Classes::E).or(DATA);
+const NUMBERS: Classes = CONSTANTS.or(Classes::E).or(REAL_RESULTS);
 /// Only floats. The manual of H1U and H2U also marks V and Z for the functions that came last.
-const REALS: Classes = Classes::E.or(DATA).or(INDEX);
+const REALS: Classes = Classes::E.or(REAL_RESULTS).or(INDEX);
+/// Where floats go.
+const REAL_RESULTS: Classes = DATA.or(Classes::BUFFER);
 
 const TWO: &[Param] = &[
     real("S1", NUMBERS),
     real("S2", NUMBERS),
-    real_out("D", DATA),
+    real_out("D", REAL_RESULTS),
 ];
-const ONE: &[Param] = &[real("S", REALS), real_out("D", DATA.or(INDEX))];
+const ONE: &[Param] = &[real("S", REALS), real_out("D", REAL_RESULTS.or(INDEX))];
 /// HM takes integer constants everywhere.
 const ONE_HM: &[Param] = &[real("S", CONSTANTS.or(DATA)), real_out("D", DATA)];
 /// A float as a decimal mantissa and a decimal exponent.

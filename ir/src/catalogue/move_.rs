@@ -6,16 +6,16 @@ use rungc_rt::RtFn;
 
 /// Block moves from M8024's side: either end is read or written.
 const BLOCK: &[Param] = &[
-    both("S", GROUPS.or(REGISTERS)).per(2),
-    both("D", RESULT_GROUPS.or(REGISTERS))
+    both("S", WORDS.without(INDEX)).per(2),
+    both("D", RESULTS.without(INDEX))
         .per(2)
         .rules(&[Rule::SameDigits(0)]),
     count("n", 1, 512).also(DATA),
 ];
 /// The same where n is a constant.
 const BLOCK_CONSTANT: &[Param] = &[
-    both("S", GROUPS.or(REGISTERS)).per(2),
-    both("D", RESULT_GROUPS.or(REGISTERS))
+    both("S", WORDS.without(INDEX)).per(2),
+    both("D", RESULTS.without(INDEX))
         .per(2)
         .rules(&[Rule::SameDigits(0)]),
     count("n", 1, 512),

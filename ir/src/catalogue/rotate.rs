@@ -49,8 +49,8 @@ const SHIFT_BITS_HM: &[Param] = &shift_bits(
 
 const fn shift_words(max: i64) -> [Param; 4] {
     [
-        src("S", GROUPS.or(REGISTERS)).per(3),
-        both("D", RESULT_GROUPS.or(REGISTERS))
+        src("S", WORDS.without(INDEX)).per(3),
+        both("D", RESULTS.without(INDEX))
             .per(2)
             .rules(&[Rule::SameDigits(0)]),
         count("n1", 1, max),

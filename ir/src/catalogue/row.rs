@@ -40,9 +40,9 @@ pub(super) const CONSTANTS: Classes = Classes::K.or(Classes::H);
 /// V and Z.
 pub(super) const INDEX: Classes = Classes::V.or(Classes::Z);
 /// Everything that has an integer value: `K, H, KnX … Z`.
-pub(super) const VALUES: Classes = CONSTANTS.or(WORDS).or(Classes::BUFFER);
-/// Everything of it that is no constant: `KnX … Z`.
-pub(super) const WORDS: Classes = GROUPS.or(REGISTERS).or(INDEX);
+pub(super) const VALUES: Classes = CONSTANTS.or(WORDS);
+/// Everything of it that is no constant: `KnX … Z`; buffer memory counts on the models that have it.
+pub(super) const WORDS: Classes = GROUPS.or(REGISTERS).or(INDEX).or(Classes::BUFFER);
 /// Everything that a result can go to: `KnY … Z`.
 pub(super) const RESULTS: Classes = RESULT_GROUPS.or(REGISTERS).or(INDEX).or(Classes::BUFFER);
 /// Bits that can be written.

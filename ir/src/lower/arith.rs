@@ -84,9 +84,6 @@ impl Lowerer<'_> {
     }
 
     fn move_value(&mut self, complement: bool) {
-        if !complement && self.move_buffer() {
-            return;
-        }
         let mut guards = Guards::default();
         let mut value = self.source(0, &mut guards);
         if complement {

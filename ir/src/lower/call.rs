@@ -167,50 +167,6 @@ impl Lowerer<'_> {
         self.specials.flags.push((DeviceClass::Y, output));
     }
 
-    /// MOV with the buffer memory of a module on one side, which is what FROM and TO do; whether it is such a MOV.
-    pub(super) fn move_buffer(&mut self) -> bool {
-        let [source, target] = self.instr().operands.as_slice() else {
-            return false;
-        };
-        let (buffer, other, function) = match (&source.kind, &target.kind) {
-            (OperandKind::Buffer { .. }, OperandKind::Buffer { .. }) => return false,
-            (OperandKind::Buffer { .. }, _) => (source, target, RtFn::From),
-            (_, OperandKind::Buffer { .. }) => (target, source, RtFn::To),
-            _ => return false,
-        };
-        let OperandKind::Buffer {
-            module,
-            address,
-            index,
-        } = buffer.kind
-        else {
-            return false;
-        };
-        let wide = self.resolution().form.wide;
-        let constant = |value| Arg::Const {
-            value,
-            index: None,
-            wide,
-        };
-        let args = vec![
-            constant(module as i32),
-            self.constant_arg(address as i32, index, wide),
-            self.arg(other, Some(if wide { 2 } else { 1 }), wide),
-            constant(1),
-        ];
-        let step = self.step();
-        self.emit(Stmt::Call {
-            function,
-            wide,
-            args,
-            drive: None,
-            signal: false,
-            slot: 0,
-            step,
-        });
-        true
-    }
-
     /// Number of a new private memory, or 0 for a function without.
     fn slot(&mut self, needed: bool) -> u16 {
         if !needed {
@@ -265,14 +221,11 @@ impl Lowerer<'_> {
                 self.module.texts.push(text.to_string());
                 Arg::Text(self.module.texts.len() as u32 - 1)
             }
-            OperandKind::Buffer { .. } => {
-                let message = format!(
-                    "`{}` is not implemented yet: buffer memory as an operand",
-                    operand.kind
-                );
-                self.report(codes::NOT_IMPLEMENTED.at(operand.span, message));
-                Arg::Text(0)
-            }
+            // The checks have refused other modules and addresses.
+            OperandKind::Buffer { .. } => match self.buffer(&operand.kind, 0, wide) {
+                Some(buffer) => buffer,
+                None => self.constant_arg(0, None, wide),
+            },
         }
     }
 

@@ -1,7 +1,7 @@
 //! Operands: what they read, where they write, and under which conditions what they name exists.
 
 use super::Lowerer;
-use crate::node::{BinOp, Expr, ExprId, Place, Stmt, SysValue};
+use crate::node::{Arg, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue, Ty};
 use crate::runs::{is_counter32, words_of_bits};
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind, codes};
 
@@ -10,16 +10,20 @@ const OUT_OF_RANGE: u16 = 6706;
 
 /// Conditions under which an instruction's operands exist; where one does not hold the instruction faults.
 #[derive(Default)]
-pub(super) struct Guards(Vec<ExprId>);
+pub(super) struct Guards {
+    demanded: Vec<ExprId>,
+    /// Whether operands were fetched; where one was not, the fault is reported already.
+    fetched: Vec<ExprId>,
+}
 
 impl Guards {
     pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.demanded.is_empty() && self.fetched.is_empty()
     }
 
     /// One more condition.
     pub(super) fn demand(&mut self, cond: ExprId) {
-        self.0.push(cond);
+        self.demanded.push(cond);
     }
 }
 
@@ -34,6 +38,8 @@ pub(super) enum Target {
     Halves(Place, Place),
     /// A group of bits.
     Nibbles(Place, u8),
+    /// What only the runtime writes; 32 bits of it.
+    Sent(Arg, bool),
     /// Nowhere: the operand was reported.
     None,
 }
@@ -58,20 +64,36 @@ impl Lowerer<'_> {
         &mut self,
         guards: Guards,
         make: impl FnOnce(&mut Self),
-        instead: impl FnOnce(&mut Self),
+        instead: impl Fn(&mut Self),
     ) {
-        let Some(cond) = guards.0.into_iter().reduce(|a, b| self.and(a, b)) else {
+        let Guards { demanded, fetched } = guards;
+        let all =
+            |this: &mut Self, conds: Vec<ExprId>| conds.into_iter().reduce(|a, b| this.and(a, b));
+        let exists = all(self, demanded);
+        let make = |this: &mut Self| {
+            let Some(cond) = exists else {
+                return make(this);
+            };
+            let then = this.body(make);
+            let step = this.step();
+            let otherwise = this.body(|this| {
+                this.emit(Stmt::Fault {
+                    code: OUT_OF_RANGE,
+                    step,
+                });
+                instead(this);
+            });
+            this.emit(Stmt::If {
+                cond,
+                then,
+                otherwise,
+            });
+        };
+        let Some(cond) = all(self, fetched) else {
             return make(self);
         };
         let then = self.body(make);
-        let step = self.step();
-        let otherwise = self.body(|this| {
-            this.emit(Stmt::Fault {
-                code: OUT_OF_RANGE,
-                step,
-            });
-            instead(this);
-        });
+        let otherwise = self.body(&instead);
         self.emit(Stmt::If {
             cond,
             then,
@@ -118,9 +140,9 @@ impl Lowerer<'_> {
             ..self.canonical(device)
         };
         if index.is_some() {
-            guards.0.push(self.add(Expr::InRange { place, count }));
+            guards.demand(self.add(Expr::InRange { place, count }));
         } else if !self.exists(place.class, place.number, count) {
-            guards.0.push(self.bit_const(false));
+            guards.demand(self.bit_const(false));
         }
         place
     }
@@ -214,11 +236,65 @@ impl Lowerer<'_> {
                     wide,
                 })
             }
-            OperandKind::WordBit(..) | OperandKind::Text(_) | OperandKind::Buffer { .. } => {
+            OperandKind::Buffer { .. } => self.fetch(operand, wide, guards),
+            OperandKind::WordBit(..) | OperandKind::Text(_) => {
                 self.unreadable(operand);
                 self.int(0, wide)
             }
         }
+    }
+
+    /// Value of an operand in buffer memory, read here into a cell.
+    fn fetch(&mut self, operand: &OperandKind, wide: bool, guards: &mut Guards) -> ExprId {
+        let Some(from) = self.buffer(operand, 0, wide) else {
+            return self.int(0, wide);
+        };
+        let value = self.fetch_cell(operand);
+        let there = self.temp(Ty::Bit);
+        let step = self.step();
+        self.emit(Stmt::Fetch {
+            from,
+            wide,
+            value,
+            there,
+            step,
+        });
+        guards.fetched.push(self.add(Expr::Temp(there)));
+        let value = self.add(Expr::Cell(value));
+        match wide {
+            true => value,
+            false => self.add(Expr::Narrow(value)),
+        }
+    }
+
+    /// The cell that an operand of the instruction at hand is fetched to; instructions share theirs.
+    fn fetch_cell(&mut self, operand: &OperandKind) -> CellId {
+        let mut operands = self.instr().operands.iter();
+        let position = operands.position(|o| o.kind == *operand);
+        let name = format!("operand{}", position.map_or(0, |i| i + 1));
+        let cells = &self.module.cells;
+        match cells.iter().position(|cell| cell.name == name) {
+            Some(known) => CellId(known as u32),
+            None => self.cell(name, "an operand from buffer memory"),
+        }
+    }
+
+    /// An operand in buffer memory, `offset` words further on, as an argument of the runtime.
+    pub(super) fn buffer(&mut self, operand: &OperandKind, offset: u32, wide: bool) -> Option<Arg> {
+        let OperandKind::Buffer {
+            module,
+            address,
+            index,
+        } = *operand
+        else {
+            return None;
+        };
+        let index = index.map(|index| self.index(index, wide));
+        Some(Arg::Buffer {
+            module: u8::try_from(module).ok()?,
+            address: address.checked_add(offset)?,
+            index,
+        })
     }
 
     fn constant(&mut self, value: i32, index: Option<Index>, wide: bool) -> ExprId {
@@ -251,7 +327,7 @@ impl Lowerer<'_> {
                 self.pair_of(low, high)
             }
             Target::Word(place) => self.add(Expr::ReadWord(place)),
-            Target::Nibbles(..) | Target::None => self.int(0, wide),
+            Target::Nibbles(..) | Target::Sent(..) | Target::None => self.int(0, wide),
         }
     }
 
@@ -330,6 +406,13 @@ impl Lowerer<'_> {
                 let bits = 4 * u32::from(digits);
                 Target::Nibbles(self.place(device, index, bits, wide_index, guards), digits)
             }
+            OperandKind::Buffer { .. } => {
+                let words = if wide { 2 } else { 1 };
+                match self.buffer(operand, element * words, wide_index) {
+                    Some(to) => Target::Sent(to, wide),
+                    None => Target::None,
+                }
+            }
             _ => {
                 self.unreadable(operand);
                 Target::None
@@ -353,6 +436,15 @@ impl Lowerer<'_> {
                 self.emit(Stmt::WriteWord(low, low_word));
                 let high_word = self.add(Expr::HighWord(value));
                 Stmt::WriteWord(high, high_word)
+            }
+            Target::Sent(to, wide) => {
+                let step = self.step();
+                Stmt::Send {
+                    to,
+                    wide,
+                    value,
+                    step,
+                }
             }
             Target::None => return,
         };
@@ -410,14 +502,10 @@ impl Lowerer<'_> {
             .iter()
             .find(|o| o.kind == *operand)
             .map_or(instr.span, |o| o.span);
-        let what = match operand {
-            OperandKind::Buffer { .. } => "buffer memory as an operand",
-            _ => "this kind of operand",
-        };
         let name = &instr.mnemonic;
         self.report(codes::NOT_IMPLEMENTED.at(
             span,
-            format!("`{operand}` of `{name}` is not implemented yet: {what}"),
+            format!("`{operand}` of `{name}` is not implemented yet: this kind of operand"),
         ));
     }
 }

@@ -124,6 +124,8 @@ pub(super) fn writes(stmt: &Stmt) -> Writes {
         | Stmt::Repeat { .. }
         | Stmt::Parts(_)
         | Stmt::Call { .. }
+        | Stmt::Fetch { .. }
+        | Stmt::Send { .. }
         | Stmt::CallSub(_)
         | Stmt::Return
         | Stmt::Goto(_)

@@ -6,7 +6,7 @@ use crate::layout::{Area, Grid, Layout};
 use crate::model::Model;
 use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::runs::is_special;
-use crate::walk::{bodies, for_exprs, operands};
+use crate::walk::{assigned, bodies, for_exprs, operands};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
@@ -147,8 +147,8 @@ fn spans(module: &Module, body: &Body) -> Vec<Option<(usize, usize)>> {
 }
 
 fn each_temp(module: &Module, stmt: &Stmt, note: &mut impl FnMut(TempId)) {
-    if let Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } = stmt {
-        note(*temp);
+    if let Some(temp) = assigned(stmt) {
+        note(temp);
     }
     let mut open = Vec::new();
     for_exprs(stmt, &mut |id| open.push(*id));

@@ -4,7 +4,7 @@ use super::effects::writes;
 use super::fold::Arena;
 use super::inline::{Counts, Temps};
 use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
-use crate::walk::{bodies, for_exprs, for_exprs_mut, operands, operands_mut};
+use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut};
 use rustc_hash::FxHashSet;
 
 /// Rewrites every function.
@@ -45,7 +45,7 @@ fn count(module: &Module) -> Counts {
 
 fn count_body(module: &Module, body: &Body, counts: &mut Counts) {
     for stmt in body {
-        if let Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } = stmt {
+        if let Some(temp) = assigned(stmt) {
             counts.assignments[temp.0 as usize] += 1;
         }
         for_exprs(stmt, &mut |expr| count_uses(module, *expr, counts));

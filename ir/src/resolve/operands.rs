@@ -111,7 +111,10 @@ impl Checker {
             OperandKind::Hex(value, index) => {
                 hex_constant(place, operand, *value, index.is_some(), param)
             }
-            OperandKind::Float(_) | OperandKind::Text(_) | OperandKind::Buffer { .. } => None,
+            OperandKind::Buffer {
+                module, address, ..
+            } => no_buffer(span, *module, *address),
+            OperandKind::Float(_) | OperandKind::Text(_) => None,
         }
     }
 
@@ -338,6 +341,18 @@ impl Checker {
                 .label(format!("up to `{}`", device.class.number(last)))
         })
     }
+}
+
+/// Buffer memory that cannot exist (FX3 programming manual §4.11).
+fn no_buffer(span: Span, module: u32, address: u32) -> Option<Diagnostic> {
+    const LAST_MODULE: u32 = 7;
+    const LAST_ADDRESS: u32 = 32_767;
+    (module > LAST_MODULE || address > LAST_ADDRESS).then(|| {
+        let message = format!(
+            "`U{module}\\G{address}` does not exist (modules U0–U{LAST_MODULE}, addresses G0–G{LAST_ADDRESS})"
+        );
+        codes::NO_DEVICE.at(span, message).label("no such buffer memory")
+    })
 }
 
 fn index_of(kind: &OperandKind) -> Option<Index> {

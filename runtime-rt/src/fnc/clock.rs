@@ -115,7 +115,7 @@ fn read_clock(cx: &mut Cx, year: fn(u16) -> u16) -> Done {
             .zip(held)
             .try_for_each(|(offset, word)| cx.set_word(0, offset, word));
     }
-    let clock = cx.hal.clock().ok_or(Fault::DEVICE)?;
+    let clock = cx.hal().clock().ok_or(Fault::DEVICE)?;
     cx.check_words(0, 7)?;
     cx.set_word(0, 0, year(clock.year) as i16)?;
     let fields = [
@@ -190,7 +190,7 @@ fn write_clock(cx: &mut Cx, short: bool) -> Done {
             cx.set_special_word(register, word);
         }
     }
-    cx.hal.set_clock(clock).ok_or(Fault::DEVICE)
+    cx.hal().set_clock(clock).ok_or(Fault::DEVICE)
 }
 
 /// TWR S (FNC 167): sets the clock from seven words in TRD's order; words that are no moment are ignored.
@@ -208,7 +208,7 @@ pub fn twr_short(cx: &mut Cx) -> Done {
 ///
 /// Memory: M8015 and M8017 of the last scan; the moment at which the clock was stopped.
 fn refresh(cx: &mut Cx, short: bool) -> Done {
-    let Some(mut now) = cx.hal.clock() else {
+    let Some(mut now) = cx.hal().clock() else {
         return Ok(());
     };
     let (stop, adjust) = (cx.special(M_CLOCK_STOP), cx.special(M_CLOCK_ADJUST));
@@ -239,7 +239,7 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
         let clock = moment(set, short);
         cx.set_special(M_CLOCK_ERROR, clock.is_none());
         if let Some(clock) = clock.or(moment(held, true)) {
-            let _ = cx.hal.set_clock(clock);
+            let _ = cx.hal().set_clock(clock);
             now = clock;
         }
     }
@@ -250,7 +250,7 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
         } else {
             minute.after(60_000)
         };
-        let _ = cx.hal.set_clock(now);
+        let _ = cx.hal().set_clock(now);
     }
     let state = cx.state();
     state.0[0] = stop.into();

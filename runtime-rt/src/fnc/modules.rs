@@ -26,9 +26,9 @@ fn refresh(cx: &mut Cx, ours: fn(&Cx, u16) -> bool) -> Done {
         if class == Class::Y {
             let on = cx.plc.bit(class, number.into()).unwrap_or(false);
             if ours(cx, number) {
-                cx.hal.set_output(number, on);
+                cx.hal().set_output(number, on);
             }
-        } else if let Some(on) = cx.hal.input(number) {
+        } else if let Some(on) = cx.hal().input(number) {
             // Inputs that the program does not look at are not kept.
             let _ = cx.plc.set_bit(class, number.into(), on);
         }
@@ -53,7 +53,7 @@ pub fn reff(cx: &mut Cx) -> Done {
     let n = cx.count(0, 0..=60)?;
     cx.set_special_word(D_INPUT_FILTER, n as i16);
     for number in 0..8 {
-        if let Some(on) = cx.hal.input(number) {
+        if let Some(on) = cx.hal().input(number) {
             let _ = cx.plc.set_bit(Class::X, number.into(), on);
         }
     }
@@ -85,12 +85,14 @@ fn behind(address: u16, n: i32) -> Result<u16, Fault> {
 
 /// A word of buffer memory.
 fn read(cx: &mut Cx, unit: u16, address: u16) -> Result<i16, Fault> {
-    cx.hal.read_bfm(unit, address).ok_or(Fault::MODULE)
+    cx.hal().read_bfm(unit, address).ok_or(Fault::MODULE)
 }
 
 /// Writes a word of buffer memory.
 fn write(cx: &mut Cx, unit: u16, address: u16, value: i16) -> Done {
-    cx.hal.write_bfm(unit, address, value).ok_or(Fault::MODULE)
+    cx.hal()
+        .write_bfm(unit, address, value)
+        .ok_or(Fault::MODULE)
 }
 
 /// FROM m1 m2 D n (FNC 78): n words, or pairs, of module m1 from address m2 on go to D; with M8164 the count is D8164.
@@ -114,14 +116,14 @@ pub fn from(cx: &mut Cx) -> Done {
 /// FROM of L01S: where there is no module 0, that number means the host, whose first words are its analog inputs.
 pub fn from_host(cx: &mut Cx) -> Done {
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
-    if unit != 0 || cx.hal.read_bfm(unit, address).is_some() {
+    if unit != 0 || cx.hal().read_bfm(unit, address).is_some() {
         return from(cx);
     }
     let n = transfer_count(cx)?;
     cx.check_words(2, n)?;
     for k in 0..n {
         let channel = u8::try_from(behind(address, k)?).map_err(|_| Fault::MODULE)?;
-        let value = cx.hal.analog(channel).ok_or(Fault::MODULE)?;
+        let value = cx.hal().analog(channel).ok_or(Fault::MODULE)?;
         cx.set_word(2, k, value)?;
     }
     Ok(())
@@ -152,7 +154,7 @@ const ANALOG_OUTPUT_CHANNELS: i32 = 8;
 /// TO of L01S: where there is no module 0, that number means the host, whose first words are its analog outputs (D8050 …).
 pub fn to_host(cx: &mut Cx) -> Done {
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
-    if unit != 0 || cx.hal.read_bfm(unit, address).is_some() {
+    if unit != 0 || cx.hal().read_bfm(unit, address).is_some() {
         return to(cx);
     }
     let n = transfer_count(cx)?;
@@ -198,7 +200,7 @@ pub fn wr3a(cx: &mut Cx) -> Done {
 /// Position of potentiometer S, 0 to 255; it is the analog input of that number.
 fn potentiometer(cx: &mut Cx) -> Result<i16, Fault> {
     let number = cx.count(0, 0..=7)? as u8;
-    let value = cx.hal.analog(number).ok_or(Fault::MODULE)?;
+    let value = cx.hal().analog(number).ok_or(Fault::MODULE)?;
     Ok(value.clamp(0, 255))
 }
 
@@ -413,12 +415,7 @@ mod tests {
         }
         plc.set_d(8181, &[1]);
         let mut call = |plc: &mut Double, function: RtFn, ops: &[Operand]| {
-            function.call(&mut Cx {
-                plc,
-                hal: &mut hal,
-                ops,
-                site: Site::at(0),
-            })
+            function.call(&mut Cx::new(plc, &mut hal, ops, Site::at(0)))
         };
         call(&mut plc, RtFn::Ref, &[d(Class::X, 8), k(8)]).unwrap();
         call(&mut plc, RtFn::RefHm, &[d(Class::Y, 0), k(8)]).unwrap();

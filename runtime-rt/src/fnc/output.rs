@@ -47,9 +47,9 @@ pub(super) fn held(cx: &mut Cx, instruction: impl FnOnce(&mut Cx) -> Done) -> Do
             return Ok(());
         }
     }
-    cx.hal.hold_pulses(true);
+    cx.hal().hold_pulses(true);
     let done = instruction(cx);
-    cx.hal.hold_pulses(false);
+    cx.hal().hold_pulses(false);
     done
 }
 

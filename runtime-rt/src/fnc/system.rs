@@ -59,7 +59,7 @@ pub fn analog_inputs(cx: &mut Cx) -> Done {
     let enabled = cx.special_word(ANALOG_ENABLE);
     for channel in 0..8u8 {
         if enabled >> channel & 1 == 1
-            && let Some(value) = cx.hal.analog(channel)
+            && let Some(value) = cx.hal().analog(channel)
         {
             cx.set_special_word(ANALOG_VALUES + u32::from(channel), value);
         }
@@ -70,7 +70,7 @@ pub fn analog_inputs(cx: &mut Cx) -> Done {
 /// D8030 and D8031 from the two potentiometers, which are the first analog inputs, once a scan before the program.
 pub fn potentiometers(cx: &mut Cx) -> Done {
     for channel in 0..2u8 {
-        if let Some(value) = cx.hal.analog(channel) {
+        if let Some(value) = cx.hal().analog(channel) {
             cx.set_special_word(ANALOG_VALUES + u32::from(channel), value.clamp(0, 255));
         }
     }

@@ -26,12 +26,7 @@ impl<'m> Interpreter<'m> {
 
 /// The access to a pair or 32-bit counter that an instruction has.
 fn double<'a>(machine: &'a mut Machine<'_>, hal: &'a mut VirtualHal, op: &'a [Operand]) -> Cx<'a> {
-    Cx {
-        plc: machine,
-        hal,
-        ops: op,
-        site: Site::at(0).wide(),
-    }
+    Cx::new(machine, hal, op, Site::at(0).wide())
 }
 
 fn operand(class: Class, number: u32) -> Operand {
