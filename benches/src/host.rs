@@ -215,6 +215,7 @@ pub fn table(kind: Kind, sizes: &[u32], effort: Effort) -> Result<Table> {
     );
     for &size in sizes {
         let ladder = Ladder::new(kind, size);
+        eprintln!("{}, {} steps ...", kind.name(), ladder.steps);
         let all = match time(&ladder, &COMPILERS, true, effort) {
             Err(problem) if problem.is_missing() => {
                 let steps = Cell::count(ladder.steps.into());

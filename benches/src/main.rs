@@ -13,7 +13,7 @@ use std::process::ExitCode;
 /// Measures what rungc emits beside C written by hand, and rungc itself.
 #[derive(Parser, Debug)]
 struct Args {
-    /// Short programs only, and fewer rounds: half a minute instead of many.
+    /// Short programs only, and fewer rounds: one minute instead of many.
     #[arg(long)]
     quick: bool,
     /// Also write the tables as JSON.
@@ -66,7 +66,7 @@ impl Section {
             ]),
             Section::Icount => Ok(vec![embedded::count_table(embedded_sizes(quick))?]),
             Section::Compile => Ok(vec![
-                compile::table(compiled_sizes(quick), if quick { 2 } else { 5 })?,
+                compile::table(compiled_sizes(quick))?,
                 compile::native_table(16_000)?,
             ]),
             Section::Interp => Ok(vec![interp::table(10_000, effort(quick))?]),
