@@ -112,7 +112,7 @@ impl fmt::Display for Table {
                 *width = (*width).max(cell.to_string().chars().count());
             }
         }
-        writeln!(f, "{}\n", self.title)?;
+        writeln!(f, "### {}\n", self.title)?;
         let right = |column: usize| {
             let mut cells = self.rows.iter().filter_map(|row| row.get(column));
             cells.any(|cell| matches!(cell, Cell::Number { .. }))
@@ -157,7 +157,7 @@ mod tests {
         table.row(["Rust".into(), "not installed: cargo".into()]);
         assert_eq!(
             table.to_string(),
-            "Sizes\n\n\
+            "### Sizes\n\n\
              | what         |     bytes |  per step |\n\
              | ------------ | --------: | --------: |\n\
              | hand-written | 1 234 567 | -1 234.50 |\n\
