@@ -6,7 +6,8 @@ use crate::catalogue::{Basic, Lower};
 use crate::high_speed::{self, Kind};
 use crate::interrupts::{self, Source};
 use crate::model::{ModelId, ModelSet};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rungc_rt::Wiring;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
 
 /// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
 const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::of(&[ModelId::Hm]);
@@ -22,7 +23,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
     one_pointer_per_source(code, &interrupts, out);
     let others = others(code, &interrupts);
     inputs_shared(code, &others, &counters, out);
-    measured_inputs(code, &others, &counters, out);
+    looked_at(code, &others, &counters, out);
     fast_units::check(code, &others, &counters, out);
     counters_share(code, &counters, out);
     never_enabled(code, &interrupts, out);
@@ -219,30 +220,65 @@ fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut 
     }
 }
 
-/// SPD on an input that serves something else. The manuals advise against it, but it counts all the same (h1u-h2u-programming
-/// §4.3.6 allows what §4.3.1 forbids).
-fn measured_inputs(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
-    for (i, input) in measured(code) {
+/// SPD and positioning on an input that serves something else. The manuals advise against it, but it works all the same
+/// (h1u-h2u-programming §4.3.6 allows what §4.3.1 forbids; l01s-programming §6.4.1).
+fn looked_at(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
+    let measures: Vec<(usize, u32)> = measured(code).map(|(i, x)| (i, x.number)).collect();
+    let positions = positioned(code);
+    let looks = measures.iter().chain(&positions);
+    for (n, &(i, input)) in looks.enumerate() {
         let counter = counters
             .iter()
-            .find(|counter| counter.inputs.contains(&input.number))
+            .find(|counter| counter.inputs.contains(&input))
             .map(|counter| (format!("counter `C{}`", counter.number), counter.coil));
         let other = others
             .iter()
-            .find(|other| other.input == input.number)
+            .find(|other| other.input == input)
             .map(|other| (other.name.to_string(), other.at));
-        if let Some((name, at)) = counter.or(other) {
-            let diagnostic = codes::MEASURED_INPUT
-                .at(
-                    code.span(i),
-                    format!("`{input}` serves both SPD and {name}"),
-                )
-                .label("measured here …")
-                .other(code.span(at), "… and used here")
-                .help("choose an input of its own");
-            out.push(diagnostic);
-        }
+        let spd = measures
+            .iter()
+            .find(|measured| n >= measures.len() && measured.1 == input)
+            .map(|measured| ("SPD".to_string(), measured.0));
+        let (Some((name, at)), Some(inst)) = (counter.or(other).or(spd), code.inst(i)) else {
+            continue;
+        };
+        let input = DeviceClass::X.number(input);
+        let message = format!("`{input}` serves both {} and {name}", inst.name);
+        let diagnostic = codes::MEASURED_INPUT
+            .at(code.span(i), message)
+            .label("looked at here …")
+            .other(code.span(at), "… and used here")
+            .help("choose an input of its own");
+        out.push(diagnostic);
     }
+}
+
+/// The instructions that position by fast inputs, and these inputs.
+fn positioned(code: &Code) -> Vec<(usize, u32)> {
+    let mut found = Vec::new();
+    for i in 0..code.len {
+        let Some(inst) = code.inst(i) else {
+            continue;
+        };
+        let Lower::Call(function) = inst.lower_on_model(code.model().id) else {
+            continue;
+        };
+        if !function.needs().signals {
+            continue;
+        }
+        let operands = &code.instr(i).operands;
+        let inputs = operands.iter().filter_map(|operand| match operand.kind {
+            OperandKind::Device(device, None) if device.class == DeviceClass::X => {
+                Some(device.number)
+            }
+            _ => None,
+        });
+        let mut inputs: Vec<u32> = inputs.filter(|&n| n < Wiring::FAST_INPUTS).collect();
+        // The zero signal may be that of the DOG.
+        inputs.dedup();
+        found.extend(inputs.into_iter().map(|input| (i, input)));
+    }
+    found
 }
 
 /// The instructions SPD and their inputs.

@@ -86,8 +86,8 @@ super::codes! {
     right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nOUT Y0\nSRET\nEND\n";
 
     MEASURED_INPUT = "W0216" "measured-input" Warning None,
-    "SPD on an input that serves something else",
-    "Each fast input should serve one purpose: SPD, a high-speed counter, an input interrupt or pulse catch.",
+    "SPD or positioning on an input that serves something else",
+    "Each fast input should serve one purpose: SPD, the signals of ZRN and DSZR, a high-speed counter, an input interrupt or pulse catch.",
     wrong: "LD M8000\nOUT C235 K100\nLD X7\nSPD X0 K100 D0\nEND\n",
     right: "LD M8000\nOUT C235 K100\nLD X7\nSPD X1 K100 D0\nEND\n";
 
