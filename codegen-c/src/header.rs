@@ -14,6 +14,9 @@ use std::fmt::Write;
 /// Column of the comments beside fields.
 const COMMENT_COLUMN: usize = 36;
 
+/// So many edges of inputs are told one by one how they get in.
+const MOST_EDGES: usize = 4;
+
 /// Heading of a section of the struct.
 fn heading(section: Section) -> &'static str {
     match section {
@@ -277,11 +280,16 @@ pub fn embedding(module: &Module, fields: &Fields) -> String {
             ),
         );
     }
-    for number in events::inputs(module) {
-        lines.push((
-            format!("{name}_input_edge(&plc, {number}, on);"),
-            "in the interrupt handler of this pin",
-        ));
+    let edges = events::inputs(module);
+    match edges.len() {
+        0..=MOST_EDGES => lines.extend(edges.iter().map(|number| {
+            let code = format!("{name}_input_edge(&plc, {number}, on);");
+            (code, "in the interrupt handler of this pin")
+        })),
+        _ => lines.push((
+            format!("{name}_input_edge(&plc, n, on);"),
+            "in the interrupt handlers of the pins of inputs",
+        )),
     }
     if events::follows_time(module) {
         lines.push((

@@ -19,6 +19,9 @@ pub fn register(axis: u32, parameter: u32) -> u32 {
     FIRST + REGISTERS * axis + parameter
 }
 
+/// Parameters whose bits name inputs: DOG, zero signal, limits, emergency, interrupt.
+pub const INPUTS: [u32; 6] = [8, 9, 10, 11, 23, 24];
+
 /// Parameters that begin with a value other than 0: registers and values.
 pub fn defaults(model: ModelId) -> Vec<(u32, i16)> {
     let axes = if model == ModelId::Hm { AXES } else { 0 };

@@ -287,6 +287,8 @@ pub struct Param {
     pub numbers: &'static [(DeviceClass, u32, u32)],
     /// Whether it is an output that sends pulses: one of the model's, unless `numbers` says more.
     pub sends_pulses: bool,
+    /// Its bits name inputs X.
+    pub names_inputs: bool,
     /// What else it must obey.
     pub rules: &'static [Rule],
     /// Whether it may carry an index register.

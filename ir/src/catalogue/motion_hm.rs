@@ -77,7 +77,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::AxisHome)
         .text("Runs the axis to its origin, as AXEI, AXOSP and AXOX say."),
     motion("JOG", "Jog")
-        .takes(&[AXIS, any("D2"), any("D3"), any("D4"), any("D5")])
+        .takes(&[AXIS, any("D2"), any("D3"), any("D4").inputs(), any("D5").inputs()])
         .call(RtFn::AxisJog)
         .text("Jogs the axis by D2 pulses, then on and on at speed D3, while an input of mask D4 (forward) or D5 (backward) is on."),
     wide("PSOUT", "Position by pulses")

@@ -201,6 +201,7 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
         limits: None,
         numbers: &[],
         sends_pulses: false,
+        names_inputs: false,
         rules: &[],
         indexable: true,
         unindexed: &[],
@@ -360,6 +361,15 @@ impl Param {
     /// No index register with these devices.
     pub(super) const fn unindexed(self, unindexed: &'static [(DeviceClass, u32, u32)]) -> Self {
         Param { unindexed, ..self }
+    }
+
+    /// Its bits name inputs.
+    pub(super) const fn inputs(self) -> Self {
+        let names_inputs = true;
+        Param {
+            names_inputs,
+            ..self
+        }
     }
 
     /// No index register.

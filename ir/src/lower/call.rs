@@ -253,7 +253,7 @@ impl Lowerer<'_> {
 }
 
 /// The number of the output or axis that an operand names.
-fn output_of(kind: &OperandKind) -> Option<u32> {
+pub(super) fn output_of(kind: &OperandKind) -> Option<u32> {
     match *kind {
         OperandKind::Device(Device { number, .. }, _) => Some(number),
         OperandKind::Decimal(axis, _) => u32::try_from(axis).ok(),

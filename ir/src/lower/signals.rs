@@ -1,8 +1,10 @@
 //! Inputs at which instructions look that send pulses: what their edges do, between two scans.
 
 use super::Lowerer;
+use super::call::output_of;
 use super::operand::fixed;
-use crate::catalogue::{CmpOp, Inst, Role};
+use crate::axes;
+use crate::catalogue::{CmpOp, Inst, Lower, Role};
 use crate::node::{Arg, EdgeKind, Expr, ExprId, Function, FunctionKind, Stmt};
 use rungc_rt::{RtFn, StopInput, Wiring};
 use rungc_syntax::DeviceClass::{D, M, X, Y};
@@ -47,8 +49,17 @@ impl Lowerer<'_> {
                 }
                 _ if param.sends_pulses => {
                     if let Some(wiring) = self.wiring_of(kind) {
-                        inputs.extend(self.inputs_of_output(wiring, function));
+                        let mask = match wiring.axis {
+                            0 => u16::MAX,
+                            _ => self.mask_of_axis(kind),
+                        };
+                        let own = self.inputs_of_output(wiring, function);
+                        inputs.extend(own.filter(|input| mask >> input & 1 == 1));
                     }
+                }
+                _ if param.names_inputs => {
+                    let mask = mask_of(kind);
+                    inputs.extend((0..u16::BITS).filter(|input| mask >> input & 1 == 1));
                 }
                 _ => {}
             }
@@ -61,6 +72,35 @@ impl Lowerer<'_> {
         self.signals.inputs.extend(inputs);
         let at = self.at;
         self.signals.lookers.push(Looker { at, function, slot });
+    }
+
+    /// The inputs that the registers of an axis may name, as bits: what its instructions say, or all if the program may write others.
+    fn mask_of_axis(&self, axis: &OperandKind) -> u16 {
+        let Some(number) = output_of(axis) else {
+            return u16::MAX;
+        };
+        let mut registers = axes::INPUTS
+            .map(|place| axes::register(number, place))
+            .into_iter();
+        if registers.any(|register| self.looks_at(register)) {
+            return u16::MAX;
+        }
+        let instrs = self.resolved.program.instrs.iter();
+        let said = instrs
+            .zip(&self.resolved.instrs)
+            .filter_map(|(instr, resolution)| {
+                let lower = resolution.inst?.lower_on_model(self.model.id);
+                let (axis, operands) = instr.operands.split_first()?;
+                match lower {
+                    Lower::Axis(places) if output_of(&axis.kind) == Some(number) => {
+                        Some(places.iter().zip(operands))
+                    }
+                    _ => None,
+                }
+            });
+        let said = said.flatten();
+        said.filter(|(place, _)| axes::INPUTS.contains(place))
+            .fold(0, |mask, (_, operand)| mask | mask_of(&operand.kind))
     }
 
     fn inputs_of_output(
@@ -175,5 +215,14 @@ impl Lowerer<'_> {
             slot: 0,
             step: 0,
         });
+    }
+}
+
+/// The inputs that the bits of an operand name: all that there are, if only a run knows.
+fn mask_of(kind: &OperandKind) -> u16 {
+    match *kind {
+        OperandKind::Decimal(mask, None) => mask as u16,
+        OperandKind::Hex(mask, None) => mask as u16,
+        _ => u16::MAX,
     }
 }
