@@ -35,7 +35,7 @@ pub(super) struct Signals {
 const STOP_INPUTS: std::ops::Range<u32> = 0..6;
 
 impl Lowerer<'_> {
-    /// The instruction at hand looks at inputs.
+    /// The instruction at hand looks at inputs. One that needs the buffer memory of a module does so in the scan alone, which has it.
     pub(super) fn find_signals(&mut self, inst: &Inst, function: RtFn, slot: u16) {
         let operands = &self.instr().operands;
         let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
@@ -64,7 +64,8 @@ impl Lowerer<'_> {
                 _ => {}
             }
         }
-        if inputs.is_empty() {
+        let buffer = |kind: &OperandKind| matches!(kind, OperandKind::Buffer { .. });
+        if inputs.is_empty() || kinds.iter().any(buffer) {
             return;
         }
         let devices = inputs.iter().map(|&input| (X, input));
