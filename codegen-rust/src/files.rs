@@ -412,14 +412,18 @@ const WAIT_WITH_EVENTS: &str = "\
 
 /// A crate for many programs.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
-    let profile = "\n[profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\ncodegen-units = 16\n\n\
+    let profile = "\n[features]\n# For a machine without operating system: a static library with a `main`, and without the standard library.\nbare = []\n\n\
+                   [profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\ncodegen-units = 16\n\n\
                    [profile.dev.package.rungc-rt]\nopt-level = 2\n";
     let mut files = vec![
         file(
             "Cargo.toml",
             manifest("batch", "PLC programs for tests", RUNTIME_FOLDER, profile),
         ),
-        file("src/main.rs", include_str!("../templates/batch.rs")),
+        file("src/main.rs", include_str!("../templates/batch/main.rs")),
+        file("src/lib.rs", include_str!("../templates/batch/lib.rs")),
+        file("src/port.rs", include_str!("../templates/batch/port.rs")),
+        file("src/bare.rs", include_str!("../templates/batch/bare.rs")),
     ];
     let mut models: BTreeMap<&str, &Module> = BTreeMap::new();
     let mut cases = String::from(
@@ -434,7 +438,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
             let type_name = case(module, number, &mut out);
             let _ = writeln!(
                 arms,
-                "        {number} => boxed(cases{n}::case{number}::{type_name}::new),"
+                "        {number} => power_on(cases{n}::case{number}::{type_name}::new, what),"
             );
         }
         let _ = writeln!(cases, "mod cases{n};");
@@ -442,10 +446,13 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     }
     let _ = write!(
         cases,
-        "\n/// A program, freshly powered on.\npub fn program(number: usize) -> Option<Box<dyn rungc_rt::Program>> {{\n    \
-         Some(match number {{\n{arms}        _ => return None,\n    }})\n}}\n\n\
+        "\nuse rungc_rt::Program;\n\n\
+         /// Does something with a program, freshly powered on; `None` if there is no such program.\n\
+         pub fn run(number: usize, what: &mut dyn FnMut(&mut dyn Program)) -> Option<()> {{\n    \
+         match number {{\n{arms}        _ => return None,\n    }}\n    Some(())\n}}\n\n\
          /// A function of its own for each program: in one, the stack would hold all of them.\n\
-         fn boxed<T: rungc_rt::Program + 'static>(new: fn() -> T) -> Box<dyn rungc_rt::Program> {{\n    Box::new(new())\n}}\n"
+         #[inline(never)]\n\
+         fn power_on<T: Program>(new: fn() -> T, what: &mut dyn FnMut(&mut dyn Program)) {{\n    what(&mut new())\n}}\n"
     );
     files.push(file("src/cases/mod.rs", cases));
     let mut tables = String::from(

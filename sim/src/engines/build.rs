@@ -73,10 +73,10 @@ pub fn build<'m>(
         EngineKind::C => build_c(modules, &folder)?,
         EngineKind::Rust => build_rust(modules, &folder)?,
     };
-    Ok(Box::new(Process::new(kind.name(), command)))
+    Ok(Box::new(Process::new(kind.name(), Command::new(command))))
 }
 
-fn io_error(what: impl std::fmt::Display, error: io::Error) -> BuildError {
+pub(super) fn io_error(what: impl std::fmt::Display, error: io::Error) -> BuildError {
     BuildError::Io {
         what: what.to_string(),
         error,
@@ -84,7 +84,7 @@ fn io_error(what: impl std::fmt::Display, error: io::Error) -> BuildError {
 }
 
 /// Writes a file unless it has this text already, so that build tools see only what changed.
-fn write(path: &Path, text: &str) -> Result<(), BuildError> {
+pub(super) fn write(path: &Path, text: &str) -> Result<(), BuildError> {
     if fs::read_to_string(path).is_ok_and(|old| old == text) {
         return Ok(());
     }
@@ -98,7 +98,7 @@ fn write(path: &Path, text: &str) -> Result<(), BuildError> {
 /// Lines of a tool's output that an error quotes.
 const QUOTED_LINES: usize = 60;
 
-fn run(command: &mut Command) -> Result<(), BuildError> {
+pub(super) fn run(command: &mut Command) -> Result<(), BuildError> {
     let program = command.get_program().to_string_lossy().into_owned();
     let output = command
         .output()
@@ -114,10 +114,14 @@ fn run(command: &mut Command) -> Result<(), BuildError> {
     })
 }
 
+/// Writes the crate of a batch.
+pub(super) fn write_rust(modules: &[Module], folder: &Path) -> Result<(), BuildError> {
+    let mut files = rungc_codegen_rust::batch(modules).into_iter();
+    files.try_for_each(|file| write(&folder.join(&file.path), &file.text))
+}
+
 fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
-    for file in rungc_codegen_rust::batch(modules) {
-        write(&folder.join(&file.path), &file.text)?;
-    }
+    write_rust(modules, folder)?;
     let target = folder.join("target");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     run(Command::new(cargo)
@@ -128,17 +132,27 @@ fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> 
 }
 
 /// What emitted C must compile with, without a warning.
-const C_FLAGS: &str = "CFLAGS=-std=c99 -Wall -Wextra -Wconversion -Werror -O1";
+const C_FLAGS: &str = "-std=c99 -Wall -Wextra -Wconversion -Werror -O1";
 
-fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
+/// Writes the C files of a batch and lets `make` build it, with these flags besides those that are always given.
+pub(super) fn make_batch(
+    make: &mut Command,
+    flags: &str,
+    modules: &[Module],
+    folder: &Path,
+) -> Result<PathBuf, BuildError> {
     for file in rungc_codegen_c::batch(modules) {
         write(&folder.join(&file.path), &file.text)?;
     }
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
-    run(Command::new("make")
+    run(make
         .arg(format!("-j{jobs}"))
-        .arg(C_FLAGS)
+        .arg(format!("CFLAGS={C_FLAGS} {flags}"))
         .env("CARGO_NET_OFFLINE", "true")
         .current_dir(folder))?;
     Ok(folder.join("batch"))
+}
+
+fn build_c(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
+    make_batch(&mut Command::new("make"), "", modules, folder)
 }

@@ -1,6 +1,7 @@
 //! The ways to execute compiled programs, behind one interface.
 
 mod build;
+pub mod cortex_m;
 mod interpreter;
 mod process;
 

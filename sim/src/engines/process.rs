@@ -4,7 +4,6 @@ use super::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, BufWriter, Write};
-use std::path::PathBuf;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
@@ -15,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 /// A batch executable. It is started at the first request and again after it was killed or has crashed.
 pub struct Process {
     name: String,
-    command: PathBuf,
+    command: Command,
     running: Option<Running>,
 }
 
@@ -28,8 +27,8 @@ struct Running {
 }
 
 impl Process {
-    /// An engine that runs this executable.
-    pub fn new(name: impl Into<String>, command: PathBuf) -> Self {
+    /// An engine that runs this command.
+    pub fn new(name: impl Into<String>, command: Command) -> Self {
         Process {
             name: name.into(),
             command,
@@ -37,16 +36,18 @@ impl Process {
         }
     }
 
-    fn start(&self) -> Result<Running, EngineError> {
-        let failed = |error| EngineError::Start {
-            command: self.command.display().to_string(),
-            error,
-        };
-        let mut child = Command::new(&self.command)
+    fn start(&mut self) -> Result<Running, EngineError> {
+        let command = self.command.get_program().display().to_string();
+        let failed = |error| EngineError::Start { command, error };
+        let started = self
+            .command
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .spawn()
-            .map_err(failed)?;
+            .spawn();
+        let mut child = match started {
+            Ok(child) => child,
+            Err(error) => return Err(failed(error)),
+        };
         let (Some(stdin), Some(stdout)) = (child.stdin.take(), child.stdout.take()) else {
             return Err(failed(std::io::Error::other("no pipes")));
         };

@@ -1,51 +1,82 @@
-//! Runs the programs of a batch on virtual hardware, as standard input says: one request a line, one answer a line.
+//! Runs the programs of a batch on virtual hardware, as requests say: one request a line, one answer a line.
+//!
+//! Without the standard library, so that the same batch runs on a microcontroller.
+#![no_std]
 
+#[cfg(feature = "bare")]
+mod bare;
 mod cases;
 mod models;
+mod port;
 
+use core::fmt;
+use core::str::{FromStr, SplitAsciiWhitespace};
+use port::Port;
 use rungc_rt::{Class, Clock, FIRST_COUNTER32, Program, VirtualHal, word};
-use std::io::{self, BufRead, BufReader, BufWriter, Write};
-use std::str::{FromStr, SplitAsciiWhitespace};
 
-/// A program and its hardware.
-struct Bench {
-    program: Box<dyn Program>,
-    hal: VirtualHal,
-}
-
-fn main() -> io::Result<()> {
-    let mut input = BufReader::new(io::stdin().lock());
-    let mut output = BufWriter::new(io::stdout().lock());
-    let mut bench = None;
-    let mut line = String::new();
-    loop {
-        line.clear();
-        if input.read_line(&mut line)? == 0 || line.trim() == "exit" {
-            return output.flush();
-        }
-        let mut words = line.split_ascii_whitespace();
-        match words.next().and_then(|word| answer(&mut bench, word, words)) {
-            Some(answer) => writeln!(output, "{answer}")?,
-            None => writeln!(output, "none")?,
-        }
-        // Whoever waits for an answer has sent nothing more.
-        if input.buffer().is_empty() {
-            output.flush()?;
-        }
-    }
-}
-
-/// Does one request; `None` if there is no such program, device, module or channel.
-fn answer(bench: &mut Option<Bench>, request: &str, mut words: SplitAsciiWhitespace) -> Option<String> {
-    let words = &mut words;
-    if request == "case" {
-        *bench = Some(Bench {
-            program: cases::program(next(words)?)?,
-            hal: VirtualHal::new(),
+/// Answers requests until they end. `read` waits for bytes and says how many came, 0 at the end; `write` takes all bytes.
+pub fn serve(read: &mut dyn FnMut(&mut [u8]) -> usize, write: &mut dyn FnMut(&[u8])) {
+    let mut port = Port::new(read, write);
+    let mut next = session(&mut port, None);
+    while let Some(number) = next {
+        let found = cases::run(number, &mut |program| {
+            port.answer(&Answer::Done);
+            next = session(&mut port, Some(program));
         });
-        return done();
+        if found.is_none() {
+            port.answer(&"none");
+            next = session(&mut port, None);
+        }
     }
-    let Bench { program, hal } = bench.as_mut()?;
+    port.flush();
+}
+
+/// Answers requests to a program, or without one; returns the number of the program that is asked for next, `None` at the end.
+fn session(port: &mut Port, mut program: Option<&mut dyn Program>) -> Option<usize> {
+    let mut hal = VirtualHal::new();
+    loop {
+        let reply = {
+            let line = port.line()?;
+            let mut words = line.split_ascii_whitespace();
+            match words.next() {
+                Some("exit") => return None,
+                Some("case") => return Some(next(&mut words).unwrap_or(usize::MAX)),
+                Some(request) => program
+                    .as_deref_mut()
+                    .and_then(|program| answer(program, &mut hal, request, words)),
+                None => None,
+            }
+        };
+        match reply {
+            Some(reply) => port.answer(&reply),
+            None => port.answer(&"none"),
+        }
+    }
+}
+
+/// What there is to say.
+enum Answer {
+    Done,
+    Value(i64),
+}
+
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Answer::Done => f.write_str("ok"),
+            Answer::Value(value) => value.fmt(f),
+        }
+    }
+}
+
+/// Does one request; `None` if there is no such device, module or channel.
+fn answer(
+    program: &mut dyn Program,
+    hal: &mut VirtualHal,
+    request: &str,
+    mut words: SplitAsciiWhitespace,
+) -> Option<Answer> {
+    let words = &mut words;
     match request {
         "bit" => {
             let (class, number) = device(words)?;
@@ -57,19 +88,19 @@ fn answer(bench: &mut Option<Bench>, request: &str, mut words: SplitAsciiWhitesp
         }
         "dword" => {
             let (class, number) = device(words)?;
-            set_double(program.as_mut(), class, number, next(words)?)?;
+            set_double(program, class, number, next(words)?)?;
         }
         "getbit" => {
             let (class, number) = device(words)?;
-            return Some(u8::from(program.bit(class, number)?).to_string());
+            return value(program.bit(class, number)?);
         }
         "getword" => {
             let (class, number) = device(words)?;
-            return Some(program.word(class, number)?.to_string());
+            return value(program.word(class, number)?);
         }
         "getdword" => {
             let (class, number) = device(words)?;
-            return Some(double(program.as_ref(), class, number)?.to_string());
+            return value(double(program, class, number)?);
         }
         "scan" => {
             let now_ms = next(words)?;
@@ -79,25 +110,25 @@ fn answer(bench: &mut Option<Bench>, request: &str, mut words: SplitAsciiWhitesp
         "edge" => program.input_edge(next(words)?, next::<i64>(words)? != 0),
         "tick" => program.tick(next(words)?),
         "interrupts" => program.take_interrupts(hal),
-        "out" => return Some(u8::from(program.output(next(words)?)).to_string()),
-        "pulses" => return Some(program.pulses_sent(next(words)?).to_string()),
-        "frequency" => return Some(program.pulse_millihertz(next(words)?).to_string()),
+        "out" => return value(program.output(next(words)?)),
+        "pulses" => return value(program.pulses_sent(next(words)?)),
+        "frequency" => return value(program.pulse_millihertz(next(words)?)),
         "run" => program.set_running(next::<i64>(words)? != 0),
         "power" => {
             program.power_cycle();
             hal.restart();
         }
         "bfm" => hal.set_bfm(next(words)?, next(words)?, next(words)?)?,
-        "getbfm" => return Some(hal.bfm(next(words)?, next(words)?)?.to_string()),
+        "getbfm" => return value(hal.bfm(next(words)?, next(words)?)?),
         "clock" => set_clock(hal, words)?,
         "analog" => hal.set_analog(next(words)?, next(words)?)?,
         _ => return None,
     }
-    done()
+    Some(Answer::Done)
 }
 
-fn done() -> Option<String> {
-    Some("ok".to_string())
+fn value(value: impl Into<i64>) -> Option<Answer> {
+    Some(Answer::Value(value.into()))
 }
 
 fn next<T: FromStr>(words: &mut SplitAsciiWhitespace) -> Option<T> {

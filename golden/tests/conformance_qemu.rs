@@ -1,0 +1,101 @@
+//! Every conformance case on microcontrollers that QEMU simulates, with the same results as on the host, to the last bit.
+//!
+//! Without the tools a test says what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a
+//! failure.
+
+mod suite;
+
+use rungc_ir::Module;
+use rungc_sim::engines::cortex_m::{Board, CORTEX_M3, CORTEX_M4, build_for, missing};
+use rungc_sim::engines::{Engine, EngineError, EngineKind, Interpreter};
+use rungc_sim::protocol::{Answer, Request};
+use std::path::Path;
+use suite::Conformance;
+
+/// An engine that is held to the interpreter.
+struct Held<'m> {
+    engine: Box<dyn Engine + 'm>,
+    interpreter: Interpreter<'m>,
+    modules: &'m [Module],
+    /// The program that runs.
+    running: &'m str,
+    /// Where the engine answers something else.
+    different: Vec<String>,
+}
+
+impl<'m> Held<'m> {
+    fn new(engine: Box<dyn Engine + 'm>, modules: &'m [Module]) -> Self {
+        Held {
+            engine,
+            interpreter: Interpreter::new(modules),
+            modules,
+            running: "",
+            different: Vec::new(),
+        }
+    }
+}
+
+impl Engine for Held<'_> {
+    fn name(&self) -> &str {
+        self.engine.name()
+    }
+
+    fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
+        if let Request::Case(number) = request {
+            self.running = &self.modules[number].name;
+        }
+        let expected = self.interpreter.ask(request)?;
+        let answer = self.engine.ask(request)?;
+        if matches!(expected, Answer::Value(_)) && answer != expected {
+            self.different.push(format!(
+                "{}: {}: `{request}`: {answer:?}, not {expected:?}",
+                self.name(),
+                self.running
+            ));
+        }
+        Ok(answer)
+    }
+}
+
+/// Runs all cases on a board.
+fn run(board: &Board, kind: EngineKind) {
+    let missing = missing(board);
+    if !missing.is_empty() {
+        let required = std::env::var_os("RUNGC_REQUIRE_EMBEDDED").is_some();
+        assert!(!required, "missing: {}", missing.join(", "));
+        eprintln!("not run: there is no {}", missing.join(", "));
+        return;
+    }
+    let conformance = Conformance::load();
+    let modules = conformance.modules();
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("conformance");
+    let begin = std::time::Instant::now();
+    let engine = build_for(board, kind, modules, &target);
+    let engine = engine.unwrap_or_else(|error| panic!("{error}"));
+    println!("built {:?}", begin.elapsed());
+    let mut engine = Held::new(engine, modules);
+    let mut wrong = conformance.run(&mut engine);
+    println!("run {:?}", begin.elapsed());
+    wrong.append(&mut engine.different);
+    assert!(
+        wrong.is_empty(),
+        "{} differences:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+}
+
+#[test]
+fn c_on_cortex_m3() {
+    run(&CORTEX_M3, EngineKind::C);
+}
+
+#[test]
+fn c_on_cortex_m4() {
+    run(&CORTEX_M4, EngineKind::C);
+}
+
+#[test]
+fn rust_on_cortex_m4() {
+    run(&CORTEX_M4, EngineKind::Rust);
+}
