@@ -2,7 +2,8 @@
  * main.c: runs the programs of a batch as requests on standard input say, one a line; each is answered with one line: `ok`, `none`
  * (no such device, module or channel) or a decimal value. The hardware is virtual.
  */
-#include "cases.h"
+#include "rungc_rt.h"
+/* HEADERS */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -204,6 +205,22 @@ static bool machine_request(const program *program, const char *verb, const long
     return true;
 }
 
+/* The words of a request; those that are missing are empty. */
+enum { WORDS = 7 };
+
+static void split(char *line, char *words[WORDS])
+{
+    for (size_t i = 0; i < WORDS; i++) {
+        line += strspn(line, " \n");
+        words[i] = line;
+        line += strcspn(line, " \n");
+        if (*line != '\0') {
+            *line = '\0';
+            line++;
+        }
+    }
+}
+
 int main(void)
 {
     static char line[256];
@@ -212,20 +229,16 @@ int main(void)
 
     hardware = rungc_virtual_hal();
     while (fgets(line, sizeof line, stdin) != NULL) {
-        char verb[16] = "";
-        char class_name[4] = "";
-        unsigned long device = 0;
-        long set = 0;
-        long number[6] = {0};
-        if (sscanf(line, "%15s", verb) != 1) {
-            continue;
+        char *words[WORDS];
+        long number[WORDS - 1];
+        split(line, words);
+        for (size_t i = 0; i < WORDS - 1; i++) {
+            number[i] = strtol(words[i + 1], NULL, 10);
         }
-        if (strcmp(verb, "exit") == 0) {
+        if (strcmp(words[0], "exit") == 0) {
             break;
         }
-        (void)sscanf(line, "%*s %ld %ld %ld %ld %ld %ld", &number[0], &number[1], &number[2], &number[3], &number[4],
-                     &number[5]);
-        if (strcmp(verb, "case") == 0) {
+        if (strcmp(words[0], "case") == 0) {
             program = (number[0] >= 0 && (size_t)number[0] < count) ? &programs[number[0]] : NULL;
             rungc_virtual_reset();
             if (program != NULL) {
@@ -238,8 +251,8 @@ int main(void)
             done(false);
             continue;
         }
-        (void)sscanf(line, "%*s %3s %lu %ld", class_name, &device, &set);
-        if (!device_request(program, verb, class_name, (uint32_t)device, set) && !machine_request(program, verb, number)) {
+        if (!device_request(program, words[0], words[1], (uint32_t)number[1], number[2]) &&
+            !machine_request(program, words[0], number)) {
             value(false, 0);
         }
     }

@@ -209,70 +209,106 @@ fn makefile(name: &str, sources: &[String], headers: &str, main: bool, runtime: 
     )
 }
 
+/// A source file of a batch and its header.
+#[derive(Default)]
+struct Part {
+    api: String,
+    source: String,
+}
+
+impl Part {
+    /// Its files.
+    fn files(self, number: usize) -> [OutFile; 2] {
+        let header = format!("cases_{number}.h");
+        let text = format!(
+            "/* {header}: some programs of a batch. */\n#ifndef CASES_{number}_H\n#define CASES_{number}_H\n\n\
+             #include \"rungc_rt.h\"\n\n{}#endif\n",
+            self.api
+        );
+        let source = format!("#include \"{header}\"\n\n{}", self.source);
+        [
+            file(header, text),
+            file(format!("cases_{number}.c"), source),
+        ]
+    }
+}
+
+/// What `main.c` of a batch says of one program: the functions around the program's, and its entry in the table.
+fn batch_entry(i: usize, module: &Module, functions: &mut String, entries: &mut String) {
+    let kinds = [
+        (true, "CASE", "ENTRY"),
+        (module.takes_events(), "EVENTS", "ENTRY_WITH_EVENTS"),
+        (module.takes_time(), "TIME", "ENTRY_WITH_TIME"),
+        (
+            events::interrupts(module).is_some(),
+            "INTERRUPTS",
+            "ENTRY_WITH_INTERRUPTS",
+        ),
+    ];
+    let mut entry = "";
+    for (_, function, with) in kinds.into_iter().filter(|kind| kind.0) {
+        let _ = writeln!(functions, "{function}({i})");
+        entry = with;
+    }
+    let _ = writeln!(entries, "    {entry}({i}),");
+}
+
 /// The files of a program that holds all modules, for tests.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
-    let mut api = String::from(
-        "/* cases.h: the programs of a batch, for tests. */\n#ifndef CASES_H\n#define CASES_H\n\n#include \"rungc_rt.h\"\n\n",
-    );
-    let mut sources: Vec<String> = Vec::new();
-    let mut table = String::new();
-    let mut members = String::new();
+    let mut parts: Vec<Part> = Vec::new();
+    let (mut functions, mut entries, mut memory) = (String::new(), String::new(), String::new());
     for (i, module) in modules.iter().enumerate() {
         let module = Module {
             name: format!("case{i}"),
             ..module.clone()
         };
         let unit = unit::unit(&module, true);
-        api.push_str(&unit.api);
-        api.push('\n');
-        let functions = [
-            (true, "CASE", "ENTRY"),
-            (module.takes_events(), "EVENTS", "ENTRY_WITH_EVENTS"),
-            (module.takes_time(), "TIME", "ENTRY_WITH_TIME"),
-            (
-                events::interrupts(&module).is_some(),
-                "INTERRUPTS",
-                "ENTRY_WITH_INTERRUPTS",
-            ),
-        ];
-        let mut entry = "";
-        for (_, function, with) in functions.into_iter().filter(|row| row.0) {
-            let _ = writeln!(table, "{function}({i})");
-            entry = with;
-        }
-        let _ = writeln!(members, "    {entry}({i}),");
-        let size = sources.last().map_or(usize::MAX, String::len);
+        batch_entry(i, &module, &mut functions, &mut entries);
+        let _ = writeln!(memory, "    case{i}_plc case{i};");
+        let size = parts.last().map_or(usize::MAX, |part| part.source.len());
         let length: usize =
             unit.internal.len() + unit.groups.iter().map(String::len).sum::<usize>();
         if size.saturating_add(length) > BATCH_FILE {
-            sources.push(String::from("#include \"cases.h\"\n\n"));
+            parts.push(Part::default());
         }
-        if let Some(source) = sources.last_mut() {
-            source.push_str(&unit.internal);
-            unit.groups.iter().for_each(|group| source.push_str(group));
+        if let Some(part) = parts.last_mut() {
+            part.api.push_str(&unit.api);
+            part.api.push('\n');
+            part.source.push_str(&unit.internal);
+            part.source.extend(unit.groups);
         }
     }
-    api.push_str("#endif\n");
-    let unions: String = (0..modules.len())
-        .map(|i| format!("    case{i}_plc case{i};\n"))
+    let mut files: Vec<OutFile> = (1..)
+        .zip(parts)
+        .flat_map(|(number, part)| part.files(number))
+        .collect();
+    let of_kind = |ending: &str| {
+        let paths = files.iter().map(|file| file.path.clone());
+        paths.filter(|path| path.ends_with(ending)).collect()
+    };
+    let headers: Vec<String> = of_kind(".h");
+    // First, since it takes longest.
+    let mut sources = vec!["main.c".to_string()];
+    sources.extend::<Vec<String>>(of_kind(".c"));
+    let includes: String = headers
+        .iter()
+        .map(|header| format!("#include \"{header}\"\n"))
         .collect();
     let main = include_str!("../include/batch.c")
-        .replace("    /* MEMORY */\n", &unions)
-        .replace("/* CASES */\n", &table)
-        .replace("    /* ENTRIES */\n", &members);
-    let mut files = vec![file("cases.h", api), file("main.c", main)];
-    let mut names = vec!["main.c".to_string()];
-    for (i, text) in sources.into_iter().enumerate() {
-        names.push(format!("cases_{}.c", i + 1));
-        files.push(file(format!("cases_{}.c", i + 1), text));
-    }
+        .replace("/* HEADERS */\n", &includes)
+        .replace("    /* MEMORY */\n", &memory)
+        .replace("/* CASES */\n", &functions)
+        .replace("    /* ENTRIES */\n", &entries);
+    files.push(file("main.c", main));
     files.extend(shared(true, false));
-    files.push(file(
-        "Makefile",
-        makefile("batch", &names, "cases.h rungc.h rungc_rt.h", true, true),
-    ));
+    let headers = format!("{} rungc.h rungc_rt.h", headers.join(" "));
+    let makefile = makefile("batch", &sources, &headers, true, true);
+    files.push(file("Makefile", makefile + MAIN_RULE));
     files
 }
+
+/// How `main.c` of a batch is built: it only calls, thousands of functions.
+const MAIN_RULE: &str = "\nmain.o: override CFLAGS += -O0\n";
 
 /// About how large a source file of a batch may be, in bytes.
 const BATCH_FILE: usize = 400_000;

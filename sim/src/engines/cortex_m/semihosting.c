@@ -1,4 +1,5 @@
 /* semihosting.c: a program that reads standard input and writes standard output, on a machine that has neither: the debugger does it. */
+#include <stdio.h>
 #include <stdlib.h>
 
 void initialise_monitor_handles(void); /* of librdimon */
@@ -10,6 +11,9 @@ int __wrap_main(void);
 int __wrap_main(void)
 {
     initialise_monitor_handles();
+    /* The debugger is slow: not a call for each line. Who waits for one flushes it. */
+    setvbuf(stdout, NULL, _IOFBF, 4096);
+    setvbuf(stdin, NULL, _IOFBF, 4096);
     exit(__real_main());
 }
 
