@@ -3,6 +3,7 @@
 use crate::problem::{Problem, Result};
 use crate::table::Table;
 use rungc_firmware::target::CORTEX_M4F;
+use rungc_sim::engines::cortex_m;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -152,29 +153,9 @@ pub fn cargo() -> Command {
     without_toolchain(Command::new("cargo"))
 }
 
-/// A cargo that can build for a microcontroller: rustup's with the target, or a distribution's with the sources of `core`.
+/// A cargo that can build for a microcontroller.
 pub fn embedded_cargo(target: &str) -> Result<Command> {
-    let libraries =
-        run(Command::new("rustc").args(["--print", "target-libdir", "--target", target]))?;
-    if Path::new(libraries.trim()).exists() {
-        return Ok(cargo());
-    }
-    if !Path::new("/usr/lib/rustlib/src/rust/library").exists() {
-        return Err(Problem::Missing(format!(
-            "Rust for {target} (rustup target add {target})"
-        )));
-    }
-    let mut cargo = without_toolchain(Command::new("/usr/bin/cargo"));
-    let linker = format!(
-        "CARGO_TARGET_{}_LINKER",
-        target.to_uppercase().replace('-', "_")
-    );
-    cargo
-        .env("RUSTC", "/usr/bin/rustc")
-        .env("RUSTC_BOOTSTRAP", "1")
-        .env("CARGO_UNSTABLE_BUILD_STD", "core")
-        .env(linker, "arm-none-eabi-ld");
-    Ok(cargo)
+    cortex_m::cargo(target).ok_or_else(|| Problem::Missing(cortex_m::no_rust(target)))
 }
 
 /// What an outer cargo has set is not for the inner one.

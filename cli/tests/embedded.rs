@@ -71,14 +71,8 @@ fn stepper_in_c() {
     let build = tempfile::tempdir().unwrap();
     let log = build.path().join("log");
     let mut make = make("run-stepper", build.path());
-    for (name, value) in cargo.get_envs() {
-        match value {
-            Some(value) => make.env(name, value),
-            None => make.env_remove(name),
-        };
-    }
+    make_with(&mut make, &cargo);
     let output = make
-        .arg(format!("CARGO={}", cargo.get_program().display()))
         .arg(format!("QEMU_OPTIONS=-d unimp -D {}", log.display()))
         .output()
         .unwrap();

@@ -69,13 +69,10 @@ fn run(board: &Board, kind: EngineKind) {
     let conformance = Conformance::load();
     let modules = conformance.modules();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("conformance");
-    let begin = std::time::Instant::now();
     let engine = build_for(board, kind, modules, &target);
     let engine = engine.unwrap_or_else(|error| panic!("{error}"));
-    println!("built {:?}", begin.elapsed());
     let mut engine = Held::new(engine, modules);
     let mut wrong = conformance.run(&mut engine);
-    println!("run {:?}", begin.elapsed());
     wrong.append(&mut engine.different);
     assert!(
         wrong.is_empty(),

@@ -1,6 +1,7 @@
 //! Tools for another machine that tests need. Without them a test says what is missing and that it did not run; with
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
+pub use rungc_sim::engines::cortex_m::{cargo, no_rust};
 use std::process::Command;
 
 fn is_there(program: &str) -> bool {
@@ -19,14 +20,4 @@ pub fn tools(programs: &[&str]) -> bool {
     let missing: Vec<_> = programs.iter().filter(|name| !is_there(name)).collect();
     missing.iter().for_each(|name| leave_out(name));
     missing.is_empty()
-}
-
-/// What is missing where [`cargo`] is.
-pub fn no_rust(target: &str) -> String {
-    format!("Rust for {target} (rustup target add {target})")
-}
-
-/// A cargo that can build for a microcontroller.
-pub fn cargo(target: &str) -> Option<Command> {
-    rungc_benches::tools::embedded_cargo(target).ok()
 }

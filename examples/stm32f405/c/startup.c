@@ -1,33 +1,25 @@
-/* startup.c: vectors and what happens between reset and main on a Cortex-M3 or M4. */
+/* startup.c: vectors and what happens between reset and main on an STM32F405. */
 #include <stdint.h>
 #include <string.h>
 
 extern uint32_t stack_top, data_start, data_end, data_image, bss_start, bss_end;
 
 int main(void);
-void fault_handler(void);
 void systick_handler(void);
 void reset_handler(void);
 
-/* A program that is lost stays where it is, unless it has a handler of its own. */
-__attribute__((weak)) void fault_handler(void)
+static void hang(void)
 {
     for (;;) {
     }
 }
 
-__attribute__((weak, alias("fault_handler"))) void systick_handler(void);
-
 void reset_handler(void)
 {
-#ifdef __ARM_FP
-    *(volatile uint32_t *)0xE000ED88u |= 0xFu << 20; /* CPACR: access to the floating-point unit */
-    __asm__ volatile("dsb\n\tisb");
-#endif
     memcpy(&data_start, &data_image, (size_t)((char *)&data_end - (char *)&data_start));
     memset(&bss_start, 0, (size_t)((char *)&bss_end - (char *)&bss_start));
     main();
-    fault_handler();
+    hang();
 }
 
 /* A vector is a function, but the first is the stack. */
@@ -39,12 +31,12 @@ typedef union {
 __attribute__((section(".vectors"), used)) static const vector vectors[16] = {
     {.stack = &stack_top},
     {.handler = reset_handler},
-    {.handler = fault_handler}, /* NMI */
-    {.handler = fault_handler}, /* hard fault */
-    {.handler = fault_handler}, /* memory management fault */
-    {.handler = fault_handler}, /* bus fault */
-    {.handler = fault_handler}, /* usage fault */
-    [11] = {.handler = fault_handler}, /* SVC */
-    [14] = {.handler = fault_handler}, /* PendSV */
+    {.handler = hang}, /* NMI */
+    {.handler = hang}, /* hard fault */
+    {.handler = hang}, /* memory management fault */
+    {.handler = hang}, /* bus fault */
+    {.handler = hang}, /* usage fault */
+    [11] = {.handler = hang}, /* SVC */
+    [14] = {.handler = hang}, /* PendSV */
     [15] = {.handler = systick_handler},
 };

@@ -4,6 +4,7 @@
 
 use super::build::{self, BuildError, io_error, make_batch, run, write};
 use super::{Engine, EngineKind, Interpreter, Process};
+use rungc_firmware::target;
 use rungc_ir::Module;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,14 +12,12 @@ use std::process::Command;
 /// A microcontroller that QEMU simulates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Board {
-    /// The core's name, as compilers call it.
+    /// The core's name.
     pub core: &'static str,
     /// QEMU's name of the machine.
     machine: &'static str,
     /// Rust's name of the target.
     pub target: &'static str,
-    /// Instruction set and floating point, for gcc.
-    flags: &'static str,
 }
 
 /// A Cortex-M3: no floating point.
@@ -26,7 +25,6 @@ pub const CORTEX_M3: Board = Board {
     core: "cortex-m3",
     machine: "mps2-an385",
     target: "thumbv7m-none-eabi",
-    flags: "-mcpu=cortex-m3 -mthumb",
 };
 
 /// A Cortex-M4F: floating point in single precision.
@@ -34,19 +32,20 @@ pub const CORTEX_M4: Board = Board {
     core: "cortex-m4",
     machine: "mps2-an386",
     target: "thumbv7em-none-eabihf",
-    flags: "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16",
 };
 
-/// What every image is linked with, beside the batch: the start-up file and the sections of the example for a board, and what QEMU's
-/// machine has.
-const SUPPORT: [(&str, &str); 4] = [
+impl Board {
+    /// What the C compiler has to be told of the processor.
+    fn flags(&self) -> &'static str {
+        target::find(self.target).map_or("", |target| target.flags)
+    }
+}
+
+/// What every image is linked with, beside the batch: the start-up file of the example for a board, and what QEMU's machine has.
+const SUPPORT: [(&str, &str); 3] = [
     (
         "startup.c",
         include_str!("../../../examples/stm32f405/c/startup.c"),
-    ),
-    (
-        "sections.ld",
-        include_str!("../../../examples/stm32f405/c/sections.ld"),
     ),
     ("mps2.ld", include_str!("cortex_m/mps2.ld")),
     ("semihosting.c", include_str!("cortex_m/semihosting.c")),
@@ -74,10 +73,14 @@ pub fn missing(board: &Board) -> Vec<String> {
         .map(str::to_string)
         .collect();
     if cargo(board.target).is_none() {
-        let target = board.target;
-        missing.push(format!("Rust for {target} (rustup target add {target})"));
+        missing.push(no_rust(board.target));
     }
     missing
+}
+
+/// What is missing where [`cargo`] is.
+pub fn no_rust(target: &str) -> String {
+    format!("Rust for {target} (rustup target add {target})")
 }
 
 /// A cargo that can build for a target without operating system: rustup's with the target, or a distribution's with the sources of `core`.
@@ -165,7 +168,7 @@ fn build_c(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, 
         .arg(format!("TARGET={}", board.target))
         .arg(format!("LDFLAGS={}", LINK.join(" ")));
     make_with(&mut make, &find_cargo(board.target)?);
-    make_batch(&mut make, board.flags, modules, folder)
+    make_batch(&mut make, board.flags(), modules, folder)
 }
 
 fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
@@ -180,7 +183,7 @@ fn build_rust(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBu
         .current_dir(folder))?;
     let image = folder.join("batch.elf");
     run(Command::new(GCC)
-        .args(board.flags.split(' '))
+        .args(board.flags().split(' '))
         .arg("-o")
         .arg(&image)
         .args(LINK)
