@@ -3,6 +3,7 @@
 
 mod tools;
 
+use rungc_sim::engines::cortex_m::make_with;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use tools::{cargo, leave_out, no_rust, tools};
