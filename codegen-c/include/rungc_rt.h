@@ -837,9 +837,8 @@ static inline rungc_operand rungc_ER(int32_t number)
 static inline rungc_site rungc_at(uint32_t step)
 {
     rungc_site site;
+    memset(&site, 0, sizeof site);
     site.step = step;
-    site.slot = 0;
-    site.wide = false;
     site.drive = true;
     return site;
 }

@@ -6,6 +6,7 @@ use super::build::{self, BuildError, io_error, make_batch, run, write};
 use super::{Engine, EngineKind, Interpreter, Process};
 use rungc_firmware::target;
 use rungc_ir::Module;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -150,7 +151,7 @@ pub fn make_with(make: &mut Command, cargo: &Command) {
 
 /// A cargo for a target, or that there is none as an error.
 fn find_cargo(target: &str) -> Result<Command, BuildError> {
-    let none = || io_error(target, std::io::ErrorKind::NotFound.into());
+    let none = || io_error(target, ErrorKind::NotFound.into());
     let mut cargo = cargo(target).ok_or_else(none)?;
     cargo.env("CARGO_NET_OFFLINE", "true");
     Ok(cargo)
@@ -158,7 +159,12 @@ fn find_cargo(target: &str) -> Result<Command, BuildError> {
 
 fn write_support(folder: &Path) -> Result<(), BuildError> {
     let mut files = SUPPORT.iter();
-    files.try_for_each(|(name, text)| write(&folder.join(name), text))
+    files.try_for_each(|(name, text)| write(&folder.join(name), text))?;
+    // The emitted Makefile does not know these files: linking anew is no work.
+    match std::fs::remove_file(folder.join("batch")) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(io_error(folder.display(), error)),
+        _ => Ok(()),
+    }
 }
 
 fn build_c(board: &Board, modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
