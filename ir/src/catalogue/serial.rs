@@ -155,6 +155,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8121", "M8122", "M8123", "M8124", "M8129", "M8161", "D8120"])
         .text("Sends m bytes from S on when the program sets M8122, and receives n bytes to D; M8123 is on when they are there."),
     serial("ASCI", 82, "Hexadecimal digits to text")
+        .aliases(&["ASCII"])
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[src("S", VALUES).len_of(words_of_digits), dst("D", RESULT_GROUPS.or(REGISTERS)).per(2), N])
