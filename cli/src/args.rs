@@ -109,7 +109,10 @@ pub struct BuildArgs {
     /// The machine to build for: `host`, or what rustc calls it, such as thumbv7em-none-eabihf. An image is for its board's.
     #[arg(long, value_parser = target, value_name = "TARGET")]
     pub target: Option<&'static Target>,
-    /// The board that an image is for (docs/boards.md); with c, the sources of the image.
+    /// The language that an image is built through.
+    #[arg(long, value_enum, value_name = "LANGUAGE")]
+    pub backend: Option<Backend>,
+    /// The board that an image is for (docs/boards.md); with c or rust, the sources of the image.
     #[arg(long, value_name = "FILE")]
     pub board: Option<PathBuf>,
     /// Inputs that switch themselves in an image, for a simulator: `X000=1@2s`; may be repeated or separated by commas.
@@ -255,8 +258,17 @@ pub enum Emit {
     Bin,
     /// A folder with a static library and its headers (through C).
     Lib,
-    /// An image for a board (through C).
+    /// An image for a board.
     Elf,
+}
+
+/// The language that an image is built through.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Backend {
+    /// C: the default.
+    C,
+    /// Rust: the board's pins alone, no functions in C.
+    Rust,
 }
 
 /// What `convert` writes.

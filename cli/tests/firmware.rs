@@ -99,6 +99,78 @@ fn images_run_on_other_cores() {
     }
 }
 
+/// Three edges between two scans interrupt this program.
+const EDGES: &str = "\
+EI
+LD>= D0 K3
+OUT Y000
+FEND
+I001
+LD M8000
+INC D0
+IRET
+END
+";
+
+const EDGES_SCRIPT: &str = "X0=1@11ms,X0=0@12ms,X0=1@13ms,X0=0@14ms,X0=1@15ms,X0=0@16ms";
+
+#[test]
+fn an_image_takes_edges() {
+    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+        return;
+    }
+    let folder = folder(&[("edges.il", EDGES.as_bytes())]);
+    let args = ["build", "edges.il", "--emit", "elf", "--set", EDGES_SCRIPT];
+    let board = ["--for", "50ms", "--board", &board("stm32f405/board.toml")];
+    quiet(&rungc(folder.path(), &[&args[..], &board].concat()));
+    let printed = simulated("netduinoplus2", &folder.path().join("edges.elf"));
+    assert_eq!(printed, "      0.020 s  Y000 on");
+}
+
+/// The same images in Rust do the same, on a Cortex-M3 and a Cortex-M4.
+#[test]
+fn images_in_rust_run() {
+    if !tools(&["arm-none-eabi-ld", "qemu-system-arm"]) {
+        return;
+    }
+    let folder = folder(&[("edges.il", EDGES.as_bytes())]);
+    let light = traffic_light();
+    for (program, script, end, place, target, machine) in [
+        (
+            light.as_str(),
+            "X0=1@2s,X0=0@2.1s",
+            "30s",
+            "boards/mps2-an385.toml",
+            "thumbv7m-none-eabi",
+            "mps2-an385",
+        ),
+        (
+            "edges.il",
+            EDGES_SCRIPT,
+            "50ms",
+            "stm32f405/board.toml",
+            "thumbv7em-none-eabihf",
+            "netduinoplus2",
+        ),
+    ] {
+        let Some(cargo) = cargo(target) else {
+            return leave_out(&no_rust(target));
+        };
+        let output = with_cargo(&cargo)
+            .args(["build", program, "--emit", "elf", "--backend", "rust"])
+            .args(["--board", &board(place), "--set", script, "--for", end])
+            .args(["-o", machine])
+            .current_dir(folder.path())
+            .output();
+        quiet(&output.unwrap());
+        let printed = simulated(machine, &folder.path().join(machine));
+        match program {
+            "edges.il" => assert_eq!(printed, "      0.020 s  Y000 on"),
+            _ => insta::assert_snapshot!("traffic_light", printed),
+        }
+    }
+}
+
 /// A board whose pins are functions in C. What it shows are two outputs and how often they were set.
 const PANEL: &str = "\
 name = \"Panel\"
@@ -332,6 +404,9 @@ fn options_that_do_not_go_together() {
     let folder = folder(&[
         ("motor.il", MOTOR.as_bytes()),
         ("wrong.toml", wrong.as_bytes()),
+        ("own.toml", PANEL.as_bytes()),
+        ("panel.c", PANEL_C.as_bytes()),
+        ("panel.h", b""),
     ]);
     let board = board("stm32f405/board.toml");
     let mut said = Vec::new();
@@ -343,6 +418,17 @@ fn options_that_do_not_go_together() {
         &["--emit", "c", "--main", "--board", &board],
         &["--emit", "lib", "--main"],
         &["--emit", "lib", "--target", "pdp11"],
+        &["--emit", "lib", "--backend", "rust"],
+        &[
+            "--emit",
+            "elf",
+            "--backend",
+            "rust",
+            "--report",
+            "--board",
+            &board,
+        ],
+        &["--emit", "elf", "--backend", "rust", "--board", "own.toml"],
         &["--emit", "rust", "--report"],
         &["--report", "--format", "sarif"],
         &["--emit", "elf", "--board", "none.toml"],

@@ -70,6 +70,12 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     files
 }
 
+/// What a program's crate and type are called.
+pub fn names(module: &Module) -> (String, String) {
+    let generator = Generator::new(module, true);
+    (crate_name(&module.name), generator.type_name.to_string())
+}
+
 /// A module's name, or one like it if cargo does not take that or a crate it needs has it.
 fn crate_name(name: &str) -> String {
     let is_taken = matches!(

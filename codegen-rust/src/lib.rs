@@ -56,6 +56,11 @@ pub fn emit(module: &Module, options: &Options) -> Vec<OutFile> {
     files::program(module, options)
 }
 
+/// What an emitted program is called: its crate, and the type that implements `rungc_rt::Program`.
+pub fn names(module: &Module) -> (String, String) {
+    files::names(module)
+}
+
 /// Emits programs as one crate whose executable runs them on virtual hardware, as requests on standard input say.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     files::batch(modules)

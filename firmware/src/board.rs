@@ -306,21 +306,10 @@ impl Reader<'_> {
     fn board(&self, format: Format, folder: &Path) -> Result<Board, BoardError> {
         let target = self.target(&format.target)?;
         let (clock_hz, tick_us) = self.clock(&format.clock)?;
-        let inputs = format
-            .inputs
-            .into_iter()
-            .map(|(name, pin)| {
-                Ok((
-                    self.terminal(&name, DeviceClass::X)?,
-                    self.input(&name, pin)?,
-                ))
-            })
-            .collect::<Result<_, BoardError>>()?;
-        let outputs = format
-            .outputs
-            .into_iter()
-            .map(|(name, pin)| Ok((self.terminal(&name, DeviceClass::Y)?, self.output(&pin)?)))
-            .collect::<Result<_, BoardError>>()?;
+        let inputs = self.terminals(format.inputs, DeviceClass::X, |name, pin| {
+            self.input(name, pin)
+        })?;
+        let outputs = self.terminals(format.outputs, DeviceClass::Y, |_, pin| self.output(&pin))?;
         let board = Board {
             name: format.name,
             target,
@@ -371,6 +360,24 @@ impl Reader<'_> {
             ));
         }
         Ok((hz, clock.tick_us))
+    }
+
+    /// Pins by their terminals, each of which stands once, however it is written.
+    fn terminals<T, P>(
+        &self,
+        pins: BTreeMap<Spanned, T>,
+        class: DeviceClass,
+        read: impl Fn(&Spanned, T) -> Result<P, BoardError>,
+    ) -> Result<BTreeMap<u32, P>, BoardError> {
+        let mut known = BTreeMap::new();
+        for (name, pin) in pins {
+            let number = self.terminal(&name, class)?;
+            if known.insert(number, read(&name, pin)?).is_some() {
+                let what = format!("{} stands here twice", class.number(number));
+                return Err(self.at(&name, what));
+            }
+        }
+        Ok(known)
     }
 
     fn terminal(&self, name: &Spanned, class: DeviceClass) -> Result<u32, BoardError> {

@@ -225,6 +225,27 @@ impl Tools {
     }
 }
 
+impl Tools {
+    /// Builds the sources of an image in Rust.
+    pub fn rust_image(&self, files: &[OutFile]) -> Result<Vec<u8>, BuildError> {
+        self.check_rust()?;
+        let folder = write(files)?;
+        let mut cargo = Command::new(&self.cargo);
+        cargo
+            .args(["build", "--release"])
+            .args(&self.cargo_args)
+            .env("CARGO_TARGET_DIR", folder.path().join("target"))
+            .env_remove("RUSTFLAGS")
+            .current_dir(folder.path());
+        let output = cargo.output().map_err(|error| {
+            BuildError::Missing(format!("cannot run {}: {error}", self.cargo.display()))
+        })?;
+        succeeded("cargo", output)?;
+        let built = folder.path().join("target").join(self.target.triple);
+        read(&built.join("release/image"))
+    }
+}
+
 /// What calls all of a program that a host calls.
 fn probe(module: &Module) -> String {
     let mut calls = String::new();

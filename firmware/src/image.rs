@@ -1,6 +1,7 @@
 //! The sources of an image: a program, a board, and what stands between reset and the first scan.
 
 mod c;
+mod rust;
 
 use crate::board::Board;
 use rungc_ir::Module;
@@ -9,6 +10,7 @@ use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 pub use c::project as c_project;
+pub use rust::project as rust_project;
 
 /// A file to write, its path relative to the output folder.
 pub type OutFile = (String, String);
@@ -50,6 +52,22 @@ impl Image<'_> {
         watched.sort_unstable();
         watched.dedup();
         watched
+    }
+
+    /// Outputs that are printed: number, name, and what stands behind the state, a comment. Those that send pulses would be printed all
+    /// the time.
+    fn printed(&self) -> Vec<(u32, String, String)> {
+        let module = self.module;
+        let quiet = |number: &u32| module.pulse_outputs.contains(number);
+        let numbers = terminals(module, DeviceClass::Y).filter(|number| !quiet(number));
+        let comment = |number: u32| {
+            let mut comments = module.comments.iter();
+            let found = comments.find(|(class, n, _)| (*class, *n) == (DeviceClass::Y, number));
+            found.map_or(String::new(), |(_, _, text)| format!("  {text}"))
+        };
+        numbers
+            .map(|n| (n, DeviceClass::Y.number(n).to_string(), comment(n)))
+            .collect()
     }
 
     /// Terminals of the program that the board has no pin for and no function either, by their names.

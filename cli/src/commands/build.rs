@@ -5,7 +5,7 @@ use super::{
     Context, Failure, Outcome, Result, conclude, counted, findings, holder, read, say, stem, tell,
     write_executable, write_file,
 };
-use crate::args::{BuildArgs, Emit, Format};
+use crate::args::{Backend, BuildArgs, Emit, Format};
 use crate::progress;
 use crate::report;
 use rungc_firmware::board::{self, Board};
@@ -94,11 +94,17 @@ fn fitting(args: &BuildArgs) -> std::result::Result<&'static Target, Failure> {
         return Ok(target);
     };
     match emit {
+        _ if args.backend.is_some() && emit != Emit::Elf => {
+            wrong("--backend: that is for images, --emit elf")
+        }
+        Emit::Elf if args.report && args.backend == Some(Backend::Rust) => {
+            wrong("--report: what is measured is built from C")
+        }
         Emit::Ir | Emit::Rust if args.report => wrong("--report: what is measured is built from C"),
         Emit::Ir if args.target.is_some() => wrong("--target: the IR is the same for all targets"),
-        Emit::Ir | Emit::Rust | Emit::Bin | Emit::Lib if args.board.is_some() => {
-            wrong("--board: an image is made by --emit elf, its sources by --emit c")
-        }
+        Emit::Ir | Emit::Bin | Emit::Lib if args.board.is_some() => wrong(
+            "--board: an image is made by --emit elf, its sources by --emit c and --emit rust",
+        ),
         Emit::Elf if args.board.is_none() => wrong(
             "--emit elf: an image is for a board; --board names its description (docs/boards.md)",
         ),
@@ -157,14 +163,29 @@ impl ForImage {
     }
 
     /// The sources of the image. What its board has no pin for is told.
-    fn sources(&self, module: &Module) -> std::result::Result<Vec<(String, String)>, Failure> {
+    fn sources(
+        &self,
+        module: &Module,
+        backend: Backend,
+    ) -> std::result::Result<Vec<(String, String)>, Failure> {
         let image = self.image(module);
+        let board = &self.board;
+        let own = !board.functions.is_empty() || !board.interrupts.is_empty();
+        if backend == Backend::Rust && own {
+            return Err(Failure::Because(format!(
+                "{} has functions in C, which an image in Rust does not call; --backend c",
+                board.name
+            )));
+        }
         let unconnected = image.unconnected();
         if !unconnected.is_empty() {
             let (board, names) = (&self.board.name, unconnected.join(", "));
             tell(&format!("rungc: no pins on {board}: {names}"));
         }
-        image::c_project(&image).map_err(Failure::from)
+        match backend {
+            Backend::C => image::c_project(&image).map_err(Failure::from),
+            Backend::Rust => Ok(image::rust_project(&image)),
+        }
     }
 }
 
@@ -211,14 +232,18 @@ impl Job<'_> {
             Emit::Ir => return self.ir(),
             Emit::C => {
                 let files = match self.image {
-                    Some(image) => image.sources(module)?,
+                    Some(image) => image.sources(module, Backend::C)?,
                     None => sources::c(module, self.target, main),
                 };
                 self.folder(format!("{name}-c"), || Ok(texts(files)))?
             }
-            Emit::Rust => self.folder(format!("{name}-rust"), || {
-                Ok(texts(sources::rust(module, self.target, main)))
-            })?,
+            Emit::Rust => {
+                let files = match self.image {
+                    Some(image) => image.sources(module, Backend::Rust)?,
+                    None => sources::rust(module, self.target, main),
+                };
+                self.folder(format!("{name}-rust"), || Ok(texts(files)))?
+            }
             Emit::Lib => self.folder(format!("{name}-lib"), || self.library())?,
             Emit::Bin => self.program(name.clone(), || {
                 let files = sources::c(module, self.target, true);
@@ -269,9 +294,14 @@ impl Job<'_> {
         let image = self
             .image
             .ok_or_else(|| because("an image is for a board"))?;
-        let files = image.sources(self.module)?;
+        let backend = self.args.backend.unwrap_or(Backend::C);
+        let files = image.sources(self.module, backend)?;
         let file = format!("{}.elf", self.module.name);
-        progress::spin("building", || self.tools().c_program(&files, &file)).map_err(because)
+        let built = progress::spin("building", || match backend {
+            Backend::C => self.tools().c_program(&files, &file),
+            Backend::Rust => self.tools().rust_image(&files),
+        });
+        built.map_err(because)
     }
 
     /// What the program takes. An image that was written is measured as it is.

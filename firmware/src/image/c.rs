@@ -312,17 +312,8 @@ fn console(image: &Image) -> String {
 
 /// The rows of the outputs that are printed.
 fn printed(image: &Image) -> String {
-    let module = image.module;
     let mut table = String::new();
-    for number in terminals(module, DeviceClass::Y) {
-        // Those that send pulses would be printed all the time.
-        if module.pulse_outputs.contains(&number) {
-            continue;
-        }
-        let name = DeviceClass::Y.number(number);
-        let mut comments = module.comments.iter();
-        let text = comments.find(|(class, n, _)| (*class, *n) == (DeviceClass::Y, number));
-        let text = text.map_or(String::new(), |(_, _, text)| format!("  {text}"));
+    for (number, name, text) in image.printed() {
         let _ = writeln!(table, "    {{{number}, \"{name}\", {}}},", literal(&text));
     }
     table

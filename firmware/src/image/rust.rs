@@ -1,0 +1,310 @@
+//! An image in Rust. Pins are those of the board's description; functions in C are for images in C.
+
+use super::{Image, OutFile, comment, linker_script, terminals};
+use crate::board::OutputPin;
+use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+
+const MAIN: &str = include_str!("../../templates/main.rs");
+const STARTUP: &str = include_str!("../../templates/startup.s");
+const SEMIHOSTING: &str = include_str!("../../templates/console.rs");
+const OUTPUTS: &str = include_str!("../../templates/outputs.rs");
+
+/// What switches the floating point unit on: CPACR.
+const FPU: &str = "    ldr r0, =0xE000ED88
+    ldr r1, [r0]
+    ldr r2, =0x00F00000
+    orrs r1, r2
+    str r1, [r0]
+    dsb
+    isb
+";
+
+/// What switches bits of a register.
+const BITS: &str = "/// Switches bits of a register.
+fn set_bits(address: usize, bits: u32, on: bool) {
+    let value = read(address);
+    write(address, if on { value | bits } else { value & !bits });
+}
+
+";
+
+/// What says whether an input switches itself, and how it stands.
+const SCRIPTED: &str = "/// Whether an input switches itself, and how it stands at a time.
+fn scripted(number: u16, now_ms: u32) -> Option<bool> {
+    let own = SCRIPT.iter().filter(|(_, input, _)| *input == number);
+    let state = |on, &(ms, _, then): &(u32, u16, bool)| if ms <= now_ms { then } else { on };
+    (own.clone().count() > 0).then(|| own.fold(false, state))
+}
+
+";
+
+/// What gives edges of the inputs that the program watches.
+const NEXT_EDGE: &str = "
+    fn next_edge(&mut self) -> Option<InputEdge> {
+        for (i, &input) in WATCHED.iter().enumerate() {
+            if let Some(level) = self.input(input)
+                && level != self.were[i]
+            {
+                self.were[i] = level;
+                let input = u32::from(input);
+                return Some(InputEdge { input, level });
+            }
+        }
+        None
+    }
+
+    fn notes_edges(&self, input: u32) -> bool {
+        WATCHED.iter().any(|&watched| u32::from(watched) == input)
+    }
+";
+
+/// All sources of an image, a package that `cargo build --release` builds. The program is in `plc/`.
+pub fn project(image: &Image) -> Vec<OutFile> {
+    let emitted = rungc_codegen_rust::emit(image.module, &Default::default());
+    let mut files: Vec<OutFile> = emitted
+        .into_iter()
+        .map(|f| (format!("plc/{}", f.path), f.text))
+        .collect();
+    let (package, _) = rungc_codegen_rust::names(image.module);
+    let triple = image.board.target.triple;
+    let fpu = if image.board.target.has_fpu() {
+        FPU
+    } else {
+        ""
+    };
+    let own = [
+        ("Cargo.toml", manifest(&package)),
+        (".cargo/config.toml", config(triple)),
+        ("image.ld", linker_script(image.board)),
+        ("src/startup.s", STARTUP.replace("/* FPU */", fpu)),
+        ("src/main.rs", main(image)),
+    ];
+    files.extend(own.map(|(path, text)| (path.to_string(), text)));
+    files
+}
+
+fn manifest(package: &str) -> String {
+    format!(
+        "[package]\nname = \"image\"\nversion = \"0.1.0\"\nedition = \"2024\"\npublish = false\n\n[workspace]\nexclude = [\"plc\"]\n\n\
+         [dependencies]\nrungc-rt = {{ path = \"plc/rungc-rt\" }}\n{package} = {{ path = \"plc\" }}\n\n\
+         [profile.release]\nopt-level = \"s\"\nlto = true\ncodegen-units = 1\npanic = \"abort\"\n"
+    )
+}
+
+fn config(triple: &str) -> String {
+    format!(
+        "[build]\ntarget = \"{triple}\"\n\n[target.{triple}]\nrustflags = [\"-C\", \"link-arg=-Timage.ld\"]\n"
+    )
+}
+
+fn main(image: &Image) -> String {
+    let board = image.board;
+    let (package, program) = rungc_codegen_rust::names(image.module);
+    let watched = image.watched();
+    let ends = image.script.until_ms;
+    let mut before = String::new();
+    let mut show = String::new();
+    if board.console {
+        before.push_str("    let mut shown = [false; OUTPUTS.len()];\n");
+        show.push_str("        show_outputs(driver, &mut shown);\n");
+    }
+    if let Some(ms) = ends {
+        let _ = writeln!(
+            show,
+            "        if driver.now_ms() >= {ms} {{\n            semihosting(0x18, 0x20026); // SYS_EXIT, application exit\n        }}"
+        );
+    }
+    let setup = setup(image);
+    let by_bits = |pin: &OutputPin| matches!(pin, OutputPin::Bit { .. });
+    let bits = match board.outputs.values().any(by_bits) || !setup.is_empty() {
+        true => BITS,
+        false => "",
+    };
+    let end = |class| {
+        terminals(image.module, class)
+            .map(|n| n + 1)
+            .max()
+            .unwrap_or(0)
+    };
+    let (fields, pins) = match (watched.len(), image.script.inputs.is_empty()) {
+        (0, true) => (";".to_string(), "Pins".to_string()),
+        (count, plain) => fields(count, plain),
+    };
+    let text = MAIN
+        .replace(
+            "/* EDGE TYPE */",
+            if watched.is_empty() {
+                ""
+            } else {
+                ", InputEdge"
+            },
+        )
+        .replace(
+            "/* USE PROGRAM */",
+            if board.console {
+                "use rungc_rt::Program;\n"
+            } else {
+                ""
+            },
+        )
+        .replace("/* HZ */", &board.clock_hz.to_string())
+        .replace("/* TICK */", &board.tick_us.to_string())
+        .replace("/* SCAN */", &board.scan_us.to_string())
+        .replace("/* INPUTS */", &end(DeviceClass::X).to_string())
+        .replace("/* OUTPUTS */", &end(DeviceClass::Y).to_string())
+        .replace("/* BITS */", bits)
+        .replace("/* SCRIPT */", &script(image))
+        .replace("/* FIELDS */", &fields)
+        .replace("/* PINS */", &pins)
+        .replace("/* HAL */", &format!("{}{}", inputs(image), outputs(image)))
+        .replace(
+            "/* EDGES */",
+            if watched.is_empty() { "" } else { NEXT_EDGE },
+        )
+        .replace("/* CONSOLE */", &console(image))
+        .replace("/* SETUP */", &setup)
+        .replace("/* BEFORE */", &before)
+        .replace(
+            "/* NOW */",
+            if image.script.inputs.is_empty() {
+                ""
+            } else {
+                "        driver.board.now_ms = driver.now_ms();\n"
+            },
+        )
+        .replace("/* SHOW */", &show)
+        .replace("CRATE", &package)
+        .replace("TYPE", &program);
+    format!(
+        "//! The program on {}. Generated by rungc {} for {}: change the board's description instead.\n{text}",
+        comment(&board.name),
+        env!("CARGO_PKG_VERSION"),
+        comment(&image.module.source_name),
+    )
+}
+
+/// What pins remember, and how that begins.
+fn fields(watched: usize, plain: bool) -> (String, String) {
+    let mut fields = String::from(" {\n");
+    let mut begin = String::from("Pins {");
+    if !plain {
+        fields.push_str(
+            "    /// The program's time, for inputs that switch themselves.\n    now_ms: u32,\n",
+        );
+        begin.push_str(" now_ms: 0,");
+    }
+    if watched > 0 {
+        fields.push_str("    /// How watched inputs stood.\n    were: [bool; WATCHED.len()],\n");
+        begin.push_str(" were: [false; WATCHED.len()],");
+    }
+    (fields + "}", begin.trim_end_matches(',').to_string() + " }")
+}
+
+fn script(image: &Image) -> String {
+    let mut text = String::new();
+    let watched = image.watched();
+    if !watched.is_empty() {
+        let list: Vec<String> = watched.iter().map(u32::to_string).collect();
+        let _ = writeln!(
+            text,
+            "/// Inputs whose edges the program takes.\nconst WATCHED: [u16; {}] = [{}];\n",
+            watched.len(),
+            list.join(", ")
+        );
+    }
+    let inputs = &image.script.inputs;
+    if !inputs.is_empty() {
+        let _ = writeln!(
+            text,
+            "/// Inputs that switch themselves, in the order of time: milliseconds, X, whether on.\nconst SCRIPT: [(u32, u16, bool); {}] = {inputs:?};\n",
+            inputs.len(),
+        );
+        text.push_str(SCRIPTED);
+    }
+    text
+}
+
+fn inputs(image: &Image) -> String {
+    let mut text = String::new();
+    for number in terminals(image.module, DeviceClass::X) {
+        if let Some(pin) = image.board.inputs.get(&number) {
+            let compare = if pin.inverted { "==" } else { "!=" };
+            let _ = writeln!(
+                text,
+                "            {number} => Some(read(0x{:08X}) & 0x{:X} {compare} 0), // {}",
+                pin.at,
+                1u32 << pin.bit,
+                DeviceClass::X.number(number),
+            );
+        }
+    }
+    let own = match image.script.inputs.is_empty() {
+        true => "",
+        false => {
+            "        if let Some(on) = scripted(number, self.now_ms) {\n            return Some(on);\n        }\n"
+        }
+    };
+    format!(
+        "    fn input(&mut self, number: u16) -> Option<bool> {{\n{own}        match number {{\n{text}            _ => None,\n        }}\n    }}\n\n"
+    )
+}
+
+fn outputs(image: &Image) -> String {
+    let mut text = String::new();
+    for number in terminals(image.module, DeviceClass::Y) {
+        let Some(pin) = image.board.outputs.get(&number) else {
+            continue;
+        };
+        let call = match *pin {
+            OutputPin::Bit { at, bit, inverted } => {
+                let on = if inverted { "!on" } else { "on" };
+                format!("set_bits(0x{at:08X}, 0x{:X}, {on})", 1u32 << bit)
+            }
+            OutputPin::Words { on, off } => format!(
+                "if on {{ write(0x{:08X}, 0x{:X}) }} else {{ write(0x{:08X}, 0x{:X}) }}",
+                on.0, on.1, off.0, off.1
+            ),
+        };
+        let _ = writeln!(
+            text,
+            "            {number} => {call}, // {}",
+            DeviceClass::Y.number(number)
+        );
+    }
+    let on = if text.is_empty() { "_on" } else { "on" };
+    format!(
+        "    fn set_output(&mut self, number: u16, {on}: bool) {{\n        match number {{\n{text}            _ => {{}}\n        }}\n    }}\n"
+    )
+}
+
+fn setup(image: &Image) -> String {
+    let mut text = String::new();
+    for step in &image.board.setup {
+        for (bits, on) in [(step.clear, false), (step.set, true)] {
+            if bits != 0 {
+                let _ = writeln!(text, "    set_bits(0x{:08X}, 0x{bits:X}, {on});", step.at);
+            }
+        }
+    }
+    text
+}
+
+fn console(image: &Image) -> String {
+    if !image.board.console {
+        return match image.script.until_ms {
+            Some(_) => SEMIHOSTING.to_string(),
+            None => String::new(),
+        };
+    }
+    let rows = image.printed();
+    let mut table = String::new();
+    for (number, name, text) in &rows {
+        let text: String = text.chars().filter(|c| *c != '\0').collect();
+        let _ = writeln!(table, "    ({number}, c{name:?}, c{text:?}),");
+    }
+    let outputs = OUTPUTS
+        .replace("/* COUNT */", &rows.len().to_string())
+        .replace("/* TABLE */", &table);
+    format!("{SEMIHOSTING}{outputs}")
+}

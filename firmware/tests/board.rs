@@ -1,0 +1,107 @@
+//! Descriptions of boards: what they may say, and what is wrong with others.
+
+use rungc_firmware::board::{Board, OutputPin, parse};
+use rungc_syntax::Source;
+use std::path::Path;
+
+const DESK: &str = "\
+name = \"Desk\"
+target = \"thumbv7m-none-eabi\"
+
+[memory]
+flash = { origin = 0, length = \"64K\" }
+ram = { origin = 0x2000_0000, length = 16384 }
+
+[clock]
+hz = 25_000_000
+";
+
+fn read(text: &str) -> Result<Board, String> {
+    let source = Source::new("board.toml".to_string(), text.to_string());
+    parse(&source, Path::new("nowhere")).map_err(|error| error.to_string())
+}
+
+#[test]
+fn what_is_left_out_has_a_default() {
+    let board = read(DESK).unwrap();
+    assert_eq!((board.flash.length, board.ram.length), (65_536, 16_384));
+    assert_eq!(
+        (board.tick_us, board.scan_us, board.stack),
+        (1000, 10_000, 1024)
+    );
+    assert!(!board.console && board.inputs.is_empty() && board.functions.is_empty());
+}
+
+#[test]
+fn pins_have_octal_numbers() {
+    let pins = "[inputs]\nx17 = { at = 4, bit = 31 }\n[outputs]\nY010 = { at = 8, on = 1, off = 2, off_at = 12 }\n\
+                Y011 = { at = 8, bit = 0, inverted = true }\n";
+    let board = read(&format!("{DESK}{pins}")).unwrap();
+    assert_eq!(board.inputs[&15].bit, 31);
+    let (on, off) = ((8, 1), (12, 2));
+    assert_eq!(board.outputs[&8], OutputPin::Words { on, off });
+    let bit = OutputPin::Bit {
+        at: 8,
+        bit: 0,
+        inverted: true,
+    };
+    assert_eq!(board.outputs[&9], bit);
+}
+
+/// Each mistake is said with its place.
+#[test]
+fn mistakes_are_named() {
+    for (from, to, said) in [
+        ("thumbv7m", "thumbv9", "board.toml:2:10: no such target"),
+        (
+            "hz = 25_000_000",
+            "hz = 100",
+            "board.toml:9:6: a tick of 1000 µs is 0 counts",
+        ),
+        (
+            "hz = ",
+            "tick_us = 10_000_000\nhz = ",
+            "SysTick has 2 to 16 777 216",
+        ),
+        ("hz = ", "herz = 1\nhz = ", "unknown field `herz`"),
+        ("length = 16384", "length = 0", "`ram` has no bytes"),
+        ("\n[clock]", "[clock]\nhz = 1\n[clock]", "duplicate key"),
+    ] {
+        let error = read(&DESK.replacen(from, to, 1)).unwrap_err();
+        assert!(error.contains(said), "{error}");
+    }
+    for (added, said) in [
+        (
+            "[inputs]\nX8 = { at = 4, bit = 0 }",
+            "board.toml:12:1: `X8` is no terminal",
+        ),
+        ("[inputs]\nX0 = { at = 4, bit = 32 }", "bits 0 to 31"),
+        (
+            "[inputs]\nX0 = { at = 4, bit = 0 }\nX000 = { at = 4, bit = 1 }",
+            "X000 stands here twice",
+        ),
+        ("[outputs]\nY0 = { at = 4, on = 1 }", "an output has either"),
+        (
+            "[functions]\nblink = \"f\"",
+            "no such function; there are init",
+        ),
+        (
+            "[functions]\ninput = \"2f\"",
+            "`2f` is no name of a C function",
+        ),
+        ("[functions]\ninput = \"f\"", "no `sources` that have them"),
+        ("[interrupts]\nTIM2 = \"f\"", "a number from 0 to 479"),
+    ] {
+        let error = read(&format!("{DESK}\n{added}\n")).unwrap_err();
+        assert!(error.contains(said), "{error}");
+    }
+    let sources = |name: &str| {
+        read(&DESK.replacen("\n[memory]", &format!("sources = [{name:?}]\n[memory]"), 1))
+    };
+    assert!(
+        sources("a.rs")
+            .unwrap_err()
+            .contains("sources are files *.c and *.h")
+    );
+    assert!(sources("a.c").unwrap_err().contains("there is no file"));
+}
