@@ -24,9 +24,9 @@ typedef struct plc_sys {
 /* A timer: .done is its contact, .value its current value in units. */
 typedef struct plc_timer {
     uint32_t part_ms; /* time since the last whole unit */
-    uint32_t last_ms; /* when it was last executed */
+    uint32_t last_ms; /* when it was last executed, where that matters */
     int16_t value;    /* current value */
-    int16_t preset;   /* preset taken over when timing began */
+    int16_t preset;   /* preset it runs to, where that is kept */
     bool coil;        /* whether its coil was on when last executed */
     bool done;        /* contact */
 } plc_timer;
@@ -327,17 +327,17 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
     if (timer->coil) {
         elapsed = ((options & PLC_FREE_RUNNING) != 0u) ? sys->now_ms - timer->last_ms : sys->dt_ms;
     }
-    if (!timer->coil || (options & PLC_LATCHES_PRESET) == 0u) {
-        timer->preset = preset;
-    }
     if ((options & PLC_STEPWISE) != 0u && elapsed > unit_ms) {
         elapsed = unit_ms;
     }
-    timer->coil = true;
-    timer->last_ms = sys->now_ms;
-    if ((options & PLC_LATCHES_PRESET) != 0u) {
+    if ((options & PLC_LATCHES_PRESET) != 0u && timer->coil) {
         preset = timer->preset;
     }
+    if ((options & (PLC_LATCHES_PRESET | PLC_FREE_RUNNING)) != 0u) {
+        timer->preset = preset;
+        timer->last_ms = sys->now_ms;
+    }
+    timer->coil = true;
 
     const bool overruns = (options & PLC_OVERRUNS) != 0u;
     if (!timer->done || overruns) {
