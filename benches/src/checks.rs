@@ -49,10 +49,7 @@ pub fn table(rungs: usize) -> Table {
         "Checking of programs that are hard to check",
         &["program", "rungs", "took, ms", "ten times as many", "times"],
     );
-    for ((name, short), (_, long)) in hard_programs(rungs)
-        .iter()
-        .zip(&hard_programs(10 * rungs))
-    {
+    for ((name, short), (_, long)) in hard_programs(rungs).iter().zip(&hard_programs(10 * rungs)) {
         let (one, ten) = (milliseconds(short), milliseconds(long));
         table.row(vec![
             (*name).into(),

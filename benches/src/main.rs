@@ -6,7 +6,7 @@ use rungc_benches::host::{self, Effort};
 use rungc_benches::ladder::Kind;
 use rungc_benches::problem::Result;
 use rungc_benches::table::Table;
-use rungc_benches::{embedded, interp, pulses, tools};
+use rungc_benches::{checks, embedded, interp, pulses, tools};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -48,6 +48,8 @@ enum Section {
     Icount,
     /// How long compiling takes, and how much memory.
     Compile,
+    /// How checking grows with programs that are hard to check.
+    Checks,
     /// How fast the interpreter is.
     Interp,
     /// How fast pulse outputs are simulated.
@@ -69,6 +71,7 @@ impl Section {
                 compile::table(compiled_sizes(quick))?,
                 compile::native_table(16_000)?,
             ]),
+            Section::Checks => Ok(vec![checks::table(if quick { 500 } else { 20_000 })]),
             Section::Interp => Ok(vec![interp::table(10_000, effort(quick))?]),
             Section::Pulses => Ok(vec![pulses::table(if quick { 2 } else { 10 })?]),
         }

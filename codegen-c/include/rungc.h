@@ -311,13 +311,21 @@ enum {
     PLC_STEPWISE = 16u       /* advances by at most one unit a scan */
 };
 
+/* RST T: value 0, contact off. */
+static inline void plc_timer_reset(plc_timer *timer)
+{
+    timer->part_ms = 0;
+    timer->value = 0;
+    timer->done = false;
+}
+
 /* OUT T. In the scan in which the coil comes on the value stays as it is; each later scan adds the time since the scan before. */
 static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys, uint32_t unit_ms,
                                  unsigned options)
 {
     if (!drive) {
         if ((options & PLC_RETENTIVE) == 0u) {
-            memset(timer, 0, sizeof *timer);
+            plc_timer_reset(timer);
         }
         timer->coil = false;
         return;
@@ -389,14 +397,6 @@ static inline void plc_retentive_10ms(plc_timer *timer, bool drive, int16_t pres
 static inline void plc_retentive_100ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
 {
     plc_timer_run(timer, drive, preset, sys, 100u, PLC_RETENTIVE);
-}
-
-/* RST T: value 0, contact off. */
-static inline void plc_timer_reset(plc_timer *timer)
-{
-    timer->part_ms = 0;
-    timer->value = 0;
-    timer->done = false;
 }
 
 /* ---- Counters ------------------------------------------------------------------------------------------------------- */

@@ -73,7 +73,7 @@ impl Timer {
     ) -> bool {
         if !drive {
             if !kind.accumulating {
-                *self = Timer::default();
+                self.reset();
             }
             self.coil = false;
             return self.done;
