@@ -15,6 +15,48 @@ typedef struct rungc_edge {
     bool on;        /* whether it went on */
 } rungc_edge;
 
+/* How many edges a queue has room for, and one more. */
+#ifndef RUNGC_EDGES
+#define RUNGC_EDGES 64u
+#endif
+
+/* A queue of edges between one interrupt and NAME_poll, on one core. All zero is an empty one. */
+typedef struct rungc_edges {
+    volatile uint16_t slots[RUNGC_EDGES]; /* an input's number, and in the lowest bit whether it went on */
+    volatile uint16_t first;              /* where the oldest edge stands; the main loop's */
+    volatile uint16_t end;                /* where the next one goes; the interrupt's */
+    volatile uint16_t lost;               /* how many found no room, wrapping; the interrupt's */
+} rungc_edges;
+
+/* Notes an edge, in the interrupt; of an input below 32768. One that finds no room is lost, and false says so. */
+static inline bool rungc_note_edge(rungc_edges *edges, uint16_t input, bool on)
+{
+    const uint16_t end = edges->end;
+    const uint16_t next = (uint16_t)((end + 1u) % RUNGC_EDGES);
+
+    if (next == edges->first) {
+        edges->lost = (uint16_t)(edges->lost + 1u);
+        return false;
+    }
+    edges->slots[end] = (uint16_t)((unsigned)input << 1 | (on ? 1u : 0u));
+    edges->end = next;
+    return true;
+}
+
+/* Takes the oldest edge, in the board's `next_edge`; false if there is none. */
+static inline bool rungc_take_edge(rungc_edges *edges, rungc_edge *edge)
+{
+    const uint16_t first = edges->first;
+
+    if (first == edges->end) {
+        return false;
+    }
+    edge->input = (uint16_t)(edges->slots[first] >> 1);
+    edge->on = (edges->slots[first] & 1u) != 0u;
+    edges->first = (uint16_t)((first + 1u) % RUNGC_EDGES);
+    return true;
+}
+
 /* What a hardware counter has counted: pulses of one input, or quarters of an encoder's cycle. */
 typedef struct rungc_count {
     uint16_t input;   /* the input X; of an encoder that of phase A */
@@ -33,7 +75,7 @@ typedef struct rungc_board {
     /* Time: microseconds since the board began, wrapping. The steps in which they go on are those in which all else is on time. */
     uint32_t (*now_us)(void *context);
 
-    /* Edges: an interrupt notes each in a queue. Gives the oldest one that was not taken yet; false if there is none. */
+    /* Edges: an interrupt notes each in a queue, see rungc_note_edge. Gives the oldest one that was not taken yet; false if there is none. */
     bool (*next_edge)(void *context, rungc_edge *edge);
 
     /* Counters, for rates at which an interrupt for each edge is too slow. Gives what this one has counted since last asked, which may

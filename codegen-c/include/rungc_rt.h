@@ -590,6 +590,10 @@ typedef struct rungc_axis {
      */
     bool ended;
     /**
+     * A train was sent to its end, and pulses have not been counted since.
+     */
+    bool completed;
+    /**
      * Whether the pin is on.
      */
     bool on;

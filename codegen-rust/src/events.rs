@@ -22,6 +22,11 @@ fn since_field(flag: &Flag) -> Ident {
     format_ident!("{}_since", flag.name)
 }
 
+/// The name of a method's hardware, which it may not use.
+fn hal_parameter(used: bool) -> Ident {
+    format_ident!("{}", if used { "hal" } else { "_hal" })
+}
+
 impl Generator<'_> {
     /// The field of a flag.
     pub fn flag(&self, flag: FlagId) -> Ident {
@@ -88,11 +93,8 @@ impl Generator<'_> {
         };
         let function = format_ident!("{}", function_name(&module.functions[at]));
         let needs_hal = self.calls.needs_hal.get(at).copied().unwrap_or(false);
-        let (parameter, argument) = if needs_hal {
-            (format_ident!("hal"), Some(quote!(, hal)))
-        } else {
-            (format_ident!("_hal"), None)
-        };
+        let parameter = hal_parameter(needs_hal);
+        let argument = needs_hal.then(|| quote!(, hal));
         let hal = self.rt("Hal");
         quote! {
             #edge
@@ -133,11 +135,12 @@ impl Generator<'_> {
         let pulses = self
             .module
             .sends_pulses()
-            .then(|| quote!(self.count_pulses(now_ms.wrapping_mul(1000));));
+            .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
         let says_nothing = periods.is_empty() && clocks.is_empty() && pulses.is_none();
+        let (parameter, hal) = (hal_parameter(pulses.is_some()), self.rt("Hal"));
         (!says_nothing).then(|| {
             quote! {
-                fn tick(&mut self, now_ms: u32) { #(#periods)* #(#clocks)* #pulses }
+                fn tick(&mut self, #parameter: &mut dyn #hal, now_ms: u32) { #(#periods)* #(#clocks)* #pulses }
             }
         })
     }
@@ -164,7 +167,7 @@ impl Generator<'_> {
         if !self.module.sends_pulses() {
             return None;
         }
-        let advance = self.rt("advance_pulses");
+        let (count, hal) = (self.rt("count_pulses"), self.rt("Hal"));
         let ends = self.module.flags.iter().filter_map(|flag| {
             let output = flag.pulses_end?;
             self.module.pulse_outputs.binary_search(&output).ok()?;
@@ -174,11 +177,19 @@ impl Generator<'_> {
         let doc = self.doc("Counts the pulses that have been sent by now, and takes notice of trains that have ended.");
         Some(quote! {
             #doc
-            fn count_pulses(&mut self, now_us: u32) {
-                #advance(self, now_us);
+            fn count_pulses(&mut self, hal: &mut dyn #hal, now_us: u32) {
+                #count(self, hal, now_us);
                 #(#ends)*
             }
         })
+    }
+
+    /// How many pulse outputs an interrupt shares with the program.
+    pub fn pulse_outputs(&self) -> Option<TokenStream> {
+        let last = self.module.pulse_outputs.last()?;
+        let count = Literal::usize_unsuffixed(*last as usize + 1);
+        let doc = self.doc("Pulse outputs from Y000 to the last one that is used: for `rungc_rt::board::SharedAxes`.");
+        Some(quote!(#doc pub const PULSE_OUTPUTS: usize = #count;))
     }
 
     /// The method that drives the pins of pulse outputs.

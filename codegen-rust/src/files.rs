@@ -411,7 +411,7 @@ const WAIT: &str = "        std::thread::sleep(next.saturating_duration_since(In
 const WAIT_WITH_EVENTS: &str = "\
         while Instant::now() < next {
             std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
-            plc.tick(start.elapsed().as_millis() as u32);
+            plc.tick(&mut hal, start.elapsed().as_millis() as u32);
             plc.take_interrupts(&mut hal);
         }
 ";

@@ -186,6 +186,7 @@ impl Generator<'_> {
         let forget = self.forget();
         let jumps = self.jumps_back.then(|| self.watchdog());
         let count_pulses = self.count_pulses();
+        let pulse_outputs = self.pulse_outputs();
         let max_jumps = self.jumps_back.then(|| {
             let doc = self.doc("A scan that jumps backwards this often does not end.");
             let most = Literal::u32_unsuffixed(MAX_JUMPS);
@@ -194,6 +195,7 @@ impl Generator<'_> {
         self.item_of(quote! {
             #max_jumps
             impl #name {
+                #pulse_outputs
                 #new
                 #preset
                 #clear_general
@@ -376,7 +378,7 @@ impl Generator<'_> {
         let count_pulses = self
             .module
             .sends_pulses()
-            .then(|| quote!(self.count_pulses(now_ms.wrapping_mul(1000));));
+            .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
         let jumps = self
             .jumps_back
             .then(|| quote!(self.jumps_left = MAX_JUMPS_BACK;));

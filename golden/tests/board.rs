@@ -1,16 +1,15 @@
-//! A board that comes at random times, on the interpreter and on emitted C: each edge and each pulse counts once, whoever counts it, comparisons
-//! act at the count, and a move has as many pulses as it was given.
+//! A board that comes at random times, on the interpreter, on emitted C and on emitted Rust: each edge and each pulse counts once, whoever
+//! counts it, comparisons act at the count, and a move has as many pulses as it was given. With an interrupt that sends them they are on
+//! time while scans run.
 
 use rungc_codegen_c::{Options, emit};
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
-use rungc_rt::board::{
-    Counted, CounterInput, Driver, EdgeInterrupt, InputEdge, PulseOutput, Setup, Timebase,
-};
-use rungc_rt::{Class, Hal, Plc};
 use rungc_sim::Machine;
-use std::collections::VecDeque;
 use std::process::Command;
+
+#[path = "board/rig.rs"]
+mod rig;
 
 /// X0 has a hardware counter, X3 and X4 an encoder with one; the edges of X1 and X2 are noted, X6 is read.
 const PROGRAM: &str = "\
@@ -32,12 +31,6 @@ IRET
 END
 ";
 
-const STEPS: u32 = 60_000;
-const SCAN_US: u32 = 5_000;
-
-/// The time of the board wraps while it runs.
-const BEGIN_US: u32 = 0u32.wrapping_sub(300_000);
-
 fn module() -> Module {
     let read = rungc_frontend::read_text("bench.il", PROGRAM);
     let options = CompileOptions {
@@ -50,169 +43,6 @@ fn module() -> Module {
         .unwrap_or_else(|| panic!("{:?}", compiled.diagnostics))
 }
 
-/// Numbers that look random; the firmware has the same.
-struct Numbers(u32);
-
-impl Numbers {
-    fn below(&mut self, end: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        (self.0 >> 16) % end
-    }
-}
-
-/// Pins, counters and a queue of edges.
-#[derive(Default)]
-struct Bench {
-    now_us: u32,
-    armed: Option<u32>,
-    pulses: u32,
-    quarter: i32,
-    quarter_asked: i32,
-    levels: [bool; 3],
-    edges: VecDeque<InputEdge>,
-    outputs: [bool; 6],
-    changes: String,
-}
-
-impl Bench {
-    fn pass(&mut self, us: u32) {
-        self.now_us = self.now_us.wrapping_add(us);
-    }
-
-    fn is_due(&self) -> bool {
-        let late = |due| self.now_us.wrapping_sub(due) as i32;
-        self.armed.is_some_and(|due| late(due) >= 0)
-    }
-}
-
-impl Hal for Bench {
-    fn input(&mut self, number: u16) -> Option<bool> {
-        Some(number == 6)
-    }
-
-    fn set_output(&mut self, number: u16, value: bool) {
-        let on = &mut self.outputs[usize::from(number)];
-        if *on != value {
-            *on = value;
-            let line = format!("{} Y{number} {}\n", self.now_us, u8::from(value));
-            self.changes.push_str(&line);
-        }
-    }
-}
-
-impl Timebase for Bench {
-    fn now_us(&mut self) -> u32 {
-        self.now_us
-    }
-}
-
-impl EdgeInterrupt for Bench {
-    fn next_edge(&mut self) -> Option<InputEdge> {
-        self.edges.pop_front()
-    }
-
-    fn notes_edges(&self, input: u32) -> bool {
-        matches!(input, 1 | 2)
-    }
-}
-
-impl CounterInput for Bench {
-    fn counted(&mut self, counter: u32) -> Option<Counted> {
-        match counter {
-            0 => Some(Counted::Pulses {
-                input: 0,
-                count: std::mem::take(&mut self.pulses),
-            }),
-            1 => {
-                let from = std::mem::replace(&mut self.quarter_asked, self.quarter);
-                Some(Counted::Quarters {
-                    a: 3,
-                    b: 4,
-                    from: from as u32,
-                    count: self.quarter - from,
-                })
-            }
-            _ => None,
-        }
-    }
-
-    fn counts(&self, input: u32) -> bool {
-        matches!(input, 0 | 3 | 4)
-    }
-}
-
-impl PulseOutput for Bench {
-    fn wake_in(&mut self, us: Option<u32>) {
-        self.armed = us.map(|us| self.now_us.wrapping_add(us));
-    }
-}
-
-/// What a run has to end with.
-#[derive(Default)]
-struct Given {
-    pulses: u32,
-    rises: [u32; 3],
-    quarter: i32,
-}
-
-fn interpreted(module: &Module) -> (String, Given) {
-    let setup = Setup {
-        inputs: 8,
-        outputs: 6,
-        scan_us: SCAN_US,
-    };
-    let board = Bench {
-        now_us: BEGIN_US,
-        ..Bench::default()
-    };
-    let mut driver = Driver::new(Machine::new(module), board, setup);
-    let mut numbers = Numbers(5);
-    let mut given = Given::default();
-    driver.poll();
-    for _ in 0..STEPS {
-        let board = &mut driver.board;
-        board.pass(1 + numbers.below(20));
-        if numbers.below(1000) == 0 {
-            board.pass(numbers.below(8000));
-        }
-        let pulses = numbers.below(12);
-        board.pulses += pulses;
-        given.pulses += pulses;
-        board.quarter += numbers.below(4) as i32 - 1;
-        let number = 1 + numbers.below(20) as usize;
-        if number <= 2 {
-            let level = &mut board.levels[number];
-            *level = !*level;
-            given.rises[number] += u32::from(*level);
-            board.edges.push_back(InputEdge {
-                input: number as u32,
-                level: *level,
-            });
-        }
-        if board.is_due() {
-            driver.on_timer();
-        }
-        if numbers.below(3) == 0 {
-            driver.poll();
-            // A comparison shows at the pin before the next scan.
-            let switched = (10_001..100_001).contains(&given.pulses);
-            assert_eq!(driver.board.outputs[1], switched);
-        }
-    }
-    driver.poll();
-    given.quarter = driver.board.quarter;
-    let plc = &driver.program;
-    let count = |number| plc.counter32(number).expect("it is stored");
-    let end = format!(
-        "C235 {} C237 {} C253 {} D0 {}\n",
-        count(235),
-        count(237),
-        count(253),
-        plc.word(Class::D, 0).expect("it is stored")
-    );
-    (driver.board.changes + &end, given)
-}
-
 /// The same in C.
 const FIRMWARE: &str = r#"
 #include "bench_board.h"
@@ -223,8 +53,7 @@ static uint32_t seed = 5, now = 0u - 300000u, due, pulses;
 static int32_t quarter, quarter_asked;
 static bool armed, levels[3], outputs[6];
 static int held;
-static rungc_edge edges[10000];
-static unsigned first_edge, edge_count;
+static rungc_edges edges;
 
 static uint32_t below(uint32_t end)
 {
@@ -263,11 +92,7 @@ static uint32_t now_us(void *context)
 static bool next_edge(void *context, rungc_edge *edge)
 {
     (void)context;
-    if (first_edge == edge_count) {
-        return false;
-    }
-    *edge = edges[first_edge++];
-    return true;
+    return rungc_take_edge(&edges, edge);
 }
 
 static bool counted(void *context, unsigned counter, rungc_count *count)
@@ -313,7 +138,7 @@ int main(void)
         const uint32_t number = 1u + below(20u);
         if (number <= 2u) {
             levels[number] = !levels[number];
-            edges[edge_count++] = (rungc_edge){.input = (uint16_t)number, .on = levels[number]};
+            held += rungc_note_edge(&edges, (uint16_t)number, levels[number]) ? 0 : 1;
         }
         if (armed && (int32_t)(now - due) >= 0) {
             bench_on_timer(&plc, &board);
@@ -350,26 +175,34 @@ fn shell(line: &str, path: &std::path::Path) -> String {
 
 const CFLAGS: &str = "-std=c99 -O1 -Wall -Wextra -Wconversion -pedantic -Werror";
 
-#[test]
-fn nothing_is_lost_between_board_and_program() {
-    let module = module();
-    let (interpreted, given) = interpreted(&module);
-    let rises = |pin: &str| interpreted.lines().filter(|l| l.ends_with(pin)).count();
+/// What a run has to look like, whoever runs it.
+fn check(run: &rig::Run) {
+    let rises = |pin: &str| run.trace.lines().filter(|l| l.ends_with(pin)).count();
     assert_eq!(rises(" Y0 1"), 2000);
     assert_eq!(rises(" Y0 0"), 2000);
     assert_eq!(rises(" Y5 1"), 1);
     // Pulses come by the dozen, and yet each comparison found its count.
     assert_eq!((rises(" Y1 1"), rises(" Y1 0")), (1, 1));
     // Counted once, an encoder's cycle counts where B changes while A is on.
-    let cycles = (given.quarter + 2).div_euclid(4);
-    let [_, interrupts, edges] = given.rises;
-    let end = format!(
-        "C235 {} C237 {edges} C253 {cycles} D0 {interrupts}",
-        given.pulses
-    );
-    assert_eq!(interpreted.lines().last(), Some(&*end));
-    assert!(given.pulses > 300_000 && edges > 1000 && interrupts > 1000 && cycles > 5000);
+    let cycles = (run.quarter + 2).div_euclid(4);
+    let [_, interrupts, edges] = run.rises;
+    let pulses = run.pulses;
+    let end = format!("C235 {pulses} C237 {edges} C253 {cycles} D0 {interrupts}");
+    assert_eq!(run.trace.lines().last(), Some(&*end));
+    assert!(pulses > 300_000 && edges > 1000 && interrupts > 1000 && cycles > 5000);
+}
 
+fn same(trace: &str, expected: &str) {
+    let differs = trace.lines().zip(expected.lines()).find(|(a, b)| a != b);
+    assert_eq!(differs, None);
+    assert_eq!(trace.lines().count(), expected.lines().count());
+}
+
+#[test]
+fn nothing_is_lost_between_board_and_program() {
+    let module = module();
+    let interpreted = rig::run(Machine::new(&module), false);
+    check(&interpreted);
     let folder = tempfile::tempdir().expect("a temporary folder");
     write(&module, folder.path());
     std::fs::write(folder.path().join("firmware.c"), FIRMWARE).expect("writing");
@@ -377,11 +210,63 @@ fn nothing_is_lost_between_board_and_program() {
         "make -s CFLAGS='{CFLAGS}' && \
          cc {CFLAGS} -o firmware firmware.c libbench.a rungc-rt/target/release/librungc_rt.a && ./firmware"
     );
-    let compiled = shell(&build, folder.path());
-    let pairs = compiled.lines().zip(interpreted.lines());
-    let differs = pairs.clone().find(|(c, sim)| c != sim);
-    assert_eq!(differs, None);
-    assert_eq!(compiled.lines().count(), interpreted.lines().count());
+    same(&shell(&build, folder.path()), &interpreted.trace);
+}
+
+/// Scans and what they wait for take most of the time here, and no edge of a pulse waits for them.
+#[test]
+fn pulses_are_sent_while_scans_run() {
+    let module = module();
+    let run = rig::run(Machine::new(&module), true);
+    check(&run);
+    assert!(run.late_us <= rig::INTERRUPT_US, "{} us late", run.late_us);
+}
+
+const MAIN: &str = "\
+mod rig;
+
+fn main() {
+    let interrupts = std::env::args().count() > 1;
+    print!(\"{}\", rig::run(bench::Bench::new(), interrupts).trace);
+}
+";
+
+const MANIFEST: &str = "\
+[package]
+name = \"firmware\"
+version = \"0.1.0\"
+edition = \"2024\"
+
+[workspace]
+exclude = [\"plc\"]
+
+[dependencies]
+bench = { path = \"plc\" }
+rungc-rt = { path = \"plc/rungc-rt\" }
+";
+
+#[test]
+fn emitted_rust_runs_on_the_same_board() {
+    let module = module();
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let put = |path: &str, text: &str| {
+        let path = folder.path().join(path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("writing");
+        std::fs::write(path, text).expect("writing");
+    };
+    let options = rungc_codegen_rust::Options::default();
+    for file in rungc_codegen_rust::emit(&module, &options) {
+        put(&format!("plc/{}", file.path), &file.text);
+    }
+    put("Cargo.toml", MANIFEST);
+    put("src/main.rs", MAIN);
+    put("src/rig.rs", include_str!("board/rig.rs"));
+    let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/board");
+    for (interrupts, argument) in [(false, ""), (true, "-- interrupts")] {
+        let line = format!("cargo run -q --target-dir {target} {argument}");
+        let interpreted = rig::run(Machine::new(&module), interrupts);
+        same(&shell(&line, folder.path()), &interpreted.trace);
+    }
 }
 
 /// Without pulses nothing is linked, and a board may lack what it does not need.

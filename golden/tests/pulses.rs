@@ -25,7 +25,7 @@ impl Bench<'_> {
         self.machine.scan(&mut NoHal, self.now_ms, 1000 * ms);
         for _ in 0..ms {
             self.now_ms += 1;
-            self.machine.tick(self.now_ms);
+            self.machine.tick(&mut NoHal, self.now_ms);
         }
     }
 

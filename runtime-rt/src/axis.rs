@@ -23,6 +23,10 @@ pub struct Axis {
     pub owner: u16,
     /// A train was sent to its end, and nobody has asked yet.
     pub ended: bool,
+    /// A train was sent to its end, and pulses have not been counted since.
+    pub completed: bool,
+    /// The program has taken over what an interrupt sent on it, and not given it back yet.
+    pub taken: bool,
     /// Whether the pin is on.
     pub on: bool,
     /// Whether the pin is on where a pulse is off.
@@ -43,6 +47,8 @@ impl Axis {
             counter: 0,
             owner: 0,
             ended: false,
+            completed: false,
+            taken: false,
             on: false,
             inverted: false,
             uncounted: 0,
@@ -64,7 +70,7 @@ impl Axis {
             self.generator.advance(now_us)
         };
         let count = count as i32;
-        self.ended |= was_busy && self.generator.is_complete();
+        self.completed |= was_busy && self.generator.is_complete();
         let count = if self.generator.is_reverse() {
             count.wrapping_neg()
         } else {
@@ -72,6 +78,35 @@ impl Axis {
         };
         self.uncounted = self.uncounted.wrapping_add(count);
         self.show();
+    }
+
+    /// A timer drives the pin; returns in how many microseconds it changes next.
+    pub(crate) fn drive(&mut self, now_us: u32) -> Option<u32> {
+        if !core::mem::replace(&mut self.timed, true) {
+            self.generator.set_time(now_us);
+        }
+        self.pass(now_us, true);
+        self.generator.wait(now_us)
+    }
+
+    /// The program's output takes over what an interrupt has sent.
+    pub(crate) fn take_over(&mut self, sent: &mut Axis) {
+        let count = core::mem::take(&mut sent.uncounted);
+        self.uncounted = self.uncounted.wrapping_add(count);
+        self.completed |= core::mem::take(&mut sent.completed);
+        self.generator = sent.generator;
+        self.on = sent.on;
+        self.timed = sent.timed;
+        sent.taken = true;
+    }
+
+    /// What an interrupt is to send; nothing of it has been sent.
+    pub(crate) fn to_be_sent(&self) -> Axis {
+        Axis {
+            uncounted: 0,
+            completed: false,
+            ..*self
+        }
     }
 
     /// The pin is as the signal says.
@@ -132,6 +167,7 @@ pub fn advance(plc: &mut dyn Plc, now_us: u32) {
         if !axis.timed {
             axis.pass(now_us, false);
         }
+        axis.ended |= core::mem::take(&mut axis.completed);
         if stops && !(axis.generator.modulates() && running) {
             axis.halt();
         }
@@ -196,11 +232,7 @@ pub fn pulse_timer(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<
         let Some(axis) = plc.axis(output.into()) else {
             continue;
         };
-        if !core::mem::replace(&mut axis.timed, true) {
-            axis.generator.set_time(now_us);
-        }
-        axis.pass(now_us, true);
-        let edge = axis.generator.wait(now_us);
+        let edge = axis.drive(now_us);
         next = match (next, edge) {
             (Some(a), Some(b)) => Some(u32::min(a, b)),
             (a, b) => a.or(b),

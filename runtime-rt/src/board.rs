@@ -42,10 +42,51 @@
 //!     }
 //! }
 //! ```
+//!
+//! # Interrupts
+//!
+//! Edges of inputs and pulses are worth an interrupt. Each has one object in a `static` of the firmware: an [`EdgeQueue`], which needs no
+//! lock, and [`SharedAxes`], which stand behind the lock that keeps the timer's interrupt out.
+//!
+//! ```
+//! use rungc_rt::board::{EdgeQueue, InputEdge, SharedAxes, send_pulses};
+//! use rungc_rt::{Axis, Hal};
+//! use std::sync::Mutex; // on a microcontroller a `critical_section::Mutex` of a `RefCell`
+//!
+//! static EDGES: EdgeQueue<64> = EdgeQueue::new();
+//! static PULSES: Mutex<SharedAxes<1>> = Mutex::new([None; 1]); // as many as the program's `PULSE_OUTPUTS`
+//!
+//! fn pin_interrupt(input: u32, level: bool) {
+//!     EDGES.note(InputEdge { input, level });
+//! }
+//!
+//! fn timer_interrupt(now_us: u32) {
+//!     if let Ok(mut pulses) = PULSES.lock() {
+//!         let wait = send_pulses(&mut *pulses, now_us, |output, on| { /* sets a pin */ });
+//!         // The timer is to come again in `wait` microseconds.
+//!     }
+//! }
+//!
+//! struct Timer;
+//!
+//! impl Hal for Timer {
+//!     fn with_pulses(&mut self, work: &mut dyn FnMut(&mut [Option<Axis>])) {
+//!         if let Ok(mut pulses) = PULSES.lock() {
+//!             work(&mut *pulses);
+//!         }
+//!     }
+//! }
+//! ```
+//!
+//! An edge of a pulse then is late by no more than the timer's interrupt is, and by one instruction that sends pulses, or by the counting
+//! of all outputs each millisecond: some microseconds, however long a scan takes. An edge of an input waits for the running scan to end,
+//! and for [`Driver::poll`]; none is lost as long as the queue has room for those of a scan.
 
+pub use crate::edge_queue::EdgeQueue;
 use crate::hal::Hal;
 use crate::plc::Class;
 use crate::program::Program;
+pub use crate::pulse_side::{SharedAxes, send_pulses};
 
 /// What time it is.
 pub trait Timebase {
@@ -62,7 +103,7 @@ pub struct InputEdge {
     pub level: bool,
 }
 
-/// Inputs of which each edge interrupts the processor. The interrupt notes the edge in a queue; the main loop takes it from there.
+/// Inputs of which each edge interrupts the processor. The interrupt notes the edge in an [`EdgeQueue`]; the main loop takes it from there.
 pub trait EdgeInterrupt {
     /// The oldest edge that was noted and not taken yet.
     fn next_edge(&mut self) -> Option<InputEdge> {
@@ -116,10 +157,13 @@ pub trait CounterInput {
     }
 }
 
-/// Pins that pulses are sent on: [`Hal::set_output`] sets them, and a timer says when.
+/// Pins that pulses are sent on, and a timer that says when.
+///
+/// A board that has [`Hal::with_pulses`] sends them in the timer's interrupt, by [`send_pulses`], while scans run. Else [`Hal::set_output`]
+/// sets the pins, in [`Driver::on_timer`].
 pub trait PulseOutput: Hal {
-    /// Arms the timer whose interrupt calls [`Driver::on_timer`], in so many microseconds: 0 is as soon as it can, `None` not at all. A
-    /// board without one leaves it as it is: its pulses are as exact as [`Driver::poll`] is called often.
+    /// Arms the timer, in so many microseconds: 0 is as soon as it can, `None` not at all. A board without one leaves it as it is: its
+    /// pulses are as exact as [`Driver::poll`] is called often.
     fn wake_in(&mut self, us: Option<u32>) {
         let _ = us;
     }
@@ -157,6 +201,8 @@ pub struct Driver<P, B> {
     next_scan: u32,
     /// How long the last one took, in microseconds.
     scan_us: u32,
+    /// An interrupt sends the pulses while scans run.
+    shares_pulses: bool,
 }
 
 impl<P: Program, B: Board> Driver<P, B> {
@@ -170,6 +216,7 @@ impl<P: Program, B: Board> Driver<P, B> {
             now_ms: 0,
             next_scan: 0,
             scan_us: 0,
+            shares_pulses: false,
         }
     }
 
@@ -187,11 +234,15 @@ impl<P: Program, B: Board> Driver<P, B> {
             self.millisecond = Some(now_us);
             self.next_scan = now_us;
             self.refresh_inputs(true);
+            let shares = &mut self.shares_pulses;
+            self.board
+                .with_pulses(&mut |shared| *shares = !shared.is_empty());
         }
         let edges = self.take_edges();
         let counts = self.take_counts();
-        if self.pass(now_us) {
-            self.program.tick(self.now_ms);
+        let passed = self.pass(now_us);
+        if passed {
+            self.program.tick(&mut self.board, self.now_ms);
         }
         self.program.take_interrupts(&mut self.board);
         let scans = has_come(self.next_scan, now_us);
@@ -203,12 +254,17 @@ impl<P: Program, B: Board> Driver<P, B> {
         if scans || edges || counts {
             self.write_outputs();
         }
-        self.on_timer();
+        match self.shares_pulses {
+            // A train begins in a scan or in an interrupt routine; the interrupt sees to it.
+            true if scans || edges || counts || passed => self.board.wake_in(Some(0)),
+            true => {}
+            false => self.on_timer(),
+        }
     }
 
-    /// Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones. Call it in the timer's interrupt,
-    /// where nothing else uses the driver; [`Driver::poll`] does the same at its end. One that has to wait for a scan sends late, but
-    /// neither loses a pulse nor sends one too many.
+    /// Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones, on a board without
+    /// [`Hal::with_pulses`]: call it when the time has come that [`PulseOutput::wake_in`] was told. [`Driver::poll`] does the same at
+    /// its end. It waits for a running scan; one that comes late neither loses a pulse nor sends one too many.
     pub fn on_timer(&mut self) {
         let now_us = self.board.now_us();
         let wait = self.program.pulse_timer(&mut self.board, now_us);

@@ -1,5 +1,7 @@
 //! The hardware as instructions see it.
 
+use crate::axis::Axis;
+
 /// A moment of the real-time clock.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(C)]
@@ -163,6 +165,11 @@ pub trait Hal {
     /// an instruction changes what an output sends. For a host that has no such interrupt there is nothing to do.
     fn hold_pulses(&mut self, hold: bool) {
         let _ = hold;
+    }
+    /// Does `work` while the interrupt stays out that sends pulses with outputs of its own ([`crate::board::send_pulses`]), on these: they
+    /// are copied, from and to the program's. A host without such an interrupt has none.
+    fn with_pulses(&mut self, work: &mut dyn FnMut(&mut [Option<Axis>])) {
+        work(&mut []);
     }
 }
 

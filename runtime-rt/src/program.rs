@@ -18,8 +18,8 @@ pub trait Program: Plc {
 
     /// Time goes on: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as those of inputs.
     /// Pulses that have ended by then are counted.
-    fn tick(&mut self, now_ms: u32) {
-        let _ = now_ms;
+    fn tick(&mut self, hal: &mut dyn Hal, now_ms: u32) {
+        let _ = (hal, now_ms);
     }
 
     /// Runs the interrupt routines that are requested, between two scans. In a scan they run in front of each network.
@@ -29,7 +29,7 @@ pub trait Program: Plc {
 
     /// Drives the pins of pulse outputs ([`Hal::set_output`]) at `now_us`, microseconds since power-on, wrapping, and returns after how many
     /// microseconds the next one changes; `None` if none does. Call it then, and after each scan, which may begin a train. An interrupt
-    /// may call it where [`Hal::hold_pulses`] can keep it from coming. Without it pulses are counted, but no pins driven.
+    /// that comes while scans run calls [`crate::board::send_pulses`] instead. Without either pulses are counted, but no pins driven.
     fn pulse_timer(&mut self, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
         let _ = (hal, now_us);
         None

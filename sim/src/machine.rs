@@ -155,11 +155,11 @@ impl<'m> Machine<'m> {
     }
 
     /// Counts the pulses that have been sent, and takes notice of trains that have ended.
-    fn advance_pulses(&mut self, now_us: u32) {
+    fn count_pulses(&mut self, hal: &mut dyn Hal, now_us: u32) {
         if !self.module.sends_pulses() {
             return;
         }
-        rungc_rt::advance_pulses(self, now_us);
+        rungc_rt::count_pulses(self, hal, now_us);
         for (i, flag) in self.module.flags.iter().enumerate() {
             if let Some(axis) = flag.pulses_end.and_then(|output| self.axis(output)) {
                 let ended = axis.take_end();
@@ -196,7 +196,7 @@ impl<'m> Machine<'m> {
 impl Program for Machine<'_> {
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
         self.sys.begin_scan(now_ms, scan_us);
-        self.advance_pulses(now_ms.wrapping_mul(1000));
+        self.count_pulses(hal, now_ms.wrapping_mul(1000));
         self.restart_watchdog();
 
         // A module's first functions are `Begin`, `Main`, `End`.
@@ -216,7 +216,7 @@ impl Program for Machine<'_> {
         self.run_function(&mut NoHal, self.entries.edge(number, level));
     }
 
-    fn tick(&mut self, now_ms: u32) {
+    fn tick(&mut self, hal: &mut dyn Hal, now_ms: u32) {
         let states = self.flags.iter_mut().zip(&mut self.periods);
         for (flag, (state, last)) in self.module.flags.iter().zip(states) {
             if let Some(ms) = flag.period_ms
@@ -230,7 +230,7 @@ impl Program for Machine<'_> {
         for (_, value) in cells.filter(|(cell, _)| cell.follows_time) {
             *value = now_ms as i32;
         }
-        self.advance_pulses(now_ms.wrapping_mul(1000));
+        self.count_pulses(hal, now_ms.wrapping_mul(1000));
     }
 
     fn take_interrupts(&mut self, hal: &mut dyn Hal) {

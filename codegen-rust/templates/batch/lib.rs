@@ -108,7 +108,7 @@ fn answer(
             program.scan(hal, now_ms, next(words)?);
         }
         "edge" => program.input_edge(next(words)?, next::<i64>(words)? != 0),
-        "tick" => program.tick(next(words)?),
+        "tick" => program.tick(hal, next(words)?),
         "interrupts" => program.take_interrupts(hal),
         "out" => return value(program.output(next(words)?)),
         "pulses" => return value(program.pulses_sent(next(words)?)),

@@ -9,6 +9,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
 use crate::pulse::Train;
+use crate::pulse_side;
 use crate::special::M_COMPLETE;
 use crate::wiring::{Clear, Ramps, Wiring};
 
@@ -48,7 +49,9 @@ pub(super) fn held(cx: &mut Cx, instruction: impl FnOnce(&mut Cx) -> Done) -> Do
         }
     }
     cx.hal().hold_pulses(true);
+    pulse_side::take(cx.plc, *cx.hal.get_mut());
     let done = instruction(cx);
+    pulse_side::give(cx.plc, *cx.hal.get_mut());
     cx.hal().hold_pulses(false);
     done
 }

@@ -72,7 +72,7 @@ impl Engine for Interpreter<'_> {
                 Answer::Ok
             }
             Request::Tick(now_ms) => {
-                machine.tick(now_ms);
+                machine.tick(hal, now_ms);
                 Answer::Ok
             }
             Request::Interrupts => {

@@ -186,7 +186,7 @@ impl Simulation<'_> {
     /// A millisecond between two scans.
     fn millisecond(&mut self) -> std::result::Result<(), Failure> {
         self.now_ms += 1;
-        self.machine.tick(self.now_ms as u32);
+        self.machine.tick(&mut self.hal, self.now_ms as u32);
         self.apply_settings()?;
         self.machine.take_interrupts(&mut self.hal);
         let Some(plant) = &mut self.plant else {
