@@ -77,13 +77,71 @@ fn stepper_in_c() {
         .arg(format!("QEMU_OPTIONS=-d unimp -D {}", log.display()))
         .output()
         .unwrap();
+    check_stepper(&output, &log);
+}
+
+/// The stepper takes as long as in the simulator, and makes all of its steps.
+fn check_stepper(output: &Output, log: &Path) {
     let printed =
         String::from_utf8_lossy(&[&*output.stdout, &*output.stderr].concat()).into_owned();
     assert!(output.status.success(), "{printed}");
-    // As long as the simulator takes.
     assert!(printed.contains("done after 0344 ms"), "{printed}");
     let log = std::fs::read_to_string(log).unwrap();
     assert_eq!(pulses(&log, 11), 1000);
+}
+
+/// Builds an example in Rust, in a folder of its own; the image. `None`: there is no Rust for it, and the test is to be left out.
+fn rust_image(example: &str, program: &Path, build: &Path) -> Option<PathBuf> {
+    let Some(mut cargo) = cargo(TARGET) else {
+        leave_out(&no_rust(TARGET));
+        return None;
+    };
+    let own = [
+        "Cargo.toml",
+        "Cargo.lock",
+        "memory.x",
+        ".cargo/config.toml",
+        "src/main.rs",
+    ];
+    let own = own.map(|file| format!("{example}/{file}"));
+    for file in own.iter().map(String::as_str).chain(["rust/src/board.rs"]) {
+        let to = build.join(file);
+        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+        std::fs::copy(examples().join(file), to).unwrap();
+    }
+    let folder = build.join(example);
+    let emitted = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["build", "--emit", "rust", "-o"])
+        .arg(folder.join("plc"))
+        .arg(program)
+        .output();
+    assert!(emitted.unwrap().status.success());
+    let built = cargo
+        .args(["build", "--release", "--locked", "--features", "demo"])
+        .env("CARGO_TARGET_DIR", build.join("target"))
+        .current_dir(&folder)
+        .output()
+        .unwrap();
+    assert!(
+        built.status.success(),
+        "{}",
+        String::from_utf8_lossy(&built.stderr)
+    );
+    let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+    let name = manifest.split('"').nth(1).expect("it has a name");
+    Some(build.join("target").join(TARGET).join("release").join(name))
+}
+
+/// Runs an image under QEMU.
+fn simulate(image: &Path, options: &[&str]) -> Output {
+    let machine = "-M netduinoplus2 -nographic -icount shift=0,sleep=off -semihosting-config enable=on,target=native";
+    Command::new("qemu-system-arm")
+        .args(machine.split(' '))
+        .args(options)
+        .arg("-kernel")
+        .arg(image)
+        .output()
+        .unwrap()
 }
 
 #[test]
@@ -91,34 +149,23 @@ fn traffic_light_in_rust() {
     if !tools(&["arm-none-eabi-ld", "qemu-system-arm"]) {
         return;
     }
-    let Some(mut cargo) = cargo(TARGET) else {
-        return leave_out(&no_rust(TARGET));
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let from = examples().join("rust");
-    for file in [
-        "Cargo.toml",
-        "Cargo.lock",
-        "memory.x",
-        ".cargo/config.toml",
-        "src/main.rs",
-        "src/board.rs",
-    ] {
-        let to = folder.path().join(file);
-        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
-        std::fs::copy(from.join(file), to).unwrap();
-    }
+    let build = tempfile::tempdir().unwrap();
     let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("../golden/examples/traffic_light.il");
-    let emitted = Command::new(env!("CARGO_BIN_EXE_rungc"))
-        .args(["build", "--emit", "rust", "-o"])
-        .arg(folder.path().join("plc"))
-        .arg(program)
-        .output();
-    assert!(emitted.unwrap().status.success());
-    let output = cargo
-        .args(["run", "--release", "--locked", "--features", "demo"])
-        .env("CARGO_TARGET_DIR", folder.path().join("target"))
-        .current_dir(folder.path())
-        .output();
-    insta::assert_snapshot!("traffic_light", lamps(&output.unwrap()));
+    if let Some(image) = rust_image("rust", &program, build.path()) {
+        insta::assert_snapshot!("traffic_light", lamps(&simulate(&image, &[])));
+    }
+}
+
+#[test]
+fn stepper_in_rust() {
+    if !tools(&["arm-none-eabi-ld", "qemu-system-arm"]) {
+        return;
+    }
+    let build = tempfile::tempdir().unwrap();
+    let program = examples().join("stepper.il");
+    if let Some(image) = rust_image("rust-stepper", &program, build.path()) {
+        let log = build.path().join("log");
+        let output = simulate(&image, &["-d", "unimp", "-D", &log.display().to_string()]);
+        check_stepper(&output, &log);
+    }
 }

@@ -6,6 +6,7 @@ use rungc_codegen_c::{Options, emit};
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
 use rungc_sim::Machine;
+use std::path::Path;
 use std::process::Command;
 
 #[path = "board/rig.rs"]
@@ -153,7 +154,7 @@ int main(void)
 }
 "#;
 
-fn write(module: &Module, path: &std::path::Path) {
+fn write(module: &Module, path: &Path) {
     for file in emit(module, &Options::default()) {
         let path = path.join(&file.path);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writing");
@@ -161,7 +162,7 @@ fn write(module: &Module, path: &std::path::Path) {
     }
 }
 
-fn shell(line: &str, path: &std::path::Path) -> String {
+fn shell(line: &str, path: &Path) -> String {
     let done = Command::new("sh")
         .args(["-c", line])
         .env("CARGO_NET_OFFLINE", "true")
@@ -248,9 +249,13 @@ rungc-rt = { path = \"plc/rungc-rt\" }
 #[test]
 fn emitted_rust_runs_on_the_same_board() {
     let module = module();
-    let folder = tempfile::tempdir().expect("a temporary folder");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("board");
+    // What has not changed is not built again.
     let put = |path: &str, text: &str| {
-        let path = folder.path().join(path);
+        let path = folder.join(path);
+        if std::fs::read_to_string(&path).is_ok_and(|old| old == text) {
+            return;
+        }
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writing");
         std::fs::write(path, text).expect("writing");
     };
@@ -261,11 +266,10 @@ fn emitted_rust_runs_on_the_same_board() {
     put("Cargo.toml", MANIFEST);
     put("src/main.rs", MAIN);
     put("src/rig.rs", include_str!("board/rig.rs"));
-    let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/board");
     for (interrupts, argument) in [(false, ""), (true, "-- interrupts")] {
-        let line = format!("cargo run -q --target-dir {target} {argument}");
+        let line = format!("cargo run -q --target-dir target {argument}");
         let interpreted = rig::run(Machine::new(&module), interrupts);
-        same(&shell(&line, folder.path()), &interpreted.trace);
+        same(&shell(&line, &folder), &interpreted.trace);
     }
 }
 

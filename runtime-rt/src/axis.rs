@@ -101,7 +101,7 @@ impl Axis {
     }
 
     /// What an interrupt is to send; nothing of it has been sent.
-    pub(crate) fn to_be_sent(&self) -> Axis {
+    pub(crate) fn unsent(&self) -> Axis {
         Axis {
             uncounted: 0,
             completed: false,

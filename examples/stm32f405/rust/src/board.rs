@@ -37,14 +37,32 @@ impl Register {
     }
 }
 
-static MILLISECONDS: Mutex<Cell<u32>> = Mutex::new(Cell::new(0));
+/// How often the clock interrupts, in microseconds.
+const TICK_US: u32 = 50;
+
+/// Time since the clock was set up: milliseconds, and microseconds, which wrap sooner.
+static TIME: Mutex<Cell<(u32, u32)>> = Mutex::new(Cell::new((0, 0)));
+
+/// What an interrupt does besides.
+static ON_TICK: Mutex<Cell<Option<fn(u32)>>> = Mutex::new(Cell::new(None));
 
 #[exception]
 fn SysTick() {
-    free(|cs| {
-        let milliseconds = MILLISECONDS.borrow(cs);
-        milliseconds.set(milliseconds.get().wrapping_add(1));
+    static mut PART_US: u32 = 0;
+
+    *PART_US = (*PART_US + TICK_US) % 1000;
+    let (now_us, on_tick) = free(|cs| {
+        let (mut milliseconds, mut microseconds) = TIME.borrow(cs).get();
+        microseconds = microseconds.wrapping_add(TICK_US);
+        if *PART_US == 0 {
+            milliseconds = milliseconds.wrapping_add(1);
+        }
+        TIME.borrow(cs).set((milliseconds, microseconds));
+        (microseconds, ON_TICK.borrow(cs).get())
     });
+    if let Some(on_tick) = on_tick {
+        on_tick(now_us);
+    }
 }
 
 /// Sets up pins and the clock.
@@ -52,7 +70,7 @@ pub fn set_up(clock: &mut SYST) {
     RCC_AHB1ENR.write(RCC_AHB1ENR.read() | 0b1001);
     GPIOD_MODER.write((GPIOD_MODER.read() & 0x003F_FFFF) | 0x5540_0000);
     clock.set_clock_source(SystClkSource::Core);
-    clock.set_reload(CPU_HZ / 1000 - 1);
+    clock.set_reload(CPU_HZ / 1_000_000 * TICK_US - 1);
     clock.clear_current();
     clock.enable_counter();
     clock.enable_interrupt();
@@ -60,7 +78,17 @@ pub fn set_up(clock: &mut SYST) {
 
 /// Milliseconds since the clock was set up.
 pub fn millis() -> u32 {
-    free(|cs| MILLISECONDS.borrow(cs).get())
+    free(|cs| TIME.borrow(cs).get().0)
+}
+
+/// Microseconds since the clock was set up, wrapping; they go on in steps of 50.
+pub fn micros() -> u32 {
+    free(|cs| TIME.borrow(cs).get().1)
+}
+
+/// What is called at each of these steps, in an interrupt, with the time.
+pub fn on_tick(handler: fn(u32)) {
+    free(|cs| ON_TICK.borrow(cs).set(Some(handler)));
 }
 
 /// The button.
