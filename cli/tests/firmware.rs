@@ -478,6 +478,26 @@ fn an_image_sends_pulses() {
     assert_eq!(printed, lines.join("\n"));
 }
 
+/// Three edges of an input interrupt the program, all of them between two scans.
+#[test]
+fn an_image_notes_edges() {
+    if !tools(&["make", "arm-none-eabi-gcc", "qemu-system-arm"]) {
+        return;
+    }
+    let program = b"EI\nLD>= D0 K3\nOUT Y0\nFEND\nI001\nLD M8000\nINC D0\nIRET\nEND\n";
+    let folder = folder(&[("edges.il", program)]);
+    let presses = "X0=1@11ms,X0=0@12ms,X0=1@13ms,X0=0@14ms,X0=1@15ms";
+    let mut build = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    build
+        .args(["build", "edges.il", "--emit", "elf", "-o", "edges.elf"])
+        .args(["--board", &board("stm32f405/board.toml")])
+        .args(["--set", presses, "--for", "50ms"])
+        .current_dir(folder.path());
+    quiet(&build.output().unwrap());
+    let printed = simulated("netduinoplus2", &folder.path().join("edges.elf"));
+    assert_eq!(printed, "      0.020 s  Y000 on");
+}
+
 /// The command line with the cargo of [`tools::cargo`].
 fn with_cargo(cargo: &Command) -> Command {
     let mut rungc = Command::new(env!("CARGO_BIN_EXE_rungc"));

@@ -1,18 +1,23 @@
-/* Gives the next input whose edges the program takes and that stands otherwise than it stood. */
-static bool next_edge(void *context, rungc_edge *edge)
+/* What inputs did whose edges the program takes. */
+static rungc_edges edges;
+
+/* Notes each of them that stands otherwise than it stood. */
+static void note_edges(void)
 {
     static const uint16_t watched[] = {/* WATCHED */};
     static bool were[sizeof watched / sizeof watched[0]];
 
     for (size_t i = 0; i < sizeof watched / sizeof watched[0]; i++) {
         bool on;
-        if (INPUT(context, watched[i], &on) && on != were[i]) {
+        if (INPUT(board.hal.context, watched[i], &on) && on != were[i] && rungc_note_edge(&edges, watched[i], on)) {
             were[i] = on;
-            edge->input = watched[i];
-            edge->on = on;
-            return true;
         }
     }
-    return false;
+}
+
+static bool next_edge(void *context, rungc_edge *edge)
+{
+    (void)context;
+/* NOTE */    return rungc_take_edge(&edges, edge);
 }
 

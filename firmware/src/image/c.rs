@@ -33,6 +33,9 @@ const NOW: &str = "static uint32_t now_us(void *context)
 
 ";
 
+/// What the tick does about edges.
+const NOTE_EDGES: &str = "    note_edges();\n";
+
 /// What a timer's handler of the user's calls.
 const ON_TIMER: &str = "void board_on_timer(void);
 
@@ -116,6 +119,10 @@ fn main(image: &Image) -> String {
     let timer = sends && own("wake_in");
     let now = if own("now_us") { NOW } else { "" };
     let due = if timer { DUE } else { "" };
+    let (note, declared) = match edges(image) {
+        Some(Edges::InTick) => (NOTE_EDGES, "static void note_edges(void);\n\n"),
+        _ => ("", ""),
+    };
     let timers = match (sends, timer) {
         (true, true) => PULSES.to_string(),
         (true, false) => ON_TIMER.replace("/* CALL */", "    PROGRAM_on_timer(&plc, &board);\n"),
@@ -141,8 +148,8 @@ fn main(image: &Image) -> String {
         .replace("/* TICK */", &board.tick_us.to_string())
         .replace("/* SCAN */", &board.scan_us.to_string())
         .replace("/* PROTOTYPES */", &prototypes(image))
-        .replace("/* DUE */", due)
-        .replace("/* NOW */", &format!("{now}{timers}"))
+        .replace("/* DUE */", &format!("{note}{due}"))
+        .replace("/* NOW */", &format!("{declared}{now}{timers}"))
         .replace("/* PINS */", &pins(image))
         .replace("/* SETUP */", &setup(image))
         .replace("/* CONSOLE */", &console(image))
@@ -184,15 +191,42 @@ fn pins(image: &Image) -> String {
     }
     if let Some(function) = input_function(image) {
         text.push_str(&inputs(image));
-        let watched = image.watched();
-        if !watched.is_empty() && !image.board.functions.contains_key("next_edge") {
-            let list: Vec<String> = watched.iter().map(u32::to_string).collect();
+        if let Some(edges) = edges(image) {
+            let list: Vec<String> = image.watched().iter().map(u32::to_string).collect();
+            let note = match edges {
+                Edges::InTick => "",
+                Edges::InPoll => NOTE_EDGES,
+            };
             let edges = EDGES.replace("/* WATCHED */", &list.join(", "));
+            let edges = edges.replace("/* NOTE */", note);
             text.push_str(&edges.replace("INPUT", &function));
         }
     }
     text.push_str(&outputs(image));
     text
+}
+
+/// Where edges of inputs are noted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Edges {
+    /// In the interrupt of the tick, while scans run, too.
+    InTick,
+    /// Between scans: nobody knows whether the board's own function that reads inputs may run in an interrupt.
+    InPoll,
+}
+
+/// Where they are, if the program takes any and the board does not give them itself.
+fn edges(image: &Image) -> Option<Edges> {
+    let functions = &image.board.functions;
+    if image.watched().is_empty() || functions.contains_key("next_edge") {
+        return None;
+    }
+    input_function(image)?;
+    Some(if functions.contains_key("input") {
+        Edges::InPoll
+    } else {
+        Edges::InTick
+    })
 }
 
 /// The function that reads inputs, if there are any.
@@ -347,9 +381,7 @@ fn hal(image: &Image, timer: bool) -> String {
             "set_output" if !board.outputs.is_empty() => Some("write_pin".to_string()),
             "now_us" => Some("now_us".to_string()),
             "hold_pulses" | "wake_in" if timer => Some(field.to_string()),
-            "next_edge" if input_function(image).is_some() && !image.watched().is_empty() => {
-                Some(field.to_string())
-            }
+            "next_edge" if edges(image).is_some() => Some(field.to_string()),
             _ => None,
         };
         let users = board.functions.get(field).cloned();
