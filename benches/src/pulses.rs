@@ -69,7 +69,7 @@ pub fn table(seconds: u32) -> Result<Table> {
     );
     table.row(measure("each millisecond", seconds, |machine, now_ms| {
         machine.scan(&mut NoHal, now_ms, SCAN_MS * 1000);
-        (1..=SCAN_MS).for_each(|ms| machine.tick(now_ms + ms));
+        (1..=SCAN_MS).for_each(|ms| machine.tick(&mut NoHal, now_ms + ms));
     })?);
     table.row(measure("each edge", seconds, |machine, now_ms| {
         let mut pins = Pins(0);
