@@ -242,18 +242,16 @@ impl Generator<'_> {
 
     fn input_edge(&mut self) -> TokenStream {
         let module = self.module;
+        let mut asks = false;
         let edges: Vec<TokenStream> = module
             .functions
             .iter()
             .enumerate()
             .filter_map(|(n, function)| match function.kind {
                 FunctionKind::InputEdge { input, kind } => {
-                    let needs_hal = self.calls.needs_hal.get(n).copied();
-                    // What holds pulses back has the program to itself here.
-                    let hal = needs_hal.unwrap_or(false).then(|| {
-                        let none = self.rt("NoHal");
-                        quote!(, &mut #none)
-                    });
+                    let needs_hal = self.calls.needs_hal.get(n).copied().unwrap_or(false);
+                    asks |= needs_hal;
+                    let hal = needs_hal.then(|| quote!(, hal));
                     let input = Literal::u32_unsuffixed(input);
                     let level = match kind {
                         EdgeKind::Rising => quote!(level),
@@ -268,8 +266,9 @@ impl Generator<'_> {
         if edges.is_empty() {
             return TokenStream::new();
         }
+        let (parameter, hal) = (hal_parameter(asks), self.rt("Hal"));
         quote! {
-            fn input_edge(&mut self, number: u32, level: bool) { #(#edges)* }
+            fn input_edge(&mut self, #parameter: &mut dyn #hal, number: u32, level: bool) { #(#edges)* }
         }
     }
 }

@@ -26,7 +26,7 @@ fn main() {
         let begin = Instant::now();
         let now_ms = (begin - start).as_millis() as u32;
         for line in commands.try_iter() {
-            if set_input(&mut plc, &line).is_none() {
+            if set_input(&mut plc, &mut hal, &line).is_none() {
                 eprintln!("{line}: not an input; type for example X0=1");
             }
         }
@@ -61,7 +61,7 @@ fn commands() -> Receiver<String> {
 }
 
 /// Does what `X12=1` says; `None` if it says nothing of the kind, or the PLC has no such input.
-fn set_input(plc: &mut TYPE, line: &str) -> Option<()> {
+fn set_input(plc: &mut TYPE, hal: &mut VirtualHal, line: &str) -> Option<()> {
     let (name, value) = line.trim().split_once('=')?;
     let number = name.trim().strip_prefix(['X', 'x'])?;
     let number = u32::from_str_radix(number, 8).ok()?;
@@ -71,6 +71,6 @@ fn set_input(plc: &mut TYPE, line: &str) -> Option<()> {
         _ => return None,
     };
     plc.set_bit(Class::X, number, on)?;
-    plc.input_edge(number, on);
+    plc.input_edge(hal, number, on);
     Some(())
 }

@@ -30,7 +30,7 @@ impl Bench<'_> {
     fn input(&mut self, number: u32, on: bool) {
         if self.machine.bit(Class::X, number) != Some(on) {
             self.machine.set_bit(Class::X, number, on);
-            self.machine.input_edge(number, on);
+            self.machine.input_edge(&mut NoHal, number, on);
         }
     }
 

@@ -201,10 +201,10 @@ fn an_interrupt_input_is_followed_by_exactly_its_pulses() {
         for _ in 0..=rng.below(20) {
             bench.run(1 + rng.below(200));
         }
-        bench.machine.input_edge(0, true);
+        bench.machine.input_edge(&mut NoHal, 0, true);
         let from = bench.machine.pulses_sent(0);
         // Shorter than a scan.
-        bench.machine.input_edge(0, false);
+        bench.machine.input_edge(&mut NoHal, 0, false);
         bench.run(1);
         for _ in 0..1000 {
             bench.run(100);
@@ -239,7 +239,7 @@ fn the_origin_is_0_however_pulses_are_driven() {
             machine.pulse_timer(&mut NoHal, now_us);
             if next.is_some_and(|edge| edge <= now_us) {
                 level = !level;
-                machine.input_edge(3, level);
+                machine.input_edge(&mut NoHal, 3, level);
                 next = edges.next();
             }
             now_us += 20;

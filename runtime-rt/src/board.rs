@@ -336,7 +336,7 @@ impl<P: Program, B: Board> Driver<P, B> {
     fn change(&mut self, input: u32, level: bool) {
         // A program that does not look at this X takes notice of its edges all the same.
         let _ = self.program.set_bit(Class::X, input, level);
-        self.program.input_edge(input, level);
+        self.program.input_edge(&mut self.board, input, level);
     }
 
     /// Reads the pins of inputs; unless `all` are wanted, of those that neither interrupts nor counters follow.

@@ -12,8 +12,8 @@ pub trait Program: Plc {
 
     /// Input terminal X `number` goes on or off. Only programs take notice of it that have interrupts, pulse catch, high-speed counters, or
     /// positioning that looks at inputs; others see their inputs as X shows them to a scan. Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
-    fn input_edge(&mut self, number: u32, level: bool) {
-        let _ = (number, level);
+    fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
+        let _ = (hal, number, level);
     }
 
     /// Time goes on: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as those of inputs.

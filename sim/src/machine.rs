@@ -9,7 +9,7 @@ use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeKind, FunctionKind, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
-use rungc_rt::{Axis, Class, Hal, NoHal, Operand, Plc, Program, Pulses, State, Sys};
+use rungc_rt::{Axis, Class, Hal, Operand, Plc, Program, Pulses, State, Sys};
 
 /// How many statements the machine takes a PLC to execute in a millisecond, when virtual time stands still and only their
 /// number can tell that a scan does not end.
@@ -210,10 +210,10 @@ impl Program for Machine<'_> {
         self.sys.end_scan();
     }
 
-    fn input_edge(&mut self, number: u32, level: bool) {
+    fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
         self.restart_watchdog();
         // It holds no loop, so it comes to its end.
-        self.run_function(&mut NoHal, self.entries.edge(number, level));
+        self.run_function(hal, self.entries.edge(number, level));
     }
 
     fn tick(&mut self, hal: &mut dyn Hal, now_ms: u32) {

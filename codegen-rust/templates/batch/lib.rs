@@ -107,7 +107,7 @@ fn answer(
             hal.advance_to(now_ms);
             program.scan(hal, now_ms, next(words)?);
         }
-        "edge" => program.input_edge(next(words)?, next::<i64>(words)? != 0),
+        "edge" => program.input_edge(hal, next(words)?, next::<i64>(words)? != 0),
         "tick" => program.tick(hal, next(words)?),
         "interrupts" => program.take_interrupts(hal),
         "out" => return value(program.output(next(words)?)),

@@ -4,6 +4,7 @@ use super::Code;
 use super::accesses::Access;
 use super::coils::MAX_PLACES;
 use crate::catalogue::Basic;
+use crate::interrupts;
 use crate::runs::is_special;
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
@@ -70,6 +71,7 @@ impl<'a, 'p> Unused<'a, 'p> {
         if access.first.class == DeviceClass::M
             && is_special(access.first.class, access.first.number)
         {
+            self.note_special(access);
             return;
         }
         match basic {
@@ -81,6 +83,17 @@ impl<'a, 'p> Unused<'a, 'p> {
                 self.contacts.push((access.first, access.span))
             }
             _ => {}
+        }
+    }
+
+    /// The table of counts looks at any counter.
+    fn note_special(&mut self, access: &Access) {
+        let table = interrupts::count_rows(self.code.model().id);
+        if table.is_some_and(|table| access.first.number == table.enable) {
+            let counters = CLASSES.iter().zip(&mut self.classes);
+            counters
+                .filter(|(class, _)| **class == DeviceClass::C)
+                .for_each(|(_, counters)| counters.any_read = true);
         }
     }
 

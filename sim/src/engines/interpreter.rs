@@ -68,7 +68,7 @@ impl Engine for Interpreter<'_> {
                 Answer::Ok
             }
             Request::Edge(n, level) => {
-                machine.input_edge(n, level);
+                machine.input_edge(hal, n, level);
                 Answer::Ok
             }
             Request::Tick(now_ms) => {

@@ -217,7 +217,8 @@ impl Simulation<'_> {
             if let Target::Bit(DeviceClass::X, number) = setting.target
                 && self.now_ms > 0
             {
-                self.machine.input_edge(number, setting.value != 0.0);
+                self.machine
+                    .input_edge(&mut self.hal, number, setting.value != 0.0);
             }
         }
         Ok(())

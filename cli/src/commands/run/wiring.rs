@@ -31,7 +31,7 @@ impl Terminals for Wiring<'_, '_> {
     fn change(&mut self, change: Change) -> Result<(), Failure> {
         // The description was held to the model, so the input exists.
         let _ = self.machine.set_bit(Class::X, change.input, change.on);
-        self.machine.input_edge(change.input, change.on);
+        self.machine.input_edge(self.hal, change.input, change.on);
         self.machine.take_interrupts(self.hal);
         match &mut self.recording {
             Some(recording) => recording.edge(change),
