@@ -594,6 +594,10 @@ typedef struct rungc_axis {
      */
     bool completed;
     /**
+     * The program has taken over what an interrupt sent on it, and not given it back yet.
+     */
+    bool taken;
+    /**
      * Whether the pin is on.
      */
     bool on;
