@@ -1,5 +1,4 @@
 /* semihosting.c: a program that reads standard input and writes standard output, on a machine that has neither: its debugger has. */
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -14,10 +13,6 @@ int __wrap_main(void);
 /* What the linker puts around `main`. */
 int __wrap_main(void)
 {
-#ifdef __ARM_FP
-    *(volatile uint32_t *)0xE000ED88u |= 0xFu << 20; /* CPACR: the floating point unit is on */
-    __asm__ volatile("dsb\n\tisb");
-#endif
     initialise_monitor_handles();
     /* Not a call of the debugger for each line: who waits for one has it flushed. */
     setvbuf(stdin, NULL, _IOFBF, BUFFER);
