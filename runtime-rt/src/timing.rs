@@ -24,11 +24,11 @@ pub struct TimerKind {
 pub struct Timer {
     /// Time since the last whole unit, in milliseconds.
     pub part_ms: u32,
-    /// When it was last executed or went on, of a free-running timer.
+    /// When it was last executed or went on, for a free-running timer.
     pub last_ms: u32,
     /// Current value in units.
     pub value: i16,
-    /// Preset that it runs to, of a timer that keeps the one of the start of timing or is free-running.
+    /// Preset taken over at the start of timing, or else the last one.
     pub preset: i16,
     /// Whether its coil was on at the last execution.
     pub coil: bool,
@@ -73,7 +73,7 @@ impl Timer {
     ) -> bool {
         if !drive {
             if !kind.accumulating {
-                self.reset();
+                *self = Timer::default();
             }
             self.coil = false;
             return self.done;
@@ -91,27 +91,26 @@ impl Timer {
         } else {
             elapsed
         };
-        let preset = if kind.latches_preset && self.coil {
+        if !self.coil || !kind.latches_preset {
+            self.preset = preset;
+        }
+        self.coil = true;
+        self.last_ms = now_ms;
+        let preset = if kind.latches_preset {
             self.preset
         } else {
             preset
         };
-        if kind.latches_preset || kind.free_running {
-            self.preset = preset;
-            self.last_ms = now_ms;
-        }
-        self.coil = true;
         if !self.done || kind.overruns {
             let limit = if kind.overruns {
                 i16::MAX
             } else {
                 preset.max(0)
             };
-            let room = (i32::from(limit) - i32::from(self.value)).max(0);
-            let part = self.part_ms.saturating_add(elapsed);
-            let units = (part / unit).min(room.unsigned_abs());
-            self.part_ms = part % unit;
-            self.value = self.value.wrapping_add(units as i16);
+            self.part_ms = self.part_ms.saturating_add(elapsed);
+            let value = i64::from(self.value) + i64::from(self.part_ms / unit);
+            self.part_ms %= unit;
+            self.value = value.min(i64::from(limit.max(self.value))) as i16;
             self.done |= self.value >= preset;
         }
         self.done
