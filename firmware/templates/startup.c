@@ -17,7 +17,11 @@ static void hang(void)
 
 void reset_handler(void)
 {
-/* FPU */    memcpy(&data_start, &data_image, (size_t)((char *)&data_end - (char *)&data_start));
+#ifdef __ARM_FP
+    *(volatile uint32_t *)0xE000ED88u |= 0xFu << 20; /* CPACR: the floating point unit is on */
+    __asm__ volatile("dsb\n\tisb");
+#endif
+    memcpy(&data_start, &data_image, (size_t)((char *)&data_end - (char *)&data_start));
     memset(&bss_start, 0, (size_t)((char *)&bss_end - (char *)&bss_start));
     main();
     hang();

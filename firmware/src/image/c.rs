@@ -14,11 +14,6 @@ const CONSOLE: &str = include_str!("../../templates/console.c");
 const SCRIPT: &str = include_str!("../../templates/script.c");
 const EDGES: &str = include_str!("../../templates/edges.c");
 
-/// What switches the floating point unit on.
-const FPU: &str = "    *(volatile uint32_t *)0xE000ED88u |= 0xFu << 20; /* CPACR: the floating point unit is on */
-    __asm__ volatile(\"dsb\\n\\tisb\");
-";
-
 /// What drives the pins of pulse outputs in the tick.
 const DUE: &str = "    if (armed && (int32_t)(microseconds - due) >= 0) {
         PROGRAM_on_timer(&plc, &board);
@@ -95,14 +90,8 @@ fn startup(image: &Image) -> String {
         let _ = writeln!(prototypes, "void {handler}(void);");
     }
     let count = 16 + last.map_or(0, |last| last + 1);
-    let fpu = if image.board.target.has_fpu() {
-        FPU
-    } else {
-        ""
-    };
     let text = STARTUP
         .replace("/* PROTOTYPES */\n", &format!("{prototypes}\n"))
-        .replace("/* FPU */", fpu)
         .replace("/* COUNT */", &count.to_string())
         .replace("/* VECTORS */", &vectors);
     banner(
