@@ -162,7 +162,7 @@ const NETWORK: &str = "network cards are not implemented";
 const RAW: &str = "analog channels show the raw values of the host, each scan";
 const LATCHES: &str = "the latched ranges are the manual's and do not change";
 const MODULES: &str = "which modules are there is the host's affair";
-const MOTION: &str = "axis motion is not implemented yet";
+const MODES: &str = "an output does what the program uses it for, whatever its mode";
 const MAKER: &str = "it serves the maker's tools only";
 
 /// Writes a table of special devices, a row a line:

@@ -1,6 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7). Many numbers mean something else than on the other models.
 
-use super::{HOST, MAKER, MOTION, POWER, SERIAL, Special, specials};
+use super::{HOST, MAKER, MODES, POWER, SERIAL, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -74,8 +74,8 @@ pub(super) const HM: &[Special] = specials! {
     D 8125 rw 7020 inert(SERIAL) "UART1: first D register it occupies";
     D 8129 rw 7100 inert(SERIAL) "first D register occupied by extensions";
     D 8160-8167 r 0 scan "count of rising edges of X000–007 (up to 5 kHz)";
-    D 8180-8185 rw 0 inert(MOTION) "output mode of Y000..Y005: 0 PLC, 1 high-speed event output, 2 motion axis pulse/direction";
-    D 8188-8195 rw 0 inert(MOTION) "output mode of Y010..Y017, values as D8180";
+    D 8180-8185 rw 0 inert(MODES) "output mode of Y000..Y005: 0 PLC, 1 high-speed event output, 2 motion axis pulse/direction";
+    D 8188-8195 rw 0 inert(MODES) "output mode of Y010..Y017, values as D8180";
     D 8200 rw 0 inert(MAKER) "internal function number";
     D 8201 rw 0 inert(MAKER) "internal entry parameter address";
     D 8202 rw 0 inert(MAKER) "internal exit parameter address";
