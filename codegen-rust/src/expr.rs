@@ -49,7 +49,8 @@ impl Code {
         }
     }
 
-    fn binary(op: &'static str, a: Code, b: Code) -> Self {
+    /// Two operands of an operator.
+    pub fn binary(op: &'static str, a: Code, b: Code) -> Self {
         let sign: TokenStream = match op {
             "&" => quote!(&),
             "|" => quote!(|),
@@ -243,7 +244,13 @@ impl Generator<'_> {
     fn temp(&mut self, temp: TempId) -> Code {
         match self.inlined.take_if(|(inlined, _)| *inlined == temp) {
             Some((_, edge)) => Code::atom(edge),
-            None => Code::atom(self.temp_name(temp).into_token_stream()),
+            None => {
+                let name = self.temp_name(temp).into_token_stream();
+                match self.levels.contains(&temp) {
+                    true => Self::is_on(name),
+                    false => Code::atom(name),
+                }
+            }
         }
     }
 
@@ -313,18 +320,27 @@ impl Generator<'_> {
         }
     }
 
+    /// Where a bit is stored; `None` if it is not, or if an index leads to it.
+    pub fn bit_cell(&self, place: Place) -> Option<TokenStream> {
+        match place.index {
+            Some(_) => self.cell_of_round(place),
+            None => self.storage.bit(&quote!(plc), place.class, place.number),
+        }
+    }
+
     fn read_bit(&mut self, place: Place) -> Code {
-        let plc = quote!(plc);
-        if let Some(cell) = self.cell_of_round(place) {
-            return Code::atom(cell);
+        if let Some(level) = self.level_cell(place) {
+            return Self::is_on(level);
         }
-        if place.index.is_some() {
-            let (class, number) = self.indexed(place);
-            return Code::atom(quote!(plc.bit_at(#class, #number)));
+        match self.bit_cell(place) {
+            Some(cell) => Code::atom(cell),
+            None if place.index.is_some() => {
+                let (class, number) = self.indexed(place);
+                Code::atom(quote!(plc.bit_at(#class, #number)))
+            }
+            // A device that is not stored is a special one nobody looks at, which reads as 0.
+            None => Code::atom(quote!(false)),
         }
-        // A device that is not stored is a special one nobody looks at, which reads as 0.
-        let cell = self.storage.bit(&plc, place.class, place.number);
-        Code::atom(cell.unwrap_or_else(|| quote!(false)))
     }
 
     /// Value of a word device.
@@ -419,11 +435,7 @@ impl Generator<'_> {
         let field = self.storage.find(place.class, place.number)?;
         let offset = place.number - field.area.first;
         let is_bits = field.elem == crate::storage::Elem::Bit;
-        if !field.area.array
-            || field.columns().is_some()
-            || !is_bits
-            || offset + count > field.area.count
-        {
+        if !field.area.array || !is_bits || offset + count > field.area.count {
             return None;
         }
         let name = &field.name;

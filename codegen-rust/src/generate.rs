@@ -93,6 +93,12 @@ pub struct Generator<'m> {
     pub assigned: HashSet<TempId>,
     /// An edge that stands for its temporary in the next statement.
     pub inlined: Option<(TempId, TokenStream)>,
+    /// Temporaries that are numbers, 0 or 1, since they are made of bits that are.
+    pub levels: HashSet<TempId>,
+    /// Devices of which the loop over rungs around the statement being written has a number of its own.
+    pub constants: HashSet<(DeviceClass, u32)>,
+    /// Whether the statement being written is in a loop over rungs.
+    pub in_rounds: bool,
     /// Names of functions already given.
     names: HashSet<String>,
     /// Expressions that have a `let` in the statement being written.
@@ -119,6 +125,9 @@ impl<'m> Generator<'m> {
             jumps: Vec::new(),
             assigned: HashSet::new(),
             inlined: None,
+            levels: HashSet::new(),
+            constants: HashSet::new(),
+            in_rounds: false,
             names: HashSet::new(),
             hoisted: HashMap::new(),
             device_comments: module

@@ -1,8 +1,8 @@
 //! Rust from rungc's IR: a `no_std` crate without `unsafe`, made with quote, laid out by prettyplease.
 //!
 //! [`emit`] makes a crate of one program; [`batch`] one of many, for tests. How a program becomes Rust: `storage` names the fields,
-//! `analysis` finds where temporaries live, `function` splits what is long, `stmt`, `coils` and `expr` write statements and expressions,
-//! `machine` the struct and its implementations, `format` lays out and places comments, `files` puts it together.
+//! `analysis` finds where temporaries live, `function` splits what is long, `stmt`, `coils`, `expr` and `levels` write statements and
+//! expressions, `machine` the struct and its implementations, `format` lays out and places comments, `files` puts it together.
 //!
 //! Layout takes about as long as everything else together; it is made function by function, so time is linear in the program's
 //! length.
@@ -15,6 +15,7 @@ mod files;
 mod format;
 mod function;
 mod generate;
+mod levels;
 mod machine;
 mod places;
 mod stmt;

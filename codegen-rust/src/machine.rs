@@ -71,6 +71,9 @@ impl Generator<'_> {
                 let second = area.class.number(area.first + 1);
                 text.push_str(&format!(" in {} columns, [1][0] is {second}", grid.columns));
             }
+            if field.elem == Elem::Level {
+                text.push_str(", 0 or 1");
+            }
             text.push_str(latched);
             let named = (area.first..=field.last())
                 .filter_map(|n| Some((n, self.device_comment(area.class, n)?)))
@@ -94,7 +97,7 @@ impl Generator<'_> {
 
     fn field_type(&mut self, field: &Field) -> TokenStream {
         let ty = match field.elem {
-            Elem::Bit | Elem::Word => format_ident!("{}", field.elem.type_name()),
+            Elem::Bit | Elem::Level | Elem::Word => format_ident!("{}", field.elem.type_name()),
             _ => self.rt(field.elem.type_name()),
         };
         dimensions(field, quote!(#ty))
@@ -104,7 +107,7 @@ impl Generator<'_> {
     fn zero(&mut self, field: &Field) -> TokenStream {
         let zero = match field.elem {
             Elem::Bit => quote!(false),
-            Elem::Word => quote!(0),
+            Elem::Level | Elem::Word => quote!(0),
             _ => {
                 let ty = self.rt(field.elem.type_name());
                 quote!(#ty::new())
@@ -252,7 +255,7 @@ impl Generator<'_> {
                 let [first, end] = [part.first, part.first + part.count]
                     .map(|number| number_literal(part.class, number));
                 let cell = Self::matched(field);
-                out.extend(quote!(for number in #first..#end { #cell = false; }));
+                out.extend(quote!(for number in #first..#end { #cell = 0; }));
             }
         }
         out
@@ -297,7 +300,7 @@ impl Generator<'_> {
     fn each_timer_and_counter(&self, member: &TokenStream) -> TokenStream {
         let fields = self.storage.fields.iter();
         fields
-            .filter(|field| !matches!(field.elem, Elem::Bit | Elem::Word))
+            .filter(|field| !matches!(field.elem, Elem::Bit | Elem::Level | Elem::Word))
             .map(|field| {
                 let name = &field.name;
                 if field.area.array {
@@ -611,6 +614,15 @@ impl Generator<'_> {
         let fields = self.storage.fields.clone();
         let mut out = TokenStream::new();
         for field in &fields {
+            let pattern = self.pattern(field, access != Access::Counter32);
+            let cell = Self::matched(field);
+            if (access, field.elem) == (Access::Bit, Elem::Level) {
+                out.extend(match set {
+                    true => quote!(#pattern => #cell = u8::from(value),),
+                    false => quote!(#pattern => #cell != 0,),
+                });
+                continue;
+            }
             let part = match (access, field.elem) {
                 (Access::Bit, Elem::Bit) | (Access::Word, Elem::Word) => TokenStream::new(),
                 (Access::Bit, Elem::Timer | Elem::Counter16 | Elem::Counter32) => quote!(.done),
@@ -618,8 +630,6 @@ impl Generator<'_> {
                 | (Access::Counter32, Elem::Counter32) => quote!(.value),
                 _ => continue,
             };
-            let pattern = self.pattern(field, access != Access::Counter32);
-            let cell = Self::matched(field);
             out.extend(if set {
                 quote!(#pattern => #cell #part = value,)
             } else {
@@ -654,7 +664,7 @@ impl Generator<'_> {
         let fields = self.storage.fields.clone();
         let mut out = TokenStream::new();
         for field in &fields {
-            if !matches!(field.elem, Elem::Bit | Elem::Word) {
+            if !matches!(field.elem, Elem::Bit | Elem::Level | Elem::Word) {
                 let pattern = self.pattern(field, true);
                 let cell = Self::matched(field);
                 out.extend(quote!(#pattern => #cell.reset(),));

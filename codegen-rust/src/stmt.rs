@@ -4,7 +4,7 @@ use crate::analysis::{self, Declared};
 use crate::coils::{OUT_COUNTER, OUT_TIMER};
 use crate::expr::{Code, Shape, literal32};
 use crate::generate::{Generator, function_name};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Delimiter, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rungc_ir::node::{Arg, CellId, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
 use rungc_syntax::DeviceClass;
@@ -215,8 +215,12 @@ impl Generator<'_> {
             false => TokenStream::new(),
         };
         let rounds = Literal::u32_unsuffixed(count);
+        let constants = self.constants(body);
+        self.in_rounds = true;
         let body = self.statements(body, 0..body.len());
-        quote!(#comment for i in 0..#rounds { #body })
+        self.in_rounds = false;
+        self.constants.clear();
+        quote!(#comment #constants for i in 0..#rounds { #body })
     }
 
     fn network(&mut self, n: u32) -> TokenStream {
@@ -248,7 +252,10 @@ impl Generator<'_> {
         if self.temps.count(temp).read == 0 {
             return TokenStream::new();
         }
-        let value = self.typed(value);
+        let value = match self.assigns_level(temp, value) {
+            true => self.level(value),
+            false => self.typed(value),
+        };
         self.bind(temp, value.tokens)
     }
 
@@ -280,7 +287,7 @@ impl Generator<'_> {
             } else {
                 None
             };
-            let joined = match (op, rest) {
+            let joined = match (op, rest.map(without_parentheses)) {
                 ("&", Some(rest)) => Some(quote!(#target &= #rest;)),
                 ("|", Some(rest)) => Some(quote!(#target |= #rest;)),
                 ("^", Some(rest)) => Some(quote!(#target ^= #rest;)),
@@ -296,16 +303,17 @@ impl Generator<'_> {
     }
 
     fn write_bit(&mut self, place: Place, value: ExprId) -> TokenStream {
-        let value = self.expr(value);
-        if let Some(cell) = self.cell_of_round(place) {
-            return quote!(#cell = #value;);
-        }
-        if place.index.is_some() {
-            let (class, number) = self.indexed(place);
-            return quote!(plc.set_bit_at(#class, #number, #value););
-        }
-        match self.storage.bit(&quote!(plc), place.class, place.number) {
+        let cell = self.bit_cell(place);
+        let value = match self.storage.is_level(place.class, place.number) {
+            true if cell.is_some() => self.level(value),
+            _ => self.expr(value),
+        };
+        match cell {
             Some(cell) => self.assign(cell, value, place),
+            None if place.index.is_some() => {
+                let (class, number) = self.indexed(place);
+                quote!(plc.set_bit_at(#class, #number, #value);)
+            }
             // A special device that nobody looks at.
             None => quote!(let _ = #value;),
         }
@@ -646,6 +654,17 @@ impl Generator<'_> {
             Some(index) => self.offset(place.number as i32, index),
         };
         (class, number)
+    }
+}
+
+/// An operand as it stands alone.
+fn without_parentheses(operand: &TokenStream) -> TokenStream {
+    let mut tokens = operand.clone().into_iter();
+    match (tokens.next(), tokens.next()) {
+        (Some(TokenTree::Group(group)), None) if group.delimiter() == Delimiter::Parenthesis => {
+            group.stream()
+        }
+        _ => operand.clone(),
     }
 }
 

@@ -11,6 +11,8 @@ use rungc_syntax::DeviceClass;
 pub enum Elem {
     /// `bool`.
     Bit,
+    /// `u8`, 0 or 1: a bit in an array of columns.
+    Level,
     /// `i16`.
     Word,
     /// `rungc_rt::Timer`.
@@ -26,6 +28,7 @@ impl Elem {
     pub fn type_name(self) -> &'static str {
         match self {
             Elem::Bit => "bool",
+            Elem::Level => "u8",
             Elem::Word => "i16",
             Elem::Timer => "Timer",
             Elem::Counter16 => "Counter16",
@@ -91,6 +94,7 @@ impl Field {
             latched: parts.iter().all(|part| part.latched),
         };
         Field {
+            elem: Elem::Level,
             grid: Some(grid),
             parts,
             ..Field::new(area)
@@ -208,11 +212,17 @@ impl Storage {
         Some(quote!(plc.#name #column [#row]))
     }
 
-    /// Where its state as a bit is.
+    /// Whether it is stored as a number, 0 or 1.
+    pub fn is_level(&self, class: DeviceClass, number: u32) -> bool {
+        let field = self.find(class, number);
+        field.is_some_and(|field| field.elem == Elem::Level)
+    }
+
+    /// Where its state as a bit is: a number if [`Storage::is_level`].
     pub fn bit(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
         let cell = self.cell(plc, class, number)?;
         match Elem::of(class, number) {
-            Elem::Bit => Some(cell),
+            Elem::Bit | Elem::Level => Some(cell),
             Elem::Word => None,
             Elem::Timer | Elem::Counter16 | Elem::Counter32 => Some(quote!(#cell.done)),
         }
@@ -223,7 +233,7 @@ impl Storage {
         let cell = self.cell(plc, class, number)?;
         match Elem::of(class, number) {
             Elem::Word => Some(cell),
-            Elem::Bit | Elem::Counter32 => None,
+            Elem::Bit | Elem::Level | Elem::Counter32 => None,
             Elem::Timer | Elem::Counter16 => Some(quote!(#cell.value)),
         }
     }
