@@ -1,9 +1,8 @@
 //! What can be wrong with a line, and how it is said.
 
-use chumsky::DefaultExpected;
-use chumsky::error::{Error, LabelError};
+use chumsky::input::{Checkpoint, Cursor, Input};
+use chumsky::inspector::Inspector;
 use chumsky::span::SimpleSpan;
-use chumsky::util::MaybeRef;
 use rungc_syntax::diag::did_you_mean;
 use rungc_syntax::{DeviceClass, Diagnostic, Span, codes};
 
@@ -61,15 +60,38 @@ impl Fault {
     }
 }
 
-impl<'s> Error<'s, &'s str> for Fault {}
+/// What the grammar has found wrong so far. What an alternative finds that does not lead on is forgotten.
+#[derive(Default)]
+pub(super) struct Faults(Vec<Fault>);
 
-impl<'s> LabelError<'s, &'s str, DefaultExpected<'s, char>> for Fault {
-    fn expected_found<E: IntoIterator<Item = DefaultExpected<'s, char>>>(
-        _: E,
-        _: Option<MaybeRef<'s, char>>,
-        span: SimpleSpan,
-    ) -> Self {
-        Fault::new(span, Kind::Line)
+impl Faults {
+    /// Adds a finding.
+    pub fn push(&mut self, fault: Fault) {
+        self.0.push(fault);
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Takes all of them.
+    pub fn drain(&mut self) -> impl Iterator<Item = Fault> {
+        self.0.drain(..)
+    }
+}
+
+impl<'s, I: Input<'s>> Inspector<'s, I> for Faults {
+    type Checkpoint = usize;
+
+    fn on_token(&mut self, _: &I::Token) {}
+
+    fn on_save<'p>(&self, _: &Cursor<'s, 'p, I>) -> usize {
+        self.0.len()
+    }
+
+    fn on_rewind<'p>(&mut self, mark: &Checkpoint<'s, 'p, I, usize>) {
+        self.0.truncate(*mark.inspector());
     }
 }
 

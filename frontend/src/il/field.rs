@@ -1,18 +1,16 @@
 //! Fields of a table read with the grammar of lists.
 
-use super::fault::Fault;
+use super::fault::Faults;
 use super::fold::Folded;
 use super::grammar;
-use chumsky::Parser;
 use rungc_syntax::{Diagnostics, Operand, Span};
 use smol_str::SmolStr;
 
 /// Reads a field that names an instruction or a label; `start` is its place in the source.
 pub(crate) fn mnemonic(field: &str, start: u32, diagnostics: &mut Diagnostics) -> Option<SmolStr> {
     let folded = fold(field);
-    let (mnemonic, faults) = grammar::mnemonic_field()
-        .parse(&folded.text)
-        .into_output_errors();
+    let mut faults = Faults::default();
+    let mnemonic = grammar::parse(&grammar::mnemonic_field(), &folded.text, &mut faults);
     report(faults, &folded, start, diagnostics);
     mnemonic.flatten()
 }
@@ -25,14 +23,11 @@ pub(crate) fn operand(
     diagnostics: &mut Diagnostics,
 ) -> Option<Operand> {
     let folded = fold(field);
-    let (operand, faults) = if characters {
-        grammar::text_field()
-            .parse(&folded.text)
-            .into_output_errors()
+    let mut faults = Faults::default();
+    let operand = if characters {
+        grammar::parse(&grammar::text_field(), &folded.text, &mut faults)
     } else {
-        grammar::operand_field()
-            .parse(&folded.text)
-            .into_output_errors()
+        grammar::parse(&grammar::operand_field(), &folded.text, &mut faults)
     };
     report(faults, &folded, start, diagnostics);
     operand.flatten().map(|mut operand| {
@@ -54,10 +49,10 @@ fn place(folded: &Folded, start: u32) -> impl Fn(Span) -> Span {
     }
 }
 
-fn report(faults: Vec<Fault>, folded: &Folded, start: u32, diagnostics: &mut Diagnostics) {
+fn report(mut faults: Faults, folded: &Folded, start: u32, diagnostics: &mut Diagnostics) {
     diagnostics.extend(
         faults
-            .into_iter()
+            .drain()
             .map(|f| f.diagnostic(&folded.text, place(folded, start))),
     );
 }

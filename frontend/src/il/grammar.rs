@@ -1,12 +1,16 @@
 //! The grammar of one line. It reads half-width text; places are byte offsets within the line.
 
-use super::fault::{Fault, Kind};
+use super::fault::{Fault, Faults, Kind};
 use chumsky::container::Container;
+use chumsky::error::EmptyErr;
+use chumsky::input::MapExtra;
 use chumsky::prelude::*;
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Span};
 use smol_str::{SmolStr, ToSmolStr};
 
-type Extra = extra::Err<Fault>;
+/// No line fails, so nobody asks where the grammar would have liked to go on: the error type is empty, which makes alternatives cheap.
+/// What is wrong with a line goes into the state.
+type Extra = extra::Full<EmptyErr, Faults, ()>;
 
 /// What stands on one line.
 #[derive(Debug)]
@@ -52,6 +56,12 @@ impl Container<Option<Operand>> for Operands {
             (None, Some(_)) => {}
         }
     }
+}
+
+/// Says what is wrong with what a parser has read.
+fn report<'s>(e: &mut MapExtra<'s, '_, &'s str, Extra>, kind: Kind) {
+    let fault = Fault::new(e.span(), kind);
+    e.state().push(fault);
 }
 
 fn span(span: SimpleSpan) -> Span {
@@ -135,10 +145,10 @@ fn device<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
         .then_ignore(boundary());
     let numbered = class()
         .then(digits())
-        .validate(|(class, digits), e, emitter| {
+        .map_with(|(class, digits), e| {
             let (number, fault) = number(class, digits);
             if let Some(kind) = fault {
-                emitter.emit(Fault::new(e.span(), kind));
+                report(e, kind);
             }
             Device { class, number }
         });
@@ -160,11 +170,11 @@ fn index<'s>() -> impl Parser<'s, &'s str, Option<Index>, Extra> + Copy {
     any()
         .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
         .then(digits().or_not())
-        .validate(|(c, digits), e, emitter| {
+        .map_with(|(c, digits), e| {
             let class = index_class(c);
             let (number, fault) = digits.map_or((0, None), |digits| number(class, digits));
             if let Some(kind) = fault {
-                emitter.emit(Fault::new(e.span(), kind));
+                report(e, kind);
             }
             Index { class, number }
         })
@@ -182,14 +192,14 @@ fn device_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
     device()
         .then(bit.or_not())
         .then(index())
-        .validate(|((device, bit), index), e, emitter| {
+        .map_with(|((device, bit), index), e| {
             let Some(bit) = bit else {
                 return OperandKind::Device(device, index);
             };
             let bit = match u8::from_str_radix(bit, 16) {
                 Ok(bit @ 0..=15) => bit,
                 _ => {
-                    emitter.emit(Fault::new(e.span(), Kind::BitNumber));
+                    report(e, Kind::BitNumber);
                     0
                 }
             };
@@ -205,8 +215,8 @@ fn k_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
         .ignore_then(amount)
         .then(group.or_not())
         .then(index())
-        .validate(|((amount, group), index), e, emitter| {
-            let mut fault = |kind| emitter.emit(Fault::new(e.span(), kind));
+        .map_with(|((amount, group), index), e| {
+            let mut fault = |kind| report(e, kind);
             let Some(device) = group else {
                 let value = amount.parse::<i32>().unwrap_or_else(|_| {
                     fault(Kind::Decimal);
@@ -239,9 +249,9 @@ fn h_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
     letter('H')
         .ignore_then(hex)
         .then(index())
-        .validate(|(hex, index), e, emitter| {
+        .map_with(|(hex, index), e| {
             let value = u32::from_str_radix(hex, 16).unwrap_or_else(|_| {
-                emitter.emit(Fault::new(e.span(), Kind::Hex));
+                report(e, Kind::Hex);
                 0
             });
             OperandKind::Hex(value.into(), index)
@@ -264,13 +274,13 @@ fn e_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
     letter('E')
         .ignore_then(mantissa.to_slice())
         .then(exponent.or_not())
-        .validate(|(mantissa, exponent): (&str, Option<&str>), e, emitter| {
+        .map_with(|(mantissa, exponent): (&str, Option<&str>), e| {
             let value = match exponent {
                 None => mantissa.parse::<f32>(),
                 Some(exponent) => format!("{mantissa}e{exponent}").parse(),
             };
             OperandKind::Float(value.ok().filter(|v| v.is_finite()).unwrap_or_else(|| {
-                emitter.emit(Fault::new(e.span(), Kind::Float));
+                report(e, Kind::Float);
                 0.0
             }))
         })
@@ -303,10 +313,10 @@ fn buffer_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
         .then_ignore(just('\\'))
         .then(part('G'))
         .then(index())
-        .validate(|((module, address), index), e, emitter| {
+        .map_with(|((module, address), index), e| {
             let mut number = |digits: &str| {
                 digits.parse().unwrap_or_else(|_| {
-                    emitter.emit(Fault::new(e.span(), Kind::DeviceNumber));
+                    report(e, Kind::DeviceNumber);
                     0
                 })
             };
@@ -340,10 +350,10 @@ fn operand<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
         text_operand(),
         buffer_operand(),
     ));
-    let unreadable = word().validate(|word: &str, e, emitter| {
+    let unreadable = word().map_with(|word: &str, e| {
         let open = word.starts_with('"') && word.matches('"').count() % 2 == 1;
         let kind = if open { Kind::Unclosed } else { Kind::Operand };
-        emitter.emit(Fault::new(e.span(), kind));
+        report(e, kind);
         None
     });
     choice((placed(readable), unreadable))
@@ -448,9 +458,9 @@ fn body<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
 
 fn step<'s>() -> impl Parser<'s, &'s str, (Option<u32>, Span), Extra> + Copy {
     let behind = choice((boundary(), one_of(":.)").ignored()));
-    let number = digits().validate(|digits: &str, e, emitter| {
+    let number = digits().map_with(|digits: &str, e| {
         let step = digits.parse().unwrap_or_else(|_| {
-            emitter.emit(Fault::new(e.span(), Kind::Step));
+            report(e, Kind::Step);
             0
         });
         (Some(step), span(e.span()))
@@ -484,10 +494,11 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line, Extra> + Copy {
         .repeated()
         .at_least(1)
         .to_slice()
-        .validate(|text: &str, e, emitter| {
-            let whole: SimpleSpan = e.span();
+        .map_with(|text: &str, e: &mut MapExtra<'s, '_, &'s str, Extra>| {
+            let whole = e.span();
             let end = whole.start + text.trim_end().len();
-            emitter.emit(Fault::new((whole.start..end).into(), Kind::Line));
+            let fault = Fault::new((whole.start..end).into(), Kind::Line);
+            e.state().push(fault);
             None
         });
     let content = choice((body().map(Some), nonsense)).or_not();
@@ -499,10 +510,10 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line, Extra> + Copy {
         .then(content)
         .then_ignore(space())
         .then(comment.or_not())
-        .validate(|((((step, place), label), content), comment), _, emitter| {
+        .map_with(|((((step, place), label), content), comment), e| {
             if step.is_some() && label.is_none() && content.is_none() {
                 let place = place.start as usize..place.end as usize;
-                emitter.emit(Fault::new(place.into(), Kind::Bare));
+                e.state().push(Fault::new(place.into(), Kind::Bare));
             }
             Line {
                 step,
@@ -515,7 +526,18 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line, Extra> + Copy {
 
 /// An operand that fills a whole field of a table.
 pub(super) fn operand_field<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
-    space().ignore_then(operand()).then_ignore(space())
+    let stray = any()
+        .map_with(|_, e| report(e, Kind::Line))
+        .then_ignore(any().repeated());
+    space()
+        .ignore_then(operand().or_not())
+        .then_ignore(space())
+        .then(stray.or_not())
+        .filter(|(operand, stray)| operand.is_some() || stray.is_some())
+        .map(|(operand, stray)| match stray {
+            Some(()) => None,
+            None => operand.flatten(),
+        })
 }
 
 /// The characters that ASC takes, filling a whole field of a table.
@@ -543,11 +565,24 @@ pub(super) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, 
         .repeated()
         .at_least(1)
         .to_slice()
-        .validate(|_, e, emitter| {
-            emitter.emit(Fault::new(e.span(), Kind::Line));
+        .map_with(|_, e| {
+            report(e, Kind::Line);
             None
         });
     choice((readable.then_ignore(space()).then_ignore(end()), unreadable))
+}
+
+/// What a parser makes of a text; what is wrong with that comes behind `faults`.
+pub(super) fn parse<'s, T>(
+    parser: &impl Parser<'s, &'s str, T, Extra>,
+    text: &'s str,
+    faults: &mut Faults,
+) -> Option<T> {
+    let output = parser.parse_with_state(text, faults).into_output();
+    if output.is_none() {
+        faults.push(Fault::new((0..text.len()).into(), Kind::Line));
+    }
+    output
 }
 
 /// A device by itself.

@@ -16,8 +16,7 @@ mod grammar;
 
 use crate::Read;
 use crate::text::{append, clean};
-use chumsky::Parser;
-use fault::Fault;
+use fault::Faults;
 use fold::Folded;
 use rungc_syntax::{Device, Diagnostics, Instr, Program, Source, SourceKind, Span};
 use smol_str::{SmolStr, ToSmolStr};
@@ -34,7 +33,7 @@ pub fn read_text(name: &str, text: &str) -> Read {
     for whole in text.split_inclusive('\n') {
         let line = whole.trim_end_matches(['\r', '\n']);
         if line.is_ascii() {
-            let found = grammar.parse(line).into_output_errors();
+            let found = grammar::parse(&grammar, line, &mut reader.faults);
             reader.take(line, line, found, |span| {
                 Span::new(span.start + start, span.end + start)
             });
@@ -56,6 +55,8 @@ struct Reader {
     program: Program,
     diagnostics: Diagnostics,
     folded: Folded,
+    /// What is wrong with the line at hand.
+    faults: Faults,
     /// Comment lines that wait for the instruction below them.
     statement: Option<SmolStr>,
 }
@@ -65,7 +66,7 @@ impl Reader {
     fn wide_line(&mut self, line: &str, start: u32) {
         let mut folded = std::mem::take(&mut self.folded);
         folded.fold(line);
-        let found = grammar::line().parse(&folded.text).into_output_errors();
+        let found = grammar::parse(&grammar::line(), &folded.text, &mut self.faults);
         self.take(line, &folded.text, found, |span| {
             let (first, last) = folded.original(span.start, span.end);
             Span::new(first + start, last + start)
@@ -78,12 +79,12 @@ impl Reader {
         &mut self,
         original: &str,
         folded: &str,
-        (line, faults): (Option<grammar::Line>, Vec<Fault>),
+        line: Option<grammar::Line>,
         place: impl Fn(Span) -> Span,
     ) {
         let before = self.program.instrs.len();
-        let faulty = !faults.is_empty();
-        for fault in faults {
+        let faulty = !self.faults.is_empty();
+        for fault in self.faults.drain() {
             self.diagnostics.push(fault.diagnostic(folded, &place));
         }
         if let Some(line) = line {
@@ -173,10 +174,11 @@ impl Reader {
 pub(crate) fn device(text: &str) -> Option<Device> {
     let mut folded = Folded::default();
     folded.fold(text);
-    grammar::device_field()
-        .parse(&folded.text)
-        .into_result()
-        .ok()
+    grammar::parse(
+        &grammar::device_field(),
+        &folded.text,
+        &mut Faults::default(),
+    )
 }
 
 /// Whether a mnemonic is a label: a pointer P or I.
