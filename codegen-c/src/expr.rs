@@ -1,10 +1,16 @@
 //! Expressions as C.
 
+use crate::text;
 use crate::writer::Writer;
 use rungc_ir::node::{BinOp, CmpOp, Expr, ExprId, Place, SysValue, Ty};
 use rungc_ir::runs::is_counter32;
 use rungc_syntax::DeviceClass;
+use smallvec::SmallVec;
 use std::fmt::Write;
+use std::ops::Range;
+
+/// Operands of a chain; most are short.
+type Operands = SmallVec<[ExprId; 8]>;
 
 /// What stands around an expression: decides on parentheses and casts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -82,18 +88,28 @@ fn function(op: BinOp) -> &'static str {
 
 /// Whether an expression calls a function.
 fn calls_function(text: &str) -> bool {
-    text.as_bytes()
-        .windows(2)
-        .any(|pair| pair[1] == b'(' && (pair[0].is_ascii_alphanumeric() || pair[0] == b'_'))
+    let text = text.as_bytes();
+    let is_name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
+    let mut opening = (1..text.len()).filter(|&i| text[i] == b'(');
+    opening.any(|i| is_name(&text[i - 1]))
+}
+
+/// A chain of which some operands call functions, or of which one operand is left.
+fn among_calls(texts: &[&str], op: &str, around: Around) -> String {
+    // Of several calls only those are made that matter, and clang would suspect a slip.
+    let op = if op == "&" { "&&" } else { "||" };
+    let chain = texts.join(&format!(" {op} "));
+    match texts.len() > 1 && around.needs_parentheses(op) {
+        true => format!("({chain})"),
+        false => chain,
+    }
 }
 
 /// Writes an integer constant; the smallest ones have no literal of their own in C.
 pub fn integer(out: &mut String, value: i32) {
     match value {
         i32::MIN => out.push_str("INT32_MIN"),
-        value => {
-            let _ = write!(out, "{value}");
-        }
+        value => text::push_number(out, value),
     }
 }
 
@@ -296,8 +312,8 @@ impl Writer<'_, '_> {
 
     /// A chain of one operator on bits, written side by side.
     fn chain(&mut self, out: &mut String, id: ExprId, op: &'static str, around: Around) {
-        let mut operands = Vec::new();
-        let mut todo = vec![id];
+        let mut operands = Operands::new();
+        let mut todo = Operands::from_slice(&[id]);
         while let Some(e) = todo.pop() {
             match *self.module.expr(e) {
                 Expr::And(a, b) if op == "&" && (e == id || !self.named.contains_key(&e)) => {
@@ -315,14 +331,28 @@ impl Writer<'_, '_> {
         }
         let outside = self.numbers;
         self.numbers |= self.is_number(id);
-        let mut texts: Vec<String> = Vec::with_capacity(operands.len());
+        let enclose = around.needs_parentheses(op);
+        let start = out.len();
+        if enclose {
+            out.push('(');
+        }
+        let mut texts: SmallVec<[Range<usize>; 8]> = SmallVec::new();
         let mut calls = 0;
         for operand in operands {
-            let mut text = String::new();
-            self.expr(&mut text, operand, Around::Operand(op));
-            if calls_function(&text) {
+            let before = out.len();
+            if !texts.is_empty() {
+                out.push_str(if op == "&" { " & " } else { " | " });
+            }
+            let from = out.len();
+            self.expr(out, operand, Around::Operand(op));
+            let text = from..out.len();
+            if calls_function(&out[text.clone()]) {
                 // The same question need not be asked twice.
-                if texts.contains(&text) {
+                if texts
+                    .iter()
+                    .any(|other| out[other.clone()] == out[text.clone()])
+                {
+                    out.truncate(before);
                     continue;
                 }
                 calls += 1;
@@ -330,15 +360,15 @@ impl Writer<'_, '_> {
             texts.push(text);
         }
         self.numbers = outside;
-        // Of several calls only those are made that matter, and clang would suspect a slip.
-        let op = match op {
-            "&" if calls > 1 => " && ",
-            "|" if calls > 1 => " || ",
-            "&" => " & ",
-            _ => " | ",
-        };
-        let enclose = texts.len() > 1 && around.needs_parentheses(op.trim());
-        self.in_parentheses(out, enclose, |_, out| out.push_str(&texts.join(op)));
+        if enclose {
+            out.push(')');
+        }
+        if calls > 1 || texts.len() == 1 {
+            let texts: Vec<&str> = texts.into_iter().map(|text| &out[text]).collect();
+            let text = among_calls(&texts, op, around);
+            out.truncate(start);
+            out.push_str(&text);
+        }
     }
 
     fn is_not(&self, e: ExprId) -> bool {

@@ -1,5 +1,6 @@
 //! The program's struct: which field holds a device.
 
+use crate::text;
 use rungc_ir::Module;
 use rungc_ir::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
 use rungc_syntax::DeviceClass;
@@ -101,13 +102,15 @@ pub struct Field {
 impl Field {
     /// Writes its name: `X10`, `D`, `M8000`.
     pub fn name(&self, out: &mut String) {
-        let prefix = self.class.prefix();
-        // Writing to a String does not fail.
-        let _ = match (self.array && !self.numbered, self.class.is_octal()) {
-            (true, _) => write!(out, "{prefix}"),
-            (false, true) => write!(out, "{prefix}{:o}", self.first),
-            (false, false) => write!(out, "{prefix}{}", self.first),
-        };
+        out.push_str(self.class.prefix());
+        match (self.array && !self.numbered, self.class.is_octal()) {
+            (true, _) => {}
+            (false, true) => {
+                // Writing to a String does not fail.
+                let _ = write!(out, "{:o}", self.first);
+            }
+            (false, false) => text::push_number(out, self.first),
+        }
     }
 
     /// How many columns and rows an array has.
@@ -200,6 +203,8 @@ pub struct Fields<'m> {
     fields: Vec<Field>,
     /// Where each class begins in `fields`.
     of_class: [(usize, usize); DeviceClass::ALL.len()],
+    /// For each class by number: which of its fields holds the device, [`NO_FIELD`] if none does.
+    by_number: [Vec<u32>; DeviceClass::ALL.len()],
     /// By class and number: alike-treated runs, cut at the ends of fields.
     runs: Vec<(DeviceClass, Run)>,
     comments: HashMap<(DeviceClass, u32), &'m str>,
@@ -267,9 +272,11 @@ impl<'m> Fields<'m> {
                 fields.partition_point(|f| f.class <= class),
             );
         }
+        let by_number = of_class.map(|(from, to)| fields_by_number(&fields[from..to]));
         Fields {
             fields,
             of_class,
+            by_number,
             runs: merged,
             comments: module
                 .comments
@@ -300,11 +307,8 @@ impl<'m> Fields<'m> {
 
     /// The field that holds a device.
     pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
-        let fields = self.of_class(class);
-        let i = fields
-            .partition_point(|f| f.first <= number)
-            .checked_sub(1)?;
-        fields.get(i).filter(|f| number < f.end())
+        let i = *self.by_number[class as usize].get(number as usize)?;
+        self.of_class(class).get(i as usize)
     }
 
     /// The array that holds `count` devices from `number` on, one behind the other.
@@ -376,6 +380,19 @@ impl<'m> Fields<'m> {
     pub fn comment(&self, class: DeviceClass, number: u32) -> Option<&'m str> {
         self.comments.get(&(class, number)).copied()
     }
+}
+
+/// Stands for devices that no field holds.
+const NO_FIELD: u32 = u32::MAX;
+
+/// Which of the fields of one class holds a device, by number.
+fn fields_by_number(fields: &[Field]) -> Vec<u32> {
+    let end = fields.last().map_or(0, Field::end);
+    let mut by_number = vec![NO_FIELD; end as usize];
+    for (field, i) in fields.iter().zip(0..) {
+        by_number[field.first as usize..field.end() as usize].fill(i);
+    }
+    by_number
 }
 
 fn section(keep: Keep) -> Section {

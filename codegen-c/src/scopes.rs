@@ -5,7 +5,7 @@ use crate::walk;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeKind, Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::for_exprs;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::fmt::Write;
 
 /// A temporary of the module.
@@ -54,7 +54,7 @@ pub fn temps(module: &Module, plan: &Plan) -> Vec<Temp> {
         blocks: 0,
         function: 0,
         step: None,
-        names: HashMap::new(),
+        names: FxHashMap::default(),
         seen: Vec::new(),
     };
     // Functions stand behind those they call, but the network a stretch begins in is its own first statement, so order is no matter.
@@ -83,7 +83,7 @@ struct Scopes<'a, 'm> {
     blocks: u32,
     function: usize,
     step: Option<u32>,
-    names: HashMap<(&'static str, Option<u32>), u32>,
+    names: FxHashMap<(&'static str, Option<u32>), u32>,
     /// Buffer of walks.
     seen: Vec<ExprId>,
 }

@@ -57,10 +57,7 @@ pub fn line(out: &mut String, indent: usize, code: &str, beside: Option<&str>) {
         if !text.is_empty() {
             let last = out[start..].rfind('\n').map_or(start, |i| start + i + 1);
             let column = out.len() - last;
-            out.extend(std::iter::repeat_n(
-                ' ',
-                COMMENT_COLUMN.saturating_sub(column).max(1),
-            ));
+            push_indent(out, COMMENT_COLUMN.saturating_sub(column).max(1));
             out.push_str("/* ");
             out.push_str(&text);
             out.push_str(" */");
@@ -70,8 +67,18 @@ pub fn line(out: &mut String, indent: usize, code: &str, beside: Option<&str>) {
 }
 
 /// Appends spaces.
-pub fn push_indent(out: &mut String, indent: usize) {
-    out.extend(std::iter::repeat_n(' ', indent));
+pub fn push_indent(out: &mut String, mut indent: usize) {
+    const SPACES: &str = "                                ";
+    while indent > SPACES.len() {
+        out.push_str(SPACES);
+        indent -= SPACES.len();
+    }
+    out.push_str(&SPACES[..indent]);
+}
+
+/// Appends a number.
+pub fn push_number(out: &mut String, number: impl itoa::Integer) {
+    out.push_str(itoa::Buffer::new().format(number));
 }
 
 /// Where to break a line that has no room: before the operator, or behind the comma, that stands least deep in parentheses.

@@ -11,7 +11,8 @@ use rungc_ir::Module;
 use rungc_ir::node::{EdgeId, EdgeKind, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
 use rungc_ir::walk::{for_exprs, operands};
 use rungc_syntax::DeviceClass;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 use std::fmt::Write;
 
 /// Expressions that nest deeper than this get a name for their inner parts: readers and compilers have limits.
@@ -29,9 +30,9 @@ pub struct Writer<'a, 'm> {
     /// Whether the program clears the general devices, or the latched ones.
     pub clears: [bool; 2],
     /// Names of parts of the current statement's expressions.
-    pub(crate) named: HashMap<ExprId, String>,
+    pub(crate) named: FxHashMap<ExprId, String>,
     /// Timers with one coil and a constant preset: taking the preset over makes no difference to them.
-    pub(crate) plain_timers: HashMap<u32, u32>,
+    pub(crate) plain_timers: FxHashMap<u32, u32>,
     /// The current C function.
     function: usize,
     /// Loops around the current statement.
@@ -54,8 +55,8 @@ impl<'a, 'm> Writer<'a, 'm> {
             helpers: Helpers::default(),
             faults: false,
             clears: [false; 2],
-            named: HashMap::new(),
-            plain_timers: HashMap::new(),
+            named: FxHashMap::default(),
+            plain_timers: FxHashMap::default(),
             function: 0,
             loops: 0,
             numbers: false,
@@ -250,7 +251,7 @@ impl<'a, 'm> Writer<'a, 'm> {
     }
 
     fn node(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
-        let mut roots = Vec::new();
+        let mut roots: SmallVec<[ExprId; 4]> = SmallVec::new();
         match node {
             Node::Stmt(stmt) => for_exprs(stmt, &mut |&e| roots.push(e)),
             Node::If { cond, .. } => roots.push(*cond),
@@ -271,13 +272,13 @@ impl<'a, 'm> Writer<'a, 'm> {
             }
             let mut below = Vec::new();
             walk::below(self.module, root, &mut below);
-            let mut parents: HashMap<ExprId, u32> = HashMap::new();
+            let mut parents: FxHashMap<ExprId, u32> = FxHashMap::default();
             for &e in &below {
                 for o in operands(self.module.expr(e)) {
                     *parents.entry(o).or_default() += 1;
                 }
             }
-            let mut depth: HashMap<ExprId, u32> = HashMap::new();
+            let mut depth: FxHashMap<ExprId, u32> = FxHashMap::default();
             for &e in below.iter().filter(|&&e| e != root) {
                 let expr = self.module.expr(e);
                 let mut own = 0;
@@ -595,17 +596,17 @@ impl<'a, 'm> Writer<'a, 'm> {
         if !out.ends_with("{\n") {
             out.push('\n');
         }
-        let mut line = format!("/* step {}", network.step);
+        text::push_indent(out, indent);
+        out.push_str("/* step ");
+        text::push_number(out, network.step);
         let tell =
             |text: &Option<String>| text.as_deref().map(text::comment).filter(|t| !t.is_empty());
         let _ = match (tell(&network.statement), tell(&network.note)) {
-            (Some(statement), Some(note)) => write!(line, ": {statement} ({note})"),
-            (Some(text), None) | (None, Some(text)) => write!(line, ": {text}"),
+            (Some(statement), Some(note)) => write!(out, ": {statement} ({note})"),
+            (Some(text), None) | (None, Some(text)) => write!(out, ": {text}"),
             (None, None) => Ok(()),
         };
-        line.push_str(" */\n");
-        text::push_indent(out, indent);
-        out.push_str(&line);
+        out.push_str(" */\n");
     }
 }
 

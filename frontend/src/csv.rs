@@ -5,7 +5,7 @@ use crate::il;
 use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
-use rungc_syntax::{Device, Diagnostics, Instr, Program, SourceKind, codes};
+use rungc_syntax::{Device, Diagnostics, Instr, Operands, Program, SourceKind, codes};
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
 
@@ -294,7 +294,7 @@ impl Reader {
         self.program.instrs.push(Instr {
             mnemonic,
             mnemonic_span: span,
-            operands: Vec::new(),
+            operands: Operands::new(),
             span,
             step,
             statement: self.statement.take(),

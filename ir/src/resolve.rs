@@ -10,10 +10,10 @@ mod steps;
 
 pub(crate) use operands::constant_value;
 
-use crate::catalogue::Inst;
+use crate::catalogue::{Found, Inst, Param};
 use crate::model::{Model, ModelId, ModelSet};
 use mnemonic::Fit;
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, Program};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, Program};
 
 /// Which form of an instruction is written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -32,6 +32,8 @@ pub struct Resolution {
     pub inst: Option<&'static Inst>,
     /// Its form.
     pub form: Form,
+    /// What its operands are; none if there is no row.
+    pub params: &'static [Param],
     /// Step number of its first word, as the source counts where it does.
     pub step: u32,
     /// The pointer, if it is a label.
@@ -57,25 +59,27 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
     let mut finder = mnemonic::Finder::new(model);
     let operands = operands::Checker::new(model);
     let mut steps = steps::Counter::default();
-    let mut kinds: Vec<OperandKind> = Vec::new();
     let mut instrs = Vec::with_capacity(program.instrs.len());
     for instr in &program.instrs {
         let label = label(instr);
         let found = finder.find(instr, &mut diagnostics);
-        kinds.clear();
-        kinds.extend(instr.operands.iter().map(|operand| operand.kind.clone()));
+        let params = found.map_or(&[][..], |(found, _)| {
+            found.inst.params_of(&instr.operands, model)
+        });
         match (found, label) {
             (Some((_, Fit::Good)), Some(label)) => operands.label(instr, label, &mut diagnostics),
             (Some((found, Fit::Good)), None) => {
-                operands.instr(instr, found, &kinds, &mut diagnostics)
+                operands.instr(instr, found, params, &mut diagnostics)
             }
             _ => {}
         }
         let found = found.map(|(found, _)| found);
-        let length = found.map(|found| found.inst.steps_of(found.form, &kinds, model));
+        let steps_of = |found: Found| found.inst.steps_of(found.form, &instr.operands, model);
+        let length = found.map(steps_of);
         instrs.push(Resolution {
             inst: found.map(|found| found.inst),
             form: found.map(|found| found.form).unwrap_or_default(),
+            params,
             step: steps.next(instr, length),
             label,
         });

@@ -11,5 +11,5 @@ mod source;
 
 pub use device::{DeviceClass, Number};
 pub use diag::{Diagnostic, Diagnostics, Label, Severity};
-pub use program::{Device, Index, Instr, Operand, OperandKind, Program, SourceKind};
+pub use program::{Device, Index, Instr, Operand, OperandKind, Operands, Program, SourceKind};
 pub use source::{Source, Span};

@@ -1,6 +1,7 @@
 //! The program as its author wrote it: instructions, operands, comments. No instruction is understood yet.
 
 use crate::{DeviceClass, Source, Span};
+use smallvec::SmallVec;
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -46,7 +47,7 @@ pub struct Instr {
     /// Where the mnemonic stands.
     pub mnemonic_span: Span,
     /// The operands in order.
-    pub operands: Vec<Operand>,
+    pub operands: Operands,
     /// The whole instruction, from mnemonic to last operand.
     pub span: Span,
     /// The step number that the source states.
@@ -56,6 +57,9 @@ pub struct Instr {
     /// Comment or note that stands beside the instruction.
     pub note: Option<SmolStr>,
 }
+
+/// The operands of an instruction. Most have one, which needs no memory of its own.
+pub type Operands = SmallVec<[Operand; 1]>;
 
 /// One operand.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,9 @@ use crate::Read;
 use crate::encoding::decode_local;
 use crate::listing::Listing;
 use crate::text::{append, clean};
-use rungc_syntax::{Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program, Span, codes};
+use rungc_syntax::{
+    Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Span, codes,
+};
 use smol_str::{SmolStr, ToSmolStr};
 use std::fmt::Write as _;
 
@@ -161,7 +163,7 @@ impl<'b> Reader<'b> {
         self.program.instrs.push(Instr {
             mnemonic,
             mnemonic_span: span,
-            operands: Vec::new(),
+            operands: Operands::new(),
             span,
             step: None,
             statement: None,

@@ -5,7 +5,7 @@ use chumsky::container::Container;
 use chumsky::error::EmptyErr;
 use chumsky::input::MapExtra;
 use chumsky::prelude::*;
-use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Span};
+use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Operands, Span};
 use smol_str::{SmolStr, ToSmolStr};
 
 /// No line fails, so nobody asks where the grammar would have liked to go on: the error type is empty, which makes alternatives cheap.
@@ -33,25 +33,22 @@ pub(super) struct Body {
     /// Where it stands.
     pub mnemonic_span: Span,
     /// The operands, or nothing if one of them could not be read.
-    pub operands: Option<Vec<Operand>>,
+    pub operands: Option<Operands>,
 }
 
-/// Operands of one line. Most instructions have one, so the vector never holds more room than it needs.
-struct Operands(Option<Vec<Operand>>);
+/// All operands of one line, or nothing if one of them could not be read.
+struct AllOperands(Option<Operands>);
 
-impl Default for Operands {
+impl Default for AllOperands {
     fn default() -> Self {
-        Operands(Some(Vec::new()))
+        AllOperands(Some(Operands::new()))
     }
 }
 
-impl Container<Option<Operand>> for Operands {
+impl Container<Option<Operand>> for AllOperands {
     fn push(&mut self, item: Option<Operand>) {
         match (&mut self.0, item) {
-            (Some(operands), Some(operand)) => {
-                operands.reserve_exact(1);
-                operands.push(operand);
-            }
+            (Some(operands), Some(operand)) => operands.push(operand),
             (all, None) => *all = None,
             (None, Some(_)) => {}
         }
@@ -143,15 +140,13 @@ fn device<'s>() -> impl Parser<'s, &'s str, Device, Extra> + Copy {
     let bare = any()
         .filter(|c: &char| matches!(c, 'V' | 'v' | 'Z' | 'z'))
         .then_ignore(boundary());
-    let numbered = class()
-        .then(digits())
-        .map_with(|(class, digits), e| {
-            let (number, fault) = number(class, digits);
-            if let Some(kind) = fault {
-                report(e, kind);
-            }
-            Device { class, number }
-        });
+    let numbered = class().then(digits()).map_with(|(class, digits), e| {
+        let (number, fault) = number(class, digits);
+        if let Some(kind) = fault {
+            report(e, kind);
+        }
+        Device { class, number }
+    });
     numbered.or(bare.map(|c| Device {
         class: index_class(c),
         number: 0,
@@ -356,10 +351,13 @@ fn operand<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
         report(e, kind);
         None
     });
-    choice((placed(readable), unreadable))
+    // Behind the last operand no kind of operand is tried.
+    boundary()
+        .not()
+        .ignore_then(choice((placed(readable), unreadable)))
 }
 
-fn operands<'s>() -> impl Parser<'s, &'s str, Operands, Extra> + Copy {
+fn operands<'s>() -> impl Parser<'s, &'s str, AllOperands, Extra> + Copy {
     space().ignore_then(operand()).repeated().collect()
 }
 
@@ -432,7 +430,7 @@ fn asc<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
     name.then_ignore(space())
         .then(placed(text))
         .then(operands())
-        .map(|((name, text), Operands(mut rest))| {
+        .map(|((name, text), AllOperands(mut rest))| {
             if let (Some(rest), Some(text)) = (&mut rest, text) {
                 rest.insert(0, text);
             }
@@ -448,7 +446,7 @@ fn body<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
     let usual =
         mnemonic()
             .then(operands())
-            .map(|((mnemonic, mnemonic_span), Operands(operands))| Body {
+            .map(|((mnemonic, mnemonic_span), AllOperands(operands))| Body {
                 mnemonic,
                 mnemonic_span,
                 operands,
@@ -561,18 +559,14 @@ pub(super) fn text_field<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extr
 pub(super) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, Extra> + Copy {
     let pointer = label().map(|(device, _)| device.to_smolstr());
     let readable = choice((pointer, mnemonic().map(|(mnemonic, _)| mnemonic))).map(Some);
-    let unreadable = any()
-        .repeated()
-        .at_least(1)
-        .to_slice()
-        .map_with(|_, e| {
-            report(e, Kind::Line);
-            None
-        });
+    let unreadable = any().repeated().at_least(1).to_slice().map_with(|_, e| {
+        report(e, Kind::Line);
+        None
+    });
     choice((readable.then_ignore(space()).then_ignore(end()), unreadable))
 }
 
-/// What a parser makes of a text; what is wrong with that comes behind `faults`.
+/// What a parser makes of a text; what is wrong with that comes behind `faults`. A text that lacks something gives nothing.
 pub(super) fn parse<'s, T>(
     parser: &impl Parser<'s, &'s str, T, Extra>,
     text: &'s str,
@@ -580,7 +574,8 @@ pub(super) fn parse<'s, T>(
 ) -> Option<T> {
     let output = parser.parse_with_state(text, faults).into_output();
     if output.is_none() {
-        faults.push(Fault::new((0..text.len()).into(), Kind::Line));
+        let end = text.len();
+        faults.push(Fault::new((end..end).into(), Kind::Line));
     }
     output
 }

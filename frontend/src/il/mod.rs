@@ -18,7 +18,7 @@ use crate::Read;
 use crate::text::{append, clean};
 use fault::Faults;
 use fold::Folded;
-use rungc_syntax::{Device, Diagnostics, Instr, Program, Source, SourceKind, Span};
+use rungc_syntax::{Device, Diagnostics, Instr, Operands, Program, Source, SourceKind, Span};
 use smol_str::{SmolStr, ToSmolStr};
 
 /// Reads an instruction list. `name` is the file's name for diagnostics.
@@ -106,7 +106,7 @@ impl Reader {
         let alone = line.label.is_none() && line.instr.is_none();
         if let Some((device, span)) = line.label {
             let span = place(span);
-            self.push(device.to_smolstr(), span, Vec::new(), step.take());
+            self.push(device.to_smolstr(), span, Operands::new(), step.take());
         }
         let note = comment.and_then(clean);
         if let Some(body) = line.instr {
@@ -134,7 +134,7 @@ impl Reader {
         &mut self,
         mnemonic: SmolStr,
         mnemonic_span: Span,
-        operands: Vec<rungc_syntax::Operand>,
+        operands: Operands,
         step: Option<u32>,
     ) {
         let span = operands

@@ -62,10 +62,10 @@ pub fn find(mnemonic: &str) -> Option<Found> {
         }
         spellings
     });
-    let digits = mnemonic.trim_start_matches(['P', 'I']);
-    let is_label = mnemonic.len() == digits.len() + 1
-        && !digits.is_empty()
-        && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let is_label = match mnemonic.as_bytes() {
+        [b'P' | b'I', digits @ ..] => !digits.is_empty() && digits.iter().all(u8::is_ascii_digit),
+        _ => false,
+    };
     let key = if is_label { &mnemonic[..1] } else { mnemonic };
     spellings.get(key).copied()
 }

@@ -578,19 +578,40 @@ pub enum When {
 }
 
 impl When {
-    fn holds(self, operands: &[OperandKind]) -> bool {
+    fn holds(self, written: &Written) -> bool {
         match self {
             When::Always => true,
-            When::First(classes, first, last) => operands.first().is_some_and(|operand| {
-                let number = match operand {
-                    OperandKind::Device(device, _) => device.number,
-                    _ => first,
-                };
-                classes.meets(Classes::of(operand)) && (first..=last).contains(&number)
-            }),
-            When::Indexed => operands.iter().any(|operand| {
+            When::First(classes, first, last) => {
+                let in_range = |number| (first..=last).contains(&number);
+                classes.meets(written.class) && written.number.is_none_or(in_range)
+            }
+            When::Indexed => written.indexed,
+        }
+    }
+}
+
+/// What a [`When`] looks at in the operands that are written.
+struct Written {
+    /// Class of the first one; `NONE` if there is none.
+    class: Classes,
+    /// Number of the first one, if it is a device.
+    number: Option<u32>,
+    /// Whether one of them has an index register.
+    indexed: bool,
+}
+
+impl Written {
+    fn of(operands: &[Operand]) -> Self {
+        let first = operands.first().map(|operand| &operand.kind);
+        Written {
+            class: first.map_or(Classes::NONE, Classes::of),
+            number: match first {
+                Some(OperandKind::Device(device, _)) => Some(device.number),
+                _ => None,
+            },
+            indexed: operands.iter().any(|operand| {
                 matches!(
-                    operand,
+                    operand.kind,
                     OperandKind::Device(_, Some(_))
                         | OperandKind::WordBit(_, _, Some(_))
                         | OperandKind::Nibbles(_, _, Some(_))
@@ -682,17 +703,14 @@ impl Inst {
     }
 
     /// What its operands are on a model, given those that are written (OUT T0 has one more than OUT Y000).
-    pub fn params_of(&self, operands: &[OperandKind], model: &Model) -> &'static [Param] {
-        self.holding(operands, model)
-            .find_map(|variant| variant.params)
+    pub fn params_of(&self, operands: &[Operand], model: &Model) -> &'static [Param] {
+        self.stated(operands, model, |variant| variant.params)
             .unwrap_or(self.params)
     }
 
     /// How many steps it takes in the program memory.
-    pub fn steps_of(&self, form: Form, operands: &[OperandKind], model: &Model) -> u32 {
-        let stated = self
-            .holding(operands, model)
-            .find_map(|variant| variant.steps);
+    pub fn steps_of(&self, form: Form, operands: &[Operand], model: &Model) -> u32 {
+        let stated = self.stated(operands, model, |variant| variant.steps);
         let (narrow, wide) = match (stated, model.steps_per_operand) {
             (Some(steps), _) => steps,
             (None, Some((narrow, wide))) if !matches!(self.lower, Lower::Basic(_)) => {
@@ -704,13 +722,17 @@ impl Inst {
         u32::from(if form.wide { wide } else { narrow })
     }
 
-    fn holding<'a>(
-        &'a self,
-        operands: &'a [OperandKind],
-        model: &'a Model,
-    ) -> impl Iterator<Item = &'a Variant> {
+    /// What the first variant states that says something of it and holds.
+    fn stated<T>(
+        &self,
+        operands: &[Operand],
+        model: &Model,
+        what: impl Fn(&Variant) -> Option<T>,
+    ) -> Option<T> {
+        let written = Written::of(operands);
         self.variants
             .iter()
-            .filter(|variant| variant.models.has(model.id) && variant.when.holds(operands))
+            .filter(|variant| variant.models.has(model.id))
+            .find_map(|variant| what(variant).filter(|_| variant.when.holds(&written)))
     }
 }

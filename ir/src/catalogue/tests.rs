@@ -1,7 +1,7 @@
 use super::{Extent, Forms, Lower, Spelling, all, explain, find, special_table, support_table};
 use crate::model::{Model, ModelId};
 use crate::resolve::Form;
-use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rungc_syntax::{Device, DeviceClass, Operand, OperandKind, Span};
 use std::collections::BTreeMap;
 
 #[test]
@@ -120,6 +120,9 @@ fn steps_are_those_of_the_editor() {
     ];
     for (mnemonic, operands, steps) in listing {
         let found = find(mnemonic).unwrap_or_else(|| panic!("{mnemonic}"));
+        let span = Span::default();
+        let placed = |kind| Operand { span, kind };
+        let operands: Vec<Operand> = operands.into_iter().map(placed).collect();
         assert_eq!(
             found.inst.steps_of(found.form, &operands, model),
             steps,

@@ -118,16 +118,7 @@ impl<'a> Code<'a> {
 
     /// What the operands of an instruction are.
     fn params(&self, i: usize) -> &'static [Param] {
-        let Some(inst) = self.inst(i) else {
-            return &[];
-        };
-        let kinds: Vec<_> = self
-            .instr(i)
-            .operands
-            .iter()
-            .map(|operand| operand.kind.clone())
-            .collect();
-        inst.params_of(&kinds, self.model())
+        self.resolved.instrs[i].params
     }
 
     /// How an instruction takes part in the contact logic.

@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use crate::catalogue::{ArithOp, CmpOp, Inst, Lower};
+use crate::catalogue::{ArithOp, CmpOp, Lower};
 use crate::node::{BinOp, Expr, ExprId, Stmt};
 use crate::special::{self, Special};
 use rungc_syntax::{DeviceClass, OperandKind};
@@ -21,13 +21,8 @@ const DIVISION: u16 = 6706;
 
 impl Lowerer<'_> {
     /// Emits what a row does that is no call of the runtime and no basic instruction; the drive is on.
-    pub(super) fn inline(&mut self, inst: &Inst, lower: Lower) {
-        let operands = &self.instr().operands;
-        let params = inst.params_of(
-            &operands.iter().map(|o| o.kind.clone()).collect::<Vec<_>>(),
-            self.model,
-        );
-        if operands.len() < params.len() {
+    pub(super) fn inline(&mut self, lower: Lower) {
+        if self.instr().operands.len() < self.resolution().params.len() {
             return;
         }
         match lower {

@@ -118,8 +118,8 @@ impl Lowerer<'_> {
     /// The program sends pulses at the outputs that the instruction names; what it looks at besides is stored.
     fn use_outputs(&mut self, inst: &Inst, looks: Looks) {
         let operands = &self.instr().operands;
-        let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
-        for (kind, param) in kinds.iter().zip(inst.params_of(&kinds, self.model)) {
+        for (operand, param) in operands.iter().zip(inst.params_of(operands, self.model)) {
+            let kind = &operand.kind;
             let Some(number) = output_of(kind).filter(|_| param.sends_pulses) else {
                 continue;
             };
@@ -264,19 +264,19 @@ pub(super) fn output_of(kind: &OperandKind) -> Option<u32> {
 
 /// The operands, with groups that [`Rule::WordsWith`] makes words.
 fn in_words<'o>(inst: &Inst, operands: &'o [Operand], model: &Model) -> Cow<'o, [Operand]> {
-    let mut operands = Cow::Borrowed(operands);
-    let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
-    for (i, param) in inst.params_of(&kinds, model).iter().enumerate() {
-        let word = |other: usize| !matches!(kinds.get(other), Some(OperandKind::Nibbles(..)));
+    let mut words = Cow::Borrowed(operands);
+    let kind = |i: usize| operands.get(i).map(|operand| &operand.kind);
+    for (i, param) in inst.params_of(operands, model).iter().enumerate() {
+        let word = |other: usize| !matches!(kind(other), Some(OperandKind::Nibbles(..)));
         let widens = |rule: &Rule| matches!(*rule, Rule::WordsWith(other) if word(other));
-        if let Some(OperandKind::Nibbles(digits @ ..4, device, index)) = kinds.get(i)
+        if let Some(OperandKind::Nibbles(digits @ ..4, device, index)) = kind(i)
             && param.rules.iter().any(widens)
         {
             let digits = (*digits).max(4);
-            operands.to_mut()[i].kind = OperandKind::Nibbles(digits, *device, *index);
+            words.to_mut()[i].kind = OperandKind::Nibbles(digits, *device, *index);
         }
     }
-    operands
+    words
 }
 
 /// How many devices (bits of a group) each operand occupies from the named one on; `None`: to the end of its class.
@@ -286,13 +286,12 @@ pub(super) fn extents<'o>(
     operands: &'o [Operand],
     model: &Model,
 ) -> impl Iterator<Item = Option<u32>> + use<'o> {
-    let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
-    let params = inst.params_of(&kinds, model);
-    let constants: Vec<Option<i64>> = kinds.iter().map(constant).collect();
+    let params = inst.params_of(operands, model);
+    let constants: Vec<Option<i64>> = operands.iter().map(|o| constant(&o.kind)).collect();
     operands.iter().enumerate().map(move |(i, operand)| {
         let param = params.get(i)?;
         if let Extent::Through(last) = param.extent {
-            return through(&operand.kind, kinds.get(last)?);
+            return through(&operand.kind, &operands.get(last)?.kind);
         }
         let elements = elements(param, &constants)?;
         Some(elements.saturating_mul(unit(param, &operand.kind, form)))

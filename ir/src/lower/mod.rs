@@ -256,7 +256,7 @@ impl<'a> Lowerer<'a> {
             Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
             Lower::Density => self.density(),
             Lower::Todo(what) => self.not_implemented(inst, what),
-            _ => self.driven(|this| this.inline(inst, lower)),
+            _ => self.driven(|this| this.inline(lower)),
         }
         if inst.drive == Drive::Alone {
             self.logic.stack.clear();

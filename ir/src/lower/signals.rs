@@ -38,9 +38,9 @@ impl Lowerer<'_> {
     /// The instruction at hand looks at inputs. One that needs the buffer memory of a module does so in the scan alone, which has it.
     pub(super) fn find_signals(&mut self, inst: &Inst, function: RtFn, slot: u16) {
         let operands = &self.instr().operands;
-        let kinds: Vec<OperandKind> = operands.iter().map(|o| o.kind.clone()).collect();
         let mut inputs = Vec::new();
-        for (kind, param) in kinds.iter().zip(inst.params_of(&kinds, self.model)) {
+        for (operand, param) in operands.iter().zip(inst.params_of(operands, self.model)) {
+            let kind = &operand.kind;
             match *kind {
                 OperandKind::Device(Device { class: X, number }, None)
                     if param.role == Role::Read && number < Wiring::FAST_INPUTS =>
@@ -65,7 +65,7 @@ impl Lowerer<'_> {
             }
         }
         let buffer = |kind: &OperandKind| matches!(kind, OperandKind::Buffer { .. });
-        if inputs.is_empty() || kinds.iter().any(buffer) {
+        if inputs.is_empty() || operands.iter().any(|operand| buffer(&operand.kind)) {
             return;
         }
         let devices = inputs.iter().map(|&input| (X, input));

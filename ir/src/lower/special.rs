@@ -107,11 +107,10 @@ impl Specials {
         }
         let extents: Vec<_> =
             extents(inst, resolution.form, &instr.operands, resolved.model).collect();
-        let kinds: Vec<_> = instr.operands.iter().map(|o| o.kind.clone()).collect();
-        let params = inst.params_of(&kinds, resolved.model);
-        for (i, operand) in kinds.iter().enumerate() {
+        let params = resolution.params;
+        for (i, operand) in instr.operands.iter().enumerate() {
             let extent = extents[i];
-            let (device, index) = match *operand {
+            let (device, index) = match operand.kind {
                 OperandKind::Device(device, index) | OperandKind::Nibbles(_, device, index) => {
                     (device, index)
                 }

@@ -19,7 +19,6 @@ pub(super) struct Checker {
 struct Place<'a> {
     instr: &'a Instr,
     found: Found,
-    kinds: &'a [OperandKind],
 }
 
 impl Checker {
@@ -45,22 +44,17 @@ impl Checker {
         }
     }
 
-    /// Checks all operands of an instruction; `kinds` are its operands without their places.
+    /// Checks all operands of an instruction; `params` is what its row says of them.
     pub(super) fn instr(
         &self,
         instr: &Instr,
         found: Found,
-        kinds: &[OperandKind],
+        params: &[Param],
         out: &mut Diagnostics,
     ) {
-        let place = Place {
-            instr,
-            found,
-            kinds,
-        };
-        let params = found.inst.params_of(kinds, self.model);
+        let place = Place { instr, found };
         let needed = params.iter().filter(|param| !param.optional).count();
-        if kinds.len() < needed {
+        if instr.operands.len() < needed {
             out.push(too_few(instr, params));
         }
         if let Some(extra) = instr.operands.get(params.len()) {
@@ -284,7 +278,7 @@ impl Checker {
             return None;
         }
         let class = device.class;
-        let values = extent(place.kinds, param);
+        let values = extent(&place.instr.operands, param);
         let each = match class {
             _ if each > 1 => each,
             DeviceClass::V | DeviceClass::Z if self.model.z_pairs_with_v => 1,
@@ -325,7 +319,7 @@ impl Checker {
         index: Option<Index>,
         param: &Param,
     ) -> Option<Diagnostic> {
-        let bits = extent(place.kinds, param);
+        let bits = extent(&place.instr.operands, param);
         let words = words_of_bits(bit & 15, bits);
         let end = self.end_of_run(device.class, device.number)?;
         let last = device.number.saturating_add(words - 1);
@@ -387,17 +381,18 @@ fn words(found: Found, param: &Param) -> u32 {
 }
 
 /// How many values an operand takes; what is not known counts as one.
-fn extent(kinds: &[OperandKind], param: &Param) -> u32 {
+fn extent(operands: &[Operand], param: &Param) -> u32 {
     match param.extent {
         Extent::One | Extent::Through(_) => 1,
         Extent::Count(count) => count,
-        Extent::Operand { i, extra } => kinds
+        Extent::Operand { i, extra } => operands
             .get(i)
-            .and_then(constant_value)
+            .and_then(|operand| constant_value(&operand.kind))
             .and_then(|count| u32::try_from(count + i64::from(extra)).ok())
             .unwrap_or(1),
         Extent::Of(count) => {
-            let constants: Vec<_> = kinds.iter().map(constant_value).collect();
+            let constants = operands.iter().map(|operand| constant_value(&operand.kind));
+            let constants: Vec<_> = constants.collect();
             count(&constants).unwrap_or(1)
         }
     }
