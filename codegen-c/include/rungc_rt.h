@@ -225,6 +225,10 @@ typedef struct rungc_area {
      */
     uint32_t columns;
     /**
+     * How many of the columns are stored: the first ones.
+     */
+    uint32_t kept;
+    /**
      * Where they begin in the struct, in bytes.
      */
     size_t offset;

@@ -91,6 +91,8 @@ pub struct Field {
     pub grid: bool,
     /// How many columns the array has, each of which holds every so manieth device: 1 unless it is a grid.
     pub columns: u32,
+    /// How many of the columns are stored: the first ones.
+    pub kept: u32,
     /// Whether the array's name carries the number it begins with.
     numbered: bool,
     /// What each is.
@@ -113,17 +115,34 @@ impl Field {
         }
     }
 
-    /// How many columns and rows an array has.
-    pub fn size(&self) -> (u32, u32) {
-        (self.columns, self.count.div_ceil(self.columns))
+    /// How many devices it has room for.
+    pub fn room(&self) -> u32 {
+        self.kept * self.count.div_ceil(self.columns)
     }
 
     /// The dimensions of an array: `[10]`, `[10][32]`.
     pub fn dimensions(&self) -> String {
-        match self.size() {
-            (1, rows) => format!("[{rows}]"),
-            (columns, rows) => format!("[{columns}][{rows}]"),
+        let rows = self.count.div_ceil(self.columns);
+        match self.columns {
+            1 => format!("[{rows}]"),
+            _ => format!("[{}][{rows}]", self.kept),
         }
+    }
+
+    /// Whether it holds a device.
+    pub fn holds(&self, number: u32) -> bool {
+        (self.first..self.end()).contains(&number)
+            && (number - self.first) % self.columns < self.kept
+    }
+
+    /// That it holds one of its numbers, which stands in a variable, if it does not hold all: `(n - 16) % 10 < 8`.
+    pub fn column_is_kept(&self, number: &str, unsigned: &str) -> Option<String> {
+        let (columns, kept) = (self.columns, self.kept);
+        let distance = match self.first {
+            0 => number.to_string(),
+            first => format!("({number} - {first}{unsigned})"),
+        };
+        (kept < columns).then(|| format!("{distance} % {columns}{unsigned} < {kept}{unsigned}"))
     }
 
     /// Where in an array a device is: `[3]`, `[3][0]`.
@@ -219,11 +238,23 @@ impl<'m> Fields<'m> {
         for &(class, run, array) in &runs {
             let grid = module.layout.grid(class, run.first);
             let columns = grid.map_or(1, |grid| grid.columns);
+            let kept = grid.map_or(1, |grid| grid.kept);
             let first = grid.map_or(0, |grid| grid.first);
             let Some(kind) = Kind::of(class, run.first) else {
                 continue;
             };
-            merged.push((class, run));
+            match merged.last_mut() {
+                // What a grid does not store is no gap between runs.
+                Some((of, last))
+                    if *of == class
+                        && grid.is_some_and(|g| g.first < run.first)
+                        && first <= last.first
+                        && last.keep == run.keep =>
+                {
+                    last.count = run.first + run.count - last.first;
+                }
+                _ => merged.push((class, run)),
+            }
             if !array {
                 fields.extend((run.first..run.first + run.count).map(|first| Field {
                     class,
@@ -232,6 +263,7 @@ impl<'m> Fields<'m> {
                     array,
                     grid: grid.is_some(),
                     columns,
+                    kept,
                     numbered: true,
                     kind,
                     section: section(run.keep),
@@ -245,9 +277,9 @@ impl<'m> Fields<'m> {
                         && (!last.grid || last.first == first)
                         && last.class == class
                         && last.kind == kind
-                        && last.end() == run.first =>
+                        && (last.grid || last.end() == run.first) =>
                 {
-                    last.count += run.count;
+                    last.count = run.first + run.count - last.first;
                     if last.section != section(run.keep) {
                         last.section = Section::Mixed;
                     }
@@ -259,6 +291,7 @@ impl<'m> Fields<'m> {
                     array,
                     grid: grid.is_some(),
                     columns,
+                    kept,
                     numbered: run.first != 0,
                     kind,
                     section: section(run.keep),
@@ -294,7 +327,7 @@ impl<'m> Fields<'m> {
 
     /// How many bytes the devices take, without what stands between them for alignment.
     pub fn bytes(&self) -> u64 {
-        let bytes = |field: &Field| u64::from(field.count) * u64::from(field.kind.size().0);
+        let bytes = |field: &Field| u64::from(field.room()) * u64::from(field.kind.size().0);
         self.fields.iter().map(bytes).sum()
     }
 
@@ -308,7 +341,8 @@ impl<'m> Fields<'m> {
     /// The field that holds a device.
     pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
         let i = *self.by_number[class as usize].get(number as usize)?;
-        self.of_class(class).get(i as usize)
+        let field = self.of_class(class).get(i as usize);
+        field.filter(|field| field.holds(number))
     }
 
     /// The array that holds `count` devices from `number` on, one behind the other.

@@ -76,8 +76,7 @@ fn devices(out: &mut String, size: &mut Size, fields: &Fields) {
             section = Some(field.section);
         }
         let (bytes, align) = field.kind.size();
-        let (columns, rows) = field.size();
-        size.add(bytes * columns * rows, align);
+        size.add(bytes * field.room(), align);
         field_line(out, fields, field);
     }
     if section.is_some() {
@@ -182,7 +181,17 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
         }
         if field.columns > 1 {
             let n = class.number(first + 1);
-            let _ = write!(comment, ", in {} columns: [1][0] is {n}", field.columns);
+            let (columns, kept) = (field.columns, field.kept);
+            let _ = match kept {
+                1 => write!(comment, ", {columns} apart"),
+                _ if kept < columns => {
+                    write!(
+                        comment,
+                        ", in {columns} columns, {kept} stored: [1][0] is {n}"
+                    )
+                }
+                _ => write!(comment, ", in {columns} columns: [1][0] is {n}"),
+            };
         }
         for run in fields
             .runs(field)
@@ -205,7 +214,7 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
     }
     push_with_comment(out, &line, &comment);
     if field.array {
-        for number in first..field.end() {
+        for number in (first..field.end()).filter(|&n| field.holds(n)) {
             if let Some(text) = fields.comment(class, number) {
                 let comment = format!(
                     "  {} {}: {}",

@@ -336,14 +336,14 @@ impl Printer<'_> {
         for field in arrays {
             let mut name = String::from("plc->");
             field.name(&mut name);
-            let _ = match field.first {
-                0 => write!(out, "    if (n < {}) {{\n        ", field.end()),
-                first => write!(
-                    out,
-                    "    if (n >= {first} && n < {}) {{\n        ",
-                    field.end()
-                ),
+            let mut condition = match field.first {
+                0 => format!("n < {}", field.end()),
+                first => format!("n >= {first} && n < {}", field.end()),
             };
+            if let Some(is_kept) = field.column_is_kept("n", "") {
+                let _ = write!(condition, " && {is_kept}");
+            }
+            let _ = write!(out, "    if ({condition}) {{\n        ");
             field.element(&mut name, "n", "");
             line(
                 out,

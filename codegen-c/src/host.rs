@@ -1,7 +1,7 @@
 //! The host program for Linux: scans in real time.
 
 use crate::events;
-use crate::fields::Fields;
+use crate::fields::{Field, Fields};
 use crate::text;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
@@ -79,8 +79,10 @@ fn inputs_of(module: &Module, fields: &Fields) -> BTreeMap<u32, String> {
 
 /// The terminals that the program looks at, and the fields that they have.
 pub fn terminals(fields: &Fields, class: DeviceClass) -> Vec<(u32, String)> {
-    let numbers = fields.of_class(class).iter().flat_map(|f| f.first..f.end());
+    let numbers = |f: &Field| f.first..f.end();
+    let numbers = fields.of_class(class).iter().flat_map(numbers);
     numbers
+        .filter(|&number| fields.find(class, number).is_some())
         .map(|number| {
             let mut access = String::new();
             fields.access(&mut access, class, number);

@@ -79,13 +79,14 @@ pub fn memory(module: &Module) -> Vec<Memory> {
     let fields = fields::Fields::new(module);
     let of = |class: DeviceClass| {
         let fields = fields.of_class(class);
-        let bytes = |field: &fields::Field| {
-            let (columns, rows) = field.size();
-            field.kind.size().0 * columns * rows
+        let bytes = |field: &fields::Field| field.kind.size().0 * field.room();
+        let devices = |field: &fields::Field| {
+            let numbers = field.first..field.end();
+            numbers.filter(|&number| field.holds(number)).count() as u32
         };
         Memory {
             class,
-            devices: fields.iter().map(|field| field.count).sum(),
+            devices: fields.iter().map(devices).sum(),
             bytes: fields.iter().map(bytes).sum(),
         }
     };

@@ -169,11 +169,12 @@ fn areas(name: &str, fields: &Fields) -> Vec<String> {
             let mut member = String::new();
             field.name(&mut member);
             format!(
-                "{{{}, {}, {}, {count}, {}, offsetof({name}_plc, {member})}}",
+                "{{{}, {}, {}, {count}, {}, {}, offsetof({name}_plc, {member})}}",
                 class_name(field.class),
                 kind_name(field.kind),
                 field.first,
-                field.columns
+                field.columns,
+                field.kept
             )
         })
         .collect()

@@ -330,9 +330,13 @@ impl Printer<'_> {
                 if field.columns > 1 {
                     let (first, end) = (run.first, run.first + run.count);
                     field.element(&mut array, "n", "u");
+                    let mut clear = format!("        {array} = 0;\n");
+                    if let Some(is_kept) = field.column_is_kept("n", "u") {
+                        clear = format!("        if ({is_kept}) {{\n    {clear}        }}\n");
+                    }
                     let _ = writeln!(
                         out,
-                        "    for (unsigned n = {first}; n < {end}; n++) {{\n        {array} = 0;\n    }}"
+                        "    for (unsigned n = {first}; n < {end}; n++) {{\n{clear}    }}"
                     );
                     continue;
                 }
@@ -517,10 +521,13 @@ impl Printer<'_> {
             field.name(&mut array);
             field.element(&mut array, "terminal", "u");
             let end = field.end();
-            let condition = match field.first {
+            let mut condition = match field.first {
                 0 => format!("terminal < {end}u"),
                 first => format!("terminal >= {first}u && terminal < {end}u"),
             };
+            if let Some(is_kept) = field.column_is_kept("terminal", "u") {
+                let _ = write!(condition, " && {is_kept}");
+            }
             let _ = write!(
                 out,
                 "    if ({condition}) {{\n        return {array};\n    }}\n"

@@ -69,13 +69,21 @@ impl Generator<'_> {
             }
             if let Some(grid) = field.columns() {
                 let second = area.class.number(area.first + 1);
-                text.push_str(&format!(" in {} columns, [1][0] is {second}", grid.columns));
+                let (columns, kept) = (grid.columns, grid.kept);
+                text.push_str(&match kept {
+                    1 => format!(", {columns} apart"),
+                    _ if kept < columns => {
+                        format!(" in {columns} columns, {kept} stored, [1][0] is {second}")
+                    }
+                    _ => format!(" in {columns} columns, [1][0] is {second}"),
+                });
             }
             if field.elem == Elem::Level {
                 text.push_str(", 0 or 1");
             }
             text.push_str(latched);
             let named = (area.first..=field.last())
+                .filter(|&n| field.holds(n))
                 .filter_map(|n| Some((n, self.device_comment(area.class, n)?)))
                 .map(|(n, comment)| format!("{} {comment}", area.class.number(n)));
             let named: Vec<String> = named.collect();
@@ -255,7 +263,12 @@ impl Generator<'_> {
                 let [first, end] = [part.first, part.first + part.count]
                     .map(|number| number_literal(part.class, number));
                 let cell = Self::matched(field);
-                out.extend(quote!(for number in #first..#end { #cell = 0; }));
+                out.extend(match Self::column_is_kept(field) {
+                    Some(is_kept) => {
+                        quote!(for number in #first..#end { if #is_kept { #cell = 0; } })
+                    }
+                    None => quote!(for number in #first..#end { #cell = 0; }),
+                });
             }
         }
         out
@@ -577,7 +590,8 @@ impl Generator<'_> {
         };
         if with_class {
             let class = self.class(field.area.class);
-            quote!((#class, #numbers))
+            let guard = Self::column_is_kept(field).map(|is_kept| quote!(if #is_kept));
+            quote!((#class, #numbers) #guard)
         } else {
             numbers
         }
@@ -591,13 +605,7 @@ impl Generator<'_> {
         }
         if let Some(grid) = field.columns() {
             let columns = Literal::u32_unsuffixed(grid.columns);
-            let n = match field.area.first {
-                0 => quote!(number),
-                first => {
-                    let first = number_literal(field.area.class, first);
-                    quote!((number - #first))
-                }
-            };
+            let n = Self::distance(field);
             return quote!(self.#name[(#n % #columns) as usize][(#n / #columns) as usize]);
         }
         match (field.area.first, field.area.count) {
@@ -608,6 +616,25 @@ impl Generator<'_> {
                 quote!(self.#name[(number - #first) as usize])
             }
         }
+    }
+
+    /// How far a number is behind a field's first.
+    fn distance(field: &Field) -> TokenStream {
+        match field.area.first {
+            0 => quote!(number),
+            first => {
+                let first = number_literal(field.area.class, first);
+                quote!((number - #first))
+            }
+        }
+    }
+
+    /// That a field holds one of its numbers, if it does not hold all.
+    fn column_is_kept(field: &Field) -> Option<TokenStream> {
+        let grid = field.grid.filter(|grid| grid.kept < grid.columns)?;
+        let n = Self::distance(field);
+        let [columns, kept] = [grid.columns, grid.kept].map(Literal::u32_unsuffixed);
+        Some(quote!(#n % #columns < #kept))
     }
 
     fn arms(&mut self, access: Access, set: bool) -> TokenStream {
@@ -740,7 +767,7 @@ fn writer(
 /// What an array has of each element: of a type the array's type, of a value its value.
 fn dimensions(field: &Field, element: TokenStream) -> TokenStream {
     if let Some(grid) = field.columns() {
-        let [columns, rows] = [grid.columns, grid.rows()].map(Literal::u32_unsuffixed);
+        let [columns, rows] = [grid.kept, grid.rows()].map(Literal::u32_unsuffixed);
         return quote!([[#element; #rows]; #columns]);
     }
     if !field.area.array {

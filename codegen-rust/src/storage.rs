@@ -101,10 +101,30 @@ impl Field {
         }
     }
 
+    /// Whether it holds a device.
+    pub fn holds(&self, number: u32) -> bool {
+        let columns = self.grid.is_none_or(|grid| grid.holds(number));
+        columns && (self.area.first..=self.last()).contains(&number)
+    }
+
     /// Number of its last device.
     pub fn last(&self) -> u32 {
         self.area.first + self.area.count.max(1) - 1
     }
+}
+
+/// Areas of a grid, those joined that are kept in the same cases: what lies between them is not stored.
+fn joined(areas: Vec<Area>) -> Vec<Area> {
+    let mut joined: Vec<Area> = Vec::new();
+    for area in areas {
+        match joined.last_mut() {
+            Some(last) if last.latched == area.latched => {
+                last.count = area.first + area.count - last.first;
+            }
+            _ => joined.push(area),
+        }
+    }
+    joined
 }
 
 /// All fields, sorted by class and number.
@@ -125,7 +145,7 @@ impl Storage {
                         a.class == grid.class && a.first >= grid.first && a.first < grid.end()
                     };
                     let parts = layout.areas.iter().filter(inside).copied().collect();
-                    fields.push(Field::of_grid(*grid, parts));
+                    fields.push(Field::of_grid(*grid, joined(parts)));
                 }
                 continue;
             }
@@ -167,7 +187,7 @@ impl Storage {
             .fields
             .partition_point(|f| (f.area.class, f.area.first) <= (class, number));
         let field = self.fields.get(after.checked_sub(1)?)?;
-        (field.area.class == class && number <= field.last()).then_some(field)
+        (field.area.class == class && field.holds(number)).then_some(field)
     }
 
     /// The place of a device behind `plc`: `plc.x0`, `plc.d[7]`.

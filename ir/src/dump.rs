@@ -28,10 +28,11 @@ pub fn dump(module: &Module) -> String {
     }
     for grid in &module.layout.grids {
         let first = grid.class.number(grid.first);
-        out.line(&format!(
-            "{first}[{}] in {} columns",
-            grid.count, grid.columns
-        ));
+        let mut line = format!("{first}[{}] in {} columns", grid.count, grid.columns);
+        if grid.kept < grid.columns {
+            line.push_str(&format!(", {} stored", grid.kept));
+        }
+        out.line(&line);
     }
     for &(number, value) in &module.initial_words {
         out.line(&format!("D{number} begins as {value}"));

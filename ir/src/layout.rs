@@ -45,8 +45,10 @@ pub struct Grid {
     pub first: u32,
     /// How many; need not be a multiple of the columns.
     pub count: u32,
-    /// How many columns: how far the devices of a column are apart. At least 1.
+    /// How far the devices of a column are apart, and how many columns that makes. At least 1.
     pub columns: u32,
+    /// How many of the columns are stored, at least 1: the first ones. The program names no device of the others.
+    pub kept: u32,
 }
 
 impl Grid {
@@ -54,6 +56,11 @@ impl Grid {
     pub fn place(&self, number: u32) -> (u32, u32) {
         let n = number.wrapping_sub(self.first);
         (n % self.columns, n / self.columns)
+    }
+
+    /// Whether it stores a device.
+    pub fn holds(&self, number: u32) -> bool {
+        (self.first..self.end()).contains(&number) && self.place(number).0 < self.kept
     }
 
     /// Length of a column.
@@ -82,7 +89,7 @@ impl Layout {
         let after = |g: &Grid| (g.class, g.first) <= (class, number);
         let i = self.grids.partition_point(after).checked_sub(1)?;
         let grid = self.grids.get(i)?;
-        (grid.class == class && number < grid.end()).then_some(grid)
+        (grid.class == class && grid.holds(number)).then_some(grid)
     }
 
     /// The area that holds a device.

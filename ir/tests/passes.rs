@@ -283,7 +283,7 @@ fn rows_go_on_over_the_border_of_latched_relays() {
     let module = module(&format!("{text}END\n"), true);
     let text = dump(&module);
     assert!(text.contains("repeat 16 times"), "{text}");
-    assert!(text.contains("store M400[100]\n"), "{text}");
-    assert!(text.contains("store M500[55] latched\n"), "{text}");
-    assert!(text.contains("M400[155] in 10 columns\n"), "{text}");
+    assert!(text.contains("store M490[5]\n"), "{text}");
+    assert!(text.contains("store M500[5] latched\n"), "{text}");
+    assert!(text.contains("M400[155] in 10 columns, 5 stored\n"), "{text}");
 }

@@ -54,6 +54,8 @@ pub struct Area {
     /// How many numbers it is from a device to the next one in memory: 1, or more in an array of so many columns, each as long as the
     /// longest has to be.
     pub columns: u32,
+    /// How many of the columns are stored: the first ones.
+    pub kept: u32,
     /// Where they begin in the struct, in bytes.
     pub offset: usize,
 }
@@ -205,7 +207,11 @@ impl Map {
         let areas = elements(layout.areas, layout.area_count);
         let behind = areas.partition_point(|a| (a.class, a.first) <= (class, number));
         let area = behind.checked_sub(1).and_then(|i| areas.get(i));
-        if let Some(area) = area.filter(|a| a.class == class && number - a.first < a.count) {
+        let holds = |a: &&Area| {
+            let n = number - a.first;
+            a.class == class && n < a.count && n % a.columns.max(1) < a.kept
+        };
+        if let Some(area) = area.filter(holds) {
             let size = match area.kind {
                 Kind::Bits => size_of::<bool>(),
                 Kind::Words => size_of::<i16>(),

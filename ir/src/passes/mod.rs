@@ -3,6 +3,7 @@
 //! [`optimise`] rewrites the module twice: the first round leaves conditions with fewer uses, which the second puts where they are
 //! used, so that emitted code reads as one would write it by hand. In the end rungs that are repeated with other devices become loops.
 
+mod columns;
 mod effects;
 mod fold;
 mod inline;

@@ -2,10 +2,8 @@
 //! each device is as far from the one before as in the round before, and makes a loop of them ([`Stmt::Repeat`]) that C and Rust
 //! compilers vectorise. The rounds run in the program's order, so nothing has to be proved but that they are alike.
 
-use crate::layout::{Area, Grid, Layout};
-use crate::model::Model;
+use super::columns::{self, last_alike, spread};
 use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
-use crate::runs::is_special;
 use crate::walk::{assigned, bodies, for_exprs, operands};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
@@ -24,10 +22,12 @@ const LARGEST_STATEMENT: u64 = 500;
 
 /// Makes loops of repeated rungs.
 pub(super) fn run(module: &mut Module) {
+    let named = module.layout.clone();
     for n in 0..module.functions.len() {
         let body = std::mem::take(&mut module.functions[n].body);
         module.functions[n].body = roll(module, body);
     }
+    columns::trim(module, &named);
 }
 
 fn roll(module: &mut Module, body: Body) -> Body {
@@ -454,82 +454,4 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         let index = (by > 0).then(|| self.module.add(Expr::Stride(self.round, by)));
         Place { index, ..place }
     }
-}
-
-/// The last device behind one that the model has without a gap, and that is as little special.
-fn last_alike(model: &Model, class: DeviceClass, number: u32) -> Option<u32> {
-    let mut runs = model.runs(class).into_iter();
-    let (_, last) = runs.find(|(first, last)| (first..=last).contains(&&number))?;
-    (!is_special(class, number) && !is_special(class, last)).then_some(last)
-}
-
-/// Stores the devices from `first` to `last` of a class in an array of so many columns, together with its neighbours if they are stored so;
-/// false if they are needed in another order.
-fn spread(
-    layout: &mut Layout,
-    model: &Model,
-    (class, first, last): (DeviceClass, u32, u32),
-    columns: u32,
-) -> bool {
-    // A gap of less than a round belongs to both neighbours.
-    let touches = |grid: &Grid| {
-        let gap = if grid.columns == columns {
-            columns - 1
-        } else {
-            0
-        };
-        grid.class == class && grid.first <= last + 1 + gap && first <= grid.end() + gap
-    };
-    let grids = &mut layout.grids;
-    let before = |grid: &&Grid| !touches(grid) && (grid.class, grid.first) < (class, first);
-    let from = grids.iter().take_while(before).count();
-    let to = from
-        + grids[from..]
-            .iter()
-            .take_while(|grid| touches(grid))
-            .count();
-    let joined = &grids[from..to];
-    if joined.iter().any(|grid| grid.columns != columns) {
-        return false;
-    }
-    let first = joined.first().map_or(first, |grid| grid.first.min(first));
-    let end = joined.last().map_or(0, Grid::end).max(last + 1);
-    let areas = &mut layout.areas;
-    let begin = areas.partition_point(|a| (a.class, a.first + a.count) <= (class, first));
-    let behind = areas.partition_point(|a| (a.class, a.first) < (class, end));
-    let in_grid = |area: &Area| {
-        joined
-            .iter()
-            .any(|g| (g.first..g.end()).contains(&area.first))
-    };
-    if areas[begin..behind]
-        .iter()
-        .any(|area| area.array && !in_grid(area))
-    {
-        return false;
-    }
-    let ranges = model
-        .ranges_of(class)
-        .filter(|r| r.first < end && first <= r.last);
-    let new: Vec<Area> = ranges
-        .map(|range| {
-            let (from, to) = (range.first.max(first), range.last.min(end - 1));
-            Area {
-                class,
-                first: from,
-                count: to - from + 1,
-                array: true,
-                latched: range.latched,
-            }
-        })
-        .collect();
-    areas.splice(begin..behind, new);
-    let grid = Grid {
-        class,
-        first,
-        count: end - first,
-        columns,
-    };
-    grids.splice(from..to, [grid]);
-    true
 }

@@ -1,0 +1,193 @@
+//! Arrays of columns for the devices that loops over rungs go through.
+
+use crate::layout::{Area, Grid, Layout};
+use crate::model::Model;
+use crate::node::Module;
+use crate::runs::is_special;
+use rungc_syntax::DeviceClass;
+
+/// The last device behind one that the model has without a gap, and that is as little special.
+pub(super) fn last_alike(model: &Model, class: DeviceClass, number: u32) -> Option<u32> {
+    let mut runs = model.runs(class).into_iter();
+    let (_, last) = runs.find(|(first, last)| (first..=last).contains(&&number))?;
+    (!is_special(class, number) && !is_special(class, last)).then_some(last)
+}
+
+/// Stores the devices from `first` to `last` of a class in an array of so many columns, together with its neighbours if they are stored so;
+/// false if they are needed in another order.
+pub(super) fn spread(
+    layout: &mut Layout,
+    model: &Model,
+    (class, first, last): (DeviceClass, u32, u32),
+    columns: u32,
+) -> bool {
+    // A gap of less than a round belongs to both neighbours.
+    let touches = |grid: &Grid| {
+        let gap = if grid.columns == columns {
+            columns - 1
+        } else {
+            0
+        };
+        grid.class == class && grid.first <= last + 1 + gap && first <= grid.end() + gap
+    };
+    let grids = &mut layout.grids;
+    let before = |grid: &&Grid| !touches(grid) && (grid.class, grid.first) < (class, first);
+    let from = grids.iter().take_while(before).count();
+    let to = from
+        + grids[from..]
+            .iter()
+            .take_while(|grid| touches(grid))
+            .count();
+    let joined = &grids[from..to];
+    if joined.iter().any(|grid| grid.columns != columns) {
+        return false;
+    }
+    let first = joined.first().map_or(first, |grid| grid.first.min(first));
+    let end = joined.last().map_or(0, Grid::end).max(last + 1);
+    let areas = &mut layout.areas;
+    let begin = areas.partition_point(|a| (a.class, a.first + a.count) <= (class, first));
+    let behind = areas.partition_point(|a| (a.class, a.first) < (class, end));
+    let in_grid = |area: &Area| {
+        joined
+            .iter()
+            .any(|g| (g.first..g.end()).contains(&area.first))
+    };
+    if areas[begin..behind]
+        .iter()
+        .any(|area| area.array && !in_grid(area))
+    {
+        return false;
+    }
+    let ranges = model
+        .ranges_of(class)
+        .filter(|r| r.first < end && first <= r.last);
+    let new: Vec<Area> = ranges
+        .map(|range| {
+            let (from, to) = (range.first.max(first), range.last.min(end - 1));
+            Area {
+                class,
+                first: from,
+                count: to - from + 1,
+                array: true,
+                latched: range.latched,
+            }
+        })
+        .collect();
+    areas.splice(begin..behind, new);
+    let grid = Grid {
+        class,
+        first,
+        count: end - first,
+        columns,
+        kept: columns,
+    };
+    grids.splice(from..to, [grid]);
+    true
+}
+
+/// Takes columns away that hold no device that the program names, which `named` stores. Each array then begins with the column behind as
+/// many of them as there are in a row, if that is free.
+pub(super) fn trim(module: &mut Module, named: &Layout) {
+    for i in 0..module.layout.grids.len() {
+        let grid = module.layout.grids[i];
+        let mut used = vec![false; grid.columns as usize];
+        let areas = named.areas.iter().filter(|area| area.class == grid.class);
+        for area in areas {
+            let end = (area.first + area.count).min(grid.end());
+            for number in area.first.max(grid.first)..end {
+                used[grid.place(number).0 as usize] = true;
+            }
+        }
+        let (first, kept) = turned(&used);
+        let before = (grid.columns - first) % grid.columns;
+        let begin = grid.first.saturating_sub(before);
+        let free = |number| module.layout.area(grid.class, number).is_none();
+        let alike = last_alike(module.model, grid.class, begin);
+        let previous = module.layout.grids[..i].last();
+        let previous = previous.filter(|previous| previous.class == grid.class);
+        let turns = before <= grid.first
+            && previous.is_none_or(|previous| previous.end() <= begin)
+            && alike.is_some_and(|last| last >= grid.first)
+            && (begin..grid.first).all(free);
+        let (first, kept) = match turns {
+            true => (begin, kept),
+            false => (grid.first, last_used(&used)),
+        };
+        let grid = Grid {
+            first,
+            count: grid.end() - first,
+            kept,
+            ..grid
+        };
+        module.layout.grids[i] = grid;
+        store_kept(module, &grid);
+    }
+}
+
+/// Behind which column the longest row of unused ones ends, and how many columns there are from there to its begin.
+fn turned(used: &[bool]) -> (u32, u32) {
+    let columns = used.len();
+    let row = |first: usize| {
+        let before = (1..=columns).take_while(|n| !used[(first + columns - n) % columns]);
+        before.count()
+    };
+    let longest = (0..columns).max_by_key(|&first| (row(first), columns - first));
+    let first = longest.unwrap_or(0);
+    (first as u32, (columns - row(first)).max(1) as u32)
+}
+
+/// How many columns there are up to the last that is used.
+fn last_used(used: &[bool]) -> u32 {
+    let last = used.iter().rposition(|&used| used);
+    last.map_or(1, |last| last as u32 + 1)
+}
+
+/// Makes the areas of an array those of its columns that it keeps.
+fn store_kept(module: &mut Module, grid: &Grid) {
+    let ranges = module.model.ranges_of(grid.class);
+    let ranges: Vec<_> = ranges
+        .filter(|r| r.first < grid.end() && grid.first <= r.last)
+        .collect();
+    let mut kept: Vec<Area> = Vec::new();
+    for range in ranges {
+        let numbers = range.first.max(grid.first)..=range.last.min(grid.end() - 1);
+        for number in numbers.filter(|&number| grid.holds(number)) {
+            match kept.last_mut() {
+                Some(last) if last.first + last.count == number && last.first >= range.first => {
+                    last.count += 1;
+                }
+                _ => kept.push(Area {
+                    class: grid.class,
+                    first: number,
+                    count: 1,
+                    array: true,
+                    latched: range.latched,
+                }),
+            }
+        }
+    }
+    let areas = &mut module.layout.areas;
+    let begin = areas.partition_point(|a| (a.class, a.first) < (grid.class, grid.first));
+    let behind = areas.partition_point(|a| (a.class, a.first) < (grid.class, grid.end()));
+    areas.splice(begin..behind, kept);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{last_used, turned};
+
+    #[test]
+    fn arrays_begin_behind_the_longest_row_of_unused_columns() {
+        let columns = |text: &str| text.chars().map(|c| c == '1').collect::<Vec<_>>();
+        for (used, expected) in [
+            ("11111", (0, 5)),
+            ("11000", (0, 2)),
+            ("11001", (4, 3)),
+            ("10001011", (4, 5)),
+            ("1", (0, 1)),
+        ] {
+            assert_eq!(turned(&columns(used)), expected, "{used}");
+        }
+        assert_eq!(last_used(&columns("10100")), 3);
+    }
+}
