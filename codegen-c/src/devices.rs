@@ -3,7 +3,7 @@
 use crate::expr::Around;
 use crate::helpers::reset_function;
 use crate::writer::Writer;
-use rungc_ir::node::{ExprId, Place, Stmt};
+use rungc_ir::node::{Expr, ExprId, Place, Stmt};
 use rungc_ir::runs::is_counter32;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -106,16 +106,65 @@ impl Writer<'_, '_> {
         };
         let mut timer = String::new();
         self.fields.access(&mut timer, DeviceClass::T, number);
+        self.run_timer(code, (&timer, kind), drive, preset);
+    }
+
+    fn run_timer(
+        &mut self,
+        code: &mut String,
+        (timer, kind): (&str, TimerKind),
+        drive: ExprId,
+        preset: ExprId,
+    ) {
         let [drive, preset] = [drive, preset].map(|argument| {
             let mut text = String::new();
             self.expr(&mut text, argument, Around::Exact);
             text
         });
-        run_timer(code, kind, &timer, &drive, &preset);
+        run_timer(code, kind, timer, &drive, &preset);
+    }
+
+    /// A coil of the timer or counter of a loop's present round; false for any other.
+    fn coil_of_round(
+        &mut self,
+        code: &mut String,
+        place: &Place,
+        drive: ExprId,
+        preset: ExprId,
+    ) -> bool {
+        let mut device = String::new();
+        if !self.access_round(&mut device, place) {
+            return false;
+        }
+        match (place.class, self.module.model.timer(place.number)) {
+            (DeviceClass::T, Some(kind)) => {
+                let by = match place.index.map(|index| self.module.expr(index)) {
+                    Some(&Expr::Stride(_, by)) => by,
+                    _ => 0,
+                };
+                let mut numbers = (0..self.rounds).map(|n| place.number + n * by);
+                let kind = TimerKind {
+                    latches_preset: numbers.any(|number| self.latches(number, kind)),
+                    ..kind
+                };
+                self.run_timer(code, (&device, kind), drive, preset);
+            }
+            _ => {
+                let _ = write!(code, "plc_count16(&{device}, ");
+                self.expr(code, drive, Around::Exact);
+                code.push_str(", ");
+                self.expr(code, preset, Around::Exact);
+                code.push_str(");");
+            }
+        }
+        true
     }
 
     /// A coil of a timer or counter that an index leads to.
     fn indexed_coil(&mut self, code: &mut String, place: &Place, drive: ExprId, preset: ExprId) {
+        if self.coil_of_round(code, place, drive, preset) {
+            return;
+        }
         self.helpers.out(place.class);
         let _ = write!(
             code,
@@ -147,13 +196,8 @@ impl Writer<'_, '_> {
     }
 
     fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
-        if self.access_round(code, place) {
-            code.push_str(" = ");
-            self.grid_value(code, value);
-            code.push(';');
-            return;
-        }
-        if place.index.is_some() {
+        let of_round = self.access_round(code, place);
+        if place.index.is_some() && !of_round {
             self.helpers.put(what, place.class);
             let _ = write!(
                 code,
@@ -168,15 +212,15 @@ impl Writer<'_, '_> {
             return;
         }
         // A device that nobody looks at is not stored.
-        if self.fields.access(code, place.class, place.number) {
+        if of_round || self.fields.access(code, place.class, place.number) {
             code.push_str(match (place.class, what) {
                 (DeviceClass::T | DeviceClass::C, "bit") => ".done = ",
                 (DeviceClass::T | DeviceClass::C, _) => ".value = ",
                 _ => " = ",
             });
-            match self.module.layout.grid(place.class, place.number) {
-                Some(_) => self.grid_value(code, value),
-                None => self.expr(code, value, Around::Exact),
+            match self.is_level(place.class, place.number) {
+                true => self.grid_value(code, value),
+                false => self.expr(code, value, Around::Exact),
             }
             code.push(';');
         }
@@ -312,7 +356,9 @@ impl Writer<'_, '_> {
     }
 
     fn reset(&mut self, code: &mut String, place: &Place) {
-        if place.index.is_some() {
+        let mut name = String::new();
+        let of_round = self.access_round(&mut name, place);
+        if place.index.is_some() && !of_round {
             self.helpers.reset(place.class);
             let _ = write!(
                 code,
@@ -324,11 +370,12 @@ impl Writer<'_, '_> {
             code.push_str(");");
             return;
         }
-        let mut name = String::new();
         let Some(field) = self.fields.find(place.class, place.number) else {
             return;
         };
-        self.fields.access(&mut name, place.class, place.number);
+        if !of_round {
+            self.fields.access(&mut name, place.class, place.number);
+        }
         let _ = write!(code, "{}(&{name});", reset_function(field.kind));
     }
 }

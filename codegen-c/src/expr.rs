@@ -1,5 +1,6 @@
 //! Expressions as C.
 
+use crate::fields::Kind;
 use crate::text;
 use crate::writer::Writer;
 use rungc_ir::node::{BinOp, CmpOp, Expr, ExprId, Place, SysValue, Ty};
@@ -250,11 +251,17 @@ impl Writer<'_, '_> {
             return false;
         }
         match *self.module.expr(e) {
-            Expr::ReadBit(place) => self.module.layout.grid(place.class, place.number).is_some(),
+            Expr::ReadBit(place) => self.is_level(place.class, place.number),
             Expr::Not(a) => self.is_number(a),
             Expr::And(a, b) | Expr::Or(a, b) => self.is_number(a) || self.is_number(b),
             _ => false,
         }
+    }
+
+    /// Whether a device is a bit that is stored as a number.
+    pub fn is_level(&self, class: DeviceClass, number: u32) -> bool {
+        Kind::of(class, number) == Some(Kind::Bit)
+            && self.module.layout.grid(class, number).is_some()
     }
 
     /// Writes a value for an element of an array of columns.
@@ -593,13 +600,11 @@ impl Writer<'_, '_> {
     }
 
     fn read_bit(&mut self, out: &mut String, place: &Place) {
-        if self.access_round(out, place) {
-            return;
-        }
-        if place.index.is_some() {
+        let of_round = self.access_round(out, place);
+        if place.index.is_some() && !of_round {
             return self.indexed_call(out, "bit", place, 0);
         }
-        if !self.fields.access(out, place.class, place.number) {
+        if !of_round && !self.fields.access(out, place.class, place.number) {
             out.push_str("false");
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".done");
@@ -619,11 +624,12 @@ impl Writer<'_, '_> {
 
     /// Reads the word `plus` places after `place`.
     pub fn word(&mut self, out: &mut String, place: &Place, plus: i32) {
-        if place.index.is_some() {
+        let of_round = plus == 0 && self.access_round(out, place);
+        if place.index.is_some() && !of_round {
             return self.indexed_call(out, "word", place, plus);
         }
         let number = place.number.saturating_add_signed(plus);
-        if !self.fields.access(out, place.class, number) {
+        if !of_round && !self.fields.access(out, place.class, number) {
             out.push('0');
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".value");

@@ -87,7 +87,7 @@ pub struct Field {
     pub count: u32,
     /// An array.
     pub array: bool,
-    /// A loop over rungs goes through it ([`rungc_ir::layout::Grid`]): its bits are numbers, which compilers vectorise best.
+    /// A loop over rungs goes through it ([`rungc_ir::layout::Grid`]).
     pub grid: bool,
     /// How many columns the array has, each of which holds every so manieth device: 1 unless it is a grid.
     pub columns: u32,
@@ -112,6 +112,14 @@ impl Field {
                 let _ = write!(out, "{:o}", self.first);
             }
             (false, false) => text::push_number(out, self.first),
+        }
+    }
+
+    /// The C type of its elements. Bits that a loop over rungs goes through are numbers, which compilers vectorise best.
+    pub fn c_type(&self) -> &'static str {
+        match (self.grid, self.kind) {
+            (true, Kind::Bit) => "uint8_t",
+            _ => self.kind.c_type(),
         }
     }
 

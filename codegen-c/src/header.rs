@@ -1,7 +1,7 @@
 //! The header of a program: its struct, field by field, and its functions.
 
 use crate::events;
-use crate::fields::{Field, Fields, Section};
+use crate::fields::{Field, Fields, Kind, Section};
 use crate::plan::Plan;
 use crate::text;
 use crate::unit::uses_runtime;
@@ -157,11 +157,7 @@ impl Size {
 
 fn field_line(out: &mut String, fields: &Fields, field: &Field) {
     let (class, first) = (field.class, field.first);
-    let ty = if field.grid {
-        "uint8_t"
-    } else {
-        field.kind.c_type()
-    };
+    let ty = field.c_type();
     let mut line = format!("    {ty} ");
     field.name(&mut line);
     if field.array {
@@ -176,7 +172,7 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
             class.number(first),
             class.number(field.end() - 1)
         );
-        if field.grid {
+        if field.grid && field.kind == Kind::Bit {
             comment.push_str(", 0 or 1");
         }
         if field.columns > 1 {

@@ -1,7 +1,7 @@
 //! One module as C text: declarations, and functions in groups of bounded size.
 
 use crate::events;
-use crate::fields::{Field, Fields, Section};
+use crate::fields::{Field, Fields, Kind, Section};
 use crate::header;
 use crate::plan::Plan;
 use crate::table;
@@ -330,7 +330,10 @@ impl Printer<'_> {
                 if field.columns > 1 {
                     let (first, end) = (run.first, run.first + run.count);
                     field.element(&mut array, "n", "u");
-                    let mut clear = format!("        {array} = 0;\n");
+                    let mut clear = match field.kind {
+                        Kind::Bit | Kind::Word => format!("        {array} = 0;\n"),
+                        _ => format!("        memset(&{array}, 0, sizeof {array});\n"),
+                    };
                     if let Some(is_kept) = field.column_is_kept("n", "u") {
                         clear = format!("        if ({is_kept}) {{\n    {clear}        }}\n");
                     }
@@ -467,11 +470,17 @@ impl Printer<'_> {
             for field in self.fields.of_class(class) {
                 let mut device = String::from("plc->");
                 field.name(&mut device);
+                let rows = field.count.div_ceil(field.columns);
                 let _ = match field.array {
+                    true if field.columns > 1 => write!(
+                        out,
+                        "    for (int i = 0; i < {}; i++) {{\n        for (int j = 0; j < {rows}; j++) {{\n            \
+                         {device}[i][j].{what};\n        }}\n    }}\n",
+                        field.kept
+                    ),
                     true => write!(
                         out,
-                        "    for (int i = 0; i < {}; i++) {{\n        {device}[i].{what};\n    }}\n",
-                        field.count
+                        "    for (int i = 0; i < {rows}; i++) {{\n        {device}[i].{what};\n    }}\n"
                     ),
                     false => writeln!(out, "    {device}.{what};"),
                 };

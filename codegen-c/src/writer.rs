@@ -41,6 +41,8 @@ pub struct Writer<'a, 'm> {
     pub(crate) numbers: bool,
     /// Variable that counts the rounds of the loop over rungs.
     pub(crate) round: String,
+    /// How many rounds that has.
+    pub(crate) rounds: u32,
     /// Parts that have been given a name in this function.
     names: u32,
 }
@@ -61,37 +63,57 @@ impl<'a, 'm> Writer<'a, 'm> {
             loops: 0,
             numbers: false,
             round: String::new(),
+            rounds: 0,
             names: 0,
         };
         for function in &plan.functions {
-            writer.count_timers(&function.body);
+            writer.count_timers(&function.body, 1);
         }
         writer
     }
 
-    fn count_timers(&mut self, nodes: &[Node]) {
+    /// Counts the coils of each timer in statements that are in a loop of so many rounds; a preset that may change counts twice.
+    fn count_timers(&mut self, nodes: &[Node], rounds: u32) {
         for node in nodes {
             match node {
                 Node::Stmt(Stmt::Timer { number, preset, .. }) => {
-                    let constant = matches!(self.module.expr(*preset), Expr::I16(_));
-                    *self.plain_timers.entry(*number).or_default() += if constant { 1 } else { 2 };
+                    *self.plain_timers.entry(*number).or_default() += self.coils(*preset);
                 }
-                // An index may lead to any of them.
-                Node::Stmt(Stmt::TimerAt { .. }) => {
-                    for field in self.fields.of_class(DeviceClass::T) {
-                        self.plain_timers
-                            .extend((field.first..field.end()).map(|number| (number, 2)));
+                Node::Stmt(Stmt::TimerAt { place, preset, .. }) => {
+                    let coils = self.coils(*preset);
+                    match place.index.map(|index| self.module.expr(index)) {
+                        Some(&Expr::Stride(_, by)) => {
+                            for n in 0..rounds {
+                                *self.plain_timers.entry(place.number + n * by).or_default() +=
+                                    coils;
+                            }
+                        }
+                        // An index may lead to any of them.
+                        _ => {
+                            let fields = self.fields.of_class(DeviceClass::T).iter();
+                            let numbers = fields.flat_map(|field| field.first..field.end());
+                            self.plain_timers.extend(numbers.map(|number| (number, 2)));
+                        }
                     }
                 }
                 Node::If {
                     then, otherwise, ..
                 } => {
-                    self.count_timers(then);
-                    self.count_timers(otherwise);
+                    self.count_timers(then, rounds);
+                    self.count_timers(otherwise, rounds);
                 }
-                Node::For { body, .. } | Node::Repeat { body, .. } => self.count_timers(body),
+                Node::For { body, .. } => self.count_timers(body, rounds),
+                Node::Repeat { count, body, .. } => self.count_timers(body, *count),
                 _ => {}
             }
+        }
+    }
+
+    /// As how many a coil of a timer with this preset counts.
+    fn coils(&self, preset: ExprId) -> u32 {
+        match self.module.expr(preset) {
+            Expr::I16(_) => 1,
+            _ => 2,
         }
     }
 
@@ -394,7 +416,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         text::line(out, indent, &comment, None);
         let head = format!("for (unsigned {variable} = 0; {variable} < {count}; {variable}++) {{");
         text::line(out, indent, &head, None);
-        self.round = variable;
+        (self.round, self.rounds) = (variable, count);
         self.loops += 1;
         self.nodes(out, body, indent + 4);
         self.loops -= 1;

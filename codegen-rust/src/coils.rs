@@ -5,7 +5,7 @@ use crate::generate::Generator;
 use crate::storage::{Elem, Field};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{ExprId, Place, Stmt};
+use rungc_ir::node::{Expr, ExprId, Place, Stmt};
 use rungc_syntax::DeviceClass;
 
 /// What runs a timer that an index leads to.
@@ -78,6 +78,9 @@ impl Generator<'_> {
         drive: ExprId,
         preset: ExprId,
     ) -> TokenStream {
+        if let Some(cell) = self.cell_of_round(place) {
+            return self.coil_of_round(cell, place, drive, preset);
+        }
         let function = format_ident!("{function}");
         let (_, number) = self.operand_place(place);
         let mut before = TokenStream::new();
@@ -86,7 +89,37 @@ impl Generator<'_> {
         quote!(#before #function(plc, #number, #drive, #preset);)
     }
 
+    /// A coil of the timer or counter of a loop's present round.
+    fn coil_of_round(
+        &mut self,
+        cell: TokenStream,
+        place: Place,
+        drive: ExprId,
+        preset: ExprId,
+    ) -> TokenStream {
+        let mut before = TokenStream::new();
+        let drive = named_drive(self.expr(drive), &mut before);
+        let preset = self.expr(preset);
+        match (place.class, self.module.model.timer(place.number)) {
+            (DeviceClass::T, Some(kind)) => {
+                let kind = self.timer_kind(kind);
+                quote!(#before #cell.run(#kind, #drive, #preset, plc.sys.now_ms, plc.sys.dt_ms);)
+            }
+            _ => quote!(#before #cell.run(#drive, #preset);),
+        }
+    }
+
+    /// Whether an index leads to a device, rather than the round of a loop.
+    fn is_indexed(&self, place: Place) -> bool {
+        let index = place.index.map(|index| self.module.expr(index));
+        index.is_some_and(|index| !matches!(index, Expr::Stride(..)))
+    }
+
+    /// RST of a timer or counter.
     pub fn reset(&mut self, place: Place) -> TokenStream {
+        if let Some(cell) = self.cell_of_round(place) {
+            return quote!(#cell.reset(););
+        }
         if place.index.is_some() {
             let (class, number) = self.indexed(place);
             return quote!(plc.reset_at(#class, #number););
@@ -103,9 +136,10 @@ impl Generator<'_> {
     pub fn indexed_coils(&mut self) {
         let (mut timers, mut counters) = (false, false);
         for function in &self.module.functions {
-            rungc_ir::walk::statements(&function.body, &mut |stmt| {
-                timers |= matches!(stmt, Stmt::TimerAt { .. });
-                counters |= matches!(stmt, Stmt::Counter16At { .. });
+            rungc_ir::walk::statements(&function.body, &mut |stmt| match stmt {
+                Stmt::TimerAt { place, .. } => timers |= self.is_indexed(*place),
+                Stmt::Counter16At { place, .. } => counters |= self.is_indexed(*place),
+                _ => {}
             });
         }
         if timers {
@@ -144,7 +178,7 @@ impl Generator<'_> {
             for timers in self.module.model.timers {
                 let first = timers.first.max(field.area.first);
                 let last = timers.last.min(field.last());
-                if field.elem == Elem::Timer && first <= last {
+                if field.elem == Elem::Timer && field.grid.is_none() && first <= last {
                     let (cell, kind) = (by_number(&field), self.timer_kind(timers.kind));
                     let [first, last] = [first, last].map(Literal::u32_unsuffixed);
                     arms.extend(quote!(#first..=#last => (&mut #cell, #kind),));
@@ -158,7 +192,7 @@ impl Generator<'_> {
     fn counter_arms(&self) -> TokenStream {
         let fields = self.storage.fields.iter();
         fields
-            .filter(|field| field.elem == Elem::Counter16)
+            .filter(|field| field.elem == Elem::Counter16 && field.grid.is_none())
             .map(|field| {
                 let cell = by_number(field);
                 let [first, last] = [field.area.first, field.last()].map(Literal::u32_unsuffixed);

@@ -1,6 +1,7 @@
 //! Expressions of the IR as expressions of Rust, with as few parentheses as a reader would write.
 
 use crate::generate::Generator;
+use crate::storage::{bit_of, word_of};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 use rungc_ir::catalogue::CmpOp;
@@ -323,7 +324,7 @@ impl Generator<'_> {
     /// Where a bit is stored; `None` if it is not, or if an index leads to it.
     pub fn bit_cell(&self, place: Place) -> Option<TokenStream> {
         match place.index {
-            Some(_) => self.cell_of_round(place),
+            Some(_) => bit_of(place.class, place.number, self.cell_of_round(place)?),
             None => self.storage.bit(&quote!(plc), place.class, place.number),
         }
     }
@@ -343,14 +344,24 @@ impl Generator<'_> {
         }
     }
 
+    /// Where a word is stored; `None` if it is not, or if an index leads to it.
+    pub fn word_cell(&self, place: Place) -> Option<TokenStream> {
+        match place.index {
+            Some(_) => word_of(place.class, place.number, self.cell_of_round(place)?),
+            None => self.storage.word(&quote!(plc), place.class, place.number),
+        }
+    }
+
     /// Value of a word device.
     pub fn read_word(&mut self, place: Place) -> Code {
-        if place.index.is_some() {
-            let (class, number) = self.indexed(place);
-            return Code::atom(quote!(plc.word_at(#class, #number)));
+        match self.word_cell(place) {
+            Some(cell) => Code::atom(cell),
+            None if place.index.is_some() => {
+                let (class, number) = self.indexed(place);
+                Code::atom(quote!(plc.word_at(#class, #number)))
+            }
+            None => Code::atom(quote!(0i16)),
         }
-        let cell = self.storage.word(&quote!(plc), place.class, place.number);
-        Code::atom(cell.unwrap_or_else(|| quote!(0i16)))
     }
 
     fn read_pair(&mut self, place: Place) -> Code {

@@ -113,15 +113,20 @@ impl Generator<'_> {
 
     /// A field's value at power-on, special registers' apart.
     fn zero(&mut self, field: &Field) -> TokenStream {
-        let zero = match field.elem {
+        let zero = self.zero_element(field);
+        dimensions(field, zero)
+    }
+
+    /// The same of one of its devices.
+    fn zero_element(&mut self, field: &Field) -> TokenStream {
+        match field.elem {
             Elem::Bit => quote!(false),
             Elem::Level | Elem::Word => quote!(0),
             _ => {
                 let ty = self.rt(field.elem.type_name());
                 quote!(#ty::new())
             }
-        };
-        dimensions(field, zero)
+        }
     }
 
     /// What is no device: name, type, value at power-on, meaning.
@@ -262,13 +267,13 @@ impl Generator<'_> {
             for part in field.parts.iter().filter(|part| pick(part)) {
                 let [first, end] = [part.first, part.first + part.count]
                     .map(|number| number_literal(part.class, number));
-                let cell = Self::matched(field);
-                out.extend(match Self::column_is_kept(field) {
-                    Some(is_kept) => {
-                        quote!(for number in #first..#end { if #is_kept { #cell = 0; } })
-                    }
-                    None => quote!(for number in #first..#end { #cell = 0; }),
-                });
+                let (cell, zero) = (Self::matched(field), self.zero_element(field));
+                let clear = quote!(#cell = #zero;);
+                let clear = match Self::column_is_kept(field) {
+                    Some(is_kept) => quote!(if #is_kept { #clear }),
+                    None => clear,
+                };
+                out.extend(quote!(for number in #first..#end { #clear }));
             }
         }
         out
@@ -316,7 +321,9 @@ impl Generator<'_> {
             .filter(|field| !matches!(field.elem, Elem::Bit | Elem::Level | Elem::Word))
             .map(|field| {
                 let name = &field.name;
-                if field.area.array {
+                if field.columns().is_some() {
+                    quote!(for device in self.#name.iter_mut().flatten() { device.#member = false; })
+                } else if field.area.array {
                     quote!(for device in &mut self.#name { device.#member = false; })
                 } else {
                     quote!(self.#name.#member = false;)

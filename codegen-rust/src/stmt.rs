@@ -323,6 +323,9 @@ impl Generator<'_> {
         let plc = quote!(plc);
         if place.index.is_some() {
             let value = self.expr(value);
+            if let Some(cell) = self.word_cell(place) {
+                return self.assign(cell, value, place);
+            }
             let (class, number) = self.indexed(place);
             return quote!(plc.set_word_at(#class, #number, #value););
         }

@@ -93,11 +93,15 @@ impl Field {
             array: true,
             latched: parts.iter().all(|part| part.latched),
         };
+        let field = Field::new(area);
         Field {
-            elem: Elem::Level,
+            elem: match field.elem {
+                Elem::Bit => Elem::Level,
+                other => other,
+            },
             grid: Some(grid),
             parts,
-            ..Field::new(area)
+            ..field
         }
     }
 
@@ -240,22 +244,12 @@ impl Storage {
 
     /// Where its state as a bit is: a number if [`Storage::is_level`].
     pub fn bit(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
-        let cell = self.cell(plc, class, number)?;
-        match Elem::of(class, number) {
-            Elem::Bit | Elem::Level => Some(cell),
-            Elem::Word => None,
-            Elem::Timer | Elem::Counter16 | Elem::Counter32 => Some(quote!(#cell.done)),
-        }
+        bit_of(class, number, self.cell(plc, class, number)?)
     }
 
     /// Where its value as a 16-bit word is.
     pub fn word(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
-        let cell = self.cell(plc, class, number)?;
-        match Elem::of(class, number) {
-            Elem::Word => Some(cell),
-            Elem::Bit | Elem::Level | Elem::Counter32 => None,
-            Elem::Timer | Elem::Counter16 => Some(quote!(#cell.value)),
-        }
+        word_of(class, number, self.cell(plc, class, number)?)
     }
 
     /// Where a 32-bit counter's value is.
@@ -267,5 +261,23 @@ impl Storage {
     ) -> Option<TokenStream> {
         let cell = self.cell(plc, class, number)?;
         (Elem::of(class, number) == Elem::Counter32).then(|| quote!(#cell.value))
+    }
+}
+
+/// Where the state as a bit is of a device that is stored there.
+pub fn bit_of(class: DeviceClass, number: u32, cell: TokenStream) -> Option<TokenStream> {
+    match Elem::of(class, number) {
+        Elem::Bit | Elem::Level => Some(cell),
+        Elem::Word => None,
+        Elem::Timer | Elem::Counter16 | Elem::Counter32 => Some(quote!(#cell.done)),
+    }
+}
+
+/// Where the value as a 16-bit word is of a device that is stored there.
+pub fn word_of(class: DeviceClass, number: u32, cell: TokenStream) -> Option<TokenStream> {
+    match Elem::of(class, number) {
+        Elem::Word => Some(cell),
+        Elem::Bit | Elem::Level | Elem::Counter32 => None,
+        Elem::Timer | Elem::Counter16 => Some(quote!(#cell.value)),
     }
 }

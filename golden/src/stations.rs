@@ -8,6 +8,8 @@ struct Row {
     /// Relay of the first station from which the others count, and how far the stations are apart.
     base: u32,
     apart: u32,
+    /// The same of timers, counters and registers.
+    others_apart: u32,
     stations: u32,
 }
 
@@ -23,6 +25,8 @@ enum Named {
     Own(u32),
     /// A relay of all.
     Shared(u32),
+    /// A timer, counter or register, and what follows it in the list.
+    Numbered(char, u32, &'static str),
 }
 
 /// A program of a few rows of stations, with some rungs between them.
@@ -53,6 +57,7 @@ impl Row {
             rungs,
             base,
             apart,
+            others_apart: 1 + rng.below(3),
             stations: 2 + rng.below(40),
         }
     }
@@ -68,6 +73,10 @@ impl Row {
                     }
                     Named::Own(number) => format!("{verb} M{}", own + number - self.apart),
                     Named::Shared(number) => format!("{verb} M{number}"),
+                    Named::Numbered(class, number, behind) => {
+                        let number = number + self.others_apart * station;
+                        format!("{verb} {class}{number}{behind}")
+                    }
                 });
             }
         }
@@ -86,13 +95,20 @@ impl Rung {
         let verbs: &[&str] = &["AND", "ANI", "OR", "ORI"];
         let mut parts = vec![(rng.pick(&["LD", "LDI"]).unwrap_or("LD"), named(rng))];
         for _ in 0..1 + rng.below(5) {
-            parts.push((rng.pick(verbs).unwrap_or("AND"), named(rng)));
+            parts.push(match rng.below(6) {
+                0 => contact(rng),
+                _ => (rng.pick(verbs).unwrap_or("AND"), named(rng)),
+            });
         }
         for _ in 0..1 + rng.below(2) {
             let verb = rng
                 .pick(&["OUT", "OUT", "OUT", "SET", "RST"])
                 .unwrap_or("OUT");
             let target = match rng.below(8) {
+                5..=7 if rng.percent(60) => {
+                    parts.push(action(rng));
+                    continue;
+                }
                 0 => Named::Terminal('Y', rng.below(8), 2),
                 1 => Named::Shared(10 + rng.below(5)),
                 _ => Named::Own(apart + rng.below(apart)),
@@ -101,4 +117,38 @@ impl Rung {
         }
         Rung(parts)
     }
+}
+
+/// A contact of a timer or counter, or a comparison of a register or a current value.
+fn contact(rng: &mut Rng) -> (&'static str, Named) {
+    let class = rng.pick(&['T', 'C', 'D']).unwrap_or('T');
+    let (verbs, behind): (&[&str], _) = match rng.below(2) {
+        0 if class != 'D' => (&["AND", "ANI", "OR", "ORI"], ""),
+        _ => (&["AND>", "AND=", "OR<", "OR<>"], " K3"),
+    };
+    let verb = rng.pick(verbs).unwrap_or("AND");
+    (verb, numbered(rng, class, behind))
+}
+
+/// What a rung does to a timer, counter or register.
+fn action(rng: &mut Rng) -> (&'static str, Named) {
+    let (verb, class, behind) = rng
+        .pick(&[
+            ("OUT", 'T', " K2"),
+            ("OUT", 'T', " K5"),
+            ("OUT", 'T', " D5"),
+            ("OUT", 'C', " K3"),
+            ("RST", 'T', ""),
+            ("RST", 'C', ""),
+            ("MOV K4", 'D', ""),
+            ("MOV T3", 'D', ""),
+            ("MOV D3", 'C', ""),
+        ])
+        .unwrap_or(("OUT", 'T', " K1"));
+    (verb, numbered(rng, class, behind))
+}
+
+/// One of the first timers, counters or registers of a row.
+fn numbered(rng: &mut Rng, class: char, behind: &'static str) -> Named {
+    Named::Numbered(class, rng.below(12), behind)
 }

@@ -8,6 +8,8 @@ use rungc_golden::rng::Rng;
 use rungc_golden::stations;
 use rungc_ir::catalogue::Classes;
 use rungc_ir::compile::{CompileOptions, compile};
+use rungc_ir::node::Stmt;
+use rungc_ir::walk::statements;
 use rungc_ir::{ModelId, Module};
 use rungc_rt::Class;
 use rungc_sim::engines::{Engine, EngineKind, Interpreter, build};
@@ -231,6 +233,30 @@ fn difference(
         .map(|((a, b), request)| format!("`{request}`: {a:?} in {name}, {b:?} in {other}"))
         .collect();
     Some(format!("scan {}: {}", scan + 1, differing.join("; ")))
+}
+
+#[test]
+fn random_stations_become_loops_with_timers_counters_and_registers() {
+    let (mut timers, mut counters, mut registers) = (0, 0, 0);
+    for seed in 0..60 {
+        let module = compiled(&stations::program(seed), seed, ModelId::Fx3u, true);
+        let module = module.unwrap_or_else(|e| panic!("{e}"));
+        statements(&module.functions[1].body, &mut |stmt| {
+            let Stmt::Repeat { body, .. } = stmt else {
+                return;
+            };
+            statements(body, &mut |stmt| match stmt {
+                Stmt::TimerAt { .. } => timers += 1,
+                Stmt::Counter16At { .. } => counters += 1,
+                Stmt::WriteWord(..) => registers += 1,
+                _ => {}
+            });
+        });
+    }
+    assert!(
+        timers > 5 && counters > 5 && registers > 5,
+        "{timers} timers, {counters} counters, {registers} registers"
+    );
 }
 
 #[test]

@@ -59,6 +59,12 @@ fn clamps() {
     check("clamps", ModelId::Fx3u);
 }
 
+/// The same with timers and counters.
+#[test]
+fn sections() {
+    check("sections", ModelId::H2u);
+}
+
 /// Timers and counters that an index leads to.
 #[test]
 fn fillers() {

@@ -35,7 +35,7 @@ impl Area {
     }
 }
 
-/// Bits that a [`Stmt::Repeat`] goes through: an array of columns, each of which has every so manieth device. The devices lie in areas
+/// Devices that a [`Stmt::Repeat`] goes through: an array of columns, each of which has every so manieth device. The devices lie in areas
 /// that are arrays.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Grid {

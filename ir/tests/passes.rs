@@ -245,6 +245,43 @@ fn repeated_rungs_become_a_loop() {
     assert_eq!(main.lines().count(), 7, "{main}");
 }
 
+/// Rungs of one station with a timer, a counter and a register.
+fn timed_station(n: u32) -> String {
+    let preset = if n < 12 { 50 } else { 70 };
+    let (x, d) = (2 * n, 100 + 2 * n);
+    format!(
+        "{}LD X{x:03o}\nOUT T{n} K{preset}\nLD T{n}\nOUT C{n} D{d}\nLD C{n}\nMOV K3 D{}\nRST C{n}\n",
+        station(n),
+        d + 1
+    )
+}
+
+#[test]
+fn timers_counters_and_registers_take_part_in_loops() {
+    let main = stations(12, timed_station, "");
+    assert!(main.starts_with("repeat 12 times: t12 {\n"), "{main}");
+    for line in [
+        "timer T[0 + 1 * t12] drive X[0o0 + 2 * t12] preset 50\n",
+        "counter C[0 + 1 * t12] drive T[0 + 1 * t12] preset D[100 + 2 * t12]\n",
+        "D[101 + 2 * t12] := 3\n",
+        "reset C[0 + 1 * t12]\n",
+    ] {
+        assert!(main.contains(line), "{line}{main}");
+    }
+}
+
+#[test]
+fn rounds_have_the_same_presets_and_kinds_of_timers() {
+    // From the thirteenth station on the preset is another one.
+    let main = stations(20, timed_station, "");
+    assert!(main.starts_with("repeat 12 times"), "{main}");
+    assert!(main.contains("repeat 8 times"), "{main}");
+    // Behind T245 timers keep their values.
+    let late = |n: u32| timed_station(n).replace(&format!(" T{n}"), &format!(" T{}", 236 + n));
+    let main = stations(12, late, "");
+    assert!(main.starts_with("repeat 10 times"), "{main}");
+}
+
 #[test]
 fn few_rounds_stay_as_written() {
     let main = stations(3, station, "");
@@ -285,5 +322,8 @@ fn rows_go_on_over_the_border_of_latched_relays() {
     assert!(text.contains("repeat 16 times"), "{text}");
     assert!(text.contains("store M490[5]\n"), "{text}");
     assert!(text.contains("store M500[5] latched\n"), "{text}");
-    assert!(text.contains("M400[155] in 10 columns, 5 stored\n"), "{text}");
+    assert!(
+        text.contains("M400[155] in 10 columns, 5 stored\n"),
+        "{text}"
+    );
 }

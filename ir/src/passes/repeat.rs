@@ -4,7 +4,8 @@
 
 use super::columns::{self, last_alike, spread};
 use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
-use crate::walk::{assigned, bodies, for_exprs, operands};
+use crate::runs::is_counter32;
+use crate::walk::{assigned, bodies, for_exprs, operands, operands_mut};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
@@ -83,10 +84,15 @@ fn add_stmt(
     match stmt {
         Stmt::Network(_) => *size -= 1,
         Stmt::Let(_, value) => add_expr(module, *value, hasher, size)?,
-        Stmt::WriteBit(place, value) => {
+        Stmt::WriteBit(place, value) | Stmt::WriteWord(place, value) => {
             add_place(*place, hasher)?;
             add_expr(module, *value, hasher, size)?;
         }
+        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+            add_expr(module, *drive, hasher, size)?;
+            add_expr(module, *preset, hasher, size)?;
+        }
+        Stmt::Reset(place) => add_place(*place, hasher)?,
         Stmt::If {
             cond,
             then,
@@ -113,24 +119,47 @@ fn add_expr(module: &Module, id: ExprId, hasher: &mut DefaultHasher, size: &mut 
         return None;
     }
     match expr {
-        Expr::ReadBit(place) => add_place(*place, hasher),
-        Expr::Temp(temp) => (module.temps.get(temp.0 as usize) == Some(&Ty::Bit)).then_some(()),
+        Expr::ReadBit(place) | Expr::ReadWord(place) => add_place(*place, hasher),
         Expr::Bit(_)
+        | Expr::I16(_)
+        | Expr::I32(_)
+        | Expr::Temp(_)
         | Expr::Sys(_)
         | Expr::Flag(_)
         | Expr::Not(_)
         | Expr::And(..)
-        | Expr::Or(..) => {
+        | Expr::Or(..)
+        | Expr::Cmp(..)
+        | Expr::Bin(..)
+        | Expr::Complement(_)
+        | Expr::Neg(_)
+        | Expr::Widen(_)
+        | Expr::Narrow(_)
+        | Expr::HighWord(_)
+        | Expr::BitToInt(_) => {
             operands(expr).try_for_each(|operand| add_expr(module, operand, hasher, size))
         }
-        _ => None,
+        Expr::F32(_)
+        | Expr::ReadWordBit(..)
+        | Expr::ReadPair(_)
+        | Expr::ReadFloat(_)
+        | Expr::ReadNibbles { .. }
+        | Expr::Cell(_)
+        | Expr::Entry(..)
+        | Expr::Stride(..)
+        | Expr::InRange { .. } => None,
     }
 }
 
 fn add_place(place: Place, hasher: &mut DefaultHasher) -> Option<()> {
-    use DeviceClass::{M, S, X, Y};
+    use DeviceClass::{C, D, M, R, S, T, X, Y};
     place.class.hash(hasher);
-    (place.index.is_none() && matches!(place.class, X | Y | M | S)).then_some(())
+    let may = match place.class {
+        X | Y | M | S | T | D | R => true,
+        C => !is_counter32(place.class, place.number),
+        _ => false,
+    };
+    (place.index.is_none() && may).then_some(())
 }
 
 /// From which statement of a body to which each temporary is used.
@@ -359,10 +388,20 @@ impl<'m> Pair<'m> {
                 self.temps.insert(temp, with);
                 Some(())
             }
-            (&Stmt::WriteBit(place, value), &Stmt::WriteBit(to, other)) => {
+            (&Stmt::WriteBit(place, value), &Stmt::WriteBit(to, other))
+            | (&Stmt::WriteWord(place, value), &Stmt::WriteWord(to, other)) => {
                 self.place(place, to)?;
                 self.expr(value, other)
             }
+            (&Stmt::Timer { kind, .. }, &Stmt::Timer { kind: other, .. }) if kind != other => None,
+            (Stmt::Timer { .. }, Stmt::Timer { .. })
+            | (Stmt::Counter16 { .. }, Stmt::Counter16 { .. }) => {
+                let (one, other) = (coil(one)?, coil(other)?);
+                self.place(one.0, other.0)?;
+                self.expr(one.1, other.1)?;
+                self.expr(one.2, other.2)
+            }
+            (&Stmt::Reset(place), &Stmt::Reset(with)) => self.place(place, with),
             (
                 Stmt::If {
                     cond,
@@ -385,16 +424,21 @@ impl<'m> Pair<'m> {
 
     fn expr(&mut self, one: ExprId, other: ExprId) -> Option<()> {
         match (*self.module.expr(one), *self.module.expr(other)) {
-            (Expr::ReadBit(place), Expr::ReadBit(with)) => self.place(place, with),
+            (Expr::ReadBit(place), Expr::ReadBit(with))
+            | (Expr::ReadWord(place), Expr::ReadWord(with)) => self.place(place, with),
             (Expr::Temp(temp), Expr::Temp(with)) => {
                 (self.temps.get(&temp).copied().unwrap_or(temp) == with).then_some(())
             }
-            (Expr::Not(a), Expr::Not(b)) => self.expr(a, b),
-            (Expr::And(a, b), Expr::And(c, d)) | (Expr::Or(a, b), Expr::Or(c, d)) => {
-                self.expr(a, c)?;
-                self.expr(b, d)
+            (one, other) => {
+                // They are alike if they are the same with the same operands, and these are alike.
+                let mut like_other = one;
+                for (operand, others) in operands_mut(&mut like_other).zip(operands(&other)) {
+                    *operand = others;
+                }
+                let mut both = operands(&one).zip(operands(&other));
+                (like_other == other).then_some(())?;
+                both.try_for_each(|(a, b)| self.expr(a, b))
             }
-            (one, other) => (one == other).then_some(()),
         }
     }
 
@@ -403,6 +447,30 @@ impl<'m> Pair<'m> {
         self.devices.push((one.class, one.number, other.number));
         same.then_some(())
     }
+}
+
+/// The device of a coil of a timer or counter, its drive and its preset.
+fn coil(stmt: &Stmt) -> Option<(Place, ExprId, ExprId)> {
+    let (class, number, drive, preset) = match *stmt {
+        Stmt::Timer {
+            number,
+            drive,
+            preset,
+            ..
+        } => (DeviceClass::T, number, drive, preset),
+        Stmt::Counter16 {
+            number,
+            drive,
+            preset,
+        } => (DeviceClass::C, number, drive, preset),
+        _ => return None,
+    };
+    let place = Place {
+        class,
+        number,
+        index: None,
+    };
+    Some((place, drive, preset))
 }
 
 /// Makes the body of a loop of a first round.
@@ -425,6 +493,12 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
                 let place = self.place(*place);
                 Stmt::WriteBit(place, self.expr(*value))
             }
+            Stmt::WriteWord(place, value) => {
+                let place = self.place(*place);
+                Stmt::WriteWord(place, self.expr(*value))
+            }
+            Stmt::Timer { .. } | Stmt::Counter16 { .. } => self.coil(stmt),
+            Stmt::Reset(place) => Stmt::Reset(self.place(*place)),
             Stmt::If {
                 cond,
                 then,
@@ -439,14 +513,47 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
     }
 
     fn expr(&mut self, id: ExprId) -> ExprId {
-        let expr = match *self.module.expr(id) {
-            Expr::ReadBit(place) => Expr::ReadBit(self.place(place)),
-            Expr::Not(a) => Expr::Not(self.expr(a)),
-            Expr::And(a, b) => Expr::And(self.expr(a), self.expr(b)),
-            Expr::Or(a, b) => Expr::Or(self.expr(a), self.expr(b)),
-            _ => return id,
-        };
+        let mut expr = *self.module.expr(id);
+        if let Expr::ReadBit(place) | Expr::ReadWord(place) = &mut expr {
+            *place = self.place(*place);
+        } else if operands(&expr).next().is_none() {
+            return id;
+        } else {
+            operands_mut(&mut expr).for_each(|operand| *operand = self.expr(*operand));
+        }
         self.module.add(expr)
+    }
+
+    /// A coil of a timer or counter. All rounds have one kind of timers, so it is of its own number's.
+    fn coil(&mut self, stmt: &Stmt) -> Stmt {
+        let Some((place, drive, preset)) = coil(stmt) else {
+            return stmt.clone();
+        };
+        let place = self.place(place);
+        let (drive, preset) = (self.expr(drive), self.expr(preset));
+        match (stmt, place.index) {
+            (Stmt::Timer { .. }, Some(_)) => Stmt::TimerAt {
+                place,
+                drive,
+                preset,
+            },
+            (&Stmt::Timer { number, kind, .. }, None) => Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            },
+            (_, Some(_)) => Stmt::Counter16At {
+                place,
+                drive,
+                preset,
+            },
+            (_, None) => Stmt::Counter16 {
+                number: place.number,
+                drive,
+                preset,
+            },
+        }
     }
 
     fn place(&mut self, place: Place) -> Place {
