@@ -223,6 +223,21 @@ impl Model {
         self.ranges.iter().filter(move |r| r.class == class)
     }
 
+    /// Notations of operands and devices of operands that it does not have at all.
+    pub fn missing(&self) -> Classes {
+        const NOTATIONS: Classes = Classes::E
+            .or(Classes::TEXT)
+            .or(Classes::WORD_BIT)
+            .or(Classes::BUFFER);
+        let mut missing = NOTATIONS.without(self.notations);
+        for class in [DeviceClass::R, DeviceClass::ER] {
+            if self.ranges_of(class).next().is_none() {
+                missing = missing.or(Classes::of_device(class));
+            }
+        }
+        missing
+    }
+
     /// Kind of a timer.
     pub fn timer(&self, number: u32) -> Option<TimerKind> {
         self.timers

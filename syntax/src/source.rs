@@ -50,17 +50,16 @@ pub struct Source {
     line_starts: Vec<u32>,
 }
 
+/// Lines of programs are rarely shorter, in bytes.
+const SHORT_LINE: usize = 8;
+
 impl Source {
     /// Takes the text over and finds its lines. Texts over 4 GiB must be refused before.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
-        let mut line_starts = vec![0];
-        line_starts.extend(
-            text.bytes()
-                .enumerate()
-                .filter(|&(_, b)| b == b'\n')
-                .map(|(i, _)| i as u32 + 1),
-        );
+        let mut line_starts = Vec::with_capacity(text.len() / SHORT_LINE + 1);
+        line_starts.push(0);
+        line_starts.extend(memchr::memchr_iter(b'\n', text.as_bytes()).map(|i| i as u32 + 1));
         Source {
             name: name.into(),
             text,
@@ -86,6 +85,17 @@ impl Source {
     /// The text of a span; empty if the span does not lie on character boundaries of the text.
     pub fn slice(&self, span: Span) -> &str {
         self.text.get(span.range()).unwrap_or("")
+    }
+
+    /// The lines with what ends them, and where each begins; none behind the last end of a line.
+    pub fn lines(&self) -> impl Iterator<Item = (u32, &str)> {
+        let ends = self.line_starts.iter().skip(1).copied();
+        let ends = ends.chain([self.text.len() as u32]);
+        self.line_starts
+            .iter()
+            .zip(ends)
+            .map(|(&start, end)| (start, self.slice(Span::new(start, end))))
+            .filter(|(_, line)| !line.is_empty())
     }
 
     /// How many lines the text has.

@@ -3,7 +3,7 @@
 use super::fault::{Fault, Faults, Kind};
 use chumsky::container::Container;
 use chumsky::error::EmptyErr;
-use chumsky::input::MapExtra;
+use chumsky::input::{InputRef, MapExtra};
 use chumsky::prelude::*;
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Operands, Span};
 use smol_str::{SmolStr, ToSmolStr};
@@ -69,25 +69,42 @@ fn is_space(c: &char) -> bool {
     c.is_whitespace() || *c == ',' || *c == '\0'
 }
 
+/// Skips characters of a kind, as many as there are. As `any().filter(of_kind).repeated()`, but without going back behind the last.
+fn skip<'s>(
+    of_kind: impl Fn(&char) -> bool + Copy,
+) -> impl Parser<'s, &'s str, (), Extra> + Copy {
+    custom(move |input| {
+        while input.peek().is_some_and(|c| of_kind(&c)) {
+            input.skip();
+        }
+        Ok(())
+    })
+}
+
+/// Succeeds where such a character is next, or none, taking nothing.
+fn at<'s>(wanted: impl Fn(Option<char>) -> bool + Copy) -> impl Parser<'s, &'s str, (), Extra> + Copy {
+    custom(move |input: &mut InputRef<'s, '_, &'s str, Extra>| match wanted(input.peek()) {
+        true => Ok(()),
+        false => Err(EmptyErr::default()),
+    })
+}
+
 fn space<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
-    any().filter(is_space).repeated()
+    skip(is_space)
 }
 
 /// Succeeds where a word may end, taking nothing.
 fn boundary<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
     choice((
-        end(),
-        any().filter(|c| is_space(c) || *c == ';').ignored(),
-        just("//").ignored(),
+        at(|next| next.is_none_or(|c| is_space(&c) || c == ';')),
+        just("//").ignored().rewind(),
     ))
-    .rewind()
 }
 
 fn digits<'s>() -> impl Parser<'s, &'s str, &'s str, Extra> + Copy {
     any()
         .filter(char::is_ascii_digit)
-        .repeated()
-        .at_least(1)
+        .then(skip(char::is_ascii_digit))
         .to_slice()
 }
 
@@ -382,9 +399,7 @@ fn spelling(name: &str, wide: bool, operator: &str, pulse: &str) -> SmolStr {
 
 fn mnemonic<'s>() -> impl Parser<'s, &'s str, (SmolStr, Span), Extra> + Copy {
     let head = any().filter(|c: &char| c.is_ascii_alphabetic() || matches!(c, '$' | '_'));
-    let rest = any()
-        .filter(|c: &char| c.is_ascii_alphanumeric() || *c == '_')
-        .repeated();
+    let rest = skip(|c| c.is_ascii_alphanumeric() || *c == '_');
     let name = head.then(rest).to_slice();
     let compare = any()
         .filter(|c| matches!(c, '<' | '=' | '>'))

@@ -24,13 +24,10 @@ use smol_str::{SmolStr, ToSmolStr};
 /// Reads an instruction list. `name` is the file's name for diagnostics.
 pub fn read_text(name: &str, text: &str) -> Read {
     let mut reader = Reader::default();
-    reader
-        .program
-        .instrs
-        .reserve(text.bytes().filter(|&b| b == b'\n').count());
-    let mut start = 0;
+    let source = Source::new(name, text);
+    reader.program.instrs.reserve(source.line_count() as usize);
     let grammar = grammar::line();
-    for whole in text.split_inclusive('\n') {
+    for (start, whole) in source.lines() {
         let line = whole.trim_end_matches(['\r', '\n']);
         if line.is_ascii() {
             let found = grammar::parse(&grammar, line, &mut reader.faults);
@@ -40,9 +37,8 @@ pub fn read_text(name: &str, text: &str) -> Read {
         } else {
             reader.wide_line(line, start);
         }
-        start += whole.len() as u32;
     }
-    reader.program.source = Source::new(name, text);
+    reader.program.source = source;
     reader.program.kind = SourceKind::Il;
     Read {
         program: reader.program,

@@ -312,22 +312,16 @@ impl Param {
     /// What it may be on a model: without the classes that only others accept, and without notations and devices that the model
     /// does not have at all.
     pub fn classes_on(&self, model: &Model) -> Classes {
-        const NOTATIONS: Classes = Classes::E
-            .or(Classes::TEXT)
-            .or(Classes::WORD_BIT)
-            .or(Classes::BUFFER);
-        let mut missing = NOTATIONS.without(model.notations);
-        if let Some((classes, models)) = self.only_on
-            && !models.has(model.id)
-        {
-            missing = missing.or(classes);
+        self.classes_without(model.missing(), model.id)
+    }
+
+    /// As [`Param::classes_on`] for who asks often; `missing` is [`Model::missing`].
+    pub(crate) fn classes_without(&self, missing: Classes, model: ModelId) -> Classes {
+        let classes = self.classes.without(missing);
+        match self.only_on {
+            Some((others, models)) if !models.has(model) => classes.without(others),
+            _ => classes,
         }
-        for class in [DeviceClass::R, DeviceClass::ER] {
-            if model.ranges_of(class).next().is_none() {
-                missing = missing.or(Classes::of_device(class));
-            }
-        }
-        self.classes.without(missing)
     }
 }
 

@@ -108,15 +108,15 @@ fn counters(code: &Code) -> Vec<Counter> {
     let table = high_speed::counters(code.model().id);
     let mut found: Vec<Counter> = Vec::new();
     for i in 0..code.len {
-        let Some(device) = code
-            .device(i, 0)
-            .filter(|_| code.basic(i) == Some(Basic::Out))
-        else {
+        if code.basic(i) != Some(Basic::Out) {
+            continue;
+        }
+        let Some(device) = code.device(i, 0) else {
             continue;
         };
         let number = device.number;
-        let known = found.iter().any(|counter| counter.number == number);
-        if device.class != DeviceClass::C || known {
+        let known = || found.iter().any(|counter| counter.number == number);
+        if device.class != DeviceClass::C || known() {
             continue;
         }
         if let Some(counter) = table.iter().find(|counter| counter.number == number) {
@@ -285,7 +285,7 @@ fn positioned(code: &Code) -> Vec<(usize, u32)> {
 pub(super) fn measured(code: &Code) -> impl Iterator<Item = (usize, Device)> {
     (0..code.len).filter_map(|i| {
         let measures = matches!(code.inst(i)?.lower, Lower::Density);
-        Some((i, code.device(i, 0).filter(|_| measures)?))
+        Some((i, measures.then(|| code.device(i, 0))??))
     })
 }
 

@@ -13,6 +13,8 @@ pub(super) struct Checker {
     model: &'static Model,
     /// The model's devices by class, ranges that an access may span joined.
     runs: Vec<Vec<(u32, u32)>>,
+    /// What no operand can be on the model.
+    missing: Classes,
 }
 
 /// An instruction whose operands are looked at.
@@ -27,7 +29,11 @@ impl Checker {
             .into_iter()
             .map(|class| model.runs(class))
             .collect();
-        Checker { model, runs }
+        Checker {
+            model,
+            runs,
+            missing: model.missing(),
+        }
     }
 
     /// Checks the number of a label.
@@ -72,7 +78,7 @@ impl Checker {
     fn operand(&self, place: &Place, operand: &Operand, param: &Param) -> Option<Diagnostic> {
         let span = operand.span;
         let kind = &operand.kind;
-        let classes = param.classes_on(self.model);
+        let classes = param.classes_without(self.missing, self.model.id);
         if !classes.meets(Classes::of(kind)) {
             return Some(wrong_class(place.instr, operand, param, classes));
         }
