@@ -5,7 +5,7 @@ use crate::il;
 use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
-use rungc_syntax::{Device, Diagnostics, Instr, Operands, Program, SourceKind, codes};
+use rungc_syntax::{Device, Diagnostics, Instr, Operands, Program, Remarks, SourceKind, codes};
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
 
@@ -297,8 +297,7 @@ impl Reader {
             operands: Operands::new(),
             span,
             step,
-            statement: self.statement.take(),
-            note: None,
+            remarks: Remarks::new(self.statement.take(), None),
         });
     }
 
@@ -330,7 +329,8 @@ impl Reader {
     fn note(&mut self, note: SmolStr) {
         self.listing.comment(&note);
         if let Some(instr) = self.program.instrs.last_mut() {
-            instr.note = match instr.note.take() {
+            let all = &mut instr.remarks_mut().note;
+            *all = match all.take() {
                 None => Some(note),
                 Some(first) => Some(format!("{first} {note}").into()),
             };

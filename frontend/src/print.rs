@@ -30,11 +30,7 @@ pub fn to_il(program: &Program) -> String {
 }
 
 fn il_line(out: &mut String, instr: &Instr, width: usize) {
-    for line in instr
-        .statement
-        .iter()
-        .flat_map(|statement| statement.lines())
-    {
+    for line in instr.statement().into_iter().flat_map(str::lines) {
         let _ = writeln!(out, "; {line}");
     }
     match instr.step {
@@ -47,7 +43,7 @@ fn il_line(out: &mut String, instr: &Instr, width: usize) {
     for operand in &instr.operands {
         let _ = write!(out, " {}", spelled(&operand.kind));
     }
-    if let Some(note) = &instr.note {
+    if let Some(note) = instr.note() {
         let pad = 24_usize.saturating_sub(out.len() - start);
         let _ = write!(out, "{:pad$} ; {note}", "");
     }
@@ -92,11 +88,7 @@ fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr) {
         }
         row
     };
-    for line in instr
-        .statement
-        .iter()
-        .flat_map(|statement| statement.lines())
-    {
+    for line in instr.statement().into_iter().flat_map(str::lines) {
         let pointer = is_label(&instr.mnemonic);
         rows.push(row(&[(if pointer { 5 } else { 1 }, line.to_owned())]));
     }
@@ -108,7 +100,7 @@ fn csv_rows(rows: &mut Vec<Vec<String>>, instr: &Instr) {
         ),
         (2, instr.mnemonic.to_string()),
         (3, operands.next().unwrap_or_default()),
-        (6, instr.note.as_deref().unwrap_or_default().to_owned()),
+        (6, instr.note().unwrap_or_default().to_owned()),
     ]));
     rows.extend(operands.map(|operand| row(&[(3, operand)])));
 }

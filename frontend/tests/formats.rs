@@ -82,10 +82,10 @@ fn exports_are_read_in_every_language_and_encoding() {
                     [load.step, out.step, label.step, end.step],
                     [Some(0), Some(1), Some(4), Some(5)]
                 );
-                assert_eq!(load.statement.as_deref(), Some(words[0]));
-                assert_eq!(load.note.as_deref(), Some(words[2]));
-                assert_eq!(label.statement.as_deref(), Some(words[1]));
-                assert_eq!((&out.statement, &out.note), (&None, &None));
+                assert_eq!(load.statement(), Some(words[0]));
+                assert_eq!(load.note(), Some(words[2]));
+                assert_eq!(label.statement(), Some(words[1]));
+                assert_eq!((out.statement(), out.note()), (None, None));
             }
         }
     }
@@ -182,8 +182,8 @@ fn tokens_are_read_as_what_they_mean() {
     assert_eq!(texts(&program), MEANING);
     assert_eq!(program.kind, SourceKind::GxDeveloper);
     assert_eq!(program.cpu.as_deref(), Some("FX3G"));
-    assert_eq!(program.instrs[0].statement.as_deref(), Some("motor"));
-    assert_eq!(program.instrs[0].note.as_deref(), Some("start"));
+    assert_eq!(program.instrs[0].statement(), Some("motor"));
+    assert_eq!(program.instrs[0].note(), Some("start"));
     assert_eq!(program.source.text.lines().collect::<Vec<_>>(), MEANING);
     let places: Vec<_> = program
         .instrs

@@ -4,7 +4,9 @@ use proptest::collection::{btree_map, vec};
 use proptest::option;
 use proptest::prelude::*;
 use rungc_frontend::{Read, print, read_bytes, read_text};
-use rungc_syntax::{Device, DeviceClass, Index, Instr, Operand, OperandKind, Program, Span};
+use rungc_syntax::{
+    Device, DeviceClass, Index, Instr, Operand, OperandKind, Program, Remarks, Span,
+};
 
 fn device() -> impl Strategy<Value = Device> {
     let class = proptest::sample::select(DeviceClass::ALL.to_vec());
@@ -82,8 +84,7 @@ fn instr() -> impl Strategy<Value = Instr> {
                 operands: operands.filter(|_| !label).collect(),
                 span: Span::default(),
                 step,
-                statement,
-                note: note.map(Into::into),
+                remarks: Remarks::new(statement, note.map(Into::into)),
             }
         })
 }

@@ -11,5 +11,7 @@ mod source;
 
 pub use device::{DeviceClass, Number};
 pub use diag::{Diagnostic, Diagnostics, Label, Severity};
-pub use program::{Device, Index, Instr, Operand, OperandKind, Operands, Program, SourceKind};
+pub use program::{
+    Device, Index, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind,
+};
 pub use source::{Source, Span};

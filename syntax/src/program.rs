@@ -52,10 +52,41 @@ pub struct Instr {
     pub span: Span,
     /// The step number that the source states.
     pub step: Option<u32>,
+    /// What people have written about it; most instructions have nothing. See [`Instr::statement`] and [`Instr::note`].
+    pub remarks: Option<Box<Remarks>>,
+}
+
+/// What people have written about an instruction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Remarks {
     /// Line statement (heading) that stands above the instruction.
     pub statement: Option<SmolStr>,
     /// Comment or note that stands beside the instruction.
     pub note: Option<SmolStr>,
+}
+
+impl Remarks {
+    /// These, if they say anything.
+    pub fn new(statement: Option<SmolStr>, note: Option<SmolStr>) -> Option<Box<Remarks>> {
+        (statement.is_some() || note.is_some()).then(|| Box::new(Remarks { statement, note }))
+    }
+}
+
+impl Instr {
+    /// Line statement (heading) that stands above the instruction.
+    pub fn statement(&self) -> Option<&str> {
+        self.remarks.as_ref()?.statement.as_deref()
+    }
+
+    /// Comment or note that stands beside the instruction.
+    pub fn note(&self) -> Option<&str> {
+        self.remarks.as_ref()?.note.as_deref()
+    }
+
+    /// Its remarks, to add something.
+    pub fn remarks_mut(&mut self) -> &mut Remarks {
+        self.remarks.get_or_insert_default()
+    }
 }
 
 /// The operands of an instruction. Most have one, which needs no memory of its own.

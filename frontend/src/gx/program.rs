@@ -166,8 +166,7 @@ impl<'b> Reader<'b> {
             operands: Operands::new(),
             span,
             step: None,
-            statement: None,
-            note: None,
+            remarks: None,
         });
     }
 
@@ -280,8 +279,8 @@ impl<'b> Reader<'b> {
                 continue;
             };
             match raw {
-                Raw::Statement(..) => append(&mut instr.statement, text),
-                Raw::Note(..) => instr.note = Some(text),
+                Raw::Statement(..) => append(&mut instr.remarks_mut().statement, text),
+                Raw::Note(..) => instr.remarks_mut().note = Some(text),
             }
         }
         self.program.source = self.listing.finish(name);

@@ -7,6 +7,7 @@ use chumsky::input::{InputRef, MapExtra};
 use chumsky::prelude::*;
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Operands, Span};
 use smol_str::{SmolStr, ToSmolStr};
+use std::borrow::Cow;
 
 /// No line fails, so nobody asks where the grammar would have liked to go on: the error type is empty, which makes alternatives cheap.
 /// What is wrong with a line goes into the state.
@@ -14,22 +15,22 @@ type Extra = extra::Full<EmptyErr, Faults, ()>;
 
 /// What stands on one line.
 #[derive(Debug)]
-pub(super) struct Line {
+pub(super) struct Line<'s> {
     /// Step number in front.
     pub step: Option<u32>,
     /// Label, which may have an instruction behind it.
     pub label: Option<(Device, Span)>,
     /// The instruction.
-    pub instr: Option<Body>,
+    pub instr: Option<Body<'s>>,
     /// Where the comment's text begins, behind `;` or `//`.
     pub comment: Option<u32>,
 }
 
 /// Mnemonic and operands.
 #[derive(Debug)]
-pub(super) struct Body {
+pub(super) struct Body<'s> {
     /// In upper case, operator joined.
-    pub mnemonic: SmolStr,
+    pub mnemonic: Cow<'s, str>,
     /// Where it stands.
     pub mnemonic_span: Span,
     /// The operands, or nothing if one of them could not be read.
@@ -70,9 +71,7 @@ fn is_space(c: &char) -> bool {
 }
 
 /// Skips characters of a kind, as many as there are. As `any().filter(of_kind).repeated()`, but without going back behind the last.
-fn skip<'s>(
-    of_kind: impl Fn(&char) -> bool + Copy,
-) -> impl Parser<'s, &'s str, (), Extra> + Copy {
+fn skip<'s>(of_kind: impl Fn(&char) -> bool + Copy) -> impl Parser<'s, &'s str, (), Extra> + Copy {
     custom(move |input| {
         while input.peek().is_some_and(|c| of_kind(&c)) {
             input.skip();
@@ -82,11 +81,15 @@ fn skip<'s>(
 }
 
 /// Succeeds where such a character is next, or none, taking nothing.
-fn at<'s>(wanted: impl Fn(Option<char>) -> bool + Copy) -> impl Parser<'s, &'s str, (), Extra> + Copy {
-    custom(move |input: &mut InputRef<'s, '_, &'s str, Extra>| match wanted(input.peek()) {
-        true => Ok(()),
-        false => Err(EmptyErr::default()),
-    })
+fn at<'s>(
+    wanted: impl Fn(Option<char>) -> bool + Copy,
+) -> impl Parser<'s, &'s str, (), Extra> + Copy {
+    custom(
+        move |input: &mut InputRef<'s, '_, &'s str, Extra>| match wanted(input.peek()) {
+            true => Ok(()),
+            false => Err(EmptyErr::default()),
+        },
+    )
 }
 
 fn space<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
@@ -379,9 +382,9 @@ fn operands<'s>() -> impl Parser<'s, &'s str, AllOperands, Extra> + Copy {
 }
 
 /// The mnemonic's spelling: upper case, without the space or the second `D` of `LD D>=`, operators in the usual order.
-fn spelling(name: &str, wide: bool, operator: &str, pulse: &str) -> SmolStr {
+fn spelling<'s>(name: &'s str, wide: bool, operator: &str, pulse: &str) -> Cow<'s, str> {
     if operator.is_empty() && !name.bytes().any(|b| b.is_ascii_lowercase()) {
-        return SmolStr::new(name);
+        return Cow::Borrowed(name);
     }
     let operator = match operator {
         "=>" => ">=",
@@ -390,14 +393,11 @@ fn spelling(name: &str, wide: bool, operator: &str, pulse: &str) -> SmolStr {
         other => other,
     };
     let parts = [name, if wide { "D" } else { "" }, operator, pulse];
-    parts
-        .into_iter()
-        .flat_map(str::chars)
-        .map(|c| c.to_ascii_uppercase())
-        .collect()
+    let letters = parts.into_iter().flat_map(str::chars);
+    Cow::Owned(letters.map(|c| c.to_ascii_uppercase()).collect())
 }
 
-fn mnemonic<'s>() -> impl Parser<'s, &'s str, (SmolStr, Span), Extra> + Copy {
+fn mnemonic<'s>() -> impl Parser<'s, &'s str, (Cow<'s, str>, Span), Extra> + Copy {
     let head = any().filter(|c: &char| c.is_ascii_alphabetic() || matches!(c, '$' | '_'));
     let rest = skip(|c| c.is_ascii_alphanumeric() || *c == '_');
     let name = head.then(rest).to_slice();
@@ -426,7 +426,7 @@ fn mnemonic<'s>() -> impl Parser<'s, &'s str, (SmolStr, Span), Extra> + Copy {
 }
 
 /// `ASC ABCDEFGH D300`: the characters stand bare, whatever they look like.
-fn asc<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
+fn asc<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
     let name = letter('A')
         .then(letter('S'))
         .then(letter('C'))
@@ -450,14 +450,14 @@ fn asc<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
                 rest.insert(0, text);
             }
             Body {
-                mnemonic: SmolStr::new_static("ASC"),
+                mnemonic: Cow::Borrowed("ASC"),
                 mnemonic_span: span(name),
                 operands: rest,
             }
         })
 }
 
-fn body<'s>() -> impl Parser<'s, &'s str, Body, Extra> + Copy {
+fn body<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
     let usual =
         mnemonic()
             .then(operands())
@@ -496,7 +496,7 @@ fn label<'s>() -> impl Parser<'s, &'s str, (Device, Span), Extra> + Copy {
 }
 
 /// A whole line. A line that is no instruction is reported and skipped up to its comment.
-pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line, Extra> + Copy {
+pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line<'s>, Extra> + Copy {
     let comment_start = choice((just(';').ignored(), just("//").ignored()));
     let comment = comment_start
         .to_span()
@@ -573,7 +573,11 @@ pub(super) fn text_field<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extr
 /// A mnemonic or label that fills a whole field of a table.
 pub(super) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, Extra> + Copy {
     let pointer = label().map(|(device, _)| device.to_smolstr());
-    let readable = choice((pointer, mnemonic().map(|(mnemonic, _)| mnemonic))).map(Some);
+    let readable = choice((
+        pointer,
+        mnemonic().map(|(mnemonic, _)| SmolStr::from(mnemonic)),
+    ))
+    .map(Some);
     let unreadable = any().repeated().at_least(1).to_slice().map_with(|_, e| {
         report(e, Kind::Line);
         None

@@ -18,7 +18,9 @@ use crate::Read;
 use crate::text::{append, clean};
 use fault::Faults;
 use fold::Folded;
-use rungc_syntax::{Device, Diagnostics, Instr, Operands, Program, Source, SourceKind, Span};
+use rungc_syntax::{
+    Device, Diagnostics, Instr, Operands, Program, Remarks, Source, SourceKind, Span,
+};
 use smol_str::{SmolStr, ToSmolStr};
 
 /// Reads an instruction list. `name` is the file's name for diagnostics.
@@ -112,11 +114,16 @@ impl Reader {
             for operand in &mut operands {
                 operand.span = place(operand.span);
             }
-            self.push(body.mnemonic, place(body.mnemonic_span), operands, step);
+            self.push(
+                body.mnemonic.into(),
+                place(body.mnemonic_span),
+                operands,
+                step,
+            );
         }
         if !alone {
-            if let Some(last) = self.program.instrs.last_mut() {
-                last.note = note;
+            if let (Some(last), Some(_)) = (self.program.instrs.last_mut(), &note) {
+                last.remarks_mut().note = note;
             }
         } else if let Some(text) = note {
             let property = comment.and_then(|c| c.strip_prefix('!'));
@@ -142,8 +149,7 @@ impl Reader {
             operands,
             span,
             step,
-            statement: self.statement.take(),
-            note: None,
+            remarks: Remarks::new(self.statement.take(), None),
         });
     }
 

@@ -228,7 +228,7 @@ impl<'a> Lowerer<'a> {
         let Some(inst) = self.resolution().inst else {
             return;
         };
-        if let Some(statement) = &instr.statement {
+        if let Some(statement) = instr.statement() {
             self.heading = Some(statement.to_string());
         }
         let lower = inst.lower_on_model(self.model.id);
@@ -236,7 +236,7 @@ impl<'a> Lowerer<'a> {
         if is_label {
             // What is said of a label is said of what follows it.
             if self.heading.is_none() {
-                self.heading = instr.note.as_ref().map(ToString::to_string);
+                self.heading = instr.note().map(str::to_owned);
             }
         } else if self.begins_network(lower) {
             self.begin_network();
@@ -244,7 +244,7 @@ impl<'a> Lowerer<'a> {
             network.span = network.span.to(instr.span);
         }
         if !is_label
-            && let (Some(network), Some(note)) = (self.module.networks.last_mut(), &instr.note)
+            && let (Some(network), Some(note)) = (self.module.networks.last_mut(), instr.note())
         {
             network.note.get_or_insert_with(|| note.to_string());
         }
