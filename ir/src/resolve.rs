@@ -63,9 +63,13 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
     for instr in &program.instrs {
         let label = label(instr);
         let found = finder.find(instr, &mut diagnostics);
-        let params = found.map_or(&[][..], |(found, _)| {
-            found.inst.params_of(&instr.operands, model)
-        });
+        let (params, length) = match found {
+            Some((Found { inst, form, .. }, _)) => {
+                let (params, length) = inst.params_and_steps(form, &instr.operands, model);
+                (params, Some(length))
+            }
+            None => (&[][..], None),
+        };
         match (found, label) {
             (Some((_, Fit::Good)), Some(label)) => operands.label(instr, label, &mut diagnostics),
             (Some((found, Fit::Good)), None) => {
@@ -74,8 +78,6 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
             _ => {}
         }
         let found = found.map(|(found, _)| found);
-        let steps_of = |found: Found| found.inst.steps_of(found.form, &instr.operands, model);
-        let length = found.map(steps_of);
         instrs.push(Resolution {
             inst: found.map(|found| found.inst),
             form: found.map(|found| found.form).unwrap_or_default(),

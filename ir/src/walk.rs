@@ -4,18 +4,20 @@ use crate::node::{Arg, Body, Expr, ExprId, FunctionKind, Module, Part, Stmt, Tem
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
-    operand_slots(&mut { *expr })
-        .map(|slot| slot.copied())
-        .into_iter()
-        .flatten()
+    let [first, second] = operand_slots(expr).map(Option::<&ExprId>::copied);
+    first.into_iter().chain(second)
 }
 
 /// The expressions that an expression evaluates, to replace them.
 pub fn operands_mut(expr: &mut Expr) -> impl Iterator<Item = &mut ExprId> {
-    operand_slots(expr).into_iter().flatten()
+    let [first, second] = operand_slots_mut(expr);
+    first.into_iter().chain(second)
 }
 
-fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
+/// A function that finds the operands of an expression, to look at them or to replace them.
+macro_rules! operand_slots {
+    ($name:ident, $index:ident $(, $mutable:tt)?) => {
+        fn $name(expr: &$($mutable)? Expr) -> [Option<&$($mutable)? ExprId>; 2] {
     match expr {
         Expr::Not(a)
         | Expr::Complement(a)
@@ -34,7 +36,7 @@ fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
         | Expr::ReadPair(place)
         | Expr::ReadFloat(place)
         | Expr::ReadNibbles { place, .. }
-        | Expr::InRange { place, .. } => [place.index.as_mut(), None],
+        | Expr::InRange { place, .. } => [place.index.$index(), None],
         Expr::Bit(_)
         | Expr::I16(_)
         | Expr::I32(_)
@@ -45,7 +47,12 @@ fn operand_slots(expr: &mut Expr) -> [Option<&mut ExprId>; 2] {
         | Expr::Stride(..)
         | Expr::Cell(_) => [None, None],
     }
+        }
+    };
 }
+
+operand_slots!(operand_slots, as_ref);
+operand_slots!(operand_slots_mut, as_mut, mut);
 
 /// A function over the expressions that a statement evaluates, to look at them or to replace them.
 macro_rules! for_exprs {

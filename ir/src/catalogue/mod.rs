@@ -698,35 +698,49 @@ impl Inst {
 
     /// What its operands are on a model, given those that are written (OUT T0 has one more than OUT Y000).
     pub fn params_of(&self, operands: &[Operand], model: &Model) -> &'static [Param] {
-        self.stated(operands, model, |variant| variant.params)
-            .unwrap_or(self.params)
+        let written = Written::of(operands);
+        let stated = self.stated(&written, model, |variant| variant.params);
+        stated.unwrap_or(self.params)
     }
 
     /// How many steps it takes in the program memory.
     pub fn steps_of(&self, form: Form, operands: &[Operand], model: &Model) -> u32 {
-        let stated = self.stated(operands, model, |variant| variant.steps);
+        self.params_and_steps(form, operands, model).1
+    }
+
+    /// [`Inst::params_of`] and [`Inst::steps_of`].
+    pub(crate) fn params_and_steps(
+        &self,
+        form: Form,
+        operands: &[Operand],
+        model: &Model,
+    ) -> (&'static [Param], u32) {
+        let written = Written::of(operands);
+        let params = self
+            .stated(&written, model, |variant| variant.params)
+            .unwrap_or(self.params);
+        let stated = self.stated(&written, model, |variant| variant.steps);
         let (narrow, wide) = match (stated, model.steps_per_operand) {
             (Some(steps), _) => steps,
             (None, Some((narrow, wide))) if !matches!(self.lower, Lower::Basic(_)) => {
-                let count = self.params_of(operands, model).len() as u8;
+                let count = params.len() as u8;
                 (1 + narrow * count, 1 + wide * count)
             }
             _ => self.steps,
         };
-        u32::from(if form.wide { wide } else { narrow })
+        (params, u32::from(if form.wide { wide } else { narrow }))
     }
 
     /// What the first variant states that says something of it and holds.
     fn stated<T>(
         &self,
-        operands: &[Operand],
+        written: &Written,
         model: &Model,
         what: impl Fn(&Variant) -> Option<T>,
     ) -> Option<T> {
-        let written = Written::of(operands);
         self.variants
             .iter()
             .filter(|variant| variant.models.has(model.id))
-            .find_map(|variant| what(variant).filter(|_| variant.when.holds(&written)))
+            .find_map(|variant| what(variant).filter(|_| variant.when.holds(written)))
     }
 }

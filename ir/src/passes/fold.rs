@@ -18,9 +18,17 @@ pub(super) struct Arena<'m> {
 const SAME_DEPTH: u8 = 3;
 
 impl<'m> Arena<'m> {
-    pub(super) fn new(temps: &'m [Ty], model: &'static Model, capacity: usize) -> Self {
+    /// An empty one, for about `capacity` expressions, in the room of others.
+    pub(super) fn new(
+        temps: &'m [Ty],
+        model: &'static Model,
+        mut room: Vec<Expr>,
+        capacity: usize,
+    ) -> Self {
+        room.clear();
+        room.reserve(capacity);
         Arena {
-            exprs: Vec::with_capacity(capacity),
+            exprs: room,
             depths: Vec::with_capacity(capacity),
             temps,
             model,

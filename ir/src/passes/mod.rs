@@ -15,8 +15,12 @@ use crate::node::Module;
 /// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins neighbouring branches
 /// with one condition, and removes code that cannot be reached or whose results nothing uses.
 pub fn optimise(module: &mut Module) {
-    for pass in [rewrite::run, rewrite::run, repeat::run] {
-        pass(module);
+    let mut room = Vec::new();
+    for _ in 0..2 {
+        room = rewrite::run(module, room);
         debug_assert_eq!(crate::validate::validate(module), Ok(()));
     }
+    drop(room);
+    repeat::run(module);
+    debug_assert_eq!(crate::validate::validate(module), Ok(()));
 }

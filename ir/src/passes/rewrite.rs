@@ -7,13 +7,13 @@ use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
 use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut};
 use rustc_hash::FxHashSet;
 
-/// Rewrites every function.
-pub(super) fn run(module: &mut Module) {
+/// Rewrites every function, with new expressions in `room`; gives the room of the old ones back.
+pub(super) fn run(module: &mut Module, room: Vec<Expr>) -> Vec<Expr> {
     let counts = count(module);
     let mut functions = std::mem::take(&mut module.functions);
     let mut rewriter = Rewriter {
         old: &module.exprs,
-        arena: Arena::new(&module.temps, module.model, module.exprs.len()),
+        arena: Arena::new(&module.temps, module.model, room, module.exprs.len()),
         temps: Temps::new(counts),
         gotos: FxHashSet::default(),
     };
@@ -27,8 +27,8 @@ pub(super) fn run(module: &mut Module) {
         }
     }
     let exprs = rewriter.arena.exprs;
-    module.exprs = exprs;
     module.functions = functions;
+    std::mem::replace(&mut module.exprs, exprs)
 }
 
 /// Counts how often each temporary is used and assigned.
