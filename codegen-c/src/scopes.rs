@@ -45,6 +45,9 @@ impl Temp {
 
 /// Finds out about all temporaries.
 pub fn temps(module: &Module, plan: &Plan) -> Vec<Temp> {
+    if module.temps.is_empty() {
+        return Vec::new();
+    }
     let mut scopes = Scopes {
         module,
         plan,

@@ -8,10 +8,13 @@ use crate::interrupts;
 use crate::runs::is_special;
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
-use rustc_hash::FxHashSet;
 
 /// The classes that are looked at. States are not: step ladders use them in many ways.
 const CLASSES: [DeviceClass; 3] = [DeviceClass::M, DeviceClass::T, DeviceClass::C];
+/// Places in [`Class::met`].
+const COIL: usize = 0;
+const CONTACT: usize = 1;
+
 /// What is known of the devices of one class.
 #[derive(Default)]
 struct Class {
@@ -19,6 +22,8 @@ struct Class {
     reads: Vec<i32>,
     /// The same for writes.
     writes: Vec<i32>,
+    /// Which of them have been met as coils, and as contacts.
+    met: [Vec<bool>; 2],
     /// Whether an access may read any of them.
     any_read: bool,
     /// Whether an access may write any of them.
@@ -29,9 +34,9 @@ struct Class {
 pub(super) struct Unused<'a, 'p> {
     code: &'a Code<'p>,
     classes: [Class; 3],
-    /// Coils, in the order of the program.
+    /// Coils, each once, in the order of the program.
     coils: Vec<(Device, Span)>,
-    /// Contacts, in the order of the program.
+    /// Contacts, each once, in the order of the program.
     contacts: Vec<(Device, Span)>,
 }
 
@@ -43,6 +48,7 @@ impl<'a, 'p> Unused<'a, 'p> {
             let len = last.map_or(0, |last| last as usize + 2);
             known.reads = vec![0; len];
             known.writes = vec![0; len];
+            known.met = [vec![false; len], vec![false; len]];
         }
         Unused {
             code,
@@ -77,10 +83,14 @@ impl<'a, 'p> Unused<'a, 'p> {
         match basic {
             // Which device an index leads to is not known.
             Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) if access.count.is_some() => {
-                self.coils.push((access.first, access.span))
+                if self.classes[at].meets(access, COIL) {
+                    self.coils.push((access.first, access.span));
+                }
             }
             Some(_) if access.reads() && access.count == Some(1) => {
-                self.contacts.push((access.first, access.span))
+                if self.classes[at].meets(access, CONTACT) {
+                    self.contacts.push((access.first, access.span));
+                }
             }
             _ => {}
         }
@@ -128,6 +138,14 @@ impl<'a, 'p> Unused<'a, 'p> {
 }
 
 impl Class {
+    /// Whether an access names a device that the model has for the first time as a coil, or as a contact.
+    fn meets(&mut self, access: &Access, what: usize) -> bool {
+        match self.met[what].get_mut(access.first.number as usize) {
+            Some(met) => !std::mem::replace(met, true),
+            None => false,
+        }
+    }
+
     fn add(&mut self, access: &Access, write: bool) {
         let Some(count) = access.count else {
             let any = if write {
@@ -180,8 +198,7 @@ fn summary<'d>(
     found: impl Iterator<Item = &'d (Device, Span)>,
     out: &mut Diagnostics,
 ) {
-    let mut seen = FxHashSet::default();
-    let found: Vec<_> = found.filter(|(device, _)| seen.insert(*device)).collect();
+    let found: Vec<_> = found.collect();
     let Some((&&(first, span), others)) = found.split_first() else {
         return;
     };

@@ -135,6 +135,7 @@ impl<'a> Lowerer<'a> {
             model,
             module: Module {
                 steps: resolved.steps,
+                exprs: Vec::with_capacity(2 * resolved.instrs.len()),
                 functions: Vec::new(),
                 ..Module::empty(
                     module_name(options.name.as_deref().unwrap_or(&program.source.name)),
@@ -142,7 +143,7 @@ impl<'a> Lowerer<'a> {
                     model,
                 )
             },
-            depths: Vec::new(),
+            depths: Vec::with_capacity(2 * resolved.instrs.len()),
             runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),
             specials: Specials::of(resolved, options),
             logic: logic::Logic::of(resolved),

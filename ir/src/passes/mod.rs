@@ -1,7 +1,7 @@
 //! Passes over a module. None changes what a scan does to any device.
 //!
 //! [`optimise`] rewrites the module twice: the first round leaves conditions with fewer uses, which the second puts where they are
-//! used, so that emitted code reads as one would write it by hand. In the end rungs that are repeated with other devices become loops.
+//! used, so that emitted code reads as one would write it by hand. Where there are no temporaries the first leaves nothing. In the end rungs that are repeated with other devices become loops.
 
 mod columns;
 mod effects;
@@ -15,12 +15,11 @@ use crate::node::Module;
 /// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins neighbouring branches
 /// with one condition, and removes code that cannot be reached or whose results nothing uses.
 pub fn optimise(module: &mut Module) {
-    let mut room = Vec::new();
-    for _ in 0..2 {
-        room = rewrite::run(module, room);
-        debug_assert_eq!(crate::validate::validate(module), Ok(()));
+    let room = rewrite::run(module, Vec::new());
+    if rewrite::may_gain(module) {
+        rewrite::run(module, room);
     }
-    drop(room);
+    debug_assert_eq!(crate::validate::validate(module), Ok(()));
     repeat::run(module);
     debug_assert_eq!(crate::validate::validate(module), Ok(()));
 }

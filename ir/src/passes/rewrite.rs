@@ -4,7 +4,7 @@ use super::effects::writes;
 use super::fold::Arena;
 use super::inline::{Counts, Temps};
 use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
-use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut};
+use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut, statements};
 use rustc_hash::FxHashSet;
 
 /// Rewrites every function, with new expressions in `room`; gives the room of the old ones back.
@@ -31,12 +31,26 @@ pub(super) fn run(module: &mut Module, room: Vec<Expr>) -> Vec<Expr> {
     std::mem::replace(&mut module.exprs, exprs)
 }
 
+/// Whether another round may find something: a temporary that has fewer uses now, or a label that nothing jumps to any more.
+pub(super) fn may_gain(module: &Module) -> bool {
+    let mut parts = false;
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            parts |= matches!(stmt, Stmt::Parts(_));
+        });
+    }
+    parts || !module.temps.is_empty()
+}
+
 /// Counts how often each temporary is used and assigned.
 fn count(module: &Module) -> Counts {
     let mut counts = Counts {
         uses: vec![0; module.temps.len()],
         assignments: vec![0; module.temps.len()],
     };
+    if module.temps.is_empty() {
+        return counts;
+    }
     for function in &module.functions {
         count_body(module, &function.body, &mut counts);
     }
