@@ -80,19 +80,16 @@ impl<'a, 'p> Unused<'a, 'p> {
             self.note_special(access);
             return;
         }
-        match basic {
+        let (list, what) = match basic {
             // Which device an index leads to is not known.
             Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) if access.count.is_some() => {
-                if self.classes[at].meets(access, COIL) {
-                    self.coils.push((access.first, access.span));
-                }
+                (&mut self.coils, COIL)
             }
-            Some(_) if access.reads() && access.count == Some(1) => {
-                if self.classes[at].meets(access, CONTACT) {
-                    self.contacts.push((access.first, access.span));
-                }
-            }
-            _ => {}
+            Some(_) if access.reads() && access.count == Some(1) => (&mut self.contacts, CONTACT),
+            _ => return,
+        };
+        if self.classes[at].meets(access, what) {
+            list.push((access.first, access.span));
         }
     }
 
