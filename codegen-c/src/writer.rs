@@ -18,6 +18,9 @@ use std::fmt::Write;
 /// Expressions that nest deeper than this get a name for their inner parts: readers and compilers have limits.
 const MAX_DEPTH: u32 = 12;
 
+/// The memory of an edge, and how far behind it that of a loop's present round is.
+type Memory = (EdgeId, Option<ExprId>);
+
 /// Writes the functions of one module.
 pub struct Writer<'a, 'm> {
     pub(crate) module: &'m Module,
@@ -201,13 +204,14 @@ impl<'a, 'm> Writer<'a, 'm> {
             if let (
                 Node::Stmt(Stmt::Edge {
                     edge,
+                    index,
                     kind,
                     input,
                     out: temp,
                 }),
                 Some(next),
             ) = (node, nodes.get(i))
-                && self.inline_edge(out, (*edge, *kind, *input), *temp, next, indent)
+                && self.inline_edge(out, ((*edge, *index), *kind, *input), *temp, next, indent)
             {
                 i += 1;
                 continue;
@@ -229,7 +233,7 @@ impl<'a, 'm> Writer<'a, 'm> {
     fn inline_edge(
         &mut self,
         out: &mut String,
-        edge: (EdgeId, EdgeKind, ExprId),
+        edge: (Memory, EdgeKind, ExprId),
         temp: TempId,
         next: &Node<'m>,
         indent: usize,
@@ -258,18 +262,36 @@ impl<'a, 'm> Writer<'a, 'm> {
         true
     }
 
-    fn edge_call(&mut self, out: &mut String, (edge, kind, input): (EdgeId, EdgeKind, ExprId)) {
+    fn edge_call(&mut self, out: &mut String, (memory, kind, input): (Memory, EdgeKind, ExprId)) {
         if kind == EdgeKind::Falling && *self.module.expr(input) == Expr::Bit(false) {
-            let _ = write!(out, "plc_take(&plc->edge[{}])", edge.0);
+            out.push_str("plc_take(&");
+            self.edge_memory(out, memory);
+            out.push(')');
             return;
         }
         let function = match kind {
             EdgeKind::Rising => "plc_rising",
             EdgeKind::Falling => "plc_falling",
         };
-        let _ = write!(out, "{function}(&plc->edge[{}], ", edge.0);
+        let _ = write!(out, "{function}(&");
+        self.edge_memory(out, memory);
+        out.push_str(", ");
         self.expr(out, input, Around::Exact);
         out.push(')');
+    }
+
+    /// Writes where the memory of an edge is: `plc->edge[3]`, `plc->edge[3 + 2 * i]`.
+    fn edge_memory(&self, out: &mut String, (edge, index): Memory) {
+        let first = edge.0;
+        let _ = match (index.map(|index| self.module.expr(index)), first) {
+            (Some(Expr::Stride(_, 1)), 0) => write!(out, "plc->edge[{}]", self.round),
+            (Some(Expr::Stride(_, 1)), _) => write!(out, "plc->edge[{first} + {}]", self.round),
+            (Some(Expr::Stride(_, by)), 0) => write!(out, "plc->edge[{by} * {}]", self.round),
+            (Some(Expr::Stride(_, by)), _) => {
+                write!(out, "plc->edge[{first} + {by} * {}]", self.round)
+            }
+            _ => write!(out, "plc->edge[{first}]"),
+        };
     }
 
     fn node(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
@@ -535,16 +557,19 @@ impl<'a, 'm> Writer<'a, 'm> {
             }
             Stmt::Edge {
                 edge,
+                index,
                 kind,
                 input,
                 out: temp,
             } => {
+                let memory = (*edge, *index);
                 if self.plan.temps[temp.0 as usize].used == 0 {
-                    let _ = write!(code, "plc->edge[{}] = ", edge.0);
+                    self.edge_memory(&mut code, memory);
+                    code.push_str(" = ");
                     self.expr(&mut code, *input, Around::Exact);
                 } else {
                     code = self.assigned_temp(*temp);
-                    self.edge_call(&mut code, (*edge, *kind, *input));
+                    self.edge_call(&mut code, (memory, *kind, *input));
                 }
                 code.push(';');
             }

@@ -72,12 +72,23 @@ impl Generator<'_> {
     /// `plc.edges[0].rising(plc.x2)`.
     fn edge(&mut self, stmt: &Stmt) -> Option<TokenStream> {
         let Stmt::Edge {
-            edge, kind, input, ..
+            edge,
+            index,
+            kind,
+            input,
+            ..
         } = stmt
         else {
             return None;
         };
-        let i = Literal::u32_unsuffixed(edge.0);
+        let first = Literal::u32_unsuffixed(edge.0);
+        let i = match index.map(|index| self.module.expr(index)) {
+            Some(&Expr::Stride(_, by)) => {
+                let by = Literal::u32_unsuffixed(by);
+                quote!(#first + #by * i)
+            }
+            _ => quote!(#first),
+        };
         let method = match kind {
             EdgeKind::Rising => format_ident!("rising"),
             EdgeKind::Falling => format_ident!("falling"),

@@ -50,8 +50,9 @@ impl Row {
     fn new(rng: &mut Rng) -> Row {
         let apart = 2 + rng.below(10);
         let base = rng.pick(&[20, 100, 450, 490, 700]).unwrap_or(20) + rng.below(10);
+        let inputs_apart = 1 + rng.below(4);
         let rungs = (0..1 + rng.below(5))
-            .map(|_| Rung::new(rng, apart))
+            .map(|_| Rung::new(rng, apart, inputs_apart))
             .collect();
         Row {
             rungs,
@@ -84,15 +85,20 @@ impl Row {
 }
 
 impl Rung {
-    fn new(rng: &mut Rng, apart: u32) -> Rung {
+    fn new(rng: &mut Rng, apart: u32, inputs_apart: u32) -> Rung {
         let named = |rng: &mut Rng| match rng.below(10) {
-            0..=2 => Named::Terminal('X', rng.below(8), 1 + rng.below(4)),
+            // Seldom otherwise than in the other rungs, of which no loop can be made then.
+            0..=2 if rng.percent(4) => Named::Terminal('X', rng.below(8), 1 + rng.below(4)),
+            0..=2 => Named::Terminal('X', rng.below(8), inputs_apart),
             3 => Named::Terminal('Y', rng.below(8), 2),
             4 => Named::Shared(rng.below(10)),
             5 => Named::Own(rng.below(3 * apart)),
             _ => Named::Own(apart + rng.below(apart)),
         };
-        let verbs: &[&str] = &["AND", "ANI", "OR", "ORI"];
+        let verbs: &[&str] = match rng.below(4) {
+            0 => &["ANDP", "ANDF", "ORP", "AND", "OR"],
+            _ => &["AND", "ANI", "OR", "ORI"],
+        };
         let mut parts = vec![(rng.pick(&["LD", "LDI"]).unwrap_or("LD"), named(rng))];
         for _ in 0..1 + rng.below(5) {
             parts.push(match rng.below(6) {
@@ -138,14 +144,25 @@ fn action(rng: &mut Rng) -> (&'static str, Named) {
             ("OUT", 'T', " K5"),
             ("OUT", 'T', " D5"),
             ("OUT", 'C', " K3"),
+            ("OUT", 'C', " K1"),
+            ("OUT", 'C', " D4"),
             ("RST", 'T', ""),
             ("RST", 'C', ""),
             ("MOV K4", 'D', ""),
             ("MOV T3", 'D', ""),
             ("MOV D3", 'C', ""),
+            ("MOVP T2", 'D', ""),
+            ("INCP", 'D', ""),
+            ("ADDP D2 K7", 'D', ""),
+            ("PLS", 'M', ""),
+            ("PLF", 'M', ""),
         ])
         .unwrap_or(("OUT", 'T', " K1"));
-    (verb, numbered(rng, class, behind))
+    let named = match class {
+        'M' => Named::Own(rng.below(30)),
+        _ => numbered(rng, class, behind),
+    };
+    (verb, named)
 }
 
 /// One of the first timers, counters or registers of a row.

@@ -149,6 +149,7 @@ impl Out<'_> {
             Stmt::Let(temp, value) => format!("t{} = {}", temp.0, e(value)),
             Stmt::Edge {
                 edge,
+                index,
                 kind,
                 input,
                 out,
@@ -157,7 +158,11 @@ impl Out<'_> {
                     EdgeKind::Rising => "rising",
                     EdgeKind::Falling => "falling",
                 };
-                format!("t{} = {kind} e{} {}", out.0, edge.0, e(input))
+                let memory = match index {
+                    Some(index) => format!("e[{} + {}]", edge.0, e(index)),
+                    None => format!("e{}", edge.0),
+                };
+                format!("t{} = {kind} {memory} {}", out.0, e(input))
             }
             Stmt::WriteBit(place, value) | Stmt::WriteWord(place, value) => {
                 format!("{} := {}", self.place(place), e(value))

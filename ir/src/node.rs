@@ -212,7 +212,7 @@ pub enum Expr {
     Cell(CellId),
     /// `I32`: entry of a table. The index, an `I32`, must be known to be at least 0 and less than the table's length.
     Entry(TableId, ExprId),
-    /// `I32`: the number of a round of the [`Stmt::Repeat`] around, times so much (at least 1). Stands as the index of a place only.
+    /// `I32`: the number of a round of the [`Stmt::Repeat`] around, times so much (at least 1). Stands as an index only.
     Stride(TempId, u32),
     /// Not, of a `Bit`.
     Not(ExprId),
@@ -328,6 +328,8 @@ pub enum Stmt {
     Edge {
         /// Memory.
         edge: EdgeId,
+        /// How many memories behind it this one's is: an [`Expr::Stride`], in the body of a [`Stmt::Repeat`].
+        index: Option<ExprId>,
         /// Which change.
         kind: EdgeKind,
         /// What is watched.
@@ -446,7 +448,7 @@ pub enum Stmt {
     },
     /// Executes the body `count` times, for rungs that the program repeats with other devices. `round` (`I32`) is 0, 1, 2 …, and leads to the
     /// devices of each round ([`Expr::Stride`]), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
-    /// apart. The body has neither loops nor jumps.
+    /// apart. The timers of a [`Stmt::TimerAt`] are of one kind. The body has neither loops nor jumps.
     Repeat {
         /// How often, at least 2.
         count: u32,

@@ -25,6 +25,7 @@ pub fn validate(module: &Module) -> Result<(), String> {
             assigned: vec![false; module.temps.len()],
             log: Vec::new(),
             labels: Vec::new(),
+            rounds: 1,
         };
         checker
             .body(&function.body)
@@ -135,6 +136,8 @@ struct Checker<'m> {
     log: Vec<TempId>,
     /// Labels of the parts around, innermost last.
     labels: Vec<LabelId>,
+    /// How many rounds the loop over rungs around has.
+    rounds: u32,
 }
 
 impl Checker<'_> {
@@ -170,10 +173,14 @@ impl Checker<'_> {
                 self.body(body)?;
                 Ok(true)
             }
-            Stmt::Repeat { round, body, .. } => {
+            Stmt::Repeat {
+                count, round, body, ..
+            } => {
                 let begin = self.log.len();
                 self.assign(*round);
+                self.rounds = *count;
                 self.body(body)?;
+                self.rounds = 1;
                 self.forget(begin);
                 Ok(true)
             }
@@ -284,8 +291,30 @@ impl Checker<'_> {
     fn no_column(&self, place: Place, by: u32) -> Option<String> {
         let grid = self.module.layout.grid(place.class, place.number);
         let name = place.class.number(place.number);
-        grid.is_none_or(|grid| grid.columns != by)
+        let last = self.last_of_rounds(place.number, by);
+        grid.is_none_or(|grid| grid.columns != by || !grid.holds(last))
             .then(|| format!("{name} lies in no grid of {by} columns"))
+    }
+
+    /// A number of the last round of the loop around, of which that of the first is known.
+    fn last_of_rounds(&self, first: u32, by: u32) -> u32 {
+        first.saturating_add(self.rounds.saturating_sub(1).saturating_mul(by))
+    }
+
+    /// Numbers in all rounds of what is named so in the first.
+    fn in_rounds(&self, first: u32, index: Option<ExprId>) -> impl Iterator<Item = u32> {
+        let by = match index.map(|index| self.module.expr(index)) {
+            Some(&Expr::Stride(_, by)) => by,
+            _ => 0,
+        };
+        (0..self.rounds).map(move |n| first.saturating_add(n.saturating_mul(by)))
+    }
+
+    /// Whether a coil leads to timers of one kind, if it is that of a loop's rounds.
+    fn leads_to_one_kind(&self, place: Place) -> bool {
+        let kind = |number| self.module.model.timer(number);
+        let mut numbers = self.in_rounds(place.number, place.index);
+        numbers.all(|number| kind(number) == kind(place.number))
     }
 
     fn unstored_pair(&self, place: Place) -> Option<String> {
@@ -346,8 +375,16 @@ impl Checker<'_> {
             Stmt::Network(n) => (n as usize) < module.networks.len(),
             Stmt::Let(temp, value) => temp_is(temp, module.ty(value)),
             Stmt::Edge {
-                edge, input, out, ..
-            } => edge.0 < module.edges && is(input, Ty::Bit) && temp_is(out, Ty::Bit),
+                edge,
+                index,
+                input,
+                out,
+                ..
+            } => {
+                let mut memories = self.in_rounds(edge.0, index);
+                let exist = memories.all(|memory| memory < module.edges);
+                exist && is(input, Ty::Bit) && temp_is(out, Ty::Bit)
+            }
             Stmt::WriteBit(_, value) => is(value, Ty::Bit),
             Stmt::WriteWordBit(_, bit, value) => bit < 16 && is(value, Ty::Bit),
             Stmt::WriteWord(_, value) => is(value, Ty::I16),
@@ -359,6 +396,7 @@ impl Checker<'_> {
             Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
                 is(drive, Ty::Bit) && is(preset, Ty::I16)
             }
+            Stmt::TimerAt { place, .. } if !self.leads_to_one_kind(place) => false,
             Stmt::TimerAt {
                 place,
                 drive,

@@ -89,7 +89,10 @@ macro_rules! for_exprs {
                     f(down);
                     f(preset);
                 }
-                Stmt::Edge { input, .. } => f(input),
+                Stmt::Edge { index, input, .. } => {
+                    index.$iter().for_each(&mut *f);
+                    f(input);
+                }
                 Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
                     f(drive);
                     f(preset);

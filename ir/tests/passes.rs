@@ -271,6 +271,15 @@ fn timers_counters_and_registers_take_part_in_loops() {
 }
 
 #[test]
+fn edges_take_part_in_loops() {
+    let pulsed = |n: u32| format!("{}LDP X{:03o}\nINCP D{n}\n", station(n), 2 * n);
+    let main = stations(12, pulsed, "");
+    assert!(main.starts_with("repeat 12 times"), "{main}");
+    assert!(main.contains(" = rising e[0 + 2 * t"), "{main}");
+    assert!(main.contains(" = rising e[1 + 2 * t"), "{main}");
+}
+
+#[test]
 fn rounds_have_the_same_presets_and_kinds_of_timers() {
     // From the thirteenth station on the preset is another one.
     let main = stations(20, timed_station, "");

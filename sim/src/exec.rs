@@ -355,12 +355,14 @@ impl<'m> Machine<'m> {
             Stmt::Let(temp, value) => self.temps[temp.0 as usize] = self.eval(value),
             Stmt::Edge {
                 edge,
+                index,
                 kind,
                 input,
                 out,
             } => {
                 let now = self.on(input);
-                let before = std::mem::replace(&mut self.edges[edge.0 as usize], now);
+                let further = index.map_or(0, |index| int(self.eval(index)) as usize);
+                let before = std::mem::replace(&mut self.edges[edge.0 as usize + further], now);
                 self.temps[out.0 as usize] = Value::Bit(match kind {
                     EdgeKind::Rising => now && !before,
                     EdgeKind::Falling => before && !now,

@@ -156,6 +156,7 @@ impl Builder {
         self.module.temps.push(Ty::Bit);
         self.body.push(Stmt::Edge {
             edge,
+            index: None,
             kind: EdgeKind::Rising,
             input,
             out,

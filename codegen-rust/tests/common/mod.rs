@@ -160,6 +160,7 @@ pub fn motor() -> Module {
         b.network(10, None),
         Stmt::Edge {
             edge,
+            index: None,
             kind: EdgeKind::Rising,
             input: x2,
             out: rising,

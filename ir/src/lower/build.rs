@@ -93,6 +93,7 @@ impl Lowerer<'_> {
         let out = self.temp(Ty::Bit);
         self.emit(Stmt::Edge {
             edge,
+            index: None,
             kind,
             input,
             out,

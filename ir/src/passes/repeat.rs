@@ -84,6 +84,7 @@ fn add_stmt(
     match stmt {
         Stmt::Network(_) => *size -= 1,
         Stmt::Let(_, value) => add_expr(module, *value, hasher, size)?,
+        Stmt::Edge { input, .. } => add_expr(module, *input, hasher, size)?,
         Stmt::WriteBit(place, value) | Stmt::WriteWord(place, value) => {
             add_place(*place, hasher)?;
             add_expr(module, *value, hasher, size)?;
@@ -201,9 +202,20 @@ struct Group {
     /// Statements of a round.
     length: usize,
     rounds: usize,
-    /// The devices of the first round, in the order in which it names them, and how far from each that of the next round is.
-    devices: Vec<(DeviceClass, u32, u32)>,
+    /// What the first round names, in order, and how far from each that of the next round is.
+    devices: Vec<Names>,
 }
+
+/// What rounds name.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Device(DeviceClass),
+    /// The memory of an edge.
+    Edge,
+}
+
+/// What a round names, its number, and that of the next round or how much further that is.
+type Names = (Kind, u32, u32);
 
 impl Group {
     /// The group that begins with a network and saves the most.
@@ -260,10 +272,14 @@ impl Group {
                 found.into_iter().eq(expected)
             })
         };
-        let most = |&(class, number, by): &(DeviceClass, u32, u32)| {
-            last_alike(module.model, class, number).map_or(0, |last| (last - number) / by + 1)
+        let most = |&(kind, number, by): &Names| {
+            let last = match kind {
+                Kind::Device(class) => last_alike(module.model, class, number),
+                Kind::Edge => module.edges.checked_sub(1),
+            };
+            last.map_or(0, |last| (last - number) / by + 1)
         };
-        let moving = devices.iter().filter(|device| device.2 > 0);
+        let moving = devices.iter().filter(|names| names.2 > 0);
         let most = moving.map(most).min().unwrap_or(0) as usize;
         let rounds = (2..most).take_while(|&n| is_next(n)).count() + 2;
         (rounds <= most).then_some(Group {
@@ -281,7 +297,7 @@ impl Group {
             let round = first..first + self.length;
             let mut inside = true;
             for stmt in &body[round.clone()] {
-                each_let(stmt, &mut |temp| {
+                each_assigned(stmt, &mut |temp| {
                     let span = spans.get(temp.0 as usize).copied().flatten();
                     inside &=
                         span.is_none_or(|(from, to)| round.contains(&from) && round.contains(&to));
@@ -295,18 +311,17 @@ impl Group {
     fn store(&self, module: &mut Module) -> bool {
         let mut layout = module.layout.clone();
         let reached = self.rounds as u32 - 1;
-        let stored =
-            self.devices
-                .iter()
-                .filter(|device| device.2 > 0)
-                .all(|&(class, number, by)| {
-                    spread(
-                        &mut layout,
-                        module.model,
-                        (class, number, number + reached * by),
-                        by,
-                    )
-                });
+        let stored = self
+            .devices
+            .iter()
+            .filter(|names| names.2 > 0)
+            .all(|&(kind, number, by)| match kind {
+                Kind::Device(class) => {
+                    let devices = (class, number, number + reached * by);
+                    spread(&mut layout, module.model, devices, by)
+                }
+                Kind::Edge => true,
+            });
         if stored {
             module.layout = layout;
         }
@@ -340,11 +355,13 @@ impl Group {
     }
 }
 
-fn each_let(stmt: &Stmt, f: &mut impl FnMut(TempId)) {
-    if let Stmt::Let(temp, _) = stmt {
-        f(*temp);
+fn each_assigned(stmt: &Stmt, f: &mut impl FnMut(TempId)) {
+    if let Some(temp) = assigned(stmt) {
+        f(temp);
     }
-    bodies(stmt).flatten().for_each(|stmt| each_let(stmt, f));
+    bodies(stmt)
+        .flatten()
+        .for_each(|stmt| each_assigned(stmt, f));
 }
 
 /// Two rounds side by side.
@@ -352,17 +369,13 @@ struct Pair<'m> {
     module: &'m Module,
     /// Temporaries of the first round, and what they are in the other.
     temps: HashMap<TempId, TempId>,
-    /// Devices of both.
-    devices: Vec<(DeviceClass, u32, u32)>,
+    /// What both name.
+    devices: Vec<Names>,
 }
 
 impl<'m> Pair<'m> {
-    /// The devices of two rounds in the order in which they name them; `None` if the rounds differ otherwise.
-    fn of(
-        module: &'m Module,
-        one: &[Stmt],
-        other: &[Stmt],
-    ) -> Option<Vec<(DeviceClass, u32, u32)>> {
+    /// What two rounds name, in order; `None` if the rounds differ otherwise.
+    fn of(module: &'m Module, one: &[Stmt], other: &[Stmt]) -> Option<Vec<Names>> {
         let mut pair = Pair {
             module,
             temps: HashMap::new(),
@@ -386,6 +399,28 @@ impl<'m> Pair<'m> {
             (&Stmt::Let(temp, value), &Stmt::Let(with, other)) => {
                 self.expr(value, other)?;
                 self.temps.insert(temp, with);
+                Some(())
+            }
+            (
+                &Stmt::Edge {
+                    edge,
+                    kind,
+                    input,
+                    out,
+                    ..
+                },
+                &Stmt::Edge {
+                    edge: with_edge,
+                    kind: with_kind,
+                    input: with_input,
+                    out: with_out,
+                    ..
+                },
+            ) => {
+                (kind == with_kind).then_some(())?;
+                self.devices.push((Kind::Edge, edge.0, with_edge.0));
+                self.expr(input, with_input)?;
+                self.temps.insert(out, with_out);
                 Some(())
             }
             (&Stmt::WriteBit(place, value), &Stmt::WriteBit(to, other))
@@ -444,7 +479,8 @@ impl<'m> Pair<'m> {
 
     fn place(&mut self, one: Place, other: Place) -> Option<()> {
         let same = one.class == other.class && one.index.is_none() && other.index.is_none();
-        self.devices.push((one.class, one.number, other.number));
+        let kind = Kind::Device(one.class);
+        self.devices.push((kind, one.number, other.number));
         same.then_some(())
     }
 }
@@ -489,6 +525,19 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
     fn stmt(&mut self, stmt: &Stmt) -> Stmt {
         match stmt {
             Stmt::Let(temp, value) => Stmt::Let(*temp, self.expr(*value)),
+            &Stmt::Edge {
+                edge,
+                kind,
+                input,
+                out,
+                ..
+            } => Stmt::Edge {
+                edge,
+                index: self.index(),
+                kind,
+                input: self.expr(input),
+                out,
+            },
             Stmt::WriteBit(place, value) => {
                 let place = self.place(*place);
                 Stmt::WriteBit(place, self.expr(*value))
@@ -557,8 +606,13 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
     }
 
     fn place(&mut self, place: Place) -> Place {
-        let by = self.strides.next().unwrap_or_default();
-        let index = (by > 0).then(|| self.module.add(Expr::Stride(self.round, by)));
+        let index = self.index();
         Place { index, ..place }
+    }
+
+    /// What leads from the next thing named in the first round to that of the present one, if it is another.
+    fn index(&mut self) -> Option<ExprId> {
+        let by = self.strides.next().unwrap_or_default();
+        (by > 0).then(|| self.module.add(Expr::Stride(self.round, by)))
     }
 }
