@@ -82,12 +82,18 @@ impl Generator<'_> {
             return None;
         };
         let first = Literal::u32_unsuffixed(edge.0);
-        let i = match index.map(|index| self.module.expr(index)) {
+        let further = match index.map(|index| self.module.expr(index)) {
+            Some(&Expr::Stride(_, 1)) => Some(quote!(i)),
             Some(&Expr::Stride(_, by)) => {
                 let by = Literal::u32_unsuffixed(by);
-                quote!(#first + #by * i)
+                Some(quote!(#by * i))
             }
-            _ => quote!(#first),
+            _ => None,
+        };
+        let i = match further {
+            Some(further) if edge.0 == 0 => further,
+            Some(further) => quote!(#first + #further),
+            None => quote!(#first),
         };
         let method = match kind {
             EdgeKind::Rising => format_ident!("rising"),
