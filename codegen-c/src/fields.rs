@@ -107,10 +107,7 @@ impl Field {
         out.push_str(self.class.prefix());
         match (self.array && !self.numbered, self.class.is_octal()) {
             (true, _) => {}
-            (false, true) => {
-                // Writing to a String does not fail.
-                let _ = write!(out, "{:o}", self.first);
-            }
+            (false, true) => text::push_octal(out, self.first),
             (false, false) => text::push_number(out, self.first),
         }
     }

@@ -119,6 +119,14 @@ fn break_at(code: &str, room: usize) -> Option<usize> {
     best.map(|(_, i)| i)
 }
 
+/// Appends a number in octal.
+pub fn push_octal(out: &mut String, number: u32) {
+    let digits = number.max(1).ilog2() / 3;
+    for digit in (0..=digits).rev() {
+        out.push(char::from(b'0' + (number >> (3 * digit) & 7) as u8));
+    }
+}
+
 /// Writes a text into a string literal.
 pub fn string_literal(text: &str) -> String {
     use std::fmt::Write;
@@ -161,6 +169,15 @@ mod tests {
         assert!(out.lines().all(|l| l.len() <= WIDTH), "{out}");
         assert!(out.contains("\n        & plc->X1"), "{out}");
         assert!(out.ends_with("/* coil */\n"));
+    }
+
+    #[test]
+    fn octal_numbers_have_no_zeros_in_front() {
+        for number in [0, 1, 7, 8, 63, 64, 0o377, u32::MAX] {
+            let mut out = String::new();
+            push_octal(&mut out, number);
+            assert_eq!(out, format!("{number:o}"));
+        }
     }
 
     #[test]

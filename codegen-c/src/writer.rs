@@ -353,6 +353,7 @@ impl<'a, 'm> Writer<'a, 'm> {
 
     fn node_with_names(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
         match node {
+            Node::Stmt(Stmt::Network(network)) => self.network(out, *network, indent),
             Node::Stmt(stmt) => self.stmt(out, stmt, indent),
             Node::If {
                 cond,
@@ -544,9 +545,8 @@ impl<'a, 'm> Writer<'a, 'm> {
     }
 
     fn stmt(&mut self, out: &mut String, stmt: &Stmt, indent: usize) {
-        let mut code = String::new();
+        let mut code = String::with_capacity(text::WIDTH);
         match stmt {
-            Stmt::Network(network) => return self.network(out, *network, indent),
             Stmt::Let(temp, value) => {
                 if self.plan.temps[temp.0 as usize].used == 0 {
                     return;
