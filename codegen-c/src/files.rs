@@ -45,7 +45,8 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         );
         files.push(file(format!("{name}_internal.h"), text));
     }
-    for (i, group) in unit.groups.iter().enumerate() {
+    // Each group gives its memory back before the next one is copied.
+    for (i, group) in unit.groups.into_iter().enumerate() {
         let path = if i == 0 {
             format!("{name}.c")
         } else {
@@ -57,7 +58,9 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         } else {
             let _ = write!(text, "#include \"{name}.h\"\n\n{}", unit.internal);
         }
-        text.push_str(group.trim_end());
+        let group = group.trim_end();
+        text.reserve_exact(group.len() + 1);
+        text.push_str(group);
         text.push('\n');
         sources.push(path.clone());
         files.push(file(path, text));
