@@ -689,10 +689,11 @@ impl Inst {
 
     /// The forms it has on a model.
     pub fn forms_on(&self, model: ModelId) -> Forms {
+        let always =
+            |variant: &Variant| variant.models.has(model) && matches!(variant.when, When::Always);
         self.variants
             .iter()
-            .filter(|variant| variant.models.has(model) && matches!(variant.when, When::Always))
-            .find_map(|variant| variant.forms)
+            .find_map(|variant| variant.forms.filter(|_| always(variant)))
             .unwrap_or(self.forms)
     }
 
@@ -738,9 +739,9 @@ impl Inst {
         model: &Model,
         what: impl Fn(&Variant) -> Option<T>,
     ) -> Option<T> {
+        let holds = |variant: &Variant| variant.models.has(model.id) && variant.when.holds(written);
         self.variants
             .iter()
-            .filter(|variant| variant.models.has(model.id))
-            .find_map(|variant| what(variant).filter(|_| variant.when.holds(written)))
+            .find_map(|variant| what(variant).filter(|_| holds(variant)))
     }
 }

@@ -3,13 +3,15 @@
 use super::Code;
 use super::accesses::Access;
 use crate::catalogue::Role;
+use crate::runs::is_special;
 use crate::special;
 use rungc_syntax::{Diagnostics, codes};
 
 /// Warns of a write to a special device that is there to be read. An operand that is also read (BMOV goes either way) says too little.
 pub(super) fn check(code: &Code, i: usize, access: &Access, out: &mut Diagnostics) {
     let device = access.first;
-    if access.role != Role::Write || access.count.is_none() {
+    let special = is_special(device.class, device.number);
+    if access.role != Role::Write || access.count.is_none() || !special {
         return;
     }
     let Some(special) = special::find(code.model().id, device.class, device.number) else {

@@ -33,13 +33,16 @@ pub(super) fn run(module: &mut Module, room: Vec<Expr>) -> Vec<Expr> {
 
 /// Whether another round may find something: a temporary that has fewer uses now, or a label that nothing jumps to any more.
 pub(super) fn may_gain(module: &Module) -> bool {
+    if !module.temps.is_empty() {
+        return true;
+    }
     let mut parts = false;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
             parts |= matches!(stmt, Stmt::Parts(_));
         });
     }
-    parts || !module.temps.is_empty()
+    parts
 }
 
 /// Counts how often each temporary is used and assigned.
