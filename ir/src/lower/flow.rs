@@ -318,14 +318,14 @@ impl Lowerer<'_> {
         self.flow.current = index;
         self.flow.dead = false;
         self.logic.clear();
-        let instructions: Vec<usize> = self.flow.instructions(&region).collect();
-        self.flow.labels = instructions
-            .iter()
-            .filter_map(|&i| self.resolved.instrs[i].label)
+        self.flow.labels = self
+            .flow
+            .instructions(&region)
+            .filter_map(|i| self.resolved.instrs[i].label)
             .filter(|label| label.class == DeviceClass::P)
             .map(|label| label.number)
             .collect();
-        for i in instructions {
+        for i in self.flow.instructions(&region) {
             self.at = i;
             if self.flow.dead && !self.revives() {
                 continue;
