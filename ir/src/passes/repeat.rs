@@ -338,7 +338,7 @@ impl Group {
             strides: self.devices.iter().map(|device| device.2),
         };
         let statements = &body[self.first..self.first + self.length];
-        let inner = statements.iter().map(|stmt| maker.stmt(stmt)).collect();
+        let inner = maker.body(statements);
         let all = &body[self.first..self.first + self.rounds * self.length];
         let mut steps = all.iter().filter_map(|stmt| match stmt {
             Stmt::Network(network) => Some(maker.module.networks.get(*network as usize)?.step),
@@ -509,6 +509,27 @@ fn coil(stmt: &Stmt) -> Option<(Place, ExprId, ExprId)> {
     Some((place, drive, preset))
 }
 
+/// The drive of a statement that only sets and resets bits, and what it does to each.
+fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Place, bool)>)> {
+    let Stmt::If {
+        cond,
+        then,
+        otherwise,
+    } = stmt
+    else {
+        return None;
+    };
+    let writes = then.iter().map(|stmt| match *stmt {
+        Stmt::WriteBit(place, value) => match *module.expr(value) {
+            Expr::Bit(on) => Some((place, on)),
+            _ => None,
+        },
+        _ => None,
+    });
+    let writes: Vec<_> = writes.collect::<Option<_>>()?;
+    (otherwise.is_empty() && !writes.is_empty()).then_some((*cond, writes))
+}
+
 /// Makes the body of a loop of a first round.
 struct Maker<'m, S> {
     module: &'m mut Module,
@@ -518,8 +539,38 @@ struct Maker<'m, S> {
 }
 
 impl<S: Iterator<Item = u32>> Maker<'_, S> {
-    fn body(&mut self, body: &Body) -> Body {
-        body.iter().map(|stmt| self.stmt(stmt)).collect()
+    fn body(&mut self, body: &[Stmt]) -> Body {
+        let mut out = Body::with_capacity(body.len());
+        for stmt in body {
+            match sets(self.module, stmt) {
+                Some((cond, writes)) => self.sets(cond, writes, &mut out),
+                None => out.push(self.stmt(stmt)),
+            }
+        }
+        out
+    }
+
+    /// SET and RST as assignments, `M0 := M0 | drive`: compilers do not vectorise what is done on a condition.
+    fn sets(&mut self, cond: ExprId, writes: Vec<(Place, bool)>, out: &mut Body) {
+        let mut drive = self.expr(cond);
+        if writes.len() > 1 {
+            let temp = TempId(self.module.temps.len() as u32);
+            self.module.temps.push(Ty::Bit);
+            out.push(Stmt::Let(temp, drive));
+            drive = self.module.add(Expr::Temp(temp));
+        }
+        for (place, on) in writes {
+            let place = self.place(place);
+            let before = self.module.add(Expr::ReadBit(place));
+            let after = match on {
+                true => Expr::Or(before, drive),
+                false => {
+                    let others = self.module.add(Expr::Not(drive));
+                    Expr::And(before, others)
+                }
+            };
+            out.push(Stmt::WriteBit(place, self.module.add(after)));
+        }
     }
 
     fn stmt(&mut self, stmt: &Stmt) -> Stmt {
