@@ -600,6 +600,9 @@ impl Writer<'_, '_> {
     }
 
     fn read_bit(&mut self, out: &mut String, place: &Place) {
+        if self.constant_of_rounds(out, place) {
+            return;
+        }
         let of_round = self.access_round(out, place);
         if place.index.is_some() && !of_round {
             return self.indexed_call(out, "bit", place, 0);

@@ -64,10 +64,10 @@ impl Kind {
 pub enum Section {
     /// X: never cleared, set by the host.
     Inputs,
-    /// Cleared in STOP and at power-on.
-    General,
     /// An array that is partly general and partly latched (or special).
     Mixed,
+    /// Cleared in STOP and at power-on.
+    General,
     /// Kept.
     Latched,
     /// Special relays and registers: power-on values at power-on only.
@@ -336,10 +336,14 @@ impl<'m> Fields<'m> {
         self.fields.iter().map(bytes).sum()
     }
 
-    /// The fields in the order of the struct.
+    /// The fields in the order of the struct. Arrays that loops over rungs go through stand side by side: clang makes vectors of two bytes
+    /// only if a few others lie between what a loop reads and what it writes.
     pub fn in_struct_order(&self) -> Vec<&Field> {
         let mut fields: Vec<&Field> = self.fields.iter().collect();
-        fields.sort_by_key(|f| f.section);
+        fields.sort_by_key(|f| match f.section {
+            Section::Inputs | Section::Mixed => (f.section, f.grid),
+            _ => (f.section, !f.grid),
+        });
         fields
     }
 

@@ -18,6 +18,7 @@ mod helpers;
 mod host;
 mod places;
 mod plan;
+mod rounds;
 mod runtime;
 mod scopes;
 mod table;

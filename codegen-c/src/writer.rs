@@ -5,6 +5,7 @@ use crate::expr::Around;
 use crate::fields::Fields;
 use crate::helpers::Helpers;
 use crate::plan::{CFunction, Flow, Node, Plan};
+use crate::rounds::Device;
 use crate::text;
 use crate::walk;
 use rungc_ir::Module;
@@ -13,6 +14,7 @@ use rungc_ir::walk::{for_exprs, operands};
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
+use std::collections::HashSet;
 use std::fmt::Write;
 
 /// Expressions that nest deeper than this get a name for their inner parts: readers and compilers have limits.
@@ -39,13 +41,17 @@ pub struct Writer<'a, 'm> {
     /// The current C function.
     function: usize,
     /// Loops around the current statement.
-    loops: usize,
+    pub(crate) loops: usize,
     /// Whether an operand beside is a number, so that `!` would seem a slip.
     pub(crate) numbers: bool,
     /// Variable that counts the rounds of the loop over rungs.
     pub(crate) round: String,
     /// How many rounds that has.
     pub(crate) rounds: u32,
+    /// Devices that it reads before its first round.
+    pub(crate) constants: HashSet<Device>,
+    /// Devices that a loop of this function reads so.
+    pub(crate) constants_named: HashSet<Device>,
     /// Parts that have been given a name in this function.
     names: u32,
 }
@@ -67,6 +73,8 @@ impl<'a, 'm> Writer<'a, 'm> {
             numbers: false,
             round: String::new(),
             rounds: 0,
+            constants: HashSet::new(),
+            constants_named: HashSet::new(),
             names: 0,
         };
         for function in &plan.functions {
@@ -145,6 +153,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         self.function = index;
         self.loops = 0;
         self.names = 0;
+        self.constants_named.clear();
         let _ = write!(out, "{storage}{}\n{{\n", self.signature(function));
         if function
             .body
@@ -193,7 +202,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         name.to_ascii_uppercase()
     }
 
-    fn nodes(&mut self, out: &mut String, nodes: &[Node<'m>], indent: usize) {
+    pub(crate) fn nodes(&mut self, out: &mut String, nodes: &[Node<'m>], indent: usize) {
         let mut i = 0;
         while let Some(node) = nodes.get(i) {
             i += 1;
@@ -414,36 +423,11 @@ impl<'a, 'm> Writer<'a, 'm> {
         text::line(out, indent, "}", None);
     }
 
-    fn loop_variable(&self) -> String {
+    pub(crate) fn loop_variable(&self) -> String {
         match self.loops {
             n @ 0..6 => char::from(b'i' + n as u8).to_string(),
             n => format!("i{n}"),
         }
-    }
-
-    /// A loop over rungs that the program repeats.
-    fn rounds(
-        &mut self,
-        out: &mut String,
-        (count, (first, last)): (u32, (u32, u32)),
-        body: &[Node<'m>],
-        indent: usize,
-    ) {
-        let variable = self.loop_variable();
-        if !out.ends_with("{\n") {
-            out.push('\n');
-        }
-        let comment = format!(
-            "/* steps {first} to {last}: {count} times the same rungs, each time with the next devices */"
-        );
-        text::line(out, indent, &comment, None);
-        let head = format!("for (unsigned {variable} = 0; {variable} < {count}; {variable}++) {{");
-        text::line(out, indent, &head, None);
-        (self.round, self.rounds) = (variable, count);
-        self.loops += 1;
-        self.nodes(out, body, indent + 4);
-        self.loops -= 1;
-        text::line(out, indent, "}", None);
     }
 
     fn is_void(&self) -> bool {
