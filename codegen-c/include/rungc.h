@@ -19,16 +19,17 @@ typedef struct plc_sys {
     uint32_t scan_us; /* how long the last scan took */
     bool first_scan;  /* first scan since RUN began */
     bool running;     /* RUN, not STOP */
+    uint8_t scan;     /* number of the scan, wrapping */
 } plc_sys;
 
 /* A timer: .done is its contact, .value its current value in units. */
 typedef struct plc_timer {
-    uint32_t part_ms; /* time since the last whole unit */
-    uint32_t last_ms; /* when it was last executed, where that matters */
-    int16_t value;    /* current value */
-    int16_t preset;   /* preset it runs to, where that is kept */
-    bool coil;        /* whether its coil was on when last executed */
-    bool done;        /* contact */
+    int16_t value;   /* current value */
+    int16_t preset;  /* preset it runs to, where that is kept */
+    uint8_t part_ms; /* time since the last whole unit */
+    uint8_t scan;    /* scan in which it was last executed, where that matters */
+    bool coil;       /* whether its coil was on when last executed */
+    bool done;       /* contact */
 } plc_timer;
 
 /* A 16-bit up counter: .done is its contact. */
@@ -67,6 +68,7 @@ static inline void plc_begin_scan(plc_sys *sys, uint32_t now_ms, uint32_t scan_u
     sys->dt_ms = sys->first_scan ? 0u : now_ms - sys->now_ms;
     sys->now_ms = now_ms;
     sys->scan_us = scan_us;
+    sys->scan++;
 }
 
 /* Clears the bytes of a struct from offset `from` up to offset `to`. */
@@ -324,16 +326,17 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
                                  unsigned options)
 {
     if (!drive) {
-        if ((options & PLC_RETENTIVE) == 0u) {
-            plc_timer_reset(timer);
+        if ((options & PLC_RETENTIVE) != 0u) {
+            timer->coil = false;
+        } else {
+            memset(timer, 0, sizeof *timer);
         }
-        timer->coil = false;
         return;
     }
 
     uint32_t elapsed = 0;
-    if (timer->coil) {
-        elapsed = ((options & PLC_FREE_RUNNING) != 0u) ? sys->now_ms - timer->last_ms : sys->dt_ms;
+    if (timer->coil && !((options & PLC_FREE_RUNNING) != 0u && timer->scan == sys->scan)) {
+        elapsed = sys->dt_ms;
     }
     if ((options & PLC_STEPWISE) != 0u && elapsed > unit_ms) {
         elapsed = unit_ms;
@@ -343,18 +346,22 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
     }
     if ((options & (PLC_LATCHES_PRESET | PLC_FREE_RUNNING)) != 0u) {
         timer->preset = preset;
-        timer->last_ms = sys->now_ms;
+        timer->scan = sys->scan;
     }
     timer->coil = true;
 
     const bool overruns = (options & PLC_OVERRUNS) != 0u;
     if (!timer->done || overruns) {
-        const int16_t limit = overruns ? INT16_MAX : (preset > 0) ? preset : 0;
-        const uint32_t room = (limit > timer->value) ? (uint32_t)((int32_t)limit - timer->value) : 0u;
-        const uint32_t part = (elapsed < UINT32_MAX - timer->part_ms) ? timer->part_ms + elapsed : UINT32_MAX;
-        const uint32_t units = part / unit_ms;
-        timer->part_ms = part % unit_ms;
-        timer->value = plc_int16((uint32_t)timer->value + ((units < room) ? units : room));
+        uint32_t part = timer->part_ms + elapsed;
+        if (part >= unit_ms) {
+            const uint32_t units = part / unit_ms;
+            const int32_t room = (overruns ? INT16_MAX : preset) - timer->value;
+            part %= unit_ms;
+            if (room > 0) {
+                timer->value = plc_int16((uint32_t)timer->value + ((units < (uint32_t)room) ? units : (uint32_t)room));
+            }
+        }
+        timer->part_ms = (uint8_t)part;
         timer->done = timer->done || timer->value >= preset;
     }
 }
@@ -367,34 +374,41 @@ static inline void plc_timer_go_on(plc_timer *timer, const plc_sys *sys, uint32_
     }
 }
 
+/* Where a program has very many timer coils, it has one function for each kind of timer, not the code of a timer at each coil. */
+#if defined(PLC_MANY_TIMERS) && defined(__GNUC__)
+#define PLC_TIMER static __attribute__((noinline, unused))
+#else
+#define PLC_TIMER static inline
+#endif
+
 /* OUT T with units of 1, 10 and 100 ms. */
-static inline void plc_timer_1ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+PLC_TIMER void plc_timer_1ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
 {
     plc_timer_run(timer, drive, preset, sys, 1u, 0u);
 }
 
-static inline void plc_timer_10ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+PLC_TIMER void plc_timer_10ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
 {
     plc_timer_run(timer, drive, preset, sys, 10u, 0u);
 }
 
-static inline void plc_timer_100ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+PLC_TIMER void plc_timer_100ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
 {
     plc_timer_run(timer, drive, preset, sys, 100u, 0u);
 }
 
 /* OUT T of retentive timers. */
-static inline void plc_retentive_1ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+PLC_TIMER void plc_retentive_1ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
 {
     plc_timer_run(timer, drive, preset, sys, 1u, PLC_RETENTIVE);
 }
 
-static inline void plc_retentive_10ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+PLC_TIMER void plc_retentive_10ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
 {
     plc_timer_run(timer, drive, preset, sys, 10u, PLC_RETENTIVE);
 }
 
-static inline void plc_retentive_100ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
+PLC_TIMER void plc_retentive_100ms(plc_timer *timer, bool drive, int16_t preset, const plc_sys *sys)
 {
     plc_timer_run(timer, drive, preset, sys, 100u, PLC_RETENTIVE);
 }

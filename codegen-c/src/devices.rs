@@ -382,12 +382,11 @@ impl Writer<'_, '_> {
 
 /// Writes the call that runs a timer.
 pub fn run_timer(code: &mut String, kind: TimerKind, timer: &str, drive: &str, preset: &str) {
-    let plain = !kind.latches_preset && !kind.free_running && !kind.overruns && !kind.stepwise;
     let unit = kind.unit_ms;
-    let family = match (plain, unit) {
-        (true, 1 | 10 | 100) if kind.accumulating => Some("retentive"),
-        (true, 1 | 10 | 100) => Some("timer"),
-        _ => None,
+    let family = match kind.accumulating {
+        _ if !kind.is_common() => None,
+        true => Some("retentive"),
+        false => Some("timer"),
     };
     let arguments = format!("(&{timer}, {drive}, {preset}, &plc->sys");
     let _ = match family {

@@ -52,7 +52,7 @@ impl Kind {
         match self {
             Kind::Bit => (1, 1),
             Kind::Word => (2, 2),
-            Kind::Timer => (16, 4),
+            Kind::Timer => (8, 2),
             Kind::Counter16 => (4, 2),
             Kind::Counter32 => (8, 4),
         }

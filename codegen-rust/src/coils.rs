@@ -26,10 +26,16 @@ impl Generator<'_> {
                 drive,
                 preset,
             } => {
-                let kind = self.timer_kind(kind);
                 let drive = named_drive(self.expr(drive), &mut before);
                 let preset = self.expr(preset);
-                let arguments = quote!(#kind, #drive, #preset, plc.sys.now_ms, plc.sys.dt_ms);
+                let mut arguments = quote!(#drive, #preset, &plc.sys);
+                if kind.is_common() {
+                    let retentive = if kind.accumulating { "retentive_" } else { "" };
+                    method = format_ident!("run_{retentive}{}ms", kind.unit_ms);
+                } else {
+                    let kind = self.timer_kind(kind);
+                    arguments = quote!(#kind, #arguments);
+                }
                 (DeviceClass::T, number, arguments)
             }
             Stmt::Counter16 {
@@ -146,7 +152,7 @@ impl Generator<'_> {
             let arms = self.timer_arms();
             let body = quote! {
                 let (timer, kind) = match number { #arms _ => return };
-                timer.run(kind, drive, preset, plc.sys.now_ms, plc.sys.dt_ms);
+                timer.run(kind, drive, preset, &plc.sys);
             };
             self.coil_function("OUT of a timer by its number.", OUT_TIMER, body);
         }

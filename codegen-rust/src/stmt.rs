@@ -126,7 +126,7 @@ impl Generator<'_> {
             Stmt::TimerGoesOn { number, kind } => {
                 let kind = self.timer_kind(*kind);
                 match self.storage.cell(&quote!(plc), DeviceClass::T, *number) {
-                    Some(cell) => quote!(#cell.go_on(#kind, plc.sys.now_ms);),
+                    Some(cell) => quote!(#cell.go_on(#kind, &plc.sys);),
                     None => TokenStream::new(),
                 }
             }

@@ -1,10 +1,12 @@
 //! Timers and counters: what OUT T and OUT C do.
 
+use crate::plc::Sys;
+
 /// How a timer behaves.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[repr(C)]
 pub struct TimerKind {
-    /// Length of its unit in milliseconds: 1, 10 or 100.
+    /// Length of its unit in milliseconds: 1, 10 or 100, and not above 256.
     pub unit_ms: u16,
     /// Keeps its value while not driven; only RST clears it.
     pub accumulating: bool,
@@ -18,32 +20,64 @@ pub struct TimerKind {
     pub stepwise: bool,
 }
 
+impl TimerKind {
+    /// A timer that falls back to 0 while it is not driven, or, if `accumulating`, keeps its value.
+    pub const fn new(unit_ms: u16, accumulating: bool) -> Self {
+        TimerKind {
+            unit_ms,
+            accumulating,
+            free_running: false,
+            latches_preset: false,
+            overruns: false,
+            stepwise: false,
+        }
+    }
+
+    /// Whether OUT of this kind has a function of its own, such as [`Timer::run_100ms`]; all others are run by [`Timer::run`].
+    pub fn is_common(self) -> bool {
+        matches!(self.unit_ms, 1 | 10 | 100)
+            && self == TimerKind::new(self.unit_ms, self.accumulating)
+    }
+}
+
 /// A timer, zero at power-on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(C)]
 pub struct Timer {
-    /// Time since the last whole unit, in milliseconds.
-    pub part_ms: u32,
-    /// When it was last executed or went on, for a free-running timer.
-    pub last_ms: u32,
     /// Current value in units.
     pub value: i16,
-    /// Preset taken over at the start of timing, or else the last one.
+    /// Preset taken over at the start of timing or, for a free-running timer, the last one.
     pub preset: i16,
+    /// Time since the last whole unit, in milliseconds.
+    pub part_ms: u8,
+    /// Scan in which it was last executed or went on, for a free-running timer.
+    pub scan: u8,
     /// Whether its coil was on at the last execution.
     pub coil: bool,
     /// Its contact.
     pub done: bool,
 }
 
+/// Functions that execute the coil of one kind of timer, so that emitted code has nothing to decide.
+macro_rules! run_as {
+    ($($name:ident: $unit:expr, $accumulating:expr, $text:expr;)*) => {
+        $(#[doc = $text]
+        /// See [`Timer::run`].
+        #[inline]
+        pub fn $name(&mut self, drive: bool, preset: i16, sys: &Sys) -> bool {
+            self.run(TimerKind::new($unit, $accumulating), drive, preset, sys)
+        })*
+    };
+}
+
 impl Timer {
     /// As at power-on.
     pub const fn new() -> Self {
         Timer {
-            part_ms: 0,
-            last_ms: 0,
             value: 0,
             preset: 0,
+            part_ms: 0,
+            scan: 0,
             coil: false,
             done: false,
         }
@@ -52,8 +86,8 @@ impl Timer {
     /// RST: value 0, contact off. The memory of the coil stays as it is.
     pub fn reset(&mut self) {
         *self = Timer {
-            last_ms: self.last_ms,
             preset: self.preset,
+            scan: self.scan,
             coil: self.coil,
             ..Self::new()
         };
@@ -63,63 +97,63 @@ impl Timer {
     ///
     /// In the scan in which the coil comes on the value is left as it is; in each later scan the time since the previous scan is
     /// added, so that a timer first driven at time t reaches K units in the first scan at t + K units or later.
-    pub fn run(
-        &mut self,
-        kind: TimerKind,
-        drive: bool,
-        preset: i16,
-        now_ms: u32,
-        dt_ms: u32,
-    ) -> bool {
+    #[inline(always)]
+    pub fn run(&mut self, kind: TimerKind, drive: bool, preset: i16, sys: &Sys) -> bool {
         if !drive {
             if !kind.accumulating {
-                *self = Timer::default();
+                *self = Timer::new();
             }
             self.coil = false;
             return self.done;
         }
-        let elapsed = if !self.coil {
-            0
-        } else if kind.free_running {
-            now_ms.wrapping_sub(self.last_ms)
-        } else {
-            dt_ms
-        };
         let unit = u32::from(kind.unit_ms.max(1));
-        let elapsed = if kind.stepwise {
-            elapsed.min(unit)
-        } else {
-            elapsed
-        };
-        if !self.coil || !kind.latches_preset {
-            self.preset = preset;
+        let mut elapsed = 0;
+        if self.coil && !(kind.free_running && self.scan == sys.scan) {
+            elapsed = sys.dt_ms;
         }
-        self.coil = true;
-        self.last_ms = now_ms;
-        let preset = if kind.latches_preset {
+        if kind.stepwise {
+            elapsed = elapsed.min(unit);
+        }
+        let preset = if kind.latches_preset && self.coil {
             self.preset
         } else {
             preset
         };
+        if kind.latches_preset || kind.free_running {
+            self.preset = preset;
+            self.scan = sys.scan;
+        }
+        self.coil = true;
         if !self.done || kind.overruns {
-            let limit = if kind.overruns {
-                i16::MAX
-            } else {
-                preset.max(0)
-            };
-            self.part_ms = self.part_ms.saturating_add(elapsed);
-            let value = i64::from(self.value) + i64::from(self.part_ms / unit);
-            self.part_ms %= unit;
-            self.value = value.min(i64::from(limit.max(self.value))) as i16;
+            let mut part = elapsed.wrapping_add(u32::from(self.part_ms));
+            if part >= unit {
+                let limit = if kind.overruns { i16::MAX } else { preset };
+                let room = i32::from(limit) - i32::from(self.value);
+                if room > 0 {
+                    let units = (part / unit).min(room as u32);
+                    self.value = self.value.wrapping_add(units as i16);
+                }
+                part %= unit;
+            }
+            self.part_ms = part as u8;
             self.done |= self.value >= preset;
         }
         self.done
     }
 
+    run_as! {
+        run_1ms: 1, false, "OUT of a timer with units of 1 ms.";
+        run_10ms: 10, false, "OUT of a timer with units of 10 ms.";
+        run_100ms: 100, false, "OUT of a timer with units of 100 ms.";
+        run_retentive_1ms: 1, true, "OUT of a retentive timer with units of 1 ms.";
+        run_retentive_10ms: 10, true, "OUT of a retentive timer with units of 10 ms.";
+        run_retentive_100ms: 100, true, "OUT of a retentive timer with units of 100 ms.";
+    }
+
     /// What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it.
-    pub fn go_on(&mut self, kind: TimerKind, now_ms: u32) {
+    pub fn go_on(&mut self, kind: TimerKind, sys: &Sys) {
         if self.coil {
-            self.run(kind, true, self.preset, now_ms, 0);
+            self.run(kind, true, self.preset, sys);
         }
     }
 }

@@ -410,9 +410,8 @@ impl<'m> Machine<'m> {
                 }
             }
             Stmt::TimerGoesOn { number, kind } => {
-                let now = self.sys.now_ms;
                 if let Some(timer) = self.devices.timer(number) {
-                    timer.go_on(kind, now);
+                    timer.go_on(kind, &self.sys);
                 }
             }
             Stmt::Timer { .. }
@@ -487,9 +486,8 @@ impl<'m> Machine<'m> {
 
     fn timer(&mut self, number: u32, kind: TimerKind, drive: ExprId, preset: ExprId) {
         let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
-        let (now, dt) = (self.sys.now_ms, self.sys.dt_ms);
         if let Some(timer) = self.devices.timer(number) {
-            timer.run(kind, drive, preset, now, dt);
+            timer.run(kind, drive, preset, &self.sys);
         }
     }
 
