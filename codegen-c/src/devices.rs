@@ -384,7 +384,7 @@ impl Writer<'_, '_> {
 pub fn run_timer(code: &mut String, kind: TimerKind, timer: &str, drive: &str, preset: &str) {
     let unit = kind.unit_ms;
     let family = match kind.accumulating {
-        _ if !kind.is_common() => None,
+        _ if kind.free_running || kind.latches_preset || kind.overruns || kind.stepwise => None,
         true => Some("retentive"),
         false => Some("timer"),
     };

@@ -8,6 +8,7 @@ use crate::text;
 use crate::unit::{self, Unit};
 use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H};
 use rungc_ir::Module;
+use rungc_ir::walk::has_many_timers;
 use rungc_rt::RtFn;
 use std::fmt::Write;
 
@@ -106,8 +107,12 @@ fn header_file(module: &Module, unit: &Unit) -> String {
     } else {
         "rungc.h"
     };
+    let many = match has_many_timers(module) {
+        true => "#define PLC_MANY_TIMERS\n",
+        false => "",
+    };
     format!(
-        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n#include \"{include}\"\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
+        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}#include \"{include}\"\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          {}\n#ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
         banner(module, &format!("{name}.h")),
         header::embedding(module, &Fields::new(module)),

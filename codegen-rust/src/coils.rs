@@ -1,11 +1,13 @@
 //! Coils of timers and counters, and RST of them.
 
 use crate::expr::Code;
-use crate::generate::Generator;
+use crate::generate::{Generator, kind_name};
 use crate::storage::{Elem, Field};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::node::{Expr, ExprId, Place, Stmt};
+use rungc_ir::walk::has_many_timers;
+use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 
 /// What runs a timer that an index leads to.
@@ -26,17 +28,12 @@ impl Generator<'_> {
                 drive,
                 preset,
             } => {
-                let drive = named_drive(self.expr(drive), &mut before);
-                let preset = self.expr(preset);
-                let mut arguments = quote!(#drive, #preset, &plc.sys);
-                if kind.is_common() {
-                    let retentive = if kind.accumulating { "retentive_" } else { "" };
-                    method = format_ident!("run_{retentive}{}ms", kind.unit_ms);
-                } else {
-                    let kind = self.timer_kind(kind);
-                    arguments = quote!(#kind, #arguments);
-                }
-                (DeviceClass::T, number, arguments)
+                let Some(cell) = self.storage.cell(&plc, DeviceClass::T, number) else {
+                    return TokenStream::new();
+                };
+                let comment = self.end_comment(DeviceClass::T, number);
+                let coil = self.timer_coil(cell, kind, drive, preset);
+                return quote!(#coil #comment);
             }
             Stmt::Counter16 {
                 number,
@@ -103,15 +100,51 @@ impl Generator<'_> {
         drive: ExprId,
         preset: ExprId,
     ) -> TokenStream {
+        if let (DeviceClass::T, Some(kind)) = (place.class, self.module.model.timer(place.number)) {
+            return self.timer_coil(cell, kind, drive, preset);
+        }
         let mut before = TokenStream::new();
         let drive = named_drive(self.expr(drive), &mut before);
         let preset = self.expr(preset);
-        match (place.class, self.module.model.timer(place.number)) {
-            (DeviceClass::T, Some(kind)) => {
-                let kind = self.timer_kind(kind);
-                quote!(#before #cell.run(#kind, #drive, #preset, plc.sys.now_ms, plc.sys.dt_ms);)
-            }
-            _ => quote!(#before #cell.run(#drive, #preset);),
+        quote!(#before #cell.run(#drive, #preset);)
+    }
+
+    fn timer_coil(
+        &mut self,
+        timer: TokenStream,
+        kind: TimerKind,
+        drive: ExprId,
+        preset: ExprId,
+    ) -> TokenStream {
+        let mut before = TokenStream::new();
+        let drive = named_drive(self.expr(drive), &mut before);
+        let preset = self.expr(preset);
+        let run = kind_name(kind).to_lowercase();
+        self.timer_coils.insert(run.clone(), kind);
+        let run = format_ident!("{run}");
+        quote!(#before #run(&mut #timer, #drive, #preset, &plc.sys);)
+    }
+
+    /// Writes a function for each kind of timer that coils run, so that the compiler knows what there is to do; in a program with very many
+    /// timer coils it is called, not inlined.
+    pub fn coils_of_kinds(&mut self) {
+        let never = has_many_timers(self.module).then(|| quote!(#[inline(never)]));
+        for (name, kind) in std::mem::take(&mut self.timer_coils) {
+            let kind = self.timer_kind(kind);
+            let [timer, sys] = ["Timer", "Sys"].map(|name| self.rt(name));
+            let (doc, name) = (
+                self.doc("OUT of a timer of this kind."),
+                format_ident!("{name}"),
+            );
+            let item = quote! {
+                #doc
+                #never
+                fn #name(timer: &mut #timer, drive: bool, preset: i16, sys: &#sys) {
+                    timer.run(#kind, drive, preset, sys);
+                }
+            };
+            let item = self.item_of(item);
+            self.items.push(item);
         }
     }
 

@@ -33,6 +33,7 @@ impl Generator<'_> {
             }
         }
         self.indexed_coils();
+        self.coils_of_kinds();
     }
 
     fn function(&mut self, n: usize, function: &Function) {

@@ -61,6 +61,24 @@ impl Uses {
     }
 }
 
+/// What the constant that holds a kind of timer is called.
+pub fn kind_name(kind: TimerKind) -> String {
+    let mut name = format!("TIMER_{}MS", kind.unit_ms);
+    let traits = [
+        (kind.accumulating, "_ACCUMULATING"),
+        (kind.free_running, "_FREE_RUNNING"),
+        (kind.latches_preset, "_PRESET_AT_START"),
+        (kind.overruns, "_OVERRUNNING"),
+        (kind.stepwise, "_STEPWISE"),
+    ];
+    for (is, suffix) in traits {
+        if is {
+            name.push_str(suffix);
+        }
+    }
+    name
+}
+
 /// Generates one module.
 pub struct Generator<'m> {
     /// The module.
@@ -99,6 +117,8 @@ pub struct Generator<'m> {
     pub constants: HashSet<(DeviceClass, u32)>,
     /// Whether the statement being written is in a loop over rungs.
     pub in_rounds: bool,
+    /// Kinds of timers that coils run, by the functions for them.
+    pub timer_coils: BTreeMap<String, TimerKind>,
     /// Names of functions already given.
     names: HashSet<String>,
     /// Expressions that have a `let` in the statement being written.
@@ -128,6 +148,7 @@ impl<'m> Generator<'m> {
             levels: HashSet::new(),
             constants: HashSet::new(),
             in_rounds: false,
+            timer_coils: BTreeMap::new(),
             names: HashSet::new(),
             hoisted: HashMap::new(),
             device_comments: module
@@ -175,19 +196,7 @@ impl<'m> Generator<'m> {
 
     /// The constant that holds a kind of timer.
     pub fn timer_kind(&mut self, kind: TimerKind) -> Ident {
-        let mut name = format!("TIMER_{}MS", kind.unit_ms);
-        let traits = [
-            (kind.accumulating, "_ACCUMULATING"),
-            (kind.free_running, "_FREE_RUNNING"),
-            (kind.latches_preset, "_PRESET_AT_START"),
-            (kind.overruns, "_OVERRUNNING"),
-            (kind.stepwise, "_STEPWISE"),
-        ];
-        for (is, suffix) in traits {
-            if is {
-                name.push_str(suffix);
-            }
-        }
+        let name = kind_name(kind);
         self.rt("TimerKind");
         let ident = Ident::new(&name, Span::call_site());
         self.uses.timers.insert(name, kind);

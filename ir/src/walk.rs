@@ -192,6 +192,20 @@ pub fn statements<'a>(body: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
     }
 }
 
+/// How many coils of timers are very many: more than any machine has, of which each has tens of bytes of code where compilers inline it.
+const MANY_TIMERS: usize = 1000;
+
+/// Whether a program has so many timer coils that what they do should not stand at each of them.
+pub fn has_many_timers(module: &Module) -> bool {
+    let mut coils = 0;
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            coils += usize::from(matches!(stmt, Stmt::Timer { .. }));
+        });
+    }
+    coils > MANY_TIMERS
+}
+
 /// Numbers of the functions that statements call.
 pub fn callees(body: &[Stmt]) -> Vec<usize> {
     let mut found = Vec::new();

@@ -20,26 +20,6 @@ pub struct TimerKind {
     pub stepwise: bool,
 }
 
-impl TimerKind {
-    /// A timer that falls back to 0 while it is not driven, or, if `accumulating`, keeps its value.
-    pub const fn new(unit_ms: u16, accumulating: bool) -> Self {
-        TimerKind {
-            unit_ms,
-            accumulating,
-            free_running: false,
-            latches_preset: false,
-            overruns: false,
-            stepwise: false,
-        }
-    }
-
-    /// Whether OUT of this kind has a function of its own, such as [`Timer::run_100ms`]; all others are run by [`Timer::run`].
-    pub fn is_common(self) -> bool {
-        matches!(self.unit_ms, 1 | 10 | 100)
-            && self == TimerKind::new(self.unit_ms, self.accumulating)
-    }
-}
-
 /// A timer, zero at power-on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 #[repr(C)]
@@ -56,18 +36,6 @@ pub struct Timer {
     pub coil: bool,
     /// Its contact.
     pub done: bool,
-}
-
-/// Functions that execute the coil of one kind of timer, so that emitted code has nothing to decide.
-macro_rules! run_as {
-    ($($name:ident: $unit:expr, $accumulating:expr, $text:expr;)*) => {
-        $(#[doc = $text]
-        /// See [`Timer::run`].
-        #[inline]
-        pub fn $name(&mut self, drive: bool, preset: i16, sys: &Sys) -> bool {
-            self.run(TimerKind::new($unit, $accumulating), drive, preset, sys)
-        })*
-    };
 }
 
 impl Timer {
@@ -97,7 +65,7 @@ impl Timer {
     ///
     /// In the scan in which the coil comes on the value is left as it is; in each later scan the time since the previous scan is
     /// added, so that a timer first driven at time t reaches K units in the first scan at t + K units or later.
-    #[inline(always)]
+    #[inline]
     pub fn run(&mut self, kind: TimerKind, drive: bool, preset: i16, sys: &Sys) -> bool {
         if !drive {
             if !kind.accumulating {
@@ -139,15 +107,6 @@ impl Timer {
             self.done |= self.value >= preset;
         }
         self.done
-    }
-
-    run_as! {
-        run_1ms: 1, false, "OUT of a timer with units of 1 ms.";
-        run_10ms: 10, false, "OUT of a timer with units of 10 ms.";
-        run_100ms: 100, false, "OUT of a timer with units of 100 ms.";
-        run_retentive_1ms: 1, true, "OUT of a retentive timer with units of 1 ms.";
-        run_retentive_10ms: 10, true, "OUT of a retentive timer with units of 10 ms.";
-        run_retentive_100ms: 100, true, "OUT of a retentive timer with units of 100 ms.";
     }
 
     /// What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it.
