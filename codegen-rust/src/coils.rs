@@ -122,7 +122,8 @@ impl Generator<'_> {
         let run = kind_name(kind).to_lowercase();
         self.timer_coils.insert(run.clone(), kind);
         let run = format_ident!("{run}");
-        quote!(#before #run(&mut #timer, #drive, #preset, &plc.sys);)
+        // The timer behind what is read, which may be the timer itself.
+        quote!(#before #run(#drive, #preset, &mut #timer, &plc.sys);)
     }
 
     /// Writes a function for each kind of timer that coils run, so that the compiler knows what there is to do; in a program with very many
@@ -132,14 +133,11 @@ impl Generator<'_> {
         for (name, kind) in std::mem::take(&mut self.timer_coils) {
             let kind = self.timer_kind(kind);
             let [timer, sys] = ["Timer", "Sys"].map(|name| self.rt(name));
-            let (doc, name) = (
-                self.doc("OUT of a timer of this kind."),
-                format_ident!("{name}"),
-            );
+            let (doc, name) = (self.doc("OUT of a timer."), format_ident!("{name}"));
             let item = quote! {
                 #doc
                 #never
-                fn #name(timer: &mut #timer, drive: bool, preset: i16, sys: &#sys) {
+                fn #name(drive: bool, preset: i16, timer: &mut #timer, sys: &#sys) {
                     timer.run(#kind, drive, preset, sys);
                 }
             };
