@@ -7,8 +7,8 @@ use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::runs::is_counter32;
 use crate::walk::{assigned, bodies, for_exprs, operands, operands_mut};
 use rungc_syntax::DeviceClass;
+use rustc_hash::FxHasher;
 use std::collections::HashMap;
-use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 
 /// Fewer rounds stay as they are written.
@@ -33,11 +33,12 @@ pub(super) fn run(module: &mut Module) {
 
 fn roll(module: &mut Module, body: Body) -> Body {
     let shapes: Vec<Option<Shape>> = body.iter().map(|stmt| shape(module, stmt)).collect();
+    let networks = Networks::of(&body, &shapes);
     let spans = spans(module, &body);
     let mut out = Body::with_capacity(body.len());
     let mut at = 0;
     while at < body.len() {
-        let found = Group::find(module, &body, &shapes, at)
+        let found = Group::find(module, &body, &shapes, networks.behind(at))
             .filter(|group| group.keeps_to_itself(&body, &spans))
             .filter(|group| group.store(module));
         match found {
@@ -64,7 +65,7 @@ struct Shape {
 
 /// The shape of a statement that a loop may have; `None` for any other.
 fn shape(module: &Module, stmt: &Stmt) -> Option<Shape> {
-    let mut hasher = DefaultHasher::new();
+    let mut hasher = FxHasher::default();
     let mut size = 0;
     add_stmt(module, stmt, &mut hasher, &mut size)?;
     Some(Shape {
@@ -73,12 +74,7 @@ fn shape(module: &Module, stmt: &Stmt) -> Option<Shape> {
     })
 }
 
-fn add_stmt(
-    module: &Module,
-    stmt: &Stmt,
-    hasher: &mut DefaultHasher,
-    size: &mut u64,
-) -> Option<()> {
+fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64) -> Option<()> {
     std::mem::discriminant(stmt).hash(hasher);
     *size += 1;
     match stmt {
@@ -112,7 +108,7 @@ fn add_stmt(
     Some(())
 }
 
-fn add_expr(module: &Module, id: ExprId, hasher: &mut DefaultHasher, size: &mut u64) -> Option<()> {
+fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) -> Option<()> {
     let expr = module.expr(id);
     std::mem::discriminant(expr).hash(hasher);
     *size += 1;
@@ -152,7 +148,7 @@ fn add_expr(module: &Module, id: ExprId, hasher: &mut DefaultHasher, size: &mut 
     }
 }
 
-fn add_place(place: Place, hasher: &mut DefaultHasher) -> Option<()> {
+fn add_place(place: Place, hasher: &mut FxHasher) -> Option<()> {
     use DeviceClass::{C, D, M, R, S, T, X, Y};
     place.class.hash(hasher);
     let may = match place.class {
@@ -166,6 +162,9 @@ fn add_place(place: Place, hasher: &mut DefaultHasher) -> Option<()> {
 /// From which statement of a body to which each temporary is used.
 fn spans(module: &Module, body: &Body) -> Vec<Option<(usize, usize)>> {
     let mut spans = vec![None; module.temps.len()];
+    if spans.is_empty() {
+        return spans;
+    }
     for (at, stmt) in body.iter().enumerate() {
         let mut note = |temp: TempId| {
             let span = spans[temp.0 as usize].get_or_insert((at, at));
@@ -195,6 +194,38 @@ fn each_temp(module: &Module, stmt: &Stmt, note: &mut impl FnMut(TempId)) {
     }
 }
 
+/// A statement that begins a network.
+struct Network {
+    /// Which.
+    at: usize,
+    /// How many statements from it on a loop may have.
+    alike: usize,
+}
+
+/// The networks of a body, in order.
+struct Networks(Vec<Network>);
+
+impl Networks {
+    fn of(body: &Body, shapes: &[Option<Shape>]) -> Self {
+        let mut networks = Vec::new();
+        let mut alike = 0;
+        for (at, shape) in shapes.iter().enumerate().rev() {
+            alike = if shape.is_some() { alike + 1 } else { 0 };
+            if matches!(body[at], Stmt::Network(_)) {
+                networks.push(Network { at, alike });
+            }
+        }
+        networks.reverse();
+        Networks(networks)
+    }
+
+    /// The network that this statement begins and those behind it; none if it begins none.
+    fn behind(&self, at: usize) -> &[Network] {
+        let found = self.0.binary_search_by_key(&at, |network| network.at);
+        found.map_or(&[], |first| &self.0[first..])
+    }
+}
+
 /// Rungs that are repeated.
 struct Group {
     /// First statement.
@@ -218,20 +249,18 @@ enum Kind {
 type Names = (Kind, u32, u32);
 
 impl Group {
-    /// The group that begins with a network and saves the most.
-    fn find(module: &Module, body: &Body, shapes: &[Option<Shape>], first: usize) -> Option<Group> {
-        if !matches!(body[first], Stmt::Network(_)) {
-            return None;
-        }
-        let most = LONGEST_ROUND * LEAST_ROUNDS;
-        let near = shapes[first..].iter().take(most);
-        let rest = near.take_while(|shape| shape.is_some()).count();
-        let longest = LONGEST_ROUND.min(rest / LEAST_ROUNDS);
+    /// The group that begins with the first of these networks and saves the most.
+    fn find(
+        module: &Module,
+        body: &Body,
+        shapes: &[Option<Shape>],
+        networks: &[Network],
+    ) -> Option<Group> {
+        let (&Network { at: first, alike }, next) = networks.split_first()?;
+        let longest = LONGEST_ROUND.min(alike / LEAST_ROUNDS);
+        let lengths = next.iter().map(|network| network.at - first);
         let mut best: Option<(u64, Group)> = None;
-        for length in 1..=longest {
-            if !matches!(body[first + length], Stmt::Network(_)) {
-                continue;
-            }
+        for length in lengths.take_while(|&length| length <= longest) {
             let (one, two) = (first + length, first + 2 * length);
             if shapes[first..one] != shapes[one..two] {
                 continue;
