@@ -76,6 +76,29 @@ fn motor_runs() {
 }
 
 #[test]
+fn very_many_timer_coils_share_the_code_of_timers() {
+    let mut b = Builder::new("many");
+    for coil in 0..1001 {
+        b.network(3 * coil, None);
+        let (drive, preset) = (b.bit(X, 0), b.i16(30));
+        b.timer(coil % 150, drive, preset);
+    }
+    let main = r#"
+        many_plc plc;
+        many_init(&plc);
+        plc.X0 = true;
+        many_scan(&plc, 0, 0);
+        many_scan(&plc, 1000, 0);
+#ifdef PLC_MANY_TIMERS
+        printf("many: ");
+#endif
+        printf("%d %d\n", plc.T0.value, plc.T149.done);
+    "#;
+    // Each timer has at least six coils, each of which adds the time of the scan.
+    assert_eq!(run_c(&b.finish(), main), "many: 30 1\n");
+}
+
+#[test]
 fn batch_answers_requests() {
     let requests = "case 0\nbit X 0 1\nscan 0 0\ngetbit M 0\nout 0\nscan 3000 0\nout 0\ngetword T 0\nword D 0 9\nbit X 2 1\nscan 3010 0\n\
         getword D 0\nout 1\ngetbit M 8000\ngetbit M 99999\ngetdword D 0\nrun 0\nout 0\ncase 1\nscan 0 0\nout 0\nbfm 0 5 7\ngetbfm 0 5\n\

@@ -146,3 +146,17 @@ fn long_programs_are_split() {
         assert!(lines < limit, "{}: {lines} lines", file.path);
     }
 }
+
+#[test]
+fn very_many_timer_coils_share_the_code_of_timers() {
+    let shared = |coils: usize| {
+        // Other presets, or they would be a loop.
+        let coil = |n| format!("LD X0\nOUT T{} K{}\n", n % 150, n * n % 997);
+        let text = (0..coils).map(coil).collect::<String>() + "END\n";
+        let files = emit(&module(("many", &text)), &options());
+        let mut texts = files.iter().filter(|f| f.path.starts_with("src/program"));
+        texts.any(|f| f.text.contains("#[inline(never)]"))
+    };
+    assert!(!shared(1000));
+    assert!(shared(1001));
+}
