@@ -18,31 +18,36 @@ pub const OUT_COUNTER: &str = "out_counter";
 impl Generator<'_> {
     /// OUT T and OUT C.
     pub fn coil(&mut self, stmt: &Stmt) -> TokenStream {
-        let plc = quote!(plc);
-        let mut before = TokenStream::new();
-        let mut method = format_ident!("run");
-        let (class, number, arguments) = match *stmt {
+        match *stmt {
             Stmt::Timer {
                 number,
                 kind,
                 drive,
                 preset,
             } => {
-                let Some(cell) = self.storage.cell(&plc, DeviceClass::T, number) else {
+                let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::T, number) else {
                     return TokenStream::new();
                 };
                 let comment = self.end_comment(DeviceClass::T, number);
                 let coil = self.timer_coil(cell, kind, drive, preset);
-                return quote!(#coil #comment);
+                quote!(#coil #comment)
             }
+            _ => self.counter_coil(stmt),
+        }
+    }
+
+    fn counter_coil(&mut self, stmt: &Stmt) -> TokenStream {
+        let mut before = TokenStream::new();
+        let mut method = format_ident!("run");
+        let (number, arguments) = match *stmt {
             Stmt::Counter16 {
                 number,
                 drive,
                 preset,
             } => {
-                let drive = named_drive(self.expr(drive), &mut before);
-                let preset = self.expr(preset);
-                (DeviceClass::C, number, quote!(#drive, #preset))
+                let arguments;
+                (before, arguments) = self.drive_and_preset(drive, preset);
+                (number, arguments)
             }
             Stmt::Counter32 {
                 number,
@@ -53,7 +58,7 @@ impl Generator<'_> {
                 let drive = named_drive(self.expr(drive), &mut before);
                 let down = self.expr(down);
                 let preset = self.expr(preset);
-                (DeviceClass::C, number, quote!(#drive, #down, #preset))
+                (number, quote!(#drive, #down, #preset))
             }
             Stmt::Count {
                 number,
@@ -62,15 +67,23 @@ impl Generator<'_> {
             } => {
                 let (down, preset) = (self.expr(down), self.expr(preset));
                 method = format_ident!("count");
-                (DeviceClass::C, number, quote!(#down, #preset))
+                (number, quote!(#down, #preset))
             }
             _ => return TokenStream::new(),
         };
-        let Some(cell) = self.storage.cell(&plc, class, number) else {
+        let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::C, number) else {
             return TokenStream::new();
         };
-        let comment = self.end_comment(class, number);
+        let comment = self.end_comment(DeviceClass::C, number);
         quote!(#before #cell.#method(#arguments); #comment)
+    }
+
+    /// What stands in front of a coil, and the first two arguments of the function that runs it.
+    fn drive_and_preset(&mut self, drive: ExprId, preset: ExprId) -> (TokenStream, TokenStream) {
+        let mut before = TokenStream::new();
+        let drive = named_drive(self.expr(drive), &mut before);
+        let preset = self.expr(preset);
+        (before, quote!(#drive, #preset))
     }
 
     /// A coil of a timer or counter that an index leads to.
@@ -86,10 +99,8 @@ impl Generator<'_> {
         }
         let function = format_ident!("{function}");
         let (_, number) = self.operand_place(place);
-        let mut before = TokenStream::new();
-        let drive = named_drive(self.expr(drive), &mut before);
-        let preset = self.expr(preset);
-        quote!(#before #function(plc, #number, #drive, #preset);)
+        let (before, arguments) = self.drive_and_preset(drive, preset);
+        quote!(#before #function(plc, #number, #arguments);)
     }
 
     /// A coil of the timer or counter of a loop's present round.
@@ -103,10 +114,8 @@ impl Generator<'_> {
         if let (DeviceClass::T, Some(kind)) = (place.class, self.module.model.timer(place.number)) {
             return self.timer_coil(cell, kind, drive, preset);
         }
-        let mut before = TokenStream::new();
-        let drive = named_drive(self.expr(drive), &mut before);
-        let preset = self.expr(preset);
-        quote!(#before #cell.run(#drive, #preset);)
+        let (before, arguments) = self.drive_and_preset(drive, preset);
+        quote!(#before #cell.run(#arguments);)
     }
 
     fn timer_coil(
@@ -116,14 +125,12 @@ impl Generator<'_> {
         drive: ExprId,
         preset: ExprId,
     ) -> TokenStream {
-        let mut before = TokenStream::new();
-        let drive = named_drive(self.expr(drive), &mut before);
-        let preset = self.expr(preset);
+        let (before, arguments) = self.drive_and_preset(drive, preset);
         let run = kind_name(kind).to_lowercase();
         self.timer_coils.insert(run.clone(), kind);
         let run = format_ident!("{run}");
         // The timer behind what is read, which may be the timer itself.
-        quote!(#before #run(#drive, #preset, &mut #timer, &plc.sys);)
+        quote!(#before #run(#arguments, &mut #timer, &plc.sys);)
     }
 
     /// Writes a function for each kind of timer that coils run, so that the compiler knows what there is to do; in a program with very many
