@@ -80,8 +80,8 @@ pub struct Reporting {
     /// Treat warnings as errors.
     #[arg(long)]
     pub deny_warnings: bool,
-    /// Leave out warnings with this code (W0203) or name (double-coil); may be repeated.
-    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = warning)]
+    /// Leave out warnings and notes with this code (W0203) or name (double-coil); may be repeated.
+    #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = omissible)]
     pub allow: Vec<&'static str>,
     /// How many diagnostics to print for people at most; 0 prints all.
     #[arg(long, default_value_t = 100, value_name = "N")]
@@ -293,19 +293,19 @@ pub enum EngineChoice {
     All,
 }
 
-/// The identifier of a warning, given by its code or name.
-fn warning(name: &str) -> Result<&'static str, String> {
+/// The identifier of a warning or note, given by its code or name.
+fn omissible(name: &str) -> Result<&'static str, String> {
     let code = codes::find(name).ok_or_else(|| {
-        let warnings = codes::all()
+        let omissible = codes::all()
             .into_iter()
-            .filter(|c| c.severity == Severity::Warning);
-        let names = warnings.flat_map(|c| [c.id, c.name]);
+            .filter(|c| c.severity != Severity::Error);
+        let names = omissible.flat_map(|c| [c.id, c.name]);
         let near = diag::did_you_mean(&name.to_lowercase(), names);
         let hint = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
         format!("there is no such warning{hint}")
     })?;
     match code.severity {
-        Severity::Warning => Ok(code.id),
+        Severity::Note | Severity::Warning => Ok(code.id),
         Severity::Error => Err("an error cannot be left out".to_string()),
     }
 }

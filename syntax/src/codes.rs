@@ -8,6 +8,7 @@
 //! | E04xx | contact logic, structure and flow |
 //! | W02xx | legal, but it hurts in practice |
 //! | W05xx | what the source says of itself does not fit |
+//! | N00xx | worth knowing: how the source was read |
 //!
 //! A code never changes its meaning and is never given away again.
 
@@ -54,10 +55,7 @@ pub struct Code {
 impl Code {
     /// A diagnostic with this code, its severity and its PLC error number.
     pub fn at(&self, span: Span, message: impl Into<String>) -> Diagnostic {
-        let mut diagnostic = match self.severity {
-            Severity::Error => Diagnostic::error(self.id, span, message),
-            Severity::Warning => Diagnostic::warning(self.id, span, message),
-        };
+        let mut diagnostic = Diagnostic::new(self.severity, self.id, span, message);
         diagnostic.plc_error = self.plc_error;
         diagnostic
     }
@@ -134,12 +132,7 @@ mod tests {
     #[test]
     fn the_letter_tells_the_severity() {
         for code in all() {
-            let letter = if code.severity == Severity::Error {
-                'E'
-            } else {
-                'W'
-            };
-            assert!(code.id.starts_with(letter), "{}", code.id);
+            assert!(code.id.starts_with(code.severity.letter()), "{}", code.id);
         }
     }
 

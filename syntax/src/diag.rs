@@ -6,10 +6,32 @@ use std::borrow::Cow;
 /// How bad it is.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
 pub enum Severity {
+    /// Worth knowing; never fails a build, and is never raised to an error.
+    Note,
     /// Legal, but it hurts in practice.
     Warning,
     /// The program cannot be compiled.
     Error,
+}
+
+impl Severity {
+    /// Its name in reports, lower case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        }
+    }
+
+    /// The letter that codes of this severity begin with.
+    pub fn letter(self) -> char {
+        match self {
+            Severity::Note => 'N',
+            Severity::Warning => 'W',
+            Severity::Error => 'E',
+        }
+    }
 }
 
 /// A second place that a diagnostic points to.
@@ -26,7 +48,7 @@ pub struct Label {
 pub struct Diagnostic {
     /// Stable code, a row of the table of codes: `E0106`, `W0203`.
     pub code: &'static str,
-    /// Error or warning.
+    /// Error, warning or note.
     pub severity: Severity,
     /// One sentence, lower case, no full stop; devices and mnemonics in back quotes.
     pub message: String,
@@ -45,19 +67,25 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error with this code at this place.
     pub fn error(code: &'static str, span: Span, message: impl Into<String>) -> Self {
-        Self::new(Severity::Error, code, span, message.into())
+        Self::new(Severity::Error, code, span, message)
     }
 
     /// A warning with this code at this place.
     pub fn warning(code: &'static str, span: Span, message: impl Into<String>) -> Self {
-        Self::new(Severity::Warning, code, span, message.into())
+        Self::new(Severity::Warning, code, span, message)
     }
 
-    fn new(severity: Severity, code: &'static str, span: Span, message: String) -> Self {
+    /// A diagnostic of this severity and code at this place.
+    pub fn new(
+        severity: Severity,
+        code: &'static str,
+        span: Span,
+        message: impl Into<String>,
+    ) -> Self {
         Diagnostic {
             code,
             severity,
-            message,
+            message: message.into(),
             span,
             label: Cow::Borrowed(""),
             others: Vec::new(),

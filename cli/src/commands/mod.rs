@@ -148,12 +148,16 @@ pub fn conclude(
 }
 
 fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
-    use rungc_syntax::Severity::{Error, Warning};
-    let counts = format!(
+    use rungc_syntax::Severity::{Error, Note, Warning};
+    let mut counts = format!(
         "{}, {}",
         counted(findings.count(Error), "error"),
         counted(findings.count(Warning), "warning")
     );
+    let notes = findings.count(Note);
+    if notes > 0 {
+        counts = format!("{counts}, {}", counted(notes, "note"));
+    }
     if findings.failed() {
         let name = findings.program.map_or("", |program| &program.source.name);
         format!("      Failed {name}: {counts}")

@@ -27,10 +27,7 @@ pub fn print(
     };
     for diagnostic in findings.diagnostics.iter().take(shown) {
         let mut drawn = Vec::new();
-        let heading = match diagnostic.severity {
-            Severity::Error => format!("error[{}]", diagnostic.code),
-            Severity::Warning => format!("warning[{}]", diagnostic.code),
-        };
+        let heading = format!("{}[{}]", diagnostic.severity.name(), diagnostic.code);
         let length = program.source.text.len();
         report(diagnostic, &heading, name, length, color).write((name, &source), &mut drawn)?;
         let drawn = String::from_utf8_lossy(&drawn);
@@ -81,6 +78,7 @@ fn report<'a>(
     let main_color = match d.severity {
         Severity::Error => Color::Red,
         Severity::Warning => Color::Yellow,
+        Severity::Note => Color::Cyan,
     };
     let kind = ReportKind::Custom(heading, main_color);
     let text = if d.label.is_empty() { "here" } else { &d.label };

@@ -15,6 +15,7 @@ struct Output<'a> {
     steps: Option<u32>,
     errors: usize,
     warnings: usize,
+    notes: usize,
     diagnostics: Vec<Item<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     report: Option<&'a Takes>,
@@ -78,17 +79,14 @@ pub fn render(findings: &Findings) -> io::Result<String> {
         steps: findings.size.map(|size| size.steps),
         errors: findings.count(Severity::Error),
         warnings: findings.count(Severity::Warning),
+        notes: findings.count(Severity::Note),
         diagnostics: findings
             .diagnostics
             .iter()
             .map(|d| Item {
                 code: d.code,
                 name: codes::find(d.code).map_or("", |code| code.name),
-                severity: if d.severity == Severity::Error {
-                    "error"
-                } else {
-                    "warning"
-                },
+                severity: d.severity.name(),
                 message: &d.message,
                 place: place(findings, d.span),
                 label: &d.label,

@@ -44,7 +44,7 @@ impl From<&Compiled> for Size {
 }
 
 impl<'a> Findings<'a> {
-    /// Takes the diagnostics that `reporting` lets through; with `--deny-warnings` warnings become errors.
+    /// Takes the diagnostics that `reporting` lets through; with `--deny-warnings` warnings become errors, notes stay notes.
     pub fn new(
         path: &'a Path,
         program: &'a Program,
@@ -57,6 +57,7 @@ impl<'a> Findings<'a> {
         if reporting.deny_warnings {
             diagnostics
                 .iter_mut()
+                .filter(|d| d.severity == Severity::Warning)
                 .for_each(|d| d.severity = Severity::Error);
         }
         Findings {
@@ -124,5 +125,47 @@ pub fn print(
         writeln!(io::stderr(), "{object}")
     } else {
         writeln!(io::stdout(), "{object}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rungc_syntax::{Source, Span};
+
+    /// A report of one note in every form, with `--deny-warnings`.
+    #[test]
+    fn notes_are_reported_and_never_fail() {
+        let program = Program {
+            source: Source::new("a.il", "END"),
+            ..Program::default()
+        };
+        let note = Diagnostic::new(Severity::Note, "N0000", Span::new(0, 3), "worth knowing");
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(note);
+        let reporting = |allow: &[&'static str]| Reporting {
+            format: Format::Human,
+            deny_warnings: true,
+            allow: allow.to_vec(),
+            limit: 0,
+        };
+        let found = |allow| {
+            let diagnostics = diagnostics.clone();
+            Findings::new(Path::new("a.il"), &program, diagnostics, &reporting(allow))
+        };
+        assert_eq!(found(&["N0000"]).count(Severity::Note), 0);
+        let findings = found(&[]);
+        assert!(!findings.failed());
+        let mut text = Vec::new();
+        human::print(&findings, 0, false, &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.starts_with("note[N0000]: worth knowing"), "{text}");
+        let json: serde_json::Value =
+            serde_json::from_str(&json::render(&findings).unwrap()).unwrap();
+        assert_eq!((&json["notes"], &json["errors"]), (&1.into(), &0.into()));
+        assert_eq!(json["diagnostics"][0]["severity"], "note");
+        let sarif: serde_json::Value =
+            serde_json::from_str(&sarif::render(&findings).unwrap()).unwrap();
+        assert_eq!(sarif["runs"][0]["results"][0]["level"], "note");
     }
 }

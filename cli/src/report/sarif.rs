@@ -65,6 +65,7 @@ fn item(findings: &Findings, d: &Diagnostic) -> Item {
     let level = match d.severity {
         Severity::Error => ResultLevel::Error,
         Severity::Warning => ResultLevel::Warning,
+        Severity::Note => ResultLevel::Note,
     };
     let mut text = d.message.clone();
     if let Some(help) = &d.help {
