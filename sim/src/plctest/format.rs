@@ -1,5 +1,6 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
+use super::serial::{self, Protocol, RawMode, RawSent, Switch, Way};
 use super::{
     Basis, Case, Check, Problem, Rejects, Run, Setting, Signal, Step, Target, TestFile, Value,
 };
@@ -9,7 +10,7 @@ use rungc_ir::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 use toml::Spanned;
@@ -42,7 +43,24 @@ struct RawCase {
     init: Map<Spanned<Scalar>>,
     #[serde(default)]
     step: Vec<Spanned<RawStep>>,
+    #[serde(default)]
+    plc: Vec<RawPlc>,
+    #[serde(default)]
+    wire: Vec<Vec<Spanned<String>>>,
+    #[serde(default)]
+    serve: Map<Protocol>,
     rejects: Option<RawRejects>,
+}
+
+/// A PLC beside that of the case.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPlc {
+    name: Spanned<String>,
+    model: Option<Spanned<String>>,
+    program: String,
+    #[serde(default)]
+    init: Map<Spanned<Scalar>>,
 }
 
 #[derive(Deserialize)]
@@ -65,9 +83,10 @@ struct RawStep {
     pulses: Option<Map<RawPulses>>,
     encoder: Option<RawEncoder>,
     rx: Option<Map<String>>,
-    expect_tx: Option<Map<String>>,
+    expect_tx: Option<Map<RawSent>>,
+    cut: Option<Vec<Spanned<String>>>,
     clock: Option<Spanned<String>>,
-    mode: Option<RawMode>,
+    mode: Option<Spanned<RawMode>>,
     #[serde(default)]
     power_cycle: bool,
     #[serde(default)]
@@ -78,13 +97,6 @@ struct RawStep {
     expect_position: BTreeMap<String, f64>,
     #[serde(default)]
     analog: Map<Spanned<Scalar>>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum RawMode {
-    Run,
-    Stop,
 }
 
 /// Pulses at an input.
@@ -117,6 +129,8 @@ enum Scalar {
 struct Reader<'t> {
     source: &'t Source,
     problems: Vec<Problem>,
+    /// Names of the other PLCs of the case being read.
+    others: BTreeSet<String>,
 }
 
 /// Reads the text of a test file.
@@ -125,6 +139,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
     let mut reader = Reader {
         source,
         problems: Vec::new(),
+        others: BTreeSet::new(),
     };
     let file = reader.file(raw);
     if reader.problems.is_empty() {
@@ -194,8 +209,12 @@ impl Reader<'_> {
         let at = raw.span().start;
         let raw = raw.into_inner();
         let model = raw.model.as_ref().map_or(model, |name| self.model(name));
+        let needs = self.network(raw.plc, &raw.wire, &raw.serve);
         let init = self.settings(raw.init);
-        let steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
+        let mut steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
+        if let Some(first) = steps.first_mut() {
+            first.needs.extend(needs);
+        }
         let check = match raw.rejects {
             Some(rejects) => {
                 if !steps.is_empty() {
@@ -246,25 +265,22 @@ impl Reader<'_> {
             ms => ms.map_or(10, Spanned::into_inner),
         };
         let mut needs = Vec::new();
-        for (used, what) in [(raw.rx.is_some() || raw.expect_tx.is_some(), "serial ports")] {
-            if used {
-                needs.push(what);
-            }
+        if raw.rx.is_some() || raw.expect_tx.is_some() || raw.cut.is_some() {
+            needs.push(serial::PORTS);
         }
-        let mut bytes: Vec<(Spanned<String>, String)> = Vec::new();
-        bytes.extend(raw.rx.into_iter().flatten());
-        bytes.extend(raw.expect_tx.into_iter().flatten());
-        for (port, bytes) in bytes {
-            let hex = |b: &str| b.len() == 2 && u8::from_str_radix(b, 16).is_ok();
-            if !bytes.split_whitespace().all(hex) {
-                let message = "bytes are written as pairs of hexadecimal digits".to_string();
-                self.report(port.span().start, message);
-            }
+        for (port, bytes) in raw.rx.iter().flatten() {
+            self.line_text(port, Way::ToPlc, std::slice::from_ref(bytes));
+        }
+        for (port, sent) in raw.expect_tx.iter().flatten() {
+            self.line_text(port, Way::FromPlc, sent.texts());
+        }
+        for port in raw.cut.iter().flatten() {
+            self.port(port);
         }
         Step {
             line: self.line(at),
             power_cycle: raw.power_cycle,
-            running: raw.mode.map(|mode| matches!(mode, RawMode::Run)),
+            running: raw.mode.and_then(|mode| self.mode(&mode)),
             clock: raw.clock.and_then(|text| self.clock(&text)),
             bfm: self.buffer(raw.bfm),
             analog: self.analog(raw.analog),
@@ -276,6 +292,88 @@ impl Reader<'_> {
             expect_bfm: self.buffer(raw.expect_bfm),
             expect_position: raw.expect_position.into_iter().collect(),
             needs,
+        }
+    }
+
+    /// The other PLCs of a case and what joins them; returns what they need.
+    fn network(
+        &mut self,
+        plcs: Vec<RawPlc>,
+        wire: &[Vec<Spanned<String>>],
+        serve: &Map<Protocol>,
+    ) -> Vec<&'static str> {
+        let mut needs = Vec::new();
+        if !plcs.is_empty() {
+            needs.push(serial::OTHER_PLCS);
+        }
+        if !wire.is_empty() || !serve.is_empty() {
+            needs.push(serial::PORTS);
+        }
+        self.others.clear();
+        for plc in plcs {
+            let (at, name) = (plc.name.span().start, plc.name.into_inner());
+            if let Some(model) = &plc.model {
+                self.model(model);
+            }
+            if plc.program.trim().is_empty() {
+                self.report(at, format!("the program of the PLC `{name}` is empty"));
+            }
+            self.settings(plc.init);
+            if !serial::is_name(&name) {
+                let message = "the name of a PLC consists of letters and digits".to_string();
+                self.report(at, message);
+            } else if !self.others.insert(name.clone()) {
+                self.report(at, format!("the PLC `{name}` stands twice in this case"));
+            }
+        }
+        for port in wire.iter().flatten() {
+            self.port(port);
+        }
+        for port in serve.keys() {
+            self.port(port);
+        }
+        needs
+    }
+
+    /// A name without that of another PLC before it, and whether it had one.
+    fn own<'n>(&self, name: &'n str) -> (&'n str, bool) {
+        match name.split_once(':') {
+            Some((plc, own)) if self.others.contains(plc) => (own, true),
+            _ => (name, false),
+        }
+    }
+
+    /// Holds the name of a port to the format.
+    fn port(&mut self, port: &Spanned<String>) {
+        let (own, _) = self.own(port.get_ref());
+        if let Err(message) = serial::check_port(own) {
+            self.report(port.span().start, message.to_string());
+        }
+    }
+
+    /// Holds what goes over a port to the format.
+    fn line_text(&mut self, port: &Spanned<String>, way: Way, texts: &[String]) {
+        self.port(port);
+        let (own, _) = self.own(port.get_ref());
+        for text in texts {
+            if let Err(message) = serial::check_text(own, way, text) {
+                self.report(port.span().start, message.to_string());
+            }
+        }
+    }
+
+    /// Where the RUN/STOP switch of the case's own PLC is put; a switch of another must belong to a PLC of the case.
+    fn mode(&mut self, mode: &Spanned<RawMode>) -> Option<bool> {
+        match mode.get_ref() {
+            RawMode::All(switch) => Some(*switch == Switch::Run),
+            RawMode::Of(switches) => {
+                for name in switches.keys().filter(|name| !self.others.contains(*name)) {
+                    let message = format!("the case has no PLC `{name}`");
+                    self.problems
+                        .push(Problem::at(self.source, mode.span().start, message));
+                }
+                None
+            }
         }
     }
 
@@ -326,7 +424,8 @@ impl Reader<'_> {
     fn settings(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {
         raw.into_iter()
             .filter_map(|(name, value)| {
-                let target = match Target::parse(name.get_ref()) {
+                let (own, of_other) = self.own(name.get_ref());
+                let target = match Target::parse(own) {
                     Ok(target) => target,
                     Err(message) => {
                         self.report(name.span().start, message);
@@ -334,7 +433,7 @@ impl Reader<'_> {
                     }
                 };
                 match Value::of(target, value.get_ref()) {
-                    Ok(value) => Some(Setting { target, value }),
+                    Ok(value) => (!of_other).then_some(Setting { target, value }),
                     Err(expected) => {
                         let message = format!("the value of `{}` is {expected}", name.get_ref());
                         self.report(value.span().start, message);

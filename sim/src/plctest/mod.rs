@@ -6,6 +6,7 @@ mod format;
 mod name;
 mod report;
 mod runner;
+mod serial;
 mod suite;
 mod wiring;
 
@@ -189,7 +190,7 @@ fn parse_source(source: &Source) -> Result<TestFile, LoadError> {
 
 #[cfg(test)]
 mod tests {
-    use super::parse;
+    use super::{Check, parse};
 
     fn problems_of(text: &str) -> String {
         parse("t.plctest.toml", text).unwrap_err().to_string()
@@ -226,8 +227,67 @@ program = "END"
     }
 
     #[test]
+    fn communication_is_held_to_the_format() {
+        let text = r#"model = "h2u"
+topic = "t"
+[[case]]
+name = "a"
+program = "END"
+wire = [["COM1", "B:COM9x"]]
+serve = { "UDP:502" = "modbus" }
+[[case.plc]]
+name = "B"
+program = "END"
+[[case.plc]]
+name = "B:"
+program = ""
+[[case.step]]
+set = { "B:D0" = 1, "C:D0" = 1 }
+rx = { COM1 = "41 4", "B:CAN" = "200#1" }
+expect_tx = { COM1 = ["41", "/10"] }
+cut = ["C:COM1"]
+mode = { C = "stop" }
+"#;
+        insta::assert_snapshot!(problems_of(text), @r#"
+        t.plctest.toml:6:18: a port is named `COM1`, `CAN` or `TCP:502`
+        t.plctest.toml:7:11: a port is named `COM1`, `CAN` or `TCP:502`
+        t.plctest.toml:12:8: the program of the PLC `B:` is empty
+        t.plctest.toml:12:8: the name of a PLC consists of letters and digits
+        t.plctest.toml:15:21: `C:D0` is no device name, e.g. `M0`, `X010`, `D0.i32`
+        t.plctest.toml:16:8: bytes are written as pairs of hexadecimal digits
+        t.plctest.toml:16:23: a CAN frame is written `200#1234`: its identifier and up to 8 bytes in hexadecimal digits
+        t.plctest.toml:17:15: bytes are written as pairs of hexadecimal digits
+        t.plctest.toml:18:8: a port is named `COM1`, `CAN` or `TCP:502`
+        t.plctest.toml:19:8: the case has no PLC `C`
+        "#);
+    }
+
+    #[test]
+    fn a_case_with_ports_or_other_plcs_needs_what_engines_lack() {
+        let text = r#"model = "h2u"
+topic = "t"
+[[case]]
+name = "a"
+program = "END"
+wire = [["COM1", "B:COM1"]]
+[[case.plc]]
+name = "B"
+program = "END"
+[[case.step]]
+set = { D0 = 1, "B:D0" = 2 }
+mode = { B = "stop" }
+"#;
+        let file = parse("t.plctest.toml", text).unwrap();
+        let Check::Steps { steps, .. } = &file.cases[0].check else {
+            panic!("the case has steps");
+        };
+        assert_eq!(steps[0].needs, ["more than one PLC", "serial ports"]);
+        assert_eq!((steps[0].set.len(), steps[0].running), (1, None));
+    }
+
+    #[test]
     fn unknown_keys_are_mistakes() {
         let text = "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = \"END\"\n[[case.step]]\nscan = 1\n";
-        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `clock`, `mode`, `power_cycle`, `bfm`, `expect_bfm`, `expect_position`, `analog`");
+        insta::assert_snapshot!(problems_of(text), @"t.plctest.toml:7:1: unknown field `scan`, expected one of `set`, `scans`, `run_ms`, `scan_ms`, `expect`, `pulses`, `encoder`, `rx`, `expect_tx`, `cut`, `clock`, `mode`, `power_cycle`, `bfm`, `expect_bfm`, `expect_position`, `analog`");
     }
 }
