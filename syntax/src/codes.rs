@@ -2,7 +2,7 @@
 //!
 //! | codes | about |
 //! |---|---|
-//! | E00xx | reading files and text, instructions that are not known |
+//! | E00xx | reading files and text, instructions that are not known, settings of a project (E004x) |
 //! | E01xx | devices and operands |
 //! | E03xx | operand counts |
 //! | E04xx | contact logic, structure and flow |
@@ -19,6 +19,7 @@ mod labels;
 mod logic;
 mod operands;
 mod practice;
+mod project;
 mod reading;
 mod structure;
 
@@ -26,6 +27,7 @@ pub use labels::*;
 pub use logic::*;
 pub use operands::*;
 pub use practice::*;
+pub use project::*;
 pub use reading::*;
 pub use structure::*;
 
@@ -65,6 +67,7 @@ impl Code {
 pub fn all() -> Vec<&'static Code> {
     let families = [
         reading::TABLE,
+        project::TABLE,
         operands::TABLE,
         logic::TABLE,
         structure::TABLE,

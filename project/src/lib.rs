@@ -1,0 +1,245 @@
+//! The settings of a project: `rungc.toml`, which lies in the folder of a program or above it.
+//!
+//! The file is read strictly: a key that is not known, or a value that does not fit, is a diagnostic with its place. Whoever calls
+//! decides what a setting does; what the command line says wins over the file.
+#![deny(missing_docs)]
+
+mod device;
+mod reader;
+
+use encoding_rs::Encoding;
+use rungc_ir::ModelId;
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// The file's name.
+pub const FILE: &str = "rungc.toml";
+
+/// A larger file, in bytes, is refused.
+pub const MAX_SIZE: u64 = 1 << 20;
+
+/// The settings of a project. Paths are as the file gives them, from its own folder on.
+#[derive(Clone, Debug, Default)]
+pub struct Project {
+    /// The file.
+    pub path: PathBuf,
+    /// Its text, for diagnostics.
+    pub source: Source,
+    /// The program that the project is about: `[project] program`.
+    pub program: Option<PathBuf>,
+    /// The PLC model: `[project] model`.
+    pub model: Option<ModelId>,
+    /// Name of the program in emitted code: `[project] name`.
+    pub name: Option<String>,
+    /// Encoding of texts that are not Unicode: `[project] encoding`.
+    pub encoding: Option<&'static Encoding>,
+    /// `[check]`
+    pub check: Check,
+    /// `[build]`
+    pub build: Build,
+    /// `[test]`
+    pub test: Test,
+    /// `[tokens]`: instructions by the bytes that stand for them in projects, in the order of the bytes.
+    pub tokens: Vec<Token>,
+    /// `[index]`: what indexed operands can reach.
+    pub index: Vec<Bound>,
+    /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is named.
+    pub latched: Vec<Latched>,
+}
+
+/// Which findings count, and how much: identifiers of codes, such as `W0203`.
+#[derive(Clone, Debug, Default)]
+pub struct Check {
+    /// Warnings that are left out.
+    pub allow: Vec<&'static str>,
+    /// Errors that become warnings.
+    pub warn: Vec<&'static str>,
+    /// Warnings that become errors.
+    pub deny: Vec<&'static str>,
+}
+
+/// What `build` makes.
+#[derive(Clone, Debug, Default)]
+pub struct Build {
+    /// The machine to build for.
+    pub target: Option<Named>,
+    /// The description of a board.
+    pub board: Option<PathBuf>,
+    /// What to make.
+    pub emit: Option<Named>,
+    /// Where to write it.
+    pub output: Option<PathBuf>,
+}
+
+/// What `test` runs.
+#[derive(Clone, Debug, Default)]
+pub struct Test {
+    /// Test files and folders of them.
+    pub files: Vec<PathBuf>,
+    /// What to run the cases on.
+    pub engine: Option<Named>,
+}
+
+/// A name with its place, whose meaning is the caller's to know.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Named {
+    /// The name as written.
+    pub text: String,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// An instruction of a vendor project.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Token {
+    /// The bytes of its body in the project.
+    pub body: Vec<u8>,
+    /// Its mnemonic, in upper case.
+    pub mnemonic: String,
+    /// Where the mnemonic stands.
+    pub span: Span,
+}
+
+/// What an operand with an index register can reach.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Bound {
+    /// Class of the operand.
+    pub class: DeviceClass,
+    /// Number of the operand, without its index.
+    pub number: u32,
+    /// The index register.
+    pub index: Index,
+    /// First number that it reaches.
+    pub first: u32,
+    /// Last number that it reaches, inclusive.
+    pub last: u32,
+    /// Where the range stands.
+    pub span: Span,
+}
+
+/// Devices that keep their value over power-off.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Latched {
+    /// Their class.
+    pub class: DeviceClass,
+    /// First number.
+    pub first: u32,
+    /// Last number, inclusive.
+    pub last: u32,
+    /// Where the range stands.
+    pub span: Span,
+}
+
+/// Why a file could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The system says so.
+    #[error("cannot read `{}`: {error}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// What it says is wrong.
+    #[error("`{}` has mistakes", path.display())]
+    Mistakes {
+        /// The file.
+        path: PathBuf,
+        /// Its text.
+        text: Source,
+        /// What is wrong with it: at least one error.
+        diagnostics: Diagnostics,
+    },
+}
+
+impl Project {
+    /// The file that is for a program or a folder: in its own folder, else in the nearest one above.
+    pub fn find(path: &Path) -> Option<PathBuf> {
+        let path = std::path::absolute(path).ok()?;
+        // Through `..` and links as the system goes, where there is something at the path.
+        let path = path.canonicalize().unwrap_or(path);
+        path.ancestors()
+            .map(|folder| folder.join(FILE))
+            .find(|file| file.is_file())
+    }
+
+    /// Reads a file.
+    pub fn load(path: &Path) -> Result<Project, Error> {
+        let io = |error| Error::Io {
+            path: path.to_owned(),
+            error,
+        };
+        let mut bytes = Vec::new();
+        let file = std::fs::File::open(path).map_err(io)?;
+        file.take(MAX_SIZE + 1)
+            .read_to_end(&mut bytes)
+            .map_err(io)?;
+        if bytes.len() as u64 > MAX_SIZE {
+            let message = format!("it is larger than {} MiB", MAX_SIZE >> 20);
+            return Err(io(io::Error::new(io::ErrorKind::InvalidData, message)));
+        }
+        let text = String::from_utf8(bytes).map_err(|_| {
+            io(io::Error::new(
+                io::ErrorKind::InvalidData,
+                "it is not UTF-8",
+            ))
+        })?;
+        Project::parse(path, &text)
+    }
+
+    /// Reads the text of a file. `path` is what it is called, and where its paths begin.
+    pub fn parse(path: &Path, text: &str) -> Result<Project, Error> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let source = Source::new(name, text.strip_prefix('\u{feff}').unwrap_or(text));
+        let (project, diagnostics) = reader::read(&source.text);
+        if diagnostics.has_errors() {
+            return Err(Error::Mistakes {
+                path: path.to_owned(),
+                text: source,
+                diagnostics,
+            });
+        }
+        Ok(Project {
+            path: path.to_owned(),
+            source,
+            ..project
+        })
+    }
+
+    /// That a value does not fit, for what only the caller can know.
+    pub fn mistake(&self, why: Diagnostic) -> Error {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(why);
+        Error::Mistakes {
+            path: self.path.clone(),
+            text: self.source.clone(),
+            diagnostics,
+        }
+    }
+
+    /// A path of the file, from where the caller stands.
+    pub fn at(&self, path: &Path) -> PathBuf {
+        self.path.parent().unwrap_or(Path::new("")).join(path)
+    }
+
+    /// The program that the project is about, from where the caller stands.
+    pub fn program(&self) -> Option<PathBuf> {
+        self.program.as_deref().map(|program| self.at(program))
+    }
+
+    /// Whether this file is the program that the project is about.
+    pub fn is_about(&self, file: &Path) -> bool {
+        let place = |path: &Path| path.canonicalize().ok();
+        self.program()
+            .is_some_and(|program| place(&program).is_some_and(|p| Some(p) == place(file)))
+    }
+}
+
+impl Named {
+    /// That it does not fit its key.
+    pub fn mistake(&self, why: impl Into<String>) -> Diagnostic {
+        codes::PROJECT_VALUE.at(self.span, why)
+    }
+}

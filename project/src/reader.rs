@@ -1,0 +1,414 @@
+//! From TOML to [`Project`], every mistake with its place.
+
+use crate::{Bound, Latched, Named, Project, Token, device};
+use encoding_rs::Encoding;
+use rungc_ir::{Model, ModelId, catalogue};
+use rungc_syntax::codes::{self, Code};
+use rungc_syntax::{DeviceClass, Diagnostics, Severity, Span, diag};
+use std::ops::Range;
+use std::path::PathBuf;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// The tables, and their keys where these are fixed.
+const TABLES: [(&str, &[&str]); 7] = [
+    ("project", &["program", "model", "name", "encoding"]),
+    ("check", &["allow", "warn", "deny"]),
+    ("build", &["target", "board", "emit", "output"]),
+    ("test", &["files", "engine"]),
+    ("tokens", &[]),
+    ("index", &[]),
+    ("latched", &[]),
+];
+
+/// Classes with devices that can be latched.
+const LATCHABLE: [DeviceClass; 6] = {
+    use DeviceClass::*;
+    [M, S, T, C, D, R]
+};
+
+/// The body of an instruction is no longer, in bytes.
+const MAX_BODY: usize = 64;
+
+type Value<'t> = Spanned<DeValue<'t>>;
+
+/// Reads the text of a file: what it says, and what is wrong with it.
+pub fn read(text: &str) -> (Project, Diagnostics) {
+    let mut reader = Reader {
+        found: Diagnostics::new(),
+    };
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in errors {
+        let range = error.span().unwrap_or(0..0);
+        let message = error.message().trim().to_string();
+        reader
+            .found
+            .push(codes::PROJECT_SYNTAX.at(span(range), message));
+    }
+    let mut project = Project::default();
+    // What follows a line that is not TOML may stand in another table than it seems.
+    if !reader.found.has_errors() {
+        reader.document(document.get_ref(), &mut project);
+    }
+    (project, reader.found)
+}
+
+fn span(range: Range<usize>) -> Span {
+    Span::new(range.start as u32, range.end as u32)
+}
+
+/// `a`, `b` and `c`, in back quotes.
+fn listed(names: &[&str]) -> String {
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        Some((last, _)) => last.clone(),
+        None => String::new(),
+    }
+}
+
+/// The most similar of the names, else all of them. One letter is similar to any other.
+fn hint(word: &str, names: &[&str]) -> String {
+    let near = diag::did_you_mean(word, names.iter().copied());
+    match near.filter(|near| near.len() > 1) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("there are {}", listed(names)),
+    }
+}
+
+struct Reader {
+    found: Diagnostics,
+}
+
+impl Reader {
+    fn document(&mut self, document: &DeTable<'_>, project: &mut Project) {
+        for (key, value) in document {
+            let (name, at) = (key.get_ref().as_ref(), span(key.span()));
+            let Some((_, keys)) = TABLES.iter().find(|(table, _)| *table == name) else {
+                let tables: Vec<_> = TABLES.iter().map(|(table, _)| *table).collect();
+                let what = if value.get_ref().is_table() {
+                    "table"
+                } else {
+                    "key"
+                };
+                let message = format!("there is no {what} `{name}`");
+                let unknown = codes::PROJECT_KEY.at(at, message).label("not known");
+                let home = TABLES.iter().find(|(_, keys)| keys.contains(&name));
+                let help = home.map(|(table, _)| format!("it belongs in `[{table}]`"));
+                let help = help.unwrap_or_else(|| hint(name, &tables));
+                self.found.push(unknown.help(help));
+                continue;
+            };
+            let Some(table) = value.get_ref().as_table() else {
+                let message = format!("`{name}` is a table");
+                self.wrong(
+                    at,
+                    message,
+                    &format!("write `[{name}]` on a line of its own, and its keys below"),
+                );
+                continue;
+            };
+            if !keys.is_empty() {
+                self.known(name, table, keys);
+            }
+            match name {
+                "project" => self.project(table, project),
+                "check" => self.check(table, project),
+                "build" => self.build(table, project),
+                "test" => self.test(table, project),
+                "tokens" => self.tokens(table, project),
+                "index" => self.index(table, project),
+                _ => self.latched(table, project),
+            }
+        }
+    }
+
+    fn wrong(&mut self, at: Span, message: impl Into<String>, help: &str) {
+        let mistake = codes::PROJECT_VALUE.at(at, message);
+        self.found.push(match help {
+            "" => mistake,
+            help => mistake.help(help.to_string()),
+        });
+    }
+
+    /// Reports keys that a table does not have.
+    fn known(&mut self, name: &str, table: &DeTable<'_>, keys: &[&str]) {
+        for key in table.keys() {
+            let word = key.get_ref().as_ref();
+            if !keys.contains(&word) {
+                let message = format!("`[{name}]` has no key `{word}`");
+                let unknown = codes::PROJECT_KEY.at(span(key.span()), message);
+                self.found
+                    .push(unknown.label("not known").help(hint(word, keys)));
+            }
+        }
+    }
+
+    /// A text.
+    fn text(&mut self, key: &str, value: &Value<'_>) -> Option<Named> {
+        self.string(value, format!("`{key}` is a text"))
+    }
+
+    /// A text; what is wrong otherwise.
+    fn string(&mut self, value: &Value<'_>, wrong: String) -> Option<Named> {
+        let at = span(value.span());
+        match value.get_ref().as_str() {
+            Some("") => self.wrong(at, "this text is empty", ""),
+            Some(text) => {
+                return Some(Named {
+                    text: text.to_string(),
+                    span: at,
+                });
+            }
+            None => self.wrong(at, wrong, "write it in quotes"),
+        }
+        None
+    }
+
+    fn get(&mut self, table: &DeTable<'_>, key: &str) -> Option<Named> {
+        let value = table.get(key)?;
+        self.text(key, value)
+    }
+
+    fn path(&mut self, table: &DeTable<'_>, key: &str) -> Option<PathBuf> {
+        self.get(table, key).map(|named| PathBuf::from(named.text))
+    }
+
+    /// A list of texts.
+    fn list(&mut self, table: &DeTable<'_>, key: &str) -> Vec<Named> {
+        let Some(value) = table.get(key) else {
+            return Vec::new();
+        };
+        let Some(values) = value.get_ref().as_array() else {
+            let help = format!("write `{key} = [\"…\"]`");
+            self.wrong(span(value.span()), format!("`{key}` is a list"), &help);
+            return Vec::new();
+        };
+        let wrong = |value| (value, format!("`{key}` is a list of texts"));
+        let values = values.iter().map(wrong);
+        values
+            .filter_map(|(value, wrong)| self.string(value, wrong))
+            .collect()
+    }
+
+    fn project(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        project.program = self.path(table, "program");
+        project.model = self.get(table, "model").and_then(|name| self.model(&name));
+        project.name = self.get(table, "name").map(|name| name.text);
+        if let (Some(_), None, Some(value)) = (&project.name, &project.program, table.get("name")) {
+            let message = "`name` is the name of the project's program, and there is no `program`";
+            self.wrong(span(value.span()), message, "add `program = \"…\"`");
+        }
+        project.encoding = self.get(table, "encoding").and_then(|name| {
+            let encoding = Encoding::for_label(name.text.as_bytes());
+            if encoding.is_none() {
+                let message = format!("there is no encoding `{}`", name.text);
+                let help =
+                    "for example `gbk`, `shift_jis`, `windows-1252`, `windows-1251` or `utf-8`";
+                self.wrong(name.span, message, help);
+            }
+            encoding
+        });
+    }
+
+    fn model(&mut self, name: &Named) -> Option<ModelId> {
+        let model = ModelId::from_name(&name.text);
+        if model.is_none() {
+            let names: Vec<_> = ModelId::ALL.iter().map(|&id| Model::get(id).name).collect();
+            let message = format!("there is no model `{}`", name.text);
+            self.wrong(name.span, message, &hint(&name.text.to_lowercase(), &names));
+        }
+        model
+    }
+
+    fn check(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        let mut seen: Vec<(&'static str, &'static str)> = Vec::new();
+        for (key, errors) in [("allow", false), ("warn", true), ("deny", false)] {
+            for name in self.list(table, key) {
+                let Some(code) = self.code(&name, key, errors) else {
+                    continue;
+                };
+                if let Some((_, other)) = seen.iter().find(|(id, _)| *id == code.id) {
+                    let message = format!("`{}` stands in `{other}` already", name.text);
+                    self.wrong(name.span, message, "");
+                    continue;
+                }
+                seen.push((code.id, key));
+                match key {
+                    "allow" => project.check.allow.push(code.id),
+                    "warn" => project.check.warn.push(code.id),
+                    _ => project.check.deny.push(code.id),
+                }
+            }
+        }
+    }
+
+    /// The code with a name, if it is an error or is none, as asked for.
+    fn code(&mut self, name: &Named, key: &str, error: bool) -> Option<&'static Code> {
+        let fits = |code: &Code| (code.severity == Severity::Error) == error;
+        let what = if error { "error" } else { "warning" };
+        let Some(code) = codes::find(&name.text) else {
+            let names: Vec<_> = codes::all()
+                .into_iter()
+                .filter(|code| fits(code))
+                .flat_map(|code| [code.id, code.name])
+                .collect();
+            let near = diag::did_you_mean(&name.text.to_lowercase(), names);
+            let help = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
+            self.wrong(
+                name.span,
+                format!("there is no {what} `{}`", name.text),
+                &help,
+            );
+            return None;
+        };
+        if !fits(code) {
+            let (message, help) = match key {
+                "warn" => ("is a warning already", "`deny` makes an error of a warning"),
+                "allow" => (
+                    "is an error, which cannot be left out",
+                    "`warn` makes a warning of it",
+                ),
+                _ => ("is an error already", ""),
+            };
+            self.wrong(name.span, format!("`{}` {message}", name.text), help);
+            return None;
+        }
+        Some(code)
+    }
+
+    fn build(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        project.build.target = self.get(table, "target");
+        project.build.board = self.path(table, "board");
+        project.build.emit = self.get(table, "emit");
+        project.build.output = self.path(table, "output");
+    }
+
+    fn test(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        let files = self.list(table, "files").into_iter();
+        project.test.files = files.map(|file| PathBuf::from(file.text)).collect();
+        project.test.engine = self.get(table, "engine");
+    }
+
+    fn tokens(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        for (key, value) in table {
+            let word = key.get_ref().as_ref();
+            let Some(body) = bytes(word) else {
+                let message = format!("`{word}` is not the body of an instruction");
+                let help = "write its bytes as pairs of hexadecimal digits: `\"56 09 02\"`";
+                self.wrong(span(key.span()), message, help);
+                continue;
+            };
+            let Some(name) = self.text(word, value) else {
+                continue;
+            };
+            let mnemonic = name.text.to_uppercase();
+            if catalogue::find(&mnemonic).is_none() {
+                let names: Vec<_> = catalogue::all().map(|row| row.name).collect();
+                let near = diag::did_you_mean(&mnemonic, names);
+                let help = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
+                let message = format!("no model has the instruction `{}`", name.text);
+                self.wrong(name.span, message, &help);
+            } else if project.tokens.iter().any(|token| token.body == body) {
+                self.wrong(span(key.span()), "these bytes stand here twice", "");
+            } else {
+                project.tokens.push(Token {
+                    body,
+                    mnemonic,
+                    span: name.span,
+                });
+            }
+        }
+        project.tokens.sort_by(|a, b| a.body.cmp(&b.body));
+    }
+
+    fn index(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        for (key, value) in table {
+            let word = key.get_ref().as_ref();
+            let Some((base, index)) = device::indexed(&word.to_uppercase()) else {
+                let message = format!("`{word}` is not a device with an index register");
+                let help = "write for example `\"D100Z0\" = \"D100-D163\"`";
+                self.wrong(span(key.span()), message, help);
+                continue;
+            };
+            let Some(named) = self.text(word, value) else {
+                continue;
+            };
+            let Some((first, last)) = self.range(&named, base.class) else {
+                continue;
+            };
+            let twice = |bound: &Bound| {
+                (bound.class, bound.number, bound.index) == (base.class, base.number, index)
+            };
+            if project.index.iter().any(twice) {
+                self.wrong(span(key.span()), format!("`{word}` stands here twice"), "");
+                continue;
+            }
+            project.index.push(Bound {
+                class: base.class,
+                number: base.number,
+                index,
+                first,
+                last,
+                span: named.span,
+            });
+        }
+    }
+
+    /// A range of devices of a class.
+    fn range(&mut self, named: &Named, class: DeviceClass) -> Option<(u32, u32)> {
+        match device::range(&named.text.to_uppercase()) {
+            Some((found, first, last)) if found == class => Some((first, last)),
+            _ => {
+                let letters = class.prefix();
+                let message = format!("`{}` is not a range of {letters} devices", named.text);
+                let (first, last) = (class.number(64), class.number(127));
+                self.wrong(
+                    named.span,
+                    message,
+                    &format!("write for example `{first}-{last}`"),
+                );
+                None
+            }
+        }
+    }
+
+    fn latched(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        let letters: Vec<_> = LATCHABLE.iter().map(|class| class.prefix()).collect();
+        self.known("latched", table, &letters);
+        for class in LATCHABLE {
+            let letters = class.prefix();
+            let ranges = match table.get(letters) {
+                Some(value) if value.get_ref().is_array() => self.list(table, letters),
+                Some(value) => self.text(letters, value).into_iter().collect(),
+                None => continue,
+            };
+            for named in ranges {
+                if let Some((first, last)) = self.range(&named, class) {
+                    project.latched.push(Latched {
+                        class,
+                        first,
+                        last,
+                        span: named.span,
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// Bytes as pairs of hexadecimal digits, with or without spaces between them.
+fn bytes(text: &str) -> Option<Vec<u8>> {
+    let digits: Vec<u32> = text
+        .split_whitespace()
+        .flat_map(str::chars)
+        .map(|c| c.to_digit(16))
+        .collect::<Option<_>>()?;
+    let fits = digits.len().is_multiple_of(2) && (1..=MAX_BODY).contains(&(digits.len() / 2));
+    fits.then(|| {
+        digits
+            .chunks(2)
+            .map(|pair| (pair[0] << 4 | pair[1]) as u8)
+            .collect()
+    })
+}

@@ -1,0 +1,281 @@
+//! What a file says, and what is said about its mistakes.
+
+use proptest::prelude::*;
+use rungc_ir::ModelId;
+use rungc_project::{Error, FILE, Project};
+use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+use std::path::Path;
+
+fn parse(text: &str) -> Result<Project, Error> {
+    Project::parse(Path::new("plant/rungc.toml"), text)
+}
+
+/// The mistakes of a file: code, place, message, what stands there, help.
+fn mistakes(text: &str) -> String {
+    let Err(Error::Mistakes {
+        text, diagnostics, ..
+    }) = parse(text)
+    else {
+        panic!("no mistake is found in {text}");
+    };
+    let mut shown = String::new();
+    for d in diagnostics.sorted() {
+        let (line, column) = text.line_col(d.span.start);
+        let quoted = text.slice(d.span);
+        writeln!(shown, "{} {line}:{column} {} `{quoted}`", d.code, d.message).unwrap();
+        if let Some(help) = d.help {
+            writeln!(shown, "    help: {help}").unwrap();
+        }
+    }
+    shown
+}
+
+#[test]
+fn every_setting_is_read() {
+    let project = parse(
+        r#"
+[project]
+program = "Packer.gxw"
+model = "FX3U"
+name = "packer"
+encoding = "windows-1252"
+
+[check]
+allow = ["W0201", "double-coil"]
+warn = ["E0106"]
+deny = ["W0204"]
+
+[build]
+target = "host"
+board = "board.toml"
+emit = "c"
+output = "firmware/plc"
+
+[test]
+files = ["tests", "extra.plctest.toml"]
+engine = "all"
+
+[tokens]
+"56 09 02" = "TO"
+"5609" = "from"
+
+[index]
+"D100Z0" = "D100-D163"
+"x0v" = "X000-X017"
+
+[latched]
+D = "D200-D511"
+M = ["M500-M600", "M700"]
+"#,
+    )
+    .unwrap();
+    assert_eq!(project.model, Some(ModelId::Fx3u));
+    assert_eq!(project.name.as_deref(), Some("packer"));
+    assert_eq!(project.encoding.unwrap().name(), "windows-1252");
+    assert_eq!(project.program().unwrap(), Path::new("plant/Packer.gxw"));
+    assert_eq!(project.check.allow, ["W0201", "W0203"]);
+    assert_eq!(project.check.warn, ["E0106"]);
+    assert_eq!(project.check.deny, ["W0204"]);
+    assert_eq!(project.build.emit.as_ref().unwrap().text, "c");
+    assert_eq!(
+        project.build.output.as_deref(),
+        Some(Path::new("firmware/plc"))
+    );
+    assert_eq!(project.test.files.len(), 2);
+    let tokens: Vec<_> = project
+        .tokens
+        .iter()
+        .map(|t| (&t.body[..], &t.mnemonic[..]))
+        .collect();
+    assert_eq!(tokens, [(&[0x56, 9][..], "FROM"), (&[0x56, 9, 2], "TO")]);
+    let bounds: Vec<_> = project
+        .index
+        .iter()
+        .map(|b| (b.class, b.number, b.first, b.last))
+        .collect();
+    assert_eq!(
+        bounds,
+        [(DeviceClass::D, 100, 100, 163), (DeviceClass::X, 0, 0, 15)]
+    );
+    let latched: Vec<_> = project
+        .latched
+        .iter()
+        .map(|l| (l.class, l.first, l.last))
+        .collect();
+    let expected = [
+        (DeviceClass::M, 500, 600),
+        (DeviceClass::M, 700, 700),
+        (DeviceClass::D, 200, 511),
+    ];
+    assert_eq!(latched, expected);
+}
+
+#[test]
+fn an_empty_file_sets_nothing() {
+    for text in [
+        "",
+        "\u{feff}",
+        "# nothing\n",
+        "[project]\n[check]\nallow = []\n",
+    ] {
+        let project = parse(text).unwrap();
+        assert!(project.model.is_none() && project.check.allow.is_empty());
+    }
+}
+
+#[test]
+fn unknown_tables_and_keys() {
+    insta::assert_snapshot!(
+        "unknown",
+        mistakes(
+            "[projekt]\nprogram = 'a.il'\n\n[check]\nalow = []\n\n[io]\nX0 = 1\n\nmodel = 'fx3u'\n[latched]\nY = 'Y0-Y7'\n"
+        )
+    );
+    insta::assert_snapshot!(
+        "unknown_at_top",
+        mistakes("model = 'fx3u'\n[[module]]\nat = 0\n")
+    );
+}
+
+#[test]
+fn values_that_do_not_fit() {
+    insta::assert_snapshot!(
+        "values",
+        mistakes(
+            r#"
+build = "c"
+[project]
+program = 3
+model = "fx3uu"
+name = "packer"
+encoding = "klingon"
+
+[check]
+allow = ["W0203", "E0106", "W9999", "duoble-coil"]
+warn = ["W0201", "E0106"]
+deny = "W0203"
+
+[test]
+files = "tests"
+
+[tokens]
+"56 0" = "TO"
+"56" = "TOO"
+"57 01" = "TO"
+"5701" = "FROM"
+
+[index]
+"D100" = "D100-D163"
+"D100Z0" = "M0-M10"
+"D100Z" = "D163-D100"
+
+[latched]
+D = "200-511"
+M = ["M5-M1", 7]
+"#
+        )
+    );
+    insta::assert_snapshot!(
+        "allowed_and_denied",
+        mistakes("[check]\nallow = ['W0203']\ndeny = ['double-coil']\n")
+    );
+    insta::assert_snapshot!("empty", mistakes("[project]\nprogram = ''\n"));
+}
+
+#[test]
+fn lines_that_are_not_toml() {
+    insta::assert_snapshot!(
+        "not_toml",
+        mistakes("[project]\nprogram = Packer.gxw\n[check\nallow = ['W0203]\n")
+    );
+    insta::assert_snapshot!(
+        "twice",
+        mistakes("[project]\nmodel = 'fx3u'\nmodel = 'fx2n'\n")
+    );
+}
+
+#[test]
+fn the_nearest_file_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().canonicalize().unwrap();
+    let inner = root.join("a/b");
+    std::fs::create_dir_all(&inner).unwrap();
+    std::fs::write(root.join(FILE), "").unwrap();
+    std::fs::write(inner.join("x.il"), "END\n").unwrap();
+    assert_eq!(Project::find(&inner.join("x.il")), Some(root.join(FILE)));
+    assert_eq!(Project::find(&inner), Some(root.join(FILE)));
+    std::fs::write(inner.join(FILE), "").unwrap();
+    assert_eq!(Project::find(&inner.join("x.il")), Some(inner.join(FILE)));
+    assert_eq!(
+        Project::find(&inner.join("not/there.il")),
+        Some(inner.join(FILE))
+    );
+}
+
+#[test]
+fn a_file_that_cannot_be_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(FILE);
+    let why = |path: &Path| Project::load(path).unwrap_err().to_string();
+    assert!(why(&path).starts_with("cannot read"), "{}", why(&path));
+    std::fs::write(&path, [0xff, 0xfe, 0x41]).unwrap();
+    assert!(why(&path).ends_with("it is not UTF-8"), "{}", why(&path));
+    std::fs::write(&path, vec![b'#'; (rungc_project::MAX_SIZE + 1) as usize]).unwrap();
+    assert!(
+        why(&path).ends_with("it is larger than 1 MiB"),
+        "{}",
+        why(&path)
+    );
+}
+
+/// Pieces of files, put together at random.
+fn piece() -> impl Strategy<Value = String> {
+    let known = prop::sample::select(vec![
+        "[project]\n",
+        "[check]\n",
+        "[tokens]\n",
+        "[index]\n",
+        "[latched]\n",
+        "[build]\n",
+        "[test]\n",
+        "model = ",
+        "allow = ",
+        "warn = ",
+        "D = ",
+        "\"D0Z0\" = ",
+        "\"56 09\" = ",
+        "files = ",
+        "\"W0203\"",
+        "\"D0-D9\"",
+        "\"fx3u\"",
+        "[",
+        "]",
+        "{",
+        "}",
+        ",",
+        "\n",
+        "=",
+        "\"",
+        "'",
+        "\u{feff}",
+        "\"D0-D4294967296\"",
+    ]);
+    prop_oneof![known.prop_map(str::to_string), ".{0,4}"]
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_it_panic(text in "\\PC{0,200}") {
+        let _ = parse(&text);
+    }
+
+    #[test]
+    fn no_pieces_make_it_panic(pieces in prop::collection::vec(piece(), 0..40)) {
+        if let Err(Error::Mistakes { text, diagnostics, .. }) = parse(&pieces.concat()) {
+            for d in diagnostics.iter() {
+                prop_assert!(d.span.start <= d.span.end && d.span.end as usize <= text.text.len());
+            }
+        }
+    }
+}
