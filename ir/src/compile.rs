@@ -36,17 +36,21 @@ pub struct Compiled {
     pub steps: u32,
 }
 
-/// Finds out what is wrong with a program without lowering it: `module` is always `None`.
+/// Finds out all that keeps a program from being compiled, and what else is wrong with it: `module` is always `None`.
 pub fn check(program: &Program, options: &CompileOptions) -> Compiled {
-    let model = model_of(program, options);
-    let (resolved, mut diagnostics) = resolve(program, model);
-    diagnostics.extend(check::check(&resolved).sorted());
     Compiled {
         module: None,
-        diagnostics,
-        model,
-        steps: resolved.steps,
+        ..lowered(program, options)
     }
+}
+
+/// Compiles a program.
+pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
+    let mut compiled = lowered(program, options);
+    if let Some(module) = compiled.module.as_mut().filter(|_| options.optimise) {
+        optimise(module);
+    }
+    compiled
 }
 
 fn model_of(program: &Program, options: &CompileOptions) -> &'static Model {
@@ -54,35 +58,27 @@ fn model_of(program: &Program, options: &CompileOptions) -> &'static Model {
     Model::get(options.model.or_else(named).unwrap_or(ModelId::Fx3u))
 }
 
-/// Compiles a program.
-pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
+/// A program as lowering makes it. Lowering has the last word on what can be compiled, so checking ends with it too.
+fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let model = model_of(program, options);
     let (resolved, mut diagnostics) = resolve(program, model);
-    let compiled = |module, diagnostics| Compiled {
+    diagnostics.extend(check::check(&resolved).sorted());
+    let module = if diagnostics.has_errors() {
+        None
+    } else {
+        let options = LowerOptions {
+            name: options.name.clone(),
+            observe: options.observe.clone(),
+            observe_all: options.observe_all,
+        };
+        lower(&resolved, &options)
+            .map_err(|errors| diagnostics.extend(errors.sorted()))
+            .ok()
+    };
+    Compiled {
         module,
         diagnostics,
         model,
         steps: resolved.steps,
-    };
-    diagnostics.extend(check::check(&resolved).sorted());
-    if diagnostics.has_errors() {
-        return compiled(None, diagnostics);
-    }
-    let lower_options = LowerOptions {
-        name: options.name.clone(),
-        observe: options.observe.clone(),
-        observe_all: options.observe_all,
-    };
-    match lower(&resolved, &lower_options) {
-        Ok(mut module) => {
-            if options.optimise {
-                optimise(&mut module);
-            }
-            compiled(Some(module), diagnostics)
-        }
-        Err(errors) => {
-            diagnostics.extend(errors.sorted());
-            compiled(None, diagnostics)
-        }
     }
 }

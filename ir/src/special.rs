@@ -28,7 +28,27 @@ pub enum Status {
     /// These instructions read or write it.
     Instructions(&'static str),
     /// It is a plain relay or register here, for this reason.
-    Inert(&'static str),
+    Inert(Reason),
+}
+
+/// Why a special device is inert, and what a program that relies on it misses.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Reason {
+    /// The reason, as the end of a sentence.
+    pub text: &'static str,
+    /// Who misses it.
+    pub missed: Missed,
+}
+
+/// Which programs behave differently because a special device is inert.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Missed {
+    /// None: it serves people and their tools, or reports faults that cannot happen here.
+    Never,
+    /// Those that write it.
+    ByWriters,
+    /// Those that write it, and those that read it and wait for it to change.
+    ByAll,
 }
 
 /// Special devices `first` to `last` of one class.
@@ -145,25 +165,63 @@ pub fn cleared_in_stop(model: ModelId) -> impl Iterator<Item = u32> {
     relays.iter().copied().flatten().cloned().flatten()
 }
 
+const fn because(missed: Missed, text: &'static str) -> Reason {
+    Reason { text, missed }
+}
+
 // Why a device is inert.
-const POWER: &str = "power supply and battery are not watched";
-const HARDWARE: &str = "there is no hardware here that could fail so";
-const CHECKED: &str = "errors of this kind are found before the program runs";
-const HOST: &str = "the host decides when scans begin and whether the PLC is in RUN";
-const FAST: &str = "this use of high-speed inputs is not implemented yet";
-const UNCLEAR: &str = "the manual calls it a position in Hz, and that of Y0 reserved; positions are counted in D8140 and its like";
-const LATER: &str = "the model does not do this yet, says its manual";
-const SERIAL: &str = "serial communication is not implemented yet";
-const CAN: &str = "CAN communication is not implemented yet";
-const LINK: &str = "links between PLCs are not implemented yet";
-const TRACE: &str = "sampling traces are a matter of the editor";
-const INTERRUPTS: &str = "interrupts of this kind are not implemented yet";
-const NETWORK: &str = "network cards are not implemented";
-const RAW: &str = "analog channels show the raw values of the host, each scan";
-const LATCHES: &str = "the latched ranges are the manual's and do not change";
-const MODULES: &str = "which modules are there is the host's affair";
-const MODES: &str = "an output does what the program uses it for, whatever its mode";
-const MAKER: &str = "it serves the maker's tools only";
+const POWER: Reason = because(Missed::Never, "power supply and battery are not watched");
+const HARDWARE: Reason = because(
+    Missed::Never,
+    "there is no hardware here that could fail so",
+);
+const CHECKED: Reason = because(
+    Missed::Never,
+    "errors of this kind are found before the program runs",
+);
+const HOST: Reason = because(
+    Missed::ByWriters,
+    "the host decides when scans begin and whether the PLC is in RUN",
+);
+const FAST: Reason = because(
+    Missed::ByWriters,
+    "this use of high-speed inputs is not implemented yet",
+);
+const UNCLEAR: Reason = because(
+    Missed::ByWriters,
+    "the manual calls it a position in Hz, and that of Y0 reserved; positions are counted in D8140 and its like",
+);
+const LATER: Reason = because(
+    Missed::ByWriters,
+    "the model does not do this yet, says its manual",
+);
+const SERIAL: Reason = because(Missed::ByAll, "serial communication is not implemented yet");
+const PORTS: Reason = because(Missed::Never, SERIAL.text);
+const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
+const LINK: Reason = because(Missed::ByAll, "links between PLCs are not implemented yet");
+const TRACE: Reason = because(Missed::Never, "sampling traces are a matter of the editor");
+const INTERRUPTS: Reason = because(
+    Missed::Never,
+    "interrupts of this kind are not implemented yet",
+);
+const NETWORK: Reason = because(Missed::ByAll, "network cards are not implemented");
+const RAW: Reason = because(
+    Missed::ByWriters,
+    "analog channels show the raw values of the host, each scan",
+);
+const LATCHES: Reason = because(
+    Missed::ByWriters,
+    "the latched ranges are the manual's and do not change",
+);
+const MODULES: Reason = because(
+    Missed::Never,
+    "which modules are there is the host's affair",
+);
+const MODES: Reason = because(
+    Missed::Never,
+    "an output does what the program uses it for, whatever its mode",
+);
+const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
 /// Writes a table of special devices, a row a line:
 /// `class first[-last] access default status "meaning";` with the access `r` or `rw` and the status `scan`, `by("…")` or

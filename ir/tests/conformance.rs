@@ -2,10 +2,12 @@
 //! case names; no other program has an error.
 
 use rungc_frontend::read_text;
+use rungc_ir::catalogue::{self, Lower};
 use rungc_ir::check::check;
+use rungc_ir::compile::{self, CompileOptions};
 use rungc_ir::model::{Model, ModelId};
 use rungc_ir::resolve::resolve;
-use rungc_syntax::{Diagnostic, Severity};
+use rungc_syntax::{Diagnostic, Severity, codes};
 use std::path::{Path, PathBuf};
 
 /// A program of a case and what is expected of it.
@@ -84,6 +86,8 @@ fn errors(case: &Case) -> Vec<(u32, Diagnostic)> {
         .sorted()
         .into_iter()
         .filter(|diagnostic| diagnostic.severity == Severity::Error)
+        // That the compiler lacks something is no verdict on the program.
+        .filter(|diagnostic| diagnostic.code != codes::NOT_IMPLEMENTED.id)
         .map(|diagnostic| {
             (
                 read.program.source.line_col(diagnostic.span.start).0,
@@ -129,4 +133,58 @@ fn programs_are_rejected_where_the_cases_say_so() {
         cases.len(),
         wrong.join("\n")
     );
+}
+
+/// Checking and compiling refuse the same programs, with the same words.
+#[test]
+fn checking_refuses_what_compiling_refuses() {
+    let refusals = |compiled: compile::Compiled| -> Vec<String> {
+        let errors = compiled.diagnostics.iter();
+        errors
+            .filter(|diagnostic| diagnostic.severity == Severity::Error)
+            .map(|diagnostic| format!("{} {}", diagnostic.code, diagnostic.message))
+            .collect()
+    };
+    let mut refused = 0;
+    for case in cases() {
+        let program = read_text("case", &case.program).program;
+        let options = CompileOptions {
+            model: Some(case.model),
+            ..CompileOptions::default()
+        };
+        let checked = compile::check(&program, &options);
+        let compiled = compile::compile(&program, &options);
+        assert_eq!(
+            checked.diagnostics.has_errors(),
+            compiled.module.is_none(),
+            "{}",
+            case.name
+        );
+        refused += u32::from(compiled.module.is_none());
+        assert_eq!(refusals(checked), refusals(compiled), "{}", case.name);
+    }
+    assert!(refused >= 400, "only {refused} programs are refused");
+}
+
+/// An instruction without implementation is an error of checking, whatever else is wrong with the program.
+#[test]
+fn instructions_without_implementation_are_errors() {
+    let mut count = 0;
+    for id in ModelId::ALL {
+        let model = Model::get(id);
+        let missing = catalogue::all().filter(|inst| {
+            let todo = matches!(inst.lower_on_model(id), Lower::Todo(_));
+            inst.models.has(id) && todo
+        });
+        for inst in missing {
+            let example = inst.example_on(model);
+            let read = read_text("case", &format!("OR X0\n{example}"));
+            let (resolved, _) = resolve(&read.program, model);
+            let found = check(&resolved);
+            let told = found.iter().any(|d| d.code == codes::NOT_IMPLEMENTED.id);
+            assert!(told, "{} on {}:\n{example}", inst.name, model.name);
+            count += 1;
+        }
+    }
+    assert!(count > 0, "everything is implemented: this test can go");
 }

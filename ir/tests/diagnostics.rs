@@ -328,3 +328,29 @@ fn an_index_register_may_reach_any_relay() {
     let text = "LD X0\nMOV K1M0Z0 D0\nOUT M5\nEND\n";
     insta::assert_snapshot!(shown(ModelId::Fx3u, text));
 }
+
+#[test]
+fn inert_devices() {
+    let text = "\
+LD M8002
+MOV H4089 D8120
+MOV K200 D8000
+SET M8039
+MOV K50 D8039
+LD M8005
+OR M8063
+OUT Y0
+RST M8162
+LD M8183
+OR M8184
+OR M8191
+OUT Y1
+LD M8000
+MOV K1 D8176
+MOV K0 D8177
+ZRST D8179 D8180
+RST M8028
+END
+";
+    insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}

@@ -7,6 +7,7 @@
 //! | E03xx | operand counts |
 //! | E04xx | contact logic, structure and flow |
 //! | W02xx | legal, but it hurts in practice |
+//! | W03xx | what compiled programs do otherwise than the PLC |
 //! | W05xx | what the source says of itself does not fit |
 //! | N00xx | worth knowing: how the source was read |
 //!

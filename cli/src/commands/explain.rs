@@ -78,7 +78,7 @@ fn describe(special: &special::Special) -> String {
     let status = match special.status {
         special::Status::Scan => "kept by the scan".to_string(),
         special::Status::Instructions(names) => format!("used by {names}"),
-        special::Status::Inert(reason) => format!("inert here: {reason}"),
+        special::Status::Inert(reason) => format!("inert here: {}", reason.text),
     };
     let default = if special.default == 0 {
         String::new()

@@ -68,7 +68,7 @@ fn special_cells(row: &special::Special) -> String {
     let status = match row.status {
         Status::Scan => "works".to_owned(),
         Status::Instructions(names) => format!("works with {names}"),
-        Status::Inert(reason) => format!("inert: {reason}"),
+        Status::Inert(reason) => format!("inert: {}", reason.text),
     };
     let (default, meaning) = (row.default, row.meaning);
     format!("{access} | {default} | {meaning} | {status} |")

@@ -8,12 +8,14 @@ mod blocks;
 mod coils;
 mod fast_inputs;
 mod fast_units;
+mod inert;
 mod labels;
 mod once;
 mod pairs;
 mod pointers;
 mod structure;
 mod timers;
+pub(crate) mod unimplemented;
 mod unreachable;
 mod unused;
 mod writes;
@@ -37,19 +39,23 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     labels::check(&code, &pointers, &places, &mut out);
     fast_inputs::check(&code, &pointers, &mut out);
     once::check(&code, &mut out);
+    unimplemented::check(&code, &mut out);
     unreachable::check(&code, &places, &mut out);
     coils::check(&code, &pointers, &places, &mut out);
     timers::check(&code, &places, &mut out);
     let (mut unused, mut pairs) = (unused::Unused::new(&code), pairs::Pairs::default());
+    let mut inert = inert::Inert::default();
     for i in 0..code.len {
         for access in accesses::of(&code, i) {
             unused.note(i, &access);
             pairs.note(&access);
+            inert.note(&code, i, &access);
             writes::check(&code, i, &access, &mut out);
         }
     }
     unused.report(&mut out);
     pairs.report(&mut out);
+    inert.report(&mut out);
     numbered(out, resolved.model)
 }
 

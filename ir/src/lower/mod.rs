@@ -28,7 +28,8 @@ mod special;
 mod stl;
 mod system;
 
-use crate::catalogue::{Basic, Drive, Inst, Join, Lower};
+use crate::catalogue::{Basic, Drive, Join, Lower};
+use crate::check::unimplemented::refusal;
 use crate::layout;
 use crate::model::Model;
 use crate::node::{CellId, Function, FunctionKind, Module, Network, Stmt};
@@ -36,7 +37,7 @@ use crate::resolve::{Resolution, Resolved};
 use flow::{Flow, Open};
 use parts::Item;
 use rungc_rt::TimerKind;
-use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
 use special::Specials;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -256,7 +257,7 @@ impl<'a> Lowerer<'a> {
             Lower::Exclusive(function) => self.exclusive_call(inst, function),
             Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
             Lower::Density => self.density(),
-            Lower::Todo(what) => self.not_implemented(inst, what),
+            Lower::Todo(what) => self.report(refusal(inst, what, instr.mnemonic_span)),
             _ => self.driven(|this| this.inline(lower)),
         }
         if inst.drive == Drive::Alone {
@@ -337,16 +338,6 @@ impl<'a> Lowerer<'a> {
                 self.drive();
             }
         }
-    }
-
-    fn not_implemented(&mut self, inst: &Inst, what: &str) {
-        let span = self.instr().mnemonic_span;
-        let name = inst.name;
-        self.report(
-            codes::NOT_IMPLEMENTED
-                .at(span, format!("`{name}` is not implemented yet: {what}"))
-                .label("compiling stops here"),
-        );
     }
 }
 

@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use super::{
-    CAN, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, POWER, SERIAL, Special, TRACE, UNCLEAR,
-    specials,
+    CAN, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, PORTS, POWER, SERIAL, Special, TRACE,
+    UNCLEAR, specials,
 };
 
 /// What both have.
@@ -58,8 +58,8 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8059 rw 0 scan "on: high-speed counter interrupts I010-I060 disabled";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error; error lamp off, PLC keeps running; detail D8060";
     M 8061 r 0 scan "PLC error, here of the watchdog; lamp flashes, PLC stops; code D8061";
-    M 8062 r 0 inert(SERIAL) "PLC/programming-device communication error; lamp off, keeps running; code D8062";
-    M 8063 r 0 inert(SERIAL) "link / general communication error; lamp off, keeps running; code D8063";
+    M 8062 r 0 inert(PORTS) "PLC/programming-device communication error; lamp off, keeps running; code D8062";
+    M 8063 r 0 inert(PORTS) "link / general communication error; lamp off, keeps running; code D8063";
     M 8064 r 0 inert(CHECKED) "parameter error; lamp flashes, PLC stops; code D8064";
     M 8065 r 0 inert(CHECKED) "syntax error; lamp flashes, PLC stops; code D8065";
     M 8066 r 0 inert(CHECKED) "circuit error; lamp flashes, PLC stops; code D8066";
@@ -231,8 +231,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8055 rw 1 by("DRVI, DRVA") "high word of D8054";
     D 8060 r 0 inert(HARDWARE) "I/O configuration error: number of the missing I/O (1xxx = X, 0xxx = Y)";
     D 8061 r 0 scan "code of the PLC error: 6105 of the watchdog";
-    D 8062 r 0 inert(SERIAL) "PLC communication error code";
-    D 8063 r 0 inert(SERIAL) "link/communication error code";
+    D 8062 r 0 inert(PORTS) "PLC communication error code";
+    D 8063 r 0 inert(PORTS) "link/communication error code";
     D 8064 r 0 inert(CHECKED) "parameter error code";
     D 8065 r 0 inert(CHECKED) "syntax error code";
     D 8066 r 0 inert(CHECKED) "circuit error code";

@@ -1,8 +1,8 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use super::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, RAW, SERIAL, Special,
-    TRACE, specials,
+    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, PORTS, RAW, SERIAL,
+    Special, TRACE, specials,
 };
 
 /// Its special devices.
@@ -37,7 +37,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8059 rw 0 scan "on: all high-speed-counter interrupts disabled (I010-I060)";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error";
     M 8061 r 0 scan "PLC error, here of the watchdog";
-    M 8062-8063 r 0 inert(SERIAL) "serial communication error 0–1";
+    M 8062-8063 r 0 inert(PORTS) "serial communication error 0–1";
     M 8064 r 0 inert(CHECKED) "parameter error";
     M 8065 r 0 inert(CHECKED) "syntax error";
     M 8066 r 0 inert(CHECKED) "circuit (ladder) error";

@@ -1,7 +1,7 @@
 //! Special devices of FX2N, FX3G and FX3U, from public knowledge of their programming manuals.
 
 use super::{
-    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, POWER, SERIAL, Special, TRACE, specials,
+    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, PORTS, POWER, SERIAL, Special, TRACE, specials,
 };
 
 /// What all three have.
@@ -57,7 +57,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8059 rw 0 scan "forbids the interrupts of counters";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error, code in D8060";
     M 8061 r 0 scan "hardware error, here of the watchdog, code in D8061";
-    M 8062-8063 r 0 inert(SERIAL) "communication error, code in D8062 and D8063";
+    M 8062-8063 r 0 inert(PORTS) "communication error, code in D8062 and D8063";
     M 8064 r 0 inert(CHECKED) "parameter error, code in D8064";
     M 8065 r 0 inert(CHECKED) "syntax error, code in D8065";
     M 8066 r 0 inert(CHECKED) "circuit error, code in D8066";
@@ -108,7 +108,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8049 r 0 scan "the lowest annunciator that is on (with M8049)";
     D 8060 r 0 inert(HARDWARE) "number of the missing input or output";
     D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
-    D 8062-8063 r 0 inert(SERIAL) "code of the communication error";
+    D 8062-8063 r 0 inert(PORTS) "code of the communication error";
     D 8064 r 0 inert(CHECKED) "code of the parameter error";
     D 8065 r 0 inert(CHECKED) "code of the syntax error";
     D 8066 r 0 inert(CHECKED) "code of the circuit error";

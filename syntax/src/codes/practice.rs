@@ -98,6 +98,12 @@ super::codes! {
     wrong: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nOUT C240 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n",
     right: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n";
 
+    INERT_DEVICE = "W0301" "inert-device" Warning None,
+    "special device that does nothing in a compiled program",
+    "On the PLC this special relay or register sets something up or reports it: a serial port, a link between PLCs, a constant scan time. Compiled programs do not have what it belongs to, so it is an ordinary relay or register there: a program that sets up a Modbus slave with it answers no master. The help page of each model (`docs/special-devices`) and `rungc explain D8120` say which devices work. Devices that only report faults which cannot happen here (a low battery, a failed supply) are not meant.",
+    wrong: "LD M8002\nMOV H4089 D8120\nEND\n",
+    right: "LD M8002\nMOV K500 D8000\nEND\n";
+
     STEPS_DIFFER = "W0501" "steps-differ" Warning None,
     "step number that does not fit the instructions before it",
     "The source numbers its steps, and the number differs from what the instructions before it take on this model: the model may be another one, or a row is missing.",
