@@ -1,5 +1,7 @@
 //! Text in C source: comments and wrapped lines.
 
+use rungc_syntax::text::acts;
+
 /// Longest line.
 pub const WIDTH: usize = 120;
 /// Where comments beside statements begin.
@@ -10,16 +12,7 @@ pub fn comment(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     let mut last = ' ';
     for c in text.chars() {
-        let c = match c {
-            c if c.is_control() => ' ',
-            '\u{200e}'
-            | '\u{200f}'
-            | '\u{202a}'..='\u{202e}'
-            | '\u{2066}'..='\u{2069}'
-            | '\u{2028}'
-            | '\u{2029}' => ' ',
-            c => c,
-        };
+        let c = if acts(c) { ' ' } else { c };
         match (last, c) {
             (' ', ' ') => continue,
             ('*', '/') | ('/', '*') | ('?', '?') => safe.push(' '),

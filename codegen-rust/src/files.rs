@@ -1,10 +1,12 @@
 //! Puts the items of a program together to files: a crate for one program, or one for many.
 
+use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
 use crate::{Options, OutFile, Runtime};
 use rungc_ir::Module;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::text::one_line;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -36,9 +38,13 @@ fn runtime() -> Vec<OutFile> {
 }
 
 fn manifest(name: &str, description: &str, runtime_path: &str, profile: &str) -> String {
+    // A string of TOML, whose escapes are not those of Rust.
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let (name, description) = (quoted(name), quoted(&one_line(description)));
+    let runtime_path = quoted(runtime_path);
     format!(
-        "[package]\nname = {name:?}\ndescription = {description:?}\nversion = \"0.1.0\"\nedition = \"2024\"\npublish = false\n\n\
-         [dependencies]\nrungc-rt = {{ path = {runtime_path:?} }}\n\n\
+        "[package]\nname = {name}\ndescription = {description}\nversion = \"0.1.0\"\nedition = \"2024\"\npublish = false\n\n\
+         [dependencies]\nrungc-rt = {{ path = {runtime_path} }}\n\n\
          # A workspace of its own. Delete this line to make the crate a member of yours.\n[workspace]\n{profile}"
     )
 }
@@ -76,10 +82,13 @@ pub fn names(module: &Module) -> (String, String) {
     (crate_name(&module.name), generator.type_name.to_string())
 }
 
-/// A module's name, or one like it if cargo does not take that or a crate it needs has it.
+/// A module's name in snake case, or one like it if cargo does not take that or a crate it needs has it.
 fn crate_name(name: &str) -> String {
+    // rustc warns of a crate whose name has two underscores in a row.
+    let words: Vec<&str> = name.split('_').filter(|word| !word.is_empty()).collect();
+    let name = words.join("_");
     let is_taken = matches!(
-        name,
+        name.as_str(),
         "" | "rungc_rt"
             | "libm"
             | "core"
@@ -95,11 +104,11 @@ fn crate_name(name: &str) -> String {
             | "crate"
             | "_"
     );
-    let is_keyword = syn::parse_str::<syn::Ident>(name).is_err();
+    let is_keyword = syn::parse_str::<syn::Ident>(&name).is_err();
     if is_taken || is_keyword || name.starts_with(|c: char| c.is_ascii_digit()) {
         format!("plc_{name}")
     } else {
-        name.to_string()
+        name
     }
 }
 
@@ -234,7 +243,7 @@ fn library(generator: &mut Generator, functions: &[Item]) -> String {
          //! \"latched\" keep their values over power-off on the PLC; a host that wants that stores these fields.\n\
          {events}#![no_std]\n#![forbid(unsafe_code)]\n",
         version = env!("CARGO_PKG_VERSION"),
-        source = one_line(&module.source_name),
+        source = documented(&module.source_name),
         title = module.model.title,
         steps = module.steps,
         events = if !module.takes_events() {
@@ -254,10 +263,6 @@ fn library(generator: &mut Generator, functions: &[Item]) -> String {
         out.push_str(&item.text);
     }
     out
-}
-
-fn one_line(text: &str) -> String {
-    text.replace(char::is_control, " ")
 }
 
 fn devices(generator: &mut Generator) -> String {

@@ -5,9 +5,22 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use rungc_syntax::text::one_line;
 
 /// Columns that a comment line fills before it is wrapped.
 const WIDTH: usize = 100;
+
+/// A user's text within documentation: on one line, and shown by rustdoc as it is instead of read as links, code or HTML.
+pub fn documented(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in one_line(text).chars() {
+        if matches!(c, '[' | ']' | '<' | '>' | '`' | '\\') {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
 
 /// Texts of the comments of one file.
 #[derive(Debug, Default)]
@@ -18,11 +31,7 @@ pub struct Comments {
 impl Comments {
     fn add(&mut self, text: &str) -> Literal {
         // A comment must stay on its line whatever the user wrote.
-        let text: String = text
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect();
-        self.texts.push(text.trim().to_string());
+        self.texts.push(one_line(text).trim().to_string());
         Literal::usize_unsuffixed(self.texts.len() - 1)
     }
 

@@ -1,6 +1,7 @@
 //! The struct that holds the devices, and what it implements: access by number, and the scan.
 
 use crate::events::Hidden;
+use crate::format::documented;
 use crate::generate::{Generator, Item, function_name};
 use crate::storage::{Elem, Field};
 use crate::{expr::literal32, format};
@@ -85,7 +86,7 @@ impl Generator<'_> {
             let named = (area.first..=field.last())
                 .filter(|&n| field.holds(n))
                 .filter_map(|n| Some((n, self.device_comment(area.class, n)?)))
-                .map(|(n, comment)| format!("{} {comment}", area.class.number(n)));
+                .map(|(n, comment)| format!("{} {}", area.class.number(n), documented(comment)));
             let named: Vec<String> = named.collect();
             if !named.is_empty() {
                 text.push_str(": ");
@@ -94,10 +95,9 @@ impl Generator<'_> {
         } else {
             text.push_str(latched);
             if let Some(comment) = self.device_comment(area.class, area.first) {
-                text.push_str(&format!(": {comment}"));
+                text.push_str(&format!(": {}", documented(comment)));
             }
         }
-        let text = text.replace(char::is_control, " ");
         let doc = self.doc(&text);
         let (name, ty) = (&field.name, self.field_type(field));
         quote!(#doc pub #name: #ty)

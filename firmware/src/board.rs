@@ -274,6 +274,14 @@ pub fn load(path: &Path) -> Result<Board, BoardError> {
     parse(&source, folder)
 }
 
+/// Files that every image has; the user's sources are written beside them.
+const IMAGE_FILES: [&str; 2] = ["main.c", "startup.c"];
+
+/// Whether a character of a file's name means itself to `make` and to the shell.
+fn is_plain(c: char) -> bool {
+    c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '+' | '.')
+}
+
 /// Reads a description whose sources are in `folder`.
 pub fn parse(source: &Source, folder: &Path) -> Result<Board, BoardError> {
     let reader = Reader { source };
@@ -490,6 +498,20 @@ impl Reader<'_> {
             };
             if !path.is_file() {
                 return Err(self.at(source, format!("there is no file {}", path.display())));
+            }
+            if !file.chars().all(is_plain) {
+                let what = format!(
+                    "`{name}`: `make` cannot build a file of this name; use the letters A to Z, digits, `_`, `-`, `+` and `.`"
+                );
+                return Err(self.at(source, what));
+            }
+            if IMAGE_FILES.contains(&file) {
+                let what = format!("`{name}`: the image has a file `{file}` of its own");
+                return Err(self.at(source, what));
+            }
+            if known.iter().any(|(other, _)| other == file) {
+                let what = format!("`{name}`: there is another source `{file}`");
+                return Err(self.at(source, what));
             }
             known.push((file.to_string(), path));
         }

@@ -7,6 +7,7 @@ use crate::board::Board;
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::text::one_line;
 use std::fmt::Write;
 
 pub use c::project as c_project;
@@ -63,7 +64,9 @@ impl Image<'_> {
         let comment = |number: u32| {
             let mut comments = module.comments.iter();
             let found = comments.find(|(class, n, _)| (*class, *n) == (DeviceClass::Y, number));
-            found.map_or(String::new(), |(_, _, text)| format!("  {text}"))
+            found.map_or(String::new(), |(_, _, text)| {
+                format!("  {}", one_line(text))
+            })
         };
         numbers
             .map(|n| (n, DeviceClass::Y.number(n).to_string(), comment(n)))
@@ -98,7 +101,10 @@ fn linker_script(board: &Board) -> String {
     text
 }
 
-/// A text that may stand in a comment.
+/// A text that may stand in a comment of C, Rust, `make` or a linker script.
 fn comment(text: &str) -> String {
-    text.replace(char::is_control, " ").replace("*/", "* /")
+    one_line(text)
+        .replace("*/", "* /")
+        .replace("/*", "/ *")
+        .replace("??", "? ?")
 }

@@ -1,6 +1,6 @@
 //! Descriptions of boards: what they may say, and what is wrong with others.
 
-use rungc_firmware::board::{Board, OutputPin, parse};
+use rungc_firmware::board::{Board, OutputPin, load, parse};
 use rungc_syntax::Source;
 use std::path::Path;
 
@@ -104,4 +104,39 @@ fn mistakes_are_named() {
             .contains("sources are files *.c and *.h")
     );
     assert!(sources("a.c").unwrap_err().contains("there is no file"));
+}
+
+/// `make` would run what stands in the name of a source.
+#[test]
+fn names_of_sources_mean_nothing_to_make() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = [
+        "$(shell touch PWNED).c",
+        "a b.c",
+        "a;b.c",
+        "größe.c",
+        "main.c",
+        "panel.c",
+        "panel.h",
+    ];
+    for file in files {
+        std::fs::write(folder.path().join(file), "").unwrap();
+    }
+    std::fs::create_dir(folder.path().join("more")).unwrap();
+    std::fs::write(folder.path().join("more/panel.c"), "").unwrap();
+    let sources = |names: &[&str]| {
+        let path = folder.path().join("board.toml");
+        let text = DESK.replacen("\n[memory]", &format!("sources = {names:?}\n[memory]"), 1);
+        std::fs::write(&path, text).unwrap();
+        load(&path).map_err(|error| error.to_string())
+    };
+    for file in &files[..4] {
+        let error = sources(&[file]).unwrap_err();
+        assert!(error.contains("`make` cannot build"), "{file}: {error}");
+    }
+    let error = sources(&["main.c"]).unwrap_err();
+    assert!(error.contains("of its own"), "{error}");
+    let error = sources(&["panel.c", "more/panel.c"]).unwrap_err();
+    assert!(error.contains("another source `panel.c`"), "{error}");
+    assert!(sources(&["panel.c", "panel.h"]).is_ok());
 }

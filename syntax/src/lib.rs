@@ -8,6 +8,7 @@ mod device;
 pub mod diag;
 mod program;
 mod source;
+pub mod text;
 
 pub use device::{DeviceClass, Number};
 pub use diag::{Diagnostic, Diagnostics, Label, Severity};

@@ -219,6 +219,7 @@ pub fn cargo(folder: &Path, arguments: &[&str]) -> PathBuf {
         .current_dir(folder)
         .env("CARGO_TARGET_DIR", &target)
         .env("RUSTFLAGS", "-D warnings")
+        .env("RUSTDOCFLAGS", "-D warnings")
         .output()
         .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);

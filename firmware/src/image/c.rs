@@ -352,7 +352,6 @@ fn literal(text: &str) -> String {
                 out.push(c);
             }
             '?' => out.push_str("\\?"),
-            c if c.is_control() => out.push(' '),
             c => out.push(c),
         }
     }
@@ -419,10 +418,7 @@ fn makefile(image: &Image, runtime: bool) -> String {
         false => String::new(),
     };
     include_str!("../../templates/Makefile")
-        .replace(
-            "/* BOARD */",
-            &image.board.name.replace(char::is_control, " "),
-        )
+        .replace("/* BOARD */", &comment(&image.board.name))
         .replace("/* CC */", target.cc)
         .replace("/* AR */", target.ar)
         .replace("/* TRIPLE */", target.triple)

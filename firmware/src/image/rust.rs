@@ -300,7 +300,6 @@ fn console(image: &Image) -> String {
     let rows = image.printed();
     let mut table = String::new();
     for (number, name, text) in &rows {
-        let text: String = text.chars().filter(|c| *c != '\0').collect();
         let _ = writeln!(table, "    ({number}, c{name:?}, c{text:?}),");
     }
     let outputs = OUTPUTS
