@@ -1,4 +1,5 @@
 //! Calling the command line and looking at what it does.
+#![allow(dead_code, reason = "not every test needs all of it")]
 
 use std::fs;
 use std::path::Path;
