@@ -1,8 +1,8 @@
 //! The program's struct: which field holds a device.
 
 use crate::text;
-use rungc_ir::Module;
 use rungc_ir::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
+use rungc_ir::{Model, Module};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -223,6 +223,7 @@ impl Run {
 
 /// All fields of a program's struct.
 pub struct Fields<'m> {
+    model: &'static Model,
     /// By class and number.
     fields: Vec<Field>,
     /// Where each class begins in `fields`.
@@ -312,6 +313,7 @@ impl<'m> Fields<'m> {
         }
         let by_number = of_class.map(|(from, to)| fields_by_number(&fields[from..to]));
         Fields {
+            model: module.model,
             fields,
             of_class,
             by_number,
@@ -347,8 +349,9 @@ impl<'m> Fields<'m> {
         fields
     }
 
-    /// The field that holds a device.
+    /// The field that holds a device, under whichever name.
     pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
+        let (class, number) = self.model.canonical(class, number);
         let i = *self.by_number[class as usize].get(number as usize)?;
         let field = self.of_class(class).get(i as usize);
         field.filter(|field| field.holds(number))
@@ -377,6 +380,7 @@ impl<'m> Fields<'m> {
         let Some(field) = self.find(class, number) else {
             return false;
         };
+        let (_, number) = self.model.canonical(class, number);
         out.push_str("plc->");
         field.name(out);
         if field.columns > 1 {

@@ -291,7 +291,6 @@ impl Printer<'_> {
         }
         let aliases = self.module.model.index_aliases.iter();
         aliases
-            .filter(|(number, ..)| self.fields.find(DeviceClass::D, *number).is_none())
             .filter_map(|&(number, class, index)| {
                 let mut name = String::new();
                 let stored = self.fields.access(&mut name, class, index);

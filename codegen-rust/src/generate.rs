@@ -131,7 +131,7 @@ impl<'m> Generator<'m> {
     pub fn new(module: &'m Module, with_comments: bool) -> Self {
         Generator {
             module,
-            storage: Storage::new(&module.layout),
+            storage: Storage::new(module),
             type_name: type_name(&module.name),
             calls: Calls::of(module),
             jumps_back: analysis::jumps_back(module),

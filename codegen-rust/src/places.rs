@@ -16,7 +16,7 @@ impl Places {
     /// Those of a program.
     pub fn new(module: &Module) -> Self {
         Places {
-            storage: Storage::new(&module.layout),
+            storage: Storage::new(module),
             type_name: type_name(&module.name).to_string(),
         }
     }

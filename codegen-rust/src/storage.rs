@@ -2,8 +2,9 @@
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use rungc_ir::layout::{Area, Grid, Layout};
+use rungc_ir::layout::{Area, Grid};
 use rungc_ir::runs::FIRST_COUNTER32;
+use rungc_ir::{Model, Module};
 use rungc_syntax::DeviceClass;
 
 /// What a field holds per device.
@@ -132,15 +133,17 @@ fn joined(areas: Vec<Area>) -> Vec<Area> {
 }
 
 /// All fields, sorted by class and number.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Storage {
+    model: &'static Model,
     /// The fields.
     pub fields: Vec<Field>,
 }
 
 impl Storage {
-    /// The fields for a layout.
-    pub fn new(layout: &Layout) -> Self {
+    /// The fields for a program's layout.
+    pub fn new(module: &Module) -> Self {
+        let layout = &module.layout;
         let mut fields = Vec::new();
         for area in &layout.areas {
             if let Some(grid) = layout.grid(area.class, area.first) {
@@ -182,11 +185,15 @@ impl Storage {
                 })
             }));
         }
-        Storage { fields }
+        Storage {
+            model: module.model,
+            fields,
+        }
     }
 
-    /// The field that holds a device.
+    /// The field that holds a device, under whichever name.
     pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
+        let (class, number) = self.model.canonical(class, number);
         let after = self
             .fields
             .partition_point(|f| (f.area.class, f.area.first) <= (class, number));
@@ -197,6 +204,7 @@ impl Storage {
     /// The place of a device behind `plc`: `plc.x0`, `plc.d[7]`.
     pub fn cell(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
         let field = self.find(class, number)?;
+        let (_, number) = self.model.canonical(class, number);
         let name = &field.name;
         if let Some(grid) = field.columns() {
             let (column, row) = grid.place(number);

@@ -4,7 +4,6 @@
 //! runtime function as a run become arrays. Special devices that the program never looks at are not stored.
 
 use crate::lower::LowerOptions;
-use crate::model::Model;
 use crate::node::{Arg, Body, Expr, Module, Place, Stmt};
 use crate::runs::{is_counter32, is_special, words_of_bits};
 use rungc_rt::RtFn;
@@ -124,8 +123,7 @@ pub(crate) fn build(
         builder.expr(expr);
     }
     for &(class, number) in options.observe.iter().chain(flags) {
-        let place = canonical(module.model, class, number);
-        builder.mark(place.0, place.1, 1, false);
+        builder.mark(class, number, 1, false);
     }
     if let Some(class) = whole {
         builder.mark_run(class, 0, false);
@@ -136,15 +134,6 @@ pub(crate) fn build(
         }
     }
     module.layout = builder.finish();
-}
-
-/// A device's own name, where it is a special register that is an index register.
-fn canonical(model: &Model, class: DeviceClass, number: u32) -> (DeviceClass, u32) {
-    model
-        .index_aliases
-        .iter()
-        .find(|alias| class == DeviceClass::D && alias.0 == number)
-        .map_or((class, number), |alias| (alias.1, alias.2))
 }
 
 struct Builder<'m> {
@@ -172,7 +161,8 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// `count` devices from `number` on are stored, in an array if they are accessed as a run.
+    /// `count` devices from `number` on are stored, in an array if they are accessed as a run. Registers that are other names of
+    /// index registers are stored as these, by themselves.
     fn mark(&mut self, class: DeviceClass, number: u32, count: u32, array: bool) {
         let marks = &mut self.marks[class as usize];
         let end = (number as usize)
@@ -180,6 +170,15 @@ impl<'m> Builder<'m> {
             .min(marks.len());
         for mark in marks.iter_mut().take(end).skip(number as usize) {
             *mark |= STORED | if array { IN_ARRAY } else { 0 };
+        }
+        if class != DeviceClass::D {
+            return;
+        }
+        for &(alias, class, index) in self.module.model.index_aliases {
+            if (number as usize..end).contains(&(alias as usize)) {
+                self.marks[DeviceClass::D as usize][alias as usize] = 0;
+                self.marks[class as usize][index as usize] |= STORED;
+            }
         }
     }
 

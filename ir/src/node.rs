@@ -85,7 +85,8 @@ pub struct Table {
     pub length: u32,
 }
 
-/// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression).
+/// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression). A special register that is another name of
+/// an index register is that register, however a place or a run leads to it ([`Model::canonical`]).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub struct Place {
     /// Class.

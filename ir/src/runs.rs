@@ -30,6 +30,23 @@ pub(crate) fn words_of_bits(bit: u8, count: u32) -> u32 {
 }
 
 impl Model {
+    /// The device that a name stands for: some special registers are other names of index registers (D8028 is Z0), however they are
+    /// reached.
+    pub fn canonical(&self, class: DeviceClass, number: u32) -> (DeviceClass, u32) {
+        if class != DeviceClass::D || number < FIRST_SPECIAL {
+            return (class, number);
+        }
+        let mut aliases = self.index_aliases.iter();
+        let alias = aliases.find(|alias| alias.0 == number);
+        alias.map_or((class, number), |&(_, class, number)| (class, number))
+    }
+
+    /// Whether one of the registers `first` to `last` of a class is another name of an index register.
+    pub fn has_alias(&self, class: DeviceClass, first: u32, last: u32) -> bool {
+        let mut aliases = self.index_aliases.iter();
+        class == DeviceClass::D && aliases.any(|alias| (first..=last).contains(&alias.0))
+    }
+
     /// The runs of a class as (first, last), in order: its ranges, general and latched neighbours joined.
     pub fn runs(&self, class: DeviceClass) -> Vec<(u32, u32)> {
         let mut runs: Vec<(u32, u32)> = Vec::new();

@@ -18,6 +18,12 @@ pub fn validate(module: &Module) -> Result<(), String> {
     for (i, expr) in module.exprs.iter().enumerate() {
         check_expr(module, i, expr)?;
     }
+    if let Some(area) = module.layout.areas.iter().find(|area| {
+        let last = area.first + area.count - 1;
+        module.model.has_alias(area.class, area.first, last)
+    }) {
+        return Err(format!("{area:?} holds other names of index registers"));
+    }
     no_recursion(module)?;
     for function in &module.functions {
         let mut checker = Checker {
@@ -281,8 +287,9 @@ impl Checker<'_> {
         }
         (place.number..place.number + count)
             .find(|&number| {
-                self.module.model.has(place.class, number)
-                    && self.module.layout.area(place.class, number).is_none()
+                let (class, stored) = self.module.model.canonical(place.class, number);
+                self.module.model.has(class, stored)
+                    && self.module.layout.area(class, stored).is_none()
             })
             .map(|number| format!("{} is not stored", place.class.number(number)))
     }

@@ -242,12 +242,14 @@ impl Lowerer<'_> {
         Arg::Const { value, index, wide }
     }
 
-    /// The runtime checks the range.
+    /// The runtime checks the range, and finds registers by any name.
     fn arg_place(&mut self, device: Device, index: Option<Index>, wide: bool) -> Place {
         let index = index.map(|index| self.index(index, wide));
+        let Device { class, number } = device;
         Place {
+            class,
+            number,
             index,
-            ..self.canonical(device)
         }
     }
 }

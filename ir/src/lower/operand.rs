@@ -34,8 +34,6 @@ pub(super) enum Target {
     Word(Place),
     /// A pair or a 32-bit counter.
     Pair(Place),
-    /// Two words that are no pair of one class, low word first.
-    Halves(Place, Place),
     /// A group of bits.
     Nibbles(Place, u8),
     /// What only the runtime writes; 32 bits of it.
@@ -137,7 +135,7 @@ impl Lowerer<'_> {
         let index = index.map(|index| self.index(index, wide));
         let place = Place {
             index,
-            ..self.canonical(device)
+            ..self.named(device, index.is_none() && count == 1)
         };
         if index.is_some() {
             guards.demand(self.add(Expr::InRange { place, count }));
@@ -155,17 +153,14 @@ impl Lowerer<'_> {
             .any(|&(first, last)| first <= number && end <= u64::from(last))
     }
 
-    /// The device's own name, where it is a special register that is an index register.
-    pub(super) fn canonical(&self, device: Device) -> Place {
-        match self
-            .model
-            .index_aliases
-            .iter()
-            .find(|alias| device.class == DeviceClass::D && alias.0 == device.number)
-        {
-            Some(&(_, class, number)) => fixed(class, number),
-            None => fixed(device.class, device.number),
-        }
+    /// The place of a device, without its index. If only this one is accessed, a register that is another name of an index register has
+    /// that one's.
+    fn named(&self, device: Device, alone: bool) -> Place {
+        let (class, number) = match alone {
+            true => self.model.canonical(device.class, device.number),
+            false => (device.class, device.number),
+        };
+        fixed(class, number)
     }
 
     /// State of a bit operand.
@@ -321,25 +316,9 @@ impl Lowerer<'_> {
                 let value = self.add(Expr::ReadPair(place));
                 self.add(Expr::Narrow(value))
             }
-            Target::Halves(low, high) => {
-                let low = self.add(Expr::ReadWord(low));
-                let high = self.add(Expr::ReadWord(high));
-                self.pair_of(low, high)
-            }
             Target::Word(place) => self.add(Expr::ReadWord(place)),
             Target::Nibbles(..) | Target::Sent(..) | Target::None => self.int(0, wide),
         }
-    }
-
-    /// The `I32` with these words.
-    fn pair_of(&mut self, low: ExprId, high: ExprId) -> ExprId {
-        let low = self.add(Expr::Widen(low));
-        let mask = self.add(Expr::I32(0xffff));
-        let low = self.add(Expr::Bin(BinOp::And, low, mask));
-        let high = self.add(Expr::Widen(high));
-        let shift = self.add(Expr::I32(0x1_0000));
-        let high = self.add(Expr::Bin(BinOp::Mul, high, shift));
-        self.add(Expr::Bin(BinOp::Or, high, low))
     }
 
     /// A word device as a target of 16 or 32 bits; `wide_index` tells the index's width.
@@ -351,34 +330,16 @@ impl Lowerer<'_> {
         wide_index: bool,
         guards: &mut Guards,
     ) -> Target {
-        let own = self.canonical(device);
-        let counter32 = is_counter32(own.class, own.number);
-        if counter32 {
+        if is_counter32(device.class, device.number) {
             return Target::Pair(self.place(device, index, 1, wide_index, guards));
         }
         if !wide {
             return Target::Word(self.place(device, index, 1, wide_index, guards));
         }
-        let renamed = own.class != device.class;
-        if self.model.z_pairs_with_v && index.is_none() {
-            match own.class {
-                DeviceClass::Z => {
-                    return Target::Pair(self.place(device, None, 1, wide_index, guards));
-                }
-                // The register behind D8029 (V0) is D8030, an ordinary one or another index register.
-                _ if renamed => {
-                    let next = Device {
-                        number: device.number + 1,
-                        ..device
-                    };
-                    let low = self.place(device, None, 1, wide_index, guards);
-                    let high = self.place(next, None, 1, wide_index, guards);
-                    return Target::Halves(low, high);
-                }
-                _ => {}
-            }
-        }
-        Target::Pair(self.place(device, index, 2, wide_index, guards))
+        // The high word of Z may be its V.
+        let z_with_v = device.class == DeviceClass::Z && self.model.z_pairs_with_v;
+        let count = if z_with_v && index.is_none() { 1 } else { 2 };
+        Target::Pair(self.place(device, index, count, wide_index, guards))
     }
 
     /// Element `element` of a result that begins at an operand: elements are as wide as the result, `wide_index` is the
@@ -430,13 +391,6 @@ impl Lowerer<'_> {
                 digits,
                 value,
             },
-            Target::Halves(low, high) => {
-                let value = self.settled(value);
-                let low_word = self.add(Expr::Narrow(value));
-                self.emit(Stmt::WriteWord(low, low_word));
-                let high_word = self.add(Expr::HighWord(value));
-                Stmt::WriteWord(high, high_word)
-            }
             Target::Sent(to, wide) => {
                 let step = self.step();
                 Stmt::Send {

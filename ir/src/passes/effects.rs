@@ -1,8 +1,8 @@
 //! What expressions read and statements write, and whether a read may be moved behind a write.
 
 use super::fold::Arena;
+use crate::model::Model;
 use crate::node::{Expr, ExprId, Place, Stmt};
-use crate::runs::is_special;
 use crate::walk::operands;
 use rungc_syntax::DeviceClass;
 
@@ -11,6 +11,8 @@ use rungc_syntax::DeviceClass;
 pub(super) struct Reads {
     /// Runs of devices: (class, first, last).
     devices: Vec<(DeviceClass, u32, u32)>,
+    /// Index registers by their other names.
+    index: bool,
     /// A flag, a cell or a table.
     private: bool,
 }
@@ -55,12 +57,15 @@ impl Reads {
         };
         let (first, last) = run(place, count);
         self.devices.push((place.class, first, last));
+        self.index |= arena.model.has_alias(place.class, first, last);
     }
 
     /// Whether the value may be another behind the write.
     pub(super) fn disturbed_by(&self, writes: Writes) -> bool {
         let private = self.private && writes == Writes::All;
+        let index = self.index && matches!(writes, Writes::Index | Writes::All);
         private
+            || index
             || self
                 .devices
                 .iter()
@@ -86,19 +91,15 @@ fn run(place: Place, count: u32) -> (u32, u32) {
 }
 
 /// What a statement writes, when it is executed.
-pub(super) fn writes(stmt: &Stmt) -> Writes {
+pub(super) fn writes(model: &Model, stmt: &Stmt) -> Writes {
     let place = |place: Place, count| {
         if is_index(place.class) {
             return Writes::Index;
         }
-        // An index may lead from the special registers to those that are names of index registers.
-        if place.index.is_some()
-            && place.class == DeviceClass::D
-            && is_special(place.class, place.number)
-        {
+        let (first, last) = run(place, count);
+        if model.has_alias(place.class, first, last) {
             return Writes::All;
         }
-        let (first, last) = run(place, count);
         Writes::Run(place.class, first, last)
     };
     match *stmt {

@@ -11,7 +11,7 @@ pub(super) struct Arena<'m> {
     /// How deep each tree is.
     depths: Vec<u8>,
     temps: &'m [Ty],
-    model: &'static Model,
+    pub(super) model: &'static Model,
 }
 
 /// How far [`Arena::same`] looks into two expressions.
