@@ -3,8 +3,12 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::{self, Target};
 use rungc_ir::ModelId;
+use rungc_project::Check;
 use rungc_syntax::{Severity, codes, diag};
 use std::path::PathBuf;
+
+/// How many diagnostics are printed for people if nothing else is asked for.
+const DIAGNOSTICS: usize = 100;
 
 /// Compiles programs of FX-family PLCs into native Rust and C.
 #[derive(Parser, Debug)]
@@ -32,6 +36,12 @@ pub struct Cli {
     /// When to use colours.
     #[arg(long, global = true, value_enum, default_value_t = ColorWhen::Auto, value_name = "WHEN")]
     pub color: ColorWhen,
+    /// Print diagnostics and results alone, without lines about what was done.
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Say more about what is done.
+    #[arg(short, long, global = true)]
+    pub verbose: bool,
 }
 
 /// The commands.
@@ -47,6 +57,8 @@ pub enum Command {
     Test(TestArgs),
     /// Rewrite a program as an instruction list or a list export.
     Convert(ConvertArgs),
+    /// Write a rungc.toml, the settings of a project, with a comment on each.
+    Init(InitArgs),
     /// Explain a diagnostic code, an instruction or a special device.
     Explain(ExplainArgs),
     /// Print a completion script for a shell.
@@ -60,18 +72,40 @@ pub enum Command {
 #[derive(Args, Debug)]
 pub struct Input {
     /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw); found by
-    /// content, not by name.
+    /// content, not by name. `-` is standard input. By default the program of rungc.toml.
     #[arg(value_name = "FILE")]
-    pub file: PathBuf,
-    /// PLC model; by default the CPU type that the file names, else fx3u.
+    pub file: Option<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+}
+
+/// Programs and how to read them.
+#[derive(Args, Debug)]
+pub struct Inputs {
+    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg) and GX Works2 projects (.gxw), found by
+    /// content, not by name; folders, for all programs in them and below; `-` is standard input. By default the program of
+    /// rungc.toml.
+    #[arg(value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub reading: Reading,
+}
+
+/// How to read programs, and how to report what is found.
+#[derive(Args, Debug)]
+pub struct Reading {
+    /// PLC model; by default that of rungc.toml, else the CPU type that the file names, else fx3u.
     #[arg(long, value_parser = model, value_name = "MODEL")]
     pub model: Option<ModelId>,
+    /// Settings of the project (docs/project.md); by default the rungc.toml nearest above each program.
+    #[arg(long, value_name = "FILE")]
+    pub project: Option<PathBuf>,
     #[command(flatten)]
     pub reporting: Reporting,
 }
 
 /// How to report diagnostics.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Reporting {
     /// How to print diagnostics: for people to standard error; for tools to standard output, or to standard error where the
     /// command itself writes to standard output.
@@ -83,8 +117,14 @@ pub struct Reporting {
     /// Leave out warnings and notes with this code (W0203) or name (double-coil); may be repeated.
     #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = omissible)]
     pub allow: Vec<&'static str>,
+    /// Treat warnings with this code or name as errors; may be repeated.
+    #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = warning)]
+    pub deny: Vec<&'static str>,
+    /// What rungc.toml says about codes; the command line wins over it.
+    #[arg(skip)]
+    pub rules: Check,
     /// How many diagnostics to print for people at most; 0 prints all.
-    #[arg(long, default_value_t = 100, value_name = "N")]
+    #[arg(long, default_value_t = DIAGNOSTICS, value_name = "N")]
     pub limit: usize,
 }
 
@@ -92,16 +132,23 @@ pub struct Reporting {
 #[derive(Args, Debug)]
 pub struct CheckArgs {
     #[command(flatten)]
-    pub input: Input,
+    pub inputs: Inputs,
 }
 
 /// Arguments of `build`.
 #[derive(Args, Debug)]
 pub struct BuildArgs {
     #[command(flatten)]
-    pub input: Input,
+    pub inputs: Inputs,
+    #[command(flatten)]
+    pub plan: Plan,
+}
+
+/// What to build; rungc.toml gives what the command line leaves open.
+#[derive(Args, Clone, Debug)]
+pub struct Plan {
     /// What to make.
-    #[arg(long, value_enum, required_unless_present = "report")]
+    #[arg(long, value_enum)]
     pub emit: Option<Emit>,
     /// Tell what the program takes on the target, built from C: flash, RAM, steps of the longest scan, stack (docs/report.md).
     #[arg(long)]
@@ -116,20 +163,16 @@ pub struct BuildArgs {
     #[arg(long, value_name = "FILE")]
     pub board: Option<PathBuf>,
     /// Inputs that switch themselves in an image, for a simulator: `X000=1@2s`; may be repeated or separated by commas.
-    #[arg(
-        long,
-        value_delimiter = ',',
-        value_name = "INPUT=VALUE[@TIME]",
-        requires = "board"
-    )]
+    #[arg(long, value_delimiter = ',', value_name = "INPUT=VALUE[@TIME]")]
     pub set: Vec<String>,
     /// When an image ends the simulator that it runs in: `30s`.
-    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME", requires = "board")]
+    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
     /// What cargo is told besides, such as `-Zbuild-std=core`; may be repeated.
     #[arg(long, value_name = "ARG", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
-    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output.
+    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several programs, the
+    /// folder that takes what is made of each, under its name.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Name of the program in the emitted code; by default made from the file's name.
@@ -183,12 +226,15 @@ pub struct RunArgs {
 /// Arguments of `test`.
 #[derive(Args, Debug)]
 pub struct TestArgs {
-    /// Test files (`*.plctest.toml`), or folders of them.
-    #[arg(required = true, value_name = "FILE")]
+    /// Test files (`*.plctest.toml`), or folders of them. By default those of rungc.toml.
+    #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// What to run the cases on.
-    #[arg(long, value_enum, default_value_t = EngineChoice::Interp)]
-    pub engine: EngineChoice,
+    /// Settings of the project (docs/project.md); by default the rungc.toml in this folder or the nearest one above.
+    #[arg(long, value_name = "FILE")]
+    pub project: Option<PathBuf>,
+    /// What to run the cases on; by default what rungc.toml says, else the interpreter.
+    #[arg(long, value_enum)]
+    pub engine: Option<EngineChoice>,
     /// The machine around the PLC (docs/machines.md), for cases that name none.
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
@@ -201,16 +247,24 @@ pub struct TestArgs {
 #[derive(Args, Debug)]
 pub struct ConvertArgs {
     #[command(flatten)]
-    pub input: Input,
+    pub inputs: Inputs,
     /// The form to write.
     #[arg(long, value_enum)]
     pub to: ConvertTo,
-    /// File to write; by default standard output.
-    #[arg(short, long, value_name = "FILE")]
+    /// File to write; by default standard output. With several programs, the folder that takes a file for each.
+    #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Replace the file if it is already there.
     #[arg(long)]
     pub force: bool,
+}
+
+/// Arguments of `init`.
+#[derive(Args, Debug)]
+pub struct InitArgs {
+    /// The program that the project is about; rungc.toml goes into its folder. By default the only program in this folder.
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
 }
 
 /// Arguments of `explain`.
@@ -243,6 +297,20 @@ pub enum Format {
     Json,
     /// SARIF 2.1.0.
     Sarif,
+}
+
+impl Default for Reporting {
+    /// As if the command line said nothing.
+    fn default() -> Self {
+        Reporting {
+            format: Format::Human,
+            deny_warnings: false,
+            allow: Vec::new(),
+            deny: Vec::new(),
+            rules: Check::default(),
+            limit: DIAGNOSTICS,
+        }
+    }
 }
 
 /// What `build` makes.
@@ -291,6 +359,15 @@ pub enum EngineChoice {
     Rust,
     /// All three.
     All,
+}
+
+/// The identifier of a warning, given by its code or name.
+fn warning(name: &str) -> Result<&'static str, String> {
+    let id = omissible(name)?;
+    match codes::find(id).map(|code| code.severity) {
+        Some(Severity::Warning) => Ok(id),
+        _ => Err("a note is never an error".to_string()),
+    }
 }
 
 /// The identifier of a warning or note, given by its code or name.

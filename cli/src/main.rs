@@ -9,7 +9,7 @@ mod time;
 
 use args::{Cli, ColorWhen, Command, Emit};
 use clap::{CommandFactory, Parser};
-use commands::{Context, Failure, Outcome};
+use commands::{Context, Failure, Outcome, Verbosity};
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
@@ -18,10 +18,15 @@ fn main() -> ExitCode {
     let cx = Context {
         color: color(cli.color),
         taken: match &cli.command {
-            Command::Build(args) => args.emit == Some(Emit::Ir) && args.output.is_none(),
+            Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
             Command::Convert(args) => args.output.is_none(),
             Command::Run(_) => true,
             _ => false,
+        },
+        verbosity: match (cli.quiet, cli.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (false, false) => Verbosity::Normal,
+            (false, true) => Verbosity::Verbose,
         },
     };
     let result = match &cli.command {
@@ -30,6 +35,7 @@ fn main() -> ExitCode {
         Command::Run(args) => commands::run::run(args, cx),
         Command::Test(args) => commands::test::run(args, cx),
         Command::Convert(args) => commands::convert::run(args, cx),
+        Command::Init(args) => commands::init::run(args, cx),
         Command::Explain(args) => commands::explain::run(args),
         Command::Completions { shell } => {
             let mut script = Vec::new();
@@ -42,7 +48,8 @@ fn main() -> ExitCode {
     match result {
         Ok(Outcome::Success) | Err(Failure::Unheard) => ExitCode::SUCCESS,
         Ok(Outcome::Failed) => ExitCode::from(1),
-        Err(Failure::Reported) => ExitCode::from(2),
+        Ok(Outcome::Interrupted) => ExitCode::from(130),
+        Ok(Outcome::Unusable) | Err(Failure::Reported) => ExitCode::from(2),
         Err(failure) => {
             commands::tell(&format!("rungc: {failure}"));
             ExitCode::from(2)

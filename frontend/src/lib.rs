@@ -9,12 +9,16 @@ mod gx;
 mod il;
 mod listing;
 pub mod print;
+mod search;
 mod text;
 
 use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 pub use il::read_text;
+pub use search::{is_project, programs};
 
 /// A program and what its reader found.
 #[derive(Clone, Debug, Default)]
@@ -46,7 +50,7 @@ pub enum ReadError {
         name: String,
     },
     /// A folder that holds no program.
-    #[error("`{path}` holds no project: no `Resource/POU/Body/MAIN.wpg`, no `MAIN.csv`")]
+    #[error("`{path}` holds no program: no `.il`, list export, GX Developer or GX Works2 project")]
     NoProject {
         /// Its path.
         path: String,
@@ -97,6 +101,18 @@ pub fn read(path: &Path) -> Result<Read, ReadError> {
     Ok(read)
 }
 
+/// Reads a program of any known format that is one file, from a pipe for example. `name` is what diagnostics call it.
+pub fn read_from(name: &str, source: impl io::Read) -> Result<Read, ReadError> {
+    let bytes = limited(source).map_err(|source| ReadError::Io {
+        path: name.to_owned(),
+        source,
+    })?;
+    let bytes = bytes.ok_or_else(|| ReadError::TooLarge {
+        name: name.to_owned(),
+    })?;
+    read_bytes(name, &bytes)
+}
+
 /// Reads the content of a file of any known format. `name` is what diagnostics call it.
 pub fn read_bytes(name: &str, bytes: &[u8]) -> Result<Read, ReadError> {
     if bytes.len() as u64 > MAX_SIZE {
@@ -136,29 +152,40 @@ fn undecoded(program: &Program) -> Diagnostic {
 }
 
 fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let name = || path.display().to_string();
     let io = |source| ReadError::Io {
-        path: path.display().to_string(),
+        path: name(),
         source,
     };
-    let size = std::fs::metadata(path).map_err(io)?.len();
-    if size > MAX_SIZE {
-        return Err(ReadError::TooLarge {
-            name: path.display().to_string(),
-        });
+    let file = File::open(path).map_err(io)?;
+    if file.metadata().map_err(io)?.len() > MAX_SIZE {
+        return Err(ReadError::TooLarge { name: name() });
     }
-    std::fs::read(path).map_err(io)
+    limited(file)
+        .map_err(io)?
+        .ok_or_else(|| ReadError::TooLarge { name: name() })
 }
+
+/// All that a source gives; `None` if that is more than a program can be. A pipe or a device has no size that could be asked for
+/// before, and may never end.
+fn limited(source: impl io::Read) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    source.take(MAX_SIZE + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= MAX_SIZE).then_some(bytes))
+}
+
+/// Where a GX Developer project has its program, from its folder on.
+const GX_DEVELOPER: [&[&str]; 4] = [
+    &["Resource", "POU", "Body", "MAIN.wpg"],
+    &["POU", "Body", "MAIN.wpg"],
+    &["Body", "MAIN.wpg"],
+    &["MAIN.wpg"],
+];
 
 /// The program in a project's folder.
 fn main_file(folder: &Path) -> Result<PathBuf, ReadError> {
-    const PLACES: [&[&str]; 5] = [
-        &["Resource", "POU", "Body", "MAIN.wpg"],
-        &["POU", "Body", "MAIN.wpg"],
-        &["Body", "MAIN.wpg"],
-        &["MAIN.wpg"],
-        &["MAIN.csv"],
-    ];
-    let found = PLACES.iter().find_map(|place| find(folder, place));
+    let found = GX_DEVELOPER.iter().find_map(|place| find(folder, place));
+    let found = found.or_else(|| find(folder, &["MAIN.csv"]));
     found.ok_or_else(|| ReadError::NoProject {
         path: folder.display().to_string(),
     })

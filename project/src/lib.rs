@@ -6,12 +6,15 @@
 
 mod device;
 mod reader;
+mod template;
 
 use encoding_rs::Encoding;
 use rungc_ir::ModelId;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+
+pub use template::template;
 
 /// The file's name.
 pub const FILE: &str = "rungc.toml";

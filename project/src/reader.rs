@@ -121,6 +121,26 @@ impl Reader {
                 _ => self.latched(table, project),
             }
         }
+        self.together(document, project);
+    }
+
+    /// Reports keys that mean nothing without another.
+    fn together(&mut self, document: &DeTable<'_>, project: &Project) {
+        let place = |table: &str, key: &str| {
+            let table = document.get(table)?.get_ref().as_table()?;
+            Some(span(table.get(key)?.span()))
+        };
+        let output = place("build", "output");
+        for (key, at) in [("name", place("project", "name")), ("output", output)] {
+            if let (Some(at), None) = (at, &project.program) {
+                let message = format!("`{key}` is for the project's program, and there is none");
+                self.wrong(at, message, "add `program = \"…\"` to `[project]`");
+            }
+        }
+        if let (Some(at), None) = (output, &project.build.emit) {
+            let message = "`output` is where `emit` goes, and there is no `emit`";
+            self.wrong(at, message, "add `emit = \"…\"`");
+        }
     }
 
     fn wrong(&mut self, at: Span, message: impl Into<String>, help: &str) {
@@ -195,10 +215,6 @@ impl Reader {
         project.program = self.path(table, "program");
         project.model = self.get(table, "model").and_then(|name| self.model(&name));
         project.name = self.get(table, "name").map(|name| name.text);
-        if let (Some(_), None, Some(value)) = (&project.name, &project.program, table.get("name")) {
-            let message = "`name` is the name of the project's program, and there is no `program`";
-            self.wrong(span(value.span()), message, "add `program = \"…\"`");
-        }
         project.encoding = self.get(table, "encoding").and_then(|name| {
             let encoding = Encoding::for_label(name.text.as_bytes());
             if encoding.is_none() {
@@ -223,9 +239,9 @@ impl Reader {
 
     fn check(&mut self, table: &DeTable<'_>, project: &mut Project) {
         let mut seen: Vec<(&'static str, &'static str)> = Vec::new();
-        for (key, errors) in [("allow", false), ("warn", true), ("deny", false)] {
+        for key in ["allow", "warn", "deny"] {
             for name in self.list(table, key) {
-                let Some(code) = self.code(&name, key, errors) else {
+                let Some(code) = self.code(&name, key) else {
                     continue;
                 };
                 if let Some((_, other)) = seen.iter().find(|(id, _)| *id == code.id) {
@@ -243,35 +259,33 @@ impl Reader {
         }
     }
 
-    /// The code with a name, if it is an error or is none, as asked for.
-    fn code(&mut self, name: &Named, key: &str, error: bool) -> Option<&'static Code> {
-        let fits = |code: &Code| (code.severity == Severity::Error) == error;
-        let what = if error { "error" } else { "warning" };
+    /// The code with a name, if its severity is what the key takes.
+    fn code(&mut self, name: &Named, key: &str) -> Option<&'static Code> {
+        let (what, takes): (_, fn(Severity) -> bool) = match key {
+            "allow" => ("warning", |severity| severity != Severity::Error),
+            "warn" => ("error", |severity| severity == Severity::Error),
+            _ => ("warning", |severity| severity == Severity::Warning),
+        };
         let Some(code) = codes::find(&name.text) else {
             let names: Vec<_> = codes::all()
                 .into_iter()
-                .filter(|code| fits(code))
+                .filter(|code| takes(code.severity))
                 .flat_map(|code| [code.id, code.name])
                 .collect();
             let near = diag::did_you_mean(&name.text.to_lowercase(), names);
             let help = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-            self.wrong(
-                name.span,
-                format!("there is no {what} `{}`", name.text),
-                &help,
-            );
+            let message = format!("there is no {what} `{}`", name.text);
+            self.wrong(name.span, message, &help);
             return None;
         };
-        if !fits(code) {
-            let (message, help) = match key {
-                "warn" => ("is a warning already", "`deny` makes an error of a warning"),
-                "allow" => (
-                    "is an error, which cannot be left out",
-                    "`warn` makes a warning of it",
-                ),
-                _ => ("is an error already", ""),
+        if !takes(code.severity) {
+            let is = match code.severity {
+                Severity::Error => "an error",
+                Severity::Warning => "a warning",
+                Severity::Note => "a note",
             };
-            self.wrong(name.span, format!("`{}` {message}", name.text), help);
+            let message = format!("`{}` is {is}; `{key}` is for {what}s", name.text);
+            self.wrong(name.span, message, "");
             return None;
         }
         Some(code)

@@ -1,13 +1,14 @@
 //! `rungc build`.
 
 use super::setting::setting;
+use super::subject::{self, Places, Subject};
 use super::{
-    Context, Failure, Outcome, Result, conclude, counted, findings, holder, read, say, stem, tell,
-    write_executable, write_file,
+    Context, Failure, Outcome, Result, conclude, counted, defaults, findings, holder, plain, read,
+    say, stem, tell, write_executable, write_file,
 };
-use crate::args::{Backend, BuildArgs, Emit, Format};
+use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
-use crate::report;
+use crate::report::Reporter;
 use rungc_firmware::board::{self, Board};
 use rungc_firmware::build::Tools;
 use rungc_firmware::image::{self, Image, Script};
@@ -24,56 +25,69 @@ use std::path::{Path, PathBuf};
 /// A file to write, its path relative to the output folder.
 type OutFile = (String, Vec<u8>);
 
-/// Compiles a program. Nothing is written if it has errors.
+/// Compiles programs. Nothing is written of one that has errors.
 pub fn run(args: &BuildArgs, cx: Context) -> Result {
-    let target = fitting(args)?;
-    let image = match &args.board {
-        Some(path) => Some(ForImage::new(args, path)?),
+    let mut places = Places::default();
+    subject::each(&args.inputs, cx, |subject, reporter| {
+        if reporter.many() && args.plan.name.is_some() {
+            let why = "--name: several programs cannot have the same name";
+            return Err(Failure::Because(why.to_string()));
+        }
+        let plan = defaults::plan(&args.plan, subject)?;
+        build(&plan, subject, reporter, &mut places, cx)
+    })
+}
+
+fn build(
+    plan: &Plan,
+    subject: &Subject,
+    reporter: &mut Reporter,
+    places: &mut Places,
+    cx: Context,
+) -> Result {
+    let target = fitting(plan, &subject.reporting)?;
+    let image = match &plan.board {
+        Some(path) => Some(ForImage::new(plan, path)?),
         None => None,
     };
-    let read = read(&args.input, cx)?;
-    let name = args
-        .name
-        .clone()
-        .unwrap_or_else(|| stem(&args.input, &read));
+    let read = read(subject, reporter)?;
+    let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
-        model: args.input.model,
+        model: subject.model,
         name: Some(name),
-        optimise: !args.no_opt,
+        optimise: !plan.no_opt,
         ..CompileOptions::default()
     };
     let compiled = progress::spin("compiling", || compile::compile(&read.program, &options));
-    let mut findings = findings(&args.input, &read, &compiled);
+    let mut findings = findings(subject, &read, &compiled);
     let module = match compiled.module {
         Some(module) if !findings.failed() => module,
-        _ => return conclude(&findings, &args.input.reporting, cx, String::new),
+        _ => return conclude(&findings, reporter, cx, String::new),
     };
     let job = Job {
-        args,
+        plan: &plan.at(&module.name, subject, reporter.many(), places)?,
         module: &module,
         target,
         image: image.as_ref(),
     };
-    let written = match args.emit {
+    let written = match plan.emit {
         Some(what) => job.emit(what)?,
         None => None,
     };
-    if args.report {
+    if plan.report {
         findings.takes = Some(job.measure(written.as_deref())?);
     }
-    let reporting = &args.input.reporting;
-    if args.emit == Some(Emit::Ir) && written.is_none() {
-        return report::print(&findings, reporting, cx.color, cx.taken)
-            .map(|()| Outcome::Success)
-            .map_err(Failure::from);
+    if plan.emit == Some(Emit::Ir) && written.is_none() {
+        reporter.add(&findings)?;
+        return Ok(Outcome::Success);
     }
-    if let (Some(takes), Format::Human) = (&findings.takes, reporting.format) {
+    if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {
         say(&takes.to_string())?;
     }
-    conclude(&findings, reporting, cx, || {
+    conclude(&findings, reporter, cx, || {
         let (what, path) = match &written {
             Some(path) => ("Emitted", path.display()),
-            None => ("Measured", args.input.file.display()),
+            None => ("Measured", subject.file.display()),
         };
         format!(
             "{what:>11} {path} ({}, {})",
@@ -83,10 +97,40 @@ pub fn run(args: &BuildArgs, cx: Context) -> Result {
     })
 }
 
+impl Plan {
+    /// The plan for one program: among several, what is made of it has a place of its own.
+    fn at(&self, name: &str, subject: &Subject, many: bool, places: &mut Places) -> Built<Plan> {
+        let mut plan = self.clone();
+        let Some(emit) = plan.emit.filter(|_| many) else {
+            return Ok(plan);
+        };
+        let place = match (&plan.output, emit) {
+            (Some(folder), Emit::Elf) => folder.join(format!("{name}.elf")),
+            (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
+            (Some(folder), _) => folder.join(name),
+            (None, Emit::Ir) => return Ok(plan),
+            (None, _) => PathBuf::from(usual_place(emit, name)),
+        };
+        plan.output = Some(places.take(place, subject)?);
+        Ok(plan)
+    }
+}
+
+/// Where something is written if nothing else is asked for.
+fn usual_place(emit: Emit, name: &str) -> String {
+    match emit {
+        Emit::C => format!("{name}-c"),
+        Emit::Rust => format!("{name}-rust"),
+        Emit::Lib => format!("{name}-lib"),
+        Emit::Elf => format!("{name}.elf"),
+        Emit::Bin | Emit::Ir => name.to_string(),
+    }
+}
+
 /// The target, if the options go together.
-fn fitting(args: &BuildArgs) -> std::result::Result<&'static Target, Failure> {
+fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static Target, Failure> {
     let wrong = |why: &str| Err(Failure::Because(why.to_string()));
-    if args.report && args.input.reporting.format == Format::Sarif {
+    if args.report && reporting.format == Format::Sarif {
         return wrong("--report: SARIF has no place for it; --format json has");
     }
     let target = args.target.unwrap_or(target::host());
@@ -126,7 +170,7 @@ struct ForImage {
 }
 
 impl ForImage {
-    fn new(args: &BuildArgs, path: &Path) -> std::result::Result<Self, Failure> {
+    fn new(args: &Plan, path: &Path) -> std::result::Result<Self, Failure> {
         let board = board::load(path).map_err(because)?;
         if let Some(target) = args.target.filter(|target| *target != board.target) {
             return Err(Failure::Because(format!(
@@ -201,7 +245,7 @@ fn because(error: impl std::fmt::Display) -> Failure {
 
 /// A program to be emitted.
 struct Job<'a> {
-    args: &'a BuildArgs,
+    plan: &'a Plan,
     module: &'a Module,
     target: &'static Target,
     image: Option<&'a ForImage>,
@@ -216,18 +260,18 @@ impl Job<'_> {
     }
 
     fn tools(&self) -> Tools {
-        Tools::new(self.target(), &self.args.cargo_arg)
+        Tools::new(self.target(), &self.plan.cargo_arg)
     }
 
     /// Where to write.
-    fn output(&self, default: String) -> PathBuf {
-        let given = self.args.output.clone();
-        given.unwrap_or_else(|| PathBuf::from(default))
+    fn output(&self, emit: Emit) -> PathBuf {
+        let given = self.plan.output.clone();
+        given.unwrap_or_else(|| usual_place(emit, &self.module.name).into())
     }
 
     /// Writes what was asked for; returns where, or `None` for standard output.
     fn emit(&self, what: Emit) -> Built<Option<PathBuf>> {
-        let (module, name, main) = (self.module, &self.module.name, self.args.main);
+        let (module, name, main) = (self.module, &self.module.name, self.plan.main);
         let path = match what {
             Emit::Ir => return self.ir(),
             Emit::C => {
@@ -235,52 +279,48 @@ impl Job<'_> {
                     Some(image) => image.sources(module, Backend::C)?,
                     None => sources::c(module, self.target, main),
                 };
-                self.folder(format!("{name}-c"), || Ok(texts(files)))?
+                self.folder(what, || Ok(texts(files)))?
             }
             Emit::Rust => {
                 let files = match self.image {
                     Some(image) => image.sources(module, Backend::Rust)?,
                     None => sources::rust(module, self.target, main),
                 };
-                self.folder(format!("{name}-rust"), || Ok(texts(files)))?
+                self.folder(what, || Ok(texts(files)))?
             }
-            Emit::Lib => self.folder(format!("{name}-lib"), || self.library())?,
-            Emit::Bin => self.program(name.clone(), || {
+            Emit::Lib => self.folder(what, || self.library())?,
+            Emit::Bin => self.program(what, || {
                 let files = sources::c(module, self.target, true);
                 let built = progress::spin("building", || self.tools().c_program(&files, name));
                 built.map_err(because)
             })?,
-            Emit::Elf => self.program(format!("{name}.elf"), || self.elf())?,
+            Emit::Elf => self.program(what, || self.elf())?,
         };
         Ok(Some(path))
     }
 
     fn ir(&self) -> Built<Option<PathBuf>> {
         let text = dump::dump(self.module);
-        match &self.args.output {
+        match &self.plan.output {
             None => say(&text)?,
-            Some(path) => write_file(path, text.as_bytes(), self.args.force)?,
+            Some(path) => write_file(path, text.as_bytes(), self.plan.force)?,
         }
-        Ok(self.args.output.clone())
+        Ok(self.plan.output.clone())
     }
 
     /// Writes a folder with what `make` makes; whether it may be written is known before.
-    fn folder(
-        &self,
-        default: String,
-        make: impl FnOnce() -> Built<Vec<OutFile>>,
-    ) -> Built<PathBuf> {
-        let path = self.output(default);
-        free(&path, self.args.force)?;
-        write_folder(&path, &make()?, self.args.force)?;
+    fn folder(&self, emit: Emit, make: impl FnOnce() -> Built<Vec<OutFile>>) -> Built<PathBuf> {
+        let path = self.output(emit);
+        free(&path, self.plan.force)?;
+        write_folder(&path, &make()?, self.plan.force)?;
         Ok(path)
     }
 
     /// The same of an executable file.
-    fn program(&self, default: String, make: impl FnOnce() -> Built<Vec<u8>>) -> Built<PathBuf> {
-        let path = self.output(default);
-        vacant(&path, self.args.force)?;
-        write_executable(&path, &make()?, self.args.force)?;
+    fn program(&self, emit: Emit, make: impl FnOnce() -> Built<Vec<u8>>) -> Built<PathBuf> {
+        let path = self.output(emit);
+        vacant(&path, self.plan.force)?;
+        write_executable(&path, &make()?, self.plan.force)?;
         Ok(path)
     }
 
@@ -294,7 +334,7 @@ impl Job<'_> {
         let image = self
             .image
             .ok_or_else(|| because("an image is for a board"))?;
-        let backend = self.args.backend.unwrap_or(Backend::C);
+        let backend = self.plan.backend.unwrap_or(Backend::C);
         let files = image.sources(self.module, backend)?;
         let file = format!("{}.elf", self.module.name);
         let built = progress::spin("building", || match backend {
@@ -308,7 +348,7 @@ impl Job<'_> {
     fn measure(&self, written: Option<&Path>) -> Built<Report> {
         let (module, target) = (self.module, self.target());
         if let Some(image) = self.image {
-            let data = match written.filter(|_| self.args.emit == Some(Emit::Elf)) {
+            let data = match written.filter(|_| self.plan.emit == Some(Emit::Elf)) {
                 Some(path) => fs::read(path).map_err(|error| at(path, error))?,
                 None => self.elf()?,
             };
@@ -382,7 +422,7 @@ fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::R
     let fresh = tempfile::Builder::new()
         .prefix(".rungc-")
         .tempdir_in(beside)
-        .map_err(|e| at(beside, e))?;
+        .map_err(|e| at(folder, plain(e)))?;
     let inside = fresh.path().join("out");
     fs::create_dir(&inside).map_err(|e| at(&inside, e))?;
     for (path, contents) in files {

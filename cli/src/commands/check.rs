@@ -1,29 +1,40 @@
 //! `rungc check`.
 
+use super::subject::{self, Subject};
 use super::{Context, Result, conclude, counted, findings, read};
 use crate::args::CheckArgs;
+use crate::report::Reporter;
 use rungc_ir::compile::{self, CompileOptions};
 use rungc_syntax::{DeviceClass, OperandKind, Program};
 use std::collections::BTreeSet;
 use std::time::Instant;
 
-/// Reports everything that is wrong with a program.
+/// Reports everything that is wrong with programs.
 pub fn run(args: &CheckArgs, cx: Context) -> Result {
+    subject::each(&args.inputs, cx, |subject, reporter| {
+        check(subject, reporter, cx)
+    })
+}
+
+fn check(subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
     let start = Instant::now();
-    let read = read(&args.input, cx)?;
+    let read = read(subject, reporter)?;
     let checked = compile::check(
         &read.program,
         &CompileOptions {
-            model: args.input.model,
+            model: subject.model,
             ..CompileOptions::default()
         },
     );
-    let findings = findings(&args.input, &read, &checked);
+    let findings = findings(subject, &read, &checked);
     let elapsed = start.elapsed();
-    conclude(&findings, &args.input.reporting, cx, || {
+    let name = match reporter.many() {
+        true => subject.file.display().to_string(),
+        false => read.program.source.name.clone(),
+    };
+    conclude(&findings, reporter, cx, || {
         format!(
-            "    Checked {} ({}, {}, {}) in {} ms",
-            read.program.source.name,
+            "    Checked {name} ({}, {}, {}) in {} ms",
             checked.model.name.to_uppercase(),
             counted(checked.steps as usize, "step"),
             counted(devices(&read.program), "device"),

@@ -1,27 +1,41 @@
 //! `rungc convert`.
 
-use super::{Context, Outcome, Result, conclude, counted, read, tell, write_file};
+use super::subject::{self, Places, Subject};
+use super::{Context, Failure, Outcome, Result, conclude, counted, read, stem, tell, write_file};
 use crate::args::{ConvertArgs, ConvertTo};
-use crate::report::Findings;
+use crate::report::{Findings, Reporter};
 use rungc_frontend::print;
 use std::io::{self, Write};
 
-/// Rewrites a program. Nothing is written if the input could not be read whole.
+/// Rewrites programs. Nothing is written of one that could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
-    let read = read(&args.input, cx)?;
+    let mut places = Places::default();
+    subject::each(&args.inputs, cx, |subject, reporter| {
+        convert(args, subject, reporter, &mut places, cx)
+    })
+}
+
+fn convert(
+    args: &ConvertArgs,
+    subject: &Subject,
+    reporter: &mut Reporter,
+    places: &mut Places,
+    cx: Context,
+) -> Result {
+    let read = read(subject, reporter)?;
     let findings = Findings::new(
-        &args.input.file,
+        &subject.file,
         &read.program,
         read.diagnostics.clone(),
-        &args.input.reporting,
+        &subject.reporting,
     );
     if findings.failed() {
-        return conclude(&findings, &args.input.reporting, cx, String::new);
+        return conclude(&findings, reporter, cx, String::new);
     }
-    crate::report::print(&findings, &args.input.reporting, cx.color, cx.taken)?;
-    let bytes = match args.to {
-        ConvertTo::Il => print::to_il(&read.program).into_bytes(),
-        ConvertTo::Csv => print::to_csv(&read.program),
+    reporter.add(&findings)?;
+    let (bytes, ending) = match args.to {
+        ConvertTo::Il => (print::to_il(&read.program).into_bytes(), "il"),
+        ConvertTo::Csv => (print::to_csv(&read.program), "csv"),
     };
     let comments = read.program.comments.len();
     if args.to == ConvertTo::Csv && comments > 0 {
@@ -31,6 +45,18 @@ pub fn run(args: &ConvertArgs, cx: Context) -> Result {
         ));
     }
     match &args.output {
+        Some(folder) if reporter.many() => {
+            let name = format!("{}.{ending}", stem(subject, &read));
+            write_file(
+                &places.take(folder.join(name), subject)?,
+                &bytes,
+                args.force,
+            )?;
+        }
+        None if reporter.many() => {
+            let why = "-o: several programs are written into a folder; name it";
+            return Err(Failure::Because(why.to_string()));
+        }
         Some(path) => write_file(path, &bytes, args.force)?,
         None => io::stdout().write_all(&bytes)?,
     }

@@ -3,13 +3,16 @@
 pub mod build;
 pub mod check;
 pub mod convert;
+mod defaults;
 pub mod explain;
+pub mod init;
 pub mod run;
 pub mod setting;
+pub mod subject;
 pub mod test;
 
-use crate::args::{Format, Input, Reporting};
-use crate::report::{self, Findings};
+use crate::args::{Format, Reporting};
+use crate::report::{Findings, Reporter, Totals};
 use rungc_frontend::{Read, ReadError};
 use rungc_ir::compile::Compiled;
 use rungc_syntax::{Span, codes};
@@ -17,15 +20,20 @@ use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use subject::Subject;
 use tempfile::NamedTempFile;
 
-/// How a command ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// How a command ended, the worst last.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Outcome {
     /// Exit code 0.
     Success,
     /// Errors in the program or a failed test: exit code 1.
     Failed,
+    /// One of several programs could not be worked on, which has been said: exit code 2.
+    Unusable,
+    /// The user ended it with Ctrl-C: exit code 130.
+    Interrupted,
 }
 
 /// Why a command could not do its work.
@@ -68,23 +76,52 @@ pub struct Context {
     pub color: bool,
     /// Whether standard output is taken by what the command makes, so that a report for tools goes to standard error.
     pub taken: bool,
+    /// How much to say about what is done.
+    pub verbosity: Verbosity,
+}
+
+/// How much to say about what is done.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Verbosity {
+    /// Nothing: diagnostics and results alone.
+    Quiet,
+    /// A closing line for each program.
+    Normal,
+    /// Details besides.
+    Verbose,
+}
+
+impl Context {
+    /// Tells people what was done, unless they asked for quiet.
+    pub fn note(self, line: &str) {
+        if self.verbosity > Verbosity::Quiet {
+            tell(line);
+        }
+    }
+
+    /// Tells people a detail that they asked for.
+    pub fn detail(self, line: impl FnOnce() -> String) {
+        if self.verbosity == Verbosity::Verbose {
+            tell(&line());
+        }
+    }
 }
 
 /// Reads a program. That it cannot be read is an object too, for tools.
-pub fn read(input: &Input, cx: Context) -> std::result::Result<Read, Failure> {
-    rungc_frontend::read(&input.file).or_else(|error| {
+pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<Read, Failure> {
+    subject::source(subject).or_else(|error| {
         let code = match error {
             ReadError::Undecodable { .. } | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
             ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,
         };
         let id = code.id;
-        if input.reporting.format == Format::Human {
-            let text = format!("error[{id}]: {error}\n       `rungc explain {id}` tells more");
-            return Err(Failure::Because(text));
+        if subject.reporting.format == Format::Human {
+            tell(&format!(
+                "rungc: error[{id}]: {error}\n       `rungc explain {id}` tells more"
+            ));
         }
         let why = code.at(Span::default(), error.to_string());
-        let findings = Findings::unread(&input.file, why);
-        report::print(&findings, &input.reporting, cx.color, cx.taken)?;
+        reporter.add(&Findings::unread(&subject.file, why))?;
         Err(Failure::Reported)
     })
 }
@@ -120,25 +157,37 @@ fn grouped(n: usize) -> String {
 }
 
 /// What reading and compiling a program found.
-pub fn findings<'a>(input: &'a Input, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
+pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
     let mut diagnostics = read.diagnostics.clone();
     diagnostics.extend(compiled.diagnostics.iter().cloned());
     Findings {
         size: Some(compiled.into()),
-        ..Findings::new(&input.file, &read.program, diagnostics, &input.reporting)
+        ..Findings::new(
+            &subject.file,
+            &read.program,
+            diagnostics,
+            &subject.reporting,
+        )
     }
 }
 
-/// Prints findings, and for people a closing line that says `done` (what was accomplished) or that errors prevented it.
+/// Reports findings, and to people a closing line that says `done` (what was accomplished) or that errors prevented it.
 pub fn conclude(
     findings: &Findings,
-    reporting: &Reporting,
+    reporter: &mut Reporter,
     cx: Context,
     done: impl FnOnce() -> String,
 ) -> Result {
-    report::print(findings, reporting, cx.color, cx.taken)?;
-    if reporting.format == Format::Human {
-        tell(&summary(findings, done));
+    reporter.add(findings)?;
+    if reporter.is_for_people() {
+        let name = match findings.program {
+            Some(program) if !reporter.many() => program.source.name.clone(),
+            _ => findings.path.display().to_string(),
+        };
+        cx.note(&match findings.failed() {
+            true => format!("      Failed {name}: {}", counts(&findings.totals())),
+            false => format!("{}: {}", done(), counts(&findings.totals())),
+        });
     }
     Ok(if findings.failed() {
         Outcome::Failed
@@ -147,22 +196,32 @@ pub fn conclude(
     })
 }
 
-fn summary(findings: &Findings, done: impl FnOnce() -> String) -> String {
-    use rungc_syntax::Severity::{Error, Note, Warning};
-    let mut counts = format!(
-        "{}, {}",
-        counted(findings.count(Error), "error"),
-        counted(findings.count(Warning), "warning")
-    );
-    let notes = findings.count(Note);
-    if notes > 0 {
-        counts = format!("{counts}, {}", counted(notes, "note"));
+/// A closing line about several programs, for people.
+fn conclude_all(totals: &Totals, reporting: &Reporting, cx: Context) {
+    if reporting.format != Format::Human {
+        return;
     }
-    if findings.failed() {
-        let name = findings.program.map_or("", |program| &program.source.name);
-        format!("      Failed {name}: {counts}")
-    } else {
-        format!("{}: {counts}", done())
+    let programs = counted(totals.programs, "program");
+    let unread = match totals.unread {
+        0 => String::new(),
+        n => format!(", {} not read", grouped(n)),
+    };
+    cx.note(&format!(
+        "       Total {programs}: {}{unread}",
+        counts(totals)
+    ));
+}
+
+/// `0 errors, 1 warning`, and the notes if there are any.
+fn counts(totals: &Totals) -> String {
+    let counts = format!(
+        "{}, {}",
+        counted(totals.errors, "error"),
+        counted(totals.warnings, "warning")
+    );
+    match totals.notes {
+        0 => counts,
+        notes => format!("{counts}, {}", counted(notes, "note")),
     }
 }
 
@@ -228,8 +287,10 @@ impl Fresh {
         fresh.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
         #[cfg(not(unix))]
         let _ = mode;
+        // The file in the making has a name that means nothing to anybody.
+        let file = fresh.tempfile_in(folder);
         Ok(Fresh {
-            file: fresh.tempfile_in(folder).map_err(at)?,
+            file: file.map_err(|error| at(plain(error)))?,
             path: path.to_path_buf(),
         })
     }
@@ -253,6 +314,14 @@ impl Fresh {
     }
 }
 
+/// What the system says, without the path that a library may have added to it.
+pub fn plain(error: io::Error) -> io::Error {
+    match (error.raw_os_error(), error.get_ref()) {
+        (None, Some(_)) => error.kind().into(),
+        _ => error,
+    }
+}
+
 /// The folder that a path lies in.
 pub fn holder(path: &Path) -> &Path {
     path.parent()
@@ -261,9 +330,10 @@ pub fn holder(path: &Path) -> &Path {
 }
 
 /// The name of a file without folder and extension; of a project folder's `MAIN.wpg` or of `MAIN.csv` the project's.
-pub fn stem(input: &Input, read: &Read) -> String {
+pub fn stem(subject: &Subject, read: &Read) -> String {
     let stem = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned());
-    let plain = stem(&input.file).unwrap_or_else(|| "program".to_string());
+    let plain = stem(&subject.file).filter(|_| !subject.is_stdin());
+    let plain = plain.unwrap_or_else(|| "program".to_string());
     match &read.program.title {
         Some(title) if plain.eq_ignore_ascii_case("main") && !title.trim().is_empty() => {
             title.clone()

@@ -9,9 +9,10 @@ mod view;
 mod wiring;
 
 use super::setting::{Setting, setting, target};
+use super::subject::{self, Subject};
 use super::{Context, Failure, Result, conclude, findings, holder, read, stem, tell};
 use crate::args::RunArgs;
-use crate::report;
+use crate::report::Reporter;
 use rungc_ir::Module;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
@@ -52,23 +53,36 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     if let Some(machine) = &described {
         free_inputs(machine, &settings)?;
     }
-    spare_inputs(args)?;
-    let read = read(&args.input, cx)?;
+    let subject = subject::one(&args.input, cx)?;
+    spare_inputs(args, &subject)?;
+    let mut reporter = Reporter::new(&subject.reporting, cx, false);
+    let read = match read(&subject, &mut reporter) {
+        Ok(read) => read,
+        Err(failure) => {
+            reporter.finish()?;
+            return Err(failure);
+        }
+    };
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
     let wired = described.iter().flat_map(Description::terminals);
     let options = CompileOptions {
-        model: args.input.model,
-        name: Some(stem(&args.input, &read)),
+        model: subject.model,
+        name: Some(stem(&subject, &read)),
         observe: used.flat_map(observed).chain(wired).collect(),
         ..CompileOptions::default()
     };
     let compiled = compile(&read.program, &options);
-    let findings = findings(&args.input, &read, &compiled);
+    let findings = findings(&subject, &read, &compiled);
     let module = match compiled.module {
         Some(module) if !findings.failed() => module,
-        _ => return conclude(&findings, &args.input.reporting, cx, String::new),
+        _ => {
+            let outcome = conclude(&findings, &mut reporter, cx, String::new);
+            reporter.finish()?;
+            return outcome;
+        }
     };
-    report::print(&findings, &args.input.reporting, cx.color, cx.taken)?;
+    reporter.add(&findings)?;
+    reporter.finish()?;
     let shown = if watched.is_empty() {
         default_watch(&module)
     } else {
@@ -137,8 +151,8 @@ fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Resu
 }
 
 /// What a run writes replaces what is there, but not what the run reads, nor what else it writes.
-fn spare_inputs(args: &RunArgs) -> std::result::Result<(), Failure> {
-    let mut taken = vec![(place(&args.input.file), "is the program")];
+fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Failure> {
+    let mut taken = vec![(place(&subject.file), "is the program")];
     if let Some(machine) = &args.machine {
         taken.push((place(machine), "describes the machine"));
     }

@@ -1,6 +1,6 @@
 //! `rungc test`.
 
-use super::{Context, Failure, Outcome, Result, counted, say, tell};
+use super::{Context, Failure, Outcome, Result, counted, defaults, say, subject};
 use crate::args::{EngineChoice, TestArgs};
 use crate::progress;
 use rungc_sim::engines::{EngineKind, build};
@@ -15,9 +15,23 @@ use std::time::Instant;
 const ENDING: &str = ".plctest.toml";
 
 /// Runs test files.
-pub fn run(args: &TestArgs, _cx: Context) -> Result {
+pub fn run(args: &TestArgs, cx: Context) -> Result {
     let start = Instant::now();
-    let mut files = load(&args.files, args.only.as_deref())?;
+    let project = subject::project(args.project.as_deref(), cx)?;
+    let settings = project.as_ref();
+    let mut paths = args.files.clone();
+    if let (true, Some(project)) = (paths.is_empty(), settings) {
+        let files = project.test.files.iter();
+        paths.extend(files.map(|file| subject::near(project.at(file))));
+    }
+    if paths.is_empty() {
+        let why = "which tests? Name a FILE, or `files` in `[test]` of rungc.toml";
+        return Err(Failure::Because(why.to_string()));
+    }
+    let usual = settings.map(defaults::engine).transpose();
+    let usual = usual.map_err(|error| Failure::Because(error.to_string()))?;
+    let engine = args.engine.or(usual.flatten());
+    let mut files = load(&paths, args.only.as_deref())?;
     if let Some(path) = &args.machine {
         wire(&mut files, path)?;
     }
@@ -25,10 +39,10 @@ pub fn run(args: &TestArgs, _cx: Context) -> Result {
     if suite.is_empty() {
         return Err(Failure::Because("no case to run".to_string()));
     }
-    let kinds = engines(args.engine);
+    let kinds = engines(engine.unwrap_or(EngineChoice::Interp));
     let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
     let cases = counted(suite.len(), "case");
-    tell(&format!("     Running {cases} on {}", names.join(", ")));
+    cx.note(&format!("     Running {cases} on {}", names.join(", ")));
     let folder = tempfile::tempdir()?;
     let mut report = Report::default();
     for kind in kinds {

@@ -5,9 +5,10 @@ use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind, Sour
 use rungc_syntax::{Diagnostic, Severity, Span};
 use std::io::{self, Write};
 
-/// Prints at most `limit` diagnostics (0: all).
+/// Prints at most `limit` diagnostics (0: all). The file is called `name`, else as its source is called.
 pub fn print(
     findings: &Findings,
+    name: Option<&str>,
     limit: usize,
     color: bool,
     out: &mut dyn Write,
@@ -18,7 +19,7 @@ pub fn print(
     else {
         return Ok(());
     };
-    let name = program.source.name.as_str();
+    let name = name.unwrap_or(&program.source.name);
     let source = Source::from(one_break(&program.source.text));
     let shown = if limit == 0 {
         findings.diagnostics.len()

@@ -1,13 +1,24 @@
-//! Diagnostics as one JSON object.
+//! Diagnostics as one JSON object: of one program, or of several in its key `files`.
 
 use super::Findings;
 use rungc_firmware::report::Report as Takes;
 use rungc_syntax::{Severity, Span, codes};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io;
 
+/// All files.
 #[derive(Serialize)]
-struct Output<'a> {
+struct Output {
+    errors: usize,
+    warnings: usize,
+    notes: usize,
+    files: Vec<File>,
+}
+
+/// One file.
+#[derive(Serialize)]
+pub struct File {
     file: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<&'static str>,
@@ -16,32 +27,32 @@ struct Output<'a> {
     errors: usize,
     warnings: usize,
     notes: usize,
-    diagnostics: Vec<Item<'a>>,
+    diagnostics: Vec<Item>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    report: Option<&'a Takes>,
+    report: Option<Takes>,
 }
 
 #[derive(Serialize)]
-struct Item<'a> {
-    code: &'a str,
-    name: &'a str,
+struct Item {
+    code: &'static str,
+    name: &'static str,
     severity: &'static str,
-    message: &'a str,
+    message: String,
     #[serde(flatten)]
     place: Option<Place>,
     #[serde(skip_serializing_if = "str::is_empty")]
-    label: &'a str,
+    label: Cow<'static, str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    related: Vec<Related<'a>>,
+    related: Vec<Related>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    help: Option<&'a str>,
+    help: Option<Cow<'static, str>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     plc_error: Option<u16>,
 }
 
 #[derive(Serialize)]
-struct Related<'a> {
-    message: &'a str,
+struct Related {
+    message: String,
     #[serde(flatten)]
     place: Option<Place>,
 }
@@ -71,9 +82,9 @@ fn place(findings: &Findings, span: Span) -> Option<Place> {
     })
 }
 
-/// The object as pretty-printed text.
-pub fn render(findings: &Findings) -> io::Result<String> {
-    let output = Output {
+/// What was found about one file.
+pub fn file(findings: &Findings) -> File {
+    File {
         file: findings.path.display().to_string(),
         model: findings.size.map(|size| size.model),
         steps: findings.size.map(|size| size.steps),
@@ -87,22 +98,35 @@ pub fn render(findings: &Findings) -> io::Result<String> {
                 code: d.code,
                 name: codes::find(d.code).map_or("", |code| code.name),
                 severity: d.severity.name(),
-                message: &d.message,
+                message: d.message.clone(),
                 place: place(findings, d.span),
-                label: &d.label,
+                label: d.label.clone(),
                 related: d
                     .others
                     .iter()
                     .map(|o| Related {
-                        message: &o.text,
+                        message: o.text.to_string(),
                         place: place(findings, o.span),
                     })
                     .collect(),
-                help: d.help.as_deref(),
+                help: d.help.clone(),
                 plc_error: d.plc_error,
             })
             .collect(),
-        report: findings.takes.as_ref(),
-    };
-    Ok(serde_json::to_string_pretty(&output)?)
+        report: findings.takes.clone(),
+    }
+}
+
+/// The object as pretty-printed text: of the only file, or of `many`.
+pub fn render(files: Vec<File>, many: bool) -> io::Result<String> {
+    if let ([file], false) = (&files[..], many) {
+        return Ok(serde_json::to_string_pretty(file)?);
+    }
+    let sum = |of: fn(&File) -> usize| files.iter().map(of).sum();
+    Ok(serde_json::to_string_pretty(&Output {
+        errors: sum(|file| file.errors),
+        warnings: sum(|file| file.warnings),
+        notes: sum(|file| file.notes),
+        files,
+    })?)
 }

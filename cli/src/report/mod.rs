@@ -5,6 +5,7 @@ mod json;
 mod sarif;
 
 use crate::args::{Format, Reporting};
+use crate::commands::Context;
 use rungc_firmware::report::Report as Takes;
 use rungc_ir::compile::Compiled;
 use rungc_syntax::{Diagnostic, Diagnostics, Program, Severity};
@@ -44,7 +45,7 @@ impl From<&Compiled> for Size {
 }
 
 impl<'a> Findings<'a> {
-    /// Takes the diagnostics that `reporting` lets through; with `--deny-warnings` warnings become errors, notes stay notes.
+    /// Takes the diagnostics that `reporting` lets through, each as severe as it makes them.
     pub fn new(
         path: &'a Path,
         program: &'a Program,
@@ -52,14 +53,13 @@ impl<'a> Findings<'a> {
         reporting: &Reporting,
     ) -> Self {
         let mut diagnostics = diagnostics.sorted();
-        let allowed = |d: &Diagnostic| reporting.allow.contains(&d.code);
-        diagnostics.retain(|d| d.severity == Severity::Error || !allowed(d));
-        if reporting.deny_warnings {
-            diagnostics
-                .iter_mut()
-                .filter(|d| d.severity == Severity::Warning)
-                .for_each(|d| d.severity = Severity::Error);
-        }
+        diagnostics.retain_mut(|d| match level(d, reporting) {
+            Some(severity) => {
+                d.severity = severity;
+                true
+            }
+            None => false,
+        });
         Findings {
             path,
             program: Some(program),
@@ -88,6 +88,23 @@ impl<'a> Findings<'a> {
             .count()
     }
 
+    /// How many there are of each severity.
+    pub fn totals(&self) -> Totals {
+        let unread = self.program.is_none();
+        let errors = if unread {
+            0
+        } else {
+            self.count(Severity::Error)
+        };
+        Totals {
+            programs: 1,
+            unread: usize::from(unread),
+            errors,
+            warnings: self.count(Severity::Warning),
+            notes: self.count(Severity::Note),
+        }
+    }
+
     /// Whether the program cannot be compiled.
     pub fn failed(&self) -> bool {
         self.count(Severity::Error) > 0
@@ -101,71 +118,124 @@ impl<'a> Findings<'a> {
     }
 }
 
-/// Prints the findings: text for people to standard error; JSON and SARIF to standard output, or to standard error as well if
-/// standard output is `taken` by what the command makes.
-pub fn print(
-    findings: &Findings,
-    reporting: &Reporting,
-    color: bool,
-    taken: bool,
-) -> io::Result<()> {
-    let object = match reporting.format {
-        Format::Human => {
-            // That nobody reads it is no reason to stop.
-            return human::print(findings, reporting.limit, color, &mut io::stderr().lock())
-                .or_else(|error| match error.kind() {
-                    io::ErrorKind::BrokenPipe => Ok(()),
-                    _ => Err(error),
-                });
-        }
-        Format::Json => json::render(findings)?,
-        Format::Sarif => sarif::render(findings)?,
-    };
-    if taken {
-        writeln!(io::stderr(), "{object}")
-    } else {
-        writeln!(io::stdout(), "{object}")
+impl Totals {
+    fn add(&mut self, other: Totals) {
+        self.programs += other.programs;
+        self.unread += other.unread;
+        self.errors += other.errors;
+        self.warnings += other.warnings;
+        self.notes += other.notes;
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rungc_syntax::{Source, Span};
+/// How severe a finding is under the options of the command line, which win, and the rules of the project; `None` leaves it out.
+/// Errors and notes stay what they are, but for notes that are left out.
+fn level(d: &Diagnostic, reporting: &Reporting) -> Option<Severity> {
+    let (options, rules) = (reporting, &reporting.rules);
+    match d.severity {
+        Severity::Error => Some(Severity::Error),
+        _ if options.allow.contains(&d.code) => None,
+        _ if options.deny.contains(&d.code) => Some(Severity::Error),
+        _ if rules.allow.contains(&d.code) => None,
+        Severity::Note => Some(Severity::Note),
+        Severity::Warning if options.deny_warnings || rules.deny.contains(&d.code) => {
+            Some(Severity::Error)
+        }
+        Severity::Warning => Some(Severity::Warning),
+    }
+}
 
-    /// A report of one note in every form, with `--deny-warnings`.
-    #[test]
-    fn notes_are_reported_and_never_fail() {
-        let program = Program {
-            source: Source::new("a.il", "END"),
-            ..Program::default()
+/// What is reported about the programs of a command: to people program by program, to tools as one document at the end.
+pub struct Reporter<'a> {
+    reporting: &'a Reporting,
+    color: bool,
+    taken: bool,
+    /// Whether the command line can mean several programs, so that the document has room for them.
+    many: bool,
+    totals: Totals,
+    json: Vec<json::File>,
+    sarif: sarif::Log,
+}
+
+/// How much was found about programs.
+#[derive(Clone, Default, Debug)]
+pub struct Totals {
+    /// Programs, those included that could not be read.
+    pub programs: usize,
+    /// Programs that could not be read.
+    pub unread: usize,
+    /// Errors in programs that could be read.
+    pub errors: usize,
+    /// Warnings.
+    pub warnings: usize,
+    /// Notes.
+    pub notes: usize,
+}
+
+impl<'a> Reporter<'a> {
+    /// Nothing reported yet. JSON and SARIF go to standard output, or to standard error if standard output is taken by what the
+    /// command makes.
+    pub fn new(reporting: &'a Reporting, cx: Context, many: bool) -> Self {
+        Reporter {
+            reporting,
+            color: cx.color,
+            taken: cx.taken,
+            many,
+            totals: Totals::default(),
+            json: Vec::new(),
+            sarif: sarif::Log::default(),
+        }
+    }
+
+    /// Whether the command line can mean several programs.
+    pub fn many(&self) -> bool {
+        self.many
+    }
+
+    /// Whether the report is for people.
+    pub fn is_for_people(&self) -> bool {
+        self.reporting.format == Format::Human
+    }
+
+    /// How much was found so far.
+    pub fn totals(&self) -> Totals {
+        self.totals.clone()
+    }
+
+    /// Takes the findings about one program; people read them at once.
+    pub fn add(&mut self, findings: &Findings) -> io::Result<()> {
+        self.totals.add(findings.totals());
+        match self.reporting.format {
+            Format::Human => {
+                let name = self.many.then(|| findings.path.display().to_string());
+                let limit = self.reporting.limit;
+                let mut out = io::stderr().lock();
+                // That nobody reads it is no reason to stop.
+                return human::print(findings, name.as_deref(), limit, self.color, &mut out)
+                    .or_else(|error| match error.kind() {
+                        io::ErrorKind::BrokenPipe => Ok(()),
+                        _ => Err(error),
+                    });
+            }
+            Format::Json => self.json.push(json::file(findings)),
+            Format::Sarif => self.sarif.add(findings, self.many),
+        }
+        Ok(())
+    }
+
+    /// Prints the document for tools, if there is anything to be told.
+    pub fn finish(self) -> io::Result<()> {
+        let document = match self.reporting.format {
+            Format::Human => return Ok(()),
+            Format::Json if self.json.is_empty() => return Ok(()),
+            Format::Json => json::render(self.json, self.many)?,
+            Format::Sarif if self.sarif.is_empty() => return Ok(()),
+            Format::Sarif => self.sarif.render()?,
         };
-        let note = Diagnostic::new(Severity::Note, "N0000", Span::new(0, 3), "worth knowing");
-        let mut diagnostics = Diagnostics::new();
-        diagnostics.push(note);
-        let reporting = |allow: &[&'static str]| Reporting {
-            format: Format::Human,
-            deny_warnings: true,
-            allow: allow.to_vec(),
-            limit: 0,
-        };
-        let found = |allow| {
-            let diagnostics = diagnostics.clone();
-            Findings::new(Path::new("a.il"), &program, diagnostics, &reporting(allow))
-        };
-        assert_eq!(found(&["N0000"]).count(Severity::Note), 0);
-        let findings = found(&[]);
-        assert!(!findings.failed());
-        let mut text = Vec::new();
-        human::print(&findings, 0, false, &mut text).unwrap();
-        let text = String::from_utf8(text).unwrap();
-        assert!(text.starts_with("note[N0000]: worth knowing"), "{text}");
-        let json: serde_json::Value =
-            serde_json::from_str(&json::render(&findings).unwrap()).unwrap();
-        assert_eq!((&json["notes"], &json["errors"]), (&1.into(), &0.into()));
-        assert_eq!(json["diagnostics"][0]["severity"], "note");
-        let sarif: serde_json::Value =
-            serde_json::from_str(&sarif::render(&findings).unwrap()).unwrap();
-        assert_eq!(sarif["runs"][0]["results"][0]["level"], "note");
+        if self.taken {
+            writeln!(io::stderr(), "{document}")
+        } else {
+            writeln!(io::stdout(), "{document}")
+        }
     }
 }

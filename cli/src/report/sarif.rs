@@ -4,43 +4,69 @@ use super::Findings;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Diagnostic, Severity, Source, Span};
 use serde_sarif::sarif::{
-    ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation, Region,
-    ReportingDescriptor, Result as Item, ResultColumnKind, ResultLevel, Run, Sarif, Tool,
+    Artifact, ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation,
+    Region, ReportingDescriptor, Result as Item, ResultColumnKind, ResultLevel, Run, Sarif, Tool,
     ToolComponent, Version,
 };
 use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
-/// The log as pretty-printed text.
-pub fn render(findings: &Findings) -> io::Result<String> {
-    let used: BTreeSet<&str> = findings.diagnostics.iter().map(|d| d.code).collect();
-    let rules: Vec<ReportingDescriptor> = codes::all()
-        .into_iter()
-        .filter(|code| used.contains(code.id))
-        .map(rule)
-        .collect();
-    let driver = ToolComponent::builder()
-        .name("rungc")
-        .version(env!("CARGO_PKG_VERSION"))
-        .rules(rules)
-        .build();
-    let results: Vec<Item> = findings
-        .diagnostics
-        .iter()
-        .map(|d| item(findings, d))
-        .collect();
-    let run = Run::builder()
-        .tool(Tool::builder().driver(driver).build())
-        .results(results)
-        .column_kind(serde_json::to_value(ResultColumnKind::UnicodeCodePoints)?)
-        .build();
-    let log = Sarif::builder()
-        .schema("https://json.schemastore.org/sarif-2.1.0.json")
-        .version(Version::V2_1_0.to_string())
-        .runs(vec![run])
-        .build();
-    Ok(serde_json::to_string_pretty(&log)?)
+/// A log in the making.
+#[derive(Default)]
+pub struct Log {
+    used: BTreeSet<&'static str>,
+    results: Vec<Item>,
+    artifacts: Vec<Artifact>,
+    /// Whether anything was added.
+    begun: bool,
+}
+
+impl Log {
+    /// Adds what was found about a file, which stands in the list of artifacts if there can be `many`.
+    pub fn add(&mut self, findings: &Findings, many: bool) {
+        self.begun = true;
+        self.used
+            .extend(findings.diagnostics.iter().map(|d| d.code));
+        let items = findings.diagnostics.iter().map(|d| item(findings, d));
+        self.results.extend(items);
+        if many {
+            let place = artifact(findings.path);
+            self.artifacts
+                .push(Artifact::builder().location(place).build());
+        }
+    }
+
+    /// Whether nothing was added.
+    pub fn is_empty(&self) -> bool {
+        !self.begun
+    }
+
+    /// The log as pretty-printed text.
+    pub fn render(self) -> io::Result<String> {
+        let rules: Vec<ReportingDescriptor> = codes::all()
+            .into_iter()
+            .filter(|code| self.used.contains(code.id))
+            .map(rule)
+            .collect();
+        let driver = ToolComponent::builder()
+            .name("rungc")
+            .version(env!("CARGO_PKG_VERSION"))
+            .rules(rules)
+            .build();
+        let mut run = Run::builder()
+            .tool(Tool::builder().driver(driver).build())
+            .results(self.results)
+            .column_kind(serde_json::to_value(ResultColumnKind::UnicodeCodePoints)?)
+            .build();
+        run.artifacts = Some(self.artifacts).filter(|artifacts| !artifacts.is_empty());
+        let log = Sarif::builder()
+            .schema("https://json.schemastore.org/sarif-2.1.0.json")
+            .version(Version::V2_1_0.to_string())
+            .runs(vec![run])
+            .build();
+        Ok(serde_json::to_string_pretty(&log)?)
+    }
 }
 
 /// What a code means, for those who see only the log.
@@ -89,9 +115,12 @@ fn message(text: &str) -> Message {
     Message::builder().text(text).build()
 }
 
+fn artifact(path: &Path) -> ArtifactLocation {
+    ArtifactLocation::builder().uri(uri(path)).build()
+}
+
 fn location(findings: &Findings, span: Span, text: Option<&str>) -> Location {
-    let artifact = ArtifactLocation::builder().uri(uri(findings.path)).build();
-    let file = PhysicalLocation::builder().artifact_location(artifact);
+    let file = PhysicalLocation::builder().artifact_location(artifact(findings.path));
     let physical = match findings.program {
         Some(program) => file.region(region(&program.source, span)).build(),
         None => file.build(),

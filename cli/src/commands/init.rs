@@ -1,0 +1,53 @@
+//! `rungc init`.
+
+use super::{Context, Failure, Outcome, Result, holder, write_file};
+use crate::args::InitArgs;
+use rungc_ir::ModelId;
+use rungc_project::{FILE, template};
+use std::path::{Path, PathBuf};
+
+/// Writes a rungc.toml beside a program, or into a folder.
+pub fn run(args: &InitArgs, cx: Context) -> Result {
+    let (folder, program) = match &args.file {
+        Some(file) if file.is_dir() && !rungc_frontend::is_project(file) => {
+            (file.clone(), only_program(file)?)
+        }
+        Some(file) => (holder(file).to_path_buf(), Some(file.clone())),
+        None => (PathBuf::from("."), only_program(Path::new("."))?),
+    };
+    let mut model = None;
+    if let Some(program) = &program {
+        let read = rungc_frontend::read(program);
+        let read = read.map_err(|error| Failure::Because(error.to_string()))?;
+        model = read.program.cpu.as_deref().and_then(ModelId::from_cpu);
+    }
+    // From the folder on, in which a project of several files may lie as a whole.
+    let name = program
+        .as_deref()
+        .map(|program| match program.strip_prefix(&folder) {
+            Ok(inside) if inside.as_os_str().is_empty() => Path::new("."),
+            Ok(inside) => inside,
+            Err(_) => program.file_name().map_or(Path::new("."), Path::new),
+        });
+    let path = match folder == Path::new(".") {
+        true => PathBuf::from(FILE),
+        false => folder.join(FILE),
+    };
+    if path.exists() {
+        let why = format!("{} is already there: edit it, or remove it", path.display());
+        return Err(Failure::Because(why));
+    }
+    write_file(&path, template(name, model).as_bytes(), false)?;
+    cx.note(&format!("       Wrote {}", path.display()));
+    Ok(Outcome::Success)
+}
+
+/// The program in a folder, if there is one alone.
+fn only_program(folder: &Path) -> std::result::Result<Option<PathBuf>, Failure> {
+    let found = rungc_frontend::programs(folder, 1);
+    let found = found.map_err(|error| Failure::Because(error.to_string()))?;
+    Ok(match &found[..] {
+        [only] => Some(only.clone()),
+        _ => None,
+    })
+}

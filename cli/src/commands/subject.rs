@@ -1,0 +1,285 @@
+//! The programs that a command works on: where they are, and which settings hold for each.
+
+use super::{Context, Failure, Outcome, Result, conclude_all, tell};
+use crate::args::{Input, Inputs, Reading, Reporting};
+use crate::report::{Findings, Reporter};
+use rungc_ir::ModelId;
+use rungc_project::{Error, Project};
+use rungc_syntax::Program;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// How standard input is named.
+const STDIN: &str = "-";
+
+/// One program, with what the command line and its project's settings say about it.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The file or folder as named; `-` is standard input.
+    pub file: PathBuf,
+    /// The settings of its project.
+    pub project: Option<Rc<Project>>,
+    /// The model, if it is chosen; else the program names it.
+    pub model: Option<ModelId>,
+    /// How to report diagnostics.
+    pub reporting: Reporting,
+}
+
+impl Subject {
+    /// Whether it is read from standard input.
+    pub fn is_stdin(&self) -> bool {
+        self.file == Path::new(STDIN)
+    }
+
+    /// The settings of its project, if the project is about this program.
+    pub fn own_project(&self) -> Option<&Project> {
+        let project = self.project.as_deref();
+        project.filter(|project| project.is_about(&self.file))
+    }
+}
+
+/// The settings found so far, by the file they are in.
+struct Projects<'a> {
+    reading: &'a Reading,
+    cx: Context,
+    loaded: BTreeMap<PathBuf, Rc<Project>>,
+}
+
+impl Projects<'_> {
+    /// The settings for a path.
+    fn of(&mut self, path: &Path) -> std::result::Result<Option<Rc<Project>>, Failure> {
+        let found = match &self.reading.project {
+            Some(given) => Some(given.clone()),
+            None => Project::find(path),
+        };
+        let Some(found) = found else { return Ok(None) };
+        if let Some(project) = self.loaded.get(&found) {
+            return Ok(Some(Rc::clone(project)));
+        }
+        let project = Rc::new(load(&found, &self.reading.reporting, self.cx)?);
+        self.cx
+            .detail(|| format!("    Settings {}", project.path.display()));
+        self.loaded.insert(found, Rc::clone(&project));
+        Ok(Some(project))
+    }
+
+    fn subject(&mut self, file: PathBuf) -> std::result::Result<Subject, Failure> {
+        let folder = Path::new(".");
+        let is_stdin = file == Path::new(STDIN);
+        let project = self.of(if is_stdin { folder } else { &file })?;
+        let mut reporting = self.reading.reporting.clone();
+        if let Some(project) = &project {
+            reporting.rules = project.check.clone();
+        }
+        let model = project.as_ref().and_then(|project| project.model);
+        Ok(Subject {
+            file,
+            model: self.reading.model.or(model),
+            project,
+            reporting,
+        })
+    }
+
+    /// The program of the project that this folder belongs to.
+    fn own(&mut self) -> std::result::Result<PathBuf, Failure> {
+        let Some(project) = self.of(Path::new("."))? else {
+            let why = "which program? Name a FILE, or write a rungc.toml with `rungc init`";
+            return Err(Failure::Because(why.to_string()));
+        };
+        project.program().map(near).ok_or_else(|| {
+            let path = project.path.display();
+            Failure::Because(format!(
+                "which program? Name a FILE, or `program` in `[project]` of {path}"
+            ))
+        })
+    }
+}
+
+/// A path as seen from the current folder, where it lies below it.
+pub fn near(path: PathBuf) -> PathBuf {
+    let folder = std::env::current_dir().and_then(|folder| folder.canonicalize());
+    let below = folder
+        .ok()
+        .and_then(|f| path.strip_prefix(f).ok().map(Path::to_owned));
+    below.unwrap_or(path)
+}
+
+/// Reads settings; their mistakes are reported.
+pub fn load(
+    path: &Path,
+    reporting: &Reporting,
+    cx: Context,
+) -> std::result::Result<Project, Failure> {
+    Project::load(path)
+        .and_then(|project| super::defaults::check(&project).map(|()| project))
+        .map_err(|error| refuse(error, reporting, cx))
+}
+
+/// Reports what is wrong with settings.
+pub fn refuse(error: Error, reporting: &Reporting, cx: Context) -> Failure {
+    let Error::Mistakes {
+        path,
+        text,
+        diagnostics,
+    } = error
+    else {
+        return Failure::Because(error.to_string());
+    };
+    let program = Program {
+        source: text,
+        ..Program::default()
+    };
+    let path = near(path);
+    let findings = Findings::new(&path, &program, diagnostics, reporting);
+    let mut reporter = Reporter::new(reporting, cx, false);
+    match reporter.add(&findings).and_then(|()| reporter.finish()) {
+        Ok(()) => Failure::Reported,
+        Err(error) => error.into(),
+    }
+}
+
+/// The program of a command that takes one.
+pub fn one(input: &Input, cx: Context) -> std::result::Result<Subject, Failure> {
+    let reading = &input.reading;
+    let mut projects = Projects {
+        reading,
+        cx,
+        loaded: BTreeMap::new(),
+    };
+    let file = match &input.file {
+        Some(file) => file.clone(),
+        None => projects.own()?,
+    };
+    projects.subject(file)
+}
+
+/// The settings for the current folder, or those that are given.
+pub fn project(given: Option<&Path>, cx: Context) -> std::result::Result<Option<Project>, Failure> {
+    let found = given
+        .map(Path::to_owned)
+        .or_else(|| Project::find(Path::new(".")));
+    let reporting = Reporting::default();
+    found.map(|path| load(&path, &reporting, cx)).transpose()
+}
+
+/// The programs that a command line names, and whether it can mean several.
+fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool), Failure> {
+    let mut projects = Projects {
+        reading: &inputs.reading,
+        cx,
+        loaded: BTreeMap::new(),
+    };
+    let mut many = inputs.files.len() > 1;
+    let mut files = Vec::new();
+    for file in &inputs.files {
+        if !file.is_dir() || rungc_frontend::is_project(file) {
+            files.push(file.clone());
+            continue;
+        }
+        let found = rungc_frontend::programs(file, usize::MAX);
+        let mut found = found.map_err(|error| Failure::Because(error.to_string()))?;
+        if found.is_empty() {
+            // That the folder is empty is said where it is read.
+            found.push(file.clone());
+        } else {
+            many = true;
+        }
+        // `check .` names programs as a shell would.
+        let named = |path: PathBuf| path.strip_prefix(".").map_or(path.clone(), Path::to_owned);
+        files.extend(found.into_iter().map(named));
+    }
+    if inputs.files.is_empty() {
+        files.push(projects.own()?);
+    }
+    let mut seen = Vec::new();
+    files.retain(|file| {
+        let fresh = !seen.contains(file);
+        seen.push(file.clone());
+        fresh
+    });
+    if files
+        .iter()
+        .filter(|file| *file == Path::new(STDIN))
+        .count()
+        > 1
+    {
+        return Err(Failure::Because("`-` stands for one program".to_string()));
+    }
+    let subjects = files.into_iter().map(|file| projects.subject(file));
+    Ok((subjects.collect::<std::result::Result<_, _>>()?, many))
+}
+
+/// Works on each program that the command line names, and reports about all of them. The outcome is the worst.
+pub fn each(
+    inputs: &Inputs,
+    cx: Context,
+    mut work: impl FnMut(&Subject, &mut Reporter) -> Result,
+) -> Result {
+    let (subjects, many) = all(inputs, cx)?;
+    let mut reporter = Reporter::new(&inputs.reading.reporting, cx, many);
+    let mut worst = Outcome::Success;
+    let mut stopped = None;
+    for subject in &subjects {
+        let outcome = match work(subject, &mut reporter) {
+            Ok(outcome) => outcome,
+            // One program that cannot be worked on does not hide the others.
+            Err(Failure::Because(why)) => {
+                tell(&format!("rungc: {why}"));
+                Outcome::Unusable
+            }
+            Err(Failure::Reported) => Outcome::Unusable,
+            Err(failure) => {
+                stopped = Some(failure);
+                break;
+            }
+        };
+        worst = worst.max(outcome);
+        if outcome == Outcome::Interrupted {
+            break;
+        }
+    }
+    let totals = reporter.totals();
+    let printed = reporter.finish();
+    if let Some(failure) = stopped {
+        return Err(failure);
+    }
+    printed?;
+    if many {
+        conclude_all(&totals, &inputs.reading.reporting, cx);
+    }
+    Ok(worst)
+}
+
+/// Reads a program, wherever it comes from.
+pub fn source(
+    subject: &Subject,
+) -> std::result::Result<rungc_frontend::Read, rungc_frontend::ReadError> {
+    if subject.is_stdin() {
+        return rungc_frontend::read_from("stdin", io::stdin().lock());
+    }
+    rungc_frontend::read(&subject.file)
+}
+
+/// Where the programs of a command were written.
+#[derive(Default)]
+pub struct Places(BTreeMap<PathBuf, PathBuf>);
+
+impl Places {
+    /// Takes a place for a program; no other program of this command may have it.
+    pub fn take(
+        &mut self,
+        place: PathBuf,
+        subject: &Subject,
+    ) -> std::result::Result<PathBuf, Failure> {
+        match self.0.insert(place.clone(), subject.file.clone()) {
+            None => Ok(place),
+            Some(other) => Err(Failure::Because(format!(
+                "{}: {} has this place already, since both programs have the same name",
+                subject.file.display(),
+                other.display()
+            ))),
+        }
+    }
+}

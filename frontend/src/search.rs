@@ -1,0 +1,71 @@
+//! Finding the programs in a folder.
+
+use crate::{GX_DEVELOPER, csv, encoding, find, main_file};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use walkdir::{DirEntry, WalkDir};
+
+/// How much of a table shows whether it is a list export, in bytes: its headers stand in the first rows.
+const HEAD: u64 = 64 << 10;
+
+/// Whether a folder is itself a program: that of a GX Developer project, or of a list export.
+pub fn is_project(folder: &Path) -> bool {
+    main_file(folder).is_ok()
+}
+
+/// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists (`.il`), list exports (`.csv`), GX Developer
+/// projects (their folders) and GX Works2 projects (`.gxw`). Hidden folders, folders called `target` and links to folders are left
+/// out.
+pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    let entries = WalkDir::new(folder).max_depth(depth).sort_by_file_name();
+    let mut entries = entries.into_iter();
+    while let Some(entry) = entries.next() {
+        let entry = entry?;
+        let path = entry.path();
+        if entry.file_type().is_dir() {
+            if entry.depth() > 0 && is_left_out(&entry) {
+                entries.skip_current_dir();
+            } else if GX_DEVELOPER.iter().any(|place| find(path, place).is_some()) {
+                found.push(path.to_owned());
+                entries.skip_current_dir();
+            }
+            continue;
+        }
+        let ending = path.extension().unwrap_or_default();
+        let ending = ending.to_string_lossy().to_lowercase();
+        let fits = match ending.as_str() {
+            "il" | "gxw" => true,
+            "csv" => is_export(path),
+            _ => false,
+        };
+        if fits {
+            found.push(path.to_owned());
+        }
+    }
+    Ok(found)
+}
+
+fn is_left_out(folder: &DirEntry) -> bool {
+    let name = folder.file_name().to_string_lossy();
+    name.starts_with('.') || name == "target"
+}
+
+/// Whether a table is a list export, not comments or something else.
+fn is_export(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    if read.is_err() {
+        // What cannot be read is said where it is read.
+        return true;
+    }
+    // Whole lines alone: the last character may be cut. In UTF-16 a line feed has a zero beside it.
+    if head.len() as u64 == HEAD
+        && let Some(last) = head.iter().rposition(|&byte| byte == b'\n')
+    {
+        head.truncate(last + 1 + usize::from(head.get(last + 1) == Some(&0)));
+    }
+    let text = encoding::decode(&head);
+    text.is_some_and(|(text, _)| csv::detect(&text).is_some())
+}

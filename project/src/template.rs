@@ -1,0 +1,67 @@
+//! The file that `rungc init` writes.
+
+use rungc_ir::{Model, ModelId};
+use std::path::Path;
+use toml::Value;
+
+/// A file for a program, with a comment on each key. What is not known stands there as a comment; so does a model that the program
+/// does not name itself.
+pub fn template(program: Option<&Path>, model: Option<ModelId>) -> String {
+    let models: Vec<_> = ModelId::ALL.iter().map(|&id| Model::get(id).name).collect();
+    let program = match program {
+        // Separators as every system reads them.
+        Some(path) => key("program", &path.display().to_string().replace('\\', "/")),
+        None => format!("# {}", key("program", "machine.gxw")),
+    };
+    let model = match model {
+        Some(model) => key("model", Model::get(model).name),
+        None => format!("# {}", key("model", "fx3u")),
+    };
+    format!(
+        r#"# Settings of a project for rungc, explained in docs/project.md. Options of the command line win over them.
+
+[project]
+# The program, by its path from here: what a command works on that is given no FILE.
+{program}
+# The PLC model: {models}.
+{model}
+# Name of the program in emitted code, if not the file's.
+# name = "packer"
+# Encoding of texts that are not Unicode, where rungc takes them for another.
+# encoding = "windows-1252"
+
+[check]
+# Warnings to leave out, by code or name: `rungc explain double-coil`.
+allow = []
+# Warnings that are errors here.
+deny = []
+# Limits of the model that are warnings here, by the codes of their errors.
+# warn = ["E0105"]
+
+[build]
+# What `rungc build` makes, and where: c, rust, lib, bin, elf or ir.
+# emit = "c"
+# output = "firmware/plc"
+# target = "thumbv7em-none-eabihf"
+# board = "board.toml"
+
+[test]
+# What `rungc test` runs, and on which engine: interp, c, rust or all.
+# files = ["tests"]
+# engine = "interp"
+
+# What an operand with an index register can reach, so that no more is stored.
+# [index]
+# "D100Z0" = "D100-D163"
+
+# Devices that keep their values over power-off, where that differs from the model's usual ranges.
+# [latched]
+# D = "D200-D511"
+"#,
+        models = models.join(", ")
+    )
+}
+
+fn key(name: &str, value: &str) -> String {
+    format!("{name} = {}", Value::String(value.to_string()))
+}
