@@ -396,10 +396,9 @@ fn target(name: &str) -> Result<&'static Target, String> {
 
 fn model(name: &str) -> Result<ModelId, String> {
     ModelId::from_name(name).ok_or_else(|| {
-        let names: Vec<_> = ModelId::ALL
-            .iter()
-            .map(|&id| rungc_ir::Model::get(id).name)
-            .collect();
-        format!("no such model; there are {}", names.join(", "))
+        let nearest = ModelId::from_cpu(name).map_or_else(String::new, |id| {
+            format!("; {} resembles it most", rungc_ir::Model::get(id).name)
+        });
+        format!("no such model{nearest}; there are {}", ModelId::names())
     })
 }

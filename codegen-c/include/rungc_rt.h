@@ -145,6 +145,10 @@ enum rungc_pulses
      * HM: axes, which are bound to outputs.
      */
     RUNGC_PULSES_HM = 5,
+    /**
+     * FX1S, FX1N.
+     */
+    RUNGC_PULSES_FX1 = 6,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -2,11 +2,11 @@
 
 use crate::check;
 use crate::lower::{LowerOptions, lower};
-use crate::model::{Model, ModelId};
+use crate::model::{Fit, Model, ModelId};
 use crate::node::Module;
 use crate::passes::optimise;
 use crate::resolve::resolve;
-use rungc_syntax::{DeviceClass, Diagnostics, Program};
+use rungc_syntax::{DeviceClass, Diagnostics, Program, Span, codes};
 
 /// How to compile.
 #[derive(Clone, Debug, Default)]
@@ -53,15 +53,39 @@ pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
     compiled
 }
 
-fn model_of(program: &Program, options: &CompileOptions) -> &'static Model {
-    let named = || program.cpu.as_deref().and_then(ModelId::from_cpu);
-    Model::get(options.model.or_else(named).unwrap_or(ModelId::Fx3u))
+/// The model that a program is for, and what is to be said of its choice.
+fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Diagnostics) {
+    let mut out = Diagnostics::new();
+    let (id, cpu) = match (options.model, program.cpu.as_deref()) {
+        (Some(id), _) => return (Model::get(id), out),
+        (None, None) => return (Model::get(ModelId::Fx3u), out),
+        (None, Some(cpu)) => (ModelId::for_cpu(cpu), cpu),
+    };
+    let taken = |id| format!("it is compiled as {}", Model::get(id).name);
+    let model = match id {
+        Some((id, Fit::Same)) => id,
+        Some((id, Fit::Nearest(different))) => {
+            let message = format!("CPU type {cpu} is not among the models; {}", taken(id));
+            let note = codes::NEAREST_MODEL.at(Span::default(), message);
+            out.push(note.help(different));
+            id
+        }
+        None => {
+            let id = ModelId::Fx3u;
+            let message = format!("CPU type {cpu} is not known; {}", taken(id));
+            let warning = codes::UNKNOWN_CPU.at(Span::default(), message);
+            out.push(warning.help(format!("`--model` takes {}", ModelId::names())));
+            id
+        }
+    };
+    (Model::get(model), out)
 }
 
 /// A program as lowering makes it. Lowering has the last word on what can be compiled, so checking ends with it too.
 fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
-    let model = model_of(program, options);
-    let (resolved, mut diagnostics) = resolve(program, model);
+    let (model, mut diagnostics) = model_of(program, options);
+    let (resolved, found) = resolve(program, model);
+    diagnostics.extend(found.sorted());
     diagnostics.extend(check::check(&resolved).sorted());
     let module = if diagnostics.has_errors() {
         None

@@ -132,7 +132,7 @@ const FOUR_FOLD: &[FourFold] = &[
         ],
     },
     FourFold {
-        models: ModelSet::of(&[ModelId::L01s, ModelId::Fx3g, ModelId::Fx3u]),
+        models: ModelSet::L01S.or(ModelSet::FX3),
         relays: &[
             (251, 8198),
             (252, 8198),
@@ -143,11 +143,10 @@ const FOUR_FOLD: &[FourFold] = &[
     },
 ];
 
-const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+const INOVANCE: ModelSet = ModelSet::INOVANCE;
 /// Models on which a counter stays at 0 as long as its reset input is on (h1u-h2u-programming §3.6, l01s-programming §6.3). On the
 /// others it is reset at the edge.
-pub const HELD_BY_RESET: ModelSet =
-    ModelSet::of(&[ModelId::H1u, ModelId::H2u, ModelId::L01s, ModelId::Hm]);
+pub const HELD_BY_RESET: ModelSet = ModelSet::INOVANCE.or(ModelSet::L01S).or(ModelSet::HM);
 /// Models with [`EDGE_RESET`] and [`NO_RESET`].
 pub const RESET_RELAYS: ModelSet = INOVANCE;
 /// Only the edge of a reset input resets.
@@ -162,18 +161,25 @@ pub fn per_minute(model: ModelId) -> Option<u32> {
     INOVANCE.has(model).then_some(8100)
 }
 
-/// How many comparisons at the count a model makes at a time, tables among them (h1u-h2u-programming §4.3.6); `None`: any number.
+/// How many comparisons at the count a model makes at a time, tables among them (h1u-h2u-programming §4.3.6; FX1S/FX1N/FX2N programming
+/// manual II §5.6; FX3 programming manual §14.4); `None`: any number.
 pub fn most_comparisons(model: ModelId) -> Option<u32> {
     match model {
-        ModelId::H1u | ModelId::H2u | ModelId::Fx2n | ModelId::Fx3g => Some(6),
-        ModelId::Fx3u => Some(32),
+        ModelId::Fx1s | ModelId::Fx1n => Some(4),
+        ModelId::H1u
+        | ModelId::H2u
+        | ModelId::Fx2n
+        | ModelId::Fx2nCompatible
+        | ModelId::Fx3s
+        | ModelId::Fx3g => Some(6),
+        ModelId::Fx3u | ModelId::Fx3uCompatible => Some(32),
         ModelId::L01s | ModelId::Hm => None,
     }
 }
 
 /// Models on which a comparison acts when the count crosses the value in either direction, also where the program changes one of
 /// them, and not only at a count that equals it (hm-motion-controller §8.3.14).
-pub const CROSSING: ModelSet = ModelSet::of(&[ModelId::Hm]);
+pub const CROSSING: ModelSet = ModelSet::HM;
 /// The zones in which comparisons of those models run.
 pub const ZONES: std::ops::RangeInclusive<i32> = 0..=5;
 
@@ -334,7 +340,7 @@ const fn meter(input: u32, registers: u32, measures: &'static [u32], period: Opt
     }
 }
 
-/// FX3G's.
+/// Those of FX3S and FX3G.
 const FX3G_METERS: &[Meter] = &[
     meter(0, 8074, &[8075, 8076], Some(8080)),
     meter(1, 8080, &[8075, 8077], Some(8081)),
@@ -353,7 +359,7 @@ const L01S_METERS: &[Meter] = &[
 /// What measures pulses on a model.
 pub fn meters(model: ModelId) -> &'static [Meter] {
     match model {
-        ModelId::Fx3g => FX3G_METERS,
+        ModelId::Fx3s | ModelId::Fx3g => FX3G_METERS,
         ModelId::L01s => L01S_METERS,
         _ => &[],
     }

@@ -138,20 +138,20 @@ pub struct PulseCatch {
     pub inputs: u32,
 }
 
-const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
-const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+const HM: ModelSet = ModelSet::HM;
+const INOVANCE: ModelSet = ModelSet::INOVANCE;
 /// The relays that forbid interrupts on all models but HM.
 pub const MASKS: std::ops::RangeInclusive<u32> = 8050..=8059;
 
 /// Pulse catch (h1u-h2u-programming §3.8).
 const PULSE_CATCH: &[PulseCatch] = &[
     PulseCatch {
-        models: ModelSet::of(&[ModelId::H1u, ModelId::H2u, ModelId::Fx2n, ModelId::Fx3g]),
+        models: INOVANCE.or(ModelSet::FX).without(ModelSet::FX3U),
         first: 8170,
         inputs: 6,
     },
     PulseCatch {
-        models: ModelSet::of(&[ModelId::L01s, ModelId::Fx3u]),
+        models: ModelSet::L01S.or(ModelSet::FX3U),
         first: 8170,
         inputs: 8,
     },
@@ -251,7 +251,7 @@ const PRECEDENCES: &[Precedence] = &[
     },
     // l01s-programming §6.4, which names the kinds alone; of timers I6 comes first (§6.4.2).
     Precedence {
-        models: ModelSet::of(&[ModelId::L01s]),
+        models: ModelSet::L01S,
         kinds: &[Kind::Input, Kind::Timer, Kind::Counter],
         first_come: false,
     },
@@ -265,7 +265,7 @@ const PRECEDENCES: &[Precedence] = &[
 
 /// The FX family: the lower pointer runs first of those that come at once.
 const FX: Precedence = Precedence {
-    models: ModelSet::of(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]),
+    models: ModelSet::FX,
     kinds: &[],
     first_come: true,
 };

@@ -1,12 +1,17 @@
 //! The PLC models: which devices each has, which of them are latched, what its timers and counters are.
 
+mod fx1;
+mod fx2n;
+mod fx3;
 mod hm;
 mod inovance;
 mod l01s;
-mod mitsubishi;
+mod set;
 
 use crate::catalogue::Classes;
 use crate::special;
+pub use set::ModelSet;
+
 use rungc_rt::{Pulses, TimerKind};
 use rungc_syntax::DeviceClass;
 
@@ -22,76 +27,85 @@ pub enum ModelId {
     L01s,
     /// Kewei HM motion controller.
     Hm,
-    /// Mitsubishi FX2N/FX2NC (and what is older: FX0, FX1, FX1N, FX1S read as FX2N).
+    /// Mitsubishi FX1S.
+    Fx1s,
+    /// Mitsubishi FX1N/FX1NC.
+    Fx1n,
+    /// Mitsubishi FX2N/FX2NC.
     Fx2n,
-    /// Mitsubishi FX3G/FX3S.
+    /// Boards of other makers that take programs for FX2N.
+    Fx2nCompatible,
+    /// Mitsubishi FX3S.
+    Fx3s,
+    /// Mitsubishi FX3G/FX3GC/FX3GE.
     Fx3g,
     /// Mitsubishi FX3U/FX3UC.
     Fx3u,
+    /// Boards of other makers that take programs for FX3U.
+    Fx3uCompatible,
+}
+
+/// How well a model fits a CPU type.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Fit {
+    /// It is this model, or one that a program cannot tell from it.
+    Same,
+    /// None of the models is this CPU type, and this one resembles it most; the text says what is different there.
+    Nearest(&'static str),
 }
 
 impl ModelId {
     /// All models, in the order of the enum.
-    pub const ALL: [ModelId; 7] = {
+    pub const ALL: [ModelId; 12] = {
         use ModelId::*;
-        [H1u, H2u, L01s, Hm, Fx2n, Fx3g, Fx3u]
+        [
+            H1u,
+            H2u,
+            L01s,
+            Hm,
+            Fx1s,
+            Fx1n,
+            Fx2n,
+            Fx2nCompatible,
+            Fx3s,
+            Fx3g,
+            Fx3u,
+            Fx3uCompatible,
+        ]
     };
 
-    /// The model with this name on the command line, e.g. `h2u`.
+    /// The model with this name on the command line, e.g. `h2u`, or with this CPU type, e.g. `fx3uc`. Case does not matter.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|&id| Model::get(id).name.eq_ignore_ascii_case(name))
+        let is = |known: &str| known.eq_ignore_ascii_case(name);
+        Self::ALL.into_iter().find(|&id| {
+            let model = Model::get(id);
+            is(model.name) || model.cpus.iter().any(|cpu| is(cpu))
+        })
     }
 
-    /// The model that a project's CPU type means, e.g. `FX3U/FX3UC`. Projects for the makers' own models are made for the
-    /// Mitsubishi model they descend from.
+    /// The model that a project's CPU type means, e.g. `FX3U/FX3UC`, and how well it fits. Projects for the makers' own models are
+    /// made for the Mitsubishi model they descend from.
+    pub fn for_cpu(cpu: &str) -> Option<(Self, Fit)> {
+        let names = || cpu.split('/').map(str::trim);
+        let nearest = |name: &str| {
+            Self::ALL.into_iter().find_map(|id| {
+                let mut like = Model::get(id).nearest.iter();
+                let (_, different) = like.find(|(known, _)| known.eq_ignore_ascii_case(name))?;
+                Some((id, Fit::Nearest(different)))
+            })
+        };
+        let same = names().find_map(Self::from_name).map(|id| (id, Fit::Same));
+        same.or_else(|| names().find_map(nearest))
+    }
+
+    /// The names of all models: `h1u, h2u, …`.
+    pub fn names() -> String {
+        Self::ALL.map(|id| Model::get(id).name).join(", ")
+    }
+
+    /// The model of [`ModelId::for_cpu`].
     pub fn from_cpu(cpu: &str) -> Option<Self> {
-        let cpu = cpu.trim().to_ascii_uppercase();
-        let first = cpu.split('/').next().unwrap_or(&cpu);
-        Self::ALL
-            .into_iter()
-            .find(|&id| Model::get(id).cpus.contains(&first))
-            .or_else(|| Self::from_name(first))
-    }
-}
-
-/// A set of models.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct ModelSet(u8);
-
-impl ModelSet {
-    /// Every model.
-    pub const ALL: ModelSet = ModelSet(0x7f);
-    /// No model.
-    pub const NONE: ModelSet = ModelSet(0);
-
-    /// These models.
-    pub const fn of(models: &[ModelId]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < models.len() {
-            bits |= 1 << models[i] as u8;
-            i += 1;
-        }
-        ModelSet(bits)
-    }
-
-    /// All of these but `models`.
-    #[must_use]
-    pub const fn except(self, models: &[ModelId]) -> Self {
-        ModelSet(self.0 & !Self::of(models).0)
-    }
-
-    /// These and `models`.
-    #[must_use]
-    pub const fn and(self, models: &[ModelId]) -> Self {
-        ModelSet(self.0 | Self::of(models).0)
-    }
-
-    /// Whether `model` is one of them.
-    pub const fn has(self, model: ModelId) -> bool {
-        self.0 >> model as u8 & 1 == 1
+        Self::for_cpu(cpu).map(|(id, _)| id)
     }
 }
 
@@ -128,8 +142,11 @@ pub struct Model {
     pub name: &'static str,
     /// Name for people: `Inovance H2U`.
     pub title: &'static str,
-    /// CPU types of projects that are for it, in upper case: `FX3U`.
+    /// CPU types of projects that are for it, in upper case: `FX3U`, `FX3UC`. A program cannot tell one from the other.
     pub cpus: &'static [&'static str],
+    /// CPU types that are not among the models, in upper case, and resemble this one most ([`Fit::Nearest`]), each with what is different
+    /// there.
+    pub nearest: &'static [(&'static str, &'static str)],
     /// Its devices: general and special ranges of every class, P, I and N included. Sorted by class and first number, disjoint.
     pub ranges: &'static [Range],
     /// Its timers, sorted, disjoint; they cover the ranges of class T.
@@ -180,9 +197,14 @@ impl Model {
             ModelId::H2u => &inovance::H2U,
             ModelId::L01s => &l01s::L01S,
             ModelId::Hm => &hm::HM,
-            ModelId::Fx2n => &mitsubishi::FX2N,
-            ModelId::Fx3g => &mitsubishi::FX3G,
-            ModelId::Fx3u => &mitsubishi::FX3U,
+            ModelId::Fx1s => &fx1::FX1S,
+            ModelId::Fx1n => &fx1::FX1N,
+            ModelId::Fx2n => &fx2n::FX2N,
+            ModelId::Fx2nCompatible => &fx2n::FX2N_COMPATIBLE,
+            ModelId::Fx3s => &fx3::FX3S,
+            ModelId::Fx3g => &fx3::FX3G,
+            ModelId::Fx3u => &fx3::FX3U,
+            ModelId::Fx3uCompatible => &fx3::FX3U_COMPATIBLE,
         }
     }
 
@@ -347,7 +369,7 @@ const INDEX_ALIASES: &[(u32, DeviceClass, u32)] = &{
 
 #[cfg(test)]
 mod tests {
-    use super::{Model, ModelId};
+    use super::{Fit, Model, ModelId, ModelSet};
     use rungc_syntax::DeviceClass;
 
     #[test]
@@ -385,9 +407,46 @@ mod tests {
     #[test]
     fn models_are_found_by_name_and_cpu() {
         assert_eq!(ModelId::from_name("h2u"), Some(ModelId::H2u));
-        assert_eq!(ModelId::from_cpu("FX3U/FX3UC"), Some(ModelId::Fx3u));
-        assert_eq!(ModelId::from_cpu("FX2N/FX2NC"), Some(ModelId::Fx2n));
-        assert_eq!(ModelId::from_cpu("FX1S"), Some(ModelId::Fx2n));
+        assert_eq!(ModelId::from_name("fx3uc"), Some(ModelId::Fx3u));
+        assert_eq!(ModelId::from_name("FX3GE"), Some(ModelId::Fx3g));
+        assert_eq!(ModelId::from_name("fx0n"), None);
+        let cpu = ModelId::for_cpu;
+        assert_eq!(cpu("FX3U/FX3UC"), Some((ModelId::Fx3u, Fit::Same)));
+        assert_eq!(cpu("FX2N/FX2NC"), Some((ModelId::Fx2n, Fit::Same)));
+        assert_eq!(cpu("FX1N/FX1NC"), Some((ModelId::Fx1n, Fit::Same)));
+        assert_eq!(cpu("fx1s"), Some((ModelId::Fx1s, Fit::Same)));
+        let nearest = |name| match cpu(name) {
+            Some((id, Fit::Nearest(_))) => Some(id),
+            _ => None,
+        };
+        assert_eq!(nearest("FX0/FX0S"), Some(ModelId::Fx1s));
+        assert_eq!(nearest("FX2/FX2C"), Some(ModelId::Fx2n));
         assert_eq!(ModelId::from_cpu("Q02"), None);
+    }
+
+    #[test]
+    fn no_name_means_two_models() {
+        let mut seen = std::collections::BTreeSet::new();
+        for id in ModelId::ALL {
+            let model = Model::get(id);
+            let upper = model.name.to_ascii_uppercase();
+            let others = model.cpus.iter().filter(|cpu| **cpu != upper);
+            let nearest = model.nearest.iter().map(|(name, _)| name);
+            let names = others.chain(nearest).map(|name| (*name).to_owned());
+            for name in names.chain([upper.clone()]) {
+                assert_eq!(name, name.to_ascii_uppercase());
+                assert!(seen.insert(name.clone()), "{name} is {} too", model.name);
+            }
+        }
+    }
+
+    #[test]
+    fn sets_hold_what_they_were_made_of() {
+        for (i, id) in ModelId::ALL.into_iter().enumerate() {
+            assert_eq!(id as usize, i);
+            assert!(ModelSet::ALL.has(id) && !ModelSet::NONE.has(id));
+            assert!(!ModelSet::ALL.without(ModelSet::of(&[id])).has(id));
+            assert!(ModelSet::NONE.or(ModelSet::of(&[id])).has(id));
+        }
     }
 }

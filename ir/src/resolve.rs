@@ -11,7 +11,7 @@ mod steps;
 pub(crate) use operands::constant_value;
 
 use crate::catalogue::{Found, Inst, Param};
-use crate::model::{Model, ModelId, ModelSet};
+use crate::model::{Model, ModelSet};
 use mnemonic::Fit;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, Program};
 
@@ -111,9 +111,9 @@ fn label(instr: &Instr) -> Option<Device> {
 /// Takes the PLC's error numbers away where the model's manual does not have them.
 pub(crate) fn numbered(diagnostics: Diagnostics, model: &Model) -> Diagnostics {
     /// Models whose manuals number the errors of a program.
-    const NUMBERED: ModelSet = ModelSet::ALL.except(&[ModelId::L01s, ModelId::Hm]);
+    const NUMBERED: ModelSet = ModelSet::INOVANCE.or(ModelSet::FX);
     /// Models that reserve the numbers of contact logic (h1u-h2u-programming §8.7).
-    const LOGIC_RESERVED: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+    const LOGIC_RESERVED: ModelSet = ModelSet::INOVANCE;
     let known = |code: u16| {
         let logic = matches!(code, 6601..=6604 | 6609..=6617);
         NUMBERED.has(model.id) && !(logic && LOGIC_RESERVED.has(model.id))

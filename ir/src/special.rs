@@ -103,9 +103,56 @@ const fn tables(model: ModelId) -> &'static [&'static [Special]] {
         ModelId::H2u => &[inovance::BOTH, inovance::H2U],
         ModelId::L01s => &[l01s::L01S],
         ModelId::Hm => &[hm::HM],
-        ModelId::Fx2n => &[mitsubishi::ALL, mitsubishi::FX2N],
-        ModelId::Fx3g => &[mitsubishi::ALL, mitsubishi::FX3, mitsubishi::FX3G],
-        ModelId::Fx3u => &[mitsubishi::ALL, mitsubishi::FX3, mitsubishi::FX3U],
+        ModelId::Fx1s => &[
+            mitsubishi::ALL,
+            mitsubishi::FAST_TIMERS,
+            mitsubishi::D8145,
+            mitsubishi::FX1,
+            mitsubishi::FX1S,
+        ],
+        ModelId::Fx1n => &[
+            mitsubishi::ALL,
+            mitsubishi::FROM_FX1N,
+            mitsubishi::D8145,
+            mitsubishi::FX1,
+            mitsubishi::FX1N,
+        ],
+        ModelId::Fx2n | ModelId::Fx2nCompatible => &[
+            mitsubishi::ALL,
+            mitsubishi::FROM_FX1N,
+            mitsubishi::FROM_FX2N,
+            mitsubishi::NOT_FX3S,
+            mitsubishi::D8145,
+            mitsubishi::FX2N,
+        ],
+        ModelId::Fx3s => &[
+            mitsubishi::ALL,
+            mitsubishi::FROM_FX1N,
+            mitsubishi::FROM_FX2N,
+            mitsubishi::FAST_TIMERS,
+            mitsubishi::FX3,
+            mitsubishi::FX3SG,
+            mitsubishi::FX3S,
+        ],
+        ModelId::Fx3g => &[
+            mitsubishi::ALL,
+            mitsubishi::FROM_FX1N,
+            mitsubishi::FROM_FX2N,
+            mitsubishi::NOT_FX3S,
+            mitsubishi::FX3,
+            mitsubishi::FX3GU,
+            mitsubishi::FX3SG,
+            mitsubishi::FX3G,
+        ],
+        ModelId::Fx3u | ModelId::Fx3uCompatible => &[
+            mitsubishi::ALL,
+            mitsubishi::FROM_FX1N,
+            mitsubishi::FROM_FX2N,
+            mitsubishi::NOT_FX3S,
+            mitsubishi::FX3,
+            mitsubishi::FX3GU,
+            mitsubishi::FX3U,
+        ],
     }
 }
 
@@ -157,9 +204,11 @@ const DVIT: &[RangeInclusive<u32>] = &[
 pub fn cleared_in_stop(model: ModelId) -> impl Iterator<Item = u32> {
     let relays: &'static [&'static [RangeInclusive<u32>]] = match model {
         ModelId::H1u | ModelId::H2u => &[HOME_H2U],
-        ModelId::L01s | ModelId::Fx2n => &[MASKS],
-        ModelId::Fx3g => &[MASKS, HOME_FX3],
-        ModelId::Fx3u => &[MASKS, HOME_FX3, DVIT],
+        ModelId::L01s | ModelId::Fx1s | ModelId::Fx1n | ModelId::Fx2n | ModelId::Fx2nCompatible => {
+            &[MASKS]
+        }
+        ModelId::Fx3s | ModelId::Fx3g => &[MASKS, HOME_FX3],
+        ModelId::Fx3u | ModelId::Fx3uCompatible => &[MASKS, HOME_FX3, DVIT],
         ModelId::Hm => &[],
     };
     relays.iter().copied().flatten().cloned().flatten()
@@ -203,6 +252,10 @@ const TRACE: Reason = because(Missed::Never, "sampling traces are a matter of th
 const INTERRUPTS: Reason = because(
     Missed::Never,
     "interrupts of this kind are not implemented yet",
+);
+const UNITS: Reason = because(
+    Missed::ByWriters,
+    "these timers always count units of 100 ms here",
 );
 const NETWORK: Reason = because(Missed::ByAll, "network cards are not implemented");
 const RAW: Reason = because(

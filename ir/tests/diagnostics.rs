@@ -3,6 +3,7 @@
 
 use rungc_frontend::read_text;
 use rungc_ir::check::check;
+use rungc_ir::compile::CompileOptions;
 use rungc_ir::model::{Model, ModelId};
 use rungc_ir::resolve::resolve;
 use rungc_syntax::{Diagnostic, Severity, Source, codes};
@@ -353,4 +354,28 @@ RST M8028
 END
 ";
     insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}
+
+/// What is said of the CPU type that a source names.
+fn about_cpu(cpu: &str) -> String {
+    let text = format!(";! cpu = {cpu}\nLD X0\nOUT Y0\nEND\n");
+    let read = read_text("program", &text);
+    let checked = rungc_ir::compile::check(&read.program, &CompileOptions::default());
+    let found = render(&read.program.source, &checked.diagnostics.sorted());
+    format!("{cpu}: {}\n{found}", checked.model.name)
+}
+
+#[test]
+fn cpu_types_name_models() {
+    let cpus = [
+        "FX1S",
+        "FX1NC",
+        "FX2N/FX2NC",
+        "fx3ge",
+        "FX0/FX0S",
+        "FX0N",
+        "FX2/FX2C",
+        "Q02UCPU",
+    ];
+    insta::assert_snapshot!(cpus.map(about_cpu).join("\n"));
 }

@@ -402,6 +402,22 @@ const fn fx2n(output: u32) -> Wiring {
 
 const FX2N: [Wiring; 2] = [fx2n(0), fx2n(1)];
 
+/// FX1S and FX1N: as FX2N, and with M8140 ZRN clears the counter of the amplifier by Y002 for Y000, by Y003 for Y001 (FX1S/FX1N/FX2N
+/// programming manual II §5.16).
+const fn fx1(output: u32) -> Wiring {
+    Wiring {
+        zrn_clear: Clear {
+            enable: 8140,
+            output: 2 + output,
+            ms: 20,
+            ..NO_CLEAR
+        },
+        ..fx2n(output)
+    }
+}
+
+const FX1: [Wiring; 2] = [fx1(0), fx1(1)];
+
 const fn of_axis(number: u32) -> Wiring {
     Wiring {
         axis: 300 + 50 * number,
@@ -434,6 +450,8 @@ pub enum Pulses {
     Fx3 = 4,
     /// HM: axes, which are bound to outputs.
     Hm = 5,
+    /// FX1S, FX1N.
+    Fx1 = 6,
 }
 
 impl Pulses {
@@ -446,6 +464,7 @@ impl Pulses {
             Pulses::Fx2n => &FX2N,
             Pulses::Fx3 => &FX3,
             Pulses::Hm => &HM,
+            Pulses::Fx1 => &FX1,
         }
     }
 
@@ -454,7 +473,9 @@ impl Pulses {
         match self {
             Pulses::L01s => 200_000,
             Pulses::Hm => 600_000,
-            Pulses::Without | Pulses::Inovance | Pulses::Fx2n | Pulses::Fx3 => 100_000,
+            Pulses::Without | Pulses::Inovance | Pulses::Fx1 | Pulses::Fx2n | Pulses::Fx3 => {
+                100_000
+            }
         }
     }
 
@@ -466,7 +487,7 @@ impl Pulses {
     /// The fewest pulses that PLSR sends (h1u-h2u-programming §4.3.6).
     pub const fn fewest_with_ramps(self) -> u32 {
         match self {
-            Pulses::Inovance | Pulses::Fx2n => 110,
+            Pulses::Inovance | Pulses::Fx1 | Pulses::Fx2n => 110,
             Pulses::Without | Pulses::L01s | Pulses::Fx3 | Pulses::Hm => 1,
         }
     }

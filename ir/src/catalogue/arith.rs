@@ -77,5 +77,6 @@ pub(super) const ROWS: &[Inst] = &[
         .spelling(Spelling::Wide("DXOR"))
         .text("D = S1 XOR S2, bit by bit. The 32-bit form is written DXOR."),
     one_value("NEG", 29, "Negation", ArithOp::Neg)
+        .on(NOT_FX1)
         .text("D = -D, two's complement, at each execution; the smallest value stays as it is."),
 ];

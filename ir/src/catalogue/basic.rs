@@ -2,7 +2,7 @@
 
 use super::row::*;
 use super::{Basic, Classes, Drive, Inst, Lower, Param, Role, Shape, Variant};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_syntax::DeviceClass;
 
 /// A relay that is not special.
@@ -13,7 +13,7 @@ const T: Classes = Classes::T;
 const C: Classes = Classes::C;
 const BIT_OF_WORD: Classes = Classes::WORD_BIT;
 /// The models that count steps as FX2N does.
-const LIKE_FX2N: ModelSet = INOVANCE.and(&[ModelId::Fx2n]);
+const LIKE_FX2N: ModelSet = INOVANCE.or(ModelSet::FX1).or(ModelSet::FX2N);
 
 /// Beyond the last of a class: what does not exist is told as such, and its other operands are taken for what they are meant to be.
 const ANY: u32 = u32::MAX;
@@ -43,13 +43,7 @@ const fn contact(name: &'static str, title: &'static str, which: Basic) -> Inst 
         on(FX3U).takes(CONTACT_3U),
         first(FX3U, BIT_OF_WORD).steps(3, 3),
         first_in(LIKE_FX3, M, 3584, 7679).steps(3, 3),
-        first_in(
-            LIKE_FX3.and(&[ModelId::Fx2n, ModelId::H1u, ModelId::H2u]),
-            M,
-            1536,
-            3583,
-        )
-        .steps(2, 2),
+        first_in(NOT_HM, M, 1536, 3583).steps(2, 2),
         first_in(LIKE_FX3, S, 1024, 4095).steps(2, 2),
         first_in(LIKE_FX3, T, 256, 511).steps(2, 2),
         on(HM).steps(2, 2),
@@ -95,13 +89,7 @@ const fn pulse(name: &'static str, title: &'static str, which: Basic) -> Inst {
 const BIT_STEPS: [Variant; 6] = [
     first(FX3U, BIT_OF_WORD).steps(3, 3),
     first_in(LIKE_FX3, M, 3584, 7679).steps(3, 3),
-    first_in(
-        LIKE_FX3.and(&[ModelId::Fx2n, ModelId::H1u, ModelId::H2u]),
-        M,
-        1536,
-        7999,
-    )
-    .steps(2, 2),
+    first_in(NOT_HM, M, 1536, 7999).steps(2, 2),
     first_in(NOT_HM, M, 8000, 8511).steps(2, 2),
     first(NOT_HM, S).steps(2, 2),
     first(HM, COILS).steps(2, 2),

@@ -2,11 +2,11 @@
 
 use super::row::*;
 use super::{Inst, Lower, Param};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 
 /// Models whose clock shows the last two digits of the year.
-const TWO_DIGIT_YEARS: ModelSet = FX.and(&[ModelId::L01s]);
+const TWO_DIGIT_YEARS: ModelSet = FX.or(L01S);
 const TIME: Param = src("S", REGISTERS).len(3);
 
 const fn clock(name: &'static str, fnc: u16, title: &'static str) -> Inst {

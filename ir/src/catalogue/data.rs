@@ -2,11 +2,13 @@
 
 use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use crate::runs::is_counter32;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
+/// FX1S, FX1N, FX3S and HM have no annunciators.
+const WITH_ANNUNCIATORS: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S);
 const RESETTABLE: Classes = COILS.or(REGISTERS);
 const VALUE_OR_BITS: Classes = BITS.or(REGISTERS).or(INDEX);
 
@@ -25,7 +27,7 @@ const COUNTERS_ALIKE: Rule = Rule::Holds(
     "both counters have 16 bits, or both 32",
 );
 /// Models whose DECO also takes a constant.
-const DECODES_CONSTANTS: ModelSet = FX.and(&[ModelId::L01s]);
+const DECODES_CONSTANTS: ModelSet = FX.or(L01S);
 
 const MEAN: &[Param] = &[
     src("S", WORDS).per(2),
@@ -108,18 +110,19 @@ pub(super) const ROWS: &[Inst] = &[
              error. n is 1 to 8, with a word as S to 4; 0 does nothing.",
         ),
     data("SUM", 43, "Count bits")
-        .on(NOT_HM)
+        .on(NOT_HM_FX1)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
         .flags(&["M8020"])
         .call(RtFn::Sum)
         .text("D = how many bits of S are on. M8020 is on if none is."),
     data("BON", 44, "Test a bit")
-        .on(NOT_HM)
+        .on(NOT_HM_FX1)
         .steps(7, 13)
         .takes(&[src("S", VALUES), coil("D", RESULT_BITS), count("n", 0, 15).also_on(LIKE_FX3, DATA).rules(&[Rule::WideLimits(0, 31)])])
         .call(RtFn::Bon)
         .text("D = bit n of S, counted from 0."),
     data("MEAN", 45, "Mean")
+        .on(NOT_FX1)
         .steps(7, 13)
         .takes(MEAN)
         .variants(&[on(INOVANCE).takes(MEAN_INOVANCE), on(HM).takes(MEAN_HM)])
@@ -134,7 +137,7 @@ pub(super) const ROWS: &[Inst] = &[
     data("ANS", 46, "Set an annunciator")
         .forms(W16)
         .steps(7, 7)
-        .on(NOT_HM)
+        .on(WITH_ANNUNCIATORS)
         .takes(&[
             dst("S", Classes::T).word().changed().plain().numbers(&[(DeviceClass::T, 0, 199)]),
             count("m", 1, 32767).also_on(LIKE_FX3, DATA),
@@ -146,11 +149,12 @@ pub(super) const ROWS: &[Inst] = &[
     data("ANR", 47, "Reset an annunciator")
         .forms(W16_P)
         .steps(1, 1)
-        .on(NOT_HM)
+        .on(WITH_ANNUNCIATORS)
         .flags(&["M8048", "D8049"])
         .call(RtFn::Anr)
         .text("Switches the lowest annunciator of S900–S999 that is on off; at each execution one."),
     data("SQR", 48, "Square root")
+        .on(NOT_FX1)
         .takes(ROOT)
         .flags(&["M8020", "M8021"])
         .errors(&[6706])
@@ -161,6 +165,7 @@ pub(super) const ROWS: &[Inst] = &[
              on HM it gives 0.",
         ),
     data("FLT", 49, "Integer to float")
+        .on(NOT_FX1)
         .takes(TO_FLOAT)
         .variants(&[on(HM).takes(TO_FLOAT_HM)])
         .call(RtFn::Flt)

@@ -396,7 +396,9 @@ pub fn support_table() -> String {
 pub fn special_table(model: ModelId) -> String {
     let mut text =
         "| device | access | at power-on | meaning | |\n|---|---|--:|---|---|\n".to_owned();
-    for row in special::all(model) {
+    let mut rows: Vec<_> = special::all(model).collect();
+    rows.sort_by_key(|row| (row.class, row.first));
+    for row in rows {
         let first = row.class.number(row.first);
         let device = match row.first == row.last {
             true => first.to_string(),
@@ -490,7 +492,8 @@ impl Next {
         match found {
             Some((_, "D")) => {
                 let number = first_data + self.registers;
-                self.registers += 100;
+                let roomy = model.has(DeviceClass::D, 300);
+                self.registers += if roomy { 100 } else { 50 };
                 format!("D{number}")
             }
             Some((_, "M")) => {

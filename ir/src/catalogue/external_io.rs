@@ -2,15 +2,14 @@
 
 use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::OperandKind;
 
-const H1U: ModelSet = ModelSet::of(&[ModelId::H1u]);
-const H2U: ModelSet = ModelSet::of(&[ModelId::H2u]);
-const H1U_H2U_FX: ModelSet = INOVANCE.and(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
-const NOT_FX3G: ModelSet = NOT_HM.except(&[ModelId::Fx3g]);
-const BIG_FX: ModelSet = H1U_H2U_FX.except(&[ModelId::Fx3g]);
+const H1U: ModelSet = ModelSet::H1U;
+const H2U: ModelSet = ModelSet::H2U;
+const INOVANCE_FX: ModelSet = INOVANCE.or(FX);
+const BIG_FX: ModelSet = BIG.without(L01S);
 
 /// Four devices for each of the n digit groups, operand 3.
 fn four_per_group(constants: &[Option<i64>]) -> Option<u32> {
@@ -82,7 +81,7 @@ const SHORT_TEXT: Rule = Rule::Holds(
 const fn io(name: &'static str, fnc: u16, title: &'static str) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.8")
         .fnc(fnc)
-        .on(NOT_FX3G)
+        .on(BIG)
         .errors(&[6706])
 }
 
@@ -133,7 +132,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Segd)
         .text("Writes the segments a to g of the digit in the low four bits of S to the low eight bits of D."),
     io("SEGL", 74, "Seven-segment display")
-        .on(H1U_H2U_FX)
+        .on(INOVANCE_FX)
         .steps(7, 7)
         .uses(2)
         .takes(&[
@@ -182,7 +181,7 @@ pub(super) const ROWS: &[Inst] = &[
              and a busy signal on D+11.",
         ),
     io("FROM", 78, "Read from a module")
-        .on(NOT_HM)
+        .on(WITH_MODULES)
         .forms(ALL_FORMS)
         .steps(9, 17)
         .takes(FROM_FX)
@@ -193,7 +192,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(L01S, Lower::Call(RtFn::FromHost))])
         .text("Copies n words (32-bit: pairs) of the buffer memory of module m1 from address m2 on to D. With M8164 on, D8164 is n."),
     io("TO", 79, "Write to a module")
-        .on(NOT_HM)
+        .on(WITH_MODULES)
         .forms(ALL_FORMS)
         .steps(9, 17)
         .takes(TO_FX)
@@ -204,7 +203,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(L01S, Lower::Call(RtFn::ToHost))])
         .text("Copies n words (32-bit: pairs) from S on to the buffer memory of module m1 from address m2 on. With M8164 on, D8164 is n."),
     io("RD3A", 176, "Read an analog module")
-        .on(NOT_HM)
+        .on(WITH_MODULES)
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), dst("D", RESULTS)])
@@ -213,7 +212,7 @@ pub(super) const ROWS: &[Inst] = &[
         .lower_on(&[(L01S, Lower::Todo("serial communication"))])
         .text("Reads channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it reads registers by Modbus."),
     io("WR3A", 177, "Write an analog module")
-        .on(NOT_HM)
+        .on(WITH_MODULES)
         .forms(W16_P)
         .steps(7, 7)
         .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), src("S", WORDS).also_on(FX, CONSTANTS)])

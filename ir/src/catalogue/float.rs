@@ -2,7 +2,7 @@
 
 use super::row::*;
 use super::{Classes, Inst, Lower, Param};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 
 /// Floats, and integers that become floats.
@@ -26,6 +26,7 @@ const DECIMAL: Param = dst("D", DATA).word().len(2);
 const fn float(name: &'static str, fnc: u16, title: &'static str, function: RtFn) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.10")
         .fnc(fnc)
+        .on(NOT_FX1)
         .forms(W32_P)
         .steps(9, 9)
         .errors(&[6706])
@@ -46,10 +47,12 @@ const fn function(name: &'static str, fnc: u16, title: &'static str, function: R
         .variants(VARIANTS)
 }
 
-/// Functions that FX2N and FX3G lack.
-const WITHOUT_SMALL_FX: ModelSet = ModelSet::ALL.except(&[ModelId::Fx2n, ModelId::Fx3g]);
+/// Functions that FX3S and FX3G lack.
+const NOT_FX3SG: ModelSet = NOT_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
+/// Those that FX2N lacks too.
+const WITHOUT_SMALL_FX: ModelSet = NOT_FX3SG.without(ModelSet::FX2N);
 /// The same and HM.
-const WITHOUT_SMALL_FX_HM: ModelSet = NOT_HM.except(&[ModelId::Fx2n, ModelId::Fx3g]);
+const WITHOUT_SMALL_FX_HM: ModelSet = WITHOUT_SMALL_FX.without(HM);
 
 pub(super) const ROWS: &[Inst] = &[
     float("ECMP", 110, "Compare floats", RtFn::Ecmp)
@@ -58,11 +61,11 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Compares floats: D is on if S1 > S2, D+1 if they are equal, D+2 if S1 < S2. Integer constants become floats."),
     float("EZCP", 111, "Zone compare of floats", RtFn::Ezcp)
         .steps(17, 17)
-        .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
+        .on(NOT_FX3SG)
         .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), real("S", NUMBERS), coil("D", RESULT_BITS).len(3)])
         .text("Tells where the float S lies: D is on below S1, D+1 from S1 to S2, D+2 above S2."),
     float("EMOV", 112, "Move a float", RtFn::Emov)
-        .on(NOT_HM.except(&[ModelId::Fx2n]))
+        .on(NOT_HM_FX1.without(ModelSet::FX2N))
         .takes(ONE)
         .text("Copies the float S to D."),
     float("ESTR", 116, "Float to text", RtFn::Estr)
@@ -85,11 +88,11 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Reads the text at S, with a decimal point or an exponent, as a float."),
     float("EBCD", 118, "Float to decimal", RtFn::Ebcd)
         .takes(&[real("S", DATA), DECIMAL])
-        .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
+        .on(NOT_FX3SG)
         .text("Writes S as a decimal mantissa D of four digits and a power of ten D+1."),
     float("EBIN", 119, "Decimal to float", RtFn::Ebin)
         .takes(&[src("S", DATA).word().len(2), real_out("D", DATA)])
-        .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
+        .on(NOT_FX3SG)
         .text("D = S × 10^(S+1): the mantissa S and the power of ten S+1 as a float."),
     operator("EADD", 120, "Add floats", RtFn::Eadd)
         .lower_on(&[(HM, Lower::Call(RtFn::EaddPlain))])
@@ -134,13 +137,13 @@ pub(super) const ROWS: &[Inst] = &[
              if it does not fit; on HM it stays at the end of the range.",
         ),
     function("SIN", 130, "Sine", RtFn::Sin)
-        .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
+        .on(NOT_FX3SG)
         .text("D = sin S, S in radians."),
     function("COS", 131, "Cosine", RtFn::Cos)
-        .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
+        .on(NOT_FX3SG)
         .text("D = cos S, S in radians."),
     function("TAN", 132, "Tangent", RtFn::Tan)
-        .on(ModelSet::ALL.except(&[ModelId::Fx3g]))
+        .on(NOT_FX3SG)
         .text("D = tan S, S in radians."),
     function("ASIN", 133, "Arc sine", RtFn::Asin)
         .on(WITHOUT_SMALL_FX)

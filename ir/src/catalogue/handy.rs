@@ -2,12 +2,11 @@
 
 use super::row::*;
 use super::{Classes, Inst, Param, Rule};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
-const H1U_H2U_FX: ModelSet = INOVANCE.and(&[ModelId::Fx2n, ModelId::Fx3g, ModelId::Fx3u]);
-const NOT_FX3G: ModelSet = NOT_HM.except(&[ModelId::Fx3g]);
+const INOVANCE_FX: ModelSet = INOVANCE.or(FX);
 
 /// Rows times columns: operands 1 and 2.
 fn table(constants: &[Option<i64>]) -> Option<u32> {
@@ -55,7 +54,7 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D2", Classes::S).plain().numbers(&[(DeviceClass::S, 20, 899)]),
         ])
         .flags(&["M8040", "M8041", "M8042", "M8043", "M8044", "M8045", "M8047"])
-        .example("LD M8000\nIST X020 S20 S40")
+        .example("LD M8000\nIST X010 S20 S40")
         .call(RtFn::Ist)
         .text(
             "Runs a step program by eight mode inputs from S on: manual, origin return, single step, one cycle, continuous, origin \
@@ -63,6 +62,7 @@ pub(super) const ROWS: &[Inst] = &[
              are the steps of automatic operation.",
         ),
     handy("SER", 61, "Search")
+        .on(NOT_HM_FX1)
         .forms(ALL_FORMS)
         .takes(SEARCH)
         .call(RtFn::Ser)
@@ -72,7 +72,7 @@ pub(super) const ROWS: &[Inst] = &[
         ),
     handy("ABSD", 62, "Absolute drum")
         .forms(W16_W32)
-        .on(H1U_H2U_FX)
+        .on(INOVANCE_FX)
         .takes(ABSOLUTE_DRUM)
         .call(RtFn::Absd)
         .text(
@@ -80,7 +80,7 @@ pub(super) const ROWS: &[Inst] = &[
              the end.",
         ),
     handy("INCD", 63, "Incremental drum")
-        .on(H1U_H2U_FX)
+        .on(INOVANCE_FX)
         .takes(&[
             src("S1", GROUPS.or(REGISTERS)).per(3).rules(&[Rule::WholeGroup]),
             both("S2", Classes::C).len(2).numbers(&[(DeviceClass::C, 0, 198)]),
@@ -94,13 +94,13 @@ pub(super) const ROWS: &[Inst] = &[
              bit takes over. M8029 is on for a scan after the last.",
         ),
     handy("TTMR", 64, "Teaching timer")
-        .on(NOT_FX3G)
+        .on(BIG)
         .steps(5, 5)
         .takes(&[dst("D", DATA).len(2), count("n", 0, 2)])
         .call(RtFn::Ttmr)
         .text("Measures how long it is driven: D in s × 10^n, which stays, D+1 in 100 ms, which goes back to 0."),
     handy("STMR", 65, "Special timer")
-        .on(NOT_FX3G)
+        .on(BIG)
         .steps(7, 7)
         .takes(&[
             dst("S", Classes::T).word().changed().plain().numbers(&[(DeviceClass::T, 0, 199)]),
@@ -134,7 +134,7 @@ pub(super) const ROWS: &[Inst] = &[
              stays there.",
         ),
     handy("ROTC", 68, "Rotary table")
-        .on(H1U_H2U_FX.except(&[ModelId::Fx3g]))
+        .on(BIG.without(L01S))
         .uses(1)
         .takes(&[
             both("S", DATA).len(3),
@@ -148,7 +148,7 @@ pub(super) const ROWS: &[Inst] = &[
              the phases and the zero position; D+3 … D+7 fast and slow forward, stop, slow and fast backward.",
         ),
     handy("SORT", 69, "Sort a table")
-        .on(NOT_FX3G)
+        .on(BIG)
         .steps(11, 11)
         .takes(&[
             src("S", DATA).len_of(table),

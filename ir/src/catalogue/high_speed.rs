@@ -3,7 +3,7 @@
 use super::row::*;
 use super::{Classes, Comparison, Inst, Lower, Param, Rule, Variant};
 use crate::high_speed;
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, Operand, OperandKind};
 
@@ -27,7 +27,7 @@ const COUNTER_INTERRUPTS: &[(DeviceClass, u32, u32)] = &[
 const FAST_COUNTER: Param = src("S2", Classes::C).numbers(FAST);
 /// An output that sends pulses.
 pub(super) const PULSE_OUTPUT: Param = coil("D", Classes::Y).plain().pulses();
-const LIKE_FX: ModelSet = FX.and(&[ModelId::L01s]);
+const LIKE_FX: ModelSet = FX.or(L01S);
 
 /// The greatest number of pulses, and any speed; those above the model's are held to it.
 const NUMBER: i64 = i32::MAX as i64;
@@ -215,14 +215,14 @@ pub(super) const ROWS: &[Inst] = &[
     fast("REFF", 51, "Refresh with input filter")
         .forms(W16_P)
         .steps(3, 3)
-        .on(NOT_HM.except(&[ModelId::Fx3g]))
+        .on(BIG)
         .takes(&[count("n", 0, 60)])
         .flags(&["D8020"])
         .call(RtFn::Reff)
         .text("Sets the filter time of the first inputs to n ms, in D8020."),
     fast("MTR", 52, "Input matrix")
         .steps(9, 9)
-        .on(NOT_HM.except(&[ModelId::L01s]))
+        .on(NOT_HM.without(L01S))
         .takes(&[
             bit("S", Classes::X).len(8).plain().rules(&[Rule::EndsInZero]),
             coil("D1", Classes::Y).per(3).plain().rules(&[Rule::EndsInZero]),
@@ -247,6 +247,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(HM_BIT), on(LIKE_FX).takes(RESET_FX)])
         .text("Switches D off at the moment when counter S2 reaches S1."),
     compare("HSZ", 55, "Zone compare by high-speed counter", Comparison::Zone)
+        .on(NOT_FX1)
         .steps(17, 17)
         .takes(ZONE)
         .variants(&[on(HM).takes(HM_ZONE_COMPARE)])
@@ -258,8 +259,8 @@ pub(super) const ROWS: &[Inst] = &[
     fast("SPD", 56, "Pulse density")
         .steps(7, 13)
         .on(NOT_HM)
-        .variants(&[on(INOVANCE.and(&[ModelId::Fx2n])).forms(W16),
-            on(L01S.and(&[ModelId::Fx3u, ModelId::Fx3g])).takes(&[
+        .variants(&[on(INOVANCE.or(ModelSet::FX1).or(ModelSet::FX2N)).forms(W16),
+            on(LIKE_FX3).takes(&[
             bit("S1", Classes::X).plain().numbers(&[(DeviceClass::X, 0, 7)]),
             src("S2", VALUES).limits(1, 32767),
             dst("D", REGISTERS.or(INDEX)).len(3),
@@ -304,7 +305,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[
             HM_FORMS,
             on(HM).takes(HM_RAMP),
-            on(ModelSet::of(&[ModelId::Fx2n])).takes(PLSR_110),
+            on(ModelSet::FX1.or(ModelSet::FX2N)).takes(PLSR_110),
             on(INOVANCE).takes(PLSR_INOVANCE),
         ])
         .flags(&["M8029"])
@@ -326,7 +327,7 @@ pub(super) const ROWS: &[Inst] = &[
     fast("HSCT", 280, "Table compare by high-speed counter")
         .forms(W32)
         .steps(21, 21)
-        .on(FX3U_L01S.and(&[ModelId::Hm]))
+        .on(FX3U_L01S.or(HM))
         .takes(&[
             src("S1", DATA).word().len_of(|constants| constant(constants, 1)?.checked_mul(3)),
             count("m", 1, 128),

@@ -56,6 +56,7 @@ pub(super) const ROWS: &[Inst] = &[
         ),
     row("CML", "Move complement", "h1u-h2u-programming §4.3.2")
         .fnc(14)
+        .on(NOT_FX1)
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
@@ -66,7 +67,7 @@ pub(super) const ROWS: &[Inst] = &[
         .fnc(13)
         .forms(W16_P)
         .steps(11, 11)
-        .on(NOT_HM)
+        .on(NOT_HM_FX1)
         .takes(&[
             src("S", WORDS),
             count("m1", 1, 4),
@@ -97,6 +98,7 @@ pub(super) const ROWS: &[Inst] = &[
         ),
     row("FMOV", "Fill a block", "h1u-h2u-programming §4.3.2")
         .fnc(16)
+        .on(NOT_FX1)
         .forms(ALL_FORMS)
         .steps(7, 13)
         .takes(&[
@@ -110,6 +112,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Writes the value S to n words (32-bit: pairs) from D on."),
     row("XCH", "Exchange", "h1u-h2u-programming §4.3.2")
         .fnc(17)
+        .on(NOT_FX1)
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(&[both("D1", RESULTS), both("D2", RESULTS)])
@@ -136,6 +139,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Reads the four-bit digits of S as a decimal number. A digit above 9 is an error; HM does not check."),
     row("SWAP", "Exchange bytes", "h1u-h2u-programming §4.3.10")
         .fnc(147)
+        .on(NOT_FX1)
         .forms(ALL_FORMS)
         .steps(3, 5)
         .takes(&[both("S", RESULTS)])
@@ -159,7 +163,7 @@ pub(super) const ROWS: &[Inst] = &[
         .fnc(170)
         .forms(ALL_FORMS)
         .steps(5, 9)
-        .on(NOT_HM)
+        .on(NOT_HM_FX1)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
         .errors(&[6706])
         .call(RtFn::Gry)
@@ -168,7 +172,7 @@ pub(super) const ROWS: &[Inst] = &[
         .fnc(171)
         .forms(ALL_FORMS)
         .steps(5, 9)
-        .on(NOT_HM)
+        .on(NOT_HM_FX1)
         .takes(&[src("S", VALUES), dst("D", RESULTS)])
         .errors(&[6706])
         .call(RtFn::Gbin)

@@ -3,7 +3,7 @@
 use super::high_speed::{AXIS, PULSE_OUTPUT};
 use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule, Variant};
-use crate::model::ModelId;
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
@@ -92,13 +92,13 @@ const fn position(name: &'static str, fnc: u16, title: &'static str) -> Inst {
 pub(super) const ROWS: &[Inst] = &[
     position("DSZR", 150, "Zero return with DOG search")
         .forms(W16_W32)
-        .on(NOT_HM.except(&[ModelId::Fx2n]))
+        .on(NOT_HM_FX1.without(ModelSet::FX2N))
         .takes(SEARCH)
-        .variants(&[on(L01S.and(&[ModelId::Fx3g, ModelId::Fx3u])).forms(W16), on(INOVANCE).takes(SEARCH_INOVANCE)])
+        .variants(&[on(LIKE_FX3).forms(W16), on(INOVANCE).takes(SEARCH_INOVANCE)])
         .call(RtFn::Dszr)
         .text("Runs the axis of output D1 to its origin by the signals DOG S1 and zero S2, searching the DOG if it starts past it."),
     position("DVIT", 151, "Interrupt positioning")
-        .on(FX3U.and(&[ModelId::Hm]))
+        .on(FX3U.or(HM))
         .takes(MOVE)
         .variants(&[on(HM).forms(W32).takes(MOVE_HM)])
         .call(RtFn::Dvit)
@@ -107,13 +107,13 @@ pub(super) const ROWS: &[Inst] = &[
     position("TBL", 152, "Positioning by a table")
         .forms(W32)
         .steps(17, 17)
-        .on(FX3)
+        .on(FX3GU)
         .takes(&[PULSE_OUTPUT, count("n", 1, 100)])
         .text("Does what row n of the positioning table in the parameters says for output D."),
     position("ABS", 155, "Read an absolute position")
         .forms(W32)
         .steps(13, 13)
-        .on(NOT_HM.except(&[ModelId::L01s]))
+        .on(NOT_HM.without(L01S))
         .takes(&[bit("S", BITS).len(3), coil("D1", COILS).len(3), dst("D2", RESULTS)])
         .call(RtFn::Abs)
         .text("Reads the absolute position of a servo amplifier by three inputs and three outputs into the pair D2."),

@@ -2,10 +2,10 @@
 
 use super::row::*;
 use super::{Inst, Lower, Param, Rule};
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 
-const H1U: ModelSet = ModelSet::of(&[ModelId::H1u]);
+const H1U: ModelSet = ModelSet::H1U;
 
 const ROTATED: Param = both("D", RESULTS).rules(&[Rule::WholeGroup]);
 const ROTATE: &[Param] = &[
@@ -72,7 +72,7 @@ const SHIFT_WORDS_HM: &[Param] = &[
 
 const fn enqueue(max: i64, rules: &'static [Rule]) -> [Param; 3] {
     [
-        src("S", WORDS).also_on(FX.and(&[ModelId::L01s]), CONSTANTS),
+        src("S", WORDS).also_on(FX.or(L01S), CONSTANTS),
         both("D", RESULTS).per(2).rules(rules),
         count("n", 2, max),
     ]
@@ -102,11 +102,12 @@ const DEQUEUE_HM: &[Param] = &[
     count("n", 2, 512).rules(&[Rule::GroupAtMost(0, 64)]),
 ];
 const DEQUEUE_FX: &[Param] = &dequeue(512, &[]);
-const LIKE_FX: ModelSet = FX.and(&[ModelId::L01s]);
+const LIKE_FX: ModelSet = FX.or(L01S);
 
 const fn rotate(name: &'static str, fnc: u16, title: &'static str, function: RtFn) -> Inst {
     row(name, title, "h1u-h2u-programming §4.3.4")
         .fnc(fnc)
+        .on(NOT_FX1)
         .forms(ALL_FORMS)
         .steps(5, 9)
         .takes(ROTATE)
@@ -150,6 +151,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(H1U).takes(SHIFT_BITS_H1U), on(HM).takes(SHIFT_BITS_HM)])
         .text("Moves the n1 bits from D on by n2 places to higher numbers; the n2 bits from S on enter at D."),
     shift("WSFR", 36, "Shift words right", RtFn::Wsfr)
+        .on(NOT_FX1)
         .takes(SHIFT_WORDS)
         .variants(&[on(HM).takes(SHIFT_WORDS_HM), on(LIKE_FX).takes(SHIFT_WORDS_FX)])
         .text(
@@ -157,6 +159,7 @@ pub(super) const ROWS: &[Inst] = &[
              words of their length.",
         ),
     shift("WSFL", 37, "Shift words left", RtFn::Wsfl)
+        .on(NOT_FX1)
         .takes(SHIFT_WORDS)
         .variants(&[on(HM).takes(SHIFT_WORDS_HM), on(LIKE_FX).takes(SHIFT_WORDS_FX)])
         .text(

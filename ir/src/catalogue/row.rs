@@ -56,24 +56,36 @@ pub(super) const SOURCE_BITS: Classes = BITS.or(Classes::WORD_BIT);
 /// Everything that has a contact.
 pub(super) const CONTACTS: Classes = BITS.or(Classes::T).or(Classes::C);
 
+/// FX3S, FX3G and FX3U.
+pub(super) const FX3: ModelSet = ModelSet::FX3;
 /// FX3G and FX3U.
-pub(super) const FX3: ModelSet = ModelSet::of(&[ModelId::Fx3g, ModelId::Fx3u]);
+pub(super) const FX3GU: ModelSet = ModelSet::FX3G.or(ModelSet::FX3U);
 /// The Mitsubishi models.
-pub(super) const FX: ModelSet = FX3.and(&[ModelId::Fx2n]);
+pub(super) const FX: ModelSet = ModelSet::FX;
 /// Only FX3U.
-pub(super) const FX3U: ModelSet = ModelSet::of(&[ModelId::Fx3u]);
-/// FX3G, FX3U and what descends from them.
-pub(super) const LIKE_FX3: ModelSet = FX3.and(&[ModelId::L01s]);
+pub(super) const FX3U: ModelSet = ModelSet::FX3U;
+/// FX3S, FX3G, FX3U and what descends from them.
+pub(super) const LIKE_FX3: ModelSet = FX3.or(L01S);
 /// Only HM.
-pub(super) const HM: ModelSet = ModelSet::of(&[ModelId::Hm]);
+pub(super) const HM: ModelSet = ModelSet::HM;
 /// H1U and H2U.
-pub(super) const INOVANCE: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+pub(super) const INOVANCE: ModelSet = ModelSet::INOVANCE;
 /// Only L01S.
-pub(super) const L01S: ModelSet = ModelSet::of(&[ModelId::L01s]);
+pub(super) const L01S: ModelSet = ModelSet::L01S;
 /// FX3U and L01S.
-pub(super) const FX3U_L01S: ModelSet = FX3U.and(&[ModelId::L01s]);
+pub(super) const FX3U_L01S: ModelSet = FX3U.or(L01S);
 /// All but HM.
-pub(super) const NOT_HM: ModelSet = ModelSet::ALL.except(&[ModelId::Hm]);
+pub(super) const NOT_HM: ModelSet = ModelSet::ALL.without(HM);
+/// All but FX1S and FX1N, which lack what JY992D88101 §5 gives to FX2N alone.
+pub(super) const NOT_FX1: ModelSet = ModelSet::ALL.without(ModelSet::FX1);
+/// All but HM, FX1S and FX1N.
+pub(super) const NOT_HM_FX1: ModelSet = NOT_HM.without(ModelSet::FX1);
+/// FX2N, FX3U and what descends from them: FX3S and FX3G lack what JY997D16601 §3 gives to FX3U alone.
+pub(super) const BIG: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
+/// Those that special modules can be attached to: not HM, FX1S and FX3S.
+pub(super) const WITH_MODULES: ModelSet = NOT_HM
+    .without(ModelSet::of(&[ModelId::Fx1s]))
+    .without(ModelSet::FX3S);
 
 /// What a row says that does not say what implements it; a test finds none.
 pub(super) const UNSAID: &str = "nobody said what implements it";

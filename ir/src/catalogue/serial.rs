@@ -2,7 +2,6 @@
 
 use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
-use crate::model::ModelId;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
@@ -196,7 +195,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("D = the sum, D+1 = the exclusive or of n bytes from S on, two to a word; with M8161 on one to a word."),
     serial("RS2", 87, "Serial transfer on a port")
         .steps(11, 11)
-        .on(LIKE_FX3.and(&[ModelId::H1u, ModelId::H2u]))
+        .on(LIKE_FX3.or(INOVANCE))
         .takes(&[SEND, SEND_LENGTH, RECEIVE, RECEIVE_LENGTH, any("n1").limits(0, 3)])
         .flags(&["M8122", "M8123", "M8262", "M8263", "M8272", "M8273"])
         .errors(&[6376, 6377])
@@ -323,7 +322,7 @@ pub(super) const ROWS: &[Inst] = &[
             both("D2", DATA),
         ]),
     cassette("RWER", 294, "Rewrite extension file registers", "Writes n words of R from S on to ER.")
-        .on(FX3)
+        .on(FX3GU)
         .takes(&[src("S", Classes::R).per(1), number("n", 32767)])
         .twin(DeviceClass::ER)
         .call(RtFn::Rwer),

@@ -10,10 +10,10 @@ use rungc_rt::Wiring;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
 
 /// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
-const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::of(&[ModelId::Hm]);
+const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::HM;
 
 /// Models on which counters of one input may take turns (hm-motion-controller §8.2.2).
-const COUNTERS_TAKE_TURNS: ModelSet = ModelSet::of(&[ModelId::Hm]);
+const COUNTERS_TAKE_TURNS: ModelSet = ModelSet::HM;
 
 /// Checks who uses the fast inputs.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {

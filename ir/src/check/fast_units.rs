@@ -3,12 +3,12 @@
 use super::Code;
 use super::fast_inputs::{Counter, Other, measured};
 use crate::high_speed::Kind;
-use crate::model::{ModelId, ModelSet};
+use crate::model::ModelSet;
 use rungc_syntax::{DeviceClass, Diagnostics, codes};
 use std::collections::BTreeMap;
 
 /// Models that share units of hardware among what is fast (h1u-h2u-programming §3.10).
-const MODELS: ModelSet = ModelSet::of(&[ModelId::H1u, ModelId::H2u]);
+const MODELS: ModelSet = ModelSet::INOVANCE;
 /// How many units there are.
 const UNITS: u32 = 56;
 /// Units of a pulse output, of SPD, of an interrupt or the catching of pulses.

@@ -11,6 +11,7 @@ pub(super) const HM: Model = Model {
     name: "hm",
     title: "Kewei HM",
     cpus: &["HM"],
+    nearest: &[],
     ranges: RANGES,
     timers: TIMERS,
     latch_key: Some((8020, 2222)),

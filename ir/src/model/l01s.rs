@@ -11,6 +11,7 @@ pub(super) const L01S: Model = Model {
     name: "l01s",
     title: "Coolmay L01S",
     cpus: &["L01S"],
+    nearest: &[],
     ranges: RANGES,
     timers: TIMERS,
     latch_key: None,

@@ -1,20 +1,17 @@
-//! Special devices of FX2N, FX3G and FX3U, from public knowledge of their programming manuals.
+//! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use super::{
-    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, PORTS, POWER, SERIAL, Special, TRACE, specials,
+    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, PORTS, POWER, SERIAL, Special, TRACE, UNITS,
+    specials,
 };
 
-/// What all three have.
+/// What all have.
 pub(super) const ALL: &[Special] = specials! {
     M 8000 r 1 scan "on while the program runs";
     M 8001 r 0 scan "off while the program runs";
     M 8002 r 0 scan "on in the first scan of RUN";
     M 8003 r 0 scan "off in the first scan of RUN";
     M 8004 r 0 scan "an error relay of M8060–M8067 is on, M8062 and M8063 apart";
-    M 8005 r 0 inert(POWER) "the battery is low";
-    M 8006 r 0 inert(POWER) "the battery has been low";
-    M 8007-8008 r 0 inert(POWER) "power failure";
-    M 8009 r 0 inert(POWER) "the 24 V supply of an extension has failed";
     M 8011 r 0 scan "clock of 10 ms";
     M 8012 r 0 scan "clock of 100 ms";
     M 8013 r 0 scan "clock of 1 s";
@@ -28,12 +25,8 @@ pub(super) const ALL: &[Special] = specials! {
     M 8021 r 0 by("arithmetic") "borrow flag: the result was too small";
     M 8022 r 0 by("arithmetic") "carry flag: the result was too large; the bit that a rotation moved last";
     M 8024 rw 0 by("BMOV") "BMOV copies from D to S";
-    M 8025 rw 0 by("HSCS, HSCR, HSZ") "comparisons of high-speed counters act at an external reset too";
     M 8026 rw 0 by("RAMP") "RAMP holds the final value";
-    M 8027 rw 0 by("PR") "PR sends up to 16 characters";
-    M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO";
     M 8029 r 0 by("instructions that take several scans") "an instruction is complete";
-    M 8030 rw 0 inert(POWER) "the lamp for a low battery stays off";
     M 8031 rw 0 scan "clears what is not latched";
     M 8032 rw 0 scan "clears what is latched";
     M 8033 rw 0 scan "devices keep their values in STOP";
@@ -50,12 +43,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8045 rw 0 by("IST") "outputs are not reset at a change of mode";
     M 8046 r 0 scan "a step is on (with M8047)";
     M 8047 rw 0 scan "D8040–D8047 and M8046 show the steps";
-    M 8048 r 0 scan "an annunciator is on (with M8049)";
-    M 8049 rw 0 scan "D8049 and M8048 show the annunciators";
     M 8050-8055 rw 0 scan "forbids the interrupts of X000–X005";
-    M 8056-8058 rw 0 scan "forbids the timer interrupts I6–I8";
-    M 8059 rw 0 scan "forbids the interrupts of counters";
-    M 8060 r 0 inert(HARDWARE) "I/O configuration error, code in D8060";
     M 8061 r 0 scan "hardware error, here of the watchdog, code in D8061";
     M 8062-8063 r 0 inert(PORTS) "communication error, code in D8062 and D8063";
     M 8064 r 0 inert(CHECKED) "parameter error, code in D8064";
@@ -63,37 +51,22 @@ pub(super) const ALL: &[Special] = specials! {
     M 8066 r 0 inert(CHECKED) "circuit error, code in D8066";
     M 8067 r 0 scan "operation error, code in D8067";
     M 8068 rw 0 scan "operation error, kept; its step in D8068";
-    M 8069 rw 0 inert(HARDWARE) "checks the I/O bus";
     M 8070-8073 rw 0 inert(LINK) "parallel link";
-    M 8099 rw 0 scan "starts the ring counter D8099";
-    M 8109 r 0 inert(HARDWARE) "output refresh error, number in D8109";
     M 8121 r 0 inert(SERIAL) "RS waits to send";
     M 8122 rw 0 inert(SERIAL) "RS sends";
     M 8123 rw 0 inert(SERIAL) "RS has received";
     M 8124 r 0 inert(SERIAL) "RS receives";
     M 8126-8129 r 0 inert(SERIAL) "computer link, time-out of RS";
-    M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
     M 8145-8146 rw 0 by("pulse outputs") "stop the pulses of Y000, of Y001";
     M 8147-8148 r 0 by("pulse outputs") "pulses are sent at Y000, at Y001";
-    M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
     M 8162 rw 0 inert(LINK) "fast mode of the parallel link";
-    M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
-    M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
-    M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
     M 8170-8175 rw 0 scan "a pulse came at X000–X005";
-    M 8183-8191 r 0 inert(LINK) "N:N link";
-    M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
     M 8235-8245 rw 0 by("OUT C") "C235–C245 count down";
     M 8246-8255 r 0 by("OUT C") "C246–C255 are counting down";
     D 8000 rw 200 scan "longest time of a scan in ms";
     D 8003 r 16 scan "kind of memory";
     D 8004 r 0 scan "number of the error relay that is on, in BCD";
-    D 8005 r 0 inert(POWER) "voltage of the battery in 0.1 V";
-    D 8006 rw 30 inert(POWER) "voltage at which the battery is low";
-    D 8007 r 0 inert(POWER) "how often the power has failed";
-    D 8008 rw 10 inert(POWER) "time after which the power has failed, in ms";
-    D 8009 r 0 inert(POWER) "extension whose supply has failed";
     D 8010 r 0 scan "time of the scan in 0.1 ms";
     D 8011 r 0 scan "shortest time of a scan in 0.1 ms";
     D 8012 r 0 scan "longest time of a scan in 0.1 ms";
@@ -105,8 +78,6 @@ pub(super) const ALL: &[Special] = specials! {
     D 8029 rw 0 scan "V0";
     D 8039 rw 0 inert(HOST) "constant time of a scan in ms (with M8039)";
     D 8040-8047 r 0 scan "the lowest eight steps that are on (with M8047)";
-    D 8049 r 0 scan "the lowest annunciator that is on (with M8049)";
-    D 8060 r 0 inert(HARDWARE) "number of the missing input or output";
     D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
     D 8062-8063 r 0 inert(PORTS) "code of the communication error";
     D 8064 r 0 inert(CHECKED) "code of the parameter error";
@@ -116,13 +87,9 @@ pub(super) const ALL: &[Special] = specials! {
     D 8068 rw 0 scan "step of the operation error, kept";
     D 8069 r 0 scan "step of the error of M8065–M8067";
     D 8070 rw 500 inert(LINK) "error time of the parallel link in ms";
-    D 8099 rw 0 scan "ring counter of 0.1 ms";
-    D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
     D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
-    D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
     D 8136-8137 rw 0 by("pulse outputs") "pulses sent at Y000 and Y001";
     D 8140-8143 rw 0 by("pulse outputs") "pulses sent at Y000, at Y001";
-    D 8164 rw 0 by("FROM, TO") "number of words (with M8164)";
     D 8173-8180 rw 0 inert(LINK) "N:N link: settings";
     D 8182 rw 0 scan "Z1";
     D 8183 rw 0 scan "V1";
@@ -138,7 +105,86 @@ pub(super) const ALL: &[Special] = specials! {
     D 8193 rw 0 scan "V6";
     D 8194 rw 0 scan "Z7";
     D 8195 rw 0 scan "V7";
+};
+
+/// What all but FX1S have besides.
+pub(super) const FROM_FX1N: &[Special] = specials! {
+    M 8183-8191 r 0 inert(LINK) "N:N link";
+    M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
     D 8201-8218 r 0 inert(LINK) "N:N link: times and errors";
+};
+
+/// What FX2N and FX3 have besides.
+pub(super) const FROM_FX2N: &[Special] = specials! {
+    M 8005 r 0 inert(POWER) "the battery is low";
+    M 8006 r 0 inert(POWER) "the battery has been low";
+    M 8007-8008 r 0 inert(POWER) "power failure";
+    M 8009 r 0 inert(POWER) "the 24 V supply of an extension has failed";
+    M 8025 rw 0 by("HSCS, HSCR, HSZ") "comparisons of high-speed counters act at an external reset too";
+    M 8027 rw 0 by("PR") "PR sends up to 16 characters";
+    M 8030 rw 0 inert(POWER) "the lamp for a low battery stays off";
+    M 8056-8058 rw 0 scan "forbids the timer interrupts I6–I8";
+    M 8059 rw 0 scan "forbids the interrupts of counters";
+    M 8060 r 0 inert(HARDWARE) "I/O configuration error, code in D8060";
+    M 8069 rw 0 inert(HARDWARE) "checks the I/O bus";
+    M 8099 rw 0 scan "starts the ring counter D8099";
+    M 8109 r 0 inert(HARDWARE) "output refresh error, number in D8109";
+    M 8130-8133 rw 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
+    M 8160 rw 0 by("XCH") "XCH of a device with itself exchanges its bytes";
+    M 8167 rw 0 by("HKY") "HKY reads hexadecimal digits";
+    M 8168 rw 0 by("SMOV") "SMOV moves hexadecimal digits";
+    D 8005 r 0 inert(POWER) "voltage of the battery in 0.1 V";
+    D 8006 rw 30 inert(POWER) "voltage at which the battery is low";
+    D 8007 r 0 inert(POWER) "how often the power has failed";
+    D 8008 rw 10 inert(POWER) "time after which the power has failed, in ms";
+    D 8009 r 0 inert(POWER) "extension whose supply has failed";
+    D 8060 r 0 inert(HARDWARE) "number of the missing input or output";
+    D 8099 rw 0 scan "ring counter of 0.1 ms";
+    D 8109 r 0 inert(HARDWARE) "number of the output with a refresh error";
+    D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
+};
+
+/// What FX2N, FX3G and FX3U have besides: modules and annunciators.
+pub(super) const NOT_FX3S: &[Special] = specials! {
+    M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO";
+    M 8048 r 0 scan "an annunciator is on (with M8049)";
+    M 8049 rw 0 scan "D8049 and M8048 show the annunciators";
+    M 8164 rw 0 by("FROM, TO") "D8164 is the number of words";
+    D 8049 r 0 scan "the lowest annunciator that is on (with M8049)";
+    D 8164 rw 0 by("FROM, TO") "number of words (with M8164)";
+};
+
+/// M8028 of FX1S and FX3S.
+pub(super) const FAST_TIMERS: &[Special] = specials! {
+    M 8028 rw 0 inert(UNITS) "T32–T62 count 10 ms instead of 100 ms";
+};
+
+/// Speeds and times of positioning before FX3.
+pub(super) const D8145: &[Special] = specials! {
+    D 8145 rw 0 by("ZRN, DRVI, DRVA") "base speed in Hz";
+    D 8146 rw -31072 by("ZRN, DRVI, DRVA") "highest speed in Hz, low word";
+    D 8147 rw 1 by("ZRN, DRVI, DRVA") "high word of that";
+    D 8148 rw 100 by("ZRN, DRVI, DRVA") "time of acceleration and deceleration in ms";
+};
+
+/// What FX1S and FX1N have besides.
+pub(super) const FX1: &[Special] = specials! {
+    M 8140 rw 0 by("ZRN") "clear signal of Y000 at Y002, of Y001 at Y003";
+    D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
+};
+
+/// FX1S: version 2.00, 2 k steps.
+pub(super) const FX1S: &[Special] = specials! {
+    D 8001 r 22200 scan "model and version";
+    D 8002 r 2 scan "program capacity in k steps";
+    D 8102 r 2 scan "program capacity in k steps";
+};
+
+/// FX1N: version 2.00, 8 k steps.
+pub(super) const FX1N: &[Special] = specials! {
+    D 8001 r 26200 scan "model and version";
+    D 8002 r 8 scan "program capacity in k steps";
+    D 8102 r 8 scan "program capacity in k steps";
 };
 
 /// FX2N: version 3.10, 8 k steps.
@@ -148,13 +194,9 @@ pub(super) const FX2N: &[Special] = specials! {
     D 8002 r 8 scan "program capacity in k steps";
     D 8074-8098 rw 0 inert(TRACE) "sampling trace";
     D 8102 r 8 scan "program capacity in k steps";
-    D 8145 rw 0 by("ZRN, DRVI, DRVA") "base speed in Hz";
-    D 8146 rw -31072 by("ZRN, DRVI, DRVA") "highest speed in Hz, low word";
-    D 8147 rw 1 by("ZRN, DRVI, DRVA") "high word of that";
-    D 8148 rw 100 by("ZRN, DRVI, DRVA") "time of acceleration and deceleration in ms";
 };
 
-/// What FX3G and FX3U have besides.
+/// What FX3S, FX3G and FX3U have besides.
 pub(super) const FX3: &[Special] = specials! {
     M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
     M 8151-8159 r 0 inert(SERIAL) "inverter communication";
@@ -177,20 +219,6 @@ pub(super) const FX3: &[Special] = specials! {
     M 8355-8356 rw 0 by("DSZR") "Y001: DOG, zero signal inverted";
     M 8358 r 0 by("pulse outputs") "Y001: an instruction is driven";
     M 8359 rw 0 by("pulse outputs") "stops the pulses of Y001";
-    M 8360 r 0 by("pulse outputs") "pulses are sent at Y002";
-    M 8361 rw 0 by("ZRN, DSZR") "Y002: clear signal";
-    M 8362 rw 0 by("DSZR") "Y002: returns forward";
-    M 8363-8364 rw 0 by("pulse outputs") "Y002: forward and reverse limit";
-    M 8365-8366 rw 0 by("DSZR") "Y002: DOG, zero signal inverted";
-    M 8368 r 0 by("pulse outputs") "Y002: an instruction is driven";
-    M 8369 rw 0 by("pulse outputs") "stops the pulses of Y002";
-    M 8370 r 0 by("pulse outputs") "pulses are sent at Y003";
-    M 8371 rw 0 by("ZRN, DSZR") "Y003: clear signal";
-    M 8372 rw 0 by("DSZR") "Y003: returns forward";
-    M 8373-8374 rw 0 by("pulse outputs") "Y003: forward and reverse limit";
-    M 8375-8376 rw 0 by("DSZR") "Y003: DOG, zero signal inverted";
-    M 8378 r 0 by("pulse outputs") "Y003: an instruction is driven";
-    M 8379 rw 0 by("pulse outputs") "stops the pulses of Y003";
     M 8398 rw 0 scan "starts the ring counter D8398";
     M 8401-8429 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
     M 8464-8467 rw 0 by("ZRN, DSZR") "D8464–D8467 hold the outputs of clear signals";
@@ -210,6 +238,28 @@ pub(super) const FX3: &[Special] = specials! {
     D 8356 rw -15536 by("DSZR") "Y001: speed of the return in Hz, low word";
     D 8357 rw 0 by("DSZR") "Y001: high word of that";
     D 8358-8359 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y001: times of acceleration and deceleration in ms";
+    D 8393 rw 0 inert(FAST) "delay time of input interrupts in ms";
+    D 8398-8399 rw 0 scan "ring counter of 1 ms, 0 to 2147483647";
+    D 8400-8439 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
+    D 8464-8467 rw 0 by("ZRN, DSZR") "outputs for the clear signal of positioning";
+};
+
+/// What FX3G and FX3U have besides: outputs from Y002 on.
+pub(super) const FX3GU: &[Special] = specials! {
+    M 8360 r 0 by("pulse outputs") "pulses are sent at Y002";
+    M 8361 rw 0 by("ZRN, DSZR") "Y002: clear signal";
+    M 8362 rw 0 by("DSZR") "Y002: returns forward";
+    M 8363-8364 rw 0 by("pulse outputs") "Y002: forward and reverse limit";
+    M 8365-8366 rw 0 by("DSZR") "Y002: DOG, zero signal inverted";
+    M 8368 r 0 by("pulse outputs") "Y002: an instruction is driven";
+    M 8369 rw 0 by("pulse outputs") "stops the pulses of Y002";
+    M 8370 r 0 by("pulse outputs") "pulses are sent at Y003";
+    M 8371 rw 0 by("ZRN, DSZR") "Y003: clear signal";
+    M 8372 rw 0 by("DSZR") "Y003: returns forward";
+    M 8373-8374 rw 0 by("pulse outputs") "Y003: forward and reverse limit";
+    M 8375-8376 rw 0 by("DSZR") "Y003: DOG, zero signal inverted";
+    M 8378 r 0 by("pulse outputs") "Y003: an instruction is driven";
+    M 8379 rw 0 by("pulse outputs") "stops the pulses of Y003";
     D 8360-8361 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: position";
     D 8362 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: base speed in Hz";
     D 8363 rw -31072 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: highest speed in Hz, low word";
@@ -226,25 +276,33 @@ pub(super) const FX3: &[Special] = specials! {
     D 8376 rw -15536 by("DSZR") "Y003: speed of the return in Hz, low word";
     D 8377 rw 0 by("DSZR") "Y003: high word of that";
     D 8378-8379 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: times of acceleration and deceleration in ms";
-    D 8393 rw 0 inert(FAST) "delay time of input interrupts in ms";
-    D 8398-8399 rw 0 scan "ring counter of 1 ms, 0 to 2147483647";
-    D 8400-8439 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
-    D 8464-8467 rw 0 by("ZRN, DSZR") "outputs for the clear signal of positioning";
 };
 
-/// FX3G: version 2.00, 32 k steps.
-pub(super) const FX3G: &[Special] = specials! {
+/// What FX3S and FX3G have besides.
+pub(super) const FX3SG: &[Special] = specials! {
     M 8075 rw 0 scan "pulses of X000, X001, X003 and X004 are measured";
     M 8076-8079 rw 0 scan "measures the pulses of X000, X001, X003, X004";
     M 8080-8083 rw 0 scan "measures their periods instead of their widths";
     M 8329 r 0 by("pulse outputs") "an instruction ended abnormally";
-    D 8001 r 26200 scan "model and version";
-    D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
     D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
     D 8074-8079 r 0 scan "X000: ring counter of 1/6 us at the rising and the falling edge, width or period of the pulse in 10 us";
     D 8080-8085 r 0 scan "X001: the same";
     D 8086-8091 r 0 scan "X003: the same";
     D 8092-8097 r 0 scan "X004: the same";
+};
+
+/// FX3S: version 1.00, 4 k steps.
+pub(super) const FX3S: &[Special] = specials! {
+    D 8001 r 28100 scan "model and version";
+    D 8002 r 4 scan "program capacity in k steps";
+    D 8101 r 28100 scan "model and version";
+    D 8102 r 4 scan "program capacity in k steps";
+};
+
+/// FX3G: version 2.00, 32 k steps.
+pub(super) const FX3G: &[Special] = specials! {
+    D 8001 r 26200 scan "model and version";
+    D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
     D 8101 r 26200 scan "model and version";
     D 8102 r 32 scan "program capacity in k steps";
 };

@@ -112,7 +112,13 @@ super::codes! {
 
     UNKNOWN_CPU = "W0502" "unknown-cpu" Warning None,
     "CPU type that is not known",
-    "The source names a CPU type that none of the models goes by. Choose one with `--model`.",
+    "The source names a CPU type that none of the models goes by, and none resembles. It is compiled for FX3U; `--model` chooses another model.",
+    wrong: "",
+    right: "";
+
+    NEAREST_MODEL = "N0020" "nearest-model" Note None,
+    "CPU type that is compiled as a model like it",
+    "The source names a CPU type that is not among the models. It is compiled for the one that resembles it most; the help says what is different there. `--model` chooses another model.",
     wrong: "",
     right: "";
 
