@@ -197,3 +197,16 @@ fn mutations_of_works2_projects() {
     ]);
     survive_mutations(7, 10_000, &[bytes]);
 }
+
+/// Reading stops at the limit, since an endless source has no size that could be asked for.
+#[test]
+fn an_endless_source_is_refused() {
+    let endless = std::io::repeat(b'\n');
+    let read = rungc_frontend::read_from("endless", endless);
+    assert!(matches!(
+        read,
+        Err(rungc_frontend::ReadError::TooLarge { .. })
+    ));
+    let short = rungc_frontend::read_from("short", &b"LD X0\nOUT Y0\nEND\n"[..]).unwrap();
+    assert_eq!(short.program.instrs.len(), 3);
+}

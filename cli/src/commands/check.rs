@@ -28,10 +28,7 @@ fn check(subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
     );
     let findings = findings(subject, &read, &checked);
     let elapsed = start.elapsed();
-    let name = match reporter.many() {
-        true => subject.file.display().to_string(),
-        false => read.program.source.name.clone(),
-    };
+    let name = findings.name(reporter.many());
     conclude(&findings, reporter, cx, || {
         format!(
             "    Checked {name} ({}, {}, {}) in {} ms",

@@ -11,7 +11,7 @@ pub mod setting;
 pub mod subject;
 pub mod test;
 
-use crate::args::{Format, Reporting};
+use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals};
 use rungc_frontend::{Read, ReadError};
 use rungc_ir::compile::Compiled;
@@ -180,10 +180,7 @@ pub fn conclude(
 ) -> Result {
     reporter.add(findings)?;
     if reporter.is_for_people() {
-        let name = match findings.program {
-            Some(program) if !reporter.many() => program.source.name.clone(),
-            _ => findings.path.display().to_string(),
-        };
+        let name = findings.name(reporter.many());
         cx.note(&match findings.failed() {
             true => format!("      Failed {name}: {}", counts(&findings.totals())),
             false => format!("{}: {}", done(), counts(&findings.totals())),
@@ -194,22 +191,6 @@ pub fn conclude(
     } else {
         Outcome::Success
     })
-}
-
-/// A closing line about several programs, for people.
-fn conclude_all(totals: &Totals, reporting: &Reporting, cx: Context) {
-    if reporting.format != Format::Human {
-        return;
-    }
-    let programs = counted(totals.programs, "program");
-    let unread = match totals.unread {
-        0 => String::new(),
-        n => format!(", {} not read", grouped(n)),
-    };
-    cx.note(&format!(
-        "       Total {programs}: {}{unread}",
-        counts(totals)
-    ));
 }
 
 /// `0 errors, 1 warning`, and the notes if there are any.

@@ -1,7 +1,7 @@
 //! The programs that a command works on: where they are, and which settings hold for each.
 
-use super::{Context, Failure, Outcome, Result, conclude_all, tell};
-use crate::args::{Input, Inputs, Reading, Reporting};
+use super::{Context, Failure, Outcome, Result, counted, counts, tell};
+use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_ir::ModelId;
 use rungc_project::{Error, Project};
@@ -103,7 +103,11 @@ pub fn near(path: PathBuf) -> PathBuf {
     let below = folder
         .ok()
         .and_then(|f| path.strip_prefix(f).ok().map(Path::to_owned));
-    below.unwrap_or(path)
+    match below {
+        Some(below) if below.as_os_str().is_empty() => PathBuf::from("."),
+        Some(below) => below,
+        None => path,
+    }
 }
 
 /// Reads settings; their mistakes are reported.
@@ -199,14 +203,6 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
         seen.push(file.clone());
         fresh
     });
-    if files
-        .iter()
-        .filter(|file| *file == Path::new(STDIN))
-        .count()
-        > 1
-    {
-        return Err(Failure::Because("`-` stands for one program".to_string()));
-    }
     let subjects = files.into_iter().map(|file| projects.subject(file));
     Ok((subjects.collect::<std::result::Result<_, _>>()?, many))
 }
@@ -218,8 +214,10 @@ pub fn each(
     mut work: impl FnMut(&Subject, &mut Reporter) -> Result,
 ) -> Result {
     let (subjects, many) = all(inputs, cx)?;
-    let mut reporter = Reporter::new(&inputs.reading.reporting, cx, many);
+    let reporting = &inputs.reading.reporting;
+    let mut reporter = Reporter::new(reporting, cx, many);
     let mut worst = Outcome::Success;
+    let mut unusable = 0;
     let mut stopped = None;
     for subject in &subjects {
         let outcome = match work(subject, &mut reporter) {
@@ -235,6 +233,7 @@ pub fn each(
                 break;
             }
         };
+        unusable += usize::from(outcome == Outcome::Unusable);
         worst = worst.max(outcome);
         if outcome == Outcome::Interrupted {
             break;
@@ -246,8 +245,14 @@ pub fn each(
         return Err(failure);
     }
     printed?;
-    if many {
-        conclude_all(&totals, &inputs.reading.reporting, cx);
+    if many && reporting.format == Format::Human {
+        let programs = counted(subjects.len(), "program");
+        let unusable = match unusable {
+            0 => String::new(),
+            n => format!(", {n} not processed"),
+        };
+        let counts = counts(&totals);
+        cx.note(&format!("       Total {programs}: {counts}{unusable}"));
     }
     Ok(worst)
 }
@@ -276,8 +281,9 @@ impl Places {
         match self.0.insert(place.clone(), subject.file.clone()) {
             None => Ok(place),
             Some(other) => Err(Failure::Because(format!(
-                "{}: {} has this place already, since both programs have the same name",
+                "{}: {} is already made of {}; programs of the same name are built one at a time",
                 subject.file.display(),
+                place.display(),
                 other.display()
             ))),
         }

@@ -5,10 +5,10 @@ use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind, Sour
 use rungc_syntax::{Diagnostic, Severity, Span};
 use std::io::{self, Write};
 
-/// Prints at most `limit` diagnostics (0: all). The file is called `name`, else as its source is called.
+/// Prints at most `limit` diagnostics (0: all) about a program of this name.
 pub fn print(
     findings: &Findings,
-    name: Option<&str>,
+    name: &str,
     limit: usize,
     color: bool,
     out: &mut dyn Write,
@@ -19,7 +19,6 @@ pub fn print(
     else {
         return Ok(());
     };
-    let name = name.unwrap_or(&program.source.name);
     let source = Source::from(one_break(&program.source.text));
     let shown = if limit == 0 {
         findings.diagnostics.len()

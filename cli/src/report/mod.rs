@@ -80,6 +80,14 @@ impl<'a> Findings<'a> {
         }
     }
 
+    /// What people call the program: the name of its source, or among `many` its path.
+    pub fn name(&self, many: bool) -> String {
+        match self.program {
+            Some(program) if !many || self.path == Path::new("-") => program.source.name.clone(),
+            _ => self.path.display().to_string(),
+        }
+    }
+
     /// How many have this severity.
     pub fn count(&self, severity: Severity) -> usize {
         self.diagnostics
@@ -90,16 +98,8 @@ impl<'a> Findings<'a> {
 
     /// How many there are of each severity.
     pub fn totals(&self) -> Totals {
-        let unread = self.program.is_none();
-        let errors = if unread {
-            0
-        } else {
-            self.count(Severity::Error)
-        };
         Totals {
-            programs: 1,
-            unread: usize::from(unread),
-            errors,
+            errors: self.program.map_or(0, |_| self.count(Severity::Error)),
             warnings: self.count(Severity::Warning),
             notes: self.count(Severity::Note),
         }
@@ -120,8 +120,6 @@ impl<'a> Findings<'a> {
 
 impl Totals {
     fn add(&mut self, other: Totals) {
-        self.programs += other.programs;
-        self.unread += other.unread;
         self.errors += other.errors;
         self.warnings += other.warnings;
         self.notes += other.notes;
@@ -160,11 +158,7 @@ pub struct Reporter<'a> {
 /// How much was found about programs.
 #[derive(Clone, Default, Debug)]
 pub struct Totals {
-    /// Programs, those included that could not be read.
-    pub programs: usize,
-    /// Programs that could not be read.
-    pub unread: usize,
-    /// Errors in programs that could be read.
+    /// Errors, but for that a program could not be read.
     pub errors: usize,
     /// Warnings.
     pub warnings: usize,
@@ -207,15 +201,16 @@ impl<'a> Reporter<'a> {
         self.totals.add(findings.totals());
         match self.reporting.format {
             Format::Human => {
-                let name = self.many.then(|| findings.path.display().to_string());
+                let name = findings.name(self.many);
                 let limit = self.reporting.limit;
                 let mut out = io::stderr().lock();
                 // That nobody reads it is no reason to stop.
-                return human::print(findings, name.as_deref(), limit, self.color, &mut out)
-                    .or_else(|error| match error.kind() {
+                return human::print(findings, &name, limit, self.color, &mut out).or_else(
+                    |error| match error.kind() {
                         io::ErrorKind::BrokenPipe => Ok(()),
                         _ => Err(error),
-                    });
+                    },
+                );
             }
             Format::Json => self.json.push(json::file(findings)),
             Format::Sarif => self.sarif.add(findings, self.many),
