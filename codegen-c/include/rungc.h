@@ -19,16 +19,15 @@ typedef struct plc_sys {
     uint32_t scan_us; /* how long the last scan took */
     bool first_scan;  /* first scan since RUN began */
     bool running;     /* RUN, not STOP */
-    uint8_t scan;     /* number of the scan, wrapping */
+    uint16_t scan;    /* another odd number in each scan, wrapping */
 } plc_sys;
 
 /* A timer: .done is its contact, .value its current value in units. */
 typedef struct plc_timer {
     int16_t value;   /* current value */
     int16_t preset;  /* preset it runs to, where that is kept */
+    uint16_t coil;   /* 0 if its coil was off when last executed, else the scan of that where it matters, else 1 */
     uint8_t part_ms; /* time since the last whole unit */
-    uint8_t scan;    /* scan in which it was last executed, where that matters */
-    bool coil;       /* whether its coil was on when last executed */
     bool done;       /* contact */
 } plc_timer;
 
@@ -60,6 +59,7 @@ static inline void plc_power_on(plc_sys *sys)
     memset(sys, 0, sizeof *sys);
     sys->first_scan = true;
     sys->running = true;
+    sys->scan = 1;
 }
 
 /* A scan begins, in RUN or in STOP. */
@@ -68,7 +68,7 @@ static inline void plc_begin_scan(plc_sys *sys, uint32_t now_ms, uint32_t scan_u
     sys->dt_ms = sys->first_scan ? 0u : now_ms - sys->now_ms;
     sys->now_ms = now_ms;
     sys->scan_us = scan_us;
-    sys->scan++;
+    sys->scan = (uint16_t)(sys->scan + 2u);
 }
 
 /* Clears the bytes of a struct from offset `from` up to offset `to`. */
@@ -310,7 +310,8 @@ enum {
     PLC_FREE_RUNNING = 2u,   /* goes on timing in scans that jump over its coil */
     PLC_LATCHES_PRESET = 4u, /* takes the preset over when timing begins */
     PLC_OVERRUNS = 8u,       /* goes on counting after the preset is reached */
-    PLC_STEPWISE = 16u       /* advances by at most one unit a scan */
+    PLC_STEPWISE = 16u,      /* advances by at most one unit a scan */
+    PLC_SHARED = 32u         /* its coil may be executed more than once in a scan, which counts the scan's time only once */
 };
 
 /* RST T: value 0, contact off. */
@@ -327,28 +328,29 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
 {
     if (!drive) {
         if ((options & PLC_RETENTIVE) != 0u) {
-            timer->coil = false;
+            timer->coil = 0;
         } else {
             memset(timer, 0, sizeof *timer);
         }
         return;
     }
 
+    const bool once_a_scan = (options & (PLC_FREE_RUNNING | PLC_SHARED)) != 0u;
+    const bool was_on = timer->coil != 0u;
     uint32_t elapsed = 0;
-    if (timer->coil && !((options & PLC_FREE_RUNNING) != 0u && timer->scan == sys->scan)) {
+    if (was_on && !(once_a_scan && timer->coil == sys->scan)) {
         elapsed = sys->dt_ms;
     }
     if ((options & PLC_STEPWISE) != 0u && elapsed > unit_ms) {
         elapsed = unit_ms;
     }
-    if ((options & PLC_LATCHES_PRESET) != 0u && timer->coil) {
+    if ((options & PLC_LATCHES_PRESET) != 0u && was_on) {
         preset = timer->preset;
     }
     if ((options & (PLC_LATCHES_PRESET | PLC_FREE_RUNNING)) != 0u) {
         timer->preset = preset;
-        timer->scan = sys->scan;
     }
-    timer->coil = true;
+    timer->coil = once_a_scan ? sys->scan : 1u;
 
     const bool overruns = (options & PLC_OVERRUNS) != 0u;
     if (!timer->done || overruns) {
@@ -369,7 +371,7 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
 /* What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it. */
 static inline void plc_timer_go_on(plc_timer *timer, const plc_sys *sys, uint32_t unit_ms, unsigned options)
 {
-    if (timer->coil) {
+    if (timer->coil != 0u) {
         plc_timer_run(timer, true, timer->preset, sys, unit_ms, options);
     }
 }

@@ -384,7 +384,14 @@ impl Writer<'_, '_> {
 pub fn run_timer(code: &mut String, kind: TimerKind, timer: &str, drive: &str, preset: &str) {
     let unit = kind.unit_ms;
     let family = match kind.accumulating {
-        _ if kind.free_running || kind.latches_preset || kind.overruns || kind.stepwise => None,
+        _ if kind.free_running
+            || kind.latches_preset
+            || kind.overruns
+            || kind.stepwise
+            || kind.shared =>
+        {
+            None
+        }
         true => Some("retentive"),
         false => Some("timer"),
     };
@@ -406,6 +413,7 @@ fn timer_options(code: &mut String, kind: TimerKind) {
         (kind.latches_preset, "PLC_LATCHES_PRESET"),
         (kind.overruns, "PLC_OVERRUNS"),
         (kind.stepwise, "PLC_STEPWISE"),
+        (kind.shared, "PLC_SHARED"),
     ];
     let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
     if set.is_empty() {

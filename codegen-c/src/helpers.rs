@@ -3,6 +3,7 @@
 use crate::devices::run_timer;
 use crate::fields::{Field, Fields, Kind};
 use rungc_ir::Module;
+use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -166,7 +167,11 @@ impl Printer<'_> {
                 field.name(&mut device);
                 field.element(&mut device, "n", "");
                 let _ = write!(out, "    if (n <= {}) {{\n        ", timers.last);
-                run_timer(out, timers.kind, &device, "drive", "preset");
+                let kind = TimerKind {
+                    shared: true,
+                    ..timers.kind
+                };
+                run_timer(out, kind, &device, "drive", "preset");
                 out.push_str("\n        return;\n    }\n");
             }
         }

@@ -371,7 +371,7 @@ impl Printer<'_> {
             }
         }
         if !module.model.keeps_contacts {
-            self.each_timer_and_counter(&mut special, "done = false");
+            self.each_timer_and_counter(&mut special, ["done = false"; 2]);
         }
         let forget = self.forget(out);
         out.push_str(&events::count_pulses(module));
@@ -453,7 +453,7 @@ impl Printer<'_> {
                 self.module.run_states
             );
         }
-        self.each_timer_and_counter(&mut body, "coil = false");
+        self.each_timer_and_counter(&mut body, ["coil = 0", "coil = false"]);
         if !body.is_empty() {
             let _ = write!(
                 out,
@@ -464,9 +464,9 @@ impl Printer<'_> {
         !body.is_empty()
     }
 
-    /// Does the same with a member of each timer and counter.
-    fn each_timer_and_counter(&self, out: &mut String, what: &str) {
-        for class in [DeviceClass::T, DeviceClass::C] {
+    /// Does the first thing with a member of each timer, the second with one of each counter.
+    fn each_timer_and_counter(&self, out: &mut String, what: [&str; 2]) {
+        for (class, what) in [DeviceClass::T, DeviceClass::C].into_iter().zip(what) {
             for field in self.fields.of_class(class) {
                 let mut device = String::from("plc->");
                 field.name(&mut device);

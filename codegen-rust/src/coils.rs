@@ -223,7 +223,11 @@ impl Generator<'_> {
                 let first = timers.first.max(field.area.first);
                 let last = timers.last.min(field.last());
                 if field.elem == Elem::Timer && field.grid.is_none() && first <= last {
-                    let (cell, kind) = (by_number(&field), self.timer_kind(timers.kind));
+                    let shared = TimerKind {
+                        shared: true,
+                        ..timers.kind
+                    };
+                    let (cell, kind) = (by_number(&field), self.timer_kind(shared));
                     let [first, last] = [first, last].map(Literal::u32_unsuffixed);
                     arms.extend(quote!(#first..=#last => (&mut #cell, #kind),));
                 }

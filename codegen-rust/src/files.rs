@@ -175,11 +175,12 @@ fn timer_constants(timers: &BTreeMap<String, TimerKind>, visibility: &str) -> St
             latches_preset,
             overruns,
             stepwise,
+            shared,
         } = kind;
         let _ = write!(
             out,
             "\n{visibility}const {name}: TimerKind = TimerKind {{\n    unit_ms: {unit_ms},\n    accumulating: {accumulating},\n    \
-             free_running: {free_running},\n    latches_preset: {latches_preset},\n    overruns: {overruns},\n    stepwise: {stepwise},\n}};\n"
+             free_running: {free_running},\n    latches_preset: {latches_preset},\n    overruns: {overruns},\n    stepwise: {stepwise},\n    shared: {shared},\n}};\n"
         );
     }
     out

@@ -70,6 +70,7 @@ pub fn kind_name(kind: TimerKind) -> String {
         (kind.latches_preset, "_PRESET_AT_START"),
         (kind.overruns, "_OVERRUNNING"),
         (kind.stepwise, "_STEPWISE"),
+        (kind.shared, "_SHARED"),
     ];
     for (is, suffix) in traits {
         if is {

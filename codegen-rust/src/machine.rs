@@ -309,24 +309,28 @@ impl Generator<'_> {
             let last = Literal::usize_unsuffixed(self.module.run_states.into());
             out.extend(quote!(self.states[1..=#last].fill(#state::new());));
         }
-        out.extend(self.each_timer_and_counter(&quote!(coil)));
+        out.extend(self.each_timer_and_counter(&quote!(coil = 0), &quote!(coil = false)));
         let doc = self.doc("Forgets that edges and the coils of timers and counters were on, and what instructions remember.");
         quote!(#doc fn forget(&mut self) { #out })
     }
 
-    /// Switches a member of each timer and counter off.
-    fn each_timer_and_counter(&self, member: &TokenStream) -> TokenStream {
+    /// Does the first thing with a member of each timer, the second with one of each counter.
+    fn each_timer_and_counter(&self, timer: &TokenStream, counter: &TokenStream) -> TokenStream {
         let fields = self.storage.fields.iter();
         fields
             .filter(|field| !matches!(field.elem, Elem::Bit | Elem::Level | Elem::Word))
             .map(|field| {
                 let name = &field.name;
+                let what = match field.elem {
+                    Elem::Timer => timer,
+                    _ => counter,
+                };
                 if field.columns().is_some() {
-                    quote!(for device in self.#name.iter_mut().flatten() { device.#member = false; })
+                    quote!(for device in self.#name.iter_mut().flatten() { device.#what; })
                 } else if field.area.array {
-                    quote!(for device in &mut self.#name { device.#member = false; })
+                    quote!(for device in &mut self.#name { device.#what; })
                 } else {
-                    quote!(self.#name.#member = false;)
+                    quote!(self.#name.#what;)
                 }
             })
             .collect()
@@ -457,8 +461,8 @@ impl Generator<'_> {
         });
         let others = self.zeroing(|area| !area.latched && !area.is_cleared(false));
         let preset = (!self.preset().is_empty()).then(|| quote!(self.preset();));
-        let contacts =
-            (!self.module.model.keeps_contacts).then(|| self.each_timer_and_counter(&quote!(done)));
+        let contacts = (!self.module.model.keeps_contacts)
+            .then(|| self.each_timer_and_counter(&quote!(done = false), &quote!(done = false)));
         let hidden = self.hidden_fields();
         let forgotten: Vec<Ident> = self.flag_fields().into_iter().map(|f| f.0).collect();
         let hidden = hidden

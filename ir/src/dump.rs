@@ -433,7 +433,8 @@ fn timer_text(kind: &TimerKind) -> String {
     } else {
         ""
     };
-    format!("{}ms{accumulating}{free_running}", kind.unit_ms)
+    let shared = if kind.shared { " shared" } else { "" };
+    format!("{}ms{accumulating}{free_running}{shared}", kind.unit_ms)
 }
 
 fn bin_text(op: BinOp) -> &'static str {

@@ -299,6 +299,7 @@ const fn timers(first: u32, last: u32, unit_ms: u16) -> Timers {
             latches_preset: false,
             overruns: false,
             stepwise: false,
+            shared: false,
         },
     }
 }

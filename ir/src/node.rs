@@ -375,7 +375,7 @@ pub enum Stmt {
         preset: ExprId,
     },
     /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
-    /// ([`crate::Model::timer`]).
+    /// ([`crate::Model::timer`]), and shared, since it may be any; not shared in the rounds of a [`Stmt::Repeat`].
     TimerAt {
         /// The timer, which has an index.
         place: Place,

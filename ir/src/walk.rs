@@ -182,6 +182,20 @@ pub fn bodies(stmt: &Stmt) -> impl Iterator<Item = &Body> {
     own.into_iter().flatten().chain(parts)
 }
 
+/// The bodies directly inside a statement, to change them.
+pub fn bodies_mut(stmt: &mut Stmt) -> impl Iterator<Item = &mut Body> {
+    let (own, parts): ([Option<&mut Body>; 2], &mut [Part]) = match stmt {
+        Stmt::If {
+            then, otherwise, ..
+        } => ([Some(then), Some(otherwise)], &mut []),
+        Stmt::For { body, .. } | Stmt::Repeat { body, .. } => ([Some(body), None], &mut []),
+        Stmt::Parts(parts) => ([None, None], parts),
+        _ => ([None, None], &mut []),
+    };
+    let parts = parts.iter_mut().map(|part| &mut part.body);
+    own.into_iter().flatten().chain(parts)
+}
+
 /// Calls `visit` with every statement, those of the bodies inside it after it.
 pub fn statements<'a>(body: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
     for stmt in body {

@@ -57,8 +57,8 @@ pub struct Sys {
     pub first_scan: bool,
     /// Whether the PLC is in RUN.
     pub running: bool,
-    /// Number of the scan, wrapping: what is done once in each scan remembers it.
-    pub scan: u8,
+    /// Another odd number in each scan, wrapping, and so never 0: what is done once in each scan remembers it.
+    pub scan: u16,
 }
 
 impl Sys {
@@ -70,7 +70,7 @@ impl Sys {
             scan_us: 0,
             first_scan: true,
             running: true,
-            scan: 0,
+            scan: 1,
         }
     }
 
@@ -83,7 +83,7 @@ impl Sys {
         };
         self.now_ms = now_ms;
         self.scan_us = scan_us;
-        self.scan = self.scan.wrapping_add(1);
+        self.scan = self.scan.wrapping_add(2);
     }
 
     /// The scan is over.

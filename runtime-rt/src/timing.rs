@@ -18,6 +18,9 @@ pub struct TimerKind {
     pub overruns: bool,
     /// Advances by at most one unit a scan, so scans longer than its unit make it slow (10 ms timers of L01S).
     pub stepwise: bool,
+    /// Its coil may be executed more than once in a scan (in a loop, in a routine, in several places), which counts the time of the
+    /// scan only once.
+    pub shared: bool,
 }
 
 /// A timer, zero at power-on.
@@ -28,12 +31,11 @@ pub struct Timer {
     pub value: i16,
     /// Preset taken over at the start of timing or, for a free-running timer, the last one.
     pub preset: i16,
+    /// 0 if its coil was off at the last execution; else the scan ([`Sys::scan`]) in which it was executed or went on, for a shared or
+    /// free-running timer, and 1 for others.
+    pub coil: u16,
     /// Time since the last whole unit, in milliseconds.
     pub part_ms: u8,
-    /// Scan in which it was last executed or went on, for a free-running timer.
-    pub scan: u8,
-    /// Whether its coil was on at the last execution.
-    pub coil: bool,
     /// Its contact.
     pub done: bool,
 }
@@ -44,9 +46,8 @@ impl Timer {
         Timer {
             value: 0,
             preset: 0,
+            coil: 0,
             part_ms: 0,
-            scan: 0,
-            coil: false,
             done: false,
         }
     }
@@ -55,7 +56,6 @@ impl Timer {
     pub fn reset(&mut self) {
         *self = Timer {
             preset: self.preset,
-            scan: self.scan,
             coil: self.coil,
             ..Self::new()
         };
@@ -64,34 +64,37 @@ impl Timer {
     /// Executes the coil; returns the contact.
     ///
     /// In the scan in which the coil comes on the value is left as it is; in each later scan the time since the previous scan is
-    /// added, so that a timer first driven at time t reaches K units in the first scan at t + K units or later.
+    /// added, so that a timer first driven at time t reaches K units in the first scan at t + K units or later. A timer counts the
+    /// pulses of a clock (h1u-h2u-programming §3.5), so a coil that is executed again in the same scan adds nothing: that is what
+    /// [`TimerKind::shared`] is for.
     #[inline]
     pub fn run(&mut self, kind: TimerKind, drive: bool, preset: i16, sys: &Sys) -> bool {
         if !drive {
             if !kind.accumulating {
                 *self = Timer::new();
             }
-            self.coil = false;
+            self.coil = 0;
             return self.done;
         }
         let unit = u32::from(kind.unit_ms.max(1));
+        let once_a_scan = kind.shared || kind.free_running;
+        let was_on = self.coil != 0;
         let mut elapsed = 0;
-        if self.coil && !(kind.free_running && self.scan == sys.scan) {
+        if was_on && !(once_a_scan && self.coil == sys.scan) {
             elapsed = sys.dt_ms;
         }
         if kind.stepwise {
             elapsed = elapsed.min(unit);
         }
-        let preset = if kind.latches_preset && self.coil {
+        let preset = if kind.latches_preset && was_on {
             self.preset
         } else {
             preset
         };
         if kind.latches_preset || kind.free_running {
             self.preset = preset;
-            self.scan = sys.scan;
         }
-        self.coil = true;
+        self.coil = if once_a_scan { sys.scan } else { 1 };
         if !self.done || kind.overruns {
             let mut part = elapsed.wrapping_add(u32::from(self.part_ms));
             if part >= unit {
@@ -111,7 +114,7 @@ impl Timer {
 
     /// What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it.
     pub fn go_on(&mut self, kind: TimerKind, sys: &Sys) {
-        if self.coil {
+        if self.coil != 0 {
             self.run(kind, true, self.preset, sys);
         }
     }

@@ -276,7 +276,7 @@ impl Devices {
 
     /// Timers' and counters' coils count as off before the first scan in RUN, like every edge memory.
     pub(crate) fn forget_coils(&mut self) {
-        self.timers.cells.iter_mut().for_each(|t| t.coil = false);
+        self.timers.cells.iter_mut().for_each(|t| t.coil = 0);
         self.counters16
             .cells
             .iter_mut()

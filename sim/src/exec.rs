@@ -442,6 +442,10 @@ impl<'m> Machine<'m> {
                 if let Some((_, number)) = self.device(place)
                     && let Some(kind) = self.module.model.timer(number)
                 {
+                    let kind = TimerKind {
+                        shared: true,
+                        ..kind
+                    };
                     self.timer(number, kind, drive, preset);
                 }
             }

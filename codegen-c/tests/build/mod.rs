@@ -127,6 +127,7 @@ impl Builder {
             latches_preset: false,
             overruns: false,
             stepwise: false,
+            shared: false,
         };
         self.body.push(Stmt::Timer {
             number,

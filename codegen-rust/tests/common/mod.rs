@@ -113,6 +113,7 @@ pub const TIMER: TimerKind = TimerKind {
     latches_preset: false,
     overruns: false,
     stepwise: false,
+    shared: false,
 };
 
 /// The program of the design's target picture.

@@ -23,6 +23,7 @@ mod logic;
 mod operand;
 mod parts;
 mod pulse_width;
+mod shared_timers;
 mod signals;
 mod special;
 mod stl;
@@ -66,6 +67,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
     if diagnostics.has_errors() {
         return Err(diagnostics);
     }
+    shared_timers::mark(&mut module);
     layout::build(&mut module, options, &specials.flags, specials.whole);
     module.comments = resolved
         .program

@@ -457,7 +457,12 @@ impl<'m> Pair<'m> {
                 self.place(place, to)?;
                 self.expr(value, other)
             }
-            (&Stmt::Timer { kind, .. }, &Stmt::Timer { kind: other, .. }) if kind != other => None,
+            // A shared timer is driven in several places, which repeated rungs seldom do.
+            (&Stmt::Timer { kind, .. }, &Stmt::Timer { kind: other, .. })
+                if kind != other || kind.shared =>
+            {
+                None
+            }
             (Stmt::Timer { .. }, Stmt::Timer { .. })
             | (Stmt::Counter16 { .. }, Stmt::Counter16 { .. }) => {
                 let (one, other) = (coil(one)?, coil(other)?);
