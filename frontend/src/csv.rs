@@ -5,7 +5,9 @@ use crate::il;
 use crate::listing::Listing;
 use crate::text::{append, clean};
 use csv::{ReaderBuilder, StringRecord, WriterBuilder};
-use rungc_syntax::{Device, Diagnostics, Instr, Operands, Program, Remarks, SourceKind, codes};
+use rungc_syntax::{
+    Device, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind, codes,
+};
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
 
@@ -308,16 +310,14 @@ impl Reader {
         };
         let characters = instr.mnemonic == "ASC" && instr.operands.is_empty();
         let text = self.listing.slice(span);
-        match il::field::operand(text, span.start, characters, &mut self.diagnostics) {
-            Some(operand) => {
-                instr.span = instr.span.to(operand.span);
-                instr.operands.push(operand);
-            }
-            None => {
-                self.program.instrs.pop();
-                self.unread();
-            }
-        }
+        let read = il::field::operand(text, span.start, characters, &mut self.diagnostics);
+        // A field in which nothing stands but signs between operands.
+        let operand = read.unwrap_or(Operand {
+            span,
+            kind: OperandKind::Unreadable(None),
+        });
+        instr.span = instr.span.to(operand.span);
+        instr.operands.push(operand);
     }
 
     /// Remembers that an instruction cannot be read; its further operands are passed over.

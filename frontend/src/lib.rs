@@ -5,6 +5,7 @@
 
 mod csv;
 mod encoding;
+mod foreign;
 mod gx;
 mod il;
 mod listing;

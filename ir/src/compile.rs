@@ -26,7 +26,7 @@ pub struct CompileOptions {
 /// What came of it.
 #[derive(Debug)]
 pub struct Compiled {
-    /// The module; `None` if there were errors.
+    /// The module; `None` if there were errors, or if the program's reader could not read all of it.
     pub module: Option<Module>,
     /// All findings.
     pub diagnostics: Diagnostics,
@@ -87,7 +87,7 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let (resolved, found) = resolve(program, model);
     diagnostics.extend(found.sorted());
     diagnostics.extend(check::check(&resolved).sorted());
-    let module = if diagnostics.has_errors() {
+    let module = if diagnostics.has_errors() || !program.is_complete() {
         None
     } else {
         let options = LowerOptions {

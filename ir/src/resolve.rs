@@ -7,12 +7,14 @@ mod mnemonic;
 mod operands;
 mod rules;
 mod steps;
+mod suggest;
+mod wrong;
 
 pub(crate) use operands::constant_value;
 
 use crate::catalogue::{Found, Inst, Param};
 use crate::model::{Model, ModelSet};
-use mnemonic::Fit;
+use mnemonic::{Fit, Match};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, Program};
 
 /// Which form of an instruction is written.
@@ -30,6 +32,9 @@ pub struct Resolution {
     /// Its catalogue row; `None` if it is unknown or the model does not have it (which was reported). A form that the row does not
     /// have was reported too.
     pub inst: Option<&'static Inst>,
+    /// Whether `inst` is only what was probably meant, by which the structure of the program is judged; what is wrong with the
+    /// instruction was reported.
+    pub meant: bool,
     /// Its form.
     pub form: Form,
     /// What its operands are; none if there is no row.
@@ -38,6 +43,20 @@ pub struct Resolution {
     pub step: u32,
     /// The pointer, if it is a label.
     pub label: Option<Device>,
+}
+
+impl Resolution {
+    /// Of an instruction of which nothing is known.
+    fn unknown(step: u32) -> Self {
+        Resolution {
+            inst: None,
+            meant: false,
+            form: Form::default(),
+            params: &[],
+            step,
+            label: None,
+        }
+    }
 }
 
 /// A program whose instructions are known.
@@ -60,29 +79,37 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
     let operands = operands::Checker::new(model);
     let mut steps = steps::Counter::default();
     let mut instrs = Vec::with_capacity(program.instrs.len());
-    for instr in &program.instrs {
-        let label = label(instr);
-        let found = finder.find(instr, &mut diagnostics);
-        let (params, length) = match found {
-            Some((Found { inst, form, .. }, _)) => {
-                let (params, length) = inst.params_and_steps(form, &instr.operands, model);
-                (params, Some(length))
-            }
-            None => (&[][..], None),
-        };
-        match (found, label) {
-            (Some((_, Fit::Good)), Some(label)) => operands.label(instr, label, &mut diagnostics),
-            (Some((found, Fit::Good)), None) => {
-                operands.instr(instr, found, params, &mut diagnostics)
-            }
-            _ => {}
+    let mut unread = program.unread.iter().copied().peekable();
+    for (i, instr) in program.instrs.iter().enumerate() {
+        while unread.next_if(|&before| before as usize <= i).is_some() {
+            steps.lose();
         }
-        let found = found.map(|(found, _)| found);
+        let last = i + 1 == program.instrs.len();
+        let matched = finder.find(instr, last, &mut diagnostics);
+        let Some(Match { found, fit, label }) = matched else {
+            instrs.push(Resolution::unknown(steps.next(instr, None)));
+            continue;
+        };
+        let Found { inst, form, .. } = found;
+        let (params, length) = inst.params_and_steps(form, &instr.operands, model);
+        let mut meant = fit == Fit::Meant;
+        if fit == Fit::Good {
+            if let Some(joined) = wrong::second_instruction(instr, params, &program.source) {
+                diagnostics.push(joined);
+                meant = true;
+            } else if let Some(label) = label {
+                operands.label(instr, label, &mut diagnostics);
+            } else {
+                operands.instr(instr, found, params, &mut diagnostics);
+            }
+        }
+        let known = !meant && !instr.is_broken();
         instrs.push(Resolution {
-            inst: found.map(|found| found.inst),
-            form: found.map(|found| found.form).unwrap_or_default(),
+            inst: Some(inst),
+            meant,
+            form,
             params,
-            step: steps.next(instr, length),
+            step: steps.next(instr, known.then_some(length)),
             label,
         });
     }

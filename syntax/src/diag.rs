@@ -1,6 +1,6 @@
 //! Diagnostics: what is wrong with a program, where, and what to do about it. Rendering is the command line's business.
 
-use crate::Span;
+use crate::{Span, codes};
 use std::borrow::Cow;
 
 /// How bad it is.
@@ -144,6 +144,30 @@ impl Diagnostics {
     /// Adds many.
     pub fn extend(&mut self, more: impl IntoIterator<Item = Diagnostic>) {
         self.0.extend(more);
+    }
+
+    /// Adds what the compiler found to what the reader of the program found. About an operand that could not be read at all the
+    /// compiler may know more, since it knows the instruction: then the reader's error gives way to the compiler's.
+    pub fn refine(&mut self, compiled: &Diagnostics) {
+        let errors = || compiled.iter().filter(|d| d.severity == Severity::Error);
+        let mut places: Vec<_> = errors().map(|d| (d.span.start, d.span.end)).collect();
+        places.sort_unstable();
+        let mut lines: Vec<_> = errors()
+            .filter(|d| d.code == codes::ONE_PER_LINE.id)
+            .collect();
+        lines.sort_unstable_by_key(|d| d.span);
+        self.0.retain(|d| {
+            let at = places.partition_point(|&(start, _)| start < d.span.start);
+            let same = places[at..]
+                .iter()
+                .take_while(|&&(start, _)| start == d.span.start);
+            let known = same.clone().any(|&(_, end)| end >= d.span.end);
+            let before = lines.partition_point(|line| line.span.start <= d.span.start);
+            let line = before.checked_sub(1).and_then(|last| lines.get(last));
+            let second = line.is_some_and(|line| line.span.end >= d.span.end);
+            d.code != codes::BAD_OPERAND.id || !(known || second)
+        });
+        self.extend(compiled.iter().cloned());
     }
 
     /// Whether any of them is an error.

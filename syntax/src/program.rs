@@ -17,12 +17,20 @@ pub struct Program {
     pub title: Option<String>,
     /// CPU type named in the source, as written there, e.g. `FX2N/FX2NC`.
     pub cpu: Option<String>,
-    /// The instructions in order. Lines that could not be read are not here: the reader reported them.
+    /// The instructions in order. One of which an operand could not be read is among them, with [`OperandKind::Unreadable`] in its
+    /// place; lines that do not even name an instruction are not here. The reader reported both.
     pub instrs: Vec<Instr>,
-    /// For each instruction that could not be read, how many of `instrs` stand before it; ascending.
+    /// For each line that does not name an instruction, how many of `instrs` stand before it; ascending.
     pub unread: Vec<u32>,
     /// Comments on devices, where the source has them.
     pub comments: BTreeMap<Device, String>,
+}
+
+impl Program {
+    /// Whether all of it could be read. If not, its reader has reported an error.
+    pub fn is_complete(&self) -> bool {
+        self.unread.is_empty() && !self.instrs.iter().any(Instr::is_broken)
+    }
 }
 
 /// The kind of file a program was read from.
@@ -157,6 +165,8 @@ pub enum OperandKind {
         /// Index of the address.
         index: Option<Index>,
     },
+    /// Text that is not an operand, which the reader reported; the device that it was probably meant to name (`MO` for `M0`).
+    Unreadable(Option<Device>),
 }
 
 impl fmt::Display for OperandKind {
@@ -192,8 +202,18 @@ impl fmt::Display for OperandKind {
                 write!(f, "U{module}\\G{address}")?;
                 index
             }
+            OperandKind::Unreadable(Some(device)) => return write!(f, "{device}?"),
+            OperandKind::Unreadable(None) => return f.write_str("?"),
         };
         index.map_or(Ok(()), |index| write!(f, "{index}"))
+    }
+}
+
+impl Instr {
+    /// Whether an operand could not be read.
+    pub fn is_broken(&self) -> bool {
+        let mut operands = self.operands.iter();
+        operands.any(|operand| matches!(operand.kind, OperandKind::Unreadable(_)))
     }
 }
 

@@ -159,7 +159,7 @@ fn grouped(n: usize) -> String {
 /// What reading and compiling a program found.
 pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -> Findings<'a> {
     let mut diagnostics = read.diagnostics.clone();
-    diagnostics.extend(compiled.diagnostics.iter().cloned());
+    diagnostics.refine(&compiled.diagnostics);
     Findings {
         size: Some(compiled.into()),
         ..Findings::new(

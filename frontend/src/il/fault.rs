@@ -44,6 +44,14 @@ pub(super) enum Kind {
     BitNumber,
     /// A string without its closing quote.
     Unclosed,
+    /// A word with a letter of another alphabet that looks Latin.
+    LookAlike(char),
+    /// A label with a space before its number.
+    SpacedLabel,
+    /// A device or constant with a space before its number.
+    SpacedNumber,
+    /// What begins a comment in other languages.
+    CommentSign,
 }
 
 impl Fault {
@@ -68,6 +76,12 @@ impl Faults {
     /// Adds a finding.
     pub fn push(&mut self, fault: Fault) {
         self.0.push(fault);
+    }
+
+    /// All of them.
+    #[cfg(test)]
+    pub fn iter(&self) -> impl Iterator<Item = &Fault> {
+        self.0.iter()
     }
 
     /// Whether there is none.
@@ -131,6 +145,28 @@ impl Kind {
                 .at(span, "this text is never closed")
                 .label("no closing `\"` on this line")
                 .help("put `\"` behind the last character"),
+            Kind::LookAlike(letter) => codes::LOOK_ALIKE
+                .at(
+                    span,
+                    format!("`{letter}` is U+{:04X}, not a Latin letter", u32::from(letter)),
+                )
+                .label("only looks like one")
+                .help(format!("type `{text}` with Latin letters")),
+            Kind::SpacedLabel | Kind::SpacedNumber => {
+                let joined: String = text.split_whitespace().collect();
+                let what = match self {
+                    Kind::SpacedLabel => "this label has a space before its number",
+                    _ => "this operand has a space before its number",
+                };
+                codes::BAD_OPERAND
+                    .at(span, what)
+                    .label("is one word")
+                    .help(format!("write `{joined}`"))
+            }
+            Kind::CommentSign => codes::BAD_INSTRUCTION
+                .at(span, format!("`{text}` does not begin a comment"))
+                .label("neither an instruction nor an operand")
+                .help("comments begin with `;` or `//` and end with their line"),
             Kind::Step | Kind::DeviceNumber | Kind::Decimal | Kind::Hex | Kind::Float => {
                 self.too_large(span, text)
             }
@@ -223,7 +259,10 @@ fn operand(span: Span, text: &str) -> Diagnostic {
             })
             .help(format!("write e.g. `{prefix}10`"));
     }
-    let error = codes::BAD_OPERAND.at(span, format!("`{text}` is no operand"));
+    let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not an operand"));
+    if let Some((what, meant)) = other_notation(&upper) {
+        return error.label(what).help(format!("write `{meant}`"));
+    }
     if let Ok(number) = upper.parse::<i64>() {
         return error.label("a number without its kind").help(format!(
             "write `K{number}` for a decimal constant, `H{upper}` for a hexadecimal one"
@@ -243,6 +282,11 @@ fn operand(span: Span, text: &str) -> Diagnostic {
             .label(format!("unexpected text behind the number of this {prefix} device"))
             .help(format!("an operand is e.g. `{prefix}10`, with an index register `D0Z0`, or a bit of a word `D0.F`")),
         _ => {
+            if is_name(text) {
+                return error.label("a name, not a device").help(
+                    "write the device that it stands for; of a project with labels, export the list of the compiled program, which names devices",
+                );
+            }
             let classes = DeviceClass::ALL.map(DeviceClass::prefix);
             let help = match did_you_mean(prefix, classes.into_iter().filter(|c| c.len() > 1)) {
                 Some(meant) if !rest.is_empty() => format!("did you mean `{meant}{rest}`?"),
@@ -253,8 +297,50 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     }
 }
 
+/// What is written otherwise in other languages: what it is there, and how it is written here.
+fn other_notation(upper: &str) -> Option<(&'static str, String)> {
+    let hexadecimal = |digits: &str| {
+        let hex = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit());
+        hex.then(|| format!("H{digits}"))
+    };
+    let prefixes = ["0X", "16#", "$", "&H"];
+    let prefixed = prefixes
+        .iter()
+        .find_map(|prefix| upper.strip_prefix(prefix));
+    let begins_with_digit = upper.starts_with(|c: char| c.is_ascii_digit());
+    let suffixed = upper.strip_suffix('H').filter(|_| begins_with_digit);
+    if let Some(meant) = prefixed.or(suffixed).and_then(hexadecimal) {
+        return Some(("a hexadecimal constant begins with H here", meant));
+    }
+    if upper.contains('.') && upper.parse::<f32>().is_ok_and(f32::is_finite) {
+        return Some((
+            "a floating constant begins with E here",
+            format!("E{upper}"),
+        ));
+    }
+    let (digits, device) = upper.split_at_checked(1)?;
+    let number = device.get(1..)?;
+    let group = ("1"..="8").contains(&digits)
+        && device.starts_with(['X', 'Y', 'M', 'S'])
+        && !number.is_empty()
+        && number.bytes().all(|b| b.is_ascii_digit());
+    group.then(|| ("a group of bits begins with K", format!("K{upper}")))
+}
+
+/// Whether a word can only be a name that somebody has given: `bSpeed`, `motor_on`.
+fn is_name(text: &str) -> bool {
+    /// No device or constant that was mistyped has so many letters in a row.
+    const LETTERS: usize = 3;
+    let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
+    let letters = text
+        .chars()
+        .take_while(|c| c.is_alphabetic() || *c == '_')
+        .count();
+    word && letters > LETTERS
+}
+
 /// What was meant by `XO01` or `Dl0`, where letters that look like digits stand behind a device letter.
-fn mistyped_digit(upper: &str) -> Option<String> {
+pub(super) fn mistyped_digit(upper: &str) -> Option<String> {
     let (head, tail) = upper.split_at_checked(1)?;
     let digits = tail.replace('O', "0").replace(['I', 'L'], "1");
     let real = DeviceClass::from_prefix(head).is_some() || head == "K";

@@ -8,8 +8,8 @@ use smol_str::SmolStr;
 
 /// Reads a field that names an instruction or a label; `start` is its place in the source.
 pub(crate) fn mnemonic(field: &str, start: u32, diagnostics: &mut Diagnostics) -> Option<SmolStr> {
-    let folded = fold(field);
     let mut faults = Faults::default();
+    let folded = fold(field, &mut faults);
     let mnemonic = grammar::parse(&grammar::mnemonic_field(), &folded.text, &mut faults);
     report(faults, &folded, start, diagnostics);
     mnemonic.flatten()
@@ -22,23 +22,26 @@ pub(crate) fn operand(
     characters: bool,
     diagnostics: &mut Diagnostics,
 ) -> Option<Operand> {
-    let folded = fold(field);
     let mut faults = Faults::default();
+    let folded = match characters {
+        true => Folded::of(field),
+        false => fold(field, &mut faults),
+    };
     let operand = if characters {
         grammar::parse(&grammar::text_field(), &folded.text, &mut faults)
     } else {
         grammar::parse(&grammar::operand_field(), &folded.text, &mut faults)
     };
     report(faults, &folded, start, diagnostics);
-    operand.flatten().map(|mut operand| {
+    operand.map(|mut operand| {
         operand.span = place(&folded, start)(operand.span);
         operand
     })
 }
 
-fn fold(field: &str) -> Folded {
+fn fold(field: &str, faults: &mut Faults) -> Folded {
     let mut folded = Folded::default();
-    folded.fold(field);
+    folded.fold_line(field, faults);
     folded
 }
 

@@ -1,5 +1,7 @@
 //! Half-width reading of full-width text, with the way back to the original.
 
+use super::fault::{Fault, Faults, Kind};
+
 /// One line in the form the grammar reads, and where each of its bytes came from.
 #[derive(Default)]
 pub(super) struct Folded {
@@ -10,8 +12,55 @@ pub(super) struct Folded {
 }
 
 impl Folded {
-    /// Folds another line into the same buffers.
-    pub fn fold(&mut self, line: &str) {
+    /// A text, folded.
+    pub fn of(text: &str) -> Self {
+        let mut folded = Folded::default();
+        folded.fold(text);
+        folded
+    }
+
+    /// Folds another line into the same buffers. Letters of other alphabets that look Latin are read as they look, and reported;
+    /// not in texts and comments, and not in words that are whole words of another language.
+    pub fn fold_line(&mut self, line: &str, faults: &mut Faults) {
+        self.fold(line);
+        if self.text.is_ascii() || self.text.trim_start().starts_with("ASC ") {
+            return;
+        }
+        let mut code = code_length(&self.text);
+        let mut begin = 0;
+        while begin < code {
+            let rest = &self.text[begin..code];
+            let word = rest.split([' ', '\t', ',']).next().unwrap_or(rest);
+            let mut end = begin + word.len();
+            if let Some(first) = foreign_letter(word) {
+                let before = self.text.len();
+                self.make_latin(begin..end);
+                let shorter = before - self.text.len();
+                (end, code) = (end - shorter, code - shorter);
+                faults.push(Fault::new((begin..end).into(), Kind::LookAlike(first)));
+            }
+            begin = end + 1;
+        }
+    }
+
+    /// Replaces the letters in a range by those that they look like.
+    fn make_latin(&mut self, range: std::ops::Range<usize>) {
+        for at in range.rev() {
+            let Some(c) = self.text.get(at..).and_then(|rest| rest.chars().next()) else {
+                continue;
+            };
+            let Some(latin) = look_alike(c) else {
+                continue;
+            };
+            let origin = self.origin[at];
+            self.text
+                .replace_range(at..at + c.len_utf8(), latin.encode_utf8(&mut [0; 4]));
+            self.origin.splice(at..at + c.len_utf8(), [origin]);
+        }
+    }
+
+    /// Folds another text into the same buffers.
+    fn fold(&mut self, line: &str) {
         self.text.clear();
         self.origin.clear();
         for (at, c) in line.char_indices() {
@@ -31,6 +80,35 @@ impl Folded {
         };
         (first, last)
     }
+}
+
+/// How far a line goes before its first text or comment.
+fn code_length(line: &str) -> usize {
+    let signs = [line.find('"'), line.find(';'), line.find("//")];
+    signs.into_iter().flatten().min().unwrap_or(line.len())
+}
+
+/// The first letter of a word that looks Latin and is not, if all of its letters can be read so. A long word without any Latin letter is
+/// one of another language.
+fn foreign_letter(word: &str) -> Option<char> {
+    /// No mnemonic that such letters make up alone is longer.
+    const LONGEST: usize = 3;
+    let first = word.chars().find(|&c| look_alike(c).is_some())?;
+    let readable = word
+        .chars()
+        .all(|c| c.is_ascii() || look_alike(c).is_some());
+    let mixed = word.bytes().any(|b| b.is_ascii_alphanumeric());
+    (readable && (mixed || word.chars().count() <= LONGEST)).then_some(first)
+}
+
+/// The Latin letter that a Cyrillic or Greek one looks like.
+fn look_alike(c: char) -> Option<char> {
+    const CYRILLIC: (&str, &str) = ("АВЕЅКМНІЈОРСТУХаеѕіјорсух", "ABESKMHIJOPCTYXaesijopcyx");
+    const GREEK: (&str, &str) = ("ΑΒΕΖΗΙΚΜΝΟΡΤΥΧο", "ABEZHIKMNOPTYXo");
+    [CYRILLIC, GREEK].into_iter().find_map(|(foreign, latin)| {
+        let at = foreign.chars().position(|other| other == c)?;
+        latin.chars().nth(at)
+    })
 }
 
 /// Appends what a typist meant by `c`: word processors and East Asian input methods turn signs into look-alikes.
@@ -56,11 +134,36 @@ mod tests {
 
     #[test]
     fn places_lead_back_to_the_original() {
-        let mut folded = Folded::default();
-        folded.fold("ＬＤ≧　Ｄ０");
+        let folded = Folded::of("ＬＤ≧　Ｄ０");
         assert_eq!(folded.text, "LD>= D0");
         assert_eq!(folded.original(0, 4), (0, 9));
         assert_eq!(folded.original(5, 7), (12, 18));
         assert_eq!(folded.original(7, 7), (18, 18));
+    }
+
+    #[test]
+    fn look_alikes_are_read_as_they_look() {
+        let read = |line: &str| {
+            let mut folded = Folded::default();
+            let mut faults = Faults::default();
+            folded.fold_line(line, &mut faults);
+            let found: Vec<_> = faults
+                .iter()
+                .map(|fault| (fault.span.start, fault.span.end))
+                .collect();
+            (folded.text, found, folded.origin.len())
+        };
+        assert_eq!(read("LD \u{425}0"), ("LD X0".to_owned(), vec![(3, 5)], 5));
+        // Words of another language, texts and comments stay.
+        for line in [
+            "Пуск",
+            "мотор LD",
+            "$MOV \"Х0\" D0",
+            "LD X0 ; Х0",
+            "ASC Х0 D0",
+        ] {
+            assert_eq!(read(line).0, line);
+            assert!(read(line).1.is_empty());
+        }
     }
 }

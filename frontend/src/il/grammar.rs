@@ -1,6 +1,6 @@
 //! The grammar of one line. It reads half-width text; places are byte offsets within the line.
 
-use super::fault::{Fault, Faults, Kind};
+use super::fault::{Fault, Faults, Kind, mistyped_digit};
 use chumsky::container::Container;
 use chumsky::error::EmptyErr;
 use chumsky::input::{InputRef, MapExtra};
@@ -33,26 +33,17 @@ pub(super) struct Body<'s> {
     pub mnemonic: Cow<'s, str>,
     /// Where it stands.
     pub mnemonic_span: Span,
-    /// The operands, or nothing if one of them could not be read.
-    pub operands: Option<Operands>,
+    /// The operands.
+    pub operands: Operands,
 }
 
-/// All operands of one line, or nothing if one of them could not be read.
-struct AllOperands(Option<Operands>);
+/// All operands of one line.
+#[derive(Default)]
+struct AllOperands(Operands);
 
-impl Default for AllOperands {
-    fn default() -> Self {
-        AllOperands(Some(Operands::new()))
-    }
-}
-
-impl Container<Option<Operand>> for AllOperands {
-    fn push(&mut self, item: Option<Operand>) {
-        match (&mut self.0, item) {
-            (Some(operands), Some(operand)) => operands.push(operand),
-            (all, None) => *all = None,
-            (None, Some(_)) => {}
-        }
+impl Container<Operand> for AllOperands {
+    fn push(&mut self, operand: Operand) {
+        self.0.push(operand);
     }
 }
 
@@ -343,20 +334,49 @@ fn buffer_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
         })
 }
 
+/// `K 10`, `X 000`: a space before the number.
+fn spaced_operand<'s>() -> impl Parser<'s, &'s str, OperandKind, Extra> + Copy {
+    let prefix = choice((
+        class().ignored(),
+        letter('K').ignored(),
+        letter('H').ignored(),
+    ));
+    let spaces = any()
+        .filter(|c: &char| c.is_whitespace())
+        .repeated()
+        .at_least(1);
+    prefix
+        .then_ignore(spaces)
+        .then_ignore(digits())
+        .then_ignore(boundary().rewind())
+        .to_slice()
+        .map_with(|text: &str, e| {
+            report(e, Kind::SpacedNumber);
+            let joined: String = text.split_whitespace().collect();
+            match parse(&device_field(), &joined, &mut Faults::default()) {
+                Some(device) => OperandKind::Device(device, None),
+                None => OperandKind::Unreadable(None),
+            }
+        })
+}
+
+/// What begins a comment in other languages.
+fn comment_sign<'s>() -> impl Parser<'s, &'s str, (), Extra> + Copy {
+    choice((just("(*").ignored(), just('#').ignored()))
+}
+
 fn placed<'s>(
     kind: impl Parser<'s, &'s str, OperandKind, Extra> + Copy,
-) -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
-    kind.map_with(|kind, e| {
-        Some(Operand {
-            span: span(e.span()),
-            kind,
-        })
+) -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
+    kind.map_with(|kind, e| Operand {
+        span: span(e.span()),
+        kind,
     })
     .then_ignore(boundary())
 }
 
-/// One operand. What cannot be read is reported and skipped, so that the next operand is read.
-fn operand<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
+/// One operand. What cannot be read is reported and stays as such, and the next operand is read.
+fn operand<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
     let readable = choice((
         device_operand(),
         k_operand(),
@@ -369,12 +389,16 @@ fn operand<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
         let open = word.starts_with('"') && word.matches('"').count() % 2 == 1;
         let kind = if open { Kind::Unclosed } else { Kind::Operand };
         report(e, kind);
-        None
+        OperandKind::Unreadable(meant_device(word))
     });
     // Behind the last operand no kind of operand is tried.
-    boundary()
+    choice((boundary(), comment_sign()))
         .not()
-        .ignore_then(choice((placed(readable), unreadable)))
+        .ignore_then(choice((
+            placed(readable),
+            placed(spaced_operand()),
+            placed(unreadable),
+        )))
 }
 
 fn operands<'s>() -> impl Parser<'s, &'s str, AllOperands, Extra> + Copy {
@@ -446,9 +470,7 @@ fn asc<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
         .then(placed(text))
         .then(operands())
         .map(|((name, text), AllOperands(mut rest))| {
-            if let (Some(rest), Some(text)) = (&mut rest, text) {
-                rest.insert(0, text);
-            }
+            rest.insert(0, text);
             Body {
                 mnemonic: Cow::Borrowed("ASC"),
                 mnemonic_span: span(name),
@@ -490,7 +512,19 @@ fn label<'s>() -> impl Parser<'s, &'s str, (Device, Span), Extra> + Copy {
         .filter(|c: &char| matches!(c, 'P' | 'p' | 'I' | 'i'))
         .rewind()
         .ignore_then(device());
-    pointer
+    let spaces = any()
+        .filter(|c: &char| c.is_whitespace())
+        .repeated()
+        .at_least(1);
+    let spaced = select! { 'P' | 'p' => DeviceClass::P, 'I' | 'i' => DeviceClass::I }
+        .then_ignore(spaces)
+        .then(digits())
+        .map_with(|(class, digits), e| {
+            report(e, Kind::SpacedLabel);
+            let number = number(class, digits).0;
+            Device { class, number }
+        });
+    choice((pointer, spaced))
         .map_with(|device, e| (device, span(e.span())))
         .then_ignore(choice((space().then(just(':')).ignored(), boundary())))
 }
@@ -498,8 +532,11 @@ fn label<'s>() -> impl Parser<'s, &'s str, (Device, Span), Extra> + Copy {
 /// A whole line. A line that is no instruction is reported and skipped up to its comment.
 pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line<'s>, Extra> + Copy {
     let comment_start = choice((just(';').ignored(), just("//").ignored()));
-    let comment = comment_start
-        .to_span()
+    let foreign_start = comment_sign().to_span().map_with(|s: SimpleSpan, e| {
+        report(e, Kind::CommentSign);
+        s
+    });
+    let comment = choice((comment_start.to_span(), foreign_start))
         .then_ignore(any().repeated())
         .map(|s: SimpleSpan| s.end as u32);
     let nonsense = any()
@@ -507,6 +544,7 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line<'s>, Extra> + Copy {
         .repeated()
         .at_least(1)
         .to_slice()
+        .and_is(comment_sign().not())
         .map_with(|text: &str, e: &mut MapExtra<'s, '_, &'s str, Extra>| {
             let whole = e.span();
             let end = whole.start + text.trim_end().len();
@@ -538,34 +576,38 @@ pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line<'s>, Extra> + Copy {
 }
 
 /// An operand that fills a whole field of a table.
-pub(super) fn operand_field<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
+pub(super) fn operand_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
     let stray = any()
-        .map_with(|_, e| report(e, Kind::Line))
+        .map_with(|_, e| {
+            report(e, Kind::Line);
+            span(e.span())
+        })
         .then_ignore(any().repeated());
     space()
         .ignore_then(operand().or_not())
         .then_ignore(space())
         .then(stray.or_not())
         .filter(|(operand, stray)| operand.is_some() || stray.is_some())
-        .map(|(operand, stray)| match stray {
-            Some(()) => None,
-            None => operand.flatten(),
+        .map(|(operand, stray)| match (operand, stray) {
+            (Some(operand), None) => operand,
+            (_, stray) => Operand {
+                span: stray.unwrap_or_default(),
+                kind: OperandKind::Unreadable(None),
+            },
         })
 }
 
 /// The characters that ASC takes, filling a whole field of a table.
-pub(super) fn text_field<'s>() -> impl Parser<'s, &'s str, Option<Operand>, Extra> + Copy {
+pub(super) fn text_field<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
     let bare = any()
         .repeated()
         .to_slice()
         .map(|text: &str| OperandKind::Text(text.trim().into()));
     choice((
         placed(text_operand()).then_ignore(end()),
-        bare.map_with(|kind, e| {
-            Some(Operand {
-                span: span(e.span()),
-                kind,
-            })
+        bare.map_with(|kind, e| Operand {
+            span: span(e.span()),
+            kind,
         }),
     ))
 }
@@ -597,6 +639,12 @@ pub(super) fn parse<'s, T>(
         faults.push(Fault::new((end..end).into(), Kind::Line));
     }
     output
+}
+
+/// The device that an unreadable operand was probably meant to name: `MO`, `XOO1`.
+fn meant_device(word: &str) -> Option<Device> {
+    let meant = mistyped_digit(&word.to_ascii_uppercase())?;
+    parse(&device_field(), &meant, &mut Faults::default())
 }
 
 /// A device by itself.

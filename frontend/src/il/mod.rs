@@ -3,8 +3,8 @@
 //! A list is read line by line with a [chumsky](https://docs.rs/chumsky) grammar. Each line is a start anew, and within a line
 //! each operand is: one mistake never hides the next. Full-width text is read as half-width; places always refer to the original.
 //!
-//! An instruction of which one operand cannot be read at all is left out; one whose numbers are merely impossible (`X008`) stays
-//! with a stand-in, so that the instructions around it are still judged by what the author meant.
+//! An instruction of which one operand cannot be read stays, with that operand marked as unreadable; an operand whose number is merely
+//! impossible (`X008`) gets a stand-in. So the instructions around it are judged by what the author meant.
 //!
 //! Comment lines above an instruction become its statement, a comment beside it its note. Lines that begin with `;!` state
 //! properties of the program: `;! cpu = FX3U/FX3UC`, `;! title = Press`, `;! X000 = start button`.
@@ -25,6 +25,14 @@ use smol_str::{SmolStr, ToSmolStr};
 
 /// Reads an instruction list. `name` is the file's name for diagnostics.
 pub fn read_text(name: &str, text: &str) -> Read {
+    if let Some((program, diagnostic)) = crate::foreign::detect(name, text) {
+        let mut diagnostics = Diagnostics::new();
+        diagnostics.push(diagnostic);
+        return Read {
+            program,
+            diagnostics,
+        };
+    }
     let mut reader = Reader::default();
     let source = Source::new(name, text);
     reader.program.instrs.reserve(source.line_count() as usize);
@@ -63,7 +71,7 @@ impl Reader {
     /// Reads a full-width line, which begins at `start`.
     fn wide_line(&mut self, line: &str, start: u32) {
         let mut folded = std::mem::take(&mut self.folded);
-        folded.fold(line);
+        folded.fold_line(line, &mut self.faults);
         let found = grammar::parse(&grammar::line(), &folded.text, &mut self.faults);
         self.take(line, &folded.text, found, |span| {
             let (first, last) = folded.original(span.start, span.end);
@@ -108,9 +116,7 @@ impl Reader {
         }
         let note = comment.and_then(clean);
         if let Some(body) = line.instr {
-            let Some(mut operands) = body.operands else {
-                return;
-            };
+            let mut operands = body.operands;
             for operand in &mut operands {
                 operand.span = place(operand.span);
             }
@@ -174,11 +180,9 @@ impl Reader {
 
 /// The device that a text names by itself, e.g. `X010`.
 pub(crate) fn device(text: &str) -> Option<Device> {
-    let mut folded = Folded::default();
-    folded.fold(text);
     grammar::parse(
         &grammar::device_field(),
-        &folded.text,
+        &Folded::of(text).text,
         &mut Faults::default(),
     )
 }

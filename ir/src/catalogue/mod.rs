@@ -104,6 +104,7 @@ impl Classes {
             OperandKind::Float(_) => Classes::E,
             OperandKind::Text(_) => Classes::TEXT,
             OperandKind::Buffer { .. } => Classes::BUFFER,
+            OperandKind::Unreadable(_) => Classes::NONE,
         }
     }
 
@@ -598,9 +599,15 @@ impl Written {
     fn of(operands: &[Operand]) -> Self {
         let first = operands.first().map(|operand| &operand.kind);
         Written {
-            class: first.map_or(Classes::NONE, Classes::of),
+            class: match first {
+                // What was meant decides what goes with it.
+                Some(OperandKind::Unreadable(Some(device))) => Classes::of_device(device.class),
+                first => first.map_or(Classes::NONE, Classes::of),
+            },
             number: match first {
-                Some(OperandKind::Device(device, _)) => Some(device.number),
+                Some(OperandKind::Device(device, _) | OperandKind::Unreadable(Some(device))) => {
+                    Some(device.number)
+                }
                 _ => None,
             },
             indexed: operands.iter().any(|operand| {

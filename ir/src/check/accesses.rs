@@ -21,6 +21,17 @@ pub(super) struct Access {
 }
 
 impl Access {
+    /// To one device, whatever is done with it.
+    pub(super) fn whole(first: Device) -> Self {
+        Access {
+            first,
+            count: Some(1),
+            each: 1,
+            role: Role::ReadWrite,
+            span: Span::default(),
+        }
+    }
+
     pub(super) fn reads(&self) -> bool {
         matches!(self.role, Role::Read | Role::ReadWrite)
     }
@@ -30,16 +41,20 @@ impl Access {
     }
 }
 
-/// The accesses of instruction `i` by its operands, without operands that do not belong there.
+/// The accesses of instruction `i` by its operands, without operands that do not belong there. An instruction that could not be
+/// understood has none.
 pub(super) fn of(code: &Code, i: usize) -> impl Iterator<Item = Access> {
     let operands = &code.instr(i).operands;
     let params = code.params(i);
     let wide = code.wide(i);
+    let understood = !code.is_meant(i);
     operands
         .iter()
         .zip(params)
-        .filter(|(operand, param)| {
-            param.shape != Shape::Pointer && param.classes.meets(Classes::of(&operand.kind))
+        .filter(move |(operand, param)| {
+            understood
+                && param.shape != Shape::Pointer
+                && param.classes.meets(Classes::of(&operand.kind))
         })
         .filter_map(move |(operand, param)| access(operands, operand, param, wide))
 }

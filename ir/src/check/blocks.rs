@@ -12,6 +12,9 @@ const MAX_BLOCKS: usize = 8;
 /// How many results MPS can store.
 const MAX_BRANCHES: usize = 11;
 
+/// What to do about an MPS without MPP.
+const CLOSE_BRANCH: &str = "put MPP before the last coil of the branch, or delete this MPS";
+
 /// A block of contacts.
 struct Block {
     /// Its first instruction.
@@ -73,7 +76,10 @@ impl Rungs<'_, '_> {
     fn instr(&mut self, i: usize) {
         let part = self.code.part(i);
         match part {
-            Part::Unknown => self.unknown(),
+            Part::Unknown => {
+                self.unknown();
+                self.pass_state(i);
+            }
             Part::Alone => self.alone(i),
             _ if self.unsure.is_some() => self.behind_unknown(i, part),
             Part::Nothing => self.nothing(),
@@ -170,7 +176,8 @@ impl Rungs<'_, '_> {
                 .other(self.code.span(block.start), "which begins here"),
             None => diagnostic.label("there is no block before it"),
         };
-        self.report(diagnostic);
+        let help = format!("delete this {name}, or begin the second block with LD");
+        self.report(diagnostic.help(help));
     }
 
     fn push(&mut self, i: usize) {
@@ -189,7 +196,8 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::TOO_MANY_BRANCHES
                 .at(self.code.span(i), "more than eleven branches are open")
                 .label("the twelfth MPS")
-                .other(self.code.span(first), "the first one is here");
+                .other(self.code.span(first), "the first one is here")
+                .help("close branches with MPP, or begin a new rung with a relay that holds the result");
             self.report(diagnostic);
         }
     }
@@ -200,7 +208,8 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::NO_BRANCH
                 .at(self.code.span(i), format!("`{name}` without MPS"))
                 .label("no result is stored here");
-            self.report(diagnostic);
+            let help = format!("delete this {name}, or put MPS where the branch begins");
+            self.report(diagnostic.help(help));
             if self.blocks.is_empty() {
                 self.start(i);
             }
@@ -282,7 +291,8 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::OPEN_BRANCH
                 .at(self.code.span(branch.at), "no MPP closes this branch")
                 .label("stored here")
-                .other(self.code.span(i), "a new rung has begun before this");
+                .other(self.code.span(i), "a new rung has begun before this")
+                .help(CLOSE_BRANCH);
             self.out.push(diagnostic);
         }
     }
@@ -290,6 +300,10 @@ impl Rungs<'_, '_> {
     fn alone(&mut self, i: usize) {
         self.unsure = None;
         self.finish(Some(i));
+        self.pass_state(i);
+    }
+
+    fn pass_state(&mut self, i: usize) {
         match self.code.basic(i) {
             Some(Basic::Stl) => self.in_state = true,
             Some(Basic::Ret | Basic::Fend | Basic::Label) => self.in_state = false,
@@ -302,7 +316,8 @@ impl Rungs<'_, '_> {
         for branch in std::mem::take(&mut self.branches) {
             let diagnostic = codes::OPEN_BRANCH
                 .at(self.code.span(branch.at), "no MPP closes this branch")
-                .label("stored here");
+                .label("stored here")
+                .help(CLOSE_BRANCH);
             self.out.push(diagnostic);
         }
         let unspent = self
@@ -326,7 +341,8 @@ impl Rungs<'_, '_> {
                     ),
                 )
                 .label("is connected to the bus itself")
-                .other(self.code.span(start), "these contacts drive nothing"),
+                .other(self.code.span(start), "these contacts drive nothing")
+                .help("end the rung with a coil before it, or delete these contacts"),
             None => codes::NO_COIL
                 .at(self.code.span(start), "these contacts drive nothing")
                 .label("the result of this block is lost")

@@ -139,6 +139,8 @@ fn without_input(code: &Code, out: &mut Diagnostics) {
             continue;
         };
         let fast = device.class == DeviceClass::C && device.number >= high_speed::FIRST;
+        // That it does not exist at all is told elsewhere.
+        let fast = fast && code.model().has(device.class, device.number);
         if fast && !table.iter().any(|counter| counter.number == device.number) {
             let message = format!("`{device}` counts no input of {}", code.model().name);
             let span = code

@@ -46,7 +46,8 @@ fn defined_once(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagno
         let diagnostic = codes::LABEL_TWICE
             .at(code.span(second), format!("`{device}` is defined twice"))
             .label("defined again here")
-            .other(code.span(first), "first defined here");
+            .other(code.span(first), "first defined here")
+            .help("delete one of the two, or give it another number");
         out.push(diagnostic);
     }
 }
@@ -98,6 +99,7 @@ fn missing(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics
         .iter()
         .chain(&pointer.calls)
         .chain(&pointer.others)
+        .filter(|&&i| !code.is_meant(i) && !code.instr(i).is_broken())
     {
         let diagnostic = codes::NO_LABEL
             .at(
@@ -139,7 +141,8 @@ fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mu
                 code.span(label),
                 format!("nothing jumps to `{device}` or calls it"),
             )
-            .label("not used");
+            .label("not used")
+            .help("delete the label, or name it in the CJ or CALL that is to lead here");
         out.push(diagnostic);
     }
 }
@@ -176,7 +179,8 @@ fn destination(code: &Code, places: &Places, jump: usize, label: usize, out: &mu
                 "this jump leaves or enters a state of a step ladder",
             )
             .label("jumps from here …")
-            .other(code.span(label), "… to here");
+            .other(code.span(label), "… to here")
+            .help("go to another state with SET and its STL");
         out.push(diagnostic);
     }
 }

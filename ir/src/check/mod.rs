@@ -20,7 +20,7 @@ mod unreachable;
 mod unused;
 mod writes;
 
-use crate::catalogue::{Basic, Drive, Inst, Join, Lower, Param};
+use crate::catalogue::{Basic, Classes, Drive, Inst, Join, Lower, Param};
 use crate::model::Model;
 use crate::resolve::{Resolved, numbered};
 use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, Span, codes};
@@ -46,6 +46,7 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     let (mut unused, mut pairs) = (unused::Unused::new(&code), pairs::Pairs::default());
     let mut inert = inert::Inert::default();
     for i in 0..code.len {
+        unused.note_broken(i);
         for access in accesses::of(&code, i) {
             unused.note(i, &access);
             pairs.note(&access);
@@ -127,9 +128,37 @@ impl<'a> Code<'a> {
         self.resolved.instrs[i].params
     }
 
+    /// Whether what an instruction is was only guessed, for the structure of the program.
+    fn is_meant(&self, i: usize) -> bool {
+        self.resolved.instrs[i].meant
+    }
+
+    /// The devices that the operands of an instruction name or were meant to name.
+    fn devices(&self, i: usize) -> impl Iterator<Item = Device> {
+        let operands = self.instr(i).operands.iter();
+        operands.filter_map(|operand| match operand.kind {
+            OperandKind::Device(device, _)
+            | OperandKind::WordBit(device, ..)
+            | OperandKind::Nibbles(_, device, _) => Some(device),
+            OperandKind::Unreadable(meant) => meant,
+            _ => None,
+        })
+    }
+
+    /// Whether an operand that could not be read may be any device.
+    fn lacks_a_device(&self, i: usize) -> bool {
+        /// What names no device.
+        const CONSTANTS: Classes = Classes::K.or(Classes::H).or(Classes::E).or(Classes::TEXT);
+        let operands = self.instr(i).operands.iter().zip(self.params(i));
+        operands.clone().any(|(operand, param)| {
+            let unknown = matches!(operand.kind, OperandKind::Unreadable(None));
+            unknown && param.classes.without(CONSTANTS) != Classes::NONE
+        })
+    }
+
     /// How an instruction takes part in the contact logic.
     fn part(&self, i: usize) -> Part {
-        let Some(inst) = self.inst(i) else {
+        let Some(inst) = self.inst(i).filter(|_| !self.is_meant(i)) else {
             return Part::Unknown;
         };
         match (inst.lower, inst.drive) {

@@ -55,13 +55,23 @@ impl Pointers {
                 pointers.entry(label).labels.push(i);
                 continue;
             }
+            // A jump whose label could not be read may lead to any.
+            let jumps = matches!(code.basic(i), Some(Basic::Cj | Basic::Call));
+            let lost = code.is_meant(i) && code.instr(i).operands.is_empty();
+            if jumps && (lost || code.lacks_a_device(i)) {
+                pointers.indexed = true;
+                pointers.indexed_call |= code.basic(i) == Some(Basic::Call);
+            }
             for (at, operand) in code.instr(i).operands.iter().enumerate() {
-                let OperandKind::Device(device, index) = operand.kind else {
-                    continue;
+                let (device, index) = match operand.kind {
+                    OperandKind::Device(device, index) => (device, index),
+                    OperandKind::Unreadable(Some(device)) => (device, None),
+                    _ => continue,
                 };
                 let pointer = matches!(device.class, DeviceClass::P | DeviceClass::I);
                 // An operand too many is wrong in itself.
-                if !pointer || at >= code.params(i).len() {
+                let known = code.inst(i).is_some() && !code.is_meant(i);
+                if !pointer || known && at >= code.params(i).len() {
                     continue;
                 }
                 if index.is_some() {

@@ -68,10 +68,17 @@ struct Open {
     kind: Kind,
     /// The instruction that began it.
     at: usize,
-    /// Level of a master control zone.
-    level: u32,
+    /// Level of a master control zone, if it could be read.
+    level: Option<u32>,
     /// Whether something is known to be wrong with it, so that nothing more is said.
     reported: bool,
+}
+
+impl Open {
+    /// Whether an MCR of this level ends it, as far as both levels could be read.
+    fn may_end_with(&self, level: Option<u32>) -> bool {
+        self.level.is_none() || level.is_none() || self.level == level
+    }
 }
 
 /// What happens if the one structure lies wholly inside the other, or crosses its end.
@@ -138,6 +145,8 @@ struct Walk<'a, 'p> {
     code: &'a Code<'p>,
     pointers: &'a Pointers,
     out: &'a mut Diagnostics,
+    /// The instruction at hand.
+    at: usize,
     open: Vec<Open>,
     routine: Routine,
     /// Whether the main program has ended.
@@ -162,6 +171,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> 
         code,
         pointers,
         out,
+        at: 0,
         open: Vec::new(),
         routine: Routine::Main,
         after_fend: false,
@@ -192,12 +202,16 @@ impl Walk<'_, '_> {
         }
     }
 
+    /// Adds a finding, unless it is about an instruction of which it is only guessed what was meant.
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.out.push(diagnostic);
+        if !self.code.is_meant(self.at) {
+            self.out.push(diagnostic);
+        }
     }
 
     /// What instruction `i` begins.
     fn begin(&mut self, i: usize) {
+        self.at = i;
         let basic = self.code.basic(i);
         if basic != Some(Basic::Stl) {
             self.stl_row = 0;
@@ -274,31 +288,32 @@ impl Walk<'_, '_> {
         self.push_open(Open {
             kind,
             at,
-            level: 0,
+            level: None,
             reported: false,
         });
     }
 
     /// Begins a structure. No good program comes near the limit, which keeps the time linear for bad ones.
-    fn push_open(&mut self, open: Open) {
+    fn push_open(&mut self, mut open: Open) {
         const MAX_OPEN: usize = 256;
+        open.reported |= self.code.is_meant(open.at);
         if self.open.len() < MAX_OPEN {
             self.open.push(open);
         }
     }
 
-    fn level(&self, i: usize) -> u32 {
-        self.code.device(i, 0).map_or(0, |device| device.number)
+    fn level(&self, i: usize) -> Option<u32> {
+        self.code.device(i, 0).map(|device| device.number)
     }
 
     fn begin_mc(&mut self, i: usize) {
         let level = self.level(i);
         let around = self.open.iter().rev().find(|open| open.kind == Kind::Mc);
         let wrong = around
-            .filter(|open| open.level >= level)
+            .filter(|open| level.is_some() && open.level >= level)
             .map(|open| open.at);
         let reported = wrong.is_some();
-        if let Some(around) = wrong {
+        if let (Some(around), Some(level)) = (wrong, level) {
             let message = format!("N{level} is not deeper than the zone around it");
             let diagnostic = codes::MC_ORDER
                 .at(self.code.span(i), message)
@@ -408,7 +423,7 @@ impl Walk<'_, '_> {
         self.push_open(Open {
             kind,
             at: i,
-            level: 0,
+            level: None,
             reported,
         });
         self.routine = match kind {
@@ -422,10 +437,11 @@ impl Walk<'_, '_> {
         let zone = self
             .open
             .iter()
-            .rposition(|open| open.kind == Kind::Mc && open.level == level);
+            .rposition(|open| open.kind == Kind::Mc && open.may_end_with(level));
         let Some(zone) = zone else {
+            let level = level.unwrap_or_default();
             let other = self.open.iter().rev().find(|open| open.kind == Kind::Mc);
-            let other = other.map(|open| (open.at, open.level));
+            let other = other.and_then(|open| Some((open.at, open.level?)));
             let message = format!("no MC N{level} is open here");
             let diagnostic = codes::LONE_MCR.at(self.code.span(i), message);
             let diagnostic = match other {
@@ -434,6 +450,10 @@ impl Walk<'_, '_> {
                     .other(self.code.span(at), format!("… but N{open} is open")),
                 None => diagnostic.label("there is nothing to end"),
             };
+            let diagnostic = diagnostic.help(match other {
+                Some((_, open)) => format!("write `MCR N{open}`"),
+                None => "delete this MCR, or put MC where the zone begins".to_owned(),
+            });
             self.report(diagnostic);
             return;
         };
@@ -450,7 +470,8 @@ impl Walk<'_, '_> {
         let Some(begin) = self.open.iter().rposition(|open| open.kind == Kind::For) else {
             let diagnostic = codes::LONE_NEXT
                 .at(self.code.span(i), "no FOR is open here")
-                .label("there is nothing to repeat");
+                .label("there is nothing to repeat")
+                .help("delete this NEXT, or put FOR where the loop begins");
             self.report(diagnostic);
             return;
         };
@@ -494,7 +515,11 @@ impl Walk<'_, '_> {
                 self.code.span(i),
                 format!("`{name}` ends no {}", kind.name()),
             )
-            .label("no routine has begun");
+            .label("no routine has begun")
+            .help(format!(
+                "delete this {name}, or put the label of the {} before it",
+                kind.name()
+            ));
         let diagnostic = match kind {
             Kind::Sub if !self.after_fend => diagnostic.plc_error(6631),
             _ => diagnostic,
@@ -569,6 +594,7 @@ impl Walk<'_, '_> {
                 self.code.span(open.at),
                 format!("… but no {end} has closed this"),
             )
+            .help(format!("put {end} before FEND"))
             .plc_error(plc_error)
     }
 
@@ -618,13 +644,19 @@ impl Walk<'_, '_> {
             if open.reported {
                 continue;
             }
+            self.at = open.at;
             let span = self.code.span(open.at);
             let diagnostic = match open.kind {
                 Kind::Sub | Kind::Interrupt => self.open_routine(&open),
-                Kind::Mc => codes::OPEN_MC
-                    .at(span, format!("no MCR closes MC N{}", open.level))
-                    .label("begins here and never ends")
-                    .help(format!("end the zone with MCR N{}", open.level)),
+                Kind::Mc => {
+                    let level = open
+                        .level
+                        .map_or_else(String::new, |level| format!(" N{level}"));
+                    codes::OPEN_MC
+                        .at(span, format!("no MCR closes MC{level}"))
+                        .label("begins here and never ends")
+                        .help(format!("end the zone with `MCR{level}`"))
+                }
                 Kind::For => codes::OPEN_FOR
                     .at(span, "no NEXT closes this FOR")
                     .label("begins here and never ends")

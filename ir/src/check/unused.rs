@@ -50,6 +50,11 @@ impl<'a, 'p> Unused<'a, 'p> {
             known.writes = vec![0; len];
             known.met = [vec![false; len], vec![false; len]];
         }
+        // What a line means that cannot be read at all is not known.
+        let unread = !code.resolved.program.unread.is_empty();
+        for known in &mut classes {
+            (known.any_read, known.any_written) = (unread, unread);
+        }
         Unused {
             code,
             classes,
@@ -90,6 +95,29 @@ impl<'a, 'p> Unused<'a, 'p> {
         };
         if self.classes[at].meets(access, what) {
             list.push((access.first, access.span));
+        }
+    }
+
+    /// Takes an instruction that could not be read or understood: it may read and write what it names, or anything where it names
+    /// nothing that could be read.
+    pub(super) fn note_broken(&mut self, i: usize) {
+        let instr = self.code.instr(i);
+        let unknown = self.code.inst(i).is_none() || self.code.is_meant(i);
+        if !unknown && !instr.is_broken() {
+            return;
+        }
+        let anything = match unknown {
+            true => instr.operands.is_empty(),
+            false => self.code.lacks_a_device(i),
+        };
+        for (&class, known) in CLASSES.iter().zip(&mut self.classes) {
+            known.any_read |= anything;
+            known.any_written |= anything;
+            for first in self.code.devices(i).filter(|device| device.class == class) {
+                let access = Access::whole(first);
+                known.add(&access, true);
+                known.add(&access, false);
+            }
         }
     }
 

@@ -232,7 +232,7 @@ impl Lowerer<'_> {
                 })
             }
             OperandKind::Buffer { .. } => self.fetch(operand, wide, guards),
-            OperandKind::WordBit(..) | OperandKind::Text(_) => {
+            OperandKind::WordBit(..) | OperandKind::Text(_) | OperandKind::Unreadable(_) => {
                 self.unreadable(operand);
                 self.int(0, wide)
             }

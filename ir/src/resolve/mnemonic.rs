@@ -1,50 +1,79 @@
 //! From mnemonics to rows and forms.
 
 use super::Form;
-use crate::catalogue::{self, Forms, Found, Inst};
-use crate::model::{Model, ModelId, ModelSet};
-use rungc_syntax::{Diagnostic, Diagnostics, Instr, codes, diag};
-use std::sync::OnceLock;
+use super::suggest::{self, Open};
+use crate::catalogue::{self, Basic, Drive, Forms, Found, Inst, Lower};
+use crate::model::{Model, ModelId};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Instr, codes};
 
 /// How many unknown mnemonics get a suggestion; searching one costs as much as resolving hundreds of good instructions.
 const MAX_SUGGESTIONS: u32 = 200;
 
-/// Whether the model has the form of an instruction that it has.
+/// How an instruction's row was found.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fit {
     Good,
-    /// Which was reported.
+    /// The model does not have the form, which was reported.
     NoSuchForm,
+    /// The instruction is misspelt, or the model does not have it, which was reported; this is what it stands for in the structure
+    /// of the program.
+    Meant,
+}
+
+/// What was found of an instruction.
+#[derive(Clone, Copy)]
+pub(super) struct Match {
+    pub(super) found: Found,
+    pub(super) fit: Fit,
+    /// The pointer, if it is a label.
+    pub(super) label: Option<Device>,
 }
 
 /// Finds rows and reports instructions that have none.
 pub(super) struct Finder {
     model: &'static Model,
     suggestions: u32,
+    open: Open,
 }
 
 impl Finder {
     pub(super) fn new(model: &'static Model) -> Self {
-        let suggestions = MAX_SUGGESTIONS;
-        Finder { model, suggestions }
+        Finder {
+            model,
+            suggestions: MAX_SUGGESTIONS,
+            open: Open::default(),
+        }
     }
 
-    /// The row and form of an instruction, if the model has the instruction; a form that it does not have is reported and marked.
-    pub(super) fn find(&mut self, instr: &Instr, out: &mut Diagnostics) -> Option<(Found, Fit)> {
+    /// The row and form of an instruction. One that is unknown, or that the model does not have, is reported; where it can only have
+    /// been meant to begin, end or name a part of the program, it is found as that. `last`: nothing follows it.
+    pub(super) fn find(
+        &mut self,
+        instr: &Instr,
+        last: bool,
+        out: &mut Diagnostics,
+    ) -> Option<Match> {
+        let matched = self.look_up(instr, last, out)?;
+        self.open.pass(matched.found.inst, matched.label);
+        Some(matched)
+    }
+
+    fn look_up(&mut self, instr: &Instr, last: bool, out: &mut Diagnostics) -> Option<Match> {
         let mnemonic = instr.mnemonic.as_str();
+        let label = super::label(instr);
         let Some(found) = catalogue::find(mnemonic).or_else(|| without_affixes(mnemonic)) else {
-            out.push(self.unknown(instr));
-            return None;
+            return self.unknown(instr, last, out);
         };
+        let matched = |fit| Match { found, fit, label };
         if !found.inst.models.has(self.model.id) {
             out.push(self.not_on_model(instr, found.inst));
-            return None;
+            return is_structural(found.inst).then(|| matched(Fit::Meant));
         }
         if !self.has_form(found.inst, found.form) || found.bare && !self.model.bare_names {
             out.push(self.no_such_form(instr, found.inst, found.form));
-            return Some((found, Fit::NoSuchForm));
+            return Some(matched(Fit::NoSuchForm));
         }
-        Some((found, Fit::Good))
+        Some(matched(Fit::Good))
     }
 
     fn has_form(&self, inst: &Inst, form: Form) -> bool {
@@ -53,41 +82,27 @@ impl Finder {
         forms.has(width) && (!form.pulse || forms.has(Forms::PULSE))
     }
 
-    fn unknown(&mut self, instr: &Instr) -> Diagnostic {
-        let mnemonic = instr.mnemonic.as_str();
-        let message = format!("unknown instruction `{mnemonic}`");
+    fn unknown(&mut self, instr: &Instr, last: bool, out: &mut Diagnostics) -> Option<Match> {
+        let message = format!("unknown instruction `{}`", instr.mnemonic);
         let diagnostic = codes::UNKNOWN_INSTRUCTION
             .at(instr.mnemonic_span, message)
             .label("no model has this instruction");
-        match self.similar(mnemonic) {
-            Some(similar) => diagnostic.help(format!("did you mean `{similar}`?")),
-            None => diagnostic,
-        }
-    }
-
-    /// A spelling that the model has and that is close to a misspelt one.
-    fn similar(&mut self, mnemonic: &str) -> Option<&'static str> {
-        static SPELLINGS: OnceLock<Vec<(String, ModelSet)>> = OnceLock::new();
-        /// No mnemonic is longer than this by more than a typing error.
-        const LONGEST: usize = 14;
-        self.suggestions = self.suggestions.checked_sub(1)?;
-        let spellings = SPELLINGS.get_or_init(|| {
-            catalogue::all()
-                .flat_map(|inst| {
-                    inst.spellings()
-                        .into_iter()
-                        .map(|(name, _)| (name, inst.models))
-                })
-                .collect()
-        });
-        let on_model = spellings
-            .iter()
-            .filter(|(_, models)| models.has(self.model.id))
-            .map(|(name, _)| name.as_str());
-        if mnemonic.len() > LONGEST {
+        let meant = match self.suggestions {
+            0 => None,
+            _ => suggest::meant(instr, self.open, last, self.model),
+        };
+        self.suggestions = self.suggestions.saturating_sub(1);
+        let Some(meant) = meant else {
+            out.push(diagnostic);
             return None;
-        }
-        diag::did_you_mean(mnemonic, on_model)
+        };
+        out.push(diagnostic.help(meant.help));
+        let found = meant.found.filter(|found| is_structural(found.inst))?;
+        Some(Match {
+            found,
+            fit: Fit::Meant,
+            label: meant.label,
+        })
     }
 
     fn not_on_model(&self, instr: &Instr, inst: &Inst) -> Diagnostic {
@@ -153,4 +168,13 @@ fn without_affixes(mnemonic: &str) -> Option<Found> {
         let new = !twice && found.inst.spelling_of(form).is_none();
         new.then_some(Found { form, ..found })
     })
+}
+
+/// Whether an instruction begins, ends or names a part of the program, so that others are judged by it.
+fn is_structural(inst: &Inst) -> bool {
+    let named = matches!(
+        inst.lower,
+        Lower::Basic(Basic::Mc | Basic::Cj | Basic::Call)
+    );
+    inst.drive == Drive::Alone || named
 }

@@ -1,7 +1,8 @@
 //! Holds the operands of an instruction to its catalogue row and to the model's devices.
 
 use super::rules;
-use crate::catalogue::{Classes, Extent, Found, Param, Role, Shape};
+use super::wrong::{not_this_number, too_few, too_many, wide_constant, wrong_class};
+use crate::catalogue::{Classes, Extent, Found, Param, Shape};
 use crate::model::Model;
 use crate::runs::{is_counter32, words_of_bits};
 use rungc_syntax::{
@@ -18,9 +19,9 @@ pub(super) struct Checker {
 }
 
 /// An instruction whose operands are looked at.
-struct Place<'a> {
-    instr: &'a Instr,
-    found: Found,
+pub(super) struct Place<'a> {
+    pub(super) instr: &'a Instr,
+    pub(super) found: Found,
 }
 
 impl Checker {
@@ -59,28 +60,39 @@ impl Checker {
         out: &mut Diagnostics,
     ) {
         let place = Place { instr, found };
-        let needed = params.iter().filter(|param| !param.optional).count();
-        if instr.operands.len() < needed {
-            out.push(too_few(instr, params));
-        }
-        if let Some(extra) = instr.operands.get(params.len()) {
-            let name = &instr.mnemonic;
-            out.push(too_many(instr, extra.span, name, params));
-        }
-        for (at, (operand, param)) in instr.operands.iter().zip(params).enumerate() {
+        self.count(instr, params, out);
+        for (at, param) in params.iter().enumerate().take(instr.operands.len()) {
             let wide = found.form.wide;
-            let wrong = self.operand(&place, operand, param);
+            let wrong = self.operand(&place, at, param);
             out.extend(wrong.or_else(|| rules::broken(&instr.operands, at, param, wide)));
         }
     }
 
+    /// Reports operands that are missing or too many. Where one could not be read, only that one is judged.
+    fn count(&self, instr: &Instr, params: &[Param], out: &mut Diagnostics) {
+        let broken = instr.operands.iter().position(is_unreadable);
+        let needed = params.iter().filter(|param| !param.optional).count();
+        if instr.operands.len() < needed && broken.is_none() {
+            out.push(too_few(instr, params));
+        }
+        if let Some(extra) = instr.operands.get(params.len())
+            && broken.is_none_or(|broken| broken == params.len())
+        {
+            out.push(too_many(instr, extra.span, &instr.mnemonic, params));
+        }
+    }
+
     /// What is wrong with one operand, if anything.
-    fn operand(&self, place: &Place, operand: &Operand, param: &Param) -> Option<Diagnostic> {
+    fn operand(&self, place: &Place, at: usize, param: &Param) -> Option<Diagnostic> {
+        let operand = &place.instr.operands[at];
         let span = operand.span;
         let kind = &operand.kind;
+        if is_unreadable(operand) {
+            return None;
+        }
         let classes = param.classes_without(self.missing, self.model.id);
         if !classes.meets(Classes::of(kind)) {
-            return Some(wrong_class(place.instr, operand, param, classes));
+            return Some(wrong_class(place, at, param, classes, self.model));
         }
         if let Some(index) = index_of(kind)
             && let Some(diagnostic) =
@@ -93,28 +105,28 @@ impl Checker {
                 .existing(span, *device)
                 .or_else(|| self.counter(place, span, *device, param))
                 .or_else(|| self.upper_half(place, span, *device, param))
-                .or_else(|| numbers(span, *device, param.numbers_on(self.model)))
+                .or_else(|| numbers(span, *device, param, self.model))
                 .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
             OperandKind::WordBit(device, bit, index) => bit_of_register(span, *device, *index)
                 .or_else(|| self.existing(span, *device))
                 .or_else(|| self.bits_of_words(place, span, (*device, *bit), *index, param)),
             OperandKind::Nibbles(digits, device, index) => digits_fit(place, span, *digits, param)
                 .or_else(|| self.existing(span, *device))
-                .or_else(|| numbers(span, *device, param.numbers_on(self.model)))
+                .or_else(|| numbers(span, *device, param, self.model))
                 .or_else(|| {
                     let bits = 4 * u32::from(*digits);
                     self.reach(place, span, *device, bits, index.is_some(), param)
                 }),
             OperandKind::Decimal(value, index) => {
-                constant(place, operand, *value, index.is_some(), param)
+                constant(place, operand, *value, index.is_some(), (param, self.model))
             }
             OperandKind::Hex(value, index) => {
-                hex_constant(place, operand, *value, index.is_some(), param)
+                hex_constant(place, operand, *value, index.is_some(), (param, self.model))
             }
             OperandKind::Buffer {
                 module, address, ..
             } => no_buffer(span, *module, *address),
-            OperandKind::Float(_) | OperandKind::Text(_) => None,
+            OperandKind::Float(_) | OperandKind::Text(_) | OperandKind::Unreadable(_) => None,
         }
     }
 
@@ -343,6 +355,20 @@ impl Checker {
     }
 }
 
+pub(super) fn is_unreadable(operand: &Operand) -> bool {
+    matches!(operand.kind, OperandKind::Unreadable(_))
+}
+
+/// Whether the row takes these operands, as far as their number and their classes go.
+pub(super) fn takes(found: Found, operands: &[Operand], model: &Model) -> bool {
+    let (params, _) = found.inst.params_and_steps(found.form, operands, model);
+    let needed = params.iter().filter(|param| !param.optional).count();
+    let fits = |(operand, param): (&Operand, &Param)| {
+        is_unreadable(operand) || param.classes_on(model).meets(Classes::of(&operand.kind))
+    };
+    (needed..=params.len()).contains(&operands.len()) && operands.iter().zip(params).all(fits)
+}
+
 /// Buffer memory that cannot exist (FX3 programming manual §4.11).
 fn no_buffer(span: Span, module: u32, address: u32) -> Option<Diagnostic> {
     const LAST_MODULE: u32 = 7;
@@ -363,12 +389,12 @@ fn index_of(kind: &OperandKind) -> Option<Index> {
         | OperandKind::Decimal(_, index)
         | OperandKind::Hex(_, index)
         | OperandKind::Buffer { index, .. } => index,
-        OperandKind::Float(_) | OperandKind::Text(_) => None,
+        OperandKind::Float(_) | OperandKind::Text(_) | OperandKind::Unreadable(_) => None,
     }
 }
 
 /// The device that an operand names or begins with.
-fn device_of(kind: &OperandKind) -> Option<Device> {
+pub(super) fn device_of(kind: &OperandKind) -> Option<Device> {
     match *kind {
         OperandKind::Device(device, _)
         | OperandKind::WordBit(device, ..)
@@ -413,81 +439,10 @@ pub(crate) fn constant_value(kind: &OperandKind) -> Option<i64> {
     }
 }
 
-fn too_few(instr: &Instr, params: &[Param]) -> Diagnostic {
-    let found = instr.operands.len();
-    let message = format!(
-        "`{}` needs {}, found {found}",
-        instr.mnemonic,
-        counted(params.iter().filter(|param| !param.optional).count())
-    );
-    let missing: Vec<_> = params.iter().skip(found).map(|param| param.name).collect();
-    let (noun, verb) = match missing.len() {
-        1 => ("operand", "is"),
-        _ => ("operands", "are"),
-    };
-    let end = Span::new(instr.span.end, instr.span.end);
-    codes::TOO_FEW_OPERANDS
-        .at(if found == 0 { instr.span } else { end }, message)
-        .label(format!("{noun} {} {verb} missing", missing.join(", ")))
-        .help(signature(&instr.mnemonic, params))
-}
-
-fn too_many(instr: &Instr, first: Span, name: &str, params: &[Param]) -> Diagnostic {
-    let message = match params.len() {
-        0 => format!("`{name}` takes no operand"),
-        n => format!(
-            "`{name}` takes {}, found {}",
-            counted(n),
-            instr.operands.len()
-        ),
-    };
-    codes::TOO_MANY_OPERANDS
-        .at(first, message)
-        .label("too many from here on")
-        .help(signature(name, params))
-}
-
-fn counted(operands: usize) -> String {
-    match operands {
-        1 => "1 operand".to_owned(),
-        n => format!("{n} operands"),
-    }
-}
-
-fn signature(name: &str, params: &[Param]) -> String {
-    let mut text = format!("write `{name}");
-    for param in params {
-        let (open, close) = if param.optional { ("[", "]") } else { ("", "") };
-        text.push_str(&format!(" {open}{}{close}", param.name));
-    }
-    text.push('`');
-    text
-}
-
-fn wrong_class(instr: &Instr, operand: &Operand, param: &Param, classes: Classes) -> Diagnostic {
-    let message = format!(
-        "`{}` cannot be operand {} of `{}`",
-        operand.kind, param.name, instr.mnemonic
-    );
-    let kind = Classes::of(&operand.kind);
-    let written = param.role != Role::Read;
-    let label = match kind {
-        Classes::X | Classes::KNX if written => "inputs cannot be written",
-        Classes::K | Classes::H | Classes::E if written => "a constant cannot be written",
-        _ => "not accepted here",
-    };
-    codes::OPERAND_CLASS
-        .at(operand.span, message)
-        .label(label)
-        .help(format!(
-            "accepted: {}",
-            classes.names().collect::<Vec<_>>().join(", ")
-        ))
-}
-
 /// A device whose number does not serve in this place.
-fn numbers(span: Span, device: Device, numbers: &[(DeviceClass, u32, u32)]) -> Option<Diagnostic> {
-    let mut of_class = numbers
+fn numbers(span: Span, device: Device, param: &Param, model: &Model) -> Option<Diagnostic> {
+    let mut of_class = param
+        .numbers_on(model)
         .iter()
         .filter(|(class, ..)| *class == device.class)
         .peekable();
@@ -496,20 +451,7 @@ fn numbers(span: Span, device: Device, numbers: &[(DeviceClass, u32, u32)]) -> O
     let fits = allowed
         .iter()
         .any(|&&(_, first, last)| (first..=last).contains(&device.number));
-    (!fits).then(|| not_this_number(span, device, &allowed))
-}
-
-fn not_this_number(span: Span, device: Device, allowed: &[&(DeviceClass, u32, u32)]) -> Diagnostic {
-    let ranges: Vec<_> = allowed
-        .iter()
-        .map(|&&(class, first, last)| match first == last {
-            true => class.number(first).to_string(),
-            false => format!("{}–{}", class.number(first), class.number(last)),
-        })
-        .collect();
-    codes::NOT_THIS_NUMBER
-        .at(span, format!("`{device}` cannot serve here"))
-        .label(format!("here only {}", ranges.join(", ")))
+    (!fits).then(|| not_this_number(span, device, &allowed, param, model))
 }
 
 /// How many bits a value of an operand has.
@@ -569,12 +511,12 @@ fn constant(
     operand: &Operand,
     value: i64,
     indexed: bool,
-    param: &Param,
+    (param, model): (&Param, &Model),
 ) -> Option<Diagnostic> {
     let bits = bits(place.found, param);
     let half = 1i64 << (bits - 1);
     if !(-half..half).contains(&value) {
-        return Some(wide_constant(place, operand, bits));
+        return Some(wide_constant(place, operand, bits, model));
     }
     outside_limits(place, operand, &[value], indexed, param)
 }
@@ -584,37 +526,16 @@ fn hex_constant(
     operand: &Operand,
     value: u64,
     indexed: bool,
-    param: &Param,
+    (param, model): (&Param, &Model),
 ) -> Option<Diagnostic> {
     let bits = bits(place.found, param);
     if value >> bits != 0 {
-        return Some(wide_constant(place, operand, bits));
+        return Some(wide_constant(place, operand, bits, model));
     }
     // Fits in 32 bits, so both readings fit in i64.
     let unsigned = value as i64;
     let signed = unsigned - ((unsigned >> (bits - 1)) << bits);
     outside_limits(place, operand, &[unsigned, signed], indexed, param)
-}
-
-fn wide_constant(place: &Place, operand: &Operand, bits: u32) -> Diagnostic {
-    let message = format!("`{}` does not fit in {bits} bits", operand.kind);
-    let range = match (bits, matches!(operand.kind, OperandKind::Hex(..))) {
-        (16, true) => "H0 to HFFFF",
-        (16, false) => "K-32768 to K32767",
-        (_, true) => "H0 to HFFFFFFFF",
-        (_, false) => "K-2147483648 to K2147483647",
-    };
-    let diagnostic = codes::CONSTANT_WIDTH
-        .at(operand.span, message)
-        .label(format!("{range} here"));
-    let wide = super::Form {
-        wide: true,
-        ..place.found.form
-    };
-    match place.found.inst.spelling_of(wide) {
-        Some(name) if bits == 16 => diagnostic.help(format!("`{name}` takes 32 bits")),
-        _ => diagnostic,
-    }
 }
 
 /// A constant none of whose readings lies in the operand's limits.

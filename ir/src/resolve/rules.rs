@@ -163,10 +163,15 @@ fn narrow_counter(operand: &Operand) -> Diagnostic {
 
 fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
     let message = format!("`{}` {demand} `{}`", operand.kind, other.kind);
+    // The labels are read in the order of their places.
+    let (here, there) = match other.span < operand.span {
+        true => ("… does not go with this", "this …"),
+        false => ("this …", "… does not go with this"),
+    };
     codes::OPERANDS_DISAGREE
         .at(operand.span, message)
-        .label("this does not go …")
-        .other(other.span, "… with this")
+        .label(here)
+        .other(other.span, there)
 }
 
 fn device_of(kind: &OperandKind) -> Option<Device> {

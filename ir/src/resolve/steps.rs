@@ -37,6 +37,12 @@ impl Counter {
         step
     }
 
+    /// Goes past something that could not be read, so that the next number is taken as it is.
+    pub(super) fn lose(&mut self) {
+        self.lost = true;
+        self.counted = self.counted.saturating_add(1);
+    }
+
     /// The number that the next instruction should have in the source's count.
     fn numbered(&self) -> u32 {
         let number = i64::from(self.counted) + self.ahead;

@@ -126,9 +126,10 @@ fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> 
     };
     let compiled = compile(&read.program, &options);
     let source = &read.program.source;
-    let errors: Vec<_> = [&read.diagnostics, &compiled.diagnostics]
-        .into_iter()
-        .flat_map(|diagnostics| diagnostics.iter())
+    let mut found = read.diagnostics;
+    found.refine(&compiled.diagnostics);
+    let errors: Vec<_> = found
+        .iter()
         .filter(|d| d.severity == Severity::Error)
         .map(|d| (d.plc_error, line_of(source, d), d.message.clone()))
         .collect();

@@ -31,6 +31,24 @@ super::codes! {
     wrong: "LD X0\n$MOV \"ABC D0\nEND\n",
     right: "LD X0\n$MOV \"ABC\" D0\nEND\n";
 
+    FOREIGN_LANGUAGE = "E0006" "foreign-language" Error None,
+    "the text is in another language than an FX list",
+    "Programs are read as instruction lists of the FX family, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list and structured text of IEC 61131-3 and PLCopen XML are other languages: their addresses (`%IX0.0`), declarations (`VAR`) and statements (`IF … THEN`, `:=`) have no counterpart here. Export the compiled program as a list from the editor, or rewrite it.",
+    wrong: "PROGRAM Motor\nVAR\n  Run : BOOL;\nEND_VAR\n",
+    right: "LD X0\nOUT Y0\nEND\n";
+
+    LOOK_ALIKE = "E0007" "look-alike" Error None,
+    "letter of another alphabet that looks Latin",
+    "Mnemonics and devices are written with the letters A to Z. Cyrillic and Greek have letters that look the same on the screen and are others to every program. The line is read as it looks, so that nothing else is reported because of it.",
+    wrong: "LD \u{0425}0\nOUT Y0\nEND\n",
+    right: "LD X0\nOUT Y0\nEND\n";
+
+    ONE_PER_LINE = "E0008" "one-per-line" Error None,
+    "two instructions on one line",
+    "Each instruction of a list stands on a line of its own; only a label may have an instruction behind it.",
+    wrong: "LD X0 OUT Y0\nEND\n",
+    right: "LD X0\nOUT Y0\nEND\n";
+
     UNKNOWN_FORMAT = "E0010" "unknown-format" Error None,
     "this file is in none of the known formats",
     "Read are instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg) and GX Works2 projects (.gxw). The format is found by content, not by the file's name.",
