@@ -142,6 +142,7 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
     Read {
         program: reader.program,
         diagnostics: reader.diagnostics,
+        ..Read::default()
     }
 }
 

@@ -8,6 +8,7 @@ mod encoding;
 mod foreign;
 mod gx;
 mod il;
+mod learned;
 mod listing;
 pub mod print;
 mod search;
@@ -18,7 +19,9 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+pub use gx::table::has_code;
 pub use il::read_text;
+pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use search::{is_project, programs};
 
 /// A program and what its reader found.
@@ -28,6 +31,23 @@ pub struct Read {
     pub program: Program,
     /// What is wrong with the source. After an error the program is incomplete and must not be compiled.
     pub diagnostics: Diagnostics,
+    /// Instructions of a project whose codes nothing proves, in order.
+    pub unproven: Vec<Unproven>,
+}
+
+impl Read {
+    /// Whether it is a project for a CPU of another family, of which nothing more is read.
+    fn is_refused(&self) -> bool {
+        let refused = codes::OTHER_FAMILY.id;
+        self.diagnostics.iter().any(|d| d.code == refused)
+    }
+}
+
+/// What a reader is told besides the file.
+#[derive(Clone, Debug, Default)]
+pub struct ReadOptions {
+    /// Codes of instructions that are known here, besides those that everybody knows.
+    pub learned: LearnedCodes,
 }
 
 /// Files over this size are refused, in bytes: a list of a million steps takes a tenth of it.
@@ -67,6 +87,11 @@ pub enum ReadError {
 /// Reads a program of any known format, found by its content: a list as text, a list export with the device comments that lie
 /// beside it, a GX Developer project (its folder or its `MAIN.wpg`, with `COMMENT.wcd`), a GX Works2 project.
 pub fn read(path: &Path) -> Result<Read, ReadError> {
+    read_with(path, &ReadOptions::default())
+}
+
+/// As [`read`], with options.
+pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> {
     let inside = if path.is_dir() {
         Some(main_file(path)?)
     } else {
@@ -74,7 +99,7 @@ pub fn read(path: &Path) -> Result<Read, ReadError> {
     };
     let path = inside.as_deref().unwrap_or(path);
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let mut read = read_bytes(&name, &load(path)?)?;
+    let mut read = read_bytes_with(&name, &load(path)?, options)?;
     match read.program.kind {
         SourceKind::Csv => {
             if let Some(comments) = path
@@ -87,6 +112,7 @@ pub fn read(path: &Path) -> Result<Read, ReadError> {
                     .unwrap_or_default();
             }
         }
+        SourceKind::GxDeveloper if read.is_refused() => {}
         SourceKind::GxDeveloper => {
             let resource = path
                 .ancestors()
@@ -116,16 +142,21 @@ pub fn read_from(name: &str, source: impl io::Read) -> Result<Read, ReadError> {
 
 /// Reads the content of a file of any known format. `name` is what diagnostics call it.
 pub fn read_bytes(name: &str, bytes: &[u8]) -> Result<Read, ReadError> {
+    read_bytes_with(name, bytes, &ReadOptions::default())
+}
+
+/// As [`read_bytes`], with options.
+pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Read, ReadError> {
     if bytes.len() as u64 > MAX_SIZE {
         return Err(ReadError::TooLarge {
             name: name.to_owned(),
         });
     }
     if gx::is_ole(bytes) {
-        return Ok(gx::read_gxw(name, bytes));
+        return Ok(gx::read_gxw(name, bytes, options));
     }
     if gx::is_wpg(bytes) {
-        return Ok(gx::read_wpg(name, bytes));
+        return Ok(gx::read_wpg(name, bytes, options));
     }
     let Some((text, replaced)) = encoding::decode(bytes) else {
         return Err(ReadError::Undecodable {

@@ -76,6 +76,9 @@ fn a_project_and_its_export_are_one_program() {
     let export = read_clean(&corpus.join("fx2n-list/MAIN.csv"));
     let project = read_clean(&corpus.join("fx2n-list/FX2N.gxw"));
     assert_eq!(texts(&project), texts(&export));
+    let steps = |program: &Program| -> Vec<_> { program.instrs.iter().map(|i| i.step).collect() };
+    assert_eq!(steps(&project), steps(&export));
+    assert!(steps(&export).iter().all(Option::is_some));
     assert_eq!(export.instrs.len(), 170);
     assert_eq!(project.cpu, export.cpu);
     assert_eq!(export.cpu.as_deref(), Some("FX2N/FX2NC"));

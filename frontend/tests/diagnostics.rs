@@ -3,7 +3,7 @@
 mod fixture;
 
 use fixture::{Stream, gxw, wcd, wpg};
-use rungc_frontend::{Read, read_bytes, read_text};
+use rungc_frontend::{Read, ReadOptions, read_bytes, read_bytes_with, read_text};
 
 /// The findings in order of place, as text.
 fn findings(read: &Read) -> String {
@@ -112,6 +112,74 @@ fn codes_that_are_unknown() {
     ));
 }
 
+/// WDT and ANR by codes that were derived, ANR twice; IVMC by one that is a guess; an unknown one with every kind of operand.
+const UNPROVEN: &[&[u8]] = &[
+    &[0x61, 0x01, 0x00],
+    &[0x00],
+    &[0x9C, 0x00],
+    &[0x53, 0x01, 0x21],
+    &[0x53, 0x01, 0x21],
+    &[0x5F, 0x0B, 0x25],
+    &[0xE8, 0x00],
+    &[0x63, 0x09, 0x77],
+    &[0xF1, 4],
+    &[0xF0, 1],
+    &[0x90, 0x64],
+    &[0xEE, b'A', b'B'],
+    &[0xF8, 0x00],
+    &[0xAB, 0x0A],
+    &[0x34],
+];
+
+#[test]
+fn codes_that_nothing_proves() {
+    let read = read_bytes("MAIN.wpg", &wpg(0x0208, UNPROVEN)).unwrap();
+    insta::assert_snapshot!(format!(
+        "{}\n---\n{}",
+        findings(&read),
+        read.program.source.text
+    ));
+}
+
+#[test]
+fn codes_that_were_learned() {
+    let mut options = ReadOptions::default();
+    for (code, mnemonic) in [
+        (&[0x63, 0x09, 0x77], "PULSE"),
+        (&[0x53, 0x01, 0x21], "ANR"),
+        (&[0x61, 0x01, 0x00], "WDT"),
+        (&[0x5F, 0x0B, 0x25], "IVMC"),
+    ] {
+        options.learned.insert(code, mnemonic).unwrap();
+    }
+    let read = read_bytes_with("MAIN.wpg", &wpg(0x0208, UNPROVEN), &options).unwrap();
+    insta::assert_snapshot!(findings(&read));
+}
+
+#[test]
+fn operands_that_are_labels() {
+    let bodies: &[&[u8]] = &[
+        &[0x00],
+        b"\xDFstart",
+        &[0x4C, 0x05, 0x00],
+        &[0xE8, 0x05],
+        b"\xDFspeed",
+        &[0x00],
+        b"\xDFstart",
+        &[0x20],
+        &[0x9D, 0x00],
+        &[0x34],
+    ];
+    let read = read_bytes("MAIN.wpg", &wpg(0x0208, bodies)).unwrap();
+    insta::assert_snapshot!(findings(&read));
+}
+
+#[test]
+fn projects_of_other_families() {
+    let read = read_bytes("MAIN.wpg", &wpg(0x010A, STRANGE)).unwrap();
+    insta::assert_snapshot!(findings(&read));
+}
+
 #[test]
 fn a_project_that_ends_too_early() {
     let whole = wpg(
@@ -162,6 +230,28 @@ fn a_project_that_is_damaged() {
             &[0xE8, 1],
             &[0x34],
         ],
+    );
+    let operands = wpg(
+        0x0208,
+        &[
+            &[0x9C, 0x00],
+            &[0x3C],
+            &[0xD0, 0x01],
+            &[0x9C, 0x00],
+            &[0x4C, 0x05, 0x00],
+            &[0xF0, 1],
+            &[0xF0, 2],
+            &[0xA8, 0x00],
+            &[0xAB, 0x00],
+            &[0x4C, 0x05, 0x00],
+            &[0xAB, 0x00],
+            &[0xA8, 0x00],
+            &[0x34],
+        ],
+    );
+    insta::assert_snapshot!(
+        "operands_out_of_place",
+        findings(&read_bytes("MAIN.wpg", &operands).unwrap())
     );
     insta::assert_snapshot!(
         "tokens_that_do_not_go_together",

@@ -177,6 +177,65 @@ const MEANING: [&str; 15] = [
 ];
 
 #[test]
+fn operands_of_every_kind() {
+    let bodies: &[&[u8]] = &[
+        &[0x4C, 5, 0],
+        &[0xF8, 0],
+        &[0xF0, 1],
+        &[0xAB, 0x0A],
+        &[0xF4, 3],
+        &[0xA8, 0x64],
+        &[0x4C, 9, 0x0F],
+        &[0xED, 0, 0, 0x80, 0x3F],
+        &[0xA8, 2],
+        &[0x4C, 7, 3],
+        b"\xEE\xC6\xF4",
+        &[0xA8, 4],
+        &[0x4C, 5, 0],
+        &[0xEA, 0xFF],
+        &[0xA8, 0],
+        &[0x4C, 9, 1],
+        &[0xE9, 0x00, 0x80],
+        &[0xA8, 0],
+        &[0x40, 9, 6, 0x10],
+        &[0xF0, 0],
+        &[0xC5, 0xC8],
+        &[0xE9, 0xFF, 0xFF, 0xFF, 0xFF],
+        &[0x2C, 3],
+        &[0xD2, 0],
+        &[0x90, 0x64],
+        &[0x30, 2],
+        &[0xD2, 0],
+        &[0x21],
+        &[0xC2, 0],
+        b"\x81\x00\xB5\xE7",
+        &[0x3C, 2],
+        &[0xD0, 0x00, 0x01],
+        &[0x69, 1, 3],
+        &[0x34],
+    ];
+    let program = read_clean("MAIN.wpg", &wpg(0x0208, bodies));
+    let expected = [
+        "MOV U0\\G10Z1 D100V3",
+        "DEMOV E1.0 D2",
+        "$MOV \"启\" D4",
+        "MOV HFF D0",
+        "DMOV K32768 D0",
+        "LDD= C200Z0 K-1",
+        "MC N0 M100",
+        "MCR N0",
+        "OUT T0",
+        "P256",
+        "IRET",
+        "END",
+    ];
+    assert_eq!(texts(&program), expected);
+    let steps: Vec<_> = program.instrs.iter().filter_map(|i| i.step).collect();
+    assert_eq!(steps, [0, 5, 14, 21, 26, 35, 44, 47, 49, 50, 52, 53]);
+    assert_eq!(program.instrs[9].statement(), Some("电"));
+}
+
+#[test]
 fn tokens_are_read_as_what_they_mean() {
     let program = read_clean("MAIN.wpg", &wpg(0x0209, PROGRAM));
     assert_eq!(texts(&program), MEANING);

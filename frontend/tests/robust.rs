@@ -4,6 +4,7 @@ mod fixture;
 
 use encoding_rs::UTF_16LE;
 use fixture::{Stream, gxw, tokens, wpg};
+use proptest::prelude::*;
 use rungc_frontend::{Read, print, read_bytes, read_text};
 
 /// A small generator of random numbers (SplitMix64), so that every run sees the same inputs.
@@ -209,4 +210,36 @@ fn an_endless_source_is_refused() {
     ));
     let short = rungc_frontend::read_from("short", &b"LD X0\nOUT Y0\nEND\n"[..]).unwrap();
     assert_eq!(short.program.instrs.len(), 3);
+}
+
+/// The body of a token: arbitrary bytes, as a rule with a first byte that means something.
+fn body() -> impl Strategy<Value = Vec<u8>> {
+    let first = prop_oneof![
+        4 => proptest::sample::select(vec![
+            0x00, 0x20, 0x21, 0x24, 0x2C, 0x30, 0x3C, 0x40, 0x48, 0x4C, 0x53, 0x59, 0x63, 0x6C, 0x80, 0x81, 0x82, 0x90, 0x9C,
+            0xA8, 0xAB, 0xC2, 0xD0, 0xD1, 0xDF, 0xE8, 0xE9, 0xEA, 0xEB, 0xEC, 0xED, 0xEE, 0xF0, 0xF1, 0xF2, 0xF4, 0xF8_u8,
+        ]),
+        1 => any::<u8>(),
+    ];
+    let rest = proptest::collection::vec(prop_oneof![0..=16_u8, any::<u8>()], 0..6);
+    (first, rest).prop_map(|(first, rest)| [vec![first], rest].concat())
+}
+
+proptest! {
+    /// Whatever tokens follow each other, each instruction is read or reported, and steps rise.
+    #[test]
+    fn any_tokens(bodies in proptest::collection::vec(body(), 0..40)) {
+        let mut bodies: Vec<&[u8]> = bodies.iter().map(Vec::as_slice).collect();
+        bodies.push(&[0x34]);
+        let read = survive(&wpg(0x0208, &bodies)).unwrap();
+        if !read.program.unread.is_empty() {
+            prop_assert!(read.diagnostics.has_errors());
+        }
+        let steps: Vec<_> = read.program.instrs.iter().filter_map(|instr| instr.step).collect();
+        prop_assert!(steps.is_sorted(), "{steps:?}");
+        for unproven in &read.unproven {
+            prop_assert!(bodies.contains(&unproven.code.as_slice()));
+            prop_assert!(unproven.at <= read.program.instrs.len());
+        }
+    }
 }

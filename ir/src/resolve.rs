@@ -3,6 +3,7 @@
 //! What an instruction is on its own is decided here; how instructions stand to each other is the business of
 //! [`check`](crate::check).
 
+mod lengths;
 mod mnemonic;
 mod operands;
 mod rules;
@@ -15,7 +16,9 @@ pub(crate) use operands::constant_value;
 use crate::catalogue::{Found, Inst, Param};
 use crate::model::{Model, ModelSet};
 use mnemonic::{Fit, Match};
-use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Instr, Program};
+use rungc_syntax::{
+    Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program,
+};
 
 /// Which form of an instruction is written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -78,6 +81,7 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
     let mut finder = mnemonic::Finder::new(model);
     let operands = operands::Checker::new(model);
     let mut steps = steps::Counter::default();
+    let lengths = lengths::Checker::new(program, model);
     let mut instrs = Vec::with_capacity(program.instrs.len());
     let mut unread = program.unread.iter().copied().peekable();
     for (i, instr) in program.instrs.iter().enumerate() {
@@ -91,7 +95,12 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
             continue;
         };
         let Found { inst, form, .. } = found;
-        let (params, length) = inst.params_and_steps(form, &instr.operands, model);
+        let pointer = label.map(|label| pointer(instr, label));
+        let written = pointer
+            .as_ref()
+            .map_or(&*instr.operands, std::slice::from_ref);
+        let (params, length) = inst.params_and_steps(form, written, model);
+        let before = diagnostics.len();
         let mut meant = fit == Fit::Meant;
         if fit == Fit::Good {
             if let Some(joined) = wrong::second_instruction(instr, params, &program.source) {
@@ -104,6 +113,9 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
             }
         }
         let known = !meant && !instr.is_broken();
+        if fit == Fit::Good && diagnostics.len() == before {
+            lengths.instr(i, found, written, &mut diagnostics);
+        }
         instrs.push(Resolution {
             inst: Some(inst),
             meant,
@@ -121,6 +133,14 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
         steps: length,
     };
     (resolved, numbered(diagnostics, model))
+}
+
+/// The pointer of a label as an operand, on which its length depends.
+fn pointer(instr: &Instr, label: Device) -> Operand {
+    Operand {
+        span: instr.mnemonic_span,
+        kind: OperandKind::Device(label, None),
+    }
 }
 
 /// The pointer that an instruction defines, if it is a label.

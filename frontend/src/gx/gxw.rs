@@ -1,8 +1,10 @@
 //! GX Works2: an OLE compound file whose stream `_hdb` is an OLE compound file in turn. Its streams are known by numbers only, so
 //! the program is found by its tokens.
 
-use super::{Chain, MAX_DATA, add_comments, cpu, is_comments, no_program, program, tokens};
-use crate::Read;
+use super::{
+    Chain, MAX_DATA, add_comments, cpu, cpu_code, is_comments, no_program, program, tokens,
+};
+use crate::{Read, ReadOptions};
 use cfb::CompoundFile;
 use rungc_syntax::SourceKind;
 use std::io::{Cursor, Read as _};
@@ -11,11 +13,16 @@ use std::io::{Cursor, Read as _};
 const DATA: &str = "_hdb";
 
 /// Reads a `.gxw` file.
-pub(crate) fn read(name: &str, bytes: &[u8]) -> Read {
+pub(crate) fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
     let streams = streams(bytes, |stream| stream == DATA)
         .into_iter()
         .flat_map(|data| streams(&data, |_| true))
         .collect::<Vec<_>>();
+    let cpu = streams.iter().find_map(|s| cpu_code(s)).map(cpu::name);
+    let refused = |cpu: &String| cpu::refused(name, SourceKind::GxWorks2, cpu);
+    if let Some(refused) = cpu.as_ref().and_then(refused) {
+        return refused;
+    }
     let programs = streams.iter().filter_map(|stream| {
         let chains = program::chains(stream);
         let start = chains.iter().position(|chain| chain.is_program())?;
@@ -28,14 +35,11 @@ pub(crate) fn read(name: &str, bytes: &[u8]) -> Read {
         _ => Some(next),
     });
     let mut read = match longest {
-        Some((_, stream, start, chains)) => program::read(name, stream, start, &chains),
+        Some((_, stream, start, chains)) => program::read(name, stream, start, &chains, options),
         None => no_program(name, bytes),
     };
     read.program.kind = SourceKind::GxWorks2;
-    read.program.cpu = streams
-        .iter()
-        .find_map(|stream| cpu(stream))
-        .map(str::to_owned);
+    read.program.cpu = cpu;
     if let Some(comments) = streams.iter().find(|stream| is_comments(stream)) {
         add_comments(&mut read, comments);
     }

@@ -1,15 +1,19 @@
 //! Projects of GX Developer (a folder with `MAIN.wpg` and `COMMENT.wcd`) and GX Works2 (`.gxw`).
 
+mod cpu;
 mod gxw;
 mod program;
+pub(crate) mod table;
 mod tokens;
 
 pub(crate) use gxw::read as read_gxw;
+pub(crate) use program::hex;
+pub(crate) use tokens::steps;
 
-use crate::Read;
 use crate::encoding::decode_local;
 use crate::text::clean;
-use program::{Chain, bytes_error, hex};
+use crate::{Read, ReadOptions};
+use program::{Chain, bytes_error};
 use rungc_syntax::{Device, Diagnostics, Program, SourceKind, Span, codes};
 
 /// Length of the header that all files of a project begin with.
@@ -41,7 +45,12 @@ pub(crate) fn is_wpg(bytes: &[u8]) -> bool {
 }
 
 /// Reads `MAIN.wpg`.
-pub(crate) fn read_wpg(name: &str, bytes: &[u8]) -> Read {
+pub(crate) fn read_wpg(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
+    let cpu = cpu_code(bytes).map(cpu::name);
+    let refused = |cpu: &String| cpu::refused(name, SourceKind::GxDeveloper, cpu);
+    if let Some(refused) = cpu.as_ref().and_then(refused) {
+        return refused;
+    }
     let bytes = bytes.get(..MAX_DATA).unwrap_or(bytes);
     let chains = program::chains(bytes);
     let begins = program::body(bytes, START).is_some_and(|body| tokens::token(body).is_some());
@@ -51,18 +60,18 @@ pub(crate) fn read_wpg(name: &str, bytes: &[u8]) -> Read {
         (HEADER..bytes.len()).find(|&at| chains[at].is_program())
     };
     let mut read = match start {
-        Some(start) => program::read(name, bytes, start, &chains),
+        Some(start) => program::read(name, bytes, start, &chains, options),
         None => no_program(name, bytes),
     };
     read.program.kind = SourceKind::GxDeveloper;
-    read.program.cpu = cpu(bytes).map(str::to_owned);
+    read.program.cpu = cpu;
     read
 }
 
-/// The CPU type that the header names.
-fn cpu(bytes: &[u8]) -> Option<&'static str> {
+/// The number of the CPU type that the header names.
+fn cpu_code(bytes: &[u8]) -> Option<u16> {
     match bytes.get(CPU..CPU + 4)? {
-        [4, 2, low, high] => tokens::cpu(u16::from_le_bytes([*low, *high])),
+        [4, 2, low, high] => Some(u16::from_le_bytes([*low, *high])),
         _ => None,
     }
 }
@@ -89,6 +98,7 @@ fn no_program(name: &str, bytes: &[u8]) -> Read {
             ..Program::default()
         },
         diagnostics,
+        ..Read::default()
     }
 }
 
@@ -135,7 +145,10 @@ fn comments<'b>(bytes: &'b [u8], mut each: impl FnMut(Device, &'b [u8])) -> Resu
         let code = word(at).ok_or(at)?;
         let first = dword(at + 2).ok_or(at)?;
         let many = dword(at + 6).ok_or(at)?;
-        let class = u8::try_from(code).ok().and_then(tokens::class).ok_or(at)?;
+        let class = u8::try_from(code)
+            .ok()
+            .and_then(tokens::commented)
+            .ok_or(at)?;
         for number in 0..many {
             let text = bytes
                 .get(slot..slot.saturating_add(SLOT))

@@ -1,10 +1,12 @@
 //! A token stream becomes a program.
 
-use super::tokens::{self, Token};
-use crate::Read;
+use super::table::Evidence;
+use super::tokens::{self, Bare, Prefixes, Token};
 use crate::encoding::decode_local;
+use crate::learned::{self, LearnedCodes, Reading, Unproven};
 use crate::listing::Listing;
 use crate::text::{append, clean};
+use crate::{Read, ReadOptions};
 use rungc_syntax::{
     Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Span, codes,
 };
@@ -66,195 +68,421 @@ pub(super) fn chains(bytes: &[u8]) -> Vec<Chain> {
     chains
 }
 
-/// Reads the program that begins at `start`, up to its `END`.
-pub(super) fn read(name: &str, bytes: &[u8], start: usize, chains: &[Chain]) -> Read {
-    let mut reader = Reader::default();
-    let mut at = start;
-    loop {
-        let Some(body) = body(bytes, at) else {
-            match reader.damage(bytes, at, chains) {
-                Some(next) => at = next,
-                None => break,
-            }
-            continue;
-        };
-        reader.token(body, at);
-        if body == tokens::END {
-            break;
+/// A piece of a program's bytes.
+enum Piece<'b> {
+    /// A token with this body.
+    Token(&'b [u8]),
+    /// Bytes in which no token stands.
+    Damage(&'b [u8], Damage),
+}
+
+/// What damage is.
+enum Damage {
+    /// Tokens go on after it.
+    Hole,
+    /// The file ends within a token.
+    Cut,
+    /// No token follows, and none was `END`.
+    Rest,
+}
+
+/// The pieces of the program that begins at `at`, up to its `END`, with their offsets.
+struct Pieces<'b> {
+    bytes: &'b [u8],
+    chains: &'b [Chain],
+    /// Where the next piece begins; nothing after the last.
+    at: Option<usize>,
+}
+
+impl<'b> Iterator for Pieces<'b> {
+    type Item = (usize, Piece<'b>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let at = self.at?;
+        if let Some(body) = body(self.bytes, at) {
+            self.at = (body != tokens::END).then(|| at + body.len() + 2);
+            return Some((at, Piece::Token(body)));
         }
-        at += body.len() + 2;
+        let next = (at + 1..self.bytes.len())
+            .find(|&next| self.chains[next].complete || self.chains[next].known >= 2);
+        self.at = next;
+        let rest = self.bytes.get(at..next.unwrap_or(self.bytes.len()));
+        let rest = rest.unwrap_or_default();
+        let cut = rest.iter().skip(1).all(|&b| b == 0)
+            || rest
+                .first()
+                .is_some_and(|&len| usize::from(len) > rest.len());
+        let damage = match next {
+            Some(_) => Damage::Hole,
+            None if cut => Damage::Cut,
+            None => Damage::Rest,
+        };
+        Some((at, Piece::Damage(rest, damage)))
+    }
+}
+
+/// The text that a piece holds, in the project's code page.
+fn text<'b>(piece: &Piece<'b>) -> Option<&'b [u8]> {
+    let Piece::Token(body) = piece else {
+        return None;
+    };
+    match tokens::token(body)? {
+        Token::Statement(text)
+        | Token::Note(text)
+        | Token::Operand(Bare::Text(text) | Bare::Name(text)) => Some(text),
+        _ => None,
+    }
+}
+
+/// Reads the program that begins at `start`, up to its `END`.
+pub(super) fn read(
+    name: &str,
+    bytes: &[u8],
+    start: usize,
+    chains: &[Chain],
+    options: &ReadOptions,
+) -> Read {
+    let pieces = || Pieces {
+        bytes,
+        chains,
+        at: Some(start),
+    };
+    let texts: Vec<_> = pieces().filter_map(|(_, piece)| text(&piece)).collect();
+    let mut reader = Reader::new(&options.learned, decode_local(&texts));
+    for (at, piece) in pieces() {
+        match piece {
+            Piece::Token(body) => reader.token(body, at),
+            Piece::Damage(rest, damage) => reader.damage(rest, at, &damage),
+        }
     }
     reader.finish(name)
 }
 
-/// Text of a token that waits for its code page.
-enum Raw<'b> {
-    Statement(usize, &'b [u8]),
-    Note(usize, &'b [u8]),
+/// What an operand or a note belongs to.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Current {
+    /// Nothing yet.
+    None,
+    /// The last instruction.
+    Instr,
+    /// A label of so many steps that waits for its pointer.
+    Label(u32),
+    /// A label that has it.
+    Labelled,
+    /// An instruction whose code is not known: the last of those that are not.
+    Unknown,
+    /// An instruction that could not be read, which was reported.
+    Unread,
 }
 
-#[derive(Default)]
-struct Reader<'b> {
+struct Reader<'l> {
+    learned: &'l LearnedCodes,
+    /// Texts of tokens, in their order.
+    texts: std::vec::IntoIter<String>,
     program: Program,
     diagnostics: Diagnostics,
     listing: Listing,
-    /// Statements and notes with the number of their instruction.
-    texts: Vec<Raw<'b>>,
-    /// Whether operands belong to the last instruction; otherwise they are passed over.
-    open: bool,
-    /// Whether a label waits for its pointer.
-    label: bool,
-    digits: Option<u8>,
-    bit: Option<u8>,
-    index: Option<u32>,
+    unproven: Vec<Unproven>,
+    /// Labels that operands name, with the place of the first.
+    names: Option<(Span, Vec<String>)>,
+    /// Statements that wait for the instruction below them.
+    statement: Option<SmolStr>,
+    current: Current,
+    prefixes: Prefixes,
+    /// The step of the next instruction; nothing after bytes that could not be read.
+    step: Option<u32>,
 }
 
-impl<'b> Reader<'b> {
-    fn token(&mut self, body: &'b [u8], at: usize) {
-        let Some(token) = tokens::token(body) else {
-            return self.unknown(body, at);
-        };
-        if self.label && !matches!(token, Token::Operand(_)) {
-            self.unread();
-            self.report(&codes::DAMAGED, at, body, "a label without its pointer");
+impl<'l> Reader<'l> {
+    fn new(learned: &'l LearnedCodes, texts: Vec<String>) -> Self {
+        Reader {
+            learned,
+            texts: texts.into_iter(),
+            program: Program::default(),
+            diagnostics: Diagnostics::new(),
+            listing: Listing::default(),
+            unproven: Vec::new(),
+            names: None,
+            statement: None,
+            current: Current::None,
+            prefixes: Prefixes::default(),
+            step: Some(0),
+        }
+    }
+
+    fn token(&mut self, body: &[u8], at: usize) {
+        let token = tokens::token(body);
+        if !matches!(token, Some(Token::Operand(_) | Token::Prefix(_))) {
+            self.end_of_operands(body, at);
         }
         match token {
-            Token::Instruction(mnemonic) => {
-                self.listing.next_line();
-                self.instruction(mnemonic);
-            }
-            Token::Label => {
-                self.listing.next_line();
-                self.open = false;
-                self.label = true;
-            }
-            Token::Index(number) => self.index = Some(number),
-            Token::Digits(digits) => self.digits = Some(digits),
-            Token::Bit(bit) => self.bit = Some(bit),
-            Token::Statement(text) => self
-                .texts
-                .push(Raw::Statement(self.program.instrs.len(), text)),
-            Token::Note(text) => {
-                if let Some(last) = self.program.instrs.len().checked_sub(1) {
-                    self.texts.push(Raw::Note(last, text));
+            Some(Token::Statement(_)) => {
+                let text = self.text();
+                if let Some(text) = clean(&text) {
+                    append(&mut self.statement, text);
                 }
             }
-            Token::Operand(kind) => {
-                let (digits, bit, index) = (self.digits.take(), self.bit.take(), self.index.take());
-                match tokens::with_prefixes(kind, digits, bit, index) {
-                    Some(kind) => self.operand(kind, body, at),
-                    None => {
-                        self.give_up();
-                        self.report(
-                            &codes::DAMAGED,
-                            at,
-                            body,
-                            "an operand that its prefix does not go with",
-                        );
-                    }
+            Some(Token::Note(_)) => {
+                let text = self.text();
+                let instr = self.program.instrs.last_mut();
+                let noted = matches!(self.current, Current::Instr | Current::Labelled);
+                if let (Some(instr), Some(text), true) = (instr, clean(&text), noted) {
+                    instr.remarks_mut().note = Some(text);
                 }
+            }
+            Some(Token::Prefix(prefix)) => {
+                if !self.prefixes.add(prefix) {
+                    let what = "a second prefix of its kind";
+                    self.broken_operand(&codes::DAMAGED, at, body, what);
+                }
+            }
+            Some(Token::Operand(operand)) => self.operand(operand, body, at),
+            Some(Token::Label) => {
+                self.next_instruction();
+                self.current = Current::Label(tokens::steps(body));
+            }
+            Some(Token::Instruction(code)) => {
+                let mnemonic = SmolStr::new_static(code.mnemonic);
+                match code.evidence {
+                    Evidence::Seen | Evidence::Published => self.instruction(mnemonic),
+                    Evidence::Derived => self.derived(body, at, mnemonic),
+                    Evidence::Guess => self.unknown(body, at, Reading::Guess(mnemonic)),
+                }
+                self.advance(tokens::steps(body));
+            }
+            None if tokens::is_instruction(body) => {
+                self.unknown(body, at, Reading::Unknown);
+                self.advance(tokens::steps(body));
+            }
+            None => {
+                self.broken_operand(&codes::UNKNOWN_BYTES, at, body, "an unknown operand");
             }
         }
     }
 
+    /// The text of the token that is being read.
+    fn text(&mut self) -> String {
+        self.texts.next().unwrap_or_default()
+    }
+
+    /// Counts the steps of an instruction.
+    fn advance(&mut self, steps: u32) {
+        self.step = self.step.and_then(|step| step.checked_add(steps));
+    }
+
+    /// No operand follows: whatever waits for one is an error.
+    fn end_of_operands(&mut self, body: &[u8], at: usize) {
+        if !self.prefixes.is_empty() {
+            self.broken_operand(&codes::DAMAGED, at, body, "no operand after a prefix");
+        }
+        if let Current::Label(steps) = self.current {
+            self.unread();
+            self.advance(steps);
+            self.report(&codes::DAMAGED, at, body, "a label without its pointer");
+        }
+    }
+
+    /// Ends the instruction before and begins the next line of the listing.
+    fn next_instruction(&mut self) {
+        self.close_unknown();
+        self.listing.next_line();
+    }
+
     fn instruction(&mut self, mnemonic: SmolStr) {
+        self.next_instruction();
+        self.push(mnemonic);
+    }
+
+    /// Adds an instruction, on the line of the listing that has begun.
+    fn push(&mut self, mnemonic: SmolStr) {
         let span = self.listing.word(&mnemonic);
-        self.open = true;
+        self.current = Current::Instr;
         self.program.instrs.push(Instr {
             mnemonic,
             mnemonic_span: span,
             operands: Operands::new(),
             span,
-            step: None,
-            remarks: None,
+            step: self.step,
+            remarks: rungc_syntax::Remarks::new(self.statement.take(), None),
         });
     }
 
-    fn operand(&mut self, kind: OperandKind, body: &[u8], at: usize) {
-        if std::mem::take(&mut self.label) {
-            match kind {
-                OperandKind::Device(device, None) => self.instruction(device.to_smolstr()),
-                _ => {
+    /// An instruction whose code was derived: read, and told.
+    fn derived(&mut self, body: &[u8], at: usize, mnemonic: SmolStr) {
+        if let Some(learned) = self.learned.get(body) {
+            return self.instruction(learned.clone());
+        }
+        self.instruction(mnemonic.clone());
+        self.unproven(body, at, Reading::Derived(mnemonic), Span::default());
+    }
+
+    /// An instruction whose code is not known, unless it was learned.
+    fn unknown(&mut self, body: &[u8], at: usize, reading: Reading) {
+        if let Some(learned) = self.learned.get(body) {
+            return self.instruction(learned.clone());
+        }
+        self.next_instruction();
+        let span = self.listing.word(&format!("?? {}", hex(body)));
+        self.unread();
+        self.current = Current::Unknown;
+        self.unproven(body, at, reading, span);
+    }
+
+    fn unproven(&mut self, body: &[u8], offset: usize, reading: Reading, span: Span) {
+        let read = usize::from(matches!(reading, Reading::Derived(_)));
+        self.unproven.push(Unproven {
+            code: body.to_vec(),
+            reading,
+            at: self.program.instrs.len() - read,
+            step: self.step,
+            offset,
+            operands: Operands::new(),
+            span,
+        });
+    }
+
+    /// Reports the instruction whose code is not known, now that its operands are read.
+    fn close_unknown(&mut self) {
+        if self.current == Current::Unknown
+            && let Some(unproven) = self.unproven.last()
+        {
+            self.diagnostics.push(unproven.error());
+            self.current = Current::Unread;
+        }
+    }
+
+    fn operand(&mut self, operand: Bare<'_>, body: &[u8], at: usize) {
+        let prefixes = std::mem::take(&mut self.prefixes);
+        let kind = match operand {
+            Bare::Kind(kind) => prefixes.join(kind),
+            Bare::Address(address) => prefixes.buffer(address),
+            Bare::Text(_) => {
+                let text = OperandKind::Text(self.text().into());
+                prefixes.is_empty().then_some(text)
+            }
+            Bare::Name(_) => {
+                let name = self.text();
+                return self.name(name);
+            }
+        };
+        match kind {
+            Some(kind) => self.whole_operand(kind, body, at),
+            None => {
+                let what = "an operand that its prefix does not go with";
+                self.broken_operand(&codes::DAMAGED, at, body, what);
+            }
+        }
+    }
+
+    fn whole_operand(&mut self, kind: OperandKind, body: &[u8], at: usize) {
+        match self.current {
+            Current::Instr => {
+                let span = self.listing.word(&kind.to_string());
+                if let Some(instr) = self.program.instrs.last_mut() {
+                    instr.span = instr.span.to(span);
+                    instr.operands.push(Operand { span, kind });
+                }
+            }
+            Current::Unknown => {
+                let span = self.listing.word(&kind.to_string());
+                if let Some(unproven) = self.unproven.last_mut() {
+                    unproven.span = unproven.span.to(span);
+                    unproven.operands.push(Operand { span, kind });
+                }
+            }
+            Current::Label(steps) => {
+                if let OperandKind::Device(device, None) = kind {
+                    self.push(device.to_smolstr());
+                    self.current = Current::Labelled;
+                } else {
                     self.unread();
                     self.report(&codes::DAMAGED, at, body, "a label whose pointer is none");
                 }
+                self.advance(steps);
             }
-            self.open = false;
+            Current::Unread => _ = self.listing.word(&kind.to_string()),
+            Current::None | Current::Labelled => {
+                self.report(
+                    &codes::DAMAGED,
+                    at,
+                    body,
+                    "an operand without an instruction",
+                );
+            }
+        }
+    }
+
+    /// The operand is a label: which device it means is not in the source.
+    fn name(&mut self, name: String) {
+        let span = self.listing.word(&name);
+        self.give_up();
+        let (_, names) = self.names.get_or_insert((span, Vec::new()));
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+
+    /// An operand cannot be read.
+    fn broken_operand(&mut self, code: &'static codes::Code, at: usize, body: &[u8], what: &str) {
+        self.prefixes = Prefixes::default();
+        if self.current == Current::Unread && code.id == codes::DAMAGED.id {
+            // It was reported that the instruction cannot be read.
+            self.listing.word(&format!("?? {}", hex(body)));
             return;
         }
-        let span = self.listing.word(&kind.to_string());
-        if let (true, Some(instr)) = (self.open, self.program.instrs.last_mut()) {
-            instr.span = instr.span.to(span);
-            instr.operands.push(Operand { span, kind });
-        }
+        self.give_up();
+        self.report(code, at, body, what);
     }
 
-    /// Takes back the open instruction: one of its operands cannot be read.
+    /// Takes back the open instruction: one of its operands cannot be read. Its further operands are passed over.
     fn give_up(&mut self) {
-        if std::mem::take(&mut self.open) {
-            self.program.instrs.pop();
-            self.unread();
+        match self.current {
+            Current::Instr => {
+                if let Some(instr) = self.program.instrs.pop() {
+                    self.statement = instr.statement().map(SmolStr::from);
+                }
+                let count = self.program.instrs.len();
+                self.unproven
+                    .retain(|unproven| unproven.at < count || !unproven.is_read());
+                self.unread();
+            }
+            Current::Label(steps) => {
+                self.unread();
+                self.advance(steps);
+            }
+            Current::Unknown => self.close_unknown(),
+            Current::None | Current::Labelled | Current::Unread => {}
         }
     }
 
-    /// Remembers that an instruction is missing here; its operands are passed over.
+    /// Remembers that an instruction is missing here.
     fn unread(&mut self) {
-        self.open = false;
-        self.label = false;
+        self.current = Current::Unread;
         self.program.unread.push(self.program.instrs.len() as u32);
     }
 
-    fn unknown(&mut self, body: &[u8], at: usize) {
-        match body.first() {
-            Some(0x90..) => {
-                self.give_up();
-                self.report(&codes::UNKNOWN_BYTES, at, body, "an unknown operand");
-            }
-            _ => {
-                self.listing.next_line();
-                self.unread();
-                self.report(&codes::UNKNOWN_BYTES, at, body, "an unknown instruction");
-            }
-        }
-        self.label = false;
-        (self.digits, self.bit, self.index) = (None, None, None);
-    }
-
-    /// Reports that no token stands at `at`; gives the next offset where tokens go on.
-    fn damage(&mut self, bytes: &[u8], at: usize, chains: &[Chain]) -> Option<usize> {
-        if bytes.get(at + 1).is_some_and(|&code| code >= 0x90) {
+    /// Reports bytes in which no token stands.
+    fn damage(&mut self, rest: &[u8], at: usize, damage: &Damage) {
+        self.prefixes = Prefixes::default();
+        if rest.get(1).is_some_and(|&code| code >= 0x90) {
             self.give_up();
         }
+        self.close_unknown();
         self.unread();
-        let rest = bytes.get(at..).unwrap_or_default();
+        self.step = None;
         self.listing.next_line();
-        let next =
-            (at + 1..bytes.len()).find(|&next| chains[next].complete || chains[next].known >= 2);
-        let cut = rest.iter().skip(1).all(|&b| b == 0)
-            || rest
-                .first()
-                .is_some_and(|&len| usize::from(len) > rest.len());
-        match next {
-            Some(next) => self.report(
-                &codes::DAMAGED,
-                at,
-                &bytes[at..next],
-                "bytes that are no part of a program",
-            ),
-            None if cut => self.report(
+        let (code, what) = match damage {
+            Damage::Hole => (&codes::DAMAGED, "bytes that are no part of a program"),
+            Damage::Cut => (
                 &codes::TRUNCATED,
-                at,
-                rest,
                 "the end of the file before the end of the program",
             ),
-            None => self.report(
+            Damage::Rest => (
                 &codes::DAMAGED,
-                at,
-                rest,
                 "the end of all that can be read, without `END`",
             ),
-        }
-        next
+        };
+        self.report(code, at, rest, what);
     }
 
     /// Adds an error about bytes of the file, which it writes into the listing.
@@ -266,29 +494,39 @@ impl<'b> Reader<'b> {
     }
 
     fn finish(mut self, name: &str) -> Read {
-        let raw: Vec<&[u8]> = self
-            .texts
-            .iter()
-            .map(|raw| match raw {
-                Raw::Statement(_, text) | Raw::Note(_, text) => *text,
-            })
-            .collect();
-        for (raw, text) in self.texts.iter().zip(decode_local(&raw)) {
-            let (Raw::Statement(at, _) | Raw::Note(at, _)) = *raw;
-            let (Some(instr), Some(text)) = (self.program.instrs.get_mut(at), clean(&text)) else {
-                continue;
-            };
-            match raw {
-                Raw::Statement(..) => append(&mut instr.remarks_mut().statement, text),
-                Raw::Note(..) => instr.remarks_mut().note = Some(text),
+        self.close_unknown();
+        for unproven in self.unproven.iter_mut().filter(|u| u.is_read()) {
+            if let Some(instr) = self.program.instrs.get(unproven.at) {
+                unproven.span = instr.span;
+                unproven.operands.clone_from(&instr.operands);
             }
         }
+        self.diagnostics.extend(learned::note(&self.unproven));
+        self.diagnostics.extend(self.names.map(labels_error));
         self.program.source = self.listing.finish(name);
         Read {
             program: self.program,
             diagnostics: self.diagnostics,
+            unproven: self.unproven,
         }
     }
+}
+
+/// One error for all labels that operands name.
+fn labels_error((span, names): (Span, Vec<String>)) -> Diagnostic {
+    /// How many of them a message names.
+    const NAMED: usize = 8;
+    let mut list: Vec<_> = names.iter().take(NAMED).map(|n| format!("`{n}`")).collect();
+    if names.len() > NAMED {
+        list.push(format!("and {} more", names.len() - NAMED));
+    }
+    codes::LABEL_OPERAND
+        .at(
+            span,
+            format!("operands are labels, not devices: {}", list.join(", ")),
+        )
+        .label("which device this is only the compiled program says")
+        .help("convert the program in the editor (Rebuild All) and save the project: the compiled program in it is read then")
 }
 
 /// An error that names the offset and the bytes.
@@ -305,7 +543,7 @@ pub(super) fn bytes_error(
 }
 
 /// Bytes as people read them.
-pub(super) fn hex(bytes: &[u8]) -> String {
+pub(crate) fn hex(bytes: &[u8]) -> String {
     let mut text = String::new();
     for (at, byte) in bytes.iter().take(SHOWN).enumerate() {
         let _ = write!(text, "{}{byte:02X}", if at > 0 { " " } else { "" });

@@ -31,6 +31,7 @@ pub fn read_text(name: &str, text: &str) -> Read {
         return Read {
             program,
             diagnostics,
+            ..Read::default()
         };
     }
     let mut reader = Reader::default();
@@ -53,6 +54,7 @@ pub fn read_text(name: &str, text: &str) -> Read {
     Read {
         program: reader.program,
         diagnostics: reader.diagnostics,
+        ..Read::default()
     }
 }
 

@@ -44,8 +44,8 @@ const fn contact(name: &'static str, title: &'static str, which: Basic) -> Inst 
         first(FX3U, BIT_OF_WORD).steps(3, 3),
         first_in(LIKE_FX3, M, 3584, 7679).steps(3, 3),
         first_in(NOT_HM, M, 1536, 3583).steps(2, 2),
+        first_in(LIKE_FX3, M, 8256, 8511).steps(2, 2),
         first_in(LIKE_FX3, S, 1024, 4095).steps(2, 2),
-        first_in(LIKE_FX3, T, 256, 511).steps(2, 2),
         on(HM).steps(2, 2),
     ];
     basic(name, title, which)

@@ -75,6 +75,7 @@ pub(super) const ROWS: &[Inst] = &[
         .example("FOR K4\nLD M8000\nADD D0 K1 D0\nNEXT")
         .text("Ends the loop that the last FOR began."),
     row("P", "Label", "h1u-h2u-programming §4.2")
+        .variants(&[first_in(LIKE_FX3, Classes::P, 256, u32::MAX).steps(2, 2)])
         .drive(Drive::Alone)
         .lower(Lower::Basic(Basic::Label))
         .example("LD X000\nCJ P0\nLD X001\nOUT Y000\nP0\nLD X002\nOUT Y001")

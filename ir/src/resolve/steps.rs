@@ -1,7 +1,7 @@
 //! Counts steps, and compares them with the step numbers that the source states.
 
 use crate::model::Model;
-use rungc_syntax::{Diagnostics, Instr, Program, Span, codes};
+use rungc_syntax::{Diagnostics, Instr, Program, SourceKind, Span, codes};
 
 /// Counts steps from instruction to instruction.
 #[derive(Default)]
@@ -51,7 +51,9 @@ impl Counter {
 
     /// Reports what does not fit, and gives the length of the program.
     pub(super) fn finish(self, program: &Program, model: &Model, out: &mut Diagnostics) -> u32 {
-        if let Some((span, stated, expected)) = self.first {
+        // Of a project, the length that each code states was held to the instruction already.
+        let listed = matches!(program.kind, SourceKind::Il | SourceKind::Csv);
+        if let Some((span, stated, expected)) = self.first.filter(|_| listed) {
             let more = match self.places {
                 1 => String::new(),
                 n => format!(" (and {} more such places behind it)", n - 1),

@@ -69,7 +69,7 @@ super::codes! {
 
     UNKNOWN_BYTES = "E0013" "unknown-bytes" Error None,
     "bytes that are no known instruction",
-    "The project holds an instruction code that is not known. The message gives the offset and the bytes; reading goes on behind it.",
+    "The project holds the code of an instruction, or of an operand, that no published table has and no project has shown, or whose meaning is only guessed. The message gives the bytes, the operands and the step, the help the instructions that would fit; the rest of the program is read. `rungc learn PROJECT EXPORT` learns the codes of instructions from a list that the editor exports.",
     wrong: "",
     right: "";
 
@@ -88,6 +88,30 @@ super::codes! {
     UNREADABLE_FILE = "E0016" "unreadable-file" Error None,
     "the file cannot be read at all",
     "There is no such file or folder, it may not be read, or it is larger than any program. The message says what the system says.",
+    wrong: "",
+    right: "";
+
+    LABEL_OPERAND = "E0017" "label-operand" Error None,
+    "operand that is a label, not a device",
+    "A source in GX Works2 may name labels. Which devices they stand for is decided when the editor converts the program, and stands in the compiled program alone: convert the program in the editor and save the project.",
+    wrong: "",
+    right: "";
+
+    OTHER_FAMILY = "E0018" "other-family" Error None,
+    "the project is for a CPU of another family",
+    "Programs of the FX family can be compiled. Those of MELSEC-Q, L, A and QnA CPUs have instructions, devices and memory of their own, even where their names are the same.",
+    wrong: "",
+    right: "";
+
+    CODE_MISFIT = "E0019" "code-misfit" Error None,
+    "the length of an instruction in the project does not fit the instruction",
+    "The code of an instruction in a project states its length in steps. Here it states another one than the instruction has with these operands, so that the code may mean another instruction. Compare the step with the editor.",
+    wrong: "",
+    right: "";
+
+    DERIVED_CODES = "N0001" "derived-codes" Note None,
+    "instructions read by codes that no project has shown yet",
+    "What these codes mean follows from the codes around them, but no published table and no project that was read has shown it. The message names all of them. Compare these instructions with the editor, or let `rungc learn PROJECT EXPORT` confirm them from a list that it exports.",
     wrong: "",
     right: "";
 

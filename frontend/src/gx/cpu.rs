@@ -1,0 +1,122 @@
+//! CPU types that projects name.
+
+use crate::Read;
+use crate::listing::Listing;
+use rungc_syntax::{Diagnostics, Program, SourceKind, codes};
+
+/// The high byte of the FX family's numbers.
+const FX: u16 = 0x02;
+
+/// Numbers that the vendor's software gives to CPU types, in the headers of GX Developer's files, with their names: the FX family as
+/// the list export writes them, and those of other families.
+const CPUS: &[(u16, &str)] = &[
+    (0x0011, "Q2A"),
+    (0x0012, "Q2AS1"),
+    (0x0013, "Q3A"),
+    (0x0014, "Q4A"),
+    (0x0022, "Q02(H)"),
+    (0x0023, "Q06H"),
+    (0x0024, "Q12H"),
+    (0x0025, "Q25H"),
+    (0x0030, "Q00J"),
+    (0x0031, "Q00"),
+    (0x0032, "Q01"),
+    (0x0070, "Q03UD"),
+    (0x0071, "Q04UDH"),
+    (0x0072, "Q06UDH"),
+    (0x0083, "Q02U"),
+    (0x00A1, "L02"),
+    (0x00A2, "L26-BT"),
+    (0x0102, "A0J2H"),
+    (0x0103, "A1FX"),
+    (0x0104, "A1S"),
+    (0x0105, "A1SH"),
+    (0x0106, "A1N"),
+    (0x0107, "A2C"),
+    (0x0108, "A2N"),
+    (0x0109, "A2SH"),
+    (0x010A, "A3N"),
+    (0x010C, "A2A"),
+    (0x010D, "A3A"),
+    (0x010E, "A2U"),
+    (0x010F, "A2USH-S1"),
+    (0x0110, "A3U"),
+    (0x0111, "A4U"),
+    (0x0141, "Q02(H)-A"),
+    (0x0142, "Q06H-A"),
+    (0x0201, "FX0/FX0S"),
+    (0x0202, "FX0N"),
+    (0x0203, "FX1"),
+    (0x0204, "FX2/FX2C"),
+    (0x0205, "FX2N/FX2NC"),
+    (0x0206, "FX1S"),
+    (0x0207, "FX1N/FX1NC"),
+    (0x0208, "FX3U/FX3UC"),
+    (0x0209, "FX3G"),
+    (0x020A, "FX3S"),
+];
+
+/// The name of the CPU type with this number; of one that is not in the table, its family, if that is FX, and the number.
+pub(super) fn name(code: u16) -> String {
+    let known = CPUS.iter().find(|row| row.0 == code);
+    let family = if code >> 8 == FX { "FX " } else { "" };
+    known.map_or_else(
+        || format!("{family}type {code:04X}h"),
+        |row| row.1.to_owned(),
+    )
+}
+
+/// Whether this names a CPU type of the FX family, as [`name`], `*.prj` of GX Works2 and list exports write it.
+fn is_fx(cpu: &str) -> bool {
+    cpu.trim().to_ascii_uppercase().starts_with("FX")
+}
+
+/// What is read of a project for a CPU of another family: nothing but an error that names the CPU.
+pub(super) fn refused(file: &str, kind: SourceKind, cpu: &str) -> Option<Read> {
+    (!is_fx(cpu)).then(|| other_family(file, kind, cpu))
+}
+
+fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
+    let mut listing = Listing::default();
+    listing.next_line();
+    let span = listing.word(&format!("?? CPU {cpu}"));
+    let mut diagnostics = Diagnostics::new();
+    diagnostics.push(
+        codes::OTHER_FAMILY
+            .at(
+                span,
+                format!("the project is for the CPU {cpu}, which is not one of the FX family"),
+            )
+            .label("the CPU that the project names")
+            .help(
+                "only programs of FX PLCs can be compiled: change the PLC type in the editor, if the program is to run on one",
+            ),
+    );
+    Read {
+        program: Program {
+            source: listing.finish(file),
+            kind,
+            cpu: Some(cpu.to_owned()),
+            unread: vec![0],
+            ..Program::default()
+        },
+        diagnostics,
+        ..Read::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn families_are_told_apart() {
+        for (code, name) in CPUS {
+            assert_eq!(code >> 8 == FX, is_fx(name), "{name}");
+        }
+        assert!(is_fx(" fx3u/FX3UC") && !is_fx("Q03UDV"));
+        assert_eq!(name(0x010A), "A3N");
+        assert_eq!(name(0x02FF), "FX type 02FFh");
+        assert_eq!(name(0x0999), "type 0999h");
+    }
+}
