@@ -131,16 +131,8 @@ fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
         files.push(file("rungc_board.h", RUNGC_BOARD_H.to_string()));
     }
     if runtime {
-        for (path, text) in rungc_rt_sources::files() {
-            let mut text = text.to_string();
-            if path == "Cargo.toml" {
-                // A workspace of its own, wherever the folder lies.
-                text.push_str(
-                    "\n[workspace]\n\n[profile.release]\npanic = \"abort\"\nopt-level = \"s\"\n",
-                );
-            }
-            files.push(file(format!("rungc-rt/{path}"), text));
-        }
+        let sources = rungc_rt_sources::library::sources().into_iter();
+        files.extend(sources.map(|(path, text)| file(format!("rungc-rt/{path}"), text)));
     }
     files
 }
@@ -169,17 +161,24 @@ fn runtime_header() -> String {
 /// Where the runtime library is; `make` wants to know it before the first rule that needs it.
 const LIBRARY_PATH: &str = "\
 # The runtime library: `make TARGET=thumbv7em-none-eabihf CC=arm-none-eabi-gcc` for a microcontroller (rustup target add ...).
+# It is built from the sources in rungc-rt, without a network; RUNGC_RT=path/to/librungc_rt.a names one that is built already.
 CARGO ?= cargo
 ifdef TARGET
 TARGET_FLAG = --target $(TARGET)
 endif
-LIBRARY = rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a
+# The crates of a standard library that cargo builds itself (-Zbuild-std) may come from the registry.
+OFFLINE ?= $(if $(CARGO_UNSTABLE_BUILD_STD)$(findstring build-std,$(CARGOFLAGS)),,--offline)
+RUNTIME_OPT ?= $(if $(TARGET),s,3)
+LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a)
 ";
 
 /// How it is built.
 const LIBRARY_RULE: &str = "\
-$(LIBRARY): $(shell find rungc-rt/src -name '*.rs') rungc-rt/Cargo.toml
-\tcd rungc-rt && $(CARGO) rustc --release --crate-type staticlib --features staticlib $(TARGET_FLAG) $(CARGOFLAGS)
+ifndef RUNGC_RT
+$(LIBRARY): $(shell find rungc-rt/src rungc-rt/libm -name '*.rs') rungc-rt/Cargo.toml
+\tcd rungc-rt && CARGO_PROFILE_RELEASE_OPT_LEVEL=$(RUNTIME_OPT) $(CARGO) rustc --release --locked $(OFFLINE) --target-dir target \\
+\t\t--crate-type staticlib --features staticlib $(TARGET_FLAG) $(CARGOFLAGS)
+endif
 
 ";
 

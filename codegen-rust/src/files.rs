@@ -5,6 +5,7 @@ use crate::generate::{Generator, Item, Uses};
 use crate::{Options, OutFile, Runtime};
 use rungc_ir::Module;
 use rungc_rt::TimerKind;
+use rungc_rt_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
 use std::collections::BTreeMap;
@@ -29,11 +30,13 @@ fn file(path: impl Into<String>, text: impl Into<String>) -> OutFile {
     }
 }
 
-/// The runtime's sources, for a path dependency.
-fn runtime() -> Vec<OutFile> {
+/// The runtime's sources, for a path dependency, and the lock file of a crate that depends on nothing else.
+fn runtime(crate_name: &str) -> Vec<OutFile> {
+    let lock = rungc_rt_sources::lock_file(&[(crate_name, &["rungc-rt"])]);
     rungc_rt_sources::files()
         .into_iter()
         .map(|(path, text)| file(format!("{RUNTIME_FOLDER}/{path}"), text))
+        .chain([file("Cargo.lock", lock)])
         .collect()
 }
 
@@ -43,7 +46,7 @@ fn manifest(name: &str, description: &str, runtime_path: &str, profile: &str) ->
     let (name, description) = (quoted(name), quoted(&one_line(description)));
     let runtime_path = quoted(runtime_path);
     format!(
-        "[package]\nname = {name}\ndescription = {description}\nversion = \"0.1.0\"\nedition = \"2024\"\npublish = false\n\n\
+        "[package]\nname = {name}\ndescription = {description}\nversion = \"{EMITTED_VERSION}\"\nedition = \"2024\"\npublish = false\n\n\
          [dependencies]\nrungc-rt = {{ path = {runtime_path} }}\n\n\
          # A workspace of its own. Delete this line to make the crate a member of yours.\n[workspace]\n{profile}"
     )
@@ -56,7 +59,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     let functions = std::mem::take(&mut generator.items);
     let crate_name = crate_name(&module.name);
     let (runtime_path, runtime) = match &options.runtime {
-        Runtime::Included => (RUNTIME_FOLDER, runtime()),
+        Runtime::Included => (RUNTIME_FOLDER, runtime(&crate_name)),
         Runtime::At(path) => (path.as_str(), Vec::new()),
     };
     let description = format!("PLC program {}", module.source_name);
@@ -477,7 +480,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         tables.push_str(&table.replace("const DEVICES", &format!("const {}", name.to_uppercase())));
     }
     files.push(file("src/models.rs", tables));
-    files.extend(runtime());
+    files.extend(runtime("batch"));
     files
 }
 

@@ -4,6 +4,8 @@ use crate::image::OutFile;
 use crate::target::Target;
 use rungc_ir::Module;
 use rungc_ir::node::{Function, FunctionKind};
+use rungc_rt_sources::cache;
+use rungc_rt_sources::library::{self, Recipe};
 use std::env;
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -34,9 +36,11 @@ pub enum BuildError {
     },
 }
 
-/// The compilers for a target, by the environment: `CC_thumbv7em_none_eabihf` and `AR_…` name C's, `CARGO` and `RUSTC` Rust's.
+/// The compilers for a target, by the environment: `CC_thumbv7em_none_eabihf` and `AR_…` name C's, for this machine also `CC` and `AR`;
+/// `CARGO` and `RUSTC` name Rust's.
 #[derive(Clone, Debug)]
 pub struct Tools {
+    announce: fn(&str),
     target: &'static Target,
     cc: OsString,
     ar: OsString,
@@ -61,9 +65,14 @@ impl Tools {
     pub fn new(target: &'static Target, cargo_args: &[String]) -> Self {
         let named = |tool: &str, name: &str| {
             let of_target = format!("{tool}_{}", target.variable());
-            variable(&of_target, name)
+            let general = target.rustc_name().is_none().then(|| env::var_os(tool));
+            env::var_os(of_target)
+                .or(general.flatten())
+                .filter(|named| !named.is_empty())
+                .unwrap_or_else(|| name.into())
         };
         Tools {
+            announce: |_| {},
             target,
             cc: named("CC", target.cc),
             ar: named("AR", target.ar),
@@ -71,6 +80,13 @@ impl Tools {
             rustc: variable("RUSTC", "rustc"),
             cargo_args: cargo_args.to_vec(),
         }
+    }
+
+    /// Says what takes long, before it is done.
+    #[must_use]
+    pub fn announcing(mut self, announce: fn(&str)) -> Self {
+        self.announce = announce;
+        self
     }
 
     /// Looks whether C can be built.
@@ -82,9 +98,9 @@ impl Tools {
         if found.is_err() {
             return Err(BuildError::Missing(format!(
                 "there is no {}, which compiles C for {triple}: Debian and Ubuntu have it in `apt install {packages}`; \
-                 CC_{} names another compiler",
+                 {} names another compiler",
                 self.cc.display(),
-                self.target.variable()
+                self.target.compiler_variable()
             )));
         }
         let folder = tempfile::tempdir().map_err(io(Path::new("temporary folder")))?;
@@ -102,9 +118,7 @@ impl Tools {
 
     /// Looks whether Rust can be built. A cargo that is told to build the standard library itself needs none.
     pub fn check_rust(&self) -> Result<(), BuildError> {
-        let builds_std = env::var_os("CARGO_UNSTABLE_BUILD_STD").is_some()
-            || self.cargo_args.iter().any(|arg| arg.contains("build-std"));
-        if builds_std {
+        if library::builds_std(&self.cargo_args) {
             return Ok(());
         }
         let mut ask = Command::new(&self.rustc);
@@ -128,8 +142,31 @@ impl Tools {
         )))
     }
 
-    /// Runs `make` in a folder for the target.
-    fn make(&self, folder: &Path) -> Result<(), BuildError> {
+    /// The runtime as a static library, which is built once for each target and toolchain.
+    fn runtime(&self, folder: &Path) -> Result<PathBuf, BuildError> {
+        self.check_rust()?;
+        // Without a cache it is built each time.
+        let cache = cache::folder().unwrap_or_else(|_| folder.join("cache"));
+        let recipe = Recipe {
+            cargo: &self.cargo,
+            rustc: &self.rustc,
+            target: self.target.rustc_name(),
+            optimise: self.target.optimise(),
+            cargo_args: &self.cargo_args,
+        };
+        let announce = || (self.announce)(&format!("the runtime for {}", self.target.title));
+        library::build(&cache, &recipe, announce).map_err(|error| match error {
+            library::Error::Cargo { .. } => BuildError::Missing(error.to_string()),
+            library::Error::Failed { said } => BuildError::Failed {
+                what: "cargo".to_string(),
+                said,
+            },
+            library::Error::Io { path, error } => BuildError::Io { path, error },
+        })
+    }
+
+    /// Runs `make` in a folder for the target; `runtime` is the library that the program calls.
+    fn make(&self, folder: &Path, runtime: Option<&Path>) -> Result<(), BuildError> {
         let assign = |name: &str, value: &OsStr| {
             let mut text = OsString::from(name);
             text.push("=");
@@ -140,9 +177,10 @@ impl Tools {
         make.arg("-C")
             .arg(folder)
             .arg(assign("CC", &self.cc))
-            .arg(assign("AR", &self.ar))
-            .arg(assign("CARGO", &self.cargo))
-            .arg(assign("CARGOFLAGS", self.cargo_args.join(" ").as_ref()));
+            .arg(assign("AR", &self.ar));
+        if let Some(runtime) = runtime {
+            make.arg(assign("RUNGC_RT", runtime.as_os_str()));
+        }
         for variable in ["MAKEFLAGS", "MAKELEVEL", "MFLAGS"] {
             make.env_remove(variable);
         }
@@ -156,20 +194,21 @@ impl Tools {
     }
 
     /// Looks for the compilers that sources in C need, and runs `make` on them in a folder of their own.
-    fn build_c(&self, files: &[OutFile]) -> Result<tempfile::TempDir, BuildError> {
+    fn build_c(&self, files: &[OutFile]) -> Result<Built, BuildError> {
         self.check_c()?;
-        if calls_runtime(files) {
-            self.check_rust()?;
-        }
         let folder = write(files)?;
-        self.make(folder.path())?;
-        Ok(folder)
+        let runtime = match calls_runtime(files) {
+            true => Some(self.runtime(folder.path())?),
+            false => None,
+        };
+        self.make(folder.path(), runtime.as_deref())?;
+        Ok(Built { folder, runtime })
     }
 
     /// Builds what `make` makes of sources in C under this name: an executable or an image.
     pub fn c_program(&self, files: &[OutFile], name: &str) -> Result<Vec<u8>, BuildError> {
-        let folder = self.build_c(files)?;
-        read(&folder.path().join(name))
+        let built = self.build_c(files)?;
+        read(&built.folder.path().join(name))
     }
 
     /// Builds a library of sources in C: its headers, `libNAME.a`, and if the program calls it the runtime.
@@ -178,38 +217,29 @@ impl Tools {
         files: &[OutFile],
         name: &str,
     ) -> Result<Vec<(String, Vec<u8>)>, BuildError> {
-        let folder = self.build_c(files)?;
+        let built = self.build_c(files)?;
         let is_header = |path: &str| path.ends_with(".h") && path != format!("{name}_internal.h");
         let mut library: Vec<(String, Vec<u8>)> = files
             .iter()
             .filter(|(path, _)| is_header(path))
             .map(|(path, text)| (path.clone(), text.clone().into_bytes()))
             .collect();
-        for built in self.libraries(files, name) {
-            let file = built.file_name().unwrap_or_default().to_string_lossy();
-            library.push((file.into_owned(), read(&folder.path().join(&built))?));
+        for path in built.libraries(name) {
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            library.push((file.into_owned(), read(&path)?));
         }
         Ok(library)
-    }
-
-    /// The static libraries that sources in C become, in the order in which a linker wants them.
-    fn libraries(&self, files: &[OutFile], name: &str) -> Vec<PathBuf> {
-        let triple = self.target.rustc_name().unwrap_or_default();
-        let runtime = Path::new("rungc-rt/target").join(triple);
-        let runtime = runtime.join("release/librungc_rt.a");
-        let own = PathBuf::from(format!("lib{name}.a"));
-        let runtime = calls_runtime(files).then_some(runtime);
-        std::iter::once(own).chain(runtime).collect()
     }
 
     /// Builds sources in C and links all of the program that a host calls, and nothing else, as an executable to be measured. Its struct is
     /// called `plc`.
     pub fn c_probe(&self, files: &[OutFile], module: &Module) -> Result<Vec<u8>, BuildError> {
-        let folder = self.build_c(files)?;
-        let source = folder.path().join("probe.c");
+        let built = self.build_c(files)?;
+        let folder = built.folder.path();
+        let source = folder.join("probe.c");
         fs::write(&source, probe(module)).map_err(io(&source))?;
         let mut link = Command::new(&self.cc);
-        link.current_dir(folder.path())
+        link.current_dir(folder)
             .args(self.target.flags.split_whitespace())
             .args(["-std=c11", "-Os", "--specs=nano.specs", "-nostartfiles"])
             .args([
@@ -218,10 +248,25 @@ impl Tools {
                 "probe.elf",
                 "probe.c",
             ])
-            .args(self.libraries(files, &module.name));
+            .args(built.libraries(&module.name));
         let output = link.output().map_err(io(Path::new(&self.cc)))?;
         succeeded("the linker", output)?;
-        read(&folder.path().join("probe.elf"))
+        read(&folder.join("probe.elf"))
+    }
+}
+
+/// What `make` has built.
+struct Built {
+    folder: tempfile::TempDir,
+    /// The library of the runtime, if the program calls it.
+    runtime: Option<PathBuf>,
+}
+
+impl Built {
+    /// The static libraries that sources in C become, in the order in which a linker wants them.
+    fn libraries(&self, name: &str) -> Vec<PathBuf> {
+        let own = self.folder.path().join(format!("lib{name}.a"));
+        std::iter::once(own).chain(self.runtime.clone()).collect()
     }
 }
 
@@ -233,6 +278,7 @@ impl Tools {
         let mut cargo = Command::new(&self.cargo);
         cargo
             .args(["build", "--release"])
+            .args(library::strictly(&self.cargo_args))
             .args(&self.cargo_args)
             .env("CARGO_TARGET_DIR", folder.path().join("target"))
             .env_remove("RUSTFLAGS")

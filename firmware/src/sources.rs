@@ -3,6 +3,7 @@
 use crate::image::OutFile;
 use crate::target::Target;
 use rungc_ir::Module;
+use rungc_rt_sources::library::Optimise;
 
 /// A folder of C whose `make` builds for the target.
 pub fn c(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
@@ -30,11 +31,16 @@ fn makefile(text: &str, target: &Target, triple: &str) -> String {
         ..
     } = target;
     let optimise = if target.is_bare() { "-Os" } else { "-O2" };
+    // By its own rule `make` takes another machine for a small one.
+    let runtime = match target.optimise() {
+        Optimise::Speed if text.contains("RUNTIME_OPT") => "RUNTIME_OPT = 3\n",
+        _ => "",
+    };
     let cflags = format!(
         "-std=c99 {optimise} -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections {flags}"
     );
     format!(
-        "{first}\n# For {triple}: {title}.\nCC = {cc}\nAR = {ar}\nCFLAGS = {}\nTARGET = {triple}\n{rest}",
+        "{first}\n# For {triple}: {title}.\nCC = {cc}\nAR = {ar}\nCFLAGS = {}\nTARGET = {triple}\n{runtime}{rest}",
         cflags.trim_end()
     )
 }

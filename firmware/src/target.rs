@@ -1,5 +1,7 @@
 //! The machines that libraries and images are built for: one row each.
 
+use rungc_rt_sources::library::Optimise;
+
 /// A machine that code is built for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Target {
@@ -105,6 +107,14 @@ impl Target {
         self.triple.replace('-', "_")
     }
 
+    /// The environment's variable that names a C compiler for it.
+    pub fn compiler_variable(&self) -> String {
+        match self.rustc_name() {
+            Some(_) => format!("CC_{}", self.variable()),
+            None => "CC".to_string(),
+        }
+    }
+
     /// What `--target` tells rustc and cargo; `None` for this machine.
     pub fn rustc_name(&self) -> Option<&'static str> {
         (*self != HOST).then_some(self.triple)
@@ -113,6 +123,14 @@ impl Target {
     /// Whether nothing runs below a program.
     pub fn is_bare(&self) -> bool {
         self.system == System::Bare
+    }
+
+    /// What code for it is optimised for.
+    pub fn optimise(&self) -> Optimise {
+        match self.system {
+            System::Bare => Optimise::Size,
+            System::Linux => Optimise::Speed,
+        }
     }
 
     /// Whether code is built for it with a floating point unit, which is off behind reset.

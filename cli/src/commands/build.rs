@@ -3,8 +3,8 @@
 use super::setting::setting;
 use super::subject::{self, Places, Subject};
 use super::{
-    Context, Failure, Outcome, Result, conclude, counted, defaults, findings, holder, plain, read,
-    say, stem, tell, write_executable, write_file,
+    Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, findings, holder,
+    plain, read, say, stem, tell, write_executable, write_file,
 };
 use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
@@ -65,6 +65,7 @@ fn build(
         _ => return conclude(&findings, reporter, cx, String::new),
     };
     let job = Job {
+        cx,
         plan: &plan.at(&module.name, subject, reporter.many(), places)?,
         module: &module,
         target,
@@ -245,6 +246,7 @@ fn because(error: impl std::fmt::Display) -> Failure {
 
 /// A program to be emitted.
 struct Job<'a> {
+    cx: Context,
     plan: &'a Plan,
     module: &'a Module,
     target: &'static Target,
@@ -260,7 +262,15 @@ impl Job<'_> {
     }
 
     fn tools(&self) -> Tools {
-        Tools::new(self.target(), &self.plan.cargo_arg)
+        let tools = Tools::new(self.target(), &self.plan.cargo_arg);
+        if self.cx.verbosity == Verbosity::Quiet {
+            return tools;
+        }
+        tools.announcing(|what| {
+            tell(&format!(
+                "    Building {what}; it is kept for the next time"
+            ))
+        })
     }
 
     /// Where to write.

@@ -3,6 +3,7 @@
 use super::{Context, Failure, Outcome, Result, counted, defaults, say, subject};
 use crate::args::{EngineChoice, TestArgs};
 use crate::progress;
+use rungc_rt_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Report, Suite, TestFile};
@@ -43,7 +44,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
     let cases = counted(suite.len(), "case");
     cx.note(&format!("     Running {cases} on {}", names.join(", ")));
-    let folder = tempfile::tempdir()?;
+    let folder = BuildFolder::take()?;
     let mut report = Report::default();
     for kind in kinds {
         let what = if kind == EngineKind::Interp {
@@ -71,6 +72,30 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     } else {
         Outcome::Failed
     })
+}
+
+/// Where engines are built: a folder of the cache, where the runtime is compiled already the next time, or without a cache a
+/// temporary one.
+enum BuildFolder {
+    Kept(Slot),
+    Temporary(tempfile::TempDir),
+}
+
+impl BuildFolder {
+    fn take() -> std::io::Result<Self> {
+        let kept = cache::folder().and_then(|cache| Slot::take(&cache, "engines"));
+        match kept {
+            Ok(slot) => Ok(BuildFolder::Kept(slot)),
+            Err(_) => Ok(BuildFolder::Temporary(tempfile::tempdir()?)),
+        }
+    }
+
+    fn path(&self) -> &Path {
+        match self {
+            BuildFolder::Kept(slot) => slot.path(),
+            BuildFolder::Temporary(folder) => folder.path(),
+        }
+    }
 }
 
 fn engines(choice: EngineChoice) -> Vec<EngineKind> {

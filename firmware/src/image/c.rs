@@ -412,7 +412,7 @@ fn makefile(image: &Image, runtime: bool) -> String {
         .collect();
     let library = match runtime {
         true => format!(
-            " plc/rungc-rt/target/{}/release/librungc_rt.a",
+            " $(or $(RUNGC_RT),plc/rungc-rt/target/{}/release/librungc_rt.a)",
             target.triple
         ),
         false => String::new(),

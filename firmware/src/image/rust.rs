@@ -2,6 +2,7 @@
 
 use super::{Image, OutFile, comment, linker_script, terminals};
 use crate::board::OutputPin;
+use rungc_rt_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -67,6 +68,7 @@ pub fn project(image: &Image) -> Vec<OutFile> {
         .map(|f| (format!("plc/{}", f.path), f.text))
         .collect();
     let (package, _) = rungc_codegen_rust::names(image.module);
+    let lock = lock_file(&package);
     let triple = image.board.target.triple;
     let fpu = if image.board.target.has_fpu() {
         FPU
@@ -75,6 +77,7 @@ pub fn project(image: &Image) -> Vec<OutFile> {
     };
     let own = [
         ("Cargo.toml", manifest(&package)),
+        ("Cargo.lock", lock),
         (".cargo/config.toml", config(triple)),
         ("image.ld", linker_script(image.board)),
         ("src/startup.s", STARTUP.replace("/* FPU */", fpu)),
@@ -84,9 +87,15 @@ pub fn project(image: &Image) -> Vec<OutFile> {
     files
 }
 
+fn lock_file(package: &str) -> String {
+    let mut needs = [package, "rungc-rt"];
+    needs.sort_unstable();
+    rungc_rt_sources::lock_file(&[("image", &needs), (package, &["rungc-rt"])])
+}
+
 fn manifest(package: &str) -> String {
     format!(
-        "[package]\nname = \"image\"\nversion = \"0.1.0\"\nedition = \"2024\"\npublish = false\n\n[workspace]\nexclude = [\"plc\"]\n\n\
+        "[package]\nname = \"image\"\nversion = \"{EMITTED_VERSION}\"\nedition = \"2024\"\npublish = false\n\n[workspace]\nexclude = [\"plc\"]\n\n\
          [dependencies]\nrungc-rt = {{ path = \"plc/rungc-rt\" }}\n{package} = {{ path = \"plc\" }}\n\n\
          [profile.release]\nopt-level = \"s\"\nlto = true\ncodegen-units = 1\npanic = \"abort\"\n"
     )

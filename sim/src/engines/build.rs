@@ -2,7 +2,7 @@
 
 use super::{Engine, Interpreter, Process};
 use rungc_ir::Module;
-use std::fs;
+use rungc_rt_sources::cache;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -83,16 +83,8 @@ pub(super) fn io_error(what: impl std::fmt::Display, error: io::Error) -> BuildE
     }
 }
 
-/// Writes a file unless it has this text already, so that build tools see only what changed.
 pub(super) fn write(path: &Path, text: &str) -> Result<(), BuildError> {
-    if fs::read_to_string(path).is_ok_and(|old| old == text) {
-        return Ok(());
-    }
-    let failed = |error| io_error(path.display(), error);
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(failed)?;
-    }
-    fs::write(path, text).map_err(failed)
+    cache::write(path, text).map_err(|error| io_error(path.display(), error))
 }
 
 /// Lines of a tool's output that an error quotes.

@@ -1,0 +1,128 @@
+//! Where what is built once is kept: a folder of the user's cache, which may be deleted at any time.
+
+use etcetera::BaseStrategy;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// Names the folder to use instead of `rungc` in the user's cache folder.
+pub const VARIABLE: &str = "RUNGC_CACHE_DIR";
+
+/// How many folders of one kind are used at the same time at most.
+const SLOTS: usize = 64;
+
+/// The cache: what [`VARIABLE`] names, else `rungc` in the user's cache folder (`~/.cache` on Linux, `~/Library/Caches` on macOS,
+/// `%LOCALAPPDATA%` on Windows). What is in it belongs to these sources: others have a folder of their own.
+///
+/// # Errors
+/// There is no such folder, or it cannot be written.
+pub fn folder() -> io::Result<PathBuf> {
+    let folder = match std::env::var_os(VARIABLE).filter(|named| !named.is_empty()) {
+        Some(named) => PathBuf::from(named),
+        None => etcetera::choose_base_strategy()
+            .map_err(|error| io::Error::new(io::ErrorKind::NotFound, error))?
+            .cache_dir()
+            .join("rungc"),
+    };
+    let folder = std::path::absolute(folder)?.join(of_sources());
+    fs::create_dir_all(&folder)?;
+    Ok(folder)
+}
+
+/// The version and a hash of the sources.
+fn of_sources() -> &'static str {
+    static NAME: OnceLock<String> = OnceLock::new();
+    NAME.get_or_init(|| {
+        let hash = hash(&crate::files());
+        format!("{}-{hash:016x}", env!("CARGO_PKG_VERSION"))
+    })
+}
+
+/// A number that tells values apart, the same in each run.
+pub(crate) fn hash(value: &impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    value.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// A folder of the cache that no other process uses as long as this is held. What is in it stays for the next one.
+#[derive(Debug)]
+pub struct Slot {
+    path: PathBuf,
+    _lock: File,
+}
+
+impl Slot {
+    /// The first folder of a kind that nobody uses.
+    ///
+    /// # Errors
+    /// The cache cannot be written, or all folders are in use.
+    pub fn take(cache: &Path, kind: &str) -> io::Result<Slot> {
+        for number in 0..SLOTS {
+            let path = cache.join(kind).join(number.to_string());
+            fs::create_dir_all(&path)?;
+            let lock = lock_file(&path)?;
+            match lock.try_lock() {
+                Ok(()) => return Ok(Slot { path, _lock: lock }),
+                Err(TryLockError::WouldBlock) => {}
+                Err(TryLockError::Error(error)) => return Err(error),
+            }
+        }
+        Err(io::Error::other("all of its folders are in use"))
+    }
+
+    /// This very folder, as soon as nobody else uses it.
+    ///
+    /// # Errors
+    /// The cache cannot be written.
+    pub fn wait(path: PathBuf) -> io::Result<Slot> {
+        fs::create_dir_all(&path)?;
+        let lock = lock_file(&path)?;
+        lock.lock()?;
+        Ok(Slot { path, _lock: lock })
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+fn lock_file(folder: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.create(true).truncate(false).write(true);
+    options.open(folder.join(".lock"))
+}
+
+/// Writes a file unless it has this text already, so that build tools see only what changed.
+///
+/// # Errors
+/// The file or its folder cannot be written.
+pub fn write(path: &Path, text: &str) -> io::Result<()> {
+    if fs::read_to_string(path).is_ok_and(|old| old == text) {
+        return Ok(());
+    }
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    fs::write(path, text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_users_never_share_a_folder() {
+        let cache = tempfile::tempdir().unwrap();
+        let first = Slot::take(cache.path(), "engines").unwrap();
+        let second = Slot::take(cache.path(), "engines").unwrap();
+        assert_ne!(first.path(), second.path());
+        let path = first.path().to_owned();
+        drop(first);
+        let third = Slot::take(cache.path(), "engines").unwrap();
+        assert_eq!(third.path(), path);
+    }
+}

@@ -1,0 +1,178 @@
+//! The static library that emitted C links: built by cargo from the sources, once for each target.
+
+use crate::cache::{self, Slot};
+use std::ffi::{OsStr, OsString};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+/// The library's file.
+pub const FILE: &str = "librungc_rt.a";
+
+/// How to build it.
+#[derive(Clone, Debug)]
+pub struct Recipe<'a> {
+    /// The cargo to call.
+    pub cargo: &'a OsStr,
+    /// What it tells the toolchain apart by.
+    pub rustc: &'a OsStr,
+    /// rustc's name of the target; `None` is this machine.
+    pub target: Option<&'a str>,
+    /// What to optimise for.
+    pub optimise: Optimise,
+    /// More arguments of cargo, such as `-Zbuild-std=core`.
+    pub cargo_args: &'a [String],
+}
+
+/// What the library is optimised for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Optimise {
+    /// Speed: a host.
+    Speed,
+    /// Size: a microcontroller.
+    Size,
+}
+
+impl Optimise {
+    /// The `opt-level` of cargo's profile.
+    pub const fn level(self) -> &'static str {
+        match self {
+            Optimise::Speed => "3",
+            Optimise::Size => "s",
+        }
+    }
+}
+
+/// Why there is no library.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// Cargo cannot be started.
+    #[error("cannot run {}: {error}", cargo.display())]
+    Cargo {
+        /// What was called.
+        cargo: OsString,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// Cargo failed.
+    #[error("cargo failed:\n{said}")]
+    Failed {
+        /// What it printed.
+        said: String,
+    },
+    /// Files cannot be written.
+    #[error("{}: {error}", path.display())]
+    Io {
+        /// The folder.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+}
+
+/// Whether cargo is told to build the standard library, too, by its arguments or the environment. The crates that this needs may come
+/// from the registry.
+pub fn builds_std(cargo_args: &[String]) -> bool {
+    env::var_os("CARGO_UNSTABLE_BUILD_STD").is_some()
+        || cargo_args.iter().any(|arg| arg.contains("build-std"))
+}
+
+/// What cargo is told besides: to use what is there and nothing else.
+pub fn strictly(cargo_args: &[String]) -> impl Iterator<Item = &'static str> {
+    let offline = !builds_std(cargo_args);
+    ["--locked"]
+        .into_iter()
+        .chain(offline.then_some("--offline"))
+}
+
+/// The manifest of the sources as a workspace of their own, wherever their folder lies.
+pub fn manifest(manifest: &str) -> String {
+    format!("{manifest}\n[workspace]\n\n[profile.release]\npanic = \"abort\"\nopt-level = \"s\"\n")
+}
+
+/// The files that cargo builds the library from, by their paths in one folder.
+pub fn sources() -> Vec<(String, String)> {
+    let mut files = crate::files();
+    files[0].1 = manifest(&files[0].1);
+    files.insert(1, ("Cargo.lock".to_string(), crate::lock_file(&[])));
+    files
+}
+
+/// The library for a target, from the cache if it is there. `building` is called before it is built, which takes seconds to minutes.
+///
+/// # Errors
+/// The toolchain cannot build it, or the cache cannot be written.
+pub fn build(cache: &Path, recipe: &Recipe, building: impl FnOnce()) -> Result<PathBuf, Error> {
+    let key = cache::hash(&(
+        recipe.target,
+        recipe.optimise.level(),
+        recipe.cargo_args,
+        toolchain(recipe.rustc),
+        env::var_os("RUSTFLAGS"),
+    ));
+    let target = recipe.target.unwrap_or("host");
+    let folder = cache.join("runtime").join(format!("{target}-{key:016x}"));
+    let library = folder.join(FILE);
+    if library.is_file() {
+        return Ok(library);
+    }
+    let io = |error| Error::Io {
+        path: folder.clone(),
+        error,
+    };
+    let slot = Slot::wait(folder.clone()).map_err(io)?;
+    // Another process has built it in the meantime.
+    if library.is_file() {
+        return Ok(library);
+    }
+    building();
+    let sources = slot.path().join("rungc-rt");
+    for (path, text) in self::sources() {
+        cache::write(&sources.join(path), &text).map_err(io)?;
+    }
+    let built = run_cargo(recipe, &sources)?;
+    // It appears whole or not at all.
+    let whole = folder.join("whole.a");
+    fs::copy(built, &whole).map_err(io)?;
+    fs::rename(&whole, &library).map_err(io)?;
+    fs::remove_dir_all(&sources).map_err(io)?;
+    Ok(library)
+}
+
+/// Runs cargo in the folder of the sources; gives the library's place.
+fn run_cargo(recipe: &Recipe, sources: &Path) -> Result<PathBuf, Error> {
+    let folder = sources.join("target");
+    let mut cargo = Command::new(recipe.cargo);
+    cargo
+        .args(["rustc", "--release"])
+        .args(strictly(recipe.cargo_args))
+        .args(["--crate-type", "staticlib", "--features", "staticlib"])
+        .arg("--target-dir")
+        .arg(&folder)
+        .args(recipe.cargo_args)
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", recipe.optimise.level())
+        .current_dir(sources);
+    if let Some(target) = recipe.target {
+        cargo.args(["--target", target]);
+    }
+    let output = cargo.output().map_err(|error| Error::Cargo {
+        cargo: recipe.cargo.to_owned(),
+        error,
+    })?;
+    if !output.status.success() {
+        return Err(Error::Failed {
+            said: String::from_utf8_lossy(&output.stderr).into_owned(),
+        });
+    }
+    let built = recipe
+        .target
+        .map_or(folder.clone(), |target| folder.join(target));
+    Ok(built.join("release").join(FILE))
+}
+
+/// What the compiler says of itself; empty if it cannot be asked.
+fn toolchain(rustc: &OsStr) -> Vec<u8> {
+    let output = Command::new(rustc).arg("-vV").output();
+    output.map(|output| output.stdout).unwrap_or_default()
+}
