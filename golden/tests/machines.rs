@@ -137,6 +137,6 @@ fn the_tests_are_about_the_examples() {
     for file in load_all() {
         let path = file.name.replace(".plctest.toml", ".il");
         let program = std::fs::read_to_string(&path).unwrap();
-        assert_eq!(file.cases[0].program.trim(), program.trim(), "{path}");
+        assert_eq!(file.cases[0].program.text(), program, "{path}");
     }
 }

@@ -467,7 +467,7 @@ fn damaged_programs() {
         let case = &cases[Rng::new(seed).below(cases.len() as u32) as usize];
         Trial {
             name: format!("{} {seed}", case.name),
-            text: damaged(seed, &case.program, &spellings, case.model),
+            text: damaged(seed, case.program.text(), &spellings, case.model),
             models: vec![case.model],
             seed,
         }

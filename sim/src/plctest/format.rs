@@ -1,5 +1,6 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
+use super::program::{self, RawProgram, Tested};
 use super::serial::{self, Protocol, RawMode, RawSent, Switch, Way};
 use super::{
     Basis, Case, Check, Problem, Rejects, Run, Setting, Signal, Step, Target, TestFile, Value,
@@ -11,7 +12,7 @@ use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
 
@@ -20,9 +21,10 @@ type Map<T> = BTreeMap<Spanned<String>, T>;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawFile {
-    model: Spanned<String>,
+    model: Option<Spanned<String>>,
     topic: String,
     note: Option<String>,
+    program: Option<Spanned<RawProgram>>,
     machine: Option<Spanned<String>>,
     case: Vec<Spanned<RawCase>>,
 }
@@ -37,7 +39,7 @@ struct RawCase {
     basis: Option<Basis>,
     #[serde(default)]
     note: String,
-    program: String,
+    program: Option<Spanned<RawProgram>>,
     machine: Option<Spanned<String>>,
     #[serde(default)]
     init: Map<Spanned<Scalar>>,
@@ -129,6 +131,8 @@ enum Scalar {
 struct Reader<'t> {
     source: &'t Source,
     problems: Vec<Problem>,
+    /// The programs in files that were read, by their paths.
+    programs: BTreeMap<PathBuf, Tested>,
     /// Names of the other PLCs of the case being read.
     others: BTreeSet<String>,
 }
@@ -139,6 +143,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
     let mut reader = Reader {
         source,
         problems: Vec::new(),
+        programs: BTreeMap::new(),
         others: BTreeSet::new(),
     };
     let file = reader.file(raw);
@@ -168,7 +173,8 @@ impl Reader<'_> {
     }
 
     fn file(&mut self, raw: RawFile) -> TestFile {
-        let model = self.model(&raw.model);
+        let given = raw.model.as_ref().map(|name| self.model(name));
+        let program = raw.program.map(|program| self.program(program));
         let machine = self.machine(raw.machine.as_ref());
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
@@ -177,7 +183,7 @@ impl Reader<'_> {
                 let message = format!("the case `{}` stands twice in this file", name.get_ref());
                 self.report(name.span().start, message);
             }
-            let mut case = self.case(case, model);
+            let mut case = self.case(case, given, program.as_ref());
             if case.machine.is_none() {
                 case.machine.clone_from(&machine);
             }
@@ -189,6 +195,26 @@ impl Reader<'_> {
             note: raw.note.unwrap_or_default(),
             cases,
         }
+    }
+
+    /// The program of a case. A file is read once for all cases.
+    fn program(&mut self, raw: Spanned<RawProgram>) -> Tested {
+        let at = raw.span().start;
+        let file = match raw.into_inner() {
+            RawProgram::List(list) => return Tested::list(list),
+            RawProgram::File(file) => file,
+        };
+        let folder = Path::new(&self.source.name).parent();
+        let path = folder.unwrap_or(Path::new("")).join(file);
+        if let Some(read) = self.programs.get(&path) {
+            return read.clone();
+        }
+        let read = program::read(&path).unwrap_or_else(|message| {
+            self.report(at, message);
+            Tested::unread()
+        });
+        self.programs.insert(path, read.clone());
+        read
     }
 
     /// The machine that a file beside the test file describes.
@@ -205,10 +231,29 @@ impl Reader<'_> {
         }
     }
 
-    fn case(&mut self, raw: Spanned<RawCase>, model: ModelId) -> Case {
+    /// A case; `given` and `usual` are the model and the program that the file names for all of them.
+    fn case(
+        &mut self,
+        raw: Spanned<RawCase>,
+        given: Option<ModelId>,
+        usual: Option<&Tested>,
+    ) -> Case {
         let at = raw.span().start;
         let raw = raw.into_inner();
-        let model = raw.model.as_ref().map_or(model, |name| self.model(name));
+        let given = raw.model.as_ref().map(|name| self.model(name)).or(given);
+        let tested = match raw.program {
+            Some(program) => self.program(program),
+            None => usual.cloned().unwrap_or_else(|| {
+                let message = "the case has no `program`, nor has the file one for all cases";
+                self.report(at, message.to_string());
+                Tested::unread()
+            }),
+        };
+        let model = given.or(tested.model).unwrap_or_else(|| {
+            let message = "`model` is missing, the PLC that the program is for".to_string();
+            self.report(at, message);
+            ModelId::Fx3u
+        });
         let needs = self.network(raw.plc, &raw.wire, &raw.serve);
         let init = self.settings(raw.init);
         let mut steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
@@ -239,7 +284,7 @@ impl Reader<'_> {
             source: raw.source,
             basis: raw.basis,
             note: raw.note,
-            program: raw.program,
+            program: tested.program,
             machine: self.machine(raw.machine.as_ref()),
             check,
         }

@@ -4,6 +4,7 @@
 
 mod format;
 mod name;
+mod program;
 mod report;
 mod runner;
 mod serial;
@@ -11,6 +12,7 @@ mod suite;
 mod wiring;
 
 pub use name::Target;
+pub use program::CaseProgram;
 pub use report::{Failure, Outcome, Report};
 pub use runner::run;
 pub use suite::{Id, Suite};
@@ -56,8 +58,8 @@ pub struct Case {
     pub basis: Option<Basis>,
     /// A remark.
     pub note: String,
-    /// The program as an instruction list.
-    pub program: String,
+    /// The program.
+    pub program: CaseProgram,
     /// The machine that its inputs and outputs are wired to.
     pub machine: Option<Arc<Description>>,
     /// What is checked.
@@ -283,6 +285,36 @@ mode = { B = "stop" }
         };
         assert_eq!(steps[0].needs, ["more than one PLC", "serial ports"]);
         assert_eq!((steps[0].set.len(), steps[0].running), (1, None));
+    }
+
+    #[test]
+    fn a_program_stands_in_the_file_or_in_its_own() {
+        let text = r#"topic = "t"
+[[case]]
+name = "none"
+rejects = { code = 0 }
+[[case]]
+name = "no model"
+program = "END"
+rejects = { code = 0 }
+[[case]]
+name = "not there"
+program = { file = "nowhere/x.il" }
+rejects = { code = 0 }
+"#;
+        insta::assert_snapshot!(problems_of(text), @r"
+        t.plctest.toml:2:1: the case has no `program`, nor has the file one for all cases
+        t.plctest.toml:5:1: `model` is missing, the PLC that the program is for
+        t.plctest.toml:11:11: cannot read `nowhere/x.il`: No such file or directory (os error 2)
+        ");
+        let of = |program: &str| {
+            problems_of(&format!(
+                "model = \"h2u\"\ntopic = \"t\"\n[[case]]\nname = \"a\"\nprogram = {program}\n"
+            ))
+        };
+        insta::assert_snapshot!(of("3"), @r#"t.plctest.toml:5:11: invalid type: integer `3`, expected an instruction list, or `{ file = "machine.gxw" }`"#);
+        insta::assert_snapshot!(of("{ path = 'x.il' }"), @"t.plctest.toml:5:13: unknown field `path`, expected `file`");
+        insta::assert_snapshot!(of("{}"), @"t.plctest.toml:5:11: missing field `file`");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The programs of many test files, compiled.
 
-use super::{Case, Check, TestFile};
+use super::{Case, CaseProgram, Check, TestFile};
 use rungc_ir::Module;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_syntax::{DeviceClass, Diagnostic, Severity, Source};
@@ -116,7 +116,14 @@ fn observed(case: &Case) -> Vec<(DeviceClass, u32)> {
 }
 
 fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> {
-    let read = rungc_frontend::read_text(&format!("{}.il", case.name), &case.program);
+    let of_list;
+    let read = match &case.program {
+        CaseProgram::List(list) => {
+            of_list = rungc_frontend::read_text(&format!("{}.il", case.name), list);
+            &of_list
+        }
+        CaseProgram::File(read) => read,
+    };
     let options = CompileOptions {
         model: Some(case.model),
         name: Some(case.name.clone()),
@@ -126,7 +133,7 @@ fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> 
     };
     let compiled = compile(&read.program, &options);
     let source = &read.program.source;
-    let mut found = read.diagnostics;
+    let mut found = read.diagnostics.clone();
     found.refine(&compiled.diagnostics);
     let errors: Vec<_> = found
         .iter()

@@ -1,0 +1,123 @@
+//! The program of a case: a list in the test file, or a file of any format.
+
+use rungc_frontend::Read;
+use rungc_ir::ModelId;
+use rungc_project::{Error, Project};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
+
+/// The program of a case.
+#[derive(Clone, Debug)]
+pub enum CaseProgram {
+    /// An instruction list in the test file.
+    List(String),
+    /// A file, which may have mistakes: those are a matter of the case.
+    File(Arc<Read>),
+}
+
+impl CaseProgram {
+    /// Its text: the list, or what diagnostics of the file quote.
+    pub fn text(&self) -> &str {
+        match self {
+            CaseProgram::List(list) => list,
+            CaseProgram::File(read) => &read.program.source.text,
+        }
+    }
+}
+
+/// A program and the model that it is for, if it says so itself.
+#[derive(Clone, Debug)]
+pub(super) struct Tested {
+    pub program: CaseProgram,
+    pub model: Option<ModelId>,
+}
+
+impl Tested {
+    pub fn list(list: String) -> Self {
+        Tested {
+            program: CaseProgram::List(list),
+            model: None,
+        }
+    }
+
+    /// In place of what could not be read, which is a problem of its own.
+    pub fn unread() -> Self {
+        Tested {
+            program: CaseProgram::List(String::new()),
+            model: Some(ModelId::Fx3u),
+        }
+    }
+}
+
+/// Reads a program of any format, with the settings of its project.
+pub(super) fn read(path: &Path) -> Result<Tested, String> {
+    let project = Project::find(path)
+        .map(|settings| Project::load(&settings))
+        .transpose()
+        .map_err(|error| mistakes(&error))?;
+    let read = rungc_frontend::read(path).map_err(|error| error.to_string())?;
+    let chosen = project.and_then(|project| project.model);
+    let named = || read.program.cpu.as_deref().and_then(ModelId::from_cpu);
+    Ok(Tested {
+        model: chosen.or_else(named).or(Some(ModelId::Fx3u)),
+        program: CaseProgram::File(Arc::new(read)),
+    })
+}
+
+/// What is wrong with settings, one mistake a line.
+fn mistakes(error: &Error) -> String {
+    let Error::Mistakes {
+        path,
+        text,
+        diagnostics,
+    } = error
+    else {
+        return error.to_string();
+    };
+    let lines = diagnostics.iter().map(|d| {
+        let (line, column) = text.line_col(d.span.start);
+        format!("{}:{line}:{column}: {}", path.display(), d.message)
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A program as the test file names it.
+pub(super) enum RawProgram {
+    List(String),
+    /// By its path from the test file.
+    File(String),
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawFile {
+    file: String,
+}
+
+impl<'de> Deserialize<'de> for RawProgram {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ProgramVisitor)
+    }
+}
+
+struct ProgramVisitor;
+
+impl<'de> Visitor<'de> for ProgramVisitor {
+    type Value = RawProgram;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an instruction list, or `{ file = \"machine.gxw\" }`")
+    }
+
+    fn visit_str<E>(self, list: &str) -> Result<RawProgram, E> {
+        Ok(RawProgram::List(list.to_string()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawProgram, A::Error> {
+        let RawFile { file } = RawFile::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(RawProgram::File(file))
+    }
+}

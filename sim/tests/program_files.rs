@@ -1,0 +1,99 @@
+//! Test files whose programs are files of their own.
+
+use rungc_ir::ModelId;
+use rungc_sim::engines::{EngineKind, build};
+use rungc_sim::plctest::{self, Suite};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+const LIST: &str = "LD X000\nOUT Y000\nEND\n";
+
+/// The same as a list export without its head.
+const EXPORT: &str =
+    "\"0\",\"\",\"LD\",\"X000\"\n\"1\",\"\",\"OUT\",\"Y000\"\n\"2\",\"\",\"END\",\"\"\n";
+
+const CASES: &str = r#"
+topic = "OUT"
+program = { file = "plc/FILE" }
+
+[[case]]
+name = "follows"
+[[case.step]]
+set = { X000 = 1 }
+expect = { Y000 = 1 }
+
+[[case]]
+name = "of its own"
+model = "hm"
+program = "LD M8000\nOUT Y001\nEND\n"
+[[case.step]]
+expect = { Y001 = 1 }
+"#;
+
+fn folder(name: &str, program: &str, settings: Option<&str>) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |path: &str| folder.path().join(path);
+    fs::create_dir(at("plc")).unwrap();
+    fs::write(at("plc").join(name), program).unwrap();
+    fs::write(at("t.plctest.toml"), CASES.replace("FILE", name)).unwrap();
+    if let Some(settings) = settings {
+        fs::write(at("plc/rungc.toml"), settings).unwrap();
+    }
+    folder
+}
+
+fn models(folder: &Path) -> Vec<ModelId> {
+    let file = plctest::load(&folder.join("t.plctest.toml")).unwrap();
+    file.cases.iter().map(|case| case.model).collect()
+}
+
+fn failures(folder: &Path) -> Vec<String> {
+    let file = plctest::load(&folder.join("t.plctest.toml")).unwrap();
+    let suite = Suite::compile(vec![file]);
+    let mut engine = build(EngineKind::Interp, suite.modules(), folder).unwrap();
+    let report = plctest::run(&suite, engine.as_mut(), &mut |_| ());
+    report.failures().map(|f| f.describe(&suite)).collect()
+}
+
+#[test]
+fn any_format_is_tested() {
+    for (name, program) in [("a.il", LIST), ("a.csv", EXPORT)] {
+        let folder = folder(name, program, None);
+        assert_eq!(failures(folder.path()), [""; 0], "{name}");
+    }
+}
+
+#[test]
+fn the_model_is_the_projects_or_the_programs() {
+    let plain = folder("a.il", LIST, None);
+    assert_eq!(models(plain.path()), [ModelId::Fx3u, ModelId::Hm]);
+    let named = folder("a.il", &format!(";! cpu = FX2N\n{LIST}"), None);
+    assert_eq!(models(named.path()), [ModelId::Fx2n, ModelId::Hm]);
+    let settings = "[project]\nmodel = 'h1u'\n";
+    let chosen = folder("a.il", &format!(";! cpu = FX2N\n{LIST}"), Some(settings));
+    assert_eq!(models(chosen.path()), [ModelId::H1u, ModelId::Hm]);
+    assert_eq!(failures(chosen.path()), [""; 0]);
+}
+
+#[test]
+fn mistakes_have_their_place() {
+    let wrong = folder("a.il", LIST, Some("[project]\nmodel = 'h9u'\n"));
+    let why = plctest::load(&wrong.path().join("t.plctest.toml"))
+        .unwrap_err()
+        .to_string();
+    assert!(why.contains("t.plctest.toml:3:11: "), "{why}");
+    assert!(
+        why.ends_with("rungc.toml:2:9: there is no model `h9u`"),
+        "{why}"
+    );
+    // What is wrong with the program is a matter of the case.
+    let broken = folder("a.il", "LD X000\nOUTT Y000\nEND\n", None);
+    let failed = failures(broken.path());
+    assert_eq!(failed.len(), 1);
+    assert!(
+        failed[0].contains("does not compile: line 2: unknown instruction"),
+        "{}",
+        failed[0]
+    );
+}
