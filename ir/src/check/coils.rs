@@ -1,7 +1,7 @@
 //! Coils, timers and counters that are driven at several places.
 
 use super::Code;
-use super::pointers::Pointers;
+use super::skips::Skips;
 use super::structure::{NONE, Places};
 use crate::catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
@@ -11,8 +11,7 @@ use rustc_hash::FxHashMap;
 pub(super) const MAX_PLACES: usize = 6;
 
 /// Warns of coils that the last of several places decides.
-pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut Diagnostics) {
-    let skipped_by = skipping_jumps(code, pointers);
+pub(super) fn check(code: &Code, skips: &Skips, places: &Places, out: &mut Diagnostics) {
     let mut driven: FxHashMap<Device, Vec<usize>> = FxHashMap::default();
     for i in 0..code.len {
         if let Some(device) = driven_coil(code, i) {
@@ -27,7 +26,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
                 NONE => None,
                 stl => code.device(stl as usize, 0),
             };
-            (state, skipped_by.as_ref().map_or(0, |jumps| jumps[i]))
+            (state, skips.mark(i))
         };
         coils.sort_by_key(condition);
         let same = coils
@@ -50,34 +49,6 @@ fn driven_coil(code: &Code, i: usize) -> Option<Device> {
     };
     code.device(i, operand)
         .filter(|device| device.class != DeviceClass::S)
-}
-
-/// For each instruction a mark of the forward jumps that skip it: instructions with different marks need not run in the same
-/// scan. `None` if nothing jumps.
-fn skipping_jumps(code: &Code, pointers: &Pointers) -> Option<Vec<u64>> {
-    let mut marks = vec![0u64; code.len + 1];
-    let mut any = false;
-    for (_, pointer) in pointers.iter() {
-        let Some(&label) = pointer.labels.first() else {
-            continue;
-        };
-        for &jump in pointer.jumps.iter().filter(|&&jump| jump < label) {
-            // A hash per jump, so that the marks of different sets of jumps differ.
-            let mark = (jump as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-            marks[jump] ^= mark;
-            marks[label] ^= mark;
-            any = true;
-        }
-    }
-    any.then(|| {
-        marks
-            .into_iter()
-            .scan(0, |mark, change| {
-                *mark ^= change;
-                Some(*mark)
-            })
-            .collect()
-    })
 }
 
 fn driven_twice(code: &Code, device: Device, earlier: &[usize], last: usize) -> Diagnostic {

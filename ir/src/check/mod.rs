@@ -6,13 +6,23 @@
 mod accesses;
 mod blocks;
 mod coils;
+mod drives;
+mod every_scan;
 mod fast_inputs;
 mod fast_units;
 mod inert;
+mod jumped_over;
 mod labels;
 mod once;
+mod one_output;
+mod operation_errors;
+mod overlaps;
 mod pairs;
 mod pointers;
+mod resets;
+mod set_and_out;
+mod skips;
+mod states;
 mod structure;
 mod timers;
 pub(crate) mod unimplemented;
@@ -41,23 +51,61 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     once::check(&code, &mut out);
     unimplemented::check(&code, &mut out);
     unreachable::check(&code, &places, &mut out);
-    coils::check(&code, &pointers, &places, &mut out);
+    let skips = skips::Skips::new(&code, &pointers);
+    coils::check(&code, &skips, &places, &mut out);
+    set_and_out::check(&code, &places, &skips, &mut out);
     timers::check(&code, &places, &mut out);
-    let (mut unused, mut pairs) = (unused::Unused::new(&code), pairs::Pairs::default());
-    let mut inert = inert::Inert::default();
+    states::check(&code, &places, &mut out);
+    driven(&code, &pointers, &places, &skips, &mut out);
+    accessed(&code, &mut out);
+    numbered(out, resolved.model)
+}
+
+/// What is found in instructions together with what drives them.
+fn driven(
+    code: &Code,
+    pointers: &pointers::Pointers,
+    places: &structure::Places,
+    skips: &skips::Skips,
+    out: &mut Diagnostics,
+) {
+    let mut drives = drives::Drives::default();
+    let mut every_scan = every_scan::EveryScan::default();
+    let mut outputs = one_output::Outputs::default();
+    let mut jumped_over = jumped_over::JumpedOver::default();
     for i in 0..code.len {
-        unused.note_broken(i);
-        for access in accesses::of(&code, i) {
-            unused.note(i, &access);
-            pairs.note(&access);
-            inert.note(&code, i, &access);
-            writes::check(&code, i, &access, &mut out);
+        if let Some(drive) = drives.next(code, i) {
+            every_scan.note(code, i, drive, places, skips);
+            outputs.note(code, i, drive, places, skips);
+            jumped_over.note(code, i, drive, (pointers, places), out);
         }
     }
-    unused.report(&mut out);
-    pairs.report(&mut out);
-    inert.report(&mut out);
-    numbered(out, resolved.model)
+    every_scan.report(code, out);
+    outputs.report(code, out);
+}
+
+/// What is found in the devices that instructions read and write.
+fn accessed(code: &Code, out: &mut Diagnostics) {
+    let (mut unused, mut pairs) = (unused::Unused::new(code), pairs::Pairs::default());
+    let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
+    let mut inert = inert::Inert::default();
+    for i in 0..code.len {
+        operation_errors::check(code, i, out);
+        unused.note_broken(i);
+        for access in accesses::of(code, i) {
+            unused.note(i, &access);
+            pairs.note(&access);
+            overlaps.note(code, i, &access);
+            resets.note(code, i, &access);
+            inert.note(code, i, &access);
+            writes::check(code, i, &access, out);
+        }
+    }
+    unused.report(out);
+    pairs.report(out);
+    overlaps.report(code, out);
+    resets.report(out);
+    inert.report(out);
 }
 
 /// The part of a program that is run: up to and with its first END.

@@ -3,6 +3,7 @@
 use super::Code;
 use super::structure::{NONE, Places, Routine};
 use crate::catalogue::Basic;
+use crate::model::{Model, Timers};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
@@ -46,15 +47,40 @@ fn in_routines(code: &Code, places: &Places, out: &mut Diagnostics) {
         } else {
             "an interrupt routine"
         };
+        let message = format!("`{device}` is brought up to date only in scans that run {name}");
         let diagnostic = codes::TIMER_IN_ROUTINE
-            .at(
-                code.span(i),
-                format!("`{device}` measures wrongly in {name}"),
-            )
-            .label("is brought up to date only when the routine runs")
-            .help("use T192 to T199 here");
+            .at(code.span(i), message)
+            .label("measures wrongly where not every scan does")
+            .help(instead(model, kind.unit_ms, subroutine));
         out.push(diagnostic);
     }
+}
+
+/// The timers to use in a routine instead of one that counts units of this many milliseconds.
+fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
+    let named = |timers: &Timers| {
+        let [first, last] = [timers.first, timers.last].map(|n| DeviceClass::T.number(n));
+        format!("{first} to {last}")
+    };
+    let free = model.timers.iter().find(|timers| timers.kind.free_running);
+    let free = free.map_or_else(String::new, named);
+    if unit_ms == 100 {
+        return format!("{free} go on by themselves in scans that do not run their coils");
+    }
+    let fine = model
+        .timers
+        .iter()
+        .find(|timers| timers.kind.accumulating && timers.kind.unit_ms == 1);
+    let fine = fine.filter(|_| subroutine).map(|timers| {
+        format!(
+            "; {} serve subroutines too: they count 1 ms and keep their value until RST",
+            named(timers)
+        )
+    });
+    format!(
+        "{free} go on by themselves, but count 100 ms: a preset of {unit_ms} ms units has to be converted{}",
+        fine.unwrap_or_default()
+    )
 }
 
 /// Timers that are driven in a state and in one that it leads to.

@@ -69,7 +69,7 @@ super::codes! {
 
     TIMER_IN_ROUTINE = "W0213" "timer-in-routine" Warning None,
     "ordinary timer in a subroutine or interrupt routine",
-    "An ordinary timer is brought up to date where its coil is run; in a routine that does not run in every scan it measures wrongly. T192 to T199 (and T246 to T249 in subroutines) are made for routines.",
+    "An ordinary timer is brought up to date where its coil is run; in a routine that does not run in every scan it measures wrongly. Nothing is wrong with a subroutine that is called in every scan while the timer is needed. T192 to T199, which count 100 ms, are made for routines, as are T246 to T249, which count 1 ms, for subroutines.",
     wrong: "LD X0\nCALL P1\nLD T0\nOUT Y0\nFEND\nP1\nLD X1\nOUT T0 K10\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nLD T192\nOUT Y0\nFEND\nP1\nLD X1\nOUT T192 K10\nSRET\nEND\n";
 
@@ -97,6 +97,78 @@ super::codes! {
     model: "h2u",
     wrong: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nOUT C240 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n",
     right: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n";
+
+    PARTS_OVERLAP = "W0220" "parts-overlap" Warning None,
+    "register that belongs to a result and is written by itself",
+    "The result of a 32-bit instruction takes two registers, as does the product of MUL; DIV puts the remainder behind the quotient; the 32-bit forms of both take four. An instruction that writes one of the later registers overwrites a part of the result. Registers that are only cleared, and values whose low word is also written by itself, are not meant: they are put together from words.",
+    wrong: "LD X0\nMUL D0 D1 D10\nLD X1\nMOV K3 D11\nEND\n",
+    right: "LD X0\nMUL D0 D1 D10\nLD X1\nMOV K3 D12\nEND\n";
+
+    OUT_AND_SET = "W0221" "out-and-set" Warning None,
+    "coil that both OUT and SET or RST write",
+    "OUT writes its coil in every scan, whether its contacts are closed or not, so what SET did is gone at once, and what RST did before it too. A RST after the OUT, which forces the coil off for the rest of the scan, is not meant; neither are a SET and an OUT in different states.",
+    wrong: "LD X0\nSET Y0\nLD X1\nRST Y0\nLD X2\nOUT Y0\nEND\n",
+    right: "LD X0\nOR X2\nSET Y0\nLD X1\nRST Y0\nEND\n";
+
+    STATE_TWICE = "W0222" "state-twice" Warning None,
+    "state that stands twice",
+    "Each state of a step ladder has one section, which begins with its STL. A second section of the same number usually is a copy whose number was not changed: while the state is on, both run. STL in a row, which join parallel branches, name their states again and are not meant.",
+    wrong: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSTL S20\nOUT Y0\nLD X1\nSET S21\nSTL S20\nOUT Y1\nLD X2\nOUT S0\nRET\nEND\n",
+    right: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSTL S20\nOUT Y0\nLD X1\nSET S21\nSTL S21\nOUT Y1\nLD X2\nOUT S0\nRET\nEND\n";
+
+    REVERSED_RANGE = "W0223" "reversed-range" Warning None,
+    "ZRST whose first device stands behind its last",
+    "ZRST resets from its first device up to its second. If the first has the higher number, it alone is reset. On H1U, H2U and HM this is an error.",
+    wrong: "LD X0\nZRST D10 D0\nEND\n",
+    right: "LD X0\nZRST D0 D10\nEND\n";
+
+    DIVISION_BY_ZERO = "W0224" "division-by-zero" Warning Some(6706),
+    "division by the constant 0",
+    "Each time the instruction runs, the PLC reports an operation error in M8067 and D8067 and leaves the result as it was.",
+    wrong: "LD X0\nDIV D0 K0 D2\nEND\n",
+    right: "LD X0\nDIV D0 K10 D2\nEND\n";
+
+    EVERY_SCAN = "W0225" "every-scan" Warning None,
+    "instruction that changes its own operand in every scan",
+    "An instruction without the suffix P runs in each scan in which its contacts are closed: INC counts scans, ALT flickers, a shift empties its register. An input or a clock of a second stays on for many scans. Write the pulse form, or use LDP. Only drives of inputs and clocks alone are meant, outside of loops, routines, states and what jumps skip.",
+    wrong: "LD X0\nINC D0\nEND\n",
+    right: "LD X0\nINCP D0\nEND\n";
+
+    NEVER_RESET = "W0226" "never-reset" Warning None,
+    "counter that nothing resets",
+    "A 16-bit counter that has reached its preset counts no more, and its contact stays closed until RST clears it. Nothing in the program does.",
+    wrong: "LD X0\nOUT C0 K10\nLD C0\nOUT Y0\nEND\n",
+    right: "LD X1\nRST C0\nLD X0\nOUT C0 K10\nLD C0\nOUT Y0\nEND\n";
+
+    NEVER_SWITCHED_OFF = "W0227" "never-switched-off" Warning None,
+    "output that is set and never reset",
+    "SET switches an output on until something resets it. Nothing in the program does, so it stays on until STOP.",
+    wrong: "LD X0\nSET Y0\nEND\n",
+    right: "LD X0\nSET Y0\nLD X1\nRST Y0\nEND\n";
+
+    JUMPED_OVER = "W0228" "jumped-over" Warning None,
+    "instructions that a jump without a condition skips",
+    "M8000 is on in every scan, so the jump is always taken and what stands before its label never runs.",
+    wrong: "LD M8000\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n",
+    right: "LD X2\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n";
+
+    ONE_OUTPUT = "W0229" "one-output" Warning None,
+    "two instructions that send pulses through one output at the same time",
+    "An output sends the pulses of one instruction at a time. Two that are driven by the same contacts, or of which one is always driven, disturb each other: the second does not start, or not before the first has ended.",
+    wrong: "LD X0\nPLSY K1000 K500 Y0\nPLSY K200 K100 Y0\nEND\n",
+    right: "LD X0\nPLSY K1000 K500 Y0\nLDI X0\nPLSY K200 K100 Y0\nEND\n";
+
+    STATE_BRANCHES = "W0230" "state-branches" Warning None,
+    "more branches of a step ladder than the PLC follows",
+    "A state branches into at most 8 others, selective or parallel, and at most 16 circuits branch off in the flow of one initial state. The editors do not show such a flow, and how the PLC runs it is not said. Compiled programs have no such limit.",
+    wrong: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSET S21\nSET S22\nSET S23\nSET S24\nSET S25\nSET S26\nSET S27\nSET S28\nRET\nEND\n",
+    right: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSET S21\nSET S22\nSET S23\nSET S24\nSET S25\nSET S26\nSET S27\nRET\nEND\n";
+
+    ENDLESS_JUMP = "W0231" "endless-jump" Warning Some(6105),
+    "jump back that is always taken",
+    "The jump has no condition that could be off, and nothing between its label and it leaves the loop: the scan does not end, and the watchdog stops the PLC.",
+    wrong: "P0\nLD X0\nOUT Y0\nLD M8000\nCJ P0\nEND\n",
+    right: "LD X0\nOUT Y0\nEND\n";
 
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that does nothing in a compiled program",

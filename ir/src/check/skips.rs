@@ -1,0 +1,40 @@
+//! Forward jumps that skip instructions.
+
+use super::Code;
+use super::pointers::Pointers;
+
+/// Which forward jumps skip each instruction.
+pub(super) struct Skips(Option<Vec<u64>>);
+
+impl Skips {
+    pub(super) fn new(code: &Code, pointers: &Pointers) -> Self {
+        let mut marks = vec![0u64; code.len + 1];
+        let mut any = false;
+        for (_, pointer) in pointers.iter() {
+            let Some(&label) = pointer.labels.first() else {
+                continue;
+            };
+            for &jump in pointer.jumps.iter().filter(|&&jump| jump < label) {
+                // A hash per jump, so that the marks of different sets of jumps differ.
+                let mark = (jump as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+                marks[jump] ^= mark;
+                marks[label] ^= mark;
+                any = true;
+            }
+        }
+        Skips(any.then(|| {
+            marks
+                .into_iter()
+                .scan(0, |mark, change| {
+                    *mark ^= change;
+                    Some(*mark)
+                })
+                .collect()
+        }))
+    }
+
+    /// A mark of the jumps that skip an instruction: instructions with different marks need not run in the same scan. 0: none does.
+    pub(super) fn mark(&self, i: usize) -> u64 {
+        self.0.as_ref().map_or(0, |marks| marks[i])
+    }
+}
