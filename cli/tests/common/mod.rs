@@ -19,7 +19,7 @@ OUT Y000     ; main contactor
 LDP X002
 ADD D0 K1 D0
 LD>= D0 K10
-SET Y001
+OUT Y001
 END
 ";
 

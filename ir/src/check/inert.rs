@@ -35,7 +35,8 @@ impl Inert {
         let Some(count) = access.count.filter(|&count| count <= MAX_RUN) else {
             return;
         };
-        for number in (access.first.number..).take(count as usize) {
+        let first = access.first.number;
+        for number in first..first.saturating_add(count) {
             let device = Device {
                 number,
                 ..access.first

@@ -12,6 +12,9 @@ const CLEAR_ALL: [u32; 2] = [8031, 8032];
 /// The first counter that counts both ways, and so may come back without a reset.
 const FIRST_BOTH_WAYS: u32 = 200;
 
+/// No model has more counters or outputs.
+const MAX_DEVICES: u32 = 512;
+
 /// What is known of a counter or an output.
 #[derive(Default)]
 struct Known {
@@ -55,7 +58,8 @@ impl Resets {
         // A comparison looks at the count, which a reset need not follow.
         let logic = code.inst(i).is_some_and(|inst| inst.drive == Drive::Logic);
         let contact = logic && code.basic(i).is_some();
-        for number in (access.first.number..).take(count.min(256) as usize) {
+        let first = access.first.number;
+        for number in first..first.saturating_add(count.min(MAX_DEVICES)) {
             let known = self.known.entry(Device { class, number }).or_default();
             known.looked_at |= contact;
             if drives {

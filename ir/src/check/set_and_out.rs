@@ -42,7 +42,8 @@ pub(super) fn check(code: &Code, places: &Places, skips: &Skips, out: &mut Diagn
             _ => {}
         }
     }
-    coils.retain(|_, uses| !uses.out.is_empty() && !(uses.set.is_empty() && uses.rst.is_empty()));
+    let both = |uses: &Uses| !uses.out.is_empty() && uses.set.len() + uses.rst.len() > 0;
+    coils.retain(|_, uses| both(uses));
     if coils.is_empty() {
         return;
     }
