@@ -267,3 +267,13 @@ fn timers_in_routines() {
     let text = "LD X0 / CALL P1 / LD T0 / OR T200 / OR T246 / OUT Y0 / FEND / P1 / LD X1 / OUT T0 K10 / OUT T200 K1 / OUT T246 K1 / SRET";
     assert_eq!(count(ModelId::Fx3u, "timer-in-routine", text), 2);
 }
+
+#[test]
+fn a_reset_may_be_what_could_not_be_read() {
+    let text = "LD X0\nOUT C0 K10\nSET Y1\nLD C0\nOUT Y0\nLD X1\nRST CO\nEND\n";
+    let read = read_text("program", text);
+    let checked = compile::check(&read.program, &CompileOptions::default());
+    assert!(read.diagnostics.has_errors() || checked.diagnostics.has_errors());
+    let resets = [codes::NEVER_RESET.id, codes::NEVER_SWITCHED_OFF.id];
+    assert!(!checked.diagnostics.iter().any(|d| resets.contains(&d.code)));
+}

@@ -104,7 +104,9 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     unused.report(out);
     pairs.report(out);
     overlaps.report(code, out);
-    resets.report(out);
+    if code.is_understood() {
+        resets.report(out);
+    }
     inert.report(out);
 }
 
@@ -179,6 +181,12 @@ impl<'a> Code<'a> {
     /// Whether what an instruction is was only guessed, for the structure of the program.
     fn is_meant(&self, i: usize) -> bool {
         self.resolved.instrs[i].meant
+    }
+
+    /// Whether every instruction could be read and is known.
+    fn is_understood(&self) -> bool {
+        let known = |i: usize| self.inst(i).is_some() && !self.is_meant(i);
+        self.resolved.program.is_complete() && (0..self.len).all(known)
     }
 
     /// The devices that the operands of an instruction name or were meant to name.

@@ -8,7 +8,7 @@ use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 pub(super) fn check(code: &Code, out: &mut Diagnostics) {
     let model = code.model().id;
     for i in 0..code.len {
-        let Some(inst) = code.inst(i) else {
+        let Some(inst) = code.inst(i).filter(|_| !code.is_meant(i)) else {
             continue;
         };
         if let Lower::Todo(what) = inst.lower_on_model(model) {
