@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::{self, Target};
+use rungc_frontend::{Encoding, ReadOptions};
 use rungc_ir::ModelId;
 use rungc_project::Check;
 use rungc_syntax::{Severity, codes, diag};
@@ -100,8 +101,26 @@ pub struct Reading {
     /// Settings of the project (docs/project.md); by default the rungc.toml nearest above each program.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
+    /// Encoding of texts, such as windows-1252, gbk or shift_jis; by default the one that a project states or that its texts seem
+    /// to have.
+    #[arg(long, value_parser = encoding, value_name = "NAME")]
+    pub encoding: Option<&'static Encoding>,
+    /// Of a GX Works2 project, read the program as it was last compiled, not its source.
+    #[arg(long)]
+    pub compiled: bool,
     #[command(flatten)]
     pub reporting: Reporting,
+}
+
+impl Reading {
+    /// The same for readers.
+    pub fn options(&self) -> ReadOptions {
+        ReadOptions {
+            encoding: self.encoding,
+            compiled: self.compiled,
+            ..ReadOptions::default()
+        }
+    }
 }
 
 /// How to report diagnostics.
@@ -385,6 +404,13 @@ fn omissible(name: &str) -> Result<&'static str, String> {
         Severity::Note | Severity::Warning => Ok(code.id),
         Severity::Error => Err("an error cannot be left out".to_string()),
     }
+}
+
+fn encoding(name: &str) -> Result<&'static Encoding, String> {
+    let names =
+        "utf-8, utf-16le, windows-1252, windows-1250, windows-1251, gbk, big5, shift_jis, euc-kr";
+    Encoding::for_label_no_replacement(name.as_bytes())
+        .ok_or_else(|| format!("no such encoding; there are, among others, {names}"))
 }
 
 fn target(name: &str) -> Result<&'static Target, String> {

@@ -1,82 +1,225 @@
-//! Encodings of text: found by byte-order mark, by the shape of the bytes, and by which code page reads without a fault.
+//! Encodings of text: by byte-order mark, by the shape of the bytes, and by what language the bytes make in each code page.
 
-use encoding_rs::{Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
+use encoding_rs::{
+    EUC_JP, EUC_KR, Encoding, GBK, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1251,
+};
 
-/// Decodes a text file; nothing if it is no text. The flag tells whether some bytes had to be replaced. Where lines end with
-/// a carriage return alone, they end with a line feed afterwards.
-pub(crate) fn decode(bytes: &[u8]) -> Option<(String, bool)> {
-    let encoding = Encoding::for_bom(bytes).map_or_else(|| guess(bytes), |(encoding, _)| encoding);
+/// How many bytes the detector looks at: those of lines that are not ASCII.
+const SAMPLE: usize = 256 << 10;
+
+/// Decodes a text file in this encoding, or in the one that it seems to have; nothing if it is no text. The flag tells whether some
+/// bytes had to be replaced. Where lines end with a carriage return alone, they end with a line feed afterwards.
+pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<(String, bool)> {
+    let marked = || Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
+    let encoding = chosen
+        .or_else(marked)
+        .or_else(|| wide(bytes))
+        .unwrap_or_else(|| code_page(bytes));
     let (text, replaced) = encoding.decode_with_bom_removal(bytes);
     let controls = text
         .chars()
-        .filter(|c| c.is_control() && !c.is_whitespace() || *c == char::REPLACEMENT_CHARACTER)
+        .filter(|c| {
+            c.is_control() && !c.is_whitespace()
+                || *c == char::REPLACEMENT_CHARACTER && chosen.is_none()
+        })
         .count();
     // Text holds a stray control character at most; a binary file is full of them.
+    if controls * 16 > text.chars().count() {
+        return None;
+    }
     let text = match text.contains('\r') && !text.contains('\n') {
         true => text.replace('\r', "\n"),
         false => text.into_owned(),
     };
-    (controls * 16 <= text.chars().count()).then_some((text, replaced))
-}
-
-/// Decodes short texts of one project, which share a code page, all at once.
-pub(crate) fn decode_local(texts: &[&[u8]]) -> Vec<String> {
-    let encoding = code_page(&texts.join(&b'\n')).unwrap_or(WINDOWS_1252);
-    let decode = |text: &&[u8]| encoding.decode_without_bom_handling(text).0.into_owned();
-    texts.iter().map(decode).collect()
-}
-
-fn guess(bytes: &[u8]) -> &'static Encoding {
-    wide(bytes).or_else(|| code_page(bytes)).unwrap_or(GBK)
-}
-
-/// The encoding that reads these bytes without a fault.
-fn code_page(bytes: &[u8]) -> Option<&'static Encoding> {
-    if std::str::from_utf8(bytes).is_ok() {
-        return Some(UTF_8);
+    // A code page of single bytes reads everything: what is no text in any of them is shown as such.
+    match chosen.is_none() && encoding.is_single_byte() {
+        true => {
+            let padding = encoding.decode_without_bom_handling(&[0xFF; 2]).0;
+            let marked = text.replace(&*padding, "\u{FFFD}\u{FFFD}");
+            let marked = marked.replace(|c| ('\u{80}'..'\u{A0}').contains(&c), "\u{FFFD}");
+            let replaced = replaced || marked != text;
+            Some((marked, replaced))
+        }
+        false => Some((text, replaced)),
     }
-    let reads = |encoding: &'static Encoding| {
-        encoding.decode_without_bom_handling_and_without_replacement(bytes)
+}
+
+/// The encoding of short texts that share a code page: the one that `stated` names, if it reads them all, else the one that
+/// they seem to have together.
+pub(crate) fn of_texts(texts: &[&[u8]], stated: Option<&'static Encoding>) -> &'static Encoding {
+    let reads = |encoding: &&'static Encoding| texts.iter().all(|text| reads(encoding, text));
+    stated
+        .filter(reads)
+        .unwrap_or_else(|| code_page(&texts.join(&b'\n')))
+}
+
+/// Decodes one of these texts.
+pub(crate) fn decode_text(text: &[u8], encoding: &'static Encoding) -> String {
+    encoding.decode_without_bom_handling(text).0.into_owned()
+}
+
+/// The encoding of a Windows code page.
+pub(crate) fn of_number(page: u32) -> Option<&'static Encoding> {
+    match page {
+        932 => Some(SHIFT_JIS),
+        936 => Some(GBK),
+        949 => Some(EUC_KR),
+        950 => Some(encoding_rs::BIG5),
+        65001 => Some(UTF_8),
+        _ => Encoding::for_label(format!("windows-{page}").as_bytes()),
+    }
+}
+
+fn reads(encoding: &'static Encoding, bytes: &[u8]) -> bool {
+    encoding
+        .decode_without_bom_handling_and_without_replacement(bytes)
+        .is_some()
+}
+
+/// The code page that these bytes seem to be in.
+fn code_page(bytes: &[u8]) -> &'static Encoding {
+    let utf8 = std::str::from_utf8(bytes).ok();
+    if utf8.is_some_and(is_plausible) {
+        return UTF_8;
+    }
+    let sample = sample(bytes);
+    let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
+    detector.feed(&sample, true);
+    let found = detector.guess(None, Utf8Detection::Deny);
+    match found {
+        // Editors run on Windows, which knows no EUC-JP: short Chinese words look like it.
+        _ if found == EUC_JP && reads(GBK, bytes) => GBK,
+        _ if found == EUC_JP => SHIFT_JIS,
+        _ if !found.is_single_byte() || has_latin_neighbours(&sample) => found,
+        // Words of few letters, all above 7Fh.
+        _ if is_half_width(&sample) && reads(SHIFT_JIS, bytes) => SHIFT_JIS,
+        _ if is_cyrillic(&sample) => WINDOWS_1251,
+        _ if found != WINDOWS_1251 && is_paired(&sample) && reads(GBK, bytes) => GBK,
+        _ => found,
+    }
+}
+
+/// The lines that are not ASCII, up to the size of a sample.
+fn sample(bytes: &[u8]) -> Vec<u8> {
+    let mut sample = Vec::new();
+    let lines = bytes.split_inclusive(|&b| b == b'\n');
+    for line in lines.filter(|line| !line.is_ascii()) {
+        let room = SAMPLE - sample.len();
+        if room == 0 {
+            break;
+        }
+        sample.extend_from_slice(&line[..line.len().min(room)]);
+    }
+    sample
+}
+
+/// Whether text that reads as UTF-8 was meant so. Two Chinese characters in GBK can be one of UTF-8 by chance, which is then one
+/// that comments do not hold: a combining mark, a letter of Syriac or of a phonetic alphabet.
+fn is_plausible(text: &str) -> bool {
+    let odd = |c: char| matches!(c, '\u{250}'..='\u{36F}' | '\u{591}'..='\u{5C7}' | '\u{700}'..='\u{7FF}');
+    text.contains(|c| c >= '\u{800}') || !text.contains(odd)
+}
+
+/// The runs of bytes above 7Fh, each with whether an ASCII letter stands at one of its ends.
+fn runs(bytes: &[u8]) -> impl Iterator<Item = (&[u8], bool)> {
+    let letter = |at: Option<usize>| {
+        at.and_then(|at| bytes.get(at))
+            .is_some_and(u8::is_ascii_alphabetic)
     };
-    match (reads(SHIFT_JIS), reads(GBK)) {
-        (Some(japanese), chinese) if chinese.is_none() || is_japanese(&japanese) => Some(SHIFT_JIS),
-        (_, Some(_)) => Some(GBK),
-        _ => None,
-    }
+    bytes
+        .chunk_by(|a, b| a.is_ascii() == b.is_ascii())
+        .scan(0, |at, run| {
+            let start = *at;
+            *at += run.len();
+            Some((start, run))
+        })
+        .filter(|(_, run)| !run[0].is_ascii())
+        .map(move |(start, run)| {
+            let beside = letter(start.checked_sub(1)) || letter(Some(start + run.len()));
+            (run, beside)
+        })
 }
 
-/// UTF-16 without a mark: lists are mostly ASCII, so every other byte is zero.
+/// Whether most letters above 7Fh stand between Latin letters, as in Western and Central European words.
+fn has_latin_neighbours(bytes: &[u8]) -> bool {
+    let (beside, all) = runs(bytes).fold((0, 0), |(beside, all), (run, latin)| {
+        (beside + usize::from(latin && run.len() < 3), all + 1)
+    });
+    2 * beside > all
+}
+
+/// Whether text reads as half-width katakana of Shift-JIS, which the editors' users in Japan write: bytes A6h to DFh with a long
+/// vowel, a voiced consonant or an odd number of letters, or beside kanji, whose first bytes other code pages hardly use.
+fn is_half_width(bytes: &[u8]) -> bool {
+    let kana = |b: &u8| matches!(b, 0xA6..=0xDF);
+    let voiced = |pair: &[u8]| matches!(pair, [0xB6..=0xC4 | 0xCA..=0xCE, 0xDE | 0xDF] | [_, 0xB0]);
+    let odd = |run: &[u8]| run.len() % 2 == 1 && run.iter().any(|b| matches!(b, 0xB0..=0xBF));
+    let kanji = bytes
+        .iter()
+        .any(|b| matches!(b, 0x88..=0x91 | 0x93 | 0x95 | 0x98..=0x9F));
+    let mut words = runs(bytes).map(|(run, _)| run).peekable();
+    words.peek().is_some()
+        && (kanji && words.any(|run| run.iter().any(kana))
+            || runs(bytes).all(|(run, _)| run.iter().all(kana))
+                && runs(bytes).any(|(run, _)| run.windows(2).any(voiced) || odd(run)))
+}
+
+/// Whether bytes above 7Fh come in pairs.
+fn is_paired(bytes: &[u8]) -> bool {
+    runs(bytes).all(|(run, _)| run.len() % 2 == 0)
+}
+
+/// Whether words read as Cyrillic in Windows-1251: made of its letters alone, with a capital at the beginning or nowhere else.
+fn is_cyrillic(bytes: &[u8]) -> bool {
+    let letter = |b: &u8| {
+        matches!(
+            b,
+            0xC0..|0xA8| 0xB8 | 0xB2 | 0xB3 | 0xAF | 0xBF | 0xAA | 0xBA
+        )
+    };
+    let word = |run: &[u8]| {
+        let small = |b: &u8| *b >= 0xE0;
+        run.iter().all(letter) && (run.iter().skip(1).all(small) || !run.iter().any(small))
+    };
+    let mut words = runs(bytes).filter(|(run, _)| run.len() > 1).peekable();
+    words.peek().is_some() && words.all(|(run, _)| word(run))
+}
+
+/// UTF-16 without a mark. A text of bytes holds no zero, and wide characters read the wrong way round make no text.
 fn wide(bytes: &[u8]) -> Option<&'static Encoding> {
-    let head = bytes.get(..4096).unwrap_or(bytes);
-    let zeros = |odd: usize| {
-        head.iter()
-            .skip(odd)
-            .step_by(2)
-            .filter(|&&b| b == 0)
-            .count()
-    };
-    let (even, odd) = (zeros(0), zeros(1));
-    match head.len() / 8 {
-        few if odd > few && even * 4 < odd => Some(UTF_16LE),
-        few if even > few && odd * 4 < even => Some(UTF_16BE),
-        _ => None,
+    let head = bytes.get(..4096).unwrap_or(&bytes[..bytes.len() & !1]);
+    if !head.contains(&0) {
+        return None;
     }
+    let readable = |encoding: &'static Encoding| {
+        let (text, _) = encoding.decode_without_bom_handling(head);
+        let readable = text.chars().filter(|&c| is_readable(c)).count();
+        let is_list = text.contains(|c: char| c.is_ascii_alphanumeric() || c == '\n');
+        (is_list && readable * 16 >= text.chars().count() * 15).then_some((readable, encoding))
+    };
+    let candidates = [UTF_16LE, UTF_16BE].into_iter().filter_map(readable);
+    candidates
+        .max_by_key(|(count, _)| *count)
+        .map(|(_, encoding)| encoding)
 }
 
-/// Whether a text that was read as Shift-JIS was meant so. Chinese text read as Shift-JIS is full of half-width katakana, which
-/// Japanese text hardly uses beside the full-width kana that it always has.
-fn is_japanese(text: &str) -> bool {
-    let count =
-        |range: std::ops::RangeInclusive<char>| text.chars().filter(|c| range.contains(c)).count();
-    count('\u{3041}'..='\u{30FF}') > 2 * count('\u{FF61}'..='\u{FF9F}')
+/// Characters that lists and comments are written with.
+fn is_readable(c: char) -> bool {
+    matches!(
+        c,
+        '\t' | '\r' | '\n' | ' '..='~' | '\u{A0}'..='\u{24F}' | '\u{370}'..='\u{52F}' | '\u{1E00}'..='\u{22FF}' | '\u{2460}'..='\u{27BF}'
+            | '\u{3000}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{AC00}'..='\u{D7A3}' | '\u{FF00}'..='\u{FFEF}'
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use encoding_rs::{BIG5, WINDOWS_1250, WINDOWS_1252};
 
     fn guessed(text: &str, encoding: &'static Encoding) -> Option<(String, bool)> {
-        decode(&encoding.encode(text).0)
+        decode(&encoding.encode(text).0, None)
     }
 
     #[test]
@@ -100,23 +243,81 @@ mod tests {
     }
 
     #[test]
+    fn short_comments_are_read_in_the_language_that_they_are_in() {
+        for (text, encoding) in [
+            ("Bóia :: Nível Baixo - Fechado", WINDOWS_1252),
+            ("Bóia", WINDOWS_1252),
+            ("Nível", WINDOWS_1252),
+            ("Störung Förderband", WINDOWS_1252),
+            ("Überwachung", WINDOWS_1252),
+            ("25°C", WINDOWS_1252),
+            ("Zawór główny\nPrzycisk załącz", WINDOWS_1250),
+            ("Tlačítko start\nčerpadlo běží", WINDOWS_1250),
+            ("Пуск двигателя", WINDOWS_1251),
+            ("Стоп", WINDOWS_1251),
+            ("ПУСК", WINDOWS_1251),
+            ("насос\nклапан", WINDOWS_1251),
+            ("启动按钮", GBK),
+            ("停止", GBK),
+            ("电机", GBK),
+            ("温度", GBK),
+            ("X0启动", GBK),
+            ("起動ボタン", SHIFT_JIS),
+            ("ﾎﾞﾀﾝ", SHIFT_JIS),
+            ("ﾓｰﾀ起動", SHIFT_JIS),
+            ("非常停止\n原点復帰", SHIFT_JIS),
+            ("정지 버튼", EUC_KR),
+            ("시작", EUC_KR),
+            ("啟動按鈕", BIG5),
+        ] {
+            let bytes = encoding.encode(text).0;
+            let found = of_texts(&[&bytes], None);
+            assert_eq!(decode_text(&bytes, found), text, "{}", found.name());
+        }
+    }
+
+    #[test]
+    fn texts_of_a_project_are_judged_together() {
+        let texts = ["Bóia", "Nível Baixo", "Pressão"].map(|text| WINDOWS_1252.encode(text).0);
+        let texts: Vec<&[u8]> = texts.iter().map(AsRef::as_ref).collect();
+        assert_eq!(of_texts(&texts, None), WINDOWS_1252);
+        assert_eq!(of_texts(&texts, of_number(1250)), WINDOWS_1250, "stated");
+        assert_eq!(
+            of_texts(&texts, Some(UTF_8)),
+            WINDOWS_1252,
+            "stated wrongly"
+        );
+    }
+
+    #[test]
     fn wide_text_needs_no_mark() {
-        let text = "\"0\"\t\"\"\t\"LD\"\t\"X000\"\t\"电机\"\r\n";
-        let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
-        let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
-        assert_eq!(decode(&little), Some((text.to_owned(), false)));
-        assert_eq!(decode(&big), Some((text.to_owned(), false)));
+        let chinese = "电机正转启动按钮\r\n一号气缸伸出到位信号\r\n".repeat(40);
+        for text in ["\"0\"\t\"\"\t\"LD\"\t\"X000\"\t\"电机\"\r\n", &chinese] {
+            let little: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+            let big: Vec<u8> = text.encode_utf16().flat_map(u16::to_be_bytes).collect();
+            assert_eq!(decode(&little, None), Some((text.to_owned(), false)));
+            assert_eq!(decode(&big, None), Some((text.to_owned(), false)));
+        }
+    }
+
+    #[test]
+    fn a_chosen_encoding_is_not_guessed() {
+        let bytes = WINDOWS_1252.encode("Nível").0;
+        let read = decode(&bytes, Some(WINDOWS_1251)).unwrap();
+        assert_eq!(read, ("Nнvel".to_owned(), false));
+        let wrong = decode(&bytes, Some(UTF_8)).unwrap();
+        assert!(wrong.1, "some bytes are none of this encoding");
     }
 
     #[test]
     fn a_carriage_return_alone_ends_lines() {
-        let read = |text: &str| decode(text.as_bytes()).unwrap().0;
+        let read = |text: &str| decode(text.as_bytes(), None).unwrap().0;
         assert_eq!(read("LD X0\rEND\r"), "LD X0\nEND\n");
         assert_eq!(read("LD X0\r\nEND\r\n"), "LD X0\r\nEND\r\n");
     }
 
     #[test]
     fn binary_is_no_text() {
-        assert_eq!(decode(&[0, 1, 2, 3, 0xFF, 0xFE, 5, 6, 7, 8]), None);
+        assert_eq!(decode(&[0, 1, 2, 3, 0xFF, 0xFE, 5, 6, 7, 8], None), None);
     }
 }

@@ -19,6 +19,7 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+pub use encoding_rs::Encoding;
 pub use gx::table::has_code;
 pub use il::read_text;
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
@@ -35,19 +36,24 @@ pub struct Read {
     pub unproven: Vec<Unproven>,
 }
 
-impl Read {
-    /// Whether it is a project for a CPU of another family, of which nothing more is read.
-    fn is_refused(&self) -> bool {
-        let refused = codes::OTHER_FAMILY.id;
-        self.diagnostics.iter().any(|d| d.code == refused)
-    }
-}
-
 /// What a reader is told besides the file.
 #[derive(Clone, Debug, Default)]
 pub struct ReadOptions {
     /// Codes of instructions that are known here, besides those that everybody knows.
     pub learned: LearnedCodes,
+    /// The encoding of all texts that are not UTF-16 by their format; `None`: the one that the project states or that the texts
+    /// seem to have.
+    pub encoding: Option<&'static Encoding>,
+    /// Of a GX Works2 project, read the compiled program rather than its source.
+    pub compiled: bool,
+}
+
+impl ReadOptions {
+    /// The encoding of a project's texts, which it may state.
+    fn encoding_of(&self, texts: &[&[u8]], stated: Option<&'static Encoding>) -> &'static Encoding {
+        self.encoding
+            .unwrap_or_else(|| encoding::of_texts(texts, stated))
+    }
 }
 
 /// Files over this size are refused, in bytes: a list of a million steps takes a tenth of it.
@@ -85,7 +91,7 @@ pub enum ReadError {
 }
 
 /// Reads a program of any known format, found by its content: a list as text, a list export with the device comments that lie
-/// beside it, a GX Developer project (its folder or its `MAIN.wpg`, with `COMMENT.wcd`), a GX Works2 project.
+/// beside it, a GX Developer project (its folder or its `MAIN.wpg`, with comments and parameters), a GX Works2 project.
 pub fn read(path: &Path) -> Result<Read, ReadError> {
     read_with(path, &ReadOptions::default())
 }
@@ -97,39 +103,37 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
     } else {
         None
     };
-    let path = inside.as_deref().unwrap_or(path);
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let mut read = read_bytes_with(&name, &load(path)?, options)?;
-    match read.program.kind {
-        SourceKind::Csv => {
-            if let Some(comments) = path
-                .parent()
-                .and_then(|folder| find(folder, &["COMMENT.csv"]))
-            {
-                let text = encoding::decode(&load(&comments)?);
-                read.program.comments = text
-                    .map(|(text, _)| csv::comments(&text))
-                    .unwrap_or_default();
-            }
+    let file = inside.as_deref().unwrap_or(path);
+    let bytes = load(file)?;
+    if gx::is_wpg(&bytes) {
+        let beside = beside(file)?;
+        return Ok(gx::read_wpg(
+            &project_name(file, path),
+            &bytes,
+            &beside,
+            options,
+        ));
+    }
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let mut read = read_bytes_with(&name, &bytes, options)?;
+    if read.program.kind == SourceKind::Csv {
+        let folder = file.parent();
+        if let Some(comments) = folder.and_then(|folder| find(folder, &["COMMENT.csv"])) {
+            let text = encoding::decode(&load(&comments)?, options.encoding);
+            read.program.comments = text
+                .map(|(text, _)| csv::comments(&text))
+                .unwrap_or_default();
         }
-        SourceKind::GxDeveloper if read.is_refused() => {}
-        SourceKind::GxDeveloper => {
-            let resource = path
-                .ancestors()
-                .nth(3)
-                .and_then(|folder| find(folder, &["Others", "COMMENT.wcd"]));
-            let comments = resource.or_else(|| find(path.parent()?, &["COMMENT.wcd"]));
-            if let Some(comments) = comments {
-                gx::add_comments(&mut read, &load(&comments)?);
-            }
-        }
-        SourceKind::Il | SourceKind::GxWorks2 => {}
     }
     Ok(read)
 }
 
 /// Reads a program of any known format that is one file, from a pipe for example. `name` is what diagnostics call it.
-pub fn read_from(name: &str, source: impl io::Read) -> Result<Read, ReadError> {
+pub fn read_from(
+    name: &str,
+    source: impl io::Read,
+    options: &ReadOptions,
+) -> Result<Read, ReadError> {
     let bytes = limited(source).map_err(|source| ReadError::Io {
         path: name.to_owned(),
         source,
@@ -137,7 +141,42 @@ pub fn read_from(name: &str, source: impl io::Read) -> Result<Read, ReadError> {
     let bytes = bytes.ok_or_else(|| ReadError::TooLarge {
         name: name.to_owned(),
     })?;
-    read_bytes(name, &bytes)
+    read_bytes_with(name, &bytes, options)
+}
+
+/// What lies beside a `MAIN.wpg` in its project, or with it in one folder.
+fn beside(main: &Path) -> Result<gx::Beside, ReadError> {
+    let resource = main.ancestors().nth(3);
+    let beside = |place: &[&str], name: &str| {
+        let inside = resource.and_then(|folder| find(folder, place));
+        let found = inside.or_else(|| find(main.parent()?, &[name]));
+        found.map(|path| load(&path)).transpose()
+    };
+    Ok(gx::Beside {
+        comments: beside(&["Others", "COMMENT.wcd"], "COMMENT.wcd")?,
+        parameters: beside(&["param.wpa"], "param.wpa")?,
+    })
+}
+
+/// The name of a GX Developer project: its folder's, of a `MAIN.wpg` that lies in none that of the file.
+fn project_name(main: &Path, given: &Path) -> String {
+    const INSIDE: [&str; 3] = ["Body", "POU", "Resource"];
+    let name = |path: &Path| {
+        path.file_name()
+            .map(|name| name.to_string_lossy().into_owned())
+    };
+    let full = main.canonicalize().unwrap_or_else(|_| main.to_owned());
+    let is_inside = |folder: &&Path| {
+        let name = name(folder).unwrap_or_default();
+        INSIDE
+            .iter()
+            .any(|inside| name.eq_ignore_ascii_case(inside))
+    };
+    let mut folders = full.ancestors().skip(1).peekable();
+    let lies_inside = folders.peek().is_some_and(&is_inside) || given.is_dir();
+    let project = folders.find(|folder| !is_inside(folder)).and_then(name);
+    let file = || name(main).unwrap_or_default();
+    project.filter(|_| lies_inside).unwrap_or_else(file)
 }
 
 /// Reads the content of a file of any known format. `name` is what diagnostics call it.
@@ -156,9 +195,9 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
         return Ok(gx::read_gxw(name, bytes, options));
     }
     if gx::is_wpg(bytes) {
-        return Ok(gx::read_wpg(name, bytes, options));
+        return Ok(gx::read_wpg(name, bytes, &gx::Beside::default(), options));
     }
-    let Some((text, replaced)) = encoding::decode(bytes) else {
+    let Some((text, replaced)) = encoding::decode(bytes, options.encoding) else {
         return Err(ReadError::Undecodable {
             name: name.to_owned(),
         });

@@ -66,6 +66,6 @@ fn is_export(path: &Path) -> bool {
     {
         head.truncate(last + 1 + usize::from(head.get(last + 1) == Some(&0)));
     }
-    let text = encoding::decode(&head);
+    let text = encoding::decode(&head, None);
     text.is_some_and(|(text, _)| csv::detect(&text).is_some())
 }

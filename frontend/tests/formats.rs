@@ -294,7 +294,10 @@ fn the_longest_program_of_a_compound_file_is_taken() {
         ])
     };
     for bytes in [streams(&whole, &damaged), streams(&damaged, &whole)] {
-        let program = read_clean("a.gxw", &bytes);
+        let read = read_bytes("a.gxw", &bytes).unwrap();
+        let codes: Vec<_> = read.diagnostics.iter().map(|found| found.code).collect();
+        assert_eq!(codes, ["W0522"], "the project has no list of its parts");
+        let program = read.program;
         assert_eq!(texts(&program), MEANING);
         assert_eq!(program.kind, SourceKind::GxWorks2);
         assert_eq!(program.cpu.as_deref(), Some("FX2N/FX2NC"));
@@ -326,6 +329,8 @@ fn a_project_folder_is_read_with_its_comments() {
     for path in [folder.path().to_owned(), body.join("MAIN.wpg")] {
         let read = read(&path).unwrap();
         assert_eq!(texts(&read.program), MEANING);
+        let name = folder.path().file_name().unwrap().to_string_lossy();
+        assert_eq!(read.program.source.name, name, "{}", path.display());
         let comments: Vec<_> = read
             .program
             .comments

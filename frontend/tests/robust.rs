@@ -3,9 +3,12 @@
 mod fixture;
 
 use encoding_rs::UTF_16LE;
-use fixture::{Stream, gxw, tokens, wpg};
+use fixture::{
+    Part, Stream, compound, gh, gxw, project, qcd, replace, res, simple, structured_text,
+    with_list, wpa, wpg,
+};
 use proptest::prelude::*;
-use rungc_frontend::{Read, print, read_bytes, read_text};
+use rungc_frontend::{Read, ReadOptions, print, read_bytes, read_text};
 
 /// A small generator of random numbers (SplitMix64), so that every run sees the same inputs.
 struct Random(u64);
@@ -184,31 +187,123 @@ fn mutations_of_developer_projects() {
 
 #[test]
 fn mutations_of_works2_projects() {
-    let mut stream = vec![0; 60];
-    stream.extend(tokens(TOKENS));
-    let bytes = gxw(&[
-        Stream {
-            name: "12",
-            content: &stream,
-        },
-        Stream {
-            name: "16",
-            content: &stream,
-        },
-    ]);
-    survive_mutations(7, 10_000, &[bytes]);
+    let labels = || {
+        let mut parts = simple("FX3U/FX3UC", TOKENS);
+        replace(&mut parts, "MAIN.res", res(9, TOKENS, &[]));
+        replace(
+            &mut parts,
+            "MAIN.Program.pou",
+            structured_text(8, "OUT(X10, Y5);"),
+        );
+        replace(
+            &mut parts,
+            "COMMENT.qcd",
+            qcd(&[(0x9C, 8, "start"), (0xA8, 10, "速度")]),
+        );
+        let latched = [1, 0, 0x90, 0, 12, 2, 0xF4, 1];
+        replace(
+            &mut parts,
+            "Param.wpa",
+            wpa(0x0208, &[(0x2001, &latched), (0xFFE0, &[16, 0])]),
+        );
+        parts.push(Part {
+            name: "Global1.gh",
+            content: gh(&[("Start", "X10"), ("Motor", "Y5")]),
+        });
+        parts
+    };
+    let plain = project(&simple("FX3U/FX3UC", TOKENS));
+    let whole = project(&labels());
+    survive_mutations(7, 10_000, &[plain]);
+    // Damage of the container rarely hits the parts: they are damaged each by itself, too.
+    let mut random = Random(8);
+    let count = labels().len();
+    for round in 0..2_000 {
+        let mut parts = labels();
+        let part = &mut parts[round % count];
+        part.content = mutate(&mut random, &part.content);
+        survive(&project(&parts));
+        if round % 4 == 0 {
+            survive(&mutate(&mut random, &whole));
+        }
+    }
+}
+
+#[test]
+fn mutations_of_the_list_of_parts() {
+    let list = "<a xmlns:d=\"urn:d\"><D_Projectdata d:id=\"1\"><iID>40</iID><szName>MAIN.res</szName></D_Projectdata></a>";
+    let mut random = Random(9);
+    for _ in 0..2_000 {
+        let list = mutate(&mut random, list.as_bytes());
+        survive(&with_list(&list, &simple("FX3U/FX3UC", TOKENS)));
+    }
+    for depth in [100, 100_000] {
+        survive(&with_list("<a>".repeat(depth).as_bytes(), &[]));
+    }
+}
+
+/// Many streams that share all their sectors: a file of a few hundred kilobytes that stands for gigabytes.
+#[test]
+fn streams_that_share_sectors_are_not_read_twice() {
+    let content = vec![0x5A; 200 << 10];
+    let names: Vec<String> = (0..400).map(|i| format!("{i}")).collect();
+    let mut streams: Vec<_> = names
+        .iter()
+        .map(|name| Stream {
+            name,
+            content: b"small",
+        })
+        .collect();
+    streams.push(Stream {
+        name: "long",
+        content: &content,
+    });
+    let mut data = compound(&streams);
+    share_sectors(&mut data, "long");
+    let bytes = compound(&[Stream {
+        name: "_hdb",
+        content: &data,
+    }]);
+    let start = std::time::Instant::now();
+    let read = survive(&bytes).unwrap();
+    assert!(read.diagnostics.has_errors());
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+}
+
+/// Gives each stream the sectors and the length of one of them, in the directory of a compound file.
+fn share_sectors(file: &mut [u8], name: &str) {
+    let wide: Vec<u8> = name.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let entries: Vec<usize> = (512..file.len() - 127)
+        .step_by(128)
+        .filter(|&at| file[at + 66] == 2 && file[at + 64] > 2 && file[at + 65] == 0)
+        .collect();
+    let long = entries
+        .iter()
+        .copied()
+        .find(|&at| file[at..].starts_with(&wide) && file[at + wide.len()] == 0)
+        .expect("its entry");
+    let place = file[long + 116..long + 128].to_vec();
+    assert!(entries.len() > 400);
+    for at in entries {
+        file[at + 116..at + 128].copy_from_slice(&place);
+    }
 }
 
 /// Reading stops at the limit, since an endless source has no size that could be asked for.
 #[test]
 fn an_endless_source_is_refused() {
     let endless = std::io::repeat(b'\n');
-    let read = rungc_frontend::read_from("endless", endless);
+    let read = rungc_frontend::read_from("endless", endless, &ReadOptions::default());
     assert!(matches!(
         read,
         Err(rungc_frontend::ReadError::TooLarge { .. })
     ));
-    let short = rungc_frontend::read_from("short", &b"LD X0\nOUT Y0\nEND\n"[..]).unwrap();
+    let short = rungc_frontend::read_from(
+        "short",
+        &b"LD X0\nOUT Y0\nEND\n"[..],
+        &ReadOptions::default(),
+    )
+    .unwrap();
     assert_eq!(short.program.instrs.len(), 3);
 }
 

@@ -23,6 +23,7 @@ mod practice;
 mod project;
 mod reading;
 mod structure;
+mod vendor;
 
 pub use labels::*;
 pub use logic::*;
@@ -31,6 +32,7 @@ pub use practice::*;
 pub use project::*;
 pub use reading::*;
 pub use structure::*;
+pub use vendor::*;
 
 /// One row of the table.
 #[derive(Debug)]
@@ -74,6 +76,7 @@ pub fn all() -> Vec<&'static Code> {
         structure::TABLE,
         labels::TABLE,
         practice::TABLE,
+        vendor::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();
     all.sort_by_key(|code| code.id);

@@ -13,6 +13,7 @@ pub mod text;
 pub use device::{DeviceClass, Number};
 pub use diag::{Diagnostic, Diagnostics, Label, Severity};
 pub use program::{
-    Device, Index, Instr, Operand, OperandKind, Operands, Program, Remarks, SourceKind,
+    Device, DeviceRun, Index, Instr, Operand, OperandKind, Operands, Parameters, Program, Remarks,
+    SourceKind,
 };
 pub use source::{Source, Span};

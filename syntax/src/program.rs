@@ -24,6 +24,44 @@ pub struct Program {
     pub unread: Vec<u32>,
     /// Comments on devices, where the source has them.
     pub comments: BTreeMap<Device, String>,
+    /// What the project sets for its PLC, where the source says so.
+    pub parameters: Option<Parameters>,
+}
+
+/// What a project sets for its PLC: the PLC parameters of the editors.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Parameters {
+    /// Devices that keep their values over power-off, of those for which this can be chosen; `None` if nothing is said.
+    pub latched: Option<Vec<DeviceRun>>,
+    /// Memory capacity in steps: what program, comments and file registers share.
+    pub capacity: Option<u32>,
+    /// Blocks of 500 steps of that memory that hold comments.
+    pub comment_blocks: u32,
+    /// Blocks of 500 steps of that memory that hold file registers, 500 registers each.
+    pub file_register_blocks: u32,
+    /// Program files that the PLC runs, in order; empty if nothing is said.
+    pub programs: Vec<String>,
+}
+
+impl Parameters {
+    /// How many steps remain for the program.
+    pub fn program_steps(&self) -> Option<u32> {
+        let blocks = self
+            .comment_blocks
+            .saturating_add(self.file_register_blocks);
+        Some(self.capacity?.saturating_sub(blocks.saturating_mul(500)))
+    }
+}
+
+/// Devices of one class that follow each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct DeviceRun {
+    /// The class.
+    pub class: DeviceClass,
+    /// First number (a value: X010 is 8).
+    pub first: u32,
+    /// How many; 0 is none.
+    pub count: u32,
 }
 
 impl Program {

@@ -15,7 +15,7 @@ use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals};
 use rungc_frontend::{Read, ReadError};
 use rungc_ir::compile::Compiled;
-use rungc_syntax::{Span, codes};
+use rungc_syntax::{SourceKind, Span, codes};
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -312,8 +312,12 @@ pub fn holder(path: &Path) -> &Path {
 
 /// The name of a file without folder and extension; of a project folder's `MAIN.wpg` or of `MAIN.csv` the project's.
 pub fn stem(subject: &Subject, read: &Read) -> String {
+    let source = &read.program.source.name;
     let stem = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned());
-    let plain = stem(&subject.file).filter(|_| !subject.is_stdin());
+    let plain = match read.program.kind {
+        SourceKind::GxDeveloper if !source.to_lowercase().ends_with(".wpg") => Some(source.clone()),
+        _ => stem(&subject.file).filter(|_| !subject.is_stdin()),
+    };
     let plain = plain.unwrap_or_else(|| "program".to_string());
     match &read.program.title {
         Some(title) if plain.eq_ignore_ascii_case("main") && !title.trim().is_empty() => {

@@ -3,6 +3,7 @@
 use super::{Context, Failure, Outcome, Result, counted, counts, tell};
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
+use rungc_frontend::ReadOptions;
 use rungc_ir::ModelId;
 use rungc_project::{Error, Project};
 use rungc_syntax::Program;
@@ -25,6 +26,8 @@ pub struct Subject {
     pub model: Option<ModelId>,
     /// How to report diagnostics.
     pub reporting: Reporting,
+    /// How to read it.
+    pub options: ReadOptions,
 }
 
 impl Subject {
@@ -79,6 +82,7 @@ impl Projects<'_> {
             model: self.reading.model.or(model),
             project,
             reporting,
+            options: self.reading.options(),
         })
     }
 
@@ -262,9 +266,9 @@ pub fn source(
     subject: &Subject,
 ) -> std::result::Result<rungc_frontend::Read, rungc_frontend::ReadError> {
     if subject.is_stdin() {
-        return rungc_frontend::read_from("stdin", io::stdin().lock());
+        return rungc_frontend::read_from("stdin", io::stdin().lock(), &subject.options);
     }
-    rungc_frontend::read(&subject.file)
+    rungc_frontend::read_with(&subject.file, &subject.options)
 }
 
 /// Where the programs of a command were written.

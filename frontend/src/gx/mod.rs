@@ -1,20 +1,26 @@
 //! Projects of GX Developer (a folder with `MAIN.wpg` and `COMMENT.wcd`) and GX Works2 (`.gxw`).
 
+mod comments;
 mod cpu;
-mod gxw;
+mod fields;
+mod parameters;
 mod program;
 pub(crate) mod table;
 mod tokens;
+mod works2;
 
-pub(crate) use gxw::read as read_gxw;
 pub(crate) use program::hex;
 pub(crate) use tokens::steps;
+pub(crate) use works2::read as read_gxw;
 
-use crate::encoding::decode_local;
+use crate::encoding::decode_text;
+use crate::listing::Listing;
 use crate::text::clean;
 use crate::{Read, ReadOptions};
-use program::{Chain, bytes_error};
-use rungc_syntax::{Device, Diagnostics, Program, SourceKind, Span, codes};
+use comments::Comments;
+use encoding_rs::Encoding;
+use program::{Code, bytes_error};
+use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
 
 /// Length of the header that all files of a project begin with.
 const HEADER: usize = 0x40;
@@ -28,10 +34,6 @@ const MAX_DATA: usize = 32 << 20;
 const CPU: usize = 0x24;
 /// How an OLE compound file begins.
 const OLE: [u8; 8] = [0xD0, 0xCF, 0x11, 0xE0, 0xA1, 0xB1, 0x1A, 0xE1];
-/// Length of one comment in `COMMENT.wcd`.
-const SLOT: usize = 40;
-/// Length of the head of the table of comments, and of each of its entries.
-const ENTRY: usize = 10;
 
 /// Whether this is a GX Works2 project, or another OLE file.
 pub(crate) fn is_ole(bytes: &[u8]) -> bool {
@@ -44,8 +46,17 @@ pub(crate) fn is_wpg(bytes: &[u8]) -> bool {
         || (bytes.get(CPU..CPU + 2) == Some(&[4, 2]) && bytes.get(CPU + 3) == Some(&2))
 }
 
+/// The files that lie beside `MAIN.wpg` in a GX Developer project.
+#[derive(Default)]
+pub(crate) struct Beside {
+    /// `COMMENT.wcd`.
+    pub comments: Option<Vec<u8>>,
+    /// `param.wpa`.
+    pub parameters: Option<Vec<u8>>,
+}
+
 /// Reads `MAIN.wpg`.
-pub(crate) fn read_wpg(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
+pub(crate) fn read_wpg(name: &str, bytes: &[u8], beside: &Beside, options: &ReadOptions) -> Read {
     let cpu = cpu_code(bytes).map(cpu::name);
     let refused = |cpu: &String| cpu::refused(name, SourceKind::GxDeveloper, cpu);
     if let Some(refused) = cpu.as_ref().and_then(refused) {
@@ -59,12 +70,26 @@ pub(crate) fn read_wpg(name: &str, bytes: &[u8], options: &ReadOptions) -> Read 
     } else {
         (HEADER..bytes.len()).find(|&at| chains[at].is_program())
     };
-    let mut read = match start {
-        Some(start) => program::read(name, bytes, start, &chains, options),
+    let table = beside.comments.as_deref().map(comments::of_developer);
+    let code = start.map(|start| Code::new(bytes, start, &chains));
+    let mut texts = code.as_ref().map_or_else(Vec::new, Code::texts);
+    texts.extend(table.iter().flat_map(Comments::texts));
+    let encoding = options.encoding_of(&texts, None);
+    let mut read = match code {
+        Some(code) => code.read(name, encoding, options),
         None => no_program(name, bytes),
     };
     read.program.kind = SourceKind::GxDeveloper;
     read.program.cpu = cpu;
+    if let (Some(bytes), Some(table)) = (&beside.comments, &table) {
+        add_comments(&mut read, bytes, table, encoding);
+    }
+    if let Some(bytes) = &beside.parameters {
+        let (parameters, damaged) = parameters::read(bytes);
+        read.program.parameters = Some(parameters);
+        let damaged = damaged.map(|at| damaged_part("the PLC parameters", bytes, at));
+        read.diagnostics.extend(damaged);
+    }
     read
 }
 
@@ -76,21 +101,13 @@ fn cpu_code(bytes: &[u8]) -> Option<u16> {
     }
 }
 
-/// A project file in which no program can be found.
-fn no_program(name: &str, bytes: &[u8]) -> Read {
-    let shown = hex(bytes.get(HEADER..).unwrap_or(bytes));
-    let mut listing = crate::listing::Listing::default();
+/// A project whose program is not read; `line` says what stands for it.
+fn without_program(name: &str, line: &str, why: impl FnOnce(Span) -> Diagnostic) -> Read {
+    let mut listing = Listing::default();
     listing.next_line();
-    let span = listing.word(&format!("?? {shown}"));
-    let what = "no program can be found; the data";
+    let span = listing.word(line);
     let mut diagnostics = Diagnostics::new();
-    diagnostics.push(bytes_error(
-        &codes::DAMAGED,
-        span,
-        HEADER.min(bytes.len()),
-        &shown,
-        what,
-    ));
+    diagnostics.push(why(span));
     Read {
         program: Program {
             source: listing.finish(name),
@@ -102,23 +119,39 @@ fn no_program(name: &str, bytes: &[u8]) -> Read {
     }
 }
 
-/// Whether this is a table of device comments.
-fn is_comments(bytes: &[u8]) -> bool {
-    bytes.get(HEADER + 4..HEADER + 8) == Some(&[0, 0, 0x20, 0x08])
+/// A project file in which no program can be found.
+fn no_program(name: &str, bytes: &[u8]) -> Read {
+    let shown = hex(bytes.get(HEADER..).unwrap_or(bytes));
+    without_program(name, &format!("?? {shown}"), |span| {
+        let what = "no program can be found; the data";
+        bytes_error(&codes::DAMAGED, span, HEADER.min(bytes.len()), &shown, what)
+    })
+}
+
+/// The warning that a part of the project beside its program cannot be read on at an offset.
+fn damaged_part(what: &str, bytes: &[u8], at: usize) -> Diagnostic {
+    let shown = hex(bytes.get(at..).unwrap_or_default());
+    codes::DAMAGED_PART
+        .at(
+            Span::default(),
+            format!("{what} cannot be read on at offset 0x{at:04X}: {shown}"),
+        )
+        .label("the program itself is not affected")
+        .help("open the project in its editor and save it once more")
 }
 
 /// Adds the device comments of a `COMMENT.wcd` to a program.
-pub(crate) fn add_comments(read: &mut Read, bytes: &[u8]) {
-    let mut devices = Vec::new();
-    let mut texts = Vec::new();
-    let whole = comments(bytes, |device, text| {
-        devices.push(device);
-        texts.push(text);
-    });
-    let decoded = devices.into_iter().zip(decode_local(&texts));
-    let comments = decoded.filter_map(|(device, text)| Some((device, clean(&text)?.into())));
-    read.program.comments.extend(comments);
-    if let Err(at) = whole {
+fn add_comments(
+    read: &mut Read,
+    bytes: &[u8],
+    table: &Comments<&[u8]>,
+    encoding: &'static Encoding,
+) {
+    let comments = table.read.iter();
+    let decoded = comments
+        .filter_map(|(device, text)| Some((*device, clean(&decode_text(text, encoding))?.into())));
+    read.program.comments.extend(decoded);
+    if let Some(at) = table.damaged {
         let shown = hex(bytes.get(at..).unwrap_or_default());
         let what = "the table of device comments cannot be read on";
         read.diagnostics.push(
@@ -128,35 +161,4 @@ pub(crate) fn add_comments(read: &mut Read, bytes: &[u8]) {
                 .help("the program itself is not affected: remove the comment file to go on without comments"),
         );
     }
-}
-
-/// Gives each comment with its device; an offset where the table cannot be read on.
-fn comments<'b>(bytes: &'b [u8], mut each: impl FnMut(Device, &'b [u8])) -> Result<(), usize> {
-    let word = |at: usize| Some(u16::from_le_bytes(bytes.get(at..at + 2)?.try_into().ok()?));
-    let dword = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
-    if !is_comments(bytes) {
-        return Err(HEADER);
-    }
-    let length = dword(HEADER).ok_or(HEADER)? as usize;
-    let count = word(HEADER + 8).ok_or(HEADER + 8)?;
-    let mut slot = HEADER + length;
-    for entry in 0..usize::from(count) {
-        let at = HEADER + ENTRY * (entry + 1);
-        let code = word(at).ok_or(at)?;
-        let first = dword(at + 2).ok_or(at)?;
-        let many = dword(at + 6).ok_or(at)?;
-        let class = u8::try_from(code)
-            .ok()
-            .and_then(tokens::commented)
-            .ok_or(at)?;
-        for number in 0..many {
-            let text = bytes
-                .get(slot..slot.saturating_add(SLOT))
-                .ok_or(slot.min(bytes.len()))?;
-            let number = first.checked_add(number).ok_or(at)?;
-            each(Device { class, number }, text);
-            slot += SLOT;
-        }
-    }
-    Ok(())
 }

@@ -2,11 +2,12 @@
 
 use super::table::Evidence;
 use super::tokens::{self, Bare, Prefixes, Token};
-use crate::encoding::decode_local;
+use crate::encoding::decode_text;
 use crate::learned::{self, LearnedCodes, Reading, Unproven};
 use crate::listing::Listing;
 use crate::text::{append, clean};
 use crate::{Read, ReadOptions};
+use encoding_rs::Encoding;
 use rungc_syntax::{
     Diagnostic, Diagnostics, Instr, Operand, OperandKind, Operands, Program, Span, codes,
 };
@@ -134,28 +135,66 @@ fn text<'b>(piece: &Piece<'b>) -> Option<&'b [u8]> {
     }
 }
 
-/// Reads the program that begins at `start`, up to its `END`.
-pub(super) fn read(
-    name: &str,
-    bytes: &[u8],
+/// The bodies of the tokens of `code`; where none stands, the next one is looked for.
+pub(super) fn bodies(code: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        while at < code.len() {
+            if let Some(body) = body(code, at) {
+                at += body.len() + 2;
+                return Some(body);
+            }
+            at += 1;
+        }
+        None
+    })
+}
+
+/// A program in the bytes of a file.
+pub(super) struct Code<'b> {
+    bytes: &'b [u8],
     start: usize,
-    chains: &[Chain],
-    options: &ReadOptions,
-) -> Read {
-    let pieces = || Pieces {
-        bytes,
-        chains,
-        at: Some(start),
-    };
-    let texts: Vec<_> = pieces().filter_map(|(_, piece)| text(&piece)).collect();
-    let mut reader = Reader::new(&options.learned, decode_local(&texts));
-    for (at, piece) in pieces() {
-        match piece {
-            Piece::Token(body) => reader.token(body, at),
-            Piece::Damage(rest, damage) => reader.damage(rest, at, &damage),
+    chains: &'b [Chain],
+}
+
+impl<'b> Code<'b> {
+    /// The program that begins at `start`, up to its `END`.
+    pub fn new(bytes: &'b [u8], start: usize, chains: &'b [Chain]) -> Self {
+        Code {
+            bytes,
+            start,
+            chains,
         }
     }
-    reader.finish(name)
+
+    fn pieces(&self) -> Pieces<'b> {
+        Pieces {
+            bytes: self.bytes,
+            chains: self.chains,
+            at: Some(self.start),
+        }
+    }
+
+    /// Its texts, in the project's code page.
+    pub fn texts(&self) -> Vec<&'b [u8]> {
+        self.pieces()
+            .filter_map(|(_, piece)| text(&piece))
+            .collect()
+    }
+
+    /// Reads it; its texts are in this encoding.
+    pub fn read(&self, name: &str, encoding: &'static Encoding, options: &ReadOptions) -> Read {
+        let texts = self.texts().into_iter();
+        let texts = texts.map(|text| decode_text(text, encoding)).collect();
+        let mut reader = Reader::new(&options.learned, texts);
+        for (at, piece) in self.pieces() {
+            match piece {
+                Piece::Token(body) => reader.token(body, at),
+                Piece::Damage(rest, damage) => reader.damage(rest, at, &damage),
+            }
+        }
+        reader.finish(name)
+    }
 }
 
 /// What an operand or a note belongs to.

@@ -1,0 +1,52 @@
+//! Reading of fields that follow each other in a file.
+
+/// The next field of some bytes, numbers with their lowest byte first.
+#[derive(Clone)]
+pub(super) struct Fields<'b> {
+    bytes: &'b [u8],
+    at: usize,
+}
+
+impl<'b> Fields<'b> {
+    /// Fields from the beginning of `bytes`.
+    pub fn new(bytes: &'b [u8]) -> Self {
+        Fields { bytes, at: 0 }
+    }
+
+    /// Where the next field begins.
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
+    /// The next `count` bytes.
+    pub fn take(&mut self, count: usize) -> Option<&'b [u8]> {
+        let taken = self.bytes.get(self.at..self.at.checked_add(count)?)?;
+        self.at += count;
+        Some(taken)
+    }
+
+    pub fn u8(&mut self) -> Option<u8> {
+        self.take(1).map(|bytes| bytes[0])
+    }
+
+    pub fn u16(&mut self) -> Option<u16> {
+        Some(u16::from_le_bytes(self.take(2)?.try_into().ok()?))
+    }
+
+    pub fn u32(&mut self) -> Option<u32> {
+        Some(u32::from_le_bytes(self.take(4)?.try_into().ok()?))
+    }
+
+    /// A string of GX Works2: the number of its characters with the closing zero, then UTF-16.
+    pub fn text(&mut self) -> Option<String> {
+        let length = self.u32()? as usize;
+        let bytes = self.take(length.checked_mul(2)?)?;
+        let units = bytes
+            .chunks_exact(2)
+            .map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
+        let text: String = char::decode_utf16(units.take_while(|&unit| unit != 0))
+            .map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER))
+            .collect();
+        Some(text)
+    }
+}

@@ -1,0 +1,185 @@
+//! The parts of a GX Works2 project that say what its program is.
+
+use crate::gx::fields::Fields;
+
+/// A moment: year, month, day, hour, minute, second, millisecond, in the order in which moments compare.
+pub(super) type Time = [u16; 7];
+
+/// What `.pou`, `.res`, `.tsk` and `.gh` begin with: title, comment, 22 bytes, a time, 4 bytes.
+fn head(fields: &mut Fields) -> Option<Time> {
+    fields.text()?;
+    fields.text()?;
+    fields.take(22)?;
+    let [year, month, _, day, hour, minute, second, ms] = {
+        let mut time = [0; 8];
+        for part in &mut time {
+            *part = fields.u16()?;
+        }
+        time
+    };
+    fields.take(4)?;
+    Some([year, month, day, hour, minute, second, ms])
+}
+
+/// The project itself: `*.prj`.
+pub(super) struct Project {
+    pub title: String,
+    /// CPU type: `FX3U/FX3UC`.
+    pub cpu: String,
+    /// Code page of statements, notes and texts in tokens.
+    pub code_page: u32,
+}
+
+impl Project {
+    pub fn read(bytes: &[u8]) -> Option<Self> {
+        let mut fields = Fields::new(bytes);
+        let (title, cpu) = (fields.text()?, fields.text()?);
+        fields.text()?;
+        fields.take(22 + 16 + 4)?;
+        let code_page = fields.u32()?;
+        Some(Project {
+            title,
+            cpu,
+            code_page,
+        })
+    }
+}
+
+/// The language of a source.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Language {
+    Ladder,
+    StructuredText,
+    /// Structured ladder or function block diagram.
+    Picture,
+    /// Sequential function chart.
+    Chart,
+    Other(u8),
+}
+
+impl Language {
+    /// What people call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Ladder => "ladder",
+            Language::StructuredText => "structured text",
+            Language::Picture => "structured ladder or FBD",
+            Language::Chart => "SFC",
+            Language::Other(_) => "in a language that is not known",
+        }
+    }
+}
+
+/// A source: `NAME.Program.pou`.
+pub(super) struct Pou {
+    pub saved: Time,
+    pub language: Language,
+    /// Where its content begins: tokens of a ladder, UTF-16 of structured text.
+    pub start: usize,
+    /// Where it ends.
+    pub end: usize,
+}
+
+impl Pou {
+    pub fn read(bytes: &[u8]) -> Option<Self> {
+        let mut fields = Fields::new(bytes);
+        let saved = head(&mut fields)?;
+        let language = match fields.u8()? {
+            0x01 => Language::Ladder,
+            0xC1 => Language::StructuredText,
+            0xD0 => Language::Picture,
+            0xF0 => Language::Chart,
+            other => Language::Other(other),
+        };
+        fields.u32()?;
+        let counted = fields.at();
+        let length = fields.u32()? as usize;
+        let end = counted.checked_add(length)?;
+        let head = match language {
+            Language::Ladder => 16,
+            Language::StructuredText => 8,
+            _ => 0,
+        };
+        let start = fields.at() + head;
+        (start <= end && end <= bytes.len()).then_some(Pou {
+            saved,
+            language,
+            start,
+            end,
+        })
+    }
+}
+
+/// A compiled program: the first region of `NAME.res`. The second is empty or an older state.
+pub(super) struct Compiled {
+    pub created: Time,
+    /// Where its tokens begin.
+    pub start: usize,
+    /// Where they end.
+    pub end: usize,
+}
+
+impl Compiled {
+    pub fn read(bytes: &[u8]) -> Option<Self> {
+        let mut fields = Fields::new(bytes);
+        let created = head(&mut fields)?;
+        let length = fields.u32()? as usize;
+        let start = fields.at();
+        fields.take(length)?;
+        Some(Compiled {
+            created,
+            start,
+            end: fields.at(),
+        })
+    }
+}
+
+/// A task: `NAME.tsk`.
+pub(super) struct Task {
+    /// The POUs that it runs, in order.
+    pub pous: Vec<String>,
+}
+
+impl Task {
+    pub fn read(bytes: &[u8]) -> Option<Self> {
+        let mut fields = Fields::new(bytes);
+        head(&mut fields)?;
+        // Event, interval, priority.
+        fields.text()?;
+        fields.text()?;
+        fields.u32()?;
+        fields.u32()?;
+        let count = fields.u32()?;
+        let pous = (0..count).map(|_| fields.text()).collect::<Option<_>>()?;
+        Some(Task { pous })
+    }
+}
+
+/// The global labels that have a device, with it, as written: `*.gh`, as far as it can be read.
+pub(super) fn labels(bytes: &[u8]) -> Vec<(String, String)> {
+    let mut fields = Fields::new(bytes);
+    let Some(count) = head(&mut fields).and_then(|_| fields.u32()) else {
+        return Vec::new();
+    };
+    (0..count)
+        .map_while(|_| {
+            let name = fields.text()?;
+            // Type and class.
+            fields.text()?;
+            fields.u32()?;
+            let device = fields.text()?;
+            // IEC address; initial value; comment; type and its block.
+            fields.text()?;
+            fields.u32()?;
+            fields.text()?;
+            fields.text()?;
+            fields.u32()?;
+            fields.text()?;
+            fields.u32()?;
+            fields.u32()?;
+            fields.text()?;
+            Some((name, device))
+        })
+        .filter(|(_, device)| !device.is_empty())
+        .collect()
+}
