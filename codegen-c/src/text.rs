@@ -4,6 +4,8 @@ use rungc_syntax::text::acts;
 
 /// Longest line.
 pub const WIDTH: usize = 120;
+/// Longest line of a comment on lines of its own: what most engineers write above a network stays on one.
+const COMMENT_WIDTH: usize = 200;
 /// Where comments beside statements begin.
 const COMMENT_COLUMN: usize = 64;
 
@@ -57,6 +59,26 @@ pub fn line(out: &mut String, indent: usize, code: &str, beside: Option<&str>) {
         }
     }
     out.push('\n');
+}
+
+/// Appends a comment on lines of its own, wrapped where it is too long.
+pub fn block(out: &mut String, indent: usize, text: &str) {
+    push_indent(out, indent);
+    out.push_str("/*");
+    let mut column = indent + 2;
+    for word in text.split(' ') {
+        let length = word.chars().count() + 1;
+        // The end of the comment needs room, too.
+        if column + length + 3 > COMMENT_WIDTH && column > indent + 2 {
+            out.push('\n');
+            push_indent(out, indent + 2);
+            column = indent + 2;
+        }
+        out.push(' ');
+        out.push_str(word);
+        column += length;
+    }
+    out.push_str(" */\n");
 }
 
 /// Appends spaces.
@@ -148,6 +170,27 @@ mod tests {
         assert_eq!(comment("two\r\nlines"), "two lines");
         assert_eq!(comment("what??/"), "what? ?/");
         assert_eq!(comment("a\u{202e}b"), "a b");
+    }
+
+    #[test]
+    fn long_comments_are_wrapped() {
+        let mut out = String::new();
+        block(
+            &mut out,
+            4,
+            &format!("step 0: {}", "a word ".repeat(80).trim()),
+        );
+        assert!(out.lines().count() > 2, "{out}");
+        assert!(out.lines().all(|line| line.len() <= COMMENT_WIDTH), "{out}");
+        assert!(out.starts_with("    /* step 0: a word"), "{out}");
+        assert!(
+            out.lines()
+                .skip(1)
+                .all(|line| line.starts_with("       a") || line.starts_with("       word")),
+            "{out}"
+        );
+        let words = |text: &str| text.split_whitespace().filter(|w| *w == "word").count();
+        assert_eq!(words(&out), 80);
     }
 
     #[test]

@@ -627,17 +627,15 @@ impl<'a, 'm> Writer<'a, 'm> {
         if !out.ends_with("{\n") {
             out.push('\n');
         }
-        text::push_indent(out, indent);
-        out.push_str("/* step ");
-        text::push_number(out, network.step);
-        let tell =
+        let step = network.step;
+        let said =
             |text: &Option<String>| text.as_deref().map(text::comment).filter(|t| !t.is_empty());
-        let _ = match (tell(&network.statement), tell(&network.note)) {
-            (Some(statement), Some(note)) => write!(out, ": {statement} ({note})"),
-            (Some(text), None) | (None, Some(text)) => write!(out, ": {text}"),
-            (None, None) => Ok(()),
+        let text = match (said(&network.statement), said(&network.note)) {
+            (Some(statement), Some(note)) => format!("step {step}: {statement} ({note})"),
+            (Some(text), None) | (None, Some(text)) => format!("step {step}: {text}"),
+            (None, None) => format!("step {step}"),
         };
-        out.push_str(" */\n");
+        text::block(out, indent, &text);
     }
 }
 

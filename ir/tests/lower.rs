@@ -261,3 +261,17 @@ fn comments_of_devices_are_written_by_the_compiler() {
     );
     assert!(compiled("泵").module.is_none());
 }
+
+/// Emitted code shows no more of a comment than people read on a line.
+#[test]
+fn comments_longer_than_any_editors_are_cut() {
+    let long = "word ".repeat(200);
+    let text = format!(";! X000 = {long}\n;! Y000 = short\nLD X000 ; {long}\nOUT Y000\nEND\n");
+    let module = module(&on(ModelId::H2u), &text);
+    let comments: Vec<_> = module.comments.iter().map(|c| c.2.as_str()).collect();
+    assert!(comments[0].ends_with("word…"), "{}", comments[0]);
+    assert!(comments[0].chars().count() <= 401);
+    assert_eq!(comments[1], "short");
+    let note = module.networks[0].note.as_deref().unwrap();
+    assert!(note.ends_with('…'), "{note}");
+}

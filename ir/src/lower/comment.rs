@@ -10,6 +10,18 @@ const LENGTH: usize = 16;
 /// Relay that leaves out the zero behind the characters.
 const OPEN: u32 = 8091;
 
+/// Characters of a comment in emitted code at most. The editors allow 64 in a statement, 32 in a note and in a device comment; C99 promises no
+/// more than 4095 bytes in a string, and a reader wants far less on a line.
+const EMITTED: usize = 400;
+
+/// A comment as emitted code shows it: cut, with `…` at its end, if it is longer than any editor's.
+pub(super) fn shortened(text: &str) -> String {
+    match text.char_indices().nth(EMITTED) {
+        Some((end, _)) => format!("{}…", text[..end].trim_end()),
+        None => text.to_owned(),
+    }
+}
+
 impl Lowerer<'_> {
     /// COMRD S D: the characters of S's comment, two a word, filled up with spaces, and a zero behind them unless M8091 is on.
     pub(super) fn device_comment(&mut self) {

@@ -29,6 +29,7 @@ mod special;
 mod stl;
 mod system;
 
+use self::comment::shortened;
 use crate::catalogue::{Basic, Drive, Join, Lower};
 use crate::check::unimplemented::refusal;
 use crate::layout;
@@ -74,7 +75,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
         .comments
         .iter()
         .filter(|(device, _)| module.layout.area(device.class, device.number).is_some())
-        .map(|(device, text)| (device.class, device.number, text.clone()))
+        .map(|(device, text)| (device.class, device.number, shortened(text)))
         .collect();
     module.initial_words = module
         .model
@@ -240,7 +241,7 @@ impl<'a> Lowerer<'a> {
         if is_label {
             // What is said of a label is said of what follows it.
             if self.heading.is_none() {
-                self.heading = instr.note().map(str::to_owned);
+                self.heading = instr.note().map(shortened);
             }
         } else if self.begins_network(lower) {
             self.begin_network();
@@ -250,7 +251,7 @@ impl<'a> Lowerer<'a> {
         if !is_label
             && let (Some(network), Some(note)) = (self.module.networks.last_mut(), instr.note())
         {
-            network.note.get_or_insert_with(|| note.to_string());
+            network.note.get_or_insert_with(|| shortened(note));
         }
         match lower {
             Lower::Basic(basic) => self.basic(basic),
