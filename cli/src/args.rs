@@ -7,6 +7,7 @@ use rungc_ir::ModelId;
 use rungc_project::Check;
 use rungc_syntax::{Severity, codes, diag};
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// How many diagnostics are printed for people if nothing else is asked for.
 const DIAGNOSTICS: usize = 100;
@@ -258,8 +259,17 @@ pub struct TestArgs {
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Run only cases whose `file::name` contains this.
-    #[arg(long, value_name = "TEXT")]
-    pub only: Option<String>,
+    #[arg(long, alias = "only", value_name = "TEXT")]
+    pub filter: Option<String>,
+    /// Run only one part of the cases, for several machines that share the work: `1/4` is the first of four.
+    #[arg(long, value_name = "PART/PARTS")]
+    pub shard: Option<Shard>,
+    /// How to report the results.
+    #[arg(long, value_enum, default_value_t = TestFormat::Human)]
+    pub format: TestFormat,
+    /// File to write the report to; by default standard output. A file that is there is replaced.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// Arguments of `convert`.
@@ -365,6 +375,40 @@ pub enum ConvertTo {
     Il,
     /// The editors' list export (UTF-16, tabs).
     Csv,
+}
+
+/// One part of the cases, of as many.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Shard {
+    /// Which, from 1.
+    pub part: usize,
+    /// Of how many.
+    pub parts: usize,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/');
+        let numbers =
+            numbers.and_then(|(part, parts)| Some((part.parse().ok()?, parts.parse().ok()?)));
+        match numbers {
+            Some((part, parts)) if (1..=parts).contains(&part) => Ok(Shard { part, parts }),
+            _ => Err("write a part and the number of parts, from 1/4 to 4/4".to_string()),
+        }
+    }
+}
+
+/// How `test` reports its results.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum TestFormat {
+    /// For people: cases that fail, and how many do.
+    Human,
+    /// JUnit XML, for continuous integration.
+    Junit,
+    /// One JSON object (docs/test-files.md).
+    Json,
 }
 
 /// What `test` runs on.

@@ -9,7 +9,7 @@ mod time;
 
 use args::{Cli, ColorWhen, Command, Emit};
 use clap::{CommandFactory, Parser};
-use commands::{Context, Failure, Outcome, Verbosity};
+use commands::{Context, Failure, Outcome, Verbosity, interruption};
 use std::io::{self, IsTerminal};
 use std::process::ExitCode;
 
@@ -46,9 +46,13 @@ fn main() -> ExitCode {
         }
     };
     match result {
+        // What an interruption broke is no failure of its own.
+        Err(Failure::Because(_)) if interruption::is_asked() => {
+            ExitCode::from(interruption::EXIT_CODE)
+        }
         Ok(Outcome::Success) | Err(Failure::Unheard) => ExitCode::SUCCESS,
         Ok(Outcome::Failed) => ExitCode::from(1),
-        Ok(Outcome::Interrupted) => ExitCode::from(130),
+        Ok(Outcome::Interrupted) => ExitCode::from(interruption::EXIT_CODE),
         Ok(Outcome::Unusable) | Err(Failure::Reported) => ExitCode::from(2),
         Err(failure) => {
             commands::tell(&format!("rungc: {failure}"));

@@ -246,7 +246,7 @@ fn an_interrupted_run_keeps_its_recording() {
             .success()
     );
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(output.status.code(), Some(130));
     assert!(text(&output.stderr).contains("rungc: interrupted at"));
     let written = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     assert!(written("motor.vcd").contains("$enddefinitions"));

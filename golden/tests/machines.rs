@@ -3,6 +3,7 @@
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Suite, TestFile};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -124,7 +125,7 @@ fn all_engines_move_the_machines_alike() {
         let mut engine =
             build(kind, suite.modules(), &target).unwrap_or_else(|error| panic!("{error}"));
         let begin = Instant::now();
-        let report = plctest::run(&suite, &mut *engine, &mut |_| ());
+        let report = plctest::run(&suite, &mut *engine, &mut |_| ControlFlow::Continue(()));
         println!("{}: {:?}", kind.name(), begin.elapsed());
         let failures: Vec<_> = report.failures().map(|f| f.describe(&suite)).collect();
         assert!(failures.is_empty(), "{}", failures.join("\n"));

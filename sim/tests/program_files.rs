@@ -4,6 +4,7 @@ use rungc_ir::ModelId;
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plctest::{self, Suite};
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -52,7 +53,7 @@ fn failures(folder: &Path) -> Vec<String> {
     let file = plctest::load(&folder.join("t.plctest.toml")).unwrap();
     let suite = Suite::compile(vec![file]);
     let mut engine = build(EngineKind::Interp, suite.modules(), folder).unwrap();
-    let report = plctest::run(&suite, engine.as_mut(), &mut |_| ());
+    let report = plctest::run(&suite, engine.as_mut(), &mut |_| ControlFlow::Continue(()));
     report.failures().map(|f| f.describe(&suite)).collect()
 }
 

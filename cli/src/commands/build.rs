@@ -4,7 +4,7 @@ use super::setting::setting;
 use super::subject::{self, Places, Subject};
 use super::{
     Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, findings, holder,
-    plain, read, say, stem, tell, write_executable, write_file,
+    interruption, plain, read, say, stem, tell, write_executable, write_file,
 };
 use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
@@ -27,6 +27,7 @@ type OutFile = (String, Vec<u8>);
 
 /// Compiles programs. Nothing is written of one that has errors.
 pub fn run(args: &BuildArgs, cx: Context) -> Result {
+    interruption::note_for_a_while();
     let mut places = Places::default();
     subject::each(&args.inputs, cx, |subject, reporter| {
         if reporter.many() && args.plan.name.is_some() {

@@ -6,6 +6,7 @@ pub mod convert;
 mod defaults;
 pub mod explain;
 pub mod init;
+pub mod interruption;
 pub mod run;
 pub mod setting;
 pub mod subject;

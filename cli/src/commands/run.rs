@@ -1,7 +1,6 @@
 //! `rungc run`.
 
 mod device;
-mod interruption;
 mod plotting;
 mod recording;
 mod simulate;

@@ -1,6 +1,6 @@
 //! The programs that a command works on: where they are, and which settings hold for each.
 
-use super::{Context, Failure, Outcome, Result, counted, counts, tell};
+use super::{Context, Failure, Outcome, Result, counted, counts, interruption, tell};
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
@@ -226,6 +226,7 @@ pub fn each(
     for subject in &subjects {
         let outcome = match work(subject, &mut reporter) {
             Ok(outcome) => outcome,
+            Err(Failure::Because(_)) if interruption::is_asked() => Outcome::Interrupted,
             // One program that cannot be worked on does not hide the others.
             Err(Failure::Because(why)) => {
                 tell(&format!("rungc: {why}"));

@@ -1,16 +1,23 @@
 //! `rungc test`.
 
-use super::{Context, Failure, Outcome, Result, counted, defaults, say, subject};
-use crate::args::{EngineChoice, TestArgs};
+mod report;
+
+use super::{
+    Context, Failure, Fresh, Outcome, Result, counted, defaults, interruption, say, subject,
+};
+use crate::args::{EngineChoice, Shard, TestArgs, TestFormat};
 use crate::progress;
+use report::Results;
 use rungc_rt_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Report, Suite, TestFile};
-use std::fs;
+use std::io::{self, Write};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+use walkdir::{DirEntry, WalkDir};
 
 /// Ending of the names of test files.
 const ENDING: &str = ".plctest.toml";
@@ -18,6 +25,7 @@ const ENDING: &str = ".plctest.toml";
 /// Runs test files.
 pub fn run(args: &TestArgs, cx: Context) -> Result {
     let start = Instant::now();
+    interruption::note_for_a_while();
     let project = subject::project(args.project.as_deref(), cx)?;
     let settings = project.as_ref();
     let mut paths = args.files.clone();
@@ -32,46 +40,81 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     let usual = settings.map(defaults::engine).transpose();
     let usual = usual.map_err(|error| Failure::Because(error.to_string()))?;
     let engine = args.engine.or(usual.flatten());
-    let mut files = load(&paths, args.only.as_deref())?;
+    let mut files = load(&paths, args.filter.as_deref())?;
+    if files.is_empty() {
+        return Err(Failure::Because("no case to run".to_string()));
+    }
+    if let Some(shard) = args.shard {
+        keep(&mut files, shard);
+    }
     if let Some(path) = &args.machine {
         wire(&mut files, path)?;
     }
     let suite = progress::spin("compiling the cases", || Suite::compile(files));
-    if suite.is_empty() {
-        return Err(Failure::Because("no case to run".to_string()));
-    }
     let kinds = engines(engine.unwrap_or(EngineChoice::Interp));
     let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
     let cases = counted(suite.len(), "case");
     cx.note(&format!("     Running {cases} on {}", names.join(", ")));
-    let folder = BuildFolder::take()?;
     let mut report = Report::default();
-    for kind in kinds {
-        let what = if kind == EngineKind::Interp {
-            "preparing"
-        } else {
-            "building the engine"
-        };
-        let built = progress::spin(what, || build(kind, suite.modules(), folder.path()));
-        let mut engine = built.map_err(|error| Failure::Because(error.to_string()))?;
-        let bar = progress::bar(suite.len() as u64).with_message(kind.name());
-        report.extend(plctest::run(&suite, engine.as_mut(), &mut |_| bar.inc(1)));
-        bar.finish_and_clear();
+    if !suite.is_empty() {
+        let folder = BuildFolder::take()?;
+        for kind in kinds {
+            report.extend(run_on(kind, &suite, folder.path())?);
+        }
     }
-    for failed in report.failures() {
-        say(&format!("{}\n", failed.describe(&suite)))?;
-    }
-    let failed = report.failures().count();
-    say(&format!(
-        "{} passed, {failed} failed ({:.1} s)\n",
-        report.passed(),
-        start.elapsed().as_secs_f64()
-    ))?;
-    Ok(if report.is_success() {
-        Outcome::Success
-    } else {
-        Outcome::Failed
+    let results = Results {
+        suite: &suite,
+        report: &report,
+        elapsed: start.elapsed(),
+    };
+    publish(args, &results, cx)?;
+    Ok(match report.is_success() {
+        _ if interruption::is_asked() => Outcome::Interrupted,
+        true => Outcome::Success,
+        false => Outcome::Failed,
     })
+}
+
+/// Runs the cases on an engine, as far as nobody interrupts.
+fn run_on(kind: EngineKind, suite: &Suite, folder: &Path) -> std::result::Result<Report, Failure> {
+    let what = match kind {
+        EngineKind::Interp => "preparing",
+        _ => "building the engine",
+    };
+    let built = progress::spin(what, || build(kind, suite.modules(), folder));
+    let mut engine = built.map_err(|error| Failure::Because(error.to_string()))?;
+    let bar = progress::bar(suite.len() as u64).with_message(kind.name());
+    let report = plctest::run(suite, engine.as_mut(), &mut |_| {
+        bar.inc(1);
+        match interruption::is_asked() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    });
+    bar.finish_and_clear();
+    Ok(report)
+}
+
+/// Prints or writes the results.
+fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Result<(), Failure> {
+    let text = match args.format {
+        TestFormat::Human => report::human(results),
+        TestFormat::Junit => report::junit(results)?,
+        TestFormat::Json => report::json(results)?,
+    };
+    let Some(path) = &args.output else {
+        return say(&text).map_err(Failure::from);
+    };
+    let file = Fresh::begin(path)?;
+    let written = file.writer()?.write_all(text.as_bytes());
+    written.map_err(|error| file.failed(error))?;
+    file.keep()?;
+    let (passed, failed) = (results.report.passed(), results.report.failures().count());
+    let path = path.display();
+    cx.note(&format!(
+        "       Wrote {path}: {passed} passed, {failed} failed"
+    ));
+    Ok(())
 }
 
 /// Where engines are built: a folder of the cache, where the runtime is compiled already the next time, or without a cache a
@@ -107,8 +150,8 @@ fn engines(choice: EngineChoice) -> Vec<EngineKind> {
     }
 }
 
-/// Loads files and, from folders, all test files in them; keeps the cases whose `file::name` contains `only`.
-fn load(paths: &[PathBuf], only: Option<&str>) -> std::result::Result<Vec<TestFile>, Failure> {
+/// Loads files and, from folders, all test files in them; keeps the cases whose `file::name` contains `filter`.
+fn load(paths: &[PathBuf], filter: Option<&str>) -> std::result::Result<Vec<TestFile>, Failure> {
     let mut names = Vec::new();
     for path in paths {
         if path.is_dir() {
@@ -130,15 +173,24 @@ fn load(paths: &[PathBuf], only: Option<&str>) -> std::result::Result<Vec<TestFi
     if !problems.is_empty() {
         return Err(Failure::Because(problems.join("\n")));
     }
-    if let Some(only) = only {
+    if let Some(filter) = filter {
         for file in &mut files {
             let name = file.name.clone();
             file.cases
-                .retain(|case| format!("{name}::{}", case.name).contains(only));
+                .retain(|case| format!("{name}::{}", case.name).contains(filter));
         }
-        files.retain(|file| !file.cases.is_empty());
     }
+    files.retain(|file| !file.cases.is_empty());
     Ok(files)
+}
+
+/// Keeps one part of the cases: dealt out in their order, so that the parts are equal and a slow file is shared.
+fn keep(files: &mut Vec<TestFile>, shard: Shard) {
+    let mut dealt = (0..shard.parts).cycle();
+    for file in &mut *files {
+        file.cases.retain(|_| dealt.next() == Some(shard.part - 1));
+    }
+    files.retain(|file| !file.cases.is_empty());
 }
 
 /// Gives the machine of a file to cases that name none.
@@ -151,14 +203,19 @@ fn wire(files: &mut [TestFile], path: &Path) -> std::result::Result<(), Failure>
     Ok(())
 }
 
+/// Adds the test files in a folder and below; hidden folders, folders called `target` and links to folders are left out.
 fn find(folder: &Path, names: &mut Vec<PathBuf>) -> std::result::Result<(), Failure> {
-    let at = |error: std::io::Error| Failure::Because(format!("{}: {error}", folder.display()));
-    for entry in fs::read_dir(folder).map_err(at)? {
-        let path = entry.map_err(at)?.path();
-        if path.is_dir() {
-            find(&path, names)?;
-        } else if path.to_string_lossy().ends_with(ENDING) {
-            names.push(path);
+    let is_left_out = |entry: &DirEntry| {
+        let name = entry.file_name().to_string_lossy();
+        entry.depth() > 0
+            && entry.file_type().is_dir()
+            && (name.starts_with('.') || name == "target")
+    };
+    let entries = WalkDir::new(folder).into_iter();
+    for entry in entries.filter_entry(|entry| !is_left_out(entry)) {
+        let path = entry.map_err(io::Error::from)?.into_path();
+        if path.to_string_lossy().ends_with(ENDING) && !path.is_dir() {
+            names.push(path.strip_prefix(".").map_or(path.clone(), Path::to_owned));
         }
     }
     Ok(())

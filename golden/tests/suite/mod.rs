@@ -5,6 +5,7 @@ use rungc_sim::engines::Engine;
 use rungc_sim::plctest::{self, Outcome, Suite, TestFile};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Folders of conformance files.
@@ -99,7 +100,7 @@ impl Conformance {
     /// What goes otherwise than expected on an engine.
     pub fn run(&self, engine: &mut dyn Engine) -> Vec<String> {
         let mut wrong = Vec::new();
-        let report = plctest::run(&self.suite, engine, &mut |_| ());
+        let report = plctest::run(&self.suite, engine, &mut |_| ControlFlow::Continue(()));
         println!(
             "{}: {} of {} pass",
             engine.name(),

@@ -2,6 +2,7 @@
 
 use super::{Id, Suite, Target, Value};
 use std::fmt;
+use std::time::Duration;
 
 /// Why a case failed.
 #[derive(Clone, PartialEq, Debug)]
@@ -83,6 +84,8 @@ pub struct Outcome {
     pub engine: String,
     /// Why it failed, if it did.
     pub failure: Option<Failure>,
+    /// How long it took.
+    pub elapsed: Duration,
 }
 
 /// The results of all cases.

@@ -11,6 +11,8 @@ use crate::wire;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::time::Instant;
 
 /// Relative tolerance of floats.
 const FLOAT_TOLERANCE: f64 = 1e-5;
@@ -18,10 +20,15 @@ const FLOAT_TOLERANCE: f64 = 1e-5;
 /// Relative tolerance of frequencies.
 const FREQUENCY_TOLERANCE: f64 = 0.01;
 
-/// Runs all cases. `progress` is told each result as it is known.
-pub fn run(suite: &Suite, engine: &mut dyn Engine, progress: &mut dyn FnMut(&Outcome)) -> Report {
+/// Runs all cases. `progress` is told each result as it is known, and may break off.
+pub fn run(
+    suite: &Suite,
+    engine: &mut dyn Engine,
+    progress: &mut dyn FnMut(&Outcome) -> ControlFlow<()>,
+) -> Report {
     let mut report = Report::default();
     for (id, case) in suite.cases() {
+        let begin = Instant::now();
         let result = match (&case.check, suite.built(id)) {
             (Check::Rejects(rejects), built) => check_rejects(*rejects, built),
             (Check::Steps { .. }, Built::Refused(errors)) => Err(Failure::Refused(
@@ -40,9 +47,13 @@ pub fn run(suite: &Suite, engine: &mut dyn Engine, progress: &mut dyn FnMut(&Out
             id,
             engine: engine.name().to_string(),
             failure: result.err(),
+            elapsed: begin.elapsed(),
         };
-        progress(&outcome);
+        let wish = progress(&outcome);
         report.outcomes.push(outcome);
+        if wish.is_break() {
+            break;
+        }
     }
     report
 }

@@ -1,13 +1,12 @@
 //! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
 
-use super::interruption;
 use super::plotting::Plotting;
 use super::recording::Recording;
 use super::view::{Column, Kind, View};
 use super::wiring::Wiring;
 use super::{Setting, device};
 use crate::args::RunArgs;
-use crate::commands::{Failure, Outcome, Result, tell};
+use crate::commands::{Failure, Outcome, Result, interruption, tell};
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Machine;
@@ -87,9 +86,7 @@ impl Run<'_> {
             plant,
             now_ms: 0,
         };
-        if simulation.writes() {
-            interruption::note();
-        }
+        interruption::note();
         let outcome = simulation.run(args)?;
         let cut_short = simulation.machine.watchdog_tripped() || interruption::is_asked();
         let end_ms = match cut_short {
@@ -127,7 +124,7 @@ impl Simulation<'_> {
             }
             if interruption::is_asked() {
                 tell(&format!("rungc: interrupted at {} ms", self.now_ms));
-                return Ok(self.outcome());
+                return Ok(Outcome::Interrupted);
             }
             if self.now_ms + args.scan > args.duration {
                 break;
@@ -160,11 +157,6 @@ impl Simulation<'_> {
             Some(_) => Outcome::Failed,
             None => Outcome::Success,
         }
-    }
-
-    /// Whether it writes files.
-    fn writes(&self) -> bool {
-        self.recording.is_some() || self.plotting.is_some()
     }
 
     fn scan(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {

@@ -1,0 +1,197 @@
+//! Results of tests, for people and for tools.
+
+use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
+use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
+use serde::Serialize;
+use std::io;
+use std::time::Duration;
+
+/// What ran, and what came of it.
+pub struct Results<'a> {
+    /// The cases.
+    pub suite: &'a Suite,
+    /// Their results.
+    pub report: &'a Report,
+    /// How long it took, with compiling.
+    pub elapsed: Duration,
+}
+
+/// The cases that failed, a paragraph each, and how many did.
+pub fn human(results: &Results) -> String {
+    let failed = results.report.failures();
+    let mut text: String = failed
+        .map(|outcome| format!("{}\n", outcome.describe(results.suite)))
+        .collect();
+    text.push_str(&format!(
+        "{} passed, {} failed ({:.1} s)\n",
+        results.report.passed(),
+        results.report.failures().count(),
+        results.elapsed.as_secs_f64()
+    ));
+    text
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    passed: usize,
+    failed: usize,
+    seconds: f64,
+    cases: Vec<Case<'a>>,
+}
+
+#[derive(Serialize)]
+struct Case<'a> {
+    file: &'a str,
+    line: u32,
+    name: &'a str,
+    engine: &'a str,
+    passed: bool,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    failure: Option<Why<'a>>,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    source: &'a str,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    note: &'a str,
+}
+
+#[derive(Serialize)]
+struct Why<'a> {
+    kind: &'static str,
+    message: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<u32>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    values: Vec<Differs<'a>>,
+}
+
+#[derive(Serialize)]
+struct Differs<'a> {
+    name: &'a str,
+    expected: serde_json::Value,
+    actual: serde_json::Value,
+}
+
+/// One JSON object.
+pub fn json(results: &Results) -> io::Result<String> {
+    let outcomes = results.report.outcomes.iter();
+    let document = Document {
+        passed: results.report.passed(),
+        failed: results.report.failures().count(),
+        seconds: seconds(results.elapsed),
+        cases: outcomes
+            .map(|outcome| case(results.suite, outcome))
+            .collect(),
+    };
+    Ok(format!("{}\n", serde_json::to_string_pretty(&document)?))
+}
+
+/// A time to the microsecond.
+fn seconds(time: Duration) -> f64 {
+    time.as_micros() as f64 / 1e6
+}
+
+fn case<'a>(suite: &'a Suite, outcome: &'a Outcome) -> Case<'a> {
+    let file = &suite.files()[outcome.id.file];
+    let case = &file.cases[outcome.id.case];
+    Case {
+        file: &file.name,
+        line: case.line,
+        name: &case.name,
+        engine: &outcome.engine,
+        passed: outcome.failure.is_none(),
+        seconds: seconds(outcome.elapsed),
+        failure: outcome.failure.as_ref().map(why),
+        source: &case.source,
+        note: &case.note,
+    }
+}
+
+fn why(failure: &Failure) -> Why<'_> {
+    let (step, line) = match failure {
+        Failure::Differs { step, line, .. } => (Some(*step), Some(*line)),
+        Failure::NoDevice { step, .. }
+        | Failure::Machine { step, .. }
+        | Failure::Engine { step, .. } => (Some(*step), None),
+        Failure::Refused(_) | Failure::Accepted(_) | Failure::Lacks(_) => (None, None),
+    };
+    let values = match failure {
+        Failure::Differs { values, .. } => &values[..],
+        _ => &[],
+    };
+    Why {
+        kind: kind(failure),
+        message: message(failure),
+        step: step.filter(|step| *step > 0),
+        line,
+        values: values
+            .iter()
+            .map(|(name, expected, actual)| Differs {
+                name,
+                expected: value(expected),
+                actual: value(actual),
+            })
+            .collect(),
+    }
+}
+
+/// The name of a kind of failure in reports.
+fn kind(failure: &Failure) -> &'static str {
+    match failure {
+        Failure::Refused(_) => "does-not-compile",
+        Failure::Accepted(_) => "not-rejected",
+        Failure::Lacks(_) => "lacks-hardware",
+        Failure::NoDevice { .. } => "no-device",
+        Failure::Differs { .. } => "differs",
+        Failure::Machine { .. } => "machine",
+        Failure::Engine { .. } => "engine",
+    }
+}
+
+fn message(failure: &Failure) -> String {
+    failure.to_string().trim_end_matches(';').to_string()
+}
+
+fn value(value: &Value) -> serde_json::Value {
+    match value {
+        Value::Int(v) => (*v).into(),
+        Value::Float(v) => (*v).into(),
+        Value::Text(v) => v.as_str().into(),
+    }
+}
+
+/// JUnit XML: a suite for each file; a case's class is its file and engine.
+pub fn junit(results: &Results) -> io::Result<String> {
+    let mut report = quick_junit::Report::new("rungc test");
+    report.set_time(results.elapsed);
+    for (number, file) in results.suite.files().iter().enumerate() {
+        let mut suite = TestSuite::new(&file.name);
+        let outcomes = results.report.outcomes.iter();
+        for outcome in outcomes.filter(|outcome| outcome.id.file == number) {
+            let name = &file.cases[outcome.id.case].name;
+            let mut case = TestCase::new(name, status(results.suite, outcome));
+            case.set_classname(format!("{} [{}]", file.name, outcome.engine));
+            case.set_time(outcome.elapsed);
+            suite.add_test_case(case);
+        }
+        suite.set_time(suite.test_cases.iter().filter_map(|case| case.time).sum());
+        report.add_test_suite(suite);
+    }
+    report.to_string().map_err(io::Error::other)
+}
+
+fn status(suite: &Suite, outcome: &Outcome) -> TestCaseStatus {
+    let Some(failure) = &outcome.failure else {
+        return TestCaseStatus::success();
+    };
+    let mut status = TestCaseStatus::non_success(match failure {
+        Failure::Engine { .. } => NonSuccessKind::Error,
+        _ => NonSuccessKind::Failure,
+    });
+    status.set_type(kind(failure));
+    status.set_message(message(failure));
+    status.set_description(outcome.describe(suite));
+    status
+}
