@@ -34,6 +34,8 @@ pub struct Compiled {
     pub model: &'static Model,
     /// Length of the program in steps.
     pub steps: u32,
+    /// The step number of each instruction: as the source counts where it does, else as the model does.
+    pub step_numbers: Vec<u32>,
 }
 
 /// Finds out all that keeps a program from being compiled, and what else is wrong with it: `module` is always `None`.
@@ -104,5 +106,6 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
         diagnostics,
         model,
         steps: resolved.steps,
+        step_numbers: resolved.instrs.iter().map(|instr| instr.step).collect(),
     }
 }

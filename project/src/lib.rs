@@ -151,7 +151,7 @@ pub enum Error {
         /// The file.
         path: PathBuf,
         /// Its text.
-        text: Source,
+        text: Box<Source>,
         /// What is wrong with it: at least one error.
         diagnostics: Diagnostics,
     },
@@ -200,7 +200,7 @@ impl Project {
         if diagnostics.has_errors() {
             return Err(Error::Mistakes {
                 path: path.to_owned(),
-                text: source,
+                text: Box::new(source),
                 diagnostics,
             });
         }
@@ -217,7 +217,7 @@ impl Project {
         diagnostics.push(why);
         Error::Mistakes {
             path: self.path.clone(),
-            text: self.source.clone(),
+            text: Box::new(self.source.clone()),
             diagnostics,
         }
     }

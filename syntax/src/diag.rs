@@ -1,6 +1,6 @@
 //! Diagnostics: what is wrong with a program, where, and what to do about it. Rendering is the command line's business.
 
-use crate::{Span, codes};
+use crate::{Device, Span, codes};
 use std::borrow::Cow;
 
 /// How bad it is.
@@ -58,6 +58,8 @@ pub struct Diagnostic {
     pub label: Cow<'static, str>,
     /// Other places involved.
     pub others: Vec<Label>,
+    /// All devices that it is about, where the message names only some; empty otherwise.
+    pub devices: Vec<Device>,
     /// What to do about it.
     pub help: Option<Cow<'static, str>>,
     /// The PLC's own error code, where the manual gives one.
@@ -89,6 +91,7 @@ impl Diagnostic {
             span,
             label: Cow::Borrowed(""),
             others: Vec::new(),
+            devices: Vec::new(),
             help: None,
             plc_error: None,
         }
@@ -108,6 +111,13 @@ impl Diagnostic {
             span,
             text: text.into(),
         });
+        self
+    }
+
+    /// Sets the devices that it is about.
+    #[must_use]
+    pub fn devices(mut self, devices: impl IntoIterator<Item = Device>) -> Self {
+        self.devices = devices.into_iter().collect();
         self
     }
 

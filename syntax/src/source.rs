@@ -1,6 +1,7 @@
 //! Source text and places in it.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// A half-open byte range of a [`Source`]'s text.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, PartialOrd, Ord)]
@@ -48,6 +49,17 @@ pub struct Source {
     /// The text.
     pub text: String,
     line_starts: Vec<u32>,
+    /// For each block of the text, how many characters begin before it; counted when it is first needed.
+    before_block: OnceLock<Vec<u32>>,
+}
+
+/// Length of the blocks in bytes.
+const BLOCK: usize = 4_096;
+
+/// How many characters begin in these bytes of a text.
+fn characters(bytes: &[u8]) -> usize {
+    let begins = |&&byte: &&u8| byte & 0xC0 != 0x80;
+    bytes.iter().filter(begins).count()
 }
 
 /// Lines of programs are rarely shorter, in bytes.
@@ -64,22 +76,43 @@ impl Source {
             name: name.into(),
             text,
             line_starts,
+            before_block: OnceLock::new(),
         }
+    }
+
+    /// The 1-based line of a byte offset; offsets past the end give the last one.
+    pub fn line(&self, offset: u32) -> u32 {
+        let line = self.line_starts.partition_point(|&start| start <= offset);
+        line.max(1) as u32
     }
 
     /// The 1-based line and column (in characters) of a byte offset; offsets past the end give the end.
     pub fn line_col(&self, offset: u32) -> (u32, u32) {
         let offset = (offset as usize).min(self.text.len());
-        let line = self
-            .line_starts
-            .partition_point(|&start| start as usize <= offset)
-            .max(1);
-        let start = self.line_starts.get(line - 1).map_or(0, |&s| s as usize);
-        let column = self
-            .text
-            .get(start..offset)
-            .map_or(0, |t| t.chars().count());
-        (line as u32, column as u32 + 1)
+        let line = self.line(offset as u32);
+        let start = self.line_starts.get(line as usize - 1);
+        let start = start.map_or(0, |&start| start as usize).min(offset);
+        (line, self.characters(start, offset) as u32 + 1)
+    }
+
+    /// How many characters begin between two byte offsets. In long lines only the ends are looked at.
+    fn characters(&self, start: usize, end: usize) -> usize {
+        let count = |from: usize, to: usize| characters(&self.text.as_bytes()[from..to]);
+        let (first, last) = (start.div_ceil(BLOCK), end / BLOCK);
+        if first >= last {
+            return count(start, end);
+        }
+        let before = self.before_block.get_or_init(|| {
+            let blocks = self.text.as_bytes().chunks(BLOCK).map(characters);
+            let mut sum = 0;
+            let sums = blocks.map(|count| {
+                sum += count as u32;
+                sum
+            });
+            std::iter::once(0).chain(sums).collect()
+        });
+        let between = (before[last] - before[first]) as usize;
+        count(start, first * BLOCK) + between + count(last * BLOCK, end)
     }
 
     /// The text of a span; empty if the span does not lie on character boundaries of the text.
@@ -115,5 +148,14 @@ mod tests {
         assert_eq!(source.line_col(6), (2, 1));
         assert_eq!(source.line_col(12), (2, 3));
         assert_eq!(source.line_col(999), (3, 1));
+    }
+
+    #[test]
+    fn columns_of_long_lines_are_counted_in_characters() {
+        let source = Source::new("a", format!("END\n{}", "电a".repeat(5_000)));
+        for character in [0, 1, 2, 2_047, 4_096, 9_999] {
+            let offset = 4 + 4 * (character / 2) + 3 * (character % 2);
+            assert_eq!(source.line_col(offset), (2, character + 1));
+        }
     }
 }

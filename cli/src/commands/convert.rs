@@ -1,11 +1,13 @@
 //! `rungc convert`.
 
 use super::subject::{self, Places, Subject};
-use super::{Context, Failure, Outcome, Result, conclude, counted, read, stem, tell, write_file};
+use super::{
+    Context, Failure, Outcome, Result, conclude, counted, read, say, stem, tell, write_file,
+};
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::print;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
@@ -58,6 +60,9 @@ fn convert(
             return Err(Failure::Because(why.to_string()));
         }
         Some(path) => write_file(path, &bytes, args.force)?,
+        None if args.to == ConvertTo::Il && io::stdout().is_terminal() => {
+            say(&String::from_utf8_lossy(&bytes))?;
+        }
         None => io::stdout().write_all(&bytes)?,
     }
     Ok(Outcome::Success)

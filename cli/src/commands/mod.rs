@@ -13,7 +13,7 @@ pub mod subject;
 pub mod test;
 
 use crate::args::Format;
-use crate::report::{Findings, Reporter, Totals};
+use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
 use rungc_ir::compile::Compiled;
 use rungc_syntax::{SourceKind, Span, codes};
@@ -127,16 +127,16 @@ pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<R
     })
 }
 
-/// Writes a text to standard output.
+/// Writes a text to standard output, with all written out that a terminal would act on.
 pub fn say(text: &str) -> io::Result<()> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
+    out.write_all(visible(text).as_bytes())?;
     out.flush()
 }
 
 /// Tells people something on standard error; that nobody listens there is no reason to stop.
 pub fn tell(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{}", visible(line));
 }
 
 /// A number with its noun: `1 case`, `2 431 steps`.
@@ -163,6 +163,7 @@ pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -
     diagnostics.refine(&compiled.diagnostics);
     Findings {
         size: Some(compiled.into()),
+        step_numbers: compiled.step_numbers.clone(),
         ..Findings::new(
             &subject.file,
             &read.program,

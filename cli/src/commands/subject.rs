@@ -136,7 +136,7 @@ pub fn refuse(error: Error, reporting: &Reporting, cx: Context) -> Failure {
         return Failure::Because(error.to_string());
     };
     let program = Program {
-        source: text,
+        source: *text,
         ..Program::default()
     };
     let path = near(path);

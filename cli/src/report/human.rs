@@ -1,9 +1,19 @@
-//! Diagnostics for people, drawn by ariadne.
+//! Diagnostics for people: the message, the lines that it is about with what is to be said of them, and what to do.
+//!
+//! Of each line a window is drawn that holds what is marked, so that a diagnostic takes a few lines of a terminal however long the lines
+//! of the source are, and however many places it names.
 
 use super::Findings;
-use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind, Source};
-use rungc_syntax::{Diagnostic, Severity, Span};
+use super::place::{Place, instr_at};
+use super::visible::visible_line;
+use super::window::Window;
+use anstyle::{AnsiColor, Color, Style};
+use rungc_syntax::{Diagnostic, Severity, SourceKind, Span};
+use std::fmt::Write as _;
 use std::io::{self, Write};
+
+/// How many places besides the main one are drawn.
+const MAX_PLACES: usize = 6;
 
 /// Prints at most `limit` diagnostics (0: all) about a program of this name.
 pub fn print(
@@ -13,136 +23,257 @@ pub fn print(
     color: bool,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let Some(program) = findings
-        .program
-        .filter(|_| !findings.diagnostics.is_empty())
-    else {
+    if findings.program.is_none() {
         return Ok(());
-    };
-    let source = Source::from(one_break(&program.source.text));
-    let shown = if limit == 0 {
-        findings.diagnostics.len()
-    } else {
-        limit
-    };
-    for diagnostic in findings.diagnostics.iter().take(shown) {
-        let mut drawn = Vec::new();
-        let heading = format!("{}[{}]", diagnostic.severity.name(), diagnostic.code);
-        let length = program.source.text.len();
-        report(diagnostic, &heading, name, length, color).write((name, &source), &mut drawn)?;
-        let drawn = String::from_utf8_lossy(&drawn);
-        // The library colours the heading even where colours are off.
-        let drawn = if color { drawn } else { plain(&drawn).into() };
-        writeln!(out, "{}", tidy(&drawn))?;
     }
-    let hidden = findings.diagnostics.len().saturating_sub(shown);
+    let all = findings.diagnostics.len();
+    let shown = if limit == 0 { all } else { limit };
+    for diagnostic in findings.diagnostics.iter().take(shown) {
+        writeln!(out, "{}", draw(findings, name, diagnostic, color))?;
+    }
+    let hidden = all.saturating_sub(shown);
     if hidden > 0 {
         writeln!(out, "… and {hidden} more (--limit 0 prints all)\n")?;
     }
     Ok(())
 }
 
-/// The text with line feeds as its only ends of lines, every byte in its place: the library would end lines at other characters
-/// as well, and count on from there.
-fn one_break(text: &str) -> String {
-    let mut chars = text.chars().peekable();
-    let mut same = String::with_capacity(text.len());
-    while let Some(c) = chars.next() {
-        let breaks = match c {
-            '\r' => chars.peek() != Some(&'\n'),
-            '\u{B}' | '\u{C}' | '\u{85}' | '\u{2028}' | '\u{2029}' => true,
-            _ => false,
-        };
-        match breaks {
-            true => same.extend(std::iter::repeat_n(' ', c.len_utf8())),
-            false => same.push(c),
-        }
-    }
-    same
+/// What is said of a place.
+struct Mark<'a> {
+    span: Span,
+    text: &'a str,
+    style: Style,
 }
 
-fn report<'a>(
-    d: &Diagnostic,
-    heading: &'a str,
-    name: &'a str,
-    length: usize,
-    color: bool,
-) -> Report<'a, (&'a str, std::ops::Range<usize>)> {
-    let place = |span: Span| {
-        let range = span.range();
-        (
-            name,
-            range.start.min(length)..range.end.min(length).max(range.start.min(length)),
-        )
+/// A part of a line, with what is said of places in it.
+struct Row<'a> {
+    /// What stands in the margin: the number of the line, or the step.
+    number: String,
+    window: Window<'a>,
+    marks: Vec<Placed<'a>>,
+}
+
+/// A mark from column to column of a row.
+struct Placed<'a> {
+    from: usize,
+    to: usize,
+    mark: &'a Mark<'a>,
+}
+
+impl Placed<'_> {
+    /// The column from which a line leads to the text.
+    fn middle(&self) -> usize {
+        self.from.midpoint(self.to)
+    }
+}
+
+fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> String {
+    let style = |color: AnsiColor| Style::new().fg_color(Some(Color::Ansi(color)));
+    let main = style(match d.severity {
+        Severity::Error => AnsiColor::Red,
+        Severity::Warning => AnsiColor::Yellow,
+        Severity::Note => AnsiColor::Cyan,
+    });
+    let label = if d.label.is_empty() { "here" } else { &d.label };
+    let mut marks = vec![Mark {
+        span: d.span,
+        text: label,
+        style: main,
+    }];
+    marks.extend(d.others.iter().take(MAX_PLACES).map(|other| Mark {
+        span: other.span,
+        text: &other.text,
+        style: style(AnsiColor::Blue),
+    }));
+    marks.sort_by_key(|mark| mark.span.start);
+    let rows = rows(findings, &marks);
+    let width = rows.iter().map(|row| row.number.len()).max().unwrap_or(1);
+    let mut drawing = Drawing {
+        text: String::new(),
+        width,
+        color,
+        remarked: false,
     };
-    let main_color = match d.severity {
-        Severity::Error => Color::Red,
-        Severity::Warning => Color::Yellow,
-        Severity::Note => Color::Cyan,
-    };
-    let kind = ReportKind::Custom(heading, main_color);
-    let text = if d.label.is_empty() { "here" } else { &d.label };
-    let label = |span, text: &str, color| {
-        let label = Label::new(place(span)).with_message(text);
-        (span.start, label.with_color(color))
-    };
-    let others = d.others.iter().map(|o| label(o.span, &o.text, Color::Blue));
-    // In order of place, or the library draws the source once for each.
-    let mut labels: Vec<_> = others.collect();
-    labels.push(label(d.span, text, main_color));
-    labels.sort_by_key(|(start, _)| *start);
-    let config = Config::default()
-        .with_color(color)
-        .with_index_type(IndexType::Byte)
-        .with_char_set(CharSet::Unicode);
-    let mut report = Report::build(kind, place(d.span))
-        .with_config(config)
-        .with_message(&d.message)
-        .with_labels(labels.into_iter().map(|(_, label)| label));
+    let heading = format!("{}[{}]:", d.severity.name(), d.code);
+    drawing.heading(&heading, main, &d.message);
+    let head = Place::of(findings, d.span).unwrap_or_default().headed(name);
+    drawing.open(&visible_line(&head));
+    for row in &rows {
+        drawing.row(row);
+    }
+    let more = d.others.len().saturating_sub(MAX_PLACES);
+    if more > 0 {
+        drawing.remark(
+            "",
+            &format!("… and {more} more places (`--format json` names all)"),
+        );
+    }
     if let Some(help) = &d.help {
-        report = report.with_help(help);
+        drawing.remark("Help: ", help);
     }
     let plc = d
         .plc_error
         .map(|code| format!("the PLC reports this as error {code}; "))
         .unwrap_or_default();
-    report
-        .with_note(format!("{plc}`rungc explain {}` tells more", d.code))
-        .finish()
+    let note = format!("{plc}`rungc explain {}` tells more", d.code);
+    drawing.remark("Note: ", &note);
+    drawing.close();
+    drawing.text
 }
 
-/// A text without the escape sequences that set colours.
-fn plain(text: &str) -> String {
-    let mut parts = text.split("\u{1b}[");
-    let mut plain = parts.next().unwrap_or_default().to_string();
-    for part in parts {
-        plain.push_str(part.split_once('m').map_or(part, |(_, rest)| rest));
+/// The parts of lines that hold the marks, which are in the order of their places.
+fn rows<'a>(findings: &'a Findings, marks: &'a [Mark<'a>]) -> Vec<Row<'a>> {
+    let Some(program) = findings.program else {
+        return Vec::new();
+    };
+    let list = program.kind == SourceKind::Il;
+    let mut rows: Vec<Row> = Vec::new();
+    for mark in marks {
+        let start = mark.span.start as usize;
+        if !rows.last().is_some_and(|row| row.window.holds(start)) {
+            let number = match list {
+                true => Some(program.source.line(mark.span.start)),
+                false => Place::of(findings, mark.span).and_then(|place| place.step.or(place.line)),
+            };
+            let text = &program.source.text;
+            let instr = instr_at(program, mark.span.start).map(|at| program.instrs[at].span);
+            let window = instr.and_then(|span| Window::of_rows(text, span));
+            rows.push(Row {
+                number: number.map_or_else(String::new, |number| number.to_string()),
+                window: window.unwrap_or_else(|| Window::around(text, start, !list)),
+                marks: Vec::new(),
+            });
+        }
+        if let Some(row) = rows.last_mut() {
+            let from = row.window.column(start);
+            let to = row.window.column(mark.span.end as usize).max(from);
+            row.marks.push(Placed { from, to, mark });
+        }
     }
-    plain
+    rows
 }
 
-/// Lines without spaces at their ends.
-fn tidy(text: &str) -> String {
-    text.lines()
-        .map(|line| format!("{}\n", line.trim_end()))
-        .collect()
+/// A drawing in the making.
+struct Drawing {
+    text: String,
+    /// Columns of the numbers in the margin.
+    width: usize,
+    color: bool,
+    /// Whether a remark stands below the rows.
+    remarked: bool,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::{one_break, plain};
-
-    #[test]
-    fn lines_end_at_line_feeds_only() {
-        let text = "LD X0 ; a\u{C}b\u{2028}c\r\nEND\r";
-        let same = one_break(text);
-        assert_eq!(same, "LD X0 ; a b   c\r\nEND ");
-        assert_eq!(same.len(), text.len());
+impl Drawing {
+    fn paint(&self, text: &str, style: Style) -> String {
+        match self.color && !text.is_empty() {
+            true => format!("{style}{text}{style:#}"),
+            false => text.to_owned(),
+        }
     }
 
-    #[test]
-    fn colours_are_removed() {
-        assert_eq!(plain("\u{1b}[31merror:\u{1b}[0m no"), "error: no");
-        assert_eq!(plain("nothing to do"), "nothing to do");
+    /// A line of the margin's colour.
+    fn frame(&self, text: &str) -> String {
+        self.paint(
+            text,
+            Style::new().fg_color(Some(Color::Ansi(AnsiColor::BrightBlack))),
+        )
+    }
+
+    fn heading(&mut self, heading: &str, style: Style, message: &str) {
+        let heading = self.paint(heading, style);
+        let _ = writeln!(self.text, "{heading} {}", visible_line(message));
+    }
+
+    fn open(&mut self, head: &str) {
+        let (space, frame) = (" ".repeat(self.width + 2), self.frame("╭─["));
+        let end = self.frame("]");
+        let _ = writeln!(self.text, "{space}{frame} {head} {end}");
+        self.line("");
+    }
+
+    /// A line without a number.
+    fn line(&mut self, content: &str) {
+        let (space, frame) = (" ".repeat(self.width + 2), self.frame("│"));
+        let line = format!("{space}{frame} {content}");
+        let _ = writeln!(self.text, "{}", line.trim_end());
+    }
+
+    fn row(&mut self, row: &Row) {
+        let margin = self.frame(&format!(" {:>width$} │", row.number, width = self.width));
+        let line = format!("{margin} {}", row.window.shown());
+        let _ = writeln!(self.text, "{}", line.trim_end());
+        let end = row.marks.iter().map(|placed| placed.to).max().unwrap_or(0);
+        let mut under = Cells::default();
+        for placed in &row.marks {
+            for column in placed.from..placed.to {
+                under.put(column, '─', placed);
+            }
+            let sign = if placed.from < placed.to {
+                '┬'
+            } else {
+                '│'
+            };
+            under.put(placed.middle(), sign, placed);
+        }
+        self.line(&under.text(self));
+        for (n, placed) in row.marks.iter().enumerate() {
+            let waiting = &row.marks[n + 1..];
+            let mut arrow = Cells::default();
+            waiting
+                .iter()
+                .for_each(|other| arrow.put(other.middle(), '│', other));
+            arrow.put(placed.middle(), '╰', placed);
+            for column in placed.middle() + 1..=end + 1 {
+                arrow.put(column, '─', placed);
+            }
+            let text = visible_line(placed.mark.text);
+            self.line(&format!("{} {text}", arrow.text(self)));
+            if !waiting.is_empty() {
+                let mut bars = Cells::default();
+                waiting
+                    .iter()
+                    .for_each(|other| bars.put(other.middle(), '│', other));
+                self.line(&bars.text(self));
+            }
+        }
+        self.line("");
+    }
+
+    /// A remark below the rows, each with a line of its own between.
+    fn remark(&mut self, what: &str, text: &str) {
+        if std::mem::replace(&mut self.remarked, true) {
+            self.line("");
+        }
+        self.line(&format!("{what}{}", visible_line(text)));
+    }
+
+    fn close(&mut self) {
+        let end = self.frame(&format!("{}╯", "─".repeat(self.width + 2)));
+        let _ = writeln!(self.text, "{end}");
+    }
+}
+
+/// A line of signs, each in its colour.
+#[derive(Default)]
+struct Cells(Vec<(char, Style)>);
+
+impl Cells {
+    fn put(&mut self, column: usize, sign: char, placed: &Placed) {
+        if self.0.len() <= column {
+            self.0.resize(column + 1, (' ', Style::new()));
+        }
+        self.0[column] = (sign, placed.mark.style);
+    }
+
+    fn text(&self, drawing: &Drawing) -> String {
+        let mut text = String::new();
+        for run in self.0.chunk_by(|a, b| a.1 == b.1) {
+            let signs: String = run.iter().map(|&(sign, _)| sign).collect();
+            match run[0].1 == Style::new() {
+                true => text.push_str(&signs),
+                false => text.push_str(&drawing.paint(&signs, run[0].1)),
+            }
+        }
+        text
     }
 }

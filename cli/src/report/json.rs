@@ -1,8 +1,9 @@
 //! Diagnostics as one JSON object: of one program, or of several in its key `files`.
 
 use super::Findings;
+use super::place::Place;
 use rungc_firmware::report::Report as Takes;
-use rungc_syntax::{Severity, Span, codes};
+use rungc_syntax::{Severity, codes};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
@@ -44,6 +45,9 @@ struct Item {
     label: Cow<'static, str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     related: Vec<Related>,
+    /// All devices that it is about, where the message names only some.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    devices: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<Cow<'static, str>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -55,31 +59,6 @@ struct Related {
     message: String,
     #[serde(flatten)]
     place: Option<Place>,
-}
-
-/// 1-based lines and columns (in characters), the end column past the last character; the step where the source states it.
-#[derive(Serialize)]
-struct Place {
-    line: u32,
-    column: u32,
-    end_line: u32,
-    end_column: u32,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    step: Option<u32>,
-}
-
-/// `None` if the file could not be read.
-fn place(findings: &Findings, span: Span) -> Option<Place> {
-    let source = &findings.program?.source;
-    let (line, column) = source.line_col(span.start);
-    let (end_line, end_column) = source.line_col(span.end);
-    Some(Place {
-        line,
-        column,
-        end_line,
-        end_column,
-        step: findings.step_at(span.start),
-    })
 }
 
 /// What was found about one file.
@@ -99,16 +78,17 @@ pub fn file(findings: &Findings) -> File {
                 name: codes::find(d.code).map_or("", |code| code.name),
                 severity: d.severity.name(),
                 message: d.message.clone(),
-                place: place(findings, d.span),
+                place: Place::of(findings, d.span),
                 label: d.label.clone(),
                 related: d
                     .others
                     .iter()
                     .map(|o| Related {
                         message: o.text.to_string(),
-                        place: place(findings, o.span),
+                        place: Place::of(findings, o.span),
                     })
                     .collect(),
+                devices: d.devices.iter().map(ToString::to_string).collect(),
                 help: d.help.clone(),
                 plc_error: d.plc_error,
             })

@@ -2,7 +2,13 @@
 
 mod human;
 mod json;
+mod place;
 mod sarif;
+mod visible;
+mod window;
+
+pub use visible::visible;
+use visible::visible_json;
 
 use crate::args::{Format, Reporting};
 use crate::commands::Context;
@@ -22,6 +28,8 @@ pub struct Findings<'a> {
     pub size: Option<Size>,
     /// The findings that count, ordered by place.
     pub diagnostics: Vec<Diagnostic>,
+    /// The step number of each instruction, if it came to counting them.
+    pub step_numbers: Vec<u32>,
     /// What it takes on a machine, if that was asked for.
     pub takes: Option<Takes>,
 }
@@ -65,6 +73,7 @@ impl<'a> Findings<'a> {
             program: Some(program),
             size: None,
             diagnostics,
+            step_numbers: Vec::new(),
             takes: None,
         }
     }
@@ -76,6 +85,7 @@ impl<'a> Findings<'a> {
             program: None,
             size: None,
             diagnostics: vec![why],
+            step_numbers: Vec::new(),
             takes: None,
         }
     }
@@ -108,13 +118,6 @@ impl<'a> Findings<'a> {
     /// Whether the program cannot be compiled.
     pub fn failed(&self) -> bool {
         self.count(Severity::Error) > 0
-    }
-
-    /// Step number of the instruction that holds a place in the source, where the source states steps.
-    fn step_at(&self, offset: u32) -> Option<u32> {
-        let instrs = &self.program?.instrs;
-        let next = instrs.partition_point(|instr| instr.span.start <= offset);
-        instrs.get(next.checked_sub(1)?)?.step
     }
 }
 
@@ -227,6 +230,7 @@ impl<'a> Reporter<'a> {
             Format::Sarif if self.sarif.is_empty() => return Ok(()),
             Format::Sarif => self.sarif.render()?,
         };
+        let document = visible_json(&document);
         if self.taken {
             writeln!(io::stderr(), "{document}")
         } else {

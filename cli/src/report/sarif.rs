@@ -1,14 +1,15 @@
 //! Diagnostics as SARIF 2.1.0, for code scanning services.
 
 use super::Findings;
+use super::place::Place;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Diagnostic, Severity, Source, Span};
+use rungc_syntax::{Diagnostic, Severity, Span};
 use serde_sarif::sarif::{
-    Artifact, ArtifactLocation, Location, Message, MultiformatMessageString, PhysicalLocation,
-    Region, ReportingDescriptor, Result as Item, ResultColumnKind, ResultLevel, Run, Sarif, Tool,
-    ToolComponent, Version,
+    Artifact, ArtifactLocation, Location, LogicalLocation, Message, MultiformatMessageString,
+    PhysicalLocation, PropertyBag, Region, ReportingDescriptor, Result as Item, ResultColumnKind,
+    ResultLevel, Run, Sarif, Tool, ToolComponent, Version,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;
 
@@ -102,13 +103,20 @@ fn item(findings: &Findings, d: &Diagnostic) -> Item {
         .iter()
         .map(|o| location(findings, o.span, Some(&o.text)))
         .collect();
-    Item::builder()
+    let mut item = Item::builder()
         .rule_id(d.code)
         .level(level)
         .message(message(&text))
         .locations(vec![location(findings, d.span, None)])
         .related_locations(related)
-        .build()
+        .build();
+    if !d.devices.is_empty() {
+        let devices: Vec<_> = d.devices.iter().map(ToString::to_string).collect();
+        let bag = std::iter::once(("devices".to_owned(), devices.into()));
+        let bag = PropertyBag::builder().additional_properties(bag.collect::<BTreeMap<_, _>>());
+        item.properties = Some(bag.build());
+    }
+    item
 }
 
 fn message(text: &str) -> Message {
@@ -120,29 +128,51 @@ fn artifact(path: &Path) -> ArtifactLocation {
 }
 
 fn location(findings: &Findings, span: Span, text: Option<&str>) -> Location {
+    let place = Place::of(findings, span);
     let file = PhysicalLocation::builder().artifact_location(artifact(findings.path));
-    let physical = match findings.program {
-        Some(program) => file.region(region(&program.source, span)).build(),
+    let region = place.as_ref().and_then(region);
+    let physical = match region {
+        Some(region) => file.region(region).build(),
         None => file.build(),
     };
-    match text {
-        Some(text) => Location::builder()
-            .physical_location(physical)
-            .message(message(text))
-            .build(),
-        None => Location::builder().physical_location(physical).build(),
-    }
+    let mut location = Location::builder().physical_location(physical).build();
+    location.logical_locations = place
+        .as_ref()
+        .and_then(logical)
+        .map(|logical| vec![logical]);
+    location.message = text.map(message);
+    location
 }
 
-fn region(source: &Source, span: Span) -> Region {
-    let (line, column) = source.line_col(span.start);
-    let (end_line, end_column) = source.line_col(span.end);
-    Region::builder()
-        .start_line(i64::from(line))
-        .start_column(i64::from(column))
-        .end_line(i64::from(end_line))
-        .end_column(i64::from(end_column))
-        .build()
+/// The lines and columns of a place in a text.
+fn region(place: &Place) -> Option<Region> {
+    let mut region = Region::builder().build();
+    region.start_line = Some(i64::from(place.line?));
+    region.start_column = place.column.map(i64::from);
+    region.end_line = place.end_line.map(i64::from);
+    region.end_column = place.end_column.map(i64::from);
+    Some(region)
+}
+
+/// The step of a place in a project or an export, as its editor shows it.
+fn logical(place: &Place) -> Option<LogicalLocation> {
+    let program = place.program.as_ref()?;
+    let mut logical = LogicalLocation::builder().build();
+    let (name, whole) = match place.step {
+        Some(step) => (format!("step {step}"), format!("{program}/step {step}")),
+        None => (program.clone(), program.clone()),
+    };
+    logical.name = Some(name);
+    logical.fully_qualified_name = Some(whole);
+    logical.kind = Some(
+        if place.step.is_some() {
+            "member"
+        } else {
+            "module"
+        }
+        .to_owned(),
+    );
+    Some(logical)
 }
 
 /// A path as a URI reference: its separators as they are on the web, and everything escaped that has a meaning there or none.

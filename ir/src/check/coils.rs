@@ -7,9 +7,6 @@ use crate::catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
-/// How many other places one diagnostic shows.
-pub(super) const MAX_PLACES: usize = 6;
-
 /// Warns of coils that the last of several places decides.
 pub(super) fn check(code: &Code, skips: &Skips, places: &Places, out: &mut Diagnostics) {
     let mut driven: FxHashMap<Device, Vec<usize>> = FxHashMap::default();
@@ -70,7 +67,7 @@ fn driven_twice(code: &Code, device: Device, earlier: &[usize], last: usize) -> 
             .label("… and again here: this one decides what the coil does")
             .help("join the conditions with OR into one coil, or use SET and RST"),
     };
-    for (n, &coil) in earlier.iter().take(MAX_PLACES).enumerate() {
+    for (n, &coil) in earlier.iter().enumerate() {
         let text = if n == 0 {
             "first driven here …"
         } else {

@@ -2,7 +2,6 @@
 
 use super::Code;
 use super::accesses::Access;
-use super::coils::MAX_PLACES;
 use crate::catalogue::Basic;
 use crate::interrupts;
 use crate::runs::is_special;
@@ -235,7 +234,10 @@ fn summary<'d>(
         .at(span, message)
         .label(here)
         .help("nothing is wrong if an operator panel or another program uses them");
-    for (device, span) in others.iter().take(MAX_PLACES) {
+    if !others.is_empty() {
+        diagnostic = diagnostic.devices(found.iter().map(|(device, _)| *device));
+    }
+    for (device, span) in others {
         diagnostic = diagnostic.other(*span, format!("`{device}` {here}"));
     }
     out.push(diagnostic);

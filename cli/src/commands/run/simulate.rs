@@ -7,6 +7,7 @@ use super::wiring::Wiring;
 use super::{Setting, device};
 use crate::args::RunArgs;
 use crate::commands::{Failure, Outcome, Result, interruption, tell};
+use crate::report::visible;
 use rungc_ir::Module;
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Machine;
@@ -247,7 +248,7 @@ impl Table {
         if self.muted {
             return Ok(());
         }
-        match writeln!(io::stdout().lock(), "{line}").map_err(Failure::from) {
+        match writeln!(io::stdout().lock(), "{}", visible(line)).map_err(Failure::from) {
             Err(Failure::Unheard) if self.optional => {
                 self.muted = true;
                 Ok(())

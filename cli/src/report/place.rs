@@ -1,0 +1,120 @@
+//! Places of findings as their reader knows them: lines and columns of a text, steps of a project or an export.
+
+use super::Findings;
+use rungc_syntax::{Program, SourceKind, Span};
+use serde::Serialize;
+use std::path::Path;
+
+/// Where a finding is.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Place {
+    /// First line, 1-based, where the source is a text: an instruction list, or a list export.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<u32>,
+    /// Column in characters, 1-based, in an instruction list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub column: Option<u32>,
+    /// Last line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_line: Option<u32>,
+    /// Column past the last character.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_column: Option<u32>,
+    /// Name of the program within a project or export, e.g. `MAIN`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<String>,
+    /// Step number of the instruction: as the source states it, or in a project as it is counted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<u32>,
+    /// Step number of the last instruction before, where the place is not an instruction that could be read.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after_step: Option<u32>,
+    /// The instruction, where the source is not an instruction list in which it can be looked up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub instruction: Option<String>,
+}
+
+impl Place {
+    /// Where a span of a program is; `None` if nothing could be read.
+    pub fn of(findings: &Findings, span: Span) -> Option<Place> {
+        let program = findings.program?;
+        let at = instr_at(program, span.start);
+        if program.kind == SourceKind::Il {
+            let (line, column) = program.source.line_col(span.start);
+            let (end_line, end_column) = program.source.line_col(span.end);
+            return Some(Place {
+                line: Some(line),
+                column: Some(column),
+                end_line: Some(end_line),
+                end_column: Some(end_column),
+                step: at.and_then(|at| program.instrs[at].step),
+                ..Place::default()
+            });
+        }
+        let step = |at: usize| {
+            let counted = || findings.step_numbers.get(at).copied();
+            program.instrs.get(at)?.step.or_else(counted)
+        };
+        let before = program
+            .instrs
+            .partition_point(|instr| instr.span.end < span.start);
+        let before = before.checked_sub(1).filter(|_| at.is_none());
+        let row = |offset| (program.kind == SourceKind::Csv).then(|| program.source.line(offset));
+        Some(Place {
+            line: row(span.start),
+            end_line: row(span.end),
+            program: Some(name_within(program)),
+            step: at.and_then(step),
+            after_step: before.and_then(step),
+            instruction: at.map(|at| program.instrs[at].to_string()),
+            ..Place::default()
+        })
+    }
+
+    /// The place as the head of a drawing: `motor.il:3:4`, `Packer.gxw · MAIN · step 37`.
+    pub fn headed(&self, name: &str) -> String {
+        if let (Some(line), Some(column)) = (self.line, self.column) {
+            return format!("{name}:{line}:{column}");
+        }
+        let stem = Path::new(name).file_stem().unwrap_or_default();
+        let mut head = name.to_owned();
+        if let Some(program) = self
+            .program
+            .as_ref()
+            .filter(|program| stem != program.as_str())
+        {
+            head = format!("{head} · {program}");
+        }
+        match (self.step, self.after_step, self.line) {
+            (Some(step), ..) => format!("{head} · step {step}"),
+            (None, Some(step), _) => format!("{head} · after step {step}"),
+            (None, None, Some(line)) => format!("{head} · row {line}"),
+            (None, None, None) => head,
+        }
+    }
+}
+
+/// The instruction that holds an offset, or on whose line it lies.
+pub fn instr_at(program: &Program, offset: u32) -> Option<usize> {
+    let next = program
+        .instrs
+        .partition_point(|instr| instr.span.start <= offset);
+    let at = next.checked_sub(1)?;
+    let end = program.instrs[at].span.end;
+    let source = &program.source;
+    (offset <= end || source.line(offset) == source.line(end)).then_some(at)
+}
+
+/// What the editor calls the program of a project or an export.
+fn name_within(program: &Program) -> String {
+    match program.kind {
+        SourceKind::Csv => {
+            let stem = Path::new(&program.source.name).file_stem();
+            stem.map_or_else(
+                || "MAIN".to_owned(),
+                |stem| stem.to_string_lossy().into_owned(),
+            )
+        }
+        SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 => "MAIN".to_owned(),
+    }
+}
