@@ -1,6 +1,7 @@
 //! The whole way from a program to its module.
 
 use crate::check;
+use crate::latches;
 use crate::lower::{LowerOptions, lower};
 use crate::model::{Fit, Model, ModelId};
 use crate::node::Module;
@@ -72,6 +73,8 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
             out.push(note.help(different));
             id
         }
+        // Of a project that was refused nothing is compiled.
+        None if program.instrs.is_empty() => ModelId::Fx3u,
         None => {
             let id = ModelId::Fx3u;
             let message = format!("CPU type {cpu} is not known; {}", taken(id));
@@ -86,6 +89,7 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
 /// A program as lowering makes it. Lowering has the last word on what can be compiled, so checking ends with it too.
 fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let (model, mut diagnostics) = model_of(program, options);
+    diagnostics.extend(latches::check(program, model).sorted());
     let (resolved, found) = resolve(program, model);
     diagnostics.extend(found.sorted());
     diagnostics.extend(check::check(&resolved).sorted());

@@ -129,7 +129,7 @@ pub(crate) fn build(
         builder.mark_run(class, 0, false);
     }
     if options.observe_all {
-        for range in module.model.ranges {
+        for range in &*module.ranges {
             builder.mark(range.class, range.first, range.last - range.first + 1, true);
         }
     }
@@ -321,7 +321,7 @@ impl<'m> Builder<'m> {
 
     fn finish(&self) -> Layout {
         let mut areas: Vec<Area> = Vec::new();
-        for range in self.module.model.ranges {
+        for range in &*self.module.ranges {
             let marks = &self.marks[range.class as usize];
             if marks.is_empty() {
                 continue;

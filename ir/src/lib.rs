@@ -11,6 +11,7 @@ pub mod compile;
 pub mod dump;
 pub mod high_speed;
 pub mod interrupts;
+mod latches;
 pub mod layout;
 pub mod lower;
 pub mod model;

@@ -151,6 +151,9 @@ pub struct Model {
     pub ranges: &'static [Range],
     /// Its timers, sorted, disjoint; they cover the ranges of class T.
     pub timers: &'static [Timers],
+    /// Devices of which the project's parameters choose the latched ones: class, first and last number. What `ranges` says of them
+    /// is the factory setting.
+    pub latch_choices: &'static [(DeviceClass, u32, u32)],
     /// Latched devices are kept over power-off only while this special register holds this value (HM); `None`: always.
     pub latch_key: Option<(u32, i16)>,
     /// Whether latched timers and counters keep their contacts over power-off, not only their values.
@@ -235,6 +238,12 @@ impl Model {
             .find(|r| r.class == class && (r.first..=r.last).contains(&number))
     }
 
+    /// Whether the project's parameters choose if a device is latched.
+    pub fn can_choose_latch(&self, class: DeviceClass, number: u32) -> bool {
+        let mut choices = self.latch_choices.iter();
+        choices.any(|&(of, first, last)| of == class && (first..=last).contains(&number))
+    }
+
     /// Whether the model has a device.
     pub fn has(&self, class: DeviceClass, number: u32) -> bool {
         self.range(class, number).is_some()
@@ -268,6 +277,13 @@ impl Model {
             .map(|t| t.kind)
     }
 }
+
+/// Devices of which the parameters of FX2N, FX3U and H2U choose the latched ones: those marked with ※1 and ※2
+/// (h1u-h2u-programming §3.3 to §3.7), those of FX2N and FX3U likewise.
+const LATCH_CHOICES: &[(DeviceClass, u32, u32)] = &{
+    use DeviceClass::{C, D, M, S};
+    [(M, 0, 1023), (S, 0, 999), (C, 0, 255), (D, 0, 511)]
+};
 
 /// A run of devices that go back to 0 at power-off.
 const fn general(class: DeviceClass, first: u32, last: u32) -> Range {

@@ -7,9 +7,10 @@
 //! Integers are two's complement and wrap. `I16` values are signed 16-bit, `I32` signed 32-bit, `F32` IEEE single, `Bit` true or false.
 
 use crate::layout::Layout;
-use crate::model::Model;
+use crate::model::{Model, Range};
 use rungc_rt::{RtFn, TimerKind};
 use rungc_syntax::{DeviceClass, Span};
+use std::borrow::Cow;
 
 /// Type of an expression or temporary.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
@@ -612,6 +613,8 @@ pub struct Module {
     pub steps: u32,
     /// The model.
     pub model: &'static Model,
+    /// The devices of the model, with those latched that the project's parameters choose: [`Model::ranges`] if they say nothing.
+    pub ranges: Cow<'static, [Range]>,
     /// Expressions; an expression's operands have lower handles.
     pub exprs: Vec<Expr>,
     /// Types of the temporaries.
@@ -661,6 +664,7 @@ impl Module {
             source_name,
             steps: 0,
             model,
+            ranges: Cow::Borrowed(model.ranges),
             exprs: Vec::new(),
             temps: Vec::new(),
             edges: 0,
@@ -680,6 +684,11 @@ impl Module {
             initial_words: Vec::new(),
             initial_bits: Vec::new(),
         }
+    }
+
+    /// The ranges of a class, in order.
+    pub fn ranges_of(&self, class: DeviceClass) -> impl Iterator<Item = &Range> {
+        self.ranges.iter().filter(move |r| r.class == class)
     }
 
     /// The expression behind a handle.

@@ -6,7 +6,7 @@ use rungc_syntax::DeviceClass;
 
 /// Whether a run ends before device `number` of `class` although the model goes on: the special devices and the 32-bit counters
 /// are apart from what stands before them.
-fn is_border(class: DeviceClass, number: u32) -> bool {
+pub(crate) fn is_border(class: DeviceClass, number: u32) -> bool {
     match class {
         DeviceClass::M | DeviceClass::D => number == FIRST_SPECIAL,
         DeviceClass::C => number == FIRST_COUNTER32,

@@ -1,6 +1,7 @@
 //! Where the interpreter keeps devices: every device of the model, whether the program uses it or not.
 
-use rungc_ir::Model;
+use rungc_ir::Module;
+use rungc_ir::model::Range;
 use rungc_ir::runs::is_special;
 use rungc_rt::{Class, Counter16, Counter32, FIRST_COUNTER32, FIRST_SPECIAL, Timer};
 use rungc_syntax::DeviceClass;
@@ -63,7 +64,7 @@ const CLASSES: usize = Class::ER as usize + 1;
 
 impl<T: Clone + Default> Bank<T> {
     /// The devices of `classes` whose numbers `wanted` accepts.
-    fn new(model: &'static Model, classes: &[DeviceClass], wanted: impl Fn(u32) -> bool) -> Self {
+    fn new(ranges: &[Range], classes: &[DeviceClass], wanted: impl Fn(u32) -> bool) -> Self {
         let mut presence = Vec::new();
         let mut rows = [Row::default(); CLASSES];
         for &name in classes {
@@ -71,7 +72,7 @@ impl<T: Clone + Default> Bank<T> {
                 continue;
             };
             let start = presence.len();
-            for range in model.ranges_of(name) {
+            for range in ranges.iter().filter(|range| range.class == name) {
                 let spared = class == Class::X || is_special(name, range.first);
                 for number in (range.first..=range.last).filter(|&n| wanted(n)) {
                     let i = start + number as usize;
@@ -139,17 +140,18 @@ pub(crate) struct Devices {
 }
 
 impl Devices {
-    /// The devices of `model`, all 0.
-    pub(crate) fn new(model: &'static Model) -> Self {
+    /// The devices of a program's model, all 0.
+    pub(crate) fn new(module: &Module) -> Self {
         use DeviceClass::{C, D, ER, M, R, S, T, V, X, Y, Z};
         let any = |_: u32| true;
+        let ranges = &module.ranges;
         Devices {
-            bits: Bank::new(model, &[X, Y, M, S], any),
-            words: Bank::new(model, &[D, R, V, Z, ER], any),
-            timers: Bank::new(model, &[T], any),
-            counters16: Bank::new(model, &[C], |n| n < FIRST_COUNTER32),
-            counters32: Bank::new(model, &[C], |n| n >= FIRST_COUNTER32),
-            aliases: model.index_aliases,
+            bits: Bank::new(ranges, &[X, Y, M, S], any),
+            words: Bank::new(ranges, &[D, R, V, Z, ER], any),
+            timers: Bank::new(ranges, &[T], any),
+            counters16: Bank::new(ranges, &[C], |n| n < FIRST_COUNTER32),
+            counters32: Bank::new(ranges, &[C], |n| n >= FIRST_COUNTER32),
+            aliases: module.model.index_aliases,
         }
     }
 

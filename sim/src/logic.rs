@@ -307,7 +307,7 @@ mod tests {
 
     /// The most blocks that are open in the list, which leaves one.
     fn open_blocks(module: &Module, value: ExprId) -> usize {
-        let logic = Logic::new(module, &Devices::new(module.model));
+        let logic = Logic::new(module, &Devices::new(module));
         let (mut open, mut most) = (0, 0);
         for item in logic.list(value) {
             open -= usize::from(item.input == Input::Block);

@@ -81,7 +81,7 @@ pub struct Machine<'m> {
 impl<'m> Machine<'m> {
     /// The machine at power-on, in RUN.
     pub fn new(module: &'m Module) -> Self {
-        let devices = Devices::new(module.model);
+        let devices = Devices::new(module);
         let mut machine = Machine {
             module,
             entries: Entries::of(module),

@@ -1,11 +1,12 @@
 //! `rungc check`.
 
 use super::subject::{self, Subject};
-use super::{Context, Result, conclude, counted, findings, read};
+use super::{Context, Result, conclude, counted, findings, grouped, read};
 use crate::args::CheckArgs;
 use crate::report::Reporter;
+use rungc_ir::Model;
 use rungc_ir::compile::{self, CompileOptions};
-use rungc_syntax::{DeviceClass, OperandKind, Program};
+use rungc_syntax::{Device, DeviceClass, DeviceRun, OperandKind, Parameters, Program};
 use std::collections::BTreeSet;
 use std::time::Instant;
 
@@ -27,6 +28,9 @@ fn check(subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
         },
     );
     let findings = findings(subject, &read, &checked);
+    if let Some(parameters) = &read.program.parameters {
+        cx.detail(|| parameter_lines(parameters, checked.model));
+    }
     let elapsed = start.elapsed();
     let name = findings.name(reporter.many());
     conclude(&findings, reporter, cx, || {
@@ -38,6 +42,45 @@ fn check(subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
             elapsed.as_millis()
         )
     })
+}
+
+/// What the parameters of a project set, as lines.
+fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
+    let mut lines = Vec::new();
+    if let (Some(capacity), Some(steps)) = (parameters.capacity, parameters.program_steps()) {
+        let (capacity, steps) = (counted(capacity as usize, "step"), grouped(steps as usize));
+        lines.push(format!(
+            "      Memory {capacity}, {steps} of them for the program"
+        ));
+    }
+    let blocks = parameters.file_register_blocks;
+    if blocks > 0 {
+        let last = 1000 + 500 * u64::from(blocks) - 1;
+        lines.push(format!("       Files D1000 to D{last} are file registers"));
+    }
+    if model.latch_choices.is_empty() {
+        let name = model.name;
+        lines.push(format!(
+            "     Latched as on every {name}, whatever the parameters say"
+        ));
+    } else if let Some(latched) = &parameters.latched {
+        let run = |run: &DeviceRun| {
+            let name = |number| Device {
+                class: run.class,
+                number,
+            };
+            let last = run.first.saturating_add(run.count - 1);
+            format!("{} to {}", name(run.first), name(last))
+        };
+        let runs: Vec<_> = latched
+            .iter()
+            .filter(|run| run.count > 0)
+            .map(run)
+            .collect();
+        let none = runs.is_empty().then(|| "nothing by choice".to_string());
+        lines.push(format!("     Latched {}", none.unwrap_or(runs.join(", "))));
+    }
+    lines.join("\n")
 }
 
 /// How many devices the program names; pointers and nesting levels are none.

@@ -145,7 +145,7 @@ pub fn counted(n: usize, what: &str) -> String {
 }
 
 /// A number with its thousands set apart.
-fn grouped(n: usize) -> String {
+pub fn grouped(n: usize) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {

@@ -32,6 +32,7 @@ mod system;
 use self::comment::shortened;
 use crate::catalogue::{Basic, Drive, Join, Lower};
 use crate::check::unimplemented::refusal;
+use crate::latches;
 use crate::layout;
 use crate::model::Model;
 use crate::node::{CellId, Function, FunctionKind, Module, Network, Stmt};
@@ -139,6 +140,7 @@ impl<'a> Lowerer<'a> {
             model,
             module: Module {
                 steps: resolved.steps,
+                ranges: latches::ranges(program, model),
                 exprs: Vec::with_capacity(2 * resolved.instrs.len()),
                 functions: Vec::new(),
                 ..Module::empty(

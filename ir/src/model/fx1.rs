@@ -38,6 +38,7 @@ pub(super) const FX1N: Model = Model {
     nearest: &[],
     ranges: FX1N_RANGES,
     timers: FX1N_TIMERS,
+    latch_choices: &[],
     latch_key: None,
     keeps_contacts: true,
     end_pointer: Some(63),

@@ -1,7 +1,9 @@
 //! Mitsubishi FX2N and FX2NC, and compatible boards (FX1S, FX1N, FX2N, FX2NC programming manual II, JY992D88101, §8). Latched ranges
 //! are the factory settings.
 
-use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use super::{
+    INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
+};
 use crate::catalogue::Classes;
 use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
@@ -24,6 +26,7 @@ pub(super) const FX2N: Model = Model {
     ],
     ranges: RANGES,
     timers: TIMERS,
+    latch_choices: LATCH_CHOICES,
     latch_key: None,
     keeps_contacts: true,
     end_pointer: Some(63),

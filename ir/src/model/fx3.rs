@@ -1,7 +1,9 @@
 //! Mitsubishi FX3S, FX3G and FX3U, and compatible boards (FX3S, FX3G, FX3GC, FX3U, FX3UC programming manual, JY997D16601, §4.1).
 //! Latched ranges are the factory settings.
 
-use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use super::{
+    INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
+};
 use crate::catalogue::Classes;
 use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
@@ -30,6 +32,7 @@ pub(super) const FX3G: Model = Model {
     nearest: &[],
     ranges: FX3G_RANGES,
     timers: FX3G_TIMERS,
+    latch_choices: &[],
     latch_key: None,
     keeps_contacts: true,
     end_pointer: Some(63),
@@ -58,6 +61,7 @@ pub(super) const FX3U: Model = Model {
     nearest: &[],
     ranges: FX3U_RANGES,
     timers: FX3U_TIMERS,
+    latch_choices: LATCH_CHOICES,
     latch_key: None,
     keeps_contacts: true,
     end_pointer: Some(63),

@@ -14,6 +14,7 @@ pub(super) const HM: Model = Model {
     nearest: &[],
     ranges: RANGES,
     timers: TIMERS,
+    latch_choices: &[],
     latch_key: Some((8020, 2222)),
     keeps_contacts: false,
     end_pointer: None,

@@ -1,6 +1,8 @@
 //! Inovance H1U and H2U (h1u-h2u-programming §3).
 
-use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use super::{
+    INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
+};
 use crate::catalogue::Classes;
 use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
@@ -14,6 +16,7 @@ pub(super) const H1U: Model = Model {
     nearest: &[],
     ranges: H1U_RANGES,
     timers: TIMERS,
+    latch_choices: &[],
     latch_key: None,
     keeps_contacts: true,
     end_pointer: Some(63),
@@ -42,6 +45,7 @@ pub(super) const H2U: Model = Model {
     nearest: &[],
     ranges: H2U_RANGES,
     timers: TIMERS,
+    latch_choices: LATCH_CHOICES,
     latch_key: None,
     keeps_contacts: true,
     end_pointer: Some(63),

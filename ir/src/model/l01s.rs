@@ -14,6 +14,7 @@ pub(super) const L01S: Model = Model {
     nearest: &[],
     ranges: RANGES,
     timers: TIMERS,
+    latch_choices: &[],
     latch_key: None,
     keeps_contacts: true,
     end_pointer: Some(63),

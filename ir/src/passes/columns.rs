@@ -17,7 +17,7 @@ pub(super) fn last_alike(model: &Model, class: DeviceClass, number: u32) -> Opti
 /// false if they are needed in another order.
 pub(super) fn spread(
     layout: &mut Layout,
-    model: &Model,
+    module: &Module,
     (class, first, last): (DeviceClass, u32, u32),
     columns: u32,
 ) -> bool {
@@ -58,7 +58,7 @@ pub(super) fn spread(
     {
         return false;
     }
-    let ranges = model
+    let ranges = module
         .ranges_of(class)
         .filter(|r| r.first < end && first <= r.last);
     let new: Vec<Area> = ranges
@@ -144,7 +144,7 @@ fn last_used(used: &[bool]) -> u32 {
 
 /// Makes the areas of an array those of its columns that it keeps.
 fn store_kept(module: &mut Module, grid: &Grid) {
-    let ranges = module.model.ranges_of(grid.class);
+    let ranges = module.ranges_of(grid.class).copied();
     let ranges: Vec<_> = ranges
         .filter(|r| r.first < grid.end() && grid.first <= r.last)
         .collect();

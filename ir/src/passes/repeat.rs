@@ -347,7 +347,7 @@ impl Group {
             .all(|&(kind, number, by)| match kind {
                 Kind::Device(class) => {
                     let devices = (class, number, number + reached * by);
-                    spread(&mut layout, module.model, devices, by)
+                    spread(&mut layout, module, devices, by)
                 }
                 Kind::Edge => true,
             });

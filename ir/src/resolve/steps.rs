@@ -1,7 +1,7 @@
 //! Counts steps, and compares them with the step numbers that the source states.
 
 use crate::model::Model;
-use rungc_syntax::{Diagnostics, Instr, Program, SourceKind, Span, codes};
+use rungc_syntax::{Diagnostics, Instr, Parameters, Program, SourceKind, Span, codes};
 
 /// Counts steps from instruction to instruction.
 #[derive(Default)]
@@ -69,14 +69,22 @@ impl Counter {
                     .help("the program may be for another model (`--model`), or a line may be missing before this one"),
             );
         }
-        if self.counted > model.max_steps
+        let parameters = program.parameters.as_ref();
+        let own = parameters.and_then(Parameters::program_steps);
+        let own = own.filter(|&steps| steps < model.max_steps);
+        if self.counted > own.unwrap_or(model.max_steps)
             && let Some(last) = program.instrs.last()
         {
-            let message = format!(
-                "the program has {} steps, but {} holds {}",
-                self.counted, model.name, model.max_steps
-            );
-            out.push(codes::TOO_LONG.at(last.span, message));
+            let room = match own {
+                Some(steps) => format!("the memory capacity in the PLC parameters leaves {steps}"),
+                None => format!("{} holds {}", model.name, model.max_steps),
+            };
+            let message = format!("the program has {} steps, but {room}", self.counted);
+            let warning = codes::TOO_LONG.at(last.span, message);
+            out.push(match own {
+                Some(_) => warning.help("choose a larger memory capacity in the PLC parameters"),
+                None => warning,
+            });
         }
         self.counted
     }
