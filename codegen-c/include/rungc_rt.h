@@ -149,6 +149,14 @@ enum rungc_pulses
      * FX1S, FX1N.
      */
     RUNGC_PULSES_FX1 = 6,
+    /**
+     * FX2N-compatible boards.
+     */
+    RUNGC_PULSES_BOARD2N = 7,
+    /**
+     * FX3U-compatible boards.
+     */
+    RUNGC_PULSES_BOARD3U = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

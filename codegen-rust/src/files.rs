@@ -477,11 +477,16 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         let mut generator = Generator::new(module, true);
         let table = generator.devices_table().text;
         tables.push('\n');
-        tables.push_str(&table.replace("const DEVICES", &format!("const {}", name.to_uppercase())));
+        tables.push_str(&table.replace("const DEVICES", &format!("const {}", table_name(name))));
     }
     files.push(file("src/models.rs", tables));
     files.extend(runtime("batch"));
     files
+}
+
+/// What the table of a model's devices is called: `FX3U_COMPATIBLE`.
+fn table_name(model: &str) -> String {
+    model.to_uppercase().replace('-', "_")
 }
 
 /// One program of a batch; returns the name of its struct.
@@ -495,7 +500,7 @@ fn case(module: &Module, number: usize, out: &mut String) -> String {
         generator.program_impl(),
         generator.plc_impl(),
     ];
-    let model = module.model.name.to_uppercase();
+    let model = table_name(module.model.name);
     let uses = joined(machine.iter().chain(&functions));
     let _ = writeln!(
         out,

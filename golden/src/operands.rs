@@ -98,7 +98,7 @@ fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<St
     let wide = form.wide && param.shape == Shape::Value || param.shape == Shape::Pair;
     if class == Classes::K || class == Classes::H {
         let bits = if wide { 32 } else { 16 };
-        let value = match param.limits {
+        let value = match rng.pick(param.limits.ranges()) {
             Some((low, high)) if rng.percent(90) => {
                 let span = u32::try_from(high - low).unwrap_or(u32::MAX);
                 low + i64::from(rng.below(span.saturating_add(1).min(40)))

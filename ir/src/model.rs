@@ -140,6 +140,8 @@ pub struct Model {
     pub id: ModelId,
     /// Name on the command line: `h2u`.
     pub name: &'static str,
+    /// Boards of other makers that take its programs; they take some values that it does not.
+    pub boards: Option<ModelId>,
     /// Name for people: `Inovance H2U`.
     pub title: &'static str,
     /// CPU types of projects that are for it, in upper case: `FX3U`, `FX3UC`. A program cannot tell one from the other.
@@ -188,6 +190,8 @@ pub struct Model {
     pub pulses: Pulses,
     /// Their numbers, as far as instructions name them by output.
     pub pulse_outputs: &'static [(DeviceClass, u32, u32)],
+    /// Those of them that keep a position, for positioning.
+    pub position_outputs: &'static [(DeviceClass, u32, u32)],
     /// Special data registers that are other names of index registers: (number, class, index number), e.g. D8028 is Z0.
     pub index_aliases: &'static [(u32, DeviceClass, u32)],
 }

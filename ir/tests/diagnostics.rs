@@ -339,3 +339,35 @@ fn cpu_types_name_models() {
     ];
     insta::assert_snapshot!(cpus.map(about_cpu).join("\n"));
 }
+
+#[test]
+fn values_that_only_compatible_boards_take() {
+    let text = "\
+LD X0
+RD3A K0 K0 D0
+RD3A K0 K2 D0
+RD3A K0 K3 D0
+RD3A K7 K21 D0
+RD3A K7 K22 D0
+RD3A K7 K23 D0
+WR3A K0 K0 D0
+WR3A K0 K1 D0
+WR3A K0 K2 D0
+WR3A K0 K22 D0
+IVRD H104 K0 D2 K10
+IVRD H104 K0 D7990 K10
+IVRD H101 K0 D7990 K100
+IVWR H206 K0 D2 K2
+IVWR H206 K0 D2 K3
+IVRD H104 K0 D2 K2001
+PLSY K100 K5 Y4
+PLSY K100 K5 Y10
+DRVI K100 K100 Y4 Y5
+END
+";
+    insta::assert_snapshot!("values_on_fx3u", shown(ModelId::Fx3u, text));
+    insta::assert_snapshot!(
+        "values_on_fx3u_compatible",
+        shown(ModelId::Fx3uCompatible, text)
+    );
+}

@@ -494,6 +494,10 @@ registry! {
     Rd3a = modules::rd3a(m1, m2, d) [hal];
     /// WR3A (FNC 177): writes an analog module.
     Wr3a = modules::wr3a(m1, m2, s) [hal];
+    /// RD3A of compatible boards: module 0 is the board.
+    Rd3aBoard = modules::rd3a_board(m1, m2, d) [hal];
+    /// WR3A of compatible boards: module 0 is the board.
+    Wr3aBoard = modules::wr3a_board(m1, m2, s) [hal];
     /// VRRD (FNC 85): position of a potentiometer.
     Vrrd = modules::vrrd(s, d) [hal];
     /// VRSC (FNC 86): position of a potentiometer as a switch.

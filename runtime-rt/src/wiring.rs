@@ -418,6 +418,12 @@ const fn fx1(output: u32) -> Wiring {
 
 const FX1: [Wiring; 2] = [fx1(0), fx1(1)];
 
+/// Outputs of FX2N-compatible boards: those that FX2N lacks have no special devices that are known.
+const FX2N_BOARD: [Wiring; 8] = [fx2n(0), fx2n(1), NONE, NONE, NONE, NONE, NONE, NONE];
+
+/// Outputs of FX3U-compatible boards, likewise.
+const FX3_BOARD: [Wiring; 8] = [FX3[0], FX3[1], FX3[2], FX3[3], NONE, NONE, NONE, NONE];
+
 const fn of_axis(number: u32) -> Wiring {
     Wiring {
         axis: 300 + 50 * number,
@@ -452,6 +458,10 @@ pub enum Pulses {
     Hm = 5,
     /// FX1S, FX1N.
     Fx1 = 6,
+    /// FX2N-compatible boards.
+    Board2n = 7,
+    /// FX3U-compatible boards.
+    Board3u = 8,
 }
 
 impl Pulses {
@@ -465,6 +475,8 @@ impl Pulses {
             Pulses::Fx3 => &FX3,
             Pulses::Hm => &HM,
             Pulses::Fx1 => &FX1,
+            Pulses::Board2n => &FX2N_BOARD,
+            Pulses::Board3u => &FX3_BOARD,
         }
     }
 
@@ -473,9 +485,7 @@ impl Pulses {
         match self {
             Pulses::L01s => 200_000,
             Pulses::Hm => 600_000,
-            Pulses::Without | Pulses::Inovance | Pulses::Fx1 | Pulses::Fx2n | Pulses::Fx3 => {
-                100_000
-            }
+            _ => 100_000,
         }
     }
 
@@ -487,8 +497,8 @@ impl Pulses {
     /// The fewest pulses that PLSR sends (h1u-h2u-programming §4.3.6).
     pub const fn fewest_with_ramps(self) -> u32 {
         match self {
-            Pulses::Inovance | Pulses::Fx1 | Pulses::Fx2n => 110,
-            Pulses::Without | Pulses::L01s | Pulses::Fx3 | Pulses::Hm => 1,
+            Pulses::Inovance | Pulses::Fx1 | Pulses::Fx2n | Pulses::Board2n => 110,
+            _ => 1,
         }
     }
 

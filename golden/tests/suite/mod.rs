@@ -9,7 +9,9 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// Folders of conformance files.
-const PARTS: [&str; 5] = ["fx2n", "fx3u", "h1u-h2u", "hm", "l01s"];
+const PARTS: [&str; 8] = [
+    "fx1n", "fx1s", "fx2n", "fx3s", "fx3u", "h1u-h2u", "hm", "l01s",
+];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

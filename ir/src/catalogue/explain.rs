@@ -1,7 +1,7 @@
 //! Pages and tables that are made from the catalogue: `rungc explain ADD`, and the tables of the documentation.
 
 use super::{
-    Classes, Drive, Extent, Forms, Inst, Lower, Param, Role, Rule, Shape, When, all, find,
+    Classes, Drive, Extent, Forms, Inst, Limits, Lower, Param, Role, Rule, Shape, When, all, find,
 };
 use crate::model::{Model, ModelId};
 use crate::resolve::Form;
@@ -141,8 +141,8 @@ fn meaning(param: &Param, params: &[Param]) -> String {
         Extent::Through(i) => text += &format!("; up to {}", name(i)),
         Extent::Of(_) => text += "; more from it on, as the operands say",
     }
-    if let Some((min, max)) = param.limits {
-        text += &format!("; {min} to {max}");
+    if param.limits != Limits::None {
+        text += &format!("; {}", param.limits.in_words(""));
     }
     for rule in param.rules {
         text += &match *rule {
@@ -468,7 +468,7 @@ impl Next {
             return class.number(first).to_string();
         }
         let classes = param.classes_on(model);
-        if param.limits.is_some() && classes.meets(Classes::K) {
+        if param.limits != Limits::None && classes.meets(Classes::K) {
             return constant(param);
         }
         let first_data = if model.has(DeviceClass::R, 99) && !model.has(DeviceClass::R, 100) {
@@ -512,12 +512,11 @@ impl Next {
 
 /// A constant that a parameter accepts: 4 where it may be.
 fn constant(param: &Param) -> String {
-    let (min, max) = param.limits.unwrap_or((0, 4));
     let ruled = param.rules.iter().find_map(|rule| match *rule {
         Rule::MultipleOf(of) => Some(of),
         Rule::AtMost(_) | Rule::Below(_) => Some(1),
         _ => None,
     });
-    let wanted = ruled.unwrap_or(4).clamp(min, max);
+    let wanted = param.limits.nearest(ruled.unwrap_or(4));
     format!("K{wanted}")
 }

@@ -8,6 +8,7 @@ use rungc_syntax::OperandKind;
 
 const H1U: ModelSet = ModelSet::H1U;
 const H2U: ModelSet = ModelSet::H2U;
+const BOARDS: ModelSet = ModelSet::COMPATIBLE;
 const INOVANCE_FX: ModelSet = INOVANCE.or(FX);
 const BIG_FX: ModelSet = BIG.without(L01S);
 
@@ -68,6 +69,29 @@ const WR3A_INOVANCE: &[Param] = &[
     src("m1", VALUES).limits(0, 7),
     src("m2", VALUES).limits(1, 1),
     src("S", RESULTS),
+];
+/// FX0N-3A: inputs 1 and 2; FX2N-2AD: inputs 21 and 22 (FX3 programming manual §22.7).
+const RD3A: &[Param] = &[
+    src("m1", VALUES).limits(0, 7),
+    src("m2", VALUES).among(&[(1, 2), (21, 22)]),
+    dst("D", RESULTS),
+];
+/// FX0N-3A: output 1; FX2N-2DA: outputs 21 and 22 (FX3 programming manual §22.8).
+const WR3A: &[Param] = &[
+    src("m1", VALUES).limits(0, 7),
+    src("m2", VALUES).among(&[(1, 1), (21, 22)]),
+    src("S", WORDS).also_on(FX, CONSTANTS),
+];
+/// On compatible boards module 0 stands for the board, whose channels count from 0.
+const RD3A_BOARD: &[Param] = &[
+    src("m1", VALUES).limits(0, 7),
+    src("m2", VALUES).among(&[(0, 7), (21, 22)]),
+    dst("D", RESULTS),
+];
+const WR3A_BOARD: &[Param] = &[
+    src("m1", VALUES).limits(0, 7),
+    src("m2", VALUES).among(&[(0, 7), (21, 22)]),
+    src("S", WORDS).also_on(FX, CONSTANTS),
 ];
 /// A text constant fits in eight characters.
 const SHORT_TEXT: Rule = Rule::Holds(
@@ -206,20 +230,35 @@ pub(super) const ROWS: &[Inst] = &[
         .on(WITH_MODULES)
         .forms(W16_P)
         .steps(7, 7)
-        .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), dst("D", RESULTS)])
-        .variants(&[on(L01S).takes(READ_MODBUS), on(INOVANCE).takes(RD3A_INOVANCE)])
+        .takes(RD3A)
+        .variants(&[
+            on(L01S).takes(READ_MODBUS),
+            on(INOVANCE).takes(RD3A_INOVANCE),
+            on(BOARDS).takes(RD3A_BOARD),
+        ])
         .call(RtFn::Rd3a)
-        .lower_on(&[(L01S, Lower::Todo("serial communication"))])
-        .text("Reads channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it reads registers by Modbus."),
+        .lower_on(&[(L01S, Lower::Todo("serial communication")), (BOARDS, Lower::Call(RtFn::Rd3aBoard))])
+        .text(
+            "Reads input m2 of the analog module at position m1: 1 or 2 of an FX0N-3A, 21 or 22 of an FX2N-2AD. On compatible boards \
+             module 0 is the board with its own inputs, counted from 0. On L01S it reads registers by Modbus.",
+        ),
     io("WR3A", 177, "Write an analog module")
         .on(WITH_MODULES)
         .forms(W16_P)
         .steps(7, 7)
-        .takes(&[src("m1", VALUES).limits(0, 7), src("m2", VALUES).limits(1, 21), src("S", WORDS).also_on(FX, CONSTANTS)])
-        .variants(&[on(L01S).takes(READ_MODBUS), on(INOVANCE).takes(WR3A_INOVANCE)])
+        .takes(WR3A)
+        .variants(&[
+            on(L01S).takes(READ_MODBUS),
+            on(INOVANCE).takes(WR3A_INOVANCE),
+            on(BOARDS).takes(WR3A_BOARD),
+        ])
         .call(RtFn::Wr3a)
-        .lower_on(&[(L01S, Lower::Todo("serial communication"))])
-        .text("Writes S to channel m2 of the analog module FX0N-3A (or alike) at position m1. On L01S it writes registers by Modbus."),
+        .lower_on(&[(L01S, Lower::Todo("serial communication")), (BOARDS, Lower::Call(RtFn::Wr3aBoard))])
+        .text(
+            "Writes S to output m2 of the analog module at position m1: 1 of an FX0N-3A, 21 or 22 of an FX2N-2DA. On compatible boards \
+             module 0 is the board with its own outputs, counted from 0: the host finds S in buffer memory m2 of module 0. On L01S it writes \
+             registers by Modbus.",
+        ),
     io("VRRD", 85, "Read a potentiometer")
         .on(FX)
         .forms(W16_P)

@@ -16,6 +16,7 @@ mod float;
 mod flow;
 mod handy;
 mod high_speed;
+mod limits;
 mod lookup;
 mod motion_hm;
 mod move_;
@@ -28,6 +29,7 @@ mod string;
 mod tests;
 
 pub use explain::{explain, special_table, support_table};
+pub use limits::Limits;
 pub use lookup::{Found, all, find};
 
 use crate::model::{Model, ModelId, ModelSet};
@@ -282,12 +284,14 @@ pub struct Param {
     pub role: Role,
     /// How much it occupies.
     pub extent: Extent,
-    /// Limits of a constant.
-    pub limits: Option<(i64, i64)>,
+    /// Which constants it takes.
+    pub limits: Limits,
     /// Numbers that devices of these classes must have, first to last; classes that are not listed are free.
     pub numbers: &'static [(DeviceClass, u32, u32)],
     /// Whether it is an output that sends pulses: one of the model's, unless `numbers` says more.
     pub sends_pulses: bool,
+    /// Whether it is one of those that keep a position.
+    pub keeps_position: bool,
     /// Its bits name inputs X.
     pub names_inputs: bool,
     /// What else it must obey.
@@ -303,10 +307,10 @@ pub struct Param {
 impl Param {
     /// Numbers that devices of these classes must have on a model, first to last.
     pub fn numbers_on(&self, model: &Model) -> &'static [(DeviceClass, u32, u32)] {
-        if self.sends_pulses && self.numbers.is_empty() {
-            model.pulse_outputs
-        } else {
-            self.numbers
+        match (self.numbers, self.keeps_position) {
+            ([], true) => model.position_outputs,
+            ([], false) if self.sends_pulses => model.pulse_outputs,
+            (numbers, _) => numbers,
         }
     }
 

@@ -8,7 +8,8 @@
 //! ```
 
 use super::{
-    Classes, Drive, Extent, Forms, Inst, Lower, Param, Role, Rule, Shape, Spelling, Variant, When,
+    Classes, Drive, Extent, Forms, Inst, Limits, Lower, Param, Role, Rule, Shape, Spelling,
+    Variant, When,
 };
 use crate::model::{ModelId, ModelSet};
 use rungc_rt::RtFn;
@@ -210,9 +211,10 @@ const fn param(name: &'static str, classes: Classes, shape: Shape, role: Role) -
         shape,
         role,
         extent: Extent::One,
-        limits: None,
+        limits: Limits::None,
         numbers: &[],
         sends_pulses: false,
+        keeps_position: false,
         names_inputs: false,
         rules: &[],
         indexable: true,
@@ -352,7 +354,13 @@ impl Param {
 
     /// Constants lie between these.
     pub(super) const fn limits(self, min: i64, max: i64) -> Self {
-        let limits = Some((min, max));
+        let limits = Limits::Between((min, max));
+        Param { limits, ..self }
+    }
+
+    /// Constants lie in one of these ranges.
+    pub(super) const fn among(self, ranges: &'static [(i64, i64)]) -> Self {
+        let limits = Limits::Among(ranges);
         Param { limits, ..self }
     }
 
@@ -367,6 +375,15 @@ impl Param {
         Param {
             sends_pulses,
             ..self
+        }
+    }
+
+    /// It is an output that sends pulses and keeps a position.
+    pub(super) const fn positions(self) -> Self {
+        let keeps_position = true;
+        Param {
+            keeps_position,
+            ..self.pulses()
         }
     }
 

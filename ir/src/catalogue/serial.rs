@@ -2,6 +2,7 @@
 
 use super::row::*;
 use super::{Classes, Inst, Lower, Param, Rule};
+use crate::model::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
@@ -38,6 +39,20 @@ const fn any(name: &'static str) -> Param {
 /// Words for n hexadecimal digits, operand 2.
 fn words_of_digits(constants: &[Option<i64>]) -> Option<u32> {
     Some(constant(constants, 2)?.div_ceil(4))
+}
+
+const BOARDS: ModelSet = ModelSet::COMPATIBLE;
+/// How many coils or registers a Modbus request is about: at most 2000 and 125 (Modbus application protocol §6).
+const COUNT: Param = number("n", 2000);
+
+/// Words of a Modbus request's data: coils stand sixteen to a word. The low byte of operand 0 is the function, operand 3 the count.
+fn answer_words(constants: &[Option<i64>]) -> Option<u32> {
+    let count = constant(constants, 3)?;
+    match constant(constants, 0)? & 0xff {
+        0x01 | 0x02 | 0x0f => Some(count.div_ceil(16).max(1)),
+        0x03 | 0x04 | 0x10 => Some(count.max(1)),
+        _ => Some(1),
+    }
 }
 
 const N: Param = count("n", 1, 256);
@@ -271,10 +286,26 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[any("S1"), any("S2"), dst("D", RESULT_GROUPS.or(DATA)), number("n", 2)]),
     inverter("IVDR", 271, "Control an inverter", "Sends command S2 with value S3 to inverter S1 on port n.")
         .takes(&[any("S1"), any("S2"), src("S3", VALUES), number("n", 2)]),
-    inverter("IVRD", 272, "Read an inverter's parameter", "Reads parameter S2 of inverter S1 on port n to D.")
-        .takes(&[any("S1"), any("S2"), dst("D", DATA), number("n", 2)]),
-    inverter("IVWR", 273, "Write an inverter's parameter", "Writes S3 to parameter S2 of inverter S1 on port n.")
-        .takes(&[any("S1"), any("S2"), any("S3"), number("n", 2)]),
+    inverter(
+        "IVRD",
+        272,
+        "Read an inverter's parameter",
+        "Reads parameter S2 of inverter S1 on port n to D. On FX3U-compatible boards it is a Modbus request: S1 is station × 256 + function, \
+         S2 the first address, n how many coils or registers go to D and on.",
+    )
+        .takes(&[any("S1"), any("S2"), dst("D", DATA), number("n", 2)])
+        .variants(&[on(BOARDS).takes(&[any("S1"), any("S2"), dst("D", DATA).len_of(answer_words), COUNT])])
+        .lower_on(&[(BOARDS, Lower::Todo(SERIAL))]),
+    inverter(
+        "IVWR",
+        273,
+        "Write an inverter's parameter",
+        "Writes S3 to parameter S2 of inverter S1 on port n. On FX3U-compatible boards it is a Modbus request: S1 is station × 256 + \
+         function, S2 the first address, n how many coils or registers are written from S3 on.",
+    )
+        .takes(&[any("S1"), any("S2"), any("S3"), number("n", 2)])
+        .variants(&[on(BOARDS).takes(&[any("S1"), any("S2"), any("S3").len_of(answer_words), COUNT])])
+        .lower_on(&[(BOARDS, Lower::Todo(SERIAL))]),
     inverter("IVBWR", 274, "Write parameters", "Writes the S2 parameters of the table at S3 to inverter S1 on port n.")
         .on(FX3U)
         .takes(&[any("S1"), any("S2"), src("S3", DATA).open_ended(), number("n", 2)]),

@@ -33,6 +33,7 @@ const FX0: &str = "FX0 and FX0S keep M496–M511, C14, C15, D30 and D31 without 
 pub(super) const FX1N: Model = Model {
     id: ModelId::Fx1n,
     name: "fx1n",
+    boards: None,
     title: "Mitsubishi FX1N",
     cpus: &["FX1N", "FX1NC"],
     nearest: &[],
@@ -50,6 +51,7 @@ pub(super) const FX1N: Model = Model {
     value_error: 6706,
     pulses: Pulses::Fx1,
     pulse_outputs: &[(Y, 0, 1)],
+    position_outputs: &[(Y, 0, 1)],
     notations: Classes::NONE,
     bare_names: true,
     steps_per_operand: None,

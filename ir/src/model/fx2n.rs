@@ -15,6 +15,7 @@ const FX2: &str =
 pub(super) const FX2N: Model = Model {
     id: ModelId::Fx2n,
     name: "fx2n",
+    boards: Some(ModelId::Fx2nCompatible),
     title: "Mitsubishi FX2N",
     cpus: &["FX2N", "FX2NC"],
     nearest: &[
@@ -38,6 +39,7 @@ pub(super) const FX2N: Model = Model {
     value_error: 6706,
     pulses: Pulses::Fx2n,
     pulse_outputs: &[(Y, 0, 1)],
+    position_outputs: &[(Y, 0, 1)],
     notations: Classes::TEXT,
     bare_names: true,
     steps_per_operand: None,
@@ -46,13 +48,17 @@ pub(super) const FX2N: Model = Model {
     index_aliases: INDEX_ALIASES,
 };
 
-/// Boards that take programs for FX2N.
+/// Boards that take programs for FX2N. No manual of theirs is public: makers advertise up to eight outputs that send pulses, and which
+/// registers the ones behind Y001 would count in is unknown, so these keep no position.
 pub(super) const FX2N_COMPATIBLE: Model = Model {
     id: ModelId::Fx2nCompatible,
     name: "fx2n-compatible",
+    boards: None,
     title: "FX2N-compatible board",
     cpus: &[],
     nearest: &[],
+    pulses: Pulses::Board2n,
+    pulse_outputs: &[(Y, 0, 7)],
     ..FX2N
 };
 

@@ -19,6 +19,7 @@ pub(super) const FX3S: Model = Model {
     timers: FX3S_TIMERS,
     max_steps: 4000,
     pulse_outputs: &[(Y, 0, 1)],
+    position_outputs: &[(Y, 0, 1)],
     notations: Classes::E,
     ..FX3G
 };
@@ -27,6 +28,7 @@ pub(super) const FX3S: Model = Model {
 pub(super) const FX3G: Model = Model {
     id: ModelId::Fx3g,
     name: "fx3g",
+    boards: None,
     title: "Mitsubishi FX3G",
     cpus: &["FX3G", "FX3GA", "FX3GC", "FX3GE"],
     nearest: &[],
@@ -44,6 +46,7 @@ pub(super) const FX3G: Model = Model {
     value_error: 6706,
     pulses: Pulses::Fx3,
     pulse_outputs: &[(Y, 0, 2)],
+    position_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,
     steps_per_operand: None,
@@ -56,6 +59,7 @@ pub(super) const FX3G: Model = Model {
 pub(super) const FX3U: Model = Model {
     id: ModelId::Fx3u,
     name: "fx3u",
+    boards: Some(ModelId::Fx3uCompatible),
     title: "Mitsubishi FX3U",
     cpus: &["FX3U", "FX3UC"],
     nearest: &[],
@@ -73,6 +77,7 @@ pub(super) const FX3U: Model = Model {
     value_error: 6706,
     pulses: Pulses::Fx3,
     pulse_outputs: &[(Y, 0, 3)],
+    position_outputs: &[(Y, 0, 3)],
     notations: Classes::E
         .or(Classes::TEXT)
         .or(Classes::WORD_BIT)
@@ -84,13 +89,17 @@ pub(super) const FX3U: Model = Model {
     index_aliases: INDEX_ALIASES,
 };
 
-/// Boards that take programs for FX3U.
+/// Boards that take programs for FX3U. No manual of theirs is public: makers advertise up to eight outputs that send pulses, and which
+/// registers the ones behind Y003 would count in is unknown, so these keep no position.
 pub(super) const FX3U_COMPATIBLE: Model = Model {
     id: ModelId::Fx3uCompatible,
     name: "fx3u-compatible",
+    boards: None,
     title: "FX3U-compatible board",
     cpus: &[],
     nearest: &[],
+    pulses: Pulses::Board3u,
+    pulse_outputs: &[(Y, 0, 7)],
     ..FX3U
 };
 

@@ -9,6 +9,7 @@ use rungc_syntax::DeviceClass::{self, C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 pub(super) const HM: Model = Model {
     id: ModelId::Hm,
     name: "hm",
+    boards: None,
     title: "Kewei HM",
     cpus: &["HM"],
     nearest: &[],
@@ -26,6 +27,7 @@ pub(super) const HM: Model = Model {
     value_error: 6707,
     pulses: Pulses::Hm,
     pulse_outputs: &[],
+    position_outputs: &[],
     notations: Classes::NONE,
     bare_names: true,
     steps_per_operand: Some((2, 3)),

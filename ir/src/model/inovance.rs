@@ -11,6 +11,7 @@ use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
 pub(super) const H1U: Model = Model {
     id: ModelId::H1u,
     name: "h1u",
+    boards: None,
     title: "Inovance H1U",
     cpus: &["H1U"],
     nearest: &[],
@@ -28,6 +29,7 @@ pub(super) const H1U: Model = Model {
     value_error: 6707,
     pulses: Pulses::Inovance,
     pulse_outputs: &[(Y, 0, 2)],
+    position_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: false,
     steps_per_operand: None,
@@ -40,6 +42,7 @@ pub(super) const H1U: Model = Model {
 pub(super) const H2U: Model = Model {
     id: ModelId::H2u,
     name: "h2u",
+    boards: None,
     title: "Inovance H2U",
     cpus: &["H2U"],
     nearest: &[],
@@ -57,6 +60,7 @@ pub(super) const H2U: Model = Model {
     value_error: 6707,
     pulses: Pulses::Inovance,
     pulse_outputs: &[(Y, 0, 7)],
+    position_outputs: &[(Y, 0, 7)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: false,
     steps_per_operand: None,

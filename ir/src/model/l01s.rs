@@ -9,6 +9,7 @@ use rungc_syntax::DeviceClass::{C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 pub(super) const L01S: Model = Model {
     id: ModelId::L01s,
     name: "l01s",
+    boards: None,
     title: "Coolmay L01S",
     cpus: &["L01S"],
     nearest: &[],
@@ -26,6 +27,7 @@ pub(super) const L01S: Model = Model {
     value_error: 6706,
     pulses: Pulses::L01s,
     pulse_outputs: &[(Y, 0, 3)],
+    position_outputs: &[(Y, 0, 3)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: true,
     steps_per_operand: None,

@@ -63,8 +63,25 @@ impl Checker {
         self.count(instr, params, out);
         for (at, param) in params.iter().enumerate().take(instr.operands.len()) {
             let wide = found.form.wide;
-            let wrong = self.operand(&place, at, param);
+            let wrong = self
+                .operand(&place, at, param)
+                .map(|diagnostic| self.compatible_boards(diagnostic, &place, at));
             out.extend(wrong.or_else(|| rules::broken(&instr.operands, at, param, wide)));
+        }
+    }
+
+    /// Says that boards which take programs for the model take operand `at`, if only its value is what the model does not take.
+    fn compatible_boards(&self, diagnostic: Diagnostic, place: &Place, at: usize) -> Diagnostic {
+        let of_value = [codes::LIMITS.id, codes::NOT_THIS_NUMBER.id].contains(&diagnostic.code);
+        let boards = self.model.boards.map(Model::get).filter(|_| of_value);
+        let taken = boards.filter(|boards| {
+            let params = place.found.inst.params_of(&place.instr.operands, boards);
+            let wrong = |param| Checker::new(boards).operand(place, at, param);
+            params.get(at).is_some_and(|param| wrong(param).is_none())
+        });
+        match taken {
+            Some(boards) => diagnostic.help(format!("`{}` takes it", boards.name)),
+            None => diagnostic,
         }
     }
 
@@ -546,8 +563,8 @@ fn outside_limits(
     indexed: bool,
     param: &Param,
 ) -> Option<Diagnostic> {
-    let (min, max) = rules::limits(param, place.found.form.wide)?;
-    let fits = readings.iter().any(|value| (min..=max).contains(value));
+    let limits = rules::limits(param, place.found.form.wide);
+    let fits = readings.iter().any(|&value| limits.allow(value));
     (!fits && !indexed).then(|| {
         let message = format!(
             "`{}` is outside the limits of operand {}",
@@ -555,6 +572,6 @@ fn outside_limits(
         );
         codes::LIMITS
             .at(operand.span, message)
-            .label(format!("K{min} to K{max} here"))
+            .label(format!("{} here", limits.in_words("K")))
     })
 }

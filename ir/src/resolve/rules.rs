@@ -1,7 +1,7 @@
 //! What an operand must obey besides its class and limits: the [`Rule`]s of the catalogue.
 
 use super::operands::constant_value;
-use crate::catalogue::{Classes, Param, Rule};
+use crate::catalogue::{Classes, Limits, Param, Rule};
 use crate::runs::{FIRST_COUNTER32, is_special};
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
 
@@ -99,12 +99,12 @@ pub(super) fn broken(
 }
 
 /// The limits of a constant in the form that is written.
-pub(super) fn limits(param: &Param, wide: bool) -> Option<(i64, i64)> {
+pub(super) fn limits(param: &Param, wide: bool) -> Limits {
     let of_wide_form = param.rules.iter().find_map(|rule| match *rule {
-        Rule::WideLimits(min, max) if wide => Some((min, max)),
+        Rule::WideLimits(min, max) if wide => Some(Limits::Between((min, max))),
         _ => None,
     });
-    of_wide_form.or(param.limits)
+    of_wide_form.unwrap_or(param.limits)
 }
 
 fn forbidden(operand: &Operand, min: i64, max: i64) -> Diagnostic {

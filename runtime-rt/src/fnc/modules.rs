@@ -169,32 +169,84 @@ pub fn to_host(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// Buffer memory of an FX0N-3A: converted value, value to convert, control.
+/// Buffer memory of FX0N-3A, FX2N-2AD and FX2N-2DA: converted value, the four high bits of the one of FX2N-2AD, value to convert, control.
 const INPUT_VALUE: u16 = 0;
+const INPUT_HIGH: u16 = 1;
 const OUTPUT_VALUE: u16 = 16;
 const CONTROL: u16 = 17;
+/// Channel 1 of the modules of twelve bits.
+const TWELVE_BITS: i32 = 21;
 
-/// RD3A m1 m2 D (FNC 176): analog input m2 (1 or 2) of the FX0N-3A at position m1 goes to D.
+/// RD3A m1 m2 D (FNC 176): an analog input of the module at position m1 goes to D: m2 is 1 or 2 of an FX0N-3A, 21 or 22 of an FX2N-2AD.
 pub fn rd3a(cx: &mut Cx) -> Done {
     let unit = place(cx, 0)?;
-    let channel = cx.count(1, 1..=2)? as i16 - 1;
+    let (first, twelve_bits) = match cx.count(1, 1..=TWELVE_BITS + 1)? {
+        channel @ 1..=2 => (channel - 1, false),
+        channel @ TWELVE_BITS.. => (channel - TWELVE_BITS, true),
+        _ => return Err(Fault::VALUE),
+    };
+    let channel = first as i16;
     cx.word(2, 0)?;
     // The rise of control bit 1 starts a conversion of the channel in bit 0.
     write(cx, unit, CONTROL, channel)?;
     write(cx, unit, CONTROL, channel | 2)?;
-    let value = read(cx, unit, INPUT_VALUE)?;
+    let mut value = read(cx, unit, INPUT_VALUE)?;
+    if twelve_bits {
+        value = value & 0xff | (read(cx, unit, INPUT_HIGH)? & 0x0f) << 8;
+    }
     cx.set_word(2, 0, value)
 }
 
-/// WR3A m1 m2 S (FNC 177): S (0 to 255) goes to the analog output of the FX0N-3A at position m1.
+/// WR3A m1 m2 S (FNC 177): S goes to an analog output of the module at position m1: with m2 = 1 S, 0 to 255, to that of an FX0N-3A,
+/// with 21 or 22 S, 0 to 4095, to one of an FX2N-2DA.
 pub fn wr3a(cx: &mut Cx) -> Done {
     let unit = place(cx, 0)?;
-    cx.count(1, 1..=1)?;
-    let value = cx.count(2, 0..=255)?;
-    write(cx, unit, OUTPUT_VALUE, value as i16)?;
-    // The fall of control bit 2 starts the conversion.
-    write(cx, unit, CONTROL, 4)?;
+    // The fall of a control bit starts the conversion.
+    let start = match cx.count(1, 1..=TWELVE_BITS + 1)? {
+        1 => {
+            let value = cx.count(2, 0..=255)?;
+            write(cx, unit, OUTPUT_VALUE, value as i16)?;
+            4
+        }
+        channel @ TWELVE_BITS.. => {
+            let value = cx.count(2, 0..=4095)? as i16;
+            // The fall of bit 2 takes the eight low bits over, before the four high ones come.
+            write(cx, unit, OUTPUT_VALUE, value & 0xff)?;
+            write(cx, unit, CONTROL, 4)?;
+            write(cx, unit, CONTROL, 0)?;
+            write(cx, unit, OUTPUT_VALUE, value >> 8)?;
+            if channel == TWELVE_BITS { 2 } else { 1 }
+        }
+        _ => return Err(Fault::VALUE),
+    };
+    write(cx, unit, CONTROL, start)?;
     write(cx, unit, CONTROL, 0)
+}
+
+/// The channel of the board itself that m1 and m2 name on a compatible board; `None`: m1 is a module.
+fn board_channel(cx: &Cx) -> Result<Option<u8>, Fault> {
+    if place(cx, 0)? != 0 {
+        return Ok(None);
+    }
+    Ok(Some(cx.count(1, 0..=7)? as u8))
+}
+
+/// RD3A m1 m2 D of compatible boards: module 0 is the board, whose analog input m2, counted from 0, goes to D.
+pub fn rd3a_board(cx: &mut Cx) -> Done {
+    let Some(channel) = board_channel(cx)? else {
+        return rd3a(cx);
+    };
+    let value = cx.hal().analog(channel).ok_or(Fault::MODULE)?;
+    cx.set_word(2, 0, value)
+}
+
+/// WR3A m1 m2 S of compatible boards: module 0 is the board, whose analog output m2, counted from 0, takes S.
+pub fn wr3a_board(cx: &mut Cx) -> Done {
+    let Some(channel) = board_channel(cx)? else {
+        return wr3a(cx);
+    };
+    let value = cx.word(2, 0)?;
+    write(cx, 0, channel.into(), value)
 }
 
 /// Position of potentiometer S, 0 to 255; it is the analog input of that number.

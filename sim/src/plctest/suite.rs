@@ -1,9 +1,9 @@
 //! The programs of many test files, compiled.
 
 use super::{Case, CaseProgram, Check, TestFile};
-use rungc_ir::Module;
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_syntax::{DeviceClass, Diagnostic, Severity, Source};
+use rungc_ir::compile::{CompileOptions, Compiled, compile};
+use rungc_ir::{ModelId, Module};
+use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
 use std::collections::BTreeSet;
 
 /// Which case of which file.
@@ -124,14 +124,8 @@ fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> 
         }
         CaseProgram::File(read) => read,
     };
-    let options = CompileOptions {
-        model: Some(case.model),
-        name: Some(case.name.clone()),
-        observe: observed(case),
-        observe_all: false,
-        optimise: true,
-    };
-    let compiled = compile(&read.program, &options);
+    let compiled = compile_on(case.model, case, &read.program);
+    let compiled = for_boards(case, &read.program, &compiled).unwrap_or(compiled);
     let source = &read.program.source;
     let mut found = read.diagnostics.clone();
     found.refine(&compiled.diagnostics);
@@ -144,6 +138,32 @@ fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> 
         Some(module) if errors.is_empty() => Ok(module),
         _ => Err(errors),
     }
+}
+
+fn compile_on(model: ModelId, case: &Case, program: &Program) -> Compiled {
+    let options = CompileOptions {
+        model: Some(model),
+        name: Some(case.name.clone()),
+        observe: observed(case),
+        observe_all: false,
+        optimise: true,
+    };
+    compile(program, &options)
+}
+
+/// A model stands for compatible boards too: a program that only they take, compiled for them.
+fn for_boards(case: &Case, program: &Program, compiled: &Compiled) -> Option<Compiled> {
+    let refused = |compiled: &Compiled| {
+        let mut errors = compiled.diagnostics.iter();
+        errors.any(|d| d.severity == Severity::Error && d.code != codes::NOT_IMPLEMENTED.id)
+    };
+    let runs = matches!(case.check, Check::Steps { .. });
+    let boards = compiled
+        .model
+        .boards
+        .filter(|_| runs && refused(compiled))?;
+    let compiled = compile_on(boards, case, program);
+    (!refused(&compiled)).then_some(compiled)
 }
 
 fn line_of(source: &Source, diagnostic: &Diagnostic) -> u32 {
