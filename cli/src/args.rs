@@ -61,6 +61,8 @@ pub enum Command {
     Convert(ConvertArgs),
     /// Write a rungc.toml, the settings of a project, with a comment on each.
     Init(InitArgs),
+    /// Learn the codes of instructions that a vendor project holds and rungc does not know, from the list that the editor exports.
+    Learn(LearnArgs),
     /// Explain a diagnostic code, an instruction or a special device.
     Explain(ExplainArgs),
     /// Print a completion script for a shell.
@@ -94,7 +96,7 @@ pub struct Inputs {
 }
 
 /// How to read programs, and how to report what is found.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub struct Reading {
     /// PLC model; by default that of rungc.toml, else the CPU type that the file names, else fx3u.
     #[arg(long, value_parser = model, value_name = "MODEL")]
@@ -294,6 +296,23 @@ pub struct InitArgs {
     /// The program that the project is about; rungc.toml goes into its folder. By default the only program in this folder.
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
+}
+
+/// Arguments of `learn`.
+#[derive(Args, Debug)]
+pub struct LearnArgs {
+    /// GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw).
+    #[arg(value_name = "PROJECT")]
+    pub file: PathBuf,
+    /// The list that the editor exported of it (CSV), in the same state.
+    #[arg(value_name = "EXPORT")]
+    pub export: PathBuf,
+    /// Settings that the codes are written to; by default the rungc.toml nearest above the project, else a new one beside it.
+    #[arg(long, value_name = "FILE")]
+    pub project: Option<PathBuf>,
+    /// PLC model; by default that of the settings, else the CPU type that the project names.
+    #[arg(long, value_parser = model, value_name = "MODEL")]
+    pub model: Option<ModelId>,
 }
 
 /// Arguments of `explain`.

@@ -36,6 +36,7 @@ fn main() -> ExitCode {
         Command::Test(args) => commands::test::run(args, cx),
         Command::Convert(args) => commands::convert::run(args, cx),
         Command::Init(args) => commands::init::run(args, cx),
+        Command::Learn(args) => commands::learn::run(args, cx),
         Command::Explain(args) => commands::explain::run(args),
         Command::Completions { shell } => {
             let mut script = Vec::new();

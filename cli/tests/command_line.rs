@@ -15,16 +15,8 @@ const DOUBLE: &str = "LD X000\nOUT Y000\nLD X001\nOUT Y000\nEND\n";
 
 /// A `MAIN.wpg` for FX3U: LD X000, OUT Y000, END.
 fn wpg() -> Vec<u8> {
-    let mut bytes = vec![0x40, 0x00, 0x22, 0x01];
-    bytes.resize(0x24, b' ');
-    bytes.extend([0x04, 0x02, 0x08, 0x02]);
-    bytes.resize(0x40, 0xFF);
-    bytes.extend([0x04, 0x00, 0xFF, 0xFF]);
-    bytes.extend([3, 0x00, 3, 4, 0x9C, 0, 4]);
-    bytes.extend([3, 0x20, 3, 4, 0x9D, 0, 4]);
-    bytes.extend([3, 0x34, 3]);
-    bytes.extend([0x02; 64]);
-    bytes
+    let bodies: &[&[u8]] = &[&[0x00], &[0x9C, 0], &[0x20], &[0x9D, 0], &[0x34]];
+    common::wpg(common::FX3U, bodies)
 }
 
 #[test]

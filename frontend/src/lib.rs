@@ -8,6 +8,7 @@ mod encoding;
 mod foreign;
 mod gx;
 mod il;
+mod learn;
 mod learned;
 mod listing;
 pub mod print;
@@ -22,6 +23,7 @@ use std::path::{Path, PathBuf};
 pub use encoding_rs::Encoding;
 pub use gx::table::has_code;
 pub use il::read_text;
+pub use learn::{Lesson, Mismatch, learn};
 pub use learned::{LearnError, LearnedCodes, Reading, Unproven};
 pub use search::{is_project, programs};
 

@@ -56,6 +56,11 @@ pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
     compiled
 }
 
+/// The model that a program is compiled for.
+pub fn model(program: &Program, options: &CompileOptions) -> &'static Model {
+    model_of(program, options).0
+}
+
 /// The model that a program is for, and what is to be said of its choice.
 fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Diagnostics) {
     let mut out = Diagnostics::new();

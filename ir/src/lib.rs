@@ -9,6 +9,7 @@ pub mod catalogue;
 pub mod check;
 pub mod compile;
 pub mod dump;
+pub mod fitting;
 pub mod high_speed;
 pub mod interrupts;
 mod latches;

@@ -113,7 +113,7 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
             }
         }
         let known = !meant && !instr.is_broken();
-        if fit == Fit::Good && diagnostics.len() == before {
+        if fit == Fit::Good && known && diagnostics.len() == before {
             lengths.instr(i, found, written, &mut diagnostics);
         }
         instrs.push(Resolution {

@@ -54,6 +54,10 @@ deny = []
 # [index]
 # "D100Z0" = "D100-D163"
 
+# Instructions by the bytes that stand for them in vendor projects; `rungc learn` writes them.
+# [tokens]
+# "63 09 20" = "DSZR"
+
 # Devices that keep their values over power-off, where that differs from the model's usual ranges.
 # [latched]
 # D = "D200-D511"

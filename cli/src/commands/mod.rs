@@ -7,10 +7,12 @@ mod defaults;
 pub mod explain;
 pub mod init;
 pub mod interruption;
+pub mod learn;
 pub mod run;
 pub mod setting;
 pub mod subject;
 pub mod test;
+mod unproven;
 
 use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals, visible};
@@ -110,7 +112,11 @@ impl Context {
 
 /// Reads a program. That it cannot be read is an object too, for tools.
 pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<Read, Failure> {
-    subject::source(subject).or_else(|error| {
+    let read = subject::source(subject).map(|mut read| {
+        unproven::suggest(&mut read, subject.model);
+        read
+    });
+    read.or_else(|error| {
         let code = match error {
             ReadError::Undecodable { .. } | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
             ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,

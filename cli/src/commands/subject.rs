@@ -76,13 +76,20 @@ impl Projects<'_> {
         if let Some(project) = &project {
             reporting.rules = project.check.clone();
         }
+        let mut options = self.reading.options();
+        if let Some(project) = &project {
+            let learned = super::defaults::learned(project);
+            let refuse = |error| refuse(error, &self.reading.reporting, self.cx);
+            options.learned = learned.map_err(refuse)?;
+            options.encoding = options.encoding.or(project.encoding);
+        }
         let model = project.as_ref().and_then(|project| project.model);
         Ok(Subject {
             file,
             model: self.reading.model.or(model),
             project,
             reporting,
-            options: self.reading.options(),
+            options,
         })
     }
 

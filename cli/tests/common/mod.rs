@@ -23,6 +23,27 @@ OUT Y001
 END
 ";
 
+/// The number of the CPU type FX3U/FX3UC.
+pub const FX3U: u16 = 0x0208;
+
+/// A `MAIN.wpg` for the CPU type with this number, with these bodies of tokens.
+pub fn wpg(cpu: u16, bodies: &[&[u8]]) -> Vec<u8> {
+    let mut bytes = vec![0x40, 0x00, 0x22, 0x01];
+    bytes.resize(0x24, b' ');
+    bytes.extend([0x04, 0x02]);
+    bytes.extend(cpu.to_le_bytes());
+    bytes.resize(0x40, 0xFF);
+    bytes.extend([0x04, 0x00, 0xFF, 0xFF]);
+    for body in bodies {
+        let len = body.len() as u8 + 2;
+        bytes.push(len);
+        bytes.extend_from_slice(body);
+        bytes.push(len);
+    }
+    bytes.extend([0x02; 64]);
+    bytes
+}
+
 /// A folder of its own with these files.
 pub fn folder(files: &[(&str, &[u8])]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();

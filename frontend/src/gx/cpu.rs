@@ -96,7 +96,6 @@ fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
         program: Program {
             source: listing.finish(file),
             kind,
-            cpu: Some(cpu.to_owned()),
             unread: vec![0],
             ..Program::default()
         },

@@ -294,7 +294,9 @@ impl<'l> Reader<'l> {
                 self.advance(tokens::steps(body));
             }
             None => {
-                self.broken_operand(&codes::UNKNOWN_BYTES, at, body, "an unknown operand");
+                self.prefixes = Prefixes::default();
+                let span = self.report(&codes::UNKNOWN_BYTES, at, body, "an unknown operand");
+                self.add_operand(span, OperandKind::Unreadable(None));
             }
         }
     }
@@ -415,19 +417,9 @@ impl<'l> Reader<'l> {
 
     fn whole_operand(&mut self, kind: OperandKind, body: &[u8], at: usize) {
         match self.current {
-            Current::Instr => {
+            Current::Instr | Current::Unknown => {
                 let span = self.listing.word(&kind.to_string());
-                if let Some(instr) = self.program.instrs.last_mut() {
-                    instr.span = instr.span.to(span);
-                    instr.operands.push(Operand { span, kind });
-                }
-            }
-            Current::Unknown => {
-                let span = self.listing.word(&kind.to_string());
-                if let Some(unproven) = self.unproven.last_mut() {
-                    unproven.span = unproven.span.to(span);
-                    unproven.operands.push(Operand { span, kind });
-                }
+                self.add_operand(span, kind);
             }
             Current::Label(steps) => {
                 if let OperandKind::Device(device, None) = kind {
@@ -451,10 +443,28 @@ impl<'l> Reader<'l> {
         }
     }
 
+    /// Gives the open instruction an operand, which the listing has.
+    fn add_operand(&mut self, span: Span, kind: OperandKind) {
+        let (whole, operands) = match self.current {
+            Current::Instr => match self.program.instrs.last_mut() {
+                Some(instr) => (&mut instr.span, &mut instr.operands),
+                None => return,
+            },
+            Current::Unknown => match self.unproven.last_mut() {
+                Some(unproven) => (&mut unproven.span, &mut unproven.operands),
+                None => return,
+            },
+            Current::Label(_) => return self.give_up(),
+            Current::None | Current::Labelled | Current::Unread => return,
+        };
+        *whole = whole.to(span);
+        operands.push(Operand { span, kind });
+    }
+
     /// The operand is a label: which device it means is not in the source.
     fn name(&mut self, name: String) {
         let span = self.listing.word(&name);
-        self.give_up();
+        self.add_operand(span, OperandKind::Unreadable(None));
         let (_, names) = self.names.get_or_insert((span, Vec::new()));
         if !names.contains(&name) {
             names.push(name);
@@ -525,11 +535,12 @@ impl<'l> Reader<'l> {
     }
 
     /// Adds an error about bytes of the file, which it writes into the listing.
-    fn report(&mut self, code: &'static codes::Code, at: usize, bytes: &[u8], what: &str) {
+    fn report(&mut self, code: &'static codes::Code, at: usize, bytes: &[u8], what: &str) -> Span {
         let shown = hex(bytes);
         let span = self.listing.word(&format!("?? {shown}"));
         self.diagnostics
             .push(bytes_error(code, span, at, &shown, what));
+        span
     }
 
     fn finish(mut self, name: &str) -> Read {

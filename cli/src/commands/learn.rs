@@ -1,0 +1,198 @@
+//! `rungc learn`.
+
+use super::subject::{self, Subject};
+use super::{Context, Failure, Outcome, Result, counted, holder, say, write_file};
+use crate::args::{Input, LearnArgs, Reading, Reporting};
+use rungc_frontend::{Lesson, Read, ReadOptions, Reading as Taken, learn};
+use rungc_ir::Model;
+use rungc_ir::catalogue::{self, Basic, Lower};
+use rungc_ir::compile::{self, CompileOptions};
+use rungc_ir::fitting::fits;
+use rungc_project::FILE;
+use rungc_syntax::{SourceKind, text};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use toml_edit::DocumentMut;
+
+/// Learns the codes of a project from its list, writes them to rungc.toml and prints a text to be sent in.
+pub fn run(args: &LearnArgs, cx: Context) -> Result {
+    let subject = subject(args, cx)?;
+    let because = |error: &dyn std::error::Error| Failure::Because(plain(&error.to_string()));
+    let project = subject::source(&subject).map_err(|error| because(&error))?;
+    let export = rungc_frontend::read(&args.export).map_err(|error| because(&error))?;
+    let lessons = learn(&project, &export, same).map_err(|why| because(&why))?;
+    if lessons.is_empty() {
+        cx.note("     Learned nothing: the codes of all instructions are known");
+        return Ok(Outcome::Success);
+    }
+    let options = CompileOptions {
+        model: subject.model,
+        ..CompileOptions::default()
+    };
+    let model = compile::model(&project.program, &options);
+    for lesson in &lessons {
+        prove(lesson, model)?;
+    }
+    let path = match (&args.project, &subject.project) {
+        (Some(given), _) => given.clone(),
+        (None, Some(found)) => found.path.clone(),
+        (None, None) => match home(&args.file, project.program.kind) {
+            here if here == Path::new(".") => PathBuf::from(FILE),
+            home => home.join(FILE),
+        },
+    };
+    write(&path, &lessons)?;
+    let path = subject::near(path);
+    let codes = counted(lessons.len(), "code");
+    cx.note(&format!(
+        "     Learned {codes}: written to {}",
+        path.display()
+    ));
+    say(&letter(&lessons, &project))?;
+    Ok(Outcome::Success)
+}
+
+/// The project with its settings; those that are given need not be there yet.
+fn subject(args: &LearnArgs, cx: Context) -> std::result::Result<Subject, Failure> {
+    let file = args.file.clone();
+    if args.project.as_ref().is_some_and(|given| !given.exists()) {
+        return Ok(Subject {
+            file,
+            project: None,
+            model: args.model,
+            reporting: Reporting::default(),
+            options: ReadOptions::default(),
+        });
+    }
+    let reading = Reading {
+        model: args.model,
+        project: args.project.clone(),
+        ..Reading::default()
+    };
+    let file = Some(file);
+    subject::one(&Input { file, reading }, cx)
+}
+
+/// Text of a file, for people.
+fn plain(text: &str) -> String {
+    text::one_line(text).into_owned()
+}
+
+/// Whether two mnemonics are spellings of one instruction, such as `ECMP` and `DECMP`.
+fn same(a: &str, b: &str) -> bool {
+    a == b
+        || match (catalogue::find(a), catalogue::find(b)) {
+            (Some(a), Some(b)) => {
+                let label = matches!(a.inst.lower, Lower::Basic(Basic::Label));
+                std::ptr::eq(a.inst, b.inst) && a.form == b.form && !label
+            }
+            _ => false,
+        }
+}
+
+/// Holds what the list says to the catalogue.
+fn prove(lesson: &Lesson, model: &'static Model) -> std::result::Result<(), Failure> {
+    let (code, mnemonic) = (lesson.shown(), &lesson.mnemonic);
+    if catalogue::find(mnemonic).is_none() {
+        let why = format!(
+            "the code {code} is `{mnemonic}` in the export, an instruction that no model has"
+        );
+        return Err(Failure::Because(plain(&why)));
+    }
+    let steps = lesson.steps();
+    match lesson
+        .uses
+        .iter()
+        .find(|instr| !fits(mnemonic, steps, &instr.operands, model))
+    {
+        Some(instr) => Err(Failure::Because(plain(&format!(
+            "the code {code} states {}, which `{instr}` of the export does not have on {}",
+            counted(steps as usize, "step"),
+            model.name
+        )))),
+        None => Ok(()),
+    }
+}
+
+/// The folder that a project lies in as a whole: for the `MAIN.wpg` of GX Developer the one above `Resource`.
+fn home(file: &Path, kind: SourceKind) -> PathBuf {
+    if file.is_dir() {
+        return file.to_path_buf();
+    }
+    let mut folder = holder(file);
+    if kind == SourceKind::GxDeveloper {
+        for inner in ["Body", "POU", "Resource"] {
+            if folder
+                .file_name()
+                .is_some_and(|name| name.eq_ignore_ascii_case(inner))
+            {
+                folder = holder(folder);
+            }
+        }
+    }
+    folder.to_path_buf()
+}
+
+/// Adds codes to the table `[tokens]` of a file, which may not be there yet; all else in it stays as it is.
+fn write(path: &Path, lessons: &[Lesson]) -> std::result::Result<(), Failure> {
+    let because = |why: String| Failure::Because(format!("{}: {why}", path.display()));
+    let text = match std::fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+        Err(error) => return Err(because(error.to_string())),
+    };
+    let mut document: DocumentMut = text
+        .parse()
+        .map_err(|e: toml_edit::TomlError| because(e.to_string()))?;
+    let tokens = document.entry("tokens").or_insert_with(toml_edit::table);
+    let tokens = tokens.as_table_like_mut();
+    let tokens = tokens.ok_or_else(|| because("`tokens` is not a table".to_owned()))?;
+    for lesson in lessons {
+        tokens.insert(&lesson.shown(), toml_edit::value(lesson.mnemonic.as_str()));
+    }
+    write_file(path, document.to_string().as_bytes(), true)
+}
+
+/// What others need to know to learn the same.
+fn letter(lessons: &[Lesson], project: &Read) -> String {
+    let editor = match project.program.kind {
+        SourceKind::GxWorks2 => "GX Works2",
+        _ => "GX Developer",
+    };
+    let cpu = project.program.cpu.as_deref().unwrap_or("not named");
+    let names: Vec<_> = lessons
+        .iter()
+        .map(|lesson| format!("{} is {}", lesson.shown(), lesson.mnemonic))
+        .collect();
+    let mut text = format!(
+        "To let everybody read these codes, please send what follows to {}/issues:\n\nToken codes: {}\n\n",
+        env!("CARGO_PKG_REPOSITORY"),
+        names.join(", ")
+    );
+    text.push_str("| code | instruction | steps | times | for example |\n|---|---|---|---|---|\n");
+    for lesson in lessons {
+        let example = lesson.uses.first().map(ToString::to_string);
+        let example = plain(&example.unwrap_or_default()).replace('|', "\\|");
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | `{example}` |",
+            lesson.shown(),
+            lesson.mnemonic,
+            lesson.steps(),
+            lesson.uses.len()
+        );
+    }
+    for lesson in lessons {
+        if let Taken::Derived(other) | Taken::Guess(other) = &lesson.reading
+            && !same(other, &lesson.mnemonic)
+        {
+            let _ = writeln!(text, "\n{} was taken for {other}.", lesson.shown());
+        }
+    }
+    let version = env!("CARGO_PKG_VERSION");
+    let _ = writeln!(
+        text,
+        "\nEditor: {editor}. CPU: {cpu}. Learned with rungc {version} from a list that the editor exported."
+    );
+    text
+}
