@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{folder, rungc, shown, text};
+use common::{code, folder, rungc, shown, text};
 use serde_json::Value;
 
 /// A `MAIN.wpg` for FX3U: LD X000, OUT T0 K30, OUT X001, an unknown instruction, END.
@@ -164,4 +164,23 @@ fn lists_are_complete_for_tools() {
     let unread = results.iter().find(|r| r["ruleId"] == "W0201").unwrap();
     assert_eq!(length(&unread["properties"]["devices"]), 30);
     assert_eq!(length(&unread["relatedLocations"]), 29);
+}
+
+/// A list has no way to write a line break in a text; an export has.
+#[test]
+fn a_text_that_a_list_cannot_hold_is_refused() {
+    let export = EXPORT
+        .replace("\"MOV\"\t\"K5\"", "\"$MOV\"\t\"\"\"a\tb\nc\"\"\"")
+        .replace("\"X1\"", "\"D0\"")
+        .replace("\"=\"\t\"Y0\"", "\"OUT\"\t\"Y0\"");
+    let folder = folder(&[("text.csv", export.as_bytes())]);
+    insta::assert_snapshot!(shown(folder.path(), &["convert", "text.csv", "--to", "il"]));
+    let args = ["convert", "text.csv", "--to", "csv", "-o", "again.csv"];
+    assert_eq!(code(folder.path(), &args), 0);
+    let again = std::fs::read(folder.path().join("again.csv")).unwrap();
+    let units = again
+        .chunks_exact(2)
+        .map(|unit| u16::from_le_bytes([unit[0], unit[1]]));
+    let again = String::from_utf16(&units.collect::<Vec<_>>()).unwrap();
+    assert!(again.contains("\"\"\"a\tb\nc\"\"\""), "{again}");
 }

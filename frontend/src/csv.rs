@@ -305,12 +305,12 @@ impl Reader {
     }
 
     fn operand(&mut self, text: &str) {
+        // What is read is the field itself: a text in it may hold what the listing does not show.
         let span = self.listing.word(text);
         let Some(instr) = self.program.instrs.last_mut() else {
             return;
         };
         let characters = instr.mnemonic == "ASC" && instr.operands.is_empty();
-        let text = self.listing.slice(span);
         let read = il::field::operand(text, span.start, characters, &mut self.diagnostics);
         // A field in which nothing stands but signs between operands.
         let operand = read.unwrap_or(Operand {

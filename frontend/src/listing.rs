@@ -83,11 +83,15 @@ impl Listing {
         Source::new(name, self.text)
     }
 
-    /// Writes text that must not break the line.
+    /// Writes text that must not break the line. Control characters become spaces, of which each byte keeps its place.
     fn raw(&mut self, text: &str) -> Span {
         let start = self.text.len() as u32;
-        self.text
-            .extend(text.chars().map(|c| if c.is_control() { ' ' } else { c }));
+        for c in text.chars() {
+            match c.is_control() {
+                true => self.text.extend(std::iter::repeat_n(' ', c.len_utf8())),
+                false => self.text.push(c),
+            }
+        }
         Span::new(start, self.text.len() as u32)
     }
 }

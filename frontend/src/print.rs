@@ -3,7 +3,7 @@
 
 use crate::csv::{HEADERS, encode};
 use crate::il::is_label;
-use rungc_syntax::{Instr, OperandKind, Program};
+use rungc_syntax::{Instr, Operand, OperandKind, Program};
 use std::fmt::Write as _;
 
 /// The program as an instruction list: title, CPU and device comments as `;!` lines, then one instruction a line.
@@ -56,6 +56,15 @@ fn spelled(kind: &OperandKind) -> String {
         OperandKind::Text(text) => format!("\"{}\"", text.replace('"', "\"\"")),
         other => other.to_string(),
     }
+}
+
+/// The first text operand that holds a line break, which a list has no way to write; an export has.
+pub fn broken_text(program: &Program) -> Option<&Operand> {
+    let mut operands = program.instrs.iter().flat_map(|instr| &instr.operands);
+    operands.find(|operand| match &operand.kind {
+        OperandKind::Text(text) => text.contains(['\n', '\r']),
+        _ => false,
+    })
 }
 
 /// The program as a list export, as the editors write it: UTF-16LE with BOM, tabs, every field quoted, English headers.

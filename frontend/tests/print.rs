@@ -38,7 +38,7 @@ fn kind() -> impl Strategy<Value = OperandKind> {
         any::<f32>()
             .prop_filter("finite", |v| v.is_finite())
             .prop_map(OperandKind::Float),
-        "[ -~]{0,12}".prop_map(|t| OperandKind::Text(t.into())),
+        "[ -~\\t\\x01\\x1b\\x7f\u{85}]{0,12}".prop_map(|t| OperandKind::Text(t.into())),
         (any::<u32>(), any::<u32>(), index()).prop_map(|(module, address, index)| {
             OperandKind::Buffer {
                 module,
@@ -163,4 +163,26 @@ fn comments_are_read_from_beside_an_export() {
 fn a_list_is_written_with_steps_and_notes_in_columns() {
     let text = ";! cpu = FX3U/FX3UC\n;! X000 = start\n; motor\n0 LD X0 ; go\n1 OUT T0 K30\n4 ASC ABCD D0\nP1:\nEND\n";
     insta::assert_snapshot!(print::to_il(&read_text("a.il", text).program));
+}
+
+/// A TAB is the editors' delimiter, and a line break ends a row: in a text neither does.
+#[test]
+fn texts_keep_their_control_characters() {
+    let text = "a\tb\u{1}c\u{85}d";
+    let list = format!("LD X000\n$MOV \"{text}\" D0\nEND\n");
+    let read = read_text("a.il", &list);
+    assert_eq!(
+        read.program.instrs[1].operands[0].kind,
+        OperandKind::Text(text.into())
+    );
+    let mut program = read.program;
+    program.instrs[1].operands[0].kind = OperandKind::Text(format!("{text}\r\ne").into());
+    assert!(print::broken_text(&program).is_some());
+    let back = read_bytes("a.csv", &print::to_csv(&program)).unwrap();
+    assert!(back.diagnostics.iter().next().is_none());
+    assert_eq!(
+        back.program.instrs[1].operands[0].kind,
+        program.instrs[1].operands[0].kind
+    );
+    assert_eq!(back.program.instrs[2].mnemonic, "END");
 }

@@ -58,8 +58,11 @@ fn survive(bytes: &[u8]) -> Option<Read> {
     Some(read)
 }
 
-/// What reads without an error prints and reads back.
+/// What reads without an error prints and reads back, but for texts with line breaks, which a list cannot hold.
 fn print_and_read(read: &Read) {
+    if print::broken_text(&read.program).is_some() {
+        return;
+    }
     let again = read_text("again", &print::to_il(&read.program));
     assert!(!again.diagnostics.has_errors(), "{:?}", again.diagnostics);
     assert_eq!(again.program.instrs.len(), read.program.instrs.len());

@@ -15,6 +15,8 @@ pub struct Program {
     pub kind: SourceKind,
     /// Title of the project, where the source has one.
     pub title: Option<String>,
+    /// What the project calls this program, where it gives programs names, e.g. `MAIN`.
+    pub pou: Option<String>,
     /// CPU type named in the source, as written there, e.g. `FX2N/FX2NC`.
     pub cpu: Option<String>,
     /// The instructions in order. One of which an operand could not be read is among them, with [`OperandKind::Unreadable`] in its

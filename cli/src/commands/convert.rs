@@ -7,6 +7,7 @@ use super::{
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::print;
+use rungc_syntax::codes;
 use std::io::{self, IsTerminal, Write};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
@@ -25,10 +26,20 @@ fn convert(
     cx: Context,
 ) -> Result {
     let read = read(subject, reporter)?;
+    let mut diagnostics = read.diagnostics.clone();
+    if let (ConvertTo::Il, Some(text)) = (args.to, print::broken_text(&read.program)) {
+        let diagnostic = codes::TEXT_BREAK
+            .at(
+                text.span,
+                "this text holds a line break, which a list cannot",
+            )
+            .help("`--to csv` keeps it");
+        diagnostics.push(diagnostic);
+    }
     let findings = Findings::new(
         &subject.file,
         &read.program,
-        read.diagnostics.clone(),
+        diagnostics,
         &subject.reporting,
     );
     if findings.failed() {

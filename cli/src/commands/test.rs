@@ -7,6 +7,7 @@ use super::{
 };
 use crate::args::{EngineChoice, Shard, TestArgs, TestFormat};
 use crate::progress;
+use crate::report::visible_json;
 use report::Results;
 use rungc_rt_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, build};
@@ -100,7 +101,7 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     let text = match args.format {
         TestFormat::Human => report::human(results),
         TestFormat::Junit => report::junit(results)?,
-        TestFormat::Json => report::json(results)?,
+        TestFormat::Json => visible_json(&report::json(results)?).into_owned(),
     };
     let Some(path) = &args.output else {
         return say(&text).map_err(Failure::from);

@@ -7,8 +7,7 @@ mod sarif;
 mod visible;
 mod window;
 
-pub use visible::visible;
-use visible::visible_json;
+pub use visible::{visible, visible_json};
 
 use crate::args::{Format, Reporting};
 use crate::commands::Context;

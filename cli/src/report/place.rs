@@ -107,14 +107,11 @@ pub fn instr_at(program: &Program, offset: u32) -> Option<usize> {
 
 /// What the editor calls the program of a project or an export.
 fn name_within(program: &Program) -> String {
-    match program.kind {
-        SourceKind::Csv => {
-            let stem = Path::new(&program.source.name).file_stem();
-            stem.map_or_else(
-                || "MAIN".to_owned(),
-                |stem| stem.to_string_lossy().into_owned(),
-            )
-        }
-        SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 => "MAIN".to_owned(),
-    }
+    let file = || Path::new(&program.source.name).file_stem();
+    let export = || match program.kind {
+        SourceKind::Csv => file().map(|stem| stem.to_string_lossy().into_owned()),
+        SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 => None,
+    };
+    let named = program.pou.clone().or_else(export);
+    named.unwrap_or_else(|| "MAIN".to_owned())
 }

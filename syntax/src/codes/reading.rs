@@ -49,6 +49,12 @@ super::codes! {
     wrong: "LD X0 OUT Y0\nEND\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
+    TEXT_BREAK = "E0009" "text-break" Error None,
+    "text with a line break",
+    "In an instruction list a text ends on the line on which it begins, so a text with a line break in it cannot be written as a list. A list export holds it.",
+    wrong: "",
+    right: "";
+
     UNKNOWN_FORMAT = "E0010" "unknown-format" Error None,
     "this file is in none of the known formats",
     "Read are instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg) and GX Works2 projects (.gxw). The format is found by content, not by the file's name.",

@@ -325,7 +325,9 @@ impl<'o> Works<'o> {
         let project = self.project.as_ref();
         let page = project.and_then(|project| encoding::of_number(project.code_page));
         let encoding = self.options.encoding_of(&code.texts(), page);
-        code.read(name, encoding, self.options)
+        let mut read = code.read(name, encoding, self.options);
+        read.program.pou = Some(part.stem().to_owned());
+        read
     }
 
     /// How old a compiled program is, compared with its sources.
