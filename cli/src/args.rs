@@ -222,11 +222,12 @@ pub struct RunArgs {
     /// Virtual time from scan to scan.
     #[arg(long, default_value = "10ms", value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: u64,
-    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start); may be repeated or separated by commas.
+    /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`; may be repeated or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
-    /// Devices to show; by default the outputs, timers and counters of the program, then its registers and relays, twelve at
-    /// most.
+    /// Devices to show: `Y000`, `T0`, `D0`, a pair of registers as an integer (`D0.i32`), a float (`D0.f32`) or characters
+    /// (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`). By default what the program
+    /// writes, outputs first, and the inputs that change, twelve at most.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
     /// The machine around the PLC, whose axes, cylinders and delays follow the outputs and drive inputs (docs/machines.md).

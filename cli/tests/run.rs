@@ -37,7 +37,20 @@ fn run_shows_a_table_and_a_diagram() {
     // A clock relay that the program does not use.
     let args = ["run", "motor.il", "--watch", "M8013", "--for", "1s"];
     insta::assert_snapshot!("run_clock", shown(folder.path(), &args));
+    // Of what the program writes, and in the form that it writes.
+    let scales = b"LD M8000\nFLT D0 D10\nDEADD D10 E0.5 D12\nDMOV D4 D6\nSET S0\nOUT M8034\nEND\n";
+    fs::write(folder.path().join("scales.il"), scales).unwrap();
+    let args = [
+        "run",
+        "scales.il",
+        "--set",
+        "D0=3,D4.i32=70000",
+        "--for",
+        "0",
+    ];
+    insta::assert_snapshot!("run_views", shown(folder.path(), &args));
     for wrong in [
+        &["--watch", "D0:f"][..],
         &["--set", "X008=1"],
         &["--set", "D0"],
         &["--watch", "Q1"],
@@ -47,12 +60,16 @@ fn run_shows_a_table_and_a_diagram() {
         &["--watch", "D4294967295.i32"],
         &["--set", "K8M4294967295=1"],
     ] {
-        let args = [&["run", "motor.il"], &wrong[..]].concat();
+        let args = [&["run", "motor.il"], wrong].concat();
         assert_eq!(code(folder.path(), &args), 2, "{wrong:?}");
     }
     insta::assert_snapshot!(
         "run_wrong_set",
         shown(folder.path(), &["run", "motor.il", "--set", "X000=2"])
+    );
+    insta::assert_snapshot!(
+        "run_wrong_view",
+        shown(folder.path(), &["run", "motor.il", "--watch", "D0:f"])
     );
     insta::assert_snapshot!(
         "run_wrong_watch",

@@ -13,11 +13,12 @@ use super::{Context, Failure, Result, conclude, findings, holder, read, stem, te
 use crate::args::RunArgs;
 use crate::report::Reporter;
 use rungc_ir::Module;
+use rungc_ir::check::devices::{self, Holds, Use};
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::plctest::{LoadError, Target};
 use rungc_sim::record::TEXT_LENGTH;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, Program};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -83,7 +84,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     reporter.add(&findings)?;
     reporter.finish()?;
     let shown = if watched.is_empty() {
-        default_watch(&module)
+        default_watch(&read.program, &module, &settings, described.as_ref())
     } else {
         watched.clone()
     };
@@ -181,26 +182,58 @@ fn place(path: &Path) -> PathBuf {
     })
 }
 
-/// Devices of a class that the program uses.
-fn used(module: &Module, class: DeviceClass) -> impl Iterator<Item = u32> {
-    let areas = module.layout.areas.iter().filter(move |a| a.class == class);
-    areas.flat_map(|a| a.first..a.first + a.count)
-}
-
-/// The outputs, timers and counters that the program uses, then its registers and relays, as far as a line holds them.
-fn default_watch(module: &Module) -> Vec<Target> {
-    let of = |class| used(module, class);
-    let outputs = of(DeviceClass::Y).map(|n| Target::Bit(DeviceClass::Y, n));
-    let timers = of(DeviceClass::T).map(|n| Target::Current(DeviceClass::T, n));
-    let counters = of(DeviceClass::C).map(|n| Target::Current(DeviceClass::C, n));
-    let special = |n: &u32| *n >= SPECIAL_FIRST;
-    let registers = of(DeviceClass::D).filter(move |n| !special(n));
-    let relays = of(DeviceClass::M).filter(move |n| !special(n));
+/// What changes in a run, as far as a line holds it: the outputs that the program drives, the inputs that are set or that the
+/// machine drives, then the states, timers, counters, registers and relays that the program writes. Special devices are shown only
+/// when asked for.
+fn default_watch(
+    program: &Program,
+    module: &Module,
+    settings: &[Setting],
+    machine: Option<&Description>,
+) -> Vec<Target> {
+    use DeviceClass::{C, D, M, R, S, T, X, Y};
+    let uses = devices::uses(program, module.model);
+    let moves = |number| {
+        let is_set = settings
+            .iter()
+            .any(|s| observed(s.target).any(|d| d == (X, number)));
+        is_set || machine.is_some_and(|machine| machine.drives(X, number))
+    };
+    let of = |class| {
+        let uses = uses.iter().filter(move |(device, _)| device.class == class);
+        uses.map(|(device, of)| (device.number, *of))
+    };
+    let outputs = of(Y).filter(|(_, of)| of.written);
+    let inputs = of(X).filter(|(number, of)| of.read && moves(*number));
+    let bits = |class, (n, _)| Target::Bit(class, n);
+    let written = |class| {
+        let special = move |n: u32| matches!(class, D | M) && n >= SPECIAL_FIRST;
+        of(class).filter(move |(n, of)| of.written && !special(*n))
+    };
+    let word = |class, (n, of): (u32, Use)| match of.holds {
+        Holds::Single => Target::Word(class, n),
+        Holds::Double => Target::Pair(class, n),
+        Holds::Float => Target::Float(class, n),
+    };
     outputs
-        .chain(timers)
-        .chain(counters)
-        .chain(registers.map(|n| Target::Word(DeviceClass::D, n)))
-        .chain(relays.map(|n| Target::Bit(DeviceClass::M, n)))
+        .map(|of| bits(Y, of))
+        .chain(inputs.map(|of| bits(X, of)))
+        .chain(written(S).map(|of| bits(S, of)))
+        .chain(written(T).map(|(n, _)| Target::Current(T, n)))
+        .chain(written(C).map(|(n, _)| Target::Current(C, n)))
+        .chain(written(D).map(|of| word(D, of)))
+        .chain(written(R).map(|of| word(R, of)))
+        .chain(written(M).map(|of| bits(M, of)))
+        .filter(|target| exists(*target, module))
         .take(DEFAULT_COLUMNS)
         .collect()
+}
+
+/// Whether the module stores all that a target covers.
+fn exists(target: Target, module: &Module) -> bool {
+    let areas = &module.layout.areas;
+    observed(target).all(|(class, n)| {
+        let mut areas = areas.iter().filter(|area| area.class == class);
+        areas.any(|area| (area.first..area.first + area.count).contains(&n))
+    })
 }

@@ -6,6 +6,7 @@
 mod accesses;
 mod blocks;
 mod coils;
+pub mod devices;
 mod drives;
 mod every_scan;
 mod fast_inputs;

@@ -73,10 +73,14 @@ impl Target {
             Some("str") if is_word => Ok(Target::Text(class, number)),
             Some("pulses") if class == DeviceClass::Y => Ok(Target::Pulses(number)),
             Some("hz") if class == DeviceClass::Y => Ok(Target::Frequency(number)),
-            Some(view) => Err(format!(
-                "`{name}`: `.{view}` does not go with {}",
-                class.prefix()
-            )),
+            Some(view) => {
+                let letters = class.prefix();
+                let wrong = format!("`{name}`: `.{view}` does not go with {letters}");
+                Err(match views(class) {
+                    "" => wrong,
+                    views => format!("{wrong}, which takes {views}"),
+                })
+            }
             None => Err(format!("`{name}` holds no value")),
         }
     }
@@ -95,6 +99,26 @@ impl Target {
     }
 }
 
+/// The views of a class, for people.
+fn views(class: DeviceClass) -> &'static str {
+    match class {
+        DeviceClass::Y => "`.pulses` and `.hz`",
+        _ if WORDS.contains(&class) => "`.i32`, `.f32` and `.str`",
+        _ if CONTACTS.contains(&class) => "`.value`",
+        _ => "",
+    }
+}
+
+/// What to write instead of `D0:f`, as other tools have it.
+fn view_after_colon(name: &str, device: &str, view: &str) -> String {
+    let meant = match view.chars().next().map(|c| c.to_ascii_lowercase()) {
+        Some('f' | 'r' | 'e') => "f32",
+        Some('s' | 't' | 'c') => "str",
+        _ => "i32",
+    };
+    format!("`{name}`: write `{device}.{meant}`; a dot stands before what a device is seen as")
+}
+
 /// Splits `K4M0` into 4 and `M0`.
 fn group(device: &str) -> Option<(u8, &str)> {
     let rest = device.strip_prefix('K')?;
@@ -107,6 +131,9 @@ fn device_of(device: &str, name: &str) -> Result<(DeviceClass, u32), String> {
     let at = device
         .find(|c: char| c.is_ascii_digit())
         .unwrap_or(device.len());
+    if let Some((device, view)) = device.split_once([':', '/']) {
+        return Err(view_after_colon(name, device, view));
+    }
     let (letters, number) = device.split_at(at);
     let class = DeviceClass::from_prefix(letters)
         .ok_or_else(|| format!("`{name}` is no device name, e.g. `M0`, `X010`, `D0.i32`"))?;
@@ -158,6 +185,16 @@ mod tests {
     }
 
     #[test]
+    fn views_are_suggested() {
+        let why = |name| Target::parse(name).unwrap_err();
+        insta::assert_snapshot!(why("D0:f"), @"`D0:f`: write `D0.f32`; a dot stands before what a device is seen as");
+        insta::assert_snapshot!(why("D0:I"), @"`D0:I`: write `D0.i32`; a dot stands before what a device is seen as");
+        insta::assert_snapshot!(why("D0.f"), @"`D0.f`: `.f` does not go with D, which takes `.i32`, `.f32` and `.str`");
+        insta::assert_snapshot!(why("Y0.f32"), @"`Y0.f32`: `.f32` does not go with Y, which takes `.pulses` and `.hz`");
+        insta::assert_snapshot!(why("M0.i32"), @"`M0.i32`: `.i32` does not go with M");
+    }
+
+    #[test]
     fn wrong_names_are_errors() {
         for name in [
             "",
@@ -174,6 +211,8 @@ mod tests {
             "D-1",
             "T0.hz",
             "D4294967295.i32",
+            "D0:f",
+            "D0/",
         ] {
             assert!(Target::parse(name).is_err(), "{name}");
         }

@@ -101,7 +101,7 @@ impl Recording {
 /// The inputs and outputs that the program uses, the pulses that it sends, and the watched devices, each once, by class.
 fn targets(module: &Module, watched: &[Target]) -> Vec<Target> {
     let terminals = [DeviceClass::X, DeviceClass::Y].into_iter();
-    let terminals = terminals.flat_map(|class| super::used(module, class).map(move |n| (class, n)));
+    let terminals = terminals.flat_map(|class| used(module, class).map(move |n| (class, n)));
     let mut targets: Vec<Target> = Vec::new();
     let terminals = terminals.map(|(class, n)| Target::Bit(class, n));
     let sends = module.pulse_outputs.iter();
@@ -123,4 +123,10 @@ fn rank(target: Target) -> usize {
         .iter()
         .position(|&s| s == scope)
         .unwrap_or(order.len())
+}
+
+/// Devices of a class that the program uses.
+fn used(module: &Module, class: DeviceClass) -> impl Iterator<Item = u32> {
+    let areas = module.layout.areas.iter().filter(move |a| a.class == class);
+    areas.flat_map(|a| a.first..a.first + a.count)
 }
