@@ -3,8 +3,8 @@
 use super::setting::setting;
 use super::subject::{self, Places, Subject};
 use super::{
-    Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, findings, holder,
-    interruption, plain, read, say, stem, tell, write_executable, write_file,
+    Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, file_name, findings,
+    holder, interruption, plain, read, say, stem, tell, write_executable, write_file,
 };
 use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
@@ -18,7 +18,7 @@ use rungc_firmware::target::{self, Target};
 use rungc_ir::compile::{self, CompileOptions};
 use rungc_ir::{Module, dump};
 use rungc_sim::plctest::Target as Device;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, text};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -55,7 +55,7 @@ fn build(
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
         model: subject.model,
-        name: Some(name),
+        name: Some(name.clone()),
         optimise: !plan.no_opt,
         ..CompileOptions::default()
     };
@@ -65,9 +65,18 @@ fn build(
         Some(module) if !findings.failed() => module,
         _ => return conclude(&findings, reporter, cx, String::new),
     };
+    if plan.name.as_ref().is_some_and(|name| !name.is_ascii()) {
+        let name = text::one_line(&name);
+        cx.note(&format!(
+            "       Named {name}: `{}` in the code",
+            module.name
+        ));
+    }
+    let name = file_name(&name, &module.name);
     let job = Job {
         cx,
-        plan: &plan.at(&module.name, subject, reporter.many(), places)?,
+        name: &name,
+        plan: &plan.at(&name, subject, reporter.many(), places)?,
         module: &module,
         target,
         image: image.as_ref(),
@@ -247,6 +256,8 @@ fn because(error: impl std::fmt::Display) -> Failure {
 
 /// A program to be emitted.
 struct Job<'a> {
+    /// What files are called after.
+    name: &'a str,
     cx: Context,
     plan: &'a Plan,
     module: &'a Module,
@@ -277,7 +288,7 @@ impl Job<'_> {
     /// Where to write.
     fn output(&self, emit: Emit) -> PathBuf {
         let given = self.plan.output.clone();
-        given.unwrap_or_else(|| usual_place(emit, &self.module.name).into())
+        given.unwrap_or_else(|| usual_place(emit, self.name).into())
     }
 
     /// Writes what was asked for; returns where, or `None` for standard output.

@@ -18,7 +18,7 @@ use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
 use rungc_ir::compile::Compiled;
-use rungc_syntax::{SourceKind, Span, codes};
+use rungc_syntax::{SourceKind, Span, codes, text};
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -316,6 +316,16 @@ pub fn holder(path: &Path) -> &Path {
     path.parent()
         .filter(|p| !p.as_os_str().is_empty())
         .unwrap_or(Path::new("."))
+}
+
+/// What files made of a program are called: its name in any script, without what no file system takes. A name in ASCII is that of
+/// the module.
+pub fn file_name(stem: &str, module: &str) -> String {
+    if stem.is_ascii() {
+        return module.to_string();
+    }
+    let refused = |c: char| text::acts(c) || "/\\:*?\"<>|".contains(c);
+    stem.trim_start_matches('.').trim().replace(refused, "_")
 }
 
 /// The name of a file without folder and extension; of a project folder's `MAIN.wpg` or of `MAIN.csv` the project's.

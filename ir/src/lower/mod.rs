@@ -20,6 +20,7 @@ mod flow;
 mod high_speed;
 mod interrupt;
 mod logic;
+mod name;
 mod operand;
 mod parts;
 mod pulse_width;
@@ -37,6 +38,8 @@ use crate::layout;
 use crate::model::Model;
 use crate::node::{CellId, Function, FunctionKind, Module, Network, Stmt};
 use crate::resolve::{Resolution, Resolved};
+pub use name::{module_name, stem};
+
 use flow::{Flow, Open};
 use parts::Item;
 use rungc_rt::TimerKind;
@@ -353,101 +356,3 @@ fn basic_of(resolved: &Resolved, i: usize) -> Option<Basic> {
         _ => None,
     }
 }
-
-/// An identifier in lower case from the name of a file.
-fn module_name(source: &str) -> String {
-    let stem = source.rsplit_once('.').map_or(source, |(stem, _)| stem);
-    let mut name: String = stem
-        .chars()
-        .map(|c| {
-            if c.is_ascii_alphanumeric() {
-                c.to_ascii_lowercase()
-            } else {
-                '_'
-            }
-        })
-        .collect();
-    if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-        name.insert_str(0, "plc");
-    }
-    if TAKEN.contains(&name.as_str()) {
-        name.insert_str(0, "plc_");
-    }
-    name
-}
-
-/// Names that emitted files must not have, without their endings, in order: headers of C99 and POSIX, which other sources
-/// would find instead of the system's, and the files that stand beside a program's own.
-const TAKEN: [&str; 71] = [
-    "aio",
-    "assert",
-    "complex",
-    "cpio",
-    "ctype",
-    "dirent",
-    "dlfcn",
-    "endian",
-    "errno",
-    "fcntl",
-    "fenv",
-    "float",
-    "fmtmsg",
-    "fnmatch",
-    "ftw",
-    "glob",
-    "grp",
-    "iconv",
-    "inttypes",
-    "iso646",
-    "langinfo",
-    "libgen",
-    "limits",
-    "locale",
-    "main",
-    "malloc",
-    "math",
-    "memory",
-    "monetary",
-    "mqueue",
-    "ndbm",
-    "netdb",
-    "nl_types",
-    "poll",
-    "pthread",
-    "pwd",
-    "regex",
-    "rungc",
-    "rungc_board",
-    "rungc_rt",
-    "sched",
-    "search",
-    "semaphore",
-    "setjmp",
-    "signal",
-    "spawn",
-    "stdalign",
-    "stdarg",
-    "stdatomic",
-    "stdbool",
-    "stddef",
-    "stdint",
-    "stdio",
-    "stdlib",
-    "stdnoreturn",
-    "string",
-    "strings",
-    "stropts",
-    "syslog",
-    "tar",
-    "termios",
-    "tgmath",
-    "threads",
-    "time",
-    "trace",
-    "uchar",
-    "ulimit",
-    "unistd",
-    "utime",
-    "wchar",
-    "wctype",
-];

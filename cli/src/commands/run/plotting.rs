@@ -1,7 +1,7 @@
 //! `rungc run --plot`: what is drawn, and the file.
 
-use super::super::{Failure, Fresh};
-use rungc_ir::Module;
+use super::super::{Failure, Fresh, file_name};
+use rungc_ir::{Module, lower};
 use rungc_rt::Program;
 use rungc_sim::Machine;
 use rungc_sim::plant::{Axis, Plant};
@@ -65,7 +65,8 @@ impl Plotting {
         duration_ms: u64,
     ) -> std::result::Result<Self, Failure> {
         let module = machine.module();
-        let title = format!("{} on {}", module.name, module.model.title);
+        let name = file_name(lower::stem(&module.source_name), &module.name);
+        let title = format!("{name} on {}", module.model.title);
         let mut plot = Plot::new(&title, duration_ms);
         let mut curves = Vec::new();
         let axes = plant.map_or(&[][..], Plant::axes);
