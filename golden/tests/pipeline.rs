@@ -246,7 +246,8 @@ fn compiled(text: &str, model: ModelId, optimise: bool) -> (Compiled, Vec<u32>) 
             faulty.push(read.program.source.line_col(finding.span.start).0);
         }
     }
-    assert_eq!(compiled.diagnostics.has_errors(), compiled.module.is_none());
+    let refused = compiled.diagnostics.has_errors() || !read.program.is_complete();
+    assert_eq!(refused, compiled.module.is_none());
     if read.diagnostics.has_errors() {
         compiled.module = None;
     }

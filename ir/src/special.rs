@@ -247,6 +247,8 @@ const LATER: Reason = because(
 const SERIAL: Reason = because(Missed::ByAll, "serial communication is not implemented yet");
 const PORTS: Reason = because(Missed::Never, SERIAL.text);
 const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
+const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
+const AXES: Reason = because(Missed::Never, "input axes do not show this yet");
 const LINK: Reason = because(Missed::ByAll, "links between PLCs are not implemented yet");
 const TRACE: Reason = because(Missed::Never, "sampling traces are a matter of the editor");
 const INTERRUPTS: Reason = because(
@@ -303,7 +305,7 @@ use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, Status, all, find, tables};
+    use super::{Access, CAN, CARDS, MODULES, POWER, SERIAL, Status, all, find, tables};
     use crate::model::{Model, ModelId};
     use rungc_syntax::DeviceClass::{D, M};
     use std::collections::BTreeSet;
@@ -331,7 +333,9 @@ mod tests {
         for id in ModelId::ALL {
             for row in all(id) {
                 let model = Model::get(id);
-                assert!(row.first >= 8000 && !row.meaning.is_empty(), "{row:?}");
+                // HM's axes and modules have registers among the general ones.
+                let placed = row.first >= 8000 || id == ModelId::Hm && row.class == D;
+                assert!(placed && !row.meaning.is_empty(), "{row:?}");
                 assert!(model.has(row.class, row.first), "{id:?} {row:?}");
                 assert!(model.has(row.class, row.last), "{id:?} {row:?}");
             }
@@ -354,6 +358,29 @@ mod tests {
             find(ModelId::L01s, D, 8020).map(|row| row.default),
             Some(10)
         );
+    }
+
+    #[test]
+    fn tables_hold_what_manuals_tell_elsewhere() {
+        let of = |id, class, number| find(id, class, number).map(|row| row.status);
+        // DSZR (h1u-h2u-programming §4.3.11), computer link (§5.6), CANlink 3.0 (§5.9.5), analog cards (§6.7).
+        assert_eq!(
+            of(ModelId::H2u, M, 8486),
+            Some(Status::Instructions("DSZR"))
+        );
+        assert_eq!(of(ModelId::H1u, M, 8128), Some(Status::Inert(SERIAL)));
+        for number in [8282, 8307, 8308] {
+            assert_eq!(of(ModelId::H2u, D, number), Some(Status::Inert(CAN)));
+        }
+        for number in [8199, 8220, 8239] {
+            assert_eq!(of(ModelId::H1u, D, number), Some(Status::Inert(CARDS)));
+        }
+        assert_eq!(of(ModelId::H2u, D, 8005), Some(Status::Inert(POWER)));
+        // Axes and modules of HM (hm-motion-controller §7, §8.2).
+        let axis = Some(Status::Instructions("axis motion"));
+        assert_eq!([300, 599, 97].map(|n| of(ModelId::Hm, D, n)), [axis; 3]);
+        assert_eq!(of(ModelId::Hm, D, 7142), Some(Status::Inert(MODULES)));
+        assert_eq!(of(ModelId::Hm, D, 1000), None);
     }
 
     #[test]

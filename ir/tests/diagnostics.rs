@@ -371,3 +371,25 @@ END
         shown(ModelId::Fx3uCompatible, text)
     );
 }
+
+#[test]
+fn rs_as_modbus_master() {
+    let text = "\
+LD X0
+RS D0 K10 D100 K20
+RS H0103 K100 K1 D10
+RS H0103 K4000 D5 D10
+RS D0 K4000 K1 D10
+RS D0 K257 D100 K20
+RS H0103 K100 K1 K2
+END
+";
+    insta::assert_snapshot!("rs_on_h2u", shown(ModelId::H2u, text));
+    insta::assert_snapshot!("rs_on_fx3u", shown(ModelId::Fx3u, text));
+}
+
+#[test]
+fn instructions_that_a_manual_names_only() {
+    let text = "LD X0\nDPTO D0 D10 K0\nLD X1\nCAP C235 D20\nEND\n";
+    insta::assert_snapshot!(shown(ModelId::Hm, text));
+}

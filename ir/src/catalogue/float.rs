@@ -18,6 +18,11 @@ const TWO: &[Param] = &[
     real_out("D", REAL_RESULTS),
 ];
 const ONE: &[Param] = &[real("S", REALS), real_out("D", REAL_RESULTS.or(INDEX))];
+/// L01S lists K and H for EMOV too (l01s-programming §4.2).
+const ONE_L01S: &[Param] = &[
+    real("S", REALS.or(CONSTANTS)),
+    real_out("D", REAL_RESULTS.or(INDEX)),
+];
 /// HM takes integer constants everywhere.
 const ONE_HM: &[Param] = &[real("S", CONSTANTS.or(DATA)), real_out("D", DATA)];
 /// A float as a decimal mantissa and a decimal exponent.
@@ -67,7 +72,8 @@ pub(super) const ROWS: &[Inst] = &[
     float("EMOV", 112, "Move a float", RtFn::Emov)
         .on(NOT_HM_FX1.without(ModelSet::FX2N))
         .takes(ONE)
-        .text("Copies the float S to D."),
+        .variants(&[on(L01S).takes(ONE_L01S)])
+        .text("Copies the float S to D. On L01S S may be an integer constant, which becomes a float."),
     float("ESTR", 116, "Float to text", RtFn::Estr)
         .steps(13, 13)
         .on(FX3U)

@@ -198,7 +198,7 @@ pub(super) const ROWS: &[Inst] = &[
         .forms(W16_P)
         .steps(3, 3)
         .on(FX3U_L01S)
-        .takes(&[dst("D", RESULT_GROUPS.or(REGISTERS))])
+        .takes(&[dst("D", RESULT_GROUPS.or(REGISTERS)).also_on(L01S, INDEX)])
         .flags(&["D8310", "D8311"])
         .call(RtFn::Rnd)
         .text("D = a pseudo-random number from 0 to 32767, from the state in D8311 and D8310."),

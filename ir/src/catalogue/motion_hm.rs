@@ -32,6 +32,28 @@ const fn process(name: &'static str, title: &'static str, basic: Basic) -> Inst 
         .lower(Lower::Basic(basic))
 }
 
+/// An operand of which nothing is known.
+const fn whatever(name: &'static str) -> Param {
+    mixed(name, VALUES.or(BITS)).optional()
+}
+
+/// What the list of §8.1 names and no section describes.
+const fn named_only(name: &'static str, title: &'static str) -> Inst {
+    const OPERANDS: &[Param] = &[
+        whatever("1"),
+        whatever("2"),
+        whatever("3"),
+        whatever("4"),
+        whatever("5"),
+    ];
+    row(name, title, "hm-motion-controller §8.1")
+        .on(HM)
+        .spelling(Spelling::Plain)
+        .takes(OPERANDS)
+        .todo("instructions that the manual names and does not describe")
+        .text("The manual names this instruction in its list and describes neither its operands nor what it does.")
+}
+
 pub(super) const ROWS: &[Inst] = &[
     process("PROC", "Begin of a process section", Basic::Proc)
         .drive(Drive::Alone)
@@ -44,6 +66,8 @@ pub(super) const ROWS: &[Inst] = &[
         .drive(Drive::Alone)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Ends an advanced interrupt."),
+    named_only("DPTO", "Pulses in several stages").forms(W32),
+    named_only("CAP", "Capture of a count"),
     motion("AXPO", "Bind an axis to an output")
         .takes(&[AXIS, count("D2", 0, 8), any("D3").limits(0, 1)])
         .lower(Lower::Axis(&[0, 1]))

@@ -401,6 +401,12 @@ impl Param {
         }
     }
 
+    /// It may be left out.
+    pub(super) const fn optional(self) -> Self {
+        let optional = true;
+        Param { optional, ..self }
+    }
+
     /// No index register.
     pub(super) const fn plain(self) -> Self {
         let indexable = false;

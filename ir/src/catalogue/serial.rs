@@ -1,7 +1,7 @@
 //! Serial instructions, FNC 80–93, inverters, FNC 270–276, and the memory cassette, FNC 290–305.
 
 use super::row::*;
-use super::{Classes, Inst, Lower, Param, Rule};
+use super::{Classes, Inst, Lower, Param, Rule, When};
 use crate::model::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
@@ -60,6 +60,35 @@ const SEND: Param = src("S", DATA).per(1);
 const SEND_LENGTH: Param = number("m", 256);
 const RECEIVE: Param = dst("D", DATA).per(3).changed();
 const RECEIVE_LENGTH: Param = number("n", 256);
+/// RS as Modbus master, D8126 = 20h or 30h (h1u-h2u-programming §5.7): what the other models take for lengths and receive registers is the
+/// address, the number, and the data.
+const RS_MODBUS: &[Param] = &[any("S"), any("m"), any("D"), both("n", DATA).per(2)];
+/// Either form, where a register comes first: the number as a constant tells that it is a Modbus request.
+const RS_INOVANCE: &[Param] = &[
+    src("S", DATA).len_of(|constants| match constant(constants, 2) {
+        Some(_) => Some(1),
+        None => constant(constants, 1),
+    }),
+    any("m").rules(&[SENDS_256_BYTES]),
+    dst("D", DATA)
+        .len_of(|constants| constant(constants, 3))
+        .changed()
+        .also(CONSTANTS),
+    number("n", 256),
+];
+const SENDS_256_BYTES: Rule = Rule::Holds(
+    |operands| match operands {
+        [_, length, received, ..] if !CONSTANTS.meets(Classes::of(&received.kind)) => {
+            match length.kind {
+                OperandKind::Decimal(count, None) => (0..=256).contains(&count),
+                OperandKind::Hex(count, None) => count <= 256,
+                _ => true,
+            }
+        }
+        _ => true,
+    },
+    "at most 256 bytes",
+);
 const HM_STATION: Param = any("S1");
 const HM_ADDRESS: Param = any("S2");
 const HM_NUMBER: Param = any("S3");
@@ -166,8 +195,16 @@ pub(super) const ROWS: &[Inst] = &[
     serial("RS", 80, "Serial transfer")
         .on(NOT_HM)
         .takes(&[SEND, SEND_LENGTH, RECEIVE, RECEIVE_LENGTH])
+        .variants(&[
+            variant(INOVANCE, When::First(CONSTANTS, 0, u32::MAX)).takes(RS_MODBUS),
+            on(INOVANCE).takes(RS_INOVANCE),
+        ])
         .flags(&["M8121", "M8122", "M8123", "M8124", "M8129", "M8161", "D8120"])
-        .text("Sends m bytes from S on when the program sets M8122, and receives n bytes to D; M8123 is on when they are there."),
+        .text(
+            "Sends m bytes from S on when the program sets M8122, and receives n bytes to D; M8123 is on when they are there. On H1U and \
+             H2U, with 20h or 30h in D8126, it is a Modbus request: S is station × 256 + function, m the address, D how many, n the first \
+             data register.",
+        ),
     serial("ASCI", 82, "Hexadecimal digits to text")
         .aliases(&["ASCII"])
         .forms(W16_P)

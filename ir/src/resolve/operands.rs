@@ -79,10 +79,15 @@ impl Checker {
             let wrong = |param| Checker::new(boards).operand(place, at, param);
             params.get(at).is_some_and(|param| wrong(param).is_none())
         });
-        match taken {
-            Some(boards) => diagnostic.help(format!("`{}` takes it", boards.name)),
-            None => diagnostic,
-        }
+        let Some(boards) = taken else {
+            return diagnostic;
+        };
+        let before = diagnostic
+            .help
+            .as_ref()
+            .map_or(String::new(), |help| format!("{help}; "));
+        let help = format!("{before}`{}` takes it", boards.name);
+        diagnostic.help(help)
     }
 
     /// Reports operands that are missing or too many. Where one could not be read, only that one is judged.

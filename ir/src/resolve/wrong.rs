@@ -201,14 +201,16 @@ pub(super) fn not_this_number(
     let diagnostic = codes::NOT_THIS_NUMBER
         .at(span, format!("`{device}` cannot serve here"))
         .label(format!("here only {}", ranges.join(", ")));
-    match param.sends_pulses {
-        true => diagnostic.help(format!(
-            "of the outputs of {} only these send pulses: {}",
-            model.name,
-            ranges.join(", ")
-        )),
-        false => diagnostic,
-    }
+    let task = match (param.keeps_position, param.sends_pulses) {
+        (true, _) => "keep a position",
+        (_, true) => "send pulses",
+        _ => return diagnostic,
+    };
+    diagnostic.help(format!(
+        "of the outputs of {} only these {task}: {}",
+        model.name,
+        ranges.join(", ")
+    ))
 }
 
 /// A constant that is wider than its operand.

@@ -1,6 +1,6 @@
-//! Special devices of HM (hm-motion-controller §5.7). Many numbers mean something else than on the other models.
+//! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers mean something else than on the other models.
 
-use super::{HOST, MAKER, MODES, POWER, SERIAL, Special, specials};
+use super::{AXES, HOST, MAKER, MODES, MODULES, POWER, SERIAL, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -31,6 +31,29 @@ pub(super) const HM: &[Special] = specials! {
     M 8235 rw 0 by("OUT C") "count direction of the high-speed counter with the same number";
     M 8237 rw 0 by("OUT C") "count direction of the high-speed counter with the same number";
     M 8239-8242 rw 0 by("OUT C") "count direction of the high-speed counter with the same number";
+    D 80-97 rw 0 by("axis motion") "pulses sent by AXOUT0–AXOUT8, a pair each";
+    D 200-203 rw 0 by("OUT C") "AXV6: count of X000, 64 bits";
+    D 204-205 rw 0 inert(AXES) "AXV6: count of the period";
+    D 206-207 rw 0 by("OUT C") "AXV6: count at the input interrupt";
+    D 208-209 rw 0 inert(AXES) "AXV6: count at the counter interrupt";
+    D 210 rw 0 inert(AXES) "AXV6: way of counting, 0 phases, 1 direction, 2 up, 3 down";
+    D 211 rw 0 by("OUT C") "AXV6: edges that interrupt";
+    D 212 rw 0 inert(AXES) "AXV6: count in 1 ms";
+    D 250-253 rw 0 by("OUT C") "AXV7: count of X002, 64 bits";
+    D 254-255 rw 0 inert(AXES) "AXV7: count of the period";
+    D 256-257 rw 0 by("OUT C") "AXV7: count at the input interrupt";
+    D 258-259 rw 0 inert(AXES) "AXV7: count at the counter interrupt";
+    D 260 rw 0 inert(AXES) "AXV7: way of counting, 0 phases, 1 direction, 2 up, 3 down";
+    D 261 rw 0 by("OUT C") "AXV7: edges that interrupt";
+    D 262 rw 0 inert(AXES) "AXV7: count in 1 ms";
+    D 300-349 rw 0 by("axis motion") "AXV0, with its defaults when RUN begins: +0 output, +1 direction output, +2 time unit in ms (10), +5 highest speed (1000), +6 start speed, +7 acceleration (100), +8 to +11 inputs: DOG, Z, left and right limit, +12 speed of the return, +13 creep speed, +14 input modes, +15 pulses and +16 Z pulses past the DOG, +18 position, +20 state, +21 error, +22 increment, +23 stop inputs, +24 interrupt inputs, +26 position at the interrupt";
+    D 350-399 rw 0 by("axis motion") "AXV1: as D300–D349";
+    D 400-449 rw 0 by("axis motion") "AXV2: as D300–D349";
+    D 450-499 rw 0 by("axis motion") "AXV3: as D300–D349";
+    D 500-549 rw 0 by("axis motion") "AXV4: as D300–D349";
+    D 550-599 rw 0 by("axis motion") "AXV5: as D300–D349";
+    D 7100-7147 rw 0 inert(MODULES) "extension modules: their addresses, D7142 their number, D7147 their error (from D8129 on)";
+    D 7200-7583 rw 0 inert(MODULES) "data of analog extension modules";
     D 8000 rw 200 scan "scan watchdog limit in ms; PLC faults and stops when a scan exceeds it";
     D 8001 r 0 inert(MAKER) "series number of the instruction set";
     D 8002 r 12 scan "program capacity";

@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use super::{
-    CAN, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, PORTS, POWER, SERIAL, Special, TRACE,
-    UNCLEAR, specials,
+    CAN, CARDS, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, PORTS, POWER, SERIAL, Special,
+    TRACE, UNCLEAR, specials,
 };
 
 /// What both have.
@@ -12,6 +12,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8002 r 0 scan "initial pulse: on during the first scan after the program starts to run, off afterwards";
     M 8003 r 0 scan "inverse of M8002: off in the first scan of RUN, on afterwards";
     M 8004 r 0 scan "error present: on while any of M8060-M8067 except M8062 is on";
+    M 8005 r 0 inert(POWER) "battery voltage is low (not on XP types)";
     M 8006 r 0 inert(POWER) "battery voltage has been low (latched)";
     M 8007 r 0 inert(POWER) "AC power failure: comes on with M8008 after 5 ms of failure; the program goes on within the time D8008";
     M 8008 r 0 inert(POWER) "AC power failure being detected; when it goes off the program stops and M8000 goes off";
@@ -92,6 +93,8 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8123 rw 0 inert(SERIAL) "COM1: receive finished (RS); communication error (MODBUS)";
     M 8124 r 0 inert(SERIAL) "COM1: receiving (RS only)";
     M 8126 r 0 inert(SERIAL) "COM1: on when the 485BD card is effective";
+    M 8127 r 0 inert(SERIAL) "COM1: computer link sends on demand (§5.6; reserved in §5.1)";
+    M 8128 r 0 inert(SERIAL) "COM1: range of what computer link is to send on demand is wrong (§5.6; reserved in §5.1)";
     M 8129 r 0 inert(SERIAL) "COM1: time-out";
     M 8130 rw 0 by("HSZ") "HSZ table (comparison platform) mode";
     M 8131 r 0 by("HSZ") "used with M8130: on for a scan when the last row of the table was reached";
@@ -137,7 +140,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8274 r 0 inert(SERIAL) "COM3: receiving (RS2 only)";
     M 8276 r 0 inert(SERIAL) "COM3: on when the 485BD card is effective";
     M 8279 r 0 inert(SERIAL) "COM3: time-out";
-    M 8280 r 0 inert(CAN) "CAN protocol flag";
+    M 8280 rw 0 inert(CAN) "CANlink 3.0: 0 protocol 3.00, 1 protocol 1.00";
     M 8281 r 0 inert(CAN) "no CAN card found: CANlink not usable";
     M 8282 rw 0 inert(CAN) "0 CANlink protocol, 1 free CAN protocol";
     M 8284 rw 0 inert(CAN) "0: CANlink address from switches (shown in D8284); 1: set by D8284";
@@ -190,11 +193,13 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8466 rw 0 by("DSZR") "DSZR Y2: zero-point signal logic inverted";
     M 8468 r 0 by("pulse outputs") "Y2: positioning instruction being driven";
     M 8469 rw 0 by("pulse outputs") "Y2: stop pulses";
+    M 8484-8486 rw 0 by("DSZR") "DSZR Y0–Y2: D8484–D8486 name the output of the clear signal";
     M 8490 rw 0 by("MEAN") "MEAN: sum flag (sum instead of mean)";
     M 8491 rw 0 inert(LINK) "N:N link checksum: off with checksum (default), on without (Mitsubishi compatible)";
     D 8000 rw 200 scan "watchdog time in ms for one scan (max 32767)";
     D 8003 r 16 scan "kind of memory: fixed H10 = built-in";
     D 8004 r 0 scan "BCD number of the error relay M8060-M8067 that is on, 0 when none";
+    D 8005 r 0 inert(POWER) "battery voltage in BCD (not on XP types)";
     D 8006 rw 26 inert(POWER) "battery-low threshold, initial 2.6 V";
     D 8007 r 0 inert(POWER) "how often M8007 came on; cleared at power off";
     D 8008 rw 10 inert(POWER) "AC failure detection time in ms";
@@ -325,7 +330,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8193 rw 0 scan "same memory as V6";
     D 8194 rw 0 scan "same memory as Z7";
     D 8195 rw 0 scan "same memory as V7";
-    D 8199 rw 0 inert(CAN) "extension card type (h2u detects it, h1u must set it): 1 RS232, 2 RS422/485, 3 AD, 4 DA, 5 6A/6B, 6";
+    D 8199 rw 0 inert(CARDS) "extension card type (h2u detects it, h1u must set it): 1 RS232, 2 RS422/485, 3 AD, 4 DA, 5 6A/6B, 6";
     D 8200 r 0 scan "vendor software version XXX.YY";
     D 8201 r 0 inert(LINK) "N:N link: present link scan time";
     D 8202 r 0 inert(LINK) "N:N link: longest link scan time";
@@ -333,9 +338,13 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8204-8210 r 0 inert(LINK) "N:N link: slave 1–7 error count";
     D 8211 r 0 inert(LINK) "N:N link: master error code";
     D 8212-8218 r 0 inert(LINK) "N:N link: slave 1–7 error code";
-    D 8220-8229 rw 0 inert(CAN) "extension card: send buffer";
-    D 8230-8238 r 0 inert(CAN) "extension card: receive buffer";
-    D 8239 r 0 inert(CAN) "extension card: communication error counter";
+    D 8220 rw 0 inert(CARDS) "analog card 6A, 6B, 4A: command, C000h pause, C001h filter time";
+    D 8221-8222 rw 0 inert(CARDS) "analog card: outputs 1 and 2, 0 to 10000";
+    D 8223-8229 rw 0 inert(CARDS) "extension card: send buffer";
+    D 8230 r 0 inert(CARDS) "analog card: 6A42h, 6B42h, 4A22h, or the command that it obeys";
+    D 8231-8236 r 0 inert(CARDS) "analog card: inputs, then outputs, 0 to 10000";
+    D 8237-8238 r 0 inert(CARDS) "extension card: receive buffer";
+    D 8239 r 0 inert(CARDS) "extension card: communication error counter, 0 while it answers";
     D 8240 rw 0 inert(CAN) "CAN function setting (N series)";
     D 8241 rw 0 inert(CAN) "CAN receive time-out in ms (N series)";
     D 8242 rw 0 inert(CAN) "CANlink address (N series)";
@@ -374,9 +383,10 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8279 rw 10 inert(SERIAL) "COM3: time-out, unit 10 ms";
     D 8280 r 300 inert(CAN) "CAN protocol version of this software";
     D 8281 rw 0 inert(CAN) "extension card type, as D8199 (5 = 6A/6B/3A)";
+    D 8282 r 0 inert(CAN) "CANlink 3.0: heartbeat time in ms";
     D 8284 rw 0 inert(CAN) "CANlink address: set or shown";
     D 8285 rw 0 inert(CAN) "baud rate: set or shown";
-    D 8286 rw 0 inert(CAN) "with M8285=1 and M8286=0: below 10: 0=10K, 1=100K, 2=200K, 3=300K, 4=400K, 5=500K, 6=600K, other=800K";
+    D 8286 rw 0 inert(CAN) "baud rate, with M8285=1; CANlink 3.0 (§5.9.5): 20, 50, 100, 125, 250, 500, 800 or 1000 kbit/s, other=500K; older cards (§8.1), with M8286=0: 10 and more in kbit/s, 0=10K, 1=100K, 2=200K, 3=300K, 4=400K, 5=500K, 6=600K, other=800K";
     D 8287 rw 0 inert(CAN) "with M8287=1: first device in which network device information is saved";
     D 8291 r 0 inert(CAN) "number of network devices";
     D 8292 r 0 inert(CAN) "CANRX received length MCFL";
@@ -392,6 +402,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8302-8304 r 0 inert(CAN) "device number (with M8302–8304)";
     D 8305 r 0 inert(CAN) "network alarm information";
     D 8306 rw 0 inert(CAN) "with M8306: first of 64 D registers that take the alarm codes of devices 0-63";
+    D 8307 r 0 inert(CAN) "CANlink 3.0: command frame error, station × 100 + code";
+    D 8308 r 0 inert(CAN) "CANlink 3.0: configuration frame error, station × 100 + code";
     D 8430 rw 0 inert(NETWORK) "3G module heartbeat with the PLC (withdrawn)";
     D 8431 r 0 inert(NETWORK) "3G module heartbeat with the server";
     D 8432 r 0 inert(NETWORK) "3G signal strength";
