@@ -295,7 +295,12 @@ impl<'l> Reader<'l> {
             }
             None => {
                 self.prefixes = Prefixes::default();
-                let span = self.report(&codes::UNKNOWN_BYTES, at, body, "an unknown operand");
+                let open = self.program.instrs.last();
+                let open = open.filter(|_| self.current == Current::Instr);
+                let what = open.map_or("an unknown operand".to_owned(), |instr| {
+                    format!("an unknown operand of `{}`", instr.mnemonic)
+                });
+                let span = self.report(&codes::UNKNOWN_BYTES, at, body, &what);
                 self.add_operand(span, OperandKind::Unreadable(None));
             }
         }
