@@ -22,6 +22,21 @@ typedef struct plc_sys {
     uint16_t scan;    /* another odd number in each scan, wrapping */
 } plc_sys;
 
+/* What put the PLC in STOP, besides the RUN/STOP switch. */
+enum {
+    PLC_STOP_NONE = 0,
+    PLC_STOP_PROGRAM = 1,    /* the program, by M8037 */
+    PLC_STOP_WATCHDOG = 6105 /* the watchdog: a scan did not end */
+};
+
+/* What has gone wrong since RUN began, whether the program looks at special devices or not. */
+typedef struct plc_error {
+    uint16_t code;      /* the PLC's code of the last operation error, e.g. 6706; 0 if there was none */
+    uint16_t step;      /* step of the instruction that it happened to */
+    uint16_t stop;      /* what put the PLC in STOP */
+    uint16_t stop_step; /* step of the loop or the jump that the watchdog found too long */
+} plc_error;
+
 /* A timer: .done is its contact, .value its current value in units. */
 typedef struct plc_timer {
     int16_t value;   /* current value */

@@ -337,6 +337,10 @@ typedef struct rungc_layout {
      */
     size_t sys;
     /**
+     * Where the struct holds its `plc_error`; 0 if it has none.
+     */
+    size_t error;
+    /**
      * Where the struct holds its private memories.
      */
     size_t states;

@@ -97,11 +97,15 @@ fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
         push_with_comment(out, &format!("    {line}"), &comment);
         size.add(bytes, bytes);
     }
-    if plan.jumps() {
+    if module.may_fail() {
+        push_with_comment(out, "    plc_error error;", "what has gone wrong");
+        size.add(8, 2);
+    }
+    if module.has_watchdog() {
         push_with_comment(
             out,
-            "    uint32_t jumps_left;",
-            "jumps that this scan may still make",
+            "    uint32_t steps_left;",
+            "steps that this scan may still repeat",
         );
         size.add(4, 4);
     }
@@ -243,6 +247,8 @@ fn prototypes(out: &mut String, name: &str) {
          void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us);\n\n\
          /* State of output terminal Y `terminal` (a plain number: 8 is Y010) after a scan; off in STOP. */\n\
          bool {name}_output(const {name}_plc *plc, unsigned terminal);\n\n\
+         /* The last operation error and what stopped the PLC, since RUN began. */\n\
+         plc_error {name}_error(const {name}_plc *plc);\n\n\
          /* The RUN/STOP switch. STOP clears what is not latched. */\n\
          void {name}_set_running({name}_plc *plc, bool running);\n\n\
          /* Power off and on: only latched devices keep their values; then RUN. */\n\

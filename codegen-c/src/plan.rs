@@ -143,11 +143,6 @@ pub struct Plan<'m> {
 }
 
 impl<'m> Plan<'m> {
-    /// Whether there are jumps that do not nest, which may go on for ever.
-    pub fn jumps(&self) -> bool {
-        self.state_names.iter().any(|names| !names.is_empty())
-    }
-
     /// Makes it.
     pub fn new(module: &'m Module) -> Self {
         let mut builder = Builder {
@@ -237,7 +232,7 @@ impl<'m> Builder<'m> {
                 weight += 2 * parts.len() as u64;
                 self.parts(parts, root, &mut leaves)
             }
-            Stmt::Return => {
+            Stmt::Return | Stmt::Watch { .. } => {
                 leaves.returns = true;
                 Node::Stmt(stmt)
             }

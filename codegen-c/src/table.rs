@@ -85,6 +85,9 @@ pub fn write(out: &mut String, module: &Module, fields: &Fields) {
     ));
 
     layout.push(format!(".sys = offsetof({name}_plc, sys)"));
+    if module.may_fail() {
+        layout.push(format!(".error = offsetof({name}_plc, error)"));
+    }
     if module.states > 0 {
         layout.push(format!(".states = offsetof({name}_plc, state)"));
         layout.push(format!(".state_count = {}", module.states));

@@ -7,11 +7,11 @@ use crate::plan::Plan;
 use crate::table;
 use crate::writer::{Writer, function_name};
 use rungc_ir::Module;
-use rungc_ir::node::{FunctionKind, MAX_JUMPS};
+use rungc_ir::node::{FunctionKind, STEPS_PER_MS};
 use rungc_ir::walk::{calls_runtime, statements};
 use rungc_rt::special::{
-    D_ANY_ERROR, D_WATCHDOG, M_ANY_ERROR, M_KEEP_IN_STOP, M_OPERATION_ERROR, M_OUTPUTS_OFF,
-    M_WATCHDOG, OPERATION_ERROR_BCD, WATCHDOG_BCD, WATCHDOG_CODE,
+    D_ANY_ERROR, D_WATCHDOG, D_WATCHDOG_MS, M_ANY_ERROR, M_KEEP_IN_STOP, M_OPERATION_ERROR,
+    M_OUTPUTS_OFF, M_WATCHDOG, OPERATION_ERROR_BCD, WATCHDOG_BCD, WATCHDOG_CODE,
 };
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -74,7 +74,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     if faults {
         printer.fault(&mut internal);
     }
-    if plan.jumps() {
+    if module.has_watchdog() {
         printer.watchdog(&mut internal);
     }
     // Where the program itself clears devices the functions stand before it, else with those of the API.
@@ -84,7 +84,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     } else {
         groups[0].push_str(&clearing);
     }
-    printer.api_functions(&mut groups[0], plan.jumps());
+    printer.api_functions(&mut groups[0]);
     if module.takes_events() {
         groups[0].push_str(&events::functions(module));
     }
@@ -187,7 +187,7 @@ impl Printer<'_> {
 
     /// Reports an operation error (see the runtime's `report`), as far as the program looks at it.
     fn fault(&self, out: &mut String) {
-        let mut lines = String::new();
+        let mut lines = "    plc->error.code = code;\n    plc->error.step = step;\n".to_string();
         let relay = self.module.model.error_relay;
         // On HM the other numbers are something else.
         let family = relay == M_OPERATION_ERROR;
@@ -197,7 +197,7 @@ impl Printer<'_> {
         };
         let m = |n| stored(DeviceClass::M, n);
         let d = |n| stored(DeviceClass::D, n);
-        let latch = d(8068).map(|d| format!("{d} = step;"));
+        let latch = d(8068).map(|d| format!("{d} = plc_int16(step);"));
         match (m(8068), latch) {
             (Some(m), latch) => {
                 let _ = writeln!(
@@ -217,8 +217,15 @@ impl Printer<'_> {
         let shown = OPERATION_ERROR_BCD.to_string();
         let values = [
             (m(relay), "true"),
-            (d(relay), if family { "code" } else { "step" }),
-            (d(8069), "step"),
+            (
+                d(relay),
+                if family {
+                    "plc_int16(code)"
+                } else {
+                    "plc_int16(step)"
+                },
+            ),
+            (d(8069), "plc_int16(step)"),
             (m(M_ANY_ERROR), "true"),
             (d(D_ANY_ERROR), &shown),
         ];
@@ -227,23 +234,33 @@ impl Printer<'_> {
                 let _ = writeln!(lines, "    {device} = {value};");
             }
         }
-        for parameter in ["plc", "code", "step"] {
-            if !lines.contains(parameter) {
-                lines.insert_str(0, &format!("    (void){parameter};\n"));
-            }
-        }
         let name = self.name();
         let _ = write!(
             out,
             "/* An operation error: the instruction is skipped, the error shown in the special devices that the program looks at. */\n\
-             static inline void {name}_fault({name}_plc *plc, int16_t code, int16_t step)\n{{\n{lines}}}\n\n"
+             static inline void {name}_fault({name}_plc *plc, uint16_t code, uint16_t step)\n{{\n{lines}}}\n\n"
         );
     }
 
-    /// What stops a scan that jumps for ever.
+    /// A scan begins: the watchdog gives it its time.
+    fn watchdog_begins(&self) -> String {
+        match self.stored(DeviceClass::D, D_WATCHDOG_MS) {
+            Some(ms) => format!(
+                "    plc->steps_left = (uint32_t)plc_times({ms}) * UINT32_C({STEPS_PER_MS});\n"
+            ),
+            None => {
+                let steps = Module::scan_steps(self.module.watchdog_ms());
+                format!("    plc->steps_left = {steps}u;\n")
+            }
+        }
+    }
+
+    /// What stops a scan that does not end.
     fn watchdog(&self, out: &mut String) {
         let name = self.name();
-        let mut trip = String::from("        plc->sys.running = false;\n");
+        let mut trip = String::from(
+            "        plc->sys.running = false;\n        plc->error.stop = PLC_STOP_WATCHDOG;\n        plc->error.stop_step = step;\n",
+        );
         let relay = self.module.model.error_relay;
         let (relays, registers): (&[u32], &[(u32, i16)]) = if relay == M_OPERATION_ERROR {
             (
@@ -265,9 +282,10 @@ impl Printer<'_> {
         }
         let _ = write!(
             out,
-            "/* Counts a jump. After too many in one scan the PLC stops, as its watchdog would have it. */\n\
-             static inline bool {name}_goes_on({name}_plc *plc)\n{{\n    if (plc->jumps_left == 0) {{\n        return false;\n    }}\n    \
-             plc->jumps_left--;\n    if (plc->jumps_left == 0) {{\n{trip}    }}\n    return plc->jumps_left > 0;\n}}\n\n"
+            "/* Counts the steps that a loop or a jump back repeats. After too many in one scan the PLC stops, as its watchdog would have it. */\n\
+             static inline bool {name}_out_of_time({name}_plc *plc, uint32_t steps, uint16_t step)\n{{\n    \
+             if (steps <= plc->steps_left) {{\n        plc->steps_left -= steps;\n        return false;\n    }}\n    \
+             plc->steps_left = 0;\n    if (plc->sys.running) {{\n{trip}    }}\n    return true;\n}}\n\n"
         );
     }
 
@@ -354,7 +372,7 @@ impl Printer<'_> {
     }
 
     /// The functions that a host calls.
-    fn api_functions(&self, out: &mut String, jumps: bool) {
+    fn api_functions(&self, out: &mut String) {
         let (name, module) = (self.name(), self.module);
         let mut inputs = String::new();
         self.clear(&mut inputs, Section::Inputs, |_| false);
@@ -385,10 +403,15 @@ impl Printer<'_> {
             false => states.to_string(),
         };
         let cells = events::clear_cells(module);
+        // An interrupt may come before the first scan.
+        let steps = match module.has_watchdog() {
+            true => self.watchdog_begins(),
+            false => String::new(),
+        };
         let _ = write!(
             out,
             "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n    {name}_power_cycle(plc);\n}}\n\n\
-             void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}{cells}    \
+             void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}{cells}{steps}    \
              plc_power_on(&plc->sys);\n{}}}\n\n",
             self.lost_latches(),
             if forget {
@@ -420,10 +443,6 @@ impl Printer<'_> {
                 format!("{indent}{function}(plc);\n")
             }
         };
-        let jumps = match jumps {
-            true => format!("    plc->jumps_left = {MAX_JUMPS};\n"),
-            false => String::new(),
-        };
         let pulses = match module.sends_pulses() {
             true => format!("    {name}_count_pulses(plc, now_ms * 1000u);\n"),
             false => String::new(),
@@ -432,10 +451,26 @@ impl Printer<'_> {
         let _ = write!(
             out,
             "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n    \
-             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{jumps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
+             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{steps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
              plc->sys.first_scan = false;\n}}\n\n"
         );
         self.output(out);
+        self.error(out);
+    }
+
+    /// The function that tells a host what has gone wrong.
+    fn error(&self, out: &mut String) {
+        let name = self.name();
+        let body = match self.module.may_fail() {
+            true => "    return plc->error;\n",
+            false => {
+                "    const plc_error none = {0, 0, PLC_STOP_NONE, 0};\n    (void)plc;\n    return none;\n"
+            }
+        };
+        let _ = write!(
+            out,
+            "plc_error {name}_error(const {name}_plc *plc)\n{{\n{body}}}\n\n"
+        );
     }
 
     /// The function that forgets edges, memories and the coils of timers and counters when RUN begins; false if there are none.
@@ -452,6 +487,9 @@ impl Printer<'_> {
                 "    memset(plc->state, 0, {} * sizeof plc->state[0]);",
                 self.module.run_states
             );
+        }
+        if self.module.may_fail() {
+            body.push_str("    memset(&plc->error, 0, sizeof plc->error);\n");
         }
         self.each_timer_and_counter(&mut body, ["coil = 0", "coil = false"]);
         if !body.is_empty() {
@@ -507,12 +545,17 @@ impl Printer<'_> {
     fn output(&self, out: &mut String) {
         let name = self.name();
         let stop = match self.special_relay(M_KEEP_IN_STOP) {
-            Some(keep) => format!("(!plc->sys.running && !{keep})"),
+            // The watchdog switches off what STOP would keep.
+            Some(keep) if self.module.has_watchdog() => {
+                format!("!plc->sys.running && (!{keep} || plc->error.stop == PLC_STOP_WATCHDOG)")
+            }
+            Some(keep) => format!("!plc->sys.running && !{keep}"),
             None => "!plc->sys.running".to_string(),
         };
         let off = match self.special_relay(M_OUTPUTS_OFF) {
+            Some(off) if stop.contains(' ') => format!("({stop}) || {off}"),
             Some(off) => format!("{stop} || {off}"),
-            None => stop.trim_matches(['(', ')']).to_string(),
+            None => stop,
         };
         let _ = write!(
             out,

@@ -446,8 +446,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             let pad = " ".repeat(indent);
             let _ = writeln!(
                 out,
-                "{pad}/* A jump back repeats it. */\n{pad}while ({name}(plc) == {first} && {}_goes_on(plc)) {{\n{pad}}}",
-                self.module.name
+                "{pad}/* A jump back repeats it. */\n{pad}while ({name}(plc) == {first}) {{\n{pad}}}"
             );
             return;
         }
@@ -458,8 +457,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         );
         let _ = writeln!(
             out,
-            "{pad}for (int next = {first}; next != PLC_GO_ON && {}_goes_on(plc);) {{\n{pad}    switch (next) {{",
-            self.module.name
+            "{pad}for (int next = {first}; next != PLC_GO_ON;) {{\n{pad}    switch (next) {{"
         );
         for &(state, function) in parts {
             let mut name = String::new();
@@ -584,6 +582,20 @@ impl<'a, 'm> Writer<'a, 'm> {
             } else {
                 "return PLC_LEAVE;"
             }),
+            Stmt::Watch { steps, at } => {
+                let leave = if self.is_void() {
+                    "return;"
+                } else {
+                    "return PLC_LEAVE;"
+                };
+                let condition = format!(
+                    "if ({}_out_of_time(plc, {steps}u, {}u)) {{",
+                    self.module.name, *at as u16
+                );
+                text::line(out, indent, &condition, None);
+                text::line(out, indent + 4, leave, None);
+                code.push('}');
+            }
             Stmt::Goto(label) => {
                 let root = self.plan.functions[self.function].root;
                 if let Some(&state) = self.plan.states.get(&(root, *label)) {
@@ -602,10 +614,13 @@ impl<'a, 'm> Writer<'a, 'm> {
                 self.faults = true;
                 code = format!(
                     "{}_fault(plc, {fault}, {});",
-                    self.module.name, *step as u16 as i16
+                    self.module.name, *step as u16
                 );
             }
-            Stmt::Stop => code = format!("{}_set_running(plc, false);", self.module.name),
+            Stmt::Stop => {
+                text::line(out, indent, "plc->error.stop = PLC_STOP_PROGRAM;", None);
+                code = format!("{}_set_running(plc, false);", self.module.name);
+            }
             Stmt::Clear { latched } => {
                 self.clears[usize::from(*latched)] = true;
                 let what = if *latched { "latched" } else { "general" };

@@ -196,32 +196,13 @@ impl Temps {
     }
 }
 
-/// Whether a module jumps backwards inside a scan, which may keep the scan from ending.
-pub fn jumps_back(module: &Module) -> bool {
-    let mut found = false;
-    for function in &module.functions {
-        statements(&function.body, &mut |stmt| {
-            let Stmt::Parts(parts) = stmt else { return };
-            for (i, part) in parts.iter().enumerate() {
-                statements(&part.body, &mut |stmt| {
-                    if let Stmt::Goto(label) = stmt {
-                        let mut up_to_here = parts.iter().take(i + 1);
-                        found |= up_to_here.any(|part| part.label == Some(*label));
-                    }
-                });
-            }
-        });
-    }
-    found
-}
-
 /// Whether control may leave the statements other than at their end.
 pub fn escapes(stmts: &[Stmt]) -> bool {
     let mut labels: Vec<LabelId> = Vec::new();
     let mut gotos = Vec::new();
     let mut returns = false;
     statements(stmts, &mut |stmt| match stmt {
-        Stmt::Return => returns = true,
+        Stmt::Return | Stmt::Watch { .. } => returns = true,
         Stmt::Goto(label) => gotos.push(*label),
         Stmt::Parts(parts) => labels.extend(parts.iter().filter_map(|part| part.label)),
         _ => {}

@@ -90,8 +90,6 @@ pub struct Generator<'m> {
     pub type_name: Ident,
     /// Which functions call what.
     pub calls: Calls,
-    /// Whether a scan may jump backwards.
-    pub jumps_back: bool,
     /// Whether to write comments.
     pub with_comments: bool,
     /// What the item being written needs.
@@ -106,8 +104,8 @@ pub struct Generator<'m> {
     pub declare: HashMap<Position, Vec<TempId>>,
     /// Step of the network being written.
     pub step: u32,
-    /// Loops over parts around the statement being written: the labels, and the number of the part that it is in.
-    pub jumps: Vec<(Vec<Option<LabelId>>, usize)>,
+    /// Loops over parts around the statement being written: the labels of the parts.
+    pub jumps: Vec<Vec<Option<LabelId>>>,
     /// Temporaries assigned so far in the function being written.
     pub assigned: HashSet<TempId>,
     /// An edge that stands for its temporary in the next statement.
@@ -135,7 +133,6 @@ impl<'m> Generator<'m> {
             storage: Storage::new(module),
             type_name: type_name(&module.name),
             calls: Calls::of(module),
-            jumps_back: analysis::jumps_back(module),
             with_comments,
             uses: Uses::default(),
             comments: Comments::default(),
@@ -293,7 +290,7 @@ pub fn function_name(function: &Function) -> String {
 /// Name of the struct: `box_filler` is `BoxFiller`.
 pub(crate) fn type_name(module: &str) -> Ident {
     /// What the emitted files import.
-    const TAKEN: [&str; 21] = [
+    const TAKEN: [&str; 23] = [
         "Access",
         "Axis",
         "Class",
@@ -302,6 +299,7 @@ pub(crate) fn type_name(module: &str) -> Ident {
         "Edge",
         "Fault",
         "Hal",
+        "LastError",
         "NoHal",
         "Operand",
         "Option",
@@ -312,6 +310,7 @@ pub(crate) fn type_name(module: &str) -> Ident {
         "Site",
         "Some",
         "State",
+        "Stop",
         "Sys",
         "Timer",
         "TimerKind",

@@ -20,6 +20,7 @@ mod machine;
 mod places;
 mod stmt;
 mod storage;
+mod watchdog;
 
 pub use places::Places;
 use rungc_ir::Module;

@@ -8,7 +8,7 @@ use crate::{expr::literal32, format};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::layout::Area;
-use rungc_ir::node::{FunctionKind, MAX_JUMPS, Stmt};
+use rungc_ir::node::{FunctionKind, Stmt};
 use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_syntax::DeviceClass;
 
@@ -155,12 +155,22 @@ impl Generator<'_> {
         fields.extend(self.flag_fields());
         fields.extend(self.cell_fields());
         fields.extend(self.axis_fields());
-        if self.jumps_back {
+        if self.module.may_fail() {
+            let error = self.rt("LastError");
             fields.push((
-                format_ident!("jumps_left"),
+                format_ident!("error"),
+                quote!(#error),
+                quote!(#error::NONE),
+                "What has gone wrong.",
+            ));
+        }
+        if self.module.has_watchdog() {
+            let steps = self.initial_steps();
+            fields.push((
+                format_ident!("steps_left"),
                 quote!(u32),
-                quote!(MAX_JUMPS_BACK),
-                "Jumps backwards that this scan may still make.",
+                quote!(#steps),
+                "Steps that this scan may still repeat.",
             ));
         }
         fields.push((
@@ -200,16 +210,10 @@ impl Generator<'_> {
         let clear_latched = (self.clears_latched() || self.module.model.latch_key.is_some())
             .then(|| self.clear(true));
         let forget = self.forget();
-        let jumps = self.jumps_back.then(|| self.watchdog());
+        let watchdog = self.module.has_watchdog().then(|| self.watchdog());
         let count_pulses = self.count_pulses();
         let pulse_outputs = self.pulse_outputs();
-        let max_jumps = self.jumps_back.then(|| {
-            let doc = self.doc("A scan that jumps backwards this often does not end.");
-            let most = Literal::u32_unsuffixed(MAX_JUMPS);
-            quote!(#doc const MAX_JUMPS_BACK: u32 = #most;)
-        });
         self.item_of(quote! {
-            #max_jumps
             impl #name {
                 #pulse_outputs
                 #new
@@ -218,7 +222,7 @@ impl Generator<'_> {
                 #clear_latched
                 #forget
                 #count_pulses
-                #jumps
+                #watchdog
             }
             impl Default for #name {
                 fn default() -> Self { Self::new() }
@@ -309,6 +313,10 @@ impl Generator<'_> {
             let last = Literal::usize_unsuffixed(self.module.run_states.into());
             out.extend(quote!(self.states[1..=#last].fill(#state::new());));
         }
+        if self.module.may_fail() {
+            let error = self.rt("LastError");
+            out.extend(quote!(self.error = #error::NONE;));
+        }
         out.extend(self.each_timer_and_counter(&quote!(coil = 0), &quote!(coil = false)));
         let doc = self.doc("Forgets that edges and the coils of timers and counters were on, and what instructions remember.");
         quote!(#doc fn forget(&mut self) { #out })
@@ -334,25 +342,6 @@ impl Generator<'_> {
                 }
             })
             .collect()
-    }
-
-    /// What stops a scan that jumps backwards for ever.
-    fn watchdog(&mut self) -> TokenStream {
-        let trip = self.rt("trip_watchdog");
-        let doc = self.doc(
-            "Counts a jump backwards. After too many in one scan the PLC stops as its watchdog would have it, and the jump is not made.",
-        );
-        quote! {
-            #doc
-            pub(crate) fn jumps_for_ever(&mut self) -> bool {
-                self.jumps_left = self.jumps_left.saturating_sub(1);
-                if self.jumps_left == 0 {
-                    self.sys.running = false;
-                    #trip(self);
-                }
-                self.jumps_left == 0
-            }
-        }
     }
 
     /// The scan.
@@ -395,6 +384,14 @@ impl Generator<'_> {
         };
         let class = self.class(DeviceClass::Y);
         let plc_trait = self.rt("Plc");
+        // The watchdog switches off what STOP would keep.
+        let keep = keep.map(|keep| match self.module.has_watchdog() {
+            true => {
+                let stop = self.rt("Stop");
+                quote!((#keep & (self.error.stop != #stop::Watchdog)))
+            }
+            false => keep,
+        });
         let keep = keep.map_or_else(
             || quote!(self.sys.running),
             |keep| quote!((self.sys.running | #keep)),
@@ -406,9 +403,8 @@ impl Generator<'_> {
             .module
             .sends_pulses()
             .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
-        let jumps = self
-            .jumps_back
-            .then(|| quote!(self.jumps_left = MAX_JUMPS_BACK;));
+        let watchdog = self.module.has_watchdog().then(|| self.watchdog_begins());
+        let last_error = self.last_error();
         let pulse_timer = self.pulse_timer();
         let pins = self.pins();
         let image = quote!(#plc_trait::bit(self, #class, number).unwrap_or(false));
@@ -422,7 +418,7 @@ impl Generator<'_> {
                 fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
                     self.sys.begin_scan(now_ms, scan_us);
                     #count_pulses
-                    #jumps
+                    #watchdog
                     #begin
                     #in_run
                     self.sys.end_scan();
@@ -434,6 +430,7 @@ impl Generator<'_> {
                 }
                 #power_cycle
                 #pulse_timer
+                #last_error
                 fn output(&self, number: u32) -> bool {
                     #pins
                     #keep #off & #level
@@ -521,6 +518,7 @@ impl Generator<'_> {
                 }
             )
         });
+        let noted = self.note_error();
         self.item_of(quote! {
             impl #plc for #name {
                 #(#methods)*
@@ -531,6 +529,7 @@ impl Generator<'_> {
                 #pairs
                 #errors
                 #values
+                #noted
             }
         })
     }

@@ -213,9 +213,14 @@ impl Generator<'_> {
                 );
                 quote!(#report(plc, #fault(#code), #step);)
             }
+            Stmt::Watch { steps, at } => {
+                let steps = Literal::u32_unsuffixed(*steps);
+                let at = Literal::u16_unsuffixed(*at as u16);
+                quote!(if plc.out_of_time(#steps, #at) { return; })
+            }
             Stmt::Stop => {
-                let program = self.rt("Program");
-                quote!(#program::set_running(plc, false);)
+                let (program, stop) = (self.rt("Program"), self.rt("Stop"));
+                quote!(plc.error.stop = #stop::Program; #program::set_running(plc, false);)
             }
             Stmt::Clear { latched: false } => quote!(plc.clear_general();),
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
@@ -477,15 +482,12 @@ impl Generator<'_> {
         }
         let depth = self.jumps.len();
         let labels = parts.iter().map(|part| part.label).collect();
-        self.jumps.push((labels, 0));
+        self.jumps.push(labels);
         let label = jump_label(depth);
         let part_variable = part_variable(depth);
         let mut arms = TokenStream::new();
         for (i, part) in parts.iter().enumerate() {
             let is_last = i + 1 == parts.len();
-            if let Some((_, current)) = self.jumps.last_mut() {
-                *current = i;
-            }
             let pattern = if is_last {
                 quote!(_)
             } else {
@@ -525,14 +527,12 @@ impl Generator<'_> {
     }
 
     fn goto(&mut self, label: LabelId) -> TokenStream {
-        for (depth, (labels, current)) in self.jumps.iter().enumerate().rev() {
+        for (depth, labels) in self.jumps.iter().enumerate().rev() {
             if let Some(part) = labels.iter().position(|l| *l == Some(label)) {
                 let name = jump_label(depth);
                 let variable = part_variable(depth);
-                let guard =
-                    (part <= *current).then(|| quote!(if plc.jumps_for_ever() { break #name; }));
                 let part = Literal::usize_unsuffixed(part);
-                return quote!(#guard #variable = #part; continue #name;);
+                return quote!(#variable = #part; continue #name;);
             }
         }
         TokenStream::new()

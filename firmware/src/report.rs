@@ -278,8 +278,8 @@ impl fmt::Display for Scan {
         for step in &self.jumps_back {
             writeln!(
                 f,
-                "  jumps back at step {step} are not counted; the watchdog ends a scan that makes {} of them",
-                rungc_ir::node::MAX_JUMPS
+                "  jumps back at step {step} are not counted; the watchdog ends a scan that repeats more than {} steps per ms of D8000",
+                rungc_ir::node::STEPS_PER_MS
             )?;
         }
         Ok(())

@@ -260,6 +260,7 @@ impl Out<'_> {
                 preset,
             } => format!("count C{number} down {} preset {}", e(down), e(preset)),
             Stmt::SetFlag(flag, value) => format!("{} := {}", self.flag(*flag), e(value)),
+            Stmt::Watch { steps, at } => format!("watch {steps} steps at {at}"),
             Stmt::Stop => "stop".into(),
             Stmt::Clear { latched: true } => "clear latched".into(),
             Stmt::Clear { latched: false } => "clear general".into(),

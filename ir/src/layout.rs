@@ -294,6 +294,7 @@ impl<'m> Builder<'m> {
             | Stmt::Return
             | Stmt::Goto(_)
             | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
             | Stmt::Stop
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)

@@ -4,10 +4,15 @@
 //! statement evaluates all of its expressions when it is executed, before it writes anything. Statements are executed in order, so
 //! a write between two reads is never reordered. An expression that several statements use is a temporary ([`Stmt::Let`]).
 //!
+//! A scan that does not end is cut short by the watchdog: [`Stmt::Watch`] stands in all loops but those that are known to be short, and at
+//! all jumps back, and counts the steps of the program that they repeat. After the last one the function is left, and so is each that
+//! called it, up to `Main`; `End` does nothing. An interrupt routine that is cut short leaves the scan to go on to its end.
+//!
 //! Integers are two's complement and wrap. `I16` values are signed 16-bit, `I32` signed 32-bit, `F32` IEEE single, `Bit` true or false.
 
 use crate::layout::Layout;
 use crate::model::{Model, Range};
+use crate::walk::{calls_runtime, statements};
 use rungc_rt::{RtFn, TimerKind};
 use rungc_syntax::{DeviceClass, Span};
 use std::borrow::Cow;
@@ -518,6 +523,15 @@ pub enum Stmt {
         /// Step number.
         step: u32,
     },
+    /// Takes so many steps of those that the scan may still execute ([`Module::scan_steps`]). If there are not so many left, the PLC stops as by
+    /// its watchdog ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
+    Watch {
+        /// How many PLC steps of the program come now: a round of a loop, or what a jump back repeats, with the subroutines that are called
+        /// and the short loops in it.
+        steps: u32,
+        /// Step of the loop or the jump.
+        at: u32,
+    },
     /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function `End` only.
     Stop,
     /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices: M8031, M8032.
@@ -527,9 +541,11 @@ pub enum Stmt {
     },
 }
 
-/// How many jumps ([`Stmt::Goto`]) a scan of emitted code may make. It counts those that could keep it from ending; after the
-/// last one the PLC stops, as its watchdog would have it ([`rungc_rt::trip_watchdog`]).
-pub const MAX_JUMPS: u32 = 1_000_000;
+/// How many steps a scan may repeat for each millisecond of the watchdog time D8000: more than the fastest PLC executes.
+pub const STEPS_PER_MS: u32 = 10_000;
+
+/// The watchdog time of a model without D8000.
+const WATCHDOG_MS: i16 = 200;
 
 /// Label of a part, unique in its function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
@@ -724,6 +740,41 @@ impl Module {
         self.sends_pulses()
             || self.cells.iter().any(|cell| cell.follows_time)
             || self.functions.iter().any(taken)
+    }
+
+    /// The steps that a scan may repeat in loops and by jumps back, with this watchdog time (D8000, at least 1): each [`Stmt::Watch`] takes
+    /// its share. They are given anew when a scan begins, and last until the next one does.
+    pub fn scan_steps(watchdog_ms: i16) -> u32 {
+        watchdog_ms.max(1).unsigned_abs() as u32 * STEPS_PER_MS
+    }
+
+    /// The watchdog time D8000 at power-on, in milliseconds: that of a program that does not look at D8000.
+    pub fn watchdog_ms(&self) -> i16 {
+        let mut words = self.model.special_words();
+        let found = words.find(|&(number, _)| number == rungc_rt::special::D_WATCHDOG_MS);
+        found.map_or(WATCHDOG_MS, |(_, ms)| ms)
+    }
+
+    /// Whether the watchdog may cut a scan short.
+    pub fn has_watchdog(&self) -> bool {
+        self.any_statement(|stmt| matches!(stmt, Stmt::Watch { .. }))
+    }
+
+    /// Whether an instruction may fault, or something in the program stops the PLC: then a host can ask what it was
+    /// ([`rungc_rt::LastError`]).
+    pub fn may_fail(&self) -> bool {
+        self.any_statement(|stmt| {
+            calls_runtime(stmt)
+                || matches!(stmt, Stmt::Watch { .. } | Stmt::Fault { .. } | Stmt::Stop)
+        })
+    }
+
+    fn any_statement(&self, is_it: impl Fn(&Stmt) -> bool) -> bool {
+        let mut found = false;
+        for function in &self.functions {
+            statements(&function.body, &mut |stmt| found |= is_it(stmt));
+        }
+        found
     }
 
     /// Adds an expression.

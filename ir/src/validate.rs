@@ -464,6 +464,7 @@ impl Checker<'_> {
             | Stmt::Parts(_)
             | Stmt::Goto(_)
             | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
             | Stmt::Stop
             | Stmt::Clear { .. } => true,
         }

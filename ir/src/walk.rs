@@ -134,6 +134,7 @@ macro_rules! for_exprs {
                 | Stmt::Parts(_)
                 | Stmt::Goto(_)
                 | Stmt::Fault { .. }
+                | Stmt::Watch { .. }
                 | Stmt::Stop
                 | Stmt::Clear { .. } => {}
             }

@@ -68,7 +68,7 @@ pub struct Worst {
     pub events: Vec<(Event, Cost)>,
     /// Loops for which `scan` holds only if they run once, in the order of the program.
     pub open_loops: Vec<OpenLoop>,
-    /// Steps of networks with jumps back: `scan` holds only if they are not made. [`crate::node::MAX_JUMPS`] is their limit.
+    /// Steps of networks with jumps back: `scan` holds only if they are not made. [`Stmt::Watch`] is their limit.
     pub jumps_back: Vec<u32>,
 }
 
@@ -265,7 +265,7 @@ fn own(expr: &Expr) -> u64 {
 }
 
 /// The lengths of all networks: each goes on to where the next one begins.
-fn lengths(module: &Module) -> Vec<u64> {
+pub(crate) fn lengths(module: &Module) -> Vec<u64> {
     let mut begins: Vec<u32> = module.networks.iter().map(|network| network.step).collect();
     begins.push(module.steps);
     begins.sort_unstable();

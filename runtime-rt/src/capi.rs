@@ -116,6 +116,8 @@ pub struct Layout {
     pub text_count: usize,
     /// Where the struct holds its `plc_sys`.
     pub sys: usize,
+    /// Where the struct holds its `plc_error`; 0 if it has none.
+    pub error: usize,
     /// Where the struct holds its private memories.
     pub states: usize,
     /// How many; slots are numbered from 1.
@@ -389,6 +391,15 @@ impl Plc for Map {
 
     fn value_error(&self) -> u16 {
         self.layout().value_error
+    }
+
+    fn note_error(&mut self, code: u16, step: u32) {
+        let offset = self.layout().error;
+        if offset > 0 {
+            // SAFETY: the struct holds its `plc_error` there, which begins with the code and the step.
+            let at = unsafe { self.plc.cast::<u8>().add(offset) };
+            let _ = change(at, |error: &mut [u16; 2]| *error = [code, step as u16]);
+        }
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {

@@ -22,6 +22,8 @@ pub struct Double {
     pub error_relay: u32,
     /// Code of an error in a value.
     pub value_error: u16,
+    /// Code and step of the last error.
+    pub error: (u16, u32),
     /// Texts.
     pub texts: Vec<Vec<u8>>,
     /// Form and drive of the next calls.
@@ -66,6 +68,7 @@ impl Double {
             hal: VirtualHal::new(),
             error_relay: 8067,
             value_error: 6707,
+            error: (0, 0),
             texts: Vec::new(),
             site: Site::at(0).slot(1),
         }
@@ -214,6 +217,10 @@ impl Plc for Double {
 
     fn value_error(&self) -> u16 {
         self.value_error
+    }
+
+    fn note_error(&mut self, code: u16, step: u32) {
+        self.error = (code, step);
     }
 
     fn text(&self, index: u32) -> &[u8] {

@@ -19,6 +19,43 @@ impl Fault {
     pub const MODULE: Fault = Fault(6750);
 }
 
+/// What put the PLC in STOP.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(u16)]
+pub enum Stop {
+    /// Nothing but the RUN/STOP switch.
+    #[default]
+    No = 0,
+    /// The program, by M8037.
+    Program = 1,
+    /// The watchdog: a scan did not end.
+    Watchdog = 6105,
+}
+
+/// The last operation error, and why the PLC stopped, since RUN began; whether the program looks at special devices or not.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[repr(C)]
+pub struct LastError {
+    /// The PLC's code of the last operation error, e.g. 6706; 0 if there was none.
+    pub code: u16,
+    /// Step of the instruction that it happened to.
+    pub step: u16,
+    /// What put the PLC in STOP.
+    pub stop: Stop,
+    /// Step of the loop or the jump that the watchdog found too long.
+    pub stop_step: u16,
+}
+
+impl LastError {
+    /// Nothing has happened.
+    pub const NONE: LastError = LastError {
+        code: 0,
+        step: 0,
+        stop: Stop::No,
+        stop_step: 0,
+    };
+}
+
 /// What an instruction returns.
 pub type Done = Result<(), Fault>;
 
@@ -33,6 +70,11 @@ const ERROR_STEP: u32 = 8069;
 /// and the summary M8004 with D8004. HM has only a relay and, under its number, a register for the step (hm-motion-controller §5.7).
 /// The program clears M8067 and M8004 when RUN begins, on FX and L01S in each scan; the latches stay.
 pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
+    let code = match fault {
+        Fault::VALUE => plc.value_error(),
+        Fault(code) => code,
+    };
+    plc.note_error(code, step);
     let step = step as u16 as i16;
     let relay = plc.error_relay();
     // Special devices a program does not look at swallow the write, so a `None` here means nothing.
@@ -45,10 +87,6 @@ pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
         let _ = plc.set_bit(Class::M, FIRST_ERROR, true);
         let _ = plc.set_word(Class::D, FIRST_ERROR, step);
     }
-    let code = match fault {
-        Fault::VALUE => plc.value_error(),
-        Fault(code) => code,
-    };
     let _ = plc.set_word(Class::D, ERROR, code as i16);
     let _ = plc.set_word(Class::D, ERROR_STEP, step);
     summarise(plc, special::OPERATION_ERROR_BCD);
@@ -104,6 +142,7 @@ mod tests {
         let mut plc = Double::new();
         plc.error_relay = 8006;
         report(&mut plc, Fault::DEVICE, 12);
+        assert_eq!(plc.error, (6706, 12));
         assert_eq!(
             (plc.m(8006, 1), plc.d(8006, 1)),
             ("1".into(), [12].to_vec())

@@ -51,7 +51,7 @@ pub use access::Access;
 pub use axis::{Axis, advance as advance_pulses, millihertz as pulse_millihertz, pulse_timer};
 pub use cx::{Cx, call, fetch, send};
 pub use edge::Edge;
-pub use fault::{Done, Fault, report, trip_watchdog};
+pub use fault::{Done, Fault, LastError, Stop, report, trip_watchdog};
 pub use hal::{Clock, Hal, NoHal};
 pub use operand::{Operand, OperandKind, d, h, k, kn};
 pub use plc::{Class, Plc, Site, State, Sys};

@@ -206,6 +206,10 @@ pub trait Plc {
     fn value_error(&self) -> u16 {
         crate::Fault::DEVICE.0
     }
+    /// An operation error has happened to the instruction at this step ([`crate::LastError`]).
+    fn note_error(&mut self, code: u16, step: u32) {
+        let _ = (code, step);
+    }
     /// Resets a timer or counter: value 0, contact off (what RST and ZRST do).
     fn reset(&mut self, class: Class, number: u32) -> Option<()>;
 }

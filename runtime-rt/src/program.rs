@@ -1,5 +1,6 @@
 //! A compiled program as its host sees it: what emitted Rust and the interpreter implement.
 
+use crate::fault::LastError;
 use crate::hal::Hal;
 use crate::plc::Plc;
 
@@ -55,6 +56,11 @@ pub trait Program: Plc {
     /// latched timers and counters and private memories included; then RUN. On models with a latch key (HM) latched devices
     /// are kept only if the key register holds the key.
     fn power_cycle(&mut self);
+
+    /// The last operation error, and why the PLC stopped. Going to RUN forgets both.
+    fn last_error(&self) -> LastError {
+        LastError::NONE
+    }
 
     /// State of output terminal Y `number` after the scan: the image, or off under M8034 and in STOP without M8033. One that sends pulses
     /// is also on while its pulse is.

@@ -4,7 +4,9 @@ use crate::devices::rt_class;
 use crate::logic::{Input, Join, Strided};
 use crate::machine::Machine;
 use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue};
-use rungc_rt::{Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, TimerKind, fetch, report, send};
+use rungc_rt::{
+    Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report, send,
+};
 
 /// Value of an expression or temporary.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -24,8 +26,6 @@ pub(crate) enum Flow {
     Return,
     /// By a jump that none of its own [`Stmt::Parts`] takes.
     Goto(LabelId),
-    /// The scan executed too many statements.
-    OutOfTime,
 }
 
 /// Where a driven instruction stands, in its 16-bit or 32-bit form.
@@ -221,22 +221,12 @@ impl<'m> Machine<'m> {
     /// Executes a body.
     pub(crate) fn run(&mut self, body: &'m [Stmt], hal: &mut dyn Hal) -> Flow {
         for stmt in body {
-            if !self.spend() {
-                return Flow::OutOfTime;
-            }
             let flow = self.step(stmt, hal);
             if flow != Flow::Next {
                 return flow;
             }
         }
         Flow::Next
-    }
-
-    /// Takes one statement from the scan's budget; false if it is used up.
-    fn spend(&mut self) -> bool {
-        let left = self.budget.checked_sub(1);
-        self.budget = left.unwrap_or(0);
-        left.is_some()
     }
 
     fn step(&mut self, stmt: &'m Stmt, hal: &mut dyn Hal) -> Flow {
@@ -251,10 +241,6 @@ impl<'m> Machine<'m> {
             }
             Stmt::For { count, body } => {
                 for _ in 0..int(self.eval(*count)).max(1) {
-                    // A round costs as much as a statement, so that an empty loop ends too.
-                    if !self.spend() {
-                        return Flow::OutOfTime;
-                    }
                     let flow = self.run(body, hal);
                     if flow != Flow::Next {
                         return flow;
@@ -274,10 +260,8 @@ impl<'m> Machine<'m> {
             }
             Stmt::CallSub(n) => {
                 let module = self.module;
-                if let Some(function) = module.functions.get(*n as usize)
-                    && self.run(&function.body, hal) == Flow::OutOfTime
-                {
-                    return Flow::OutOfTime;
+                if let Some(function) = module.functions.get(*n as usize) {
+                    self.run(&function.body, hal);
                 }
             }
             Stmt::Return => return Flow::Return,
@@ -325,7 +309,15 @@ impl<'m> Machine<'m> {
                 send(site_of_form(*step, *wide), to, value, self, hal);
             }
             Stmt::Fault { code, step } => report(self, Fault(*code), *step),
-            Stmt::Stop => rungc_rt::Program::set_running(self, false),
+            Stmt::Watch { steps, at } => {
+                if self.out_of_time(*steps, *at) {
+                    return Flow::Return;
+                }
+            }
+            Stmt::Stop => {
+                self.last_error.stop = Stop::Program;
+                rungc_rt::Program::set_running(self, false);
+            }
             Stmt::Clear { latched } => self.devices.clear(*latched),
             _ => self.assign(stmt),
         }
@@ -338,9 +330,7 @@ impl<'m> Machine<'m> {
             next = match self.run(&part.body, hal) {
                 Flow::Next => next + 1,
                 Flow::Goto(label) => match parts.iter().position(|p| p.label == Some(label)) {
-                    // A jump costs as much as a statement, so that an empty loop ends too.
-                    Some(target) if self.spend() => target,
-                    Some(_) => return Flow::OutOfTime,
+                    Some(target) => target,
                     None => return Flow::Goto(label),
                 },
                 flow => return flow,

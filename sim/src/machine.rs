@@ -4,16 +4,12 @@
 //! mean is in `exec`, word for word as [`rungc_ir::node`] specifies it.
 
 use crate::devices::Devices;
-use crate::exec::{Flow, Value};
+use crate::exec::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeKind, FunctionKind, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
-use rungc_rt::{Axis, Class, Hal, Operand, Plc, Program, Pulses, State, Sys};
-
-/// How many statements the machine takes a PLC to execute in a millisecond, when virtual time stands still and only their
-/// number can tell that a scan does not end.
-const STATEMENTS_PER_MS: u64 = 10_000;
+use rungc_rt::{Axis, Class, Hal, LastError, Operand, Plc, Program, Pulses, State, Stop, Sys};
 
 /// The functions that a host asks for, by their places in the module.
 struct Entries {
@@ -52,8 +48,8 @@ impl Entries {
 
 /// A program and its devices, executed by reading the IR.
 ///
-/// In STOP a scan runs only the function `Begin`, which brings the clocks up to date. A scan that executes more than
-/// 10,000 statements for each millisecond of the watchdog time D8000 counts as one that does not end: the machine sets M8061 and
+/// In STOP a scan runs only the function `Begin`, which brings the clocks up to date. A scan that repeats more than
+/// 10,000 steps for each millisecond of the watchdog time D8000 counts as one that does not end: the machine sets M8061 and
 /// D8061 = 6105 and goes to STOP with all outputs off.
 pub struct Machine<'m> {
     pub(crate) module: &'m Module,
@@ -68,14 +64,14 @@ pub struct Machine<'m> {
     pub(crate) cells: Vec<i32>,
     pub(crate) tables: Vec<Vec<i32>>,
     pub(crate) sys: Sys,
-    /// Statements that this scan may still execute.
-    pub(crate) budget: u64,
+    /// Steps that this scan may still repeat.
+    steps_left: u32,
+    pub(crate) last_error: LastError,
     /// Operands of the call being executed; kept to save the allocation.
     pub(crate) operands: Vec<Operand>,
     states: Vec<State>,
     /// Of the module's pulse outputs, in their order.
     axes: Vec<Axis>,
-    watchdog_tripped: bool,
 }
 
 impl<'m> Machine<'m> {
@@ -98,11 +94,11 @@ impl<'m> Machine<'m> {
                 .map(|t| vec![0; t.length as usize])
                 .collect(),
             sys: Sys::power_on(),
-            budget: 0,
+            steps_left: 0,
+            last_error: LastError::NONE,
             operands: Vec::new(),
             states: vec![State::default(); usize::from(module.states) + 1],
             axes: vec![Axis::new(); module.pulse_outputs.len()],
-            watchdog_tripped: false,
         };
         machine.power_on();
         machine
@@ -119,9 +115,9 @@ impl<'m> Machine<'m> {
         self.axes.get(i)
     }
 
-    /// Whether the last scan was cut short by the watchdog.
+    /// Whether the watchdog has stopped the program.
     pub fn watchdog_tripped(&self) -> bool {
-        self.watchdog_tripped
+        self.last_error.stop == Stop::Watchdog
     }
 
     fn power_on(&mut self) {
@@ -139,11 +135,12 @@ impl<'m> Machine<'m> {
             table.fill(0);
         }
         self.sys = Sys::power_on();
-        self.watchdog_tripped = false;
+        self.restart_watchdog();
         self.begin_run();
     }
 
     fn begin_run(&mut self) {
+        self.last_error = LastError::NONE;
         self.edges.fill(false);
         self.flags.fill(false);
         self.periods.fill(self.sys.now_ms);
@@ -174,22 +171,31 @@ impl<'m> Machine<'m> {
     }
 
     /// Runs a function, if there is one.
-    fn run_function(&mut self, hal: &mut dyn Hal, function: Option<usize>) -> Flow {
-        match function.and_then(|i| self.module.functions.get(i)) {
-            Some(function) => self.run(&function.body, hal),
-            None => Flow::Next,
+    fn run_function(&mut self, hal: &mut dyn Hal, function: Option<usize>) {
+        if let Some(function) = function.and_then(|i| self.module.functions.get(i)) {
+            self.run(&function.body, hal);
         }
     }
 
     fn restart_watchdog(&mut self) {
-        let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS).unwrap_or(0).max(1);
-        self.budget = watchdog_ms as u64 * STATEMENTS_PER_MS;
+        let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS);
+        self.steps_left = Module::scan_steps(watchdog_ms.unwrap_or(self.module.watchdog_ms()));
     }
 
-    fn trip_watchdog(&mut self) {
-        self.watchdog_tripped = true;
-        rungc_rt::trip_watchdog(self);
-        self.sys.running = false;
+    /// [`Stmt::Watch`](rungc_ir::node::Stmt::Watch): whether the scan is cut short.
+    pub(crate) fn out_of_time(&mut self, steps: u32, at: u32) -> bool {
+        if let Some(left) = self.steps_left.checked_sub(steps) {
+            self.steps_left = left;
+            return false;
+        }
+        self.steps_left = 0;
+        if self.sys.running {
+            self.sys.running = false;
+            self.last_error.stop = Stop::Watchdog;
+            self.last_error.stop_step = at as u16;
+            rungc_rt::trip_watchdog(self);
+        }
+        true
     }
 }
 
@@ -202,17 +208,12 @@ impl Program for Machine<'_> {
         // A module's first functions are `Begin`, `Main`, `End`.
         let functions = if self.sys.running { 0..3 } else { 0..1 };
         for function in functions {
-            if self.run_function(hal, Some(function)) == Flow::OutOfTime {
-                self.trip_watchdog();
-                break;
-            }
+            self.run_function(hal, Some(function));
         }
         self.sys.end_scan();
     }
 
     fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
-        self.restart_watchdog();
-        // It holds no loop, so it comes to its end.
         self.run_function(hal, self.entries.edge(number, level));
     }
 
@@ -237,10 +238,7 @@ impl Program for Machine<'_> {
         if !self.sys.running || self.entries.take_interrupts.is_none() {
             return;
         }
-        self.restart_watchdog();
-        if self.run_function(hal, self.entries.take_interrupts) == Flow::OutOfTime {
-            self.trip_watchdog();
-        }
+        self.run_function(hal, self.entries.take_interrupts);
     }
 
     fn pulse_timer(&mut self, hal: &mut dyn Hal, now_us: u32) -> Option<u32> {
@@ -252,7 +250,6 @@ impl Program for Machine<'_> {
             return;
         }
         if running {
-            self.watchdog_tripped = false;
             self.begin_run();
         } else if !self.special(M_KEEP_IN_STOP) {
             self.devices.clear(false);
@@ -271,8 +268,12 @@ impl Program for Machine<'_> {
         self.power_on();
     }
 
+    fn last_error(&self) -> LastError {
+        self.last_error
+    }
+
     fn output(&self, number: u32) -> bool {
-        let driven = self.sys.running || (self.special(M_KEEP_IN_STOP) && !self.watchdog_tripped);
+        let driven = self.sys.running || (self.special(M_KEEP_IN_STOP) && !self.watchdog_tripped());
         driven
             && !self.special(M_OUTPUTS_OFF)
             && (self.devices.bit(Class::Y, number).unwrap_or(false)
@@ -345,6 +346,11 @@ impl Plc for Machine<'_> {
 
     fn value_error(&self) -> u16 {
         self.module.model.value_error
+    }
+
+    fn note_error(&mut self, code: u16, step: u32) {
+        self.last_error.code = code;
+        self.last_error.step = step as u16;
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {

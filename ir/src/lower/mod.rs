@@ -29,6 +29,7 @@ mod signals;
 mod special;
 mod stl;
 mod system;
+mod watchdog;
 
 use self::comment::shortened;
 use crate::catalogue::{Basic, Drive, Join, Lower};
@@ -73,6 +74,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
         return Err(diagnostics);
     }
     shared_timers::mark(&mut module);
+    watchdog::watch(&mut module, resolved);
     layout::build(&mut module, options, &specials.flags, specials.whole);
     module.comments = resolved
         .program

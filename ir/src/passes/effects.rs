@@ -131,6 +131,7 @@ pub(super) fn writes(model: &Model, stmt: &Stmt) -> Writes {
         | Stmt::Return
         | Stmt::Goto(_)
         | Stmt::Fault { .. }
+        | Stmt::Watch { .. }
         | Stmt::Stop
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
