@@ -244,6 +244,9 @@ pub struct RunArgs {
     /// Keep step with the clock instead of running as fast as possible.
     #[arg(long)]
     pub real_time: bool,
+    /// Fail (exit code 1) if the PLC would show an operation error; --verbose tells of each as it comes.
+    #[arg(long)]
+    pub deny_errors: bool,
 }
 
 /// Arguments of `test`.

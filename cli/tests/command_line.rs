@@ -169,7 +169,16 @@ fn convert_there_and_back() {
 #[test]
 fn explain_topics() {
     let folder = folder(&[]);
-    for topic in ["E0106", "double-coil", "LD>=", "M8013", "nonsense", "MOVE"] {
+    for topic in [
+        "E0106",
+        "double-coil",
+        "LD>=",
+        "M8013",
+        "6706",
+        "6503",
+        "nonsense",
+        "MOVE",
+    ] {
         let name = format!("explain_{}", topic.replace(">=", "_ge"));
         insta::assert_snapshot!(name, shown(folder.path(), &["explain", topic]));
     }
@@ -308,6 +317,37 @@ fn a_program_may_be_called_main() {
         0
     );
     assert!(path.join("out/main.c").is_file() && path.join("out/plc_main.c").is_file());
+}
+
+/// A flood of commands starves neither the scan nor the signals; the end tells of errors.
+#[test]
+#[cfg(unix)]
+fn an_executable_goes_on_under_a_flood_of_commands() {
+    for tool in ["cc", "make", "sh", "yes", "timeout"] {
+        if Command::new(tool).arg("--version").output().is_err() && tool != "sh" {
+            println!("skipped: there is no {tool}");
+            return;
+        }
+    }
+    let program = b"LD M8000\nDIV D0 D1 D2\nLD M8013\nOUT Y000\nEND\n";
+    let folder = folder(&[("flood.il", program)]);
+    let path = folder.path();
+    let args = ["build", "flood.il", "--emit", "bin", "-o", "flood"];
+    assert_eq!(code(path, &args), 0);
+    let script = "yes X0=1 | timeout --preserve-status -s TERM -k 8 3 ./flood";
+    let done = Command::new("sh")
+        .args(["-c", script])
+        .current_dir(path)
+        .output()
+        .unwrap();
+    assert_eq!(done.status.code(), Some(0), "it ends by itself: {done:?}");
+    let outputs = text(&done.stdout);
+    assert!(outputs.contains("Y000"), "it scans: {outputs}");
+    let errors = text(&done.stderr);
+    let told = errors
+        .lines()
+        .any(|line| line.contains("step 1: error 6706"));
+    assert!(told, "the end tells of the error");
 }
 
 #[test]

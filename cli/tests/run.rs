@@ -330,6 +330,43 @@ fn run_draws_a_diagram() {
 }
 
 #[test]
+fn operation_errors_are_told_with_their_places() {
+    let program = b"LD M8000\nFMOV K0 D0Z0 K10\nLD M8000\nMOV K9000 Z0\nDIV D0 D1 D2\nEND\n";
+    let folder = folder(&[("errors.il", program)]);
+    let path = folder.path();
+    let args = ["run", "errors.il", "--for", "30ms"];
+    insta::assert_snapshot!("run_errors", shown(path, &args));
+    let denied = [&args[..], &["--deny-errors", "--verbose"]].concat();
+    insta::assert_snapshot!("run_errors_denied", shown(path, &denied));
+}
+
+/// Nothing happens between its scans, so they take no time.
+#[test]
+fn long_scans_run_quickly() {
+    let folder = folder(&[("idle.il", b"LD X0\nOUT Y0\nEND\n")]);
+    let begin = std::time::Instant::now();
+    let args = [
+        "run",
+        "idle.il",
+        "--for",
+        "1193h",
+        "--scan",
+        "1h",
+        "--set",
+        "X0=1@5400s",
+    ];
+    let shown = shown(folder.path(), &args);
+    assert!(
+        shown.contains("7200.000 s"),
+        "the scan after it takes notice: {shown}"
+    );
+    assert!(
+        begin.elapsed().as_secs() < 20,
+        "it steps through each millisecond"
+    );
+}
+
+#[test]
 fn a_scan_that_does_not_end_is_the_programs_fault() {
     let folder = folder(&[("endless.il", b"P0\nLD M8000\nCJ P0\nEND\n")]);
     let args = ["run", "endless.il"];

@@ -60,20 +60,22 @@ static void sleep_until(uint64_t moment_us)
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, NULL);
 }
 
-/* Takes commands like X12=1 (octal) from standard input, without waiting for them. */
+/* Takes commands like X12=1 (octal) from standard input, without waiting for them, and no more in a scan than fit the buffer. */
 static void read_commands(PROGRAM_plc *plc)
 {
     static bool closed;
     static char line[80];
     static size_t length;
+    char text[512];
     struct pollfd input = {.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
 
-    while (!closed && poll(&input, 1, 0) > 0) {
-        char c;
-        if (read(STDIN_FILENO, &c, 1) != 1) {
-            closed = true;
-            return;
-        }
+    if (closed || poll(&input, 1, 0) <= 0) {
+        return;
+    }
+    const ssize_t count = read(STDIN_FILENO, text, sizeof text);
+    closed = count <= 0;
+    for (ssize_t i = 0; i < count; i++) {
+        const char c = text[i];
         if (c != '\n') {
             if (length < sizeof line - 1) {
                 line[length++] = c;
@@ -90,6 +92,40 @@ static void read_commands(PROGRAM_plc *plc)
             }
         }
         fprintf(stderr, "%s: not an input of the program; type for example X0=1\n", line);
+    }
+}
+
+/* What an error code of the PLC means. */
+static const char *meaning(unsigned code)
+{
+    switch (code) {
+    /* ERRORS */
+    default:
+        return "operation error";
+    }
+}
+
+/* Tells once what stopped the program. */
+static void print_stop(const PROGRAM_plc *plc)
+{
+    static bool told;
+    const plc_error error = PROGRAM_error(plc);
+
+    if (!told && error.stop == PLC_STOP_WATCHDOG) {
+        fprintf(stderr, "PROGRAM: step %u: error %u, %s; the PLC is in STOP\n", error.stop_step, error.stop, meaning(error.stop));
+    } else if (!told && error.stop == PLC_STOP_M8037) {
+        fprintf(stderr, "PROGRAM: the program has stopped itself (M8037)\n");
+    }
+    told = error.stop != PLC_STOP_NONE;
+}
+
+/* Tells which operation error was the last one. */
+static void print_error(const PROGRAM_plc *plc)
+{
+    const plc_error error = PROGRAM_error(plc);
+
+    if (error.code != 0) {
+        fprintf(stderr, "PROGRAM: step %u: error %u, %s\n", error.step, error.code, meaning(error.code));
     }
 }
 
@@ -125,10 +161,12 @@ int main(void)
         read_commands(plc);
         PROGRAM_scan(plc, now_ms, scan_us);
         print_outputs(plc, now_ms);
+        print_stop(plc);
         scan_us = (uint32_t)(microseconds() - begin);
 
         next += SCAN_MS * 1000u;
         /* WAIT */
     }
+    print_error(plc);
     return 0;
 }

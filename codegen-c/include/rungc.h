@@ -25,7 +25,7 @@ typedef struct plc_sys {
 /* What put the PLC in STOP, besides the RUN/STOP switch. */
 enum {
     PLC_STOP_NONE = 0,
-    PLC_STOP_PROGRAM = 1,    /* the program, by M8037 */
+    PLC_STOP_M8037 = 1,      /* the program, by M8037 */
     PLC_STOP_WATCHDOG = 6105 /* the watchdog: a scan did not end */
 };
 

@@ -56,7 +56,19 @@ pub fn main_file(module: &Module) -> String {
     } else {
         ""
     };
+    let errors = match module.may_fail() {
+        true => rungc_ir::plc_errors::PLC_ERRORS,
+        false => &[],
+    };
+    let errors: String = errors
+        .iter()
+        .map(|error| {
+            let title = text::string_literal(error.title);
+            format!("    case {}u:\n        return {title};\n", error.code)
+        })
+        .collect();
     MAIN_C
+        .replace("    /* ERRORS */\n", &errors)
         .replace("/* WAIT */", wait)
         .replace("/* INTERRUPTS */", interrupts)
         .replace("    /* INPUTS */\n", &inputs)

@@ -618,7 +618,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                 );
             }
             Stmt::Stop => {
-                text::line(out, indent, "plc->error.stop = PLC_STOP_PROGRAM;", None);
+                text::line(out, indent, "plc->error.stop = PLC_STOP_M8037;", None);
                 code = format!("{}_set_running(plc, false);", self.module.name);
             }
             Stmt::Clear { latched } => {

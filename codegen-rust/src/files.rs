@@ -3,7 +3,7 @@
 use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
 use crate::{Options, OutFile, Runtime};
-use rungc_ir::Module;
+use rungc_ir::{Module, plc_errors};
 use rungc_rt::TimerKind;
 use rungc_rt_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
@@ -406,7 +406,16 @@ fn host(generator: &Generator, crate_name: &str) -> String {
     } else {
         WAIT_WITH_EVENTS
     };
+    let errors = match generator.module.may_fail() {
+        true => plc_errors::PLC_ERRORS,
+        false => &[],
+    };
+    let errors: String = errors
+        .iter()
+        .map(|error| format!("\n    ({}, {:?}),", error.code, error.title))
+        .collect();
     include_str!("../templates/host.rs")
+        .replace("ERROR_TABLE", &errors)
         .replace("OUTPUT_TABLE", &table)
         .replace("        WAIT;\n", wait)
         .replace("CRATE", crate_name)

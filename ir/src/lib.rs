@@ -18,6 +18,7 @@ pub mod lower;
 pub mod model;
 pub mod node;
 pub mod passes;
+pub mod plc_errors;
 pub mod resolve;
 pub mod runs;
 pub mod special;

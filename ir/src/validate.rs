@@ -201,7 +201,7 @@ impl Checker<'_> {
                     }
                     self.body(&part.body)?;
                 }
-                self.forget(begin);
+                // What the last part assigns is assigned: the parts end where it does.
                 self.labels.truncate(outer);
                 Ok(true)
             }

@@ -58,6 +58,8 @@ fn line() -> impl Strategy<Value = String> {
         "FEND",
         "END",
         "NOP",
+        "ZRST S0 S4294967295",
+        "ZRST M4294967295 M0",
         "MOV K1 D0",
         "DMOV D7999 D0Z0",
         "BMOV D0 D7999 K512",

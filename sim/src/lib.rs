@@ -5,6 +5,7 @@
 
 mod devices;
 pub mod engines;
+pub mod errors;
 mod exec;
 mod logic;
 pub mod machine;

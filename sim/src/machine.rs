@@ -4,12 +4,14 @@
 //! mean is in `exec`, word for word as [`rungc_ir::node`] specifies it.
 
 use crate::devices::Devices;
+use crate::errors::OperationError;
 use crate::exec::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeKind, FunctionKind, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_rt::{Axis, Class, Hal, LastError, Operand, Plc, Program, Pulses, State, Stop, Sys};
+use std::collections::BTreeMap;
 
 /// The functions that a host asks for, by their places in the module.
 struct Entries {
@@ -67,6 +69,9 @@ pub struct Machine<'m> {
     /// Steps that this scan may still repeat.
     steps_left: u32,
     pub(crate) last_error: LastError,
+    pub(crate) errors: Vec<OperationError>,
+    /// Where the error of a step and a code stands among them.
+    pub(crate) errors_by_place: BTreeMap<(u32, u16), usize>,
     /// Operands of the call being executed; kept to save the allocation.
     pub(crate) operands: Vec<Operand>,
     states: Vec<State>,
@@ -96,6 +101,8 @@ impl<'m> Machine<'m> {
             sys: Sys::power_on(),
             steps_left: 0,
             last_error: LastError::NONE,
+            errors: Vec::new(),
+            errors_by_place: BTreeMap::new(),
             operands: Vec::new(),
             states: vec![State::default(); usize::from(module.states) + 1],
             axes: vec![Axis::new(); module.pulse_outputs.len()],
@@ -135,6 +142,8 @@ impl<'m> Machine<'m> {
             table.fill(0);
         }
         self.sys = Sys::power_on();
+        self.errors.clear();
+        self.errors_by_place.clear();
         self.restart_watchdog();
         self.begin_run();
     }
@@ -351,6 +360,7 @@ impl Plc for Machine<'_> {
     fn note_error(&mut self, code: u16, step: u32) {
         self.last_error.code = code;
         self.last_error.step = step as u16;
+        self.log_error(code, step);
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {

@@ -2,16 +2,17 @@
 
 use super::{Failure, Outcome, Result, say};
 use crate::args::ExplainArgs;
-use rungc_ir::{ModelId, catalogue, special};
+use rungc_ir::{ModelId, catalogue, plc_errors, special};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{DeviceClass, diag};
 use std::fmt::Write;
 
-/// Prints the page of a diagnostic code, an instruction or a special device.
+/// Prints the page of a diagnostic code, an error code of the PLC, an instruction or a special device.
 pub fn run(args: &ExplainArgs) -> Result {
     let topic = args.topic.trim().to_uppercase();
     let page = codes::find(&args.topic.trim().to_lowercase())
         .map(code_page)
+        .or_else(|| plc_error_page(topic.parse().ok()?))
         .or_else(|| special_page(&topic, args.model?))
         .or_else(|| catalogue::explain(&topic));
     let Some(page) = page else {
@@ -23,7 +24,7 @@ pub fn run(args: &ExplainArgs) -> Result {
             .map(|near| format!("; did you mean `{near}`?"))
             .unwrap_or_default();
         return Err(Failure::Because(format!(
-            "`{}` is no diagnostic code, instruction or special device{hint}",
+            "`{}` is no diagnostic code, PLC error code, instruction or special device{hint}",
             args.topic
         )));
     };
@@ -55,6 +56,32 @@ fn code_page(code: &Code) -> String {
         }
     }
     page
+}
+
+/// The page of an error code of the PLC: what it means when a program runs, and which diagnostics prevent it.
+fn plc_error_page(number: u16) -> Option<String> {
+    let error = plc_errors::find(number);
+    let codes: Vec<&Code> = codes::all()
+        .into_iter()
+        .filter(|code| code.plc_error == Some(number))
+        .collect();
+    let mut page = match error {
+        Some(error) => format!(
+            "PLC error {number}: {}\n\n{}\n\nWhat to do: {}\n",
+            error.title, error.meaning, error.remedy
+        ),
+        None if codes.is_empty() => return None,
+        None => format!(
+            "PLC error {number}: the PLC finds it when a program is checked or written to it, so no compiled program raises it.\n"
+        ),
+    };
+    if !codes.is_empty() {
+        page.push_str("\nWhat rungc reports of it before the program runs:\n\n");
+        for code in codes {
+            let _ = writeln!(page, "    {} ({}): {}", code.id, code.name, code.title);
+        }
+    }
+    Some(page)
 }
 
 /// What a special device means on one model.

@@ -1,6 +1,7 @@
 //! `rungc run`.
 
 mod device;
+mod errors;
 mod plotting;
 mod recording;
 mod simulate;
@@ -9,7 +10,7 @@ mod wiring;
 
 use super::setting::{Setting, setting, target};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Result, conclude, findings, holder, read, stem, tell};
+use super::{Context, Failure, Result, Verbosity, conclude, findings, holder, read, stem, tell};
 use crate::args::RunArgs;
 use crate::report::Reporter;
 use rungc_ir::Module;
@@ -103,6 +104,8 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     let run = simulate::Run {
         args,
         module: &module,
+        program: &read.program,
+        errors_at_once: cx.verbosity == Verbosity::Verbose,
         settings: &settings,
         shown: &shown,
         watched: &watched,

@@ -107,7 +107,8 @@ fn values(operands: &[Operand], operand: &Operand, param: &Param) -> Option<u32>
         Extent::Through(last) => {
             let last = device(operands.get(last)?)?;
             let first = device(operand)?;
-            (first.class == last.class).then(|| last.number.saturating_sub(first.number) + 1)
+            let further = last.number.saturating_sub(first.number);
+            (first.class == last.class).then(|| further.saturating_add(1))
         }
     }
 }

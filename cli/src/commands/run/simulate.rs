@@ -1,5 +1,6 @@
 //! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
 
+use super::errors::Errors;
 use super::plotting::Plotting;
 use super::recording::Recording;
 use super::view::{Column, Kind, View};
@@ -14,7 +15,7 @@ use rungc_sim::Machine;
 use rungc_sim::plant::Plant;
 use rungc_sim::plctest::Target;
 use rungc_sim::record::Reading;
-use rungc_syntax::DeviceClass;
+use rungc_syntax::{DeviceClass, Program as Source};
 use std::io::{self, Write};
 use std::iter::Peekable;
 use std::slice::Iter;
@@ -32,6 +33,7 @@ struct Simulation<'a> {
     recording: Option<Recording>,
     plotting: Option<Plotting>,
     plant: Option<Plant>,
+    errors: Errors<'a>,
     now_ms: u64,
 }
 
@@ -41,6 +43,10 @@ pub struct Run<'a> {
     pub args: &'a RunArgs,
     /// The program.
     pub module: &'a Module,
+    /// What it was compiled from.
+    pub program: &'a Source,
+    /// Whether operation errors are told as they come.
+    pub errors_at_once: bool,
     /// What is set, in the order of the times.
     pub settings: &'a [Setting],
     /// What the table shows.
@@ -85,10 +91,14 @@ impl Run<'_> {
             recording,
             plotting,
             plant,
+            errors: Errors::new(self.program, module.model, self.errors_at_once),
             now_ms: 0,
         };
         interruption::note();
         let outcome = simulation.run(args)?;
+        let errors = simulation.machine.errors();
+        simulation.errors.summarise(errors);
+        let denied = args.deny_errors && !errors.is_empty();
         let cut_short = simulation.machine.watchdog_tripped() || interruption::is_asked();
         let end_ms = match cut_short {
             false => args.duration,
@@ -100,7 +110,10 @@ impl Run<'_> {
         if let Some(plotting) = simulation.plotting {
             plotting.keep()?;
         }
-        Ok(outcome)
+        Ok(match denied {
+            true => Outcome::Failed,
+            false => outcome,
+        })
     }
 }
 
@@ -116,11 +129,11 @@ impl Simulation<'_> {
         }
         loop {
             self.scan(args.scan)?;
+            self.errors.notice(self.machine.errors());
             if self.machine.watchdog_tripped() {
-                let now = self.now_ms;
-                tell(&format!(
-                    "rungc: at {now} ms: a scan does not end (watchdog, D8061 = 6105)"
-                ));
+                let error = self.machine.last_error();
+                let message = self.errors.watchdog(self.now_ms, error);
+                tell(&format!("rungc: {message}"));
                 return Ok(Outcome::Failed);
             }
             if interruption::is_asked() {
@@ -130,11 +143,15 @@ impl Simulation<'_> {
             if self.now_ms + args.scan > args.duration {
                 break;
             }
-            for left in (0..args.scan).rev() {
-                self.millisecond()?;
-                // What a scan begins with is recorded as it leaves it.
-                if left > 0 {
-                    self.record()?;
+            if self.is_idle_between_scans() {
+                self.pass(args.scan)?;
+            } else {
+                for left in (0..args.scan).rev() {
+                    self.millisecond()?;
+                    // What a scan begins with is recorded as it leaves it.
+                    if left > 0 {
+                        self.record()?;
+                    }
                 }
             }
             if args.real_time {
@@ -174,6 +191,26 @@ impl Simulation<'_> {
             self.out.line(&row)?;
         }
         self.record()
+    }
+
+    /// Whether nothing happens between two scans but what is set.
+    fn is_idle_between_scans(&self) -> bool {
+        self.plant.is_none()
+            && self.recording.is_none()
+            && self.plotting.is_none()
+            && !self.machine.module().takes_time()
+    }
+
+    /// The time from one scan to the next, in which nothing happens but what is set.
+    fn pass(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
+        let next_ms = self.now_ms + scan_ms;
+        while let Some(setting) = self.pending.peek().filter(|s| s.at_ms <= next_ms) {
+            self.now_ms = setting.at_ms;
+            self.apply_settings()?;
+            self.machine.take_interrupts(&mut self.hal);
+        }
+        self.now_ms = next_ms;
+        Ok(())
     }
 
     /// A millisecond between two scans.

@@ -1,0 +1,140 @@
+//! What the PLC would show of errors while a program runs: the operation errors, and what stopped it.
+
+use crate::commands::tell;
+use rungc_ir::model::Model;
+use rungc_ir::plc_errors;
+use rungc_ir::resolve::{Resolved, resolve};
+use rungc_rt::{Class, LastError};
+use rungc_sim::errors::OperationError;
+use rungc_syntax::{Device, DeviceClass, Index, Instr, OperandKind, Program};
+
+/// Tells of errors with the instructions that they happened to.
+pub struct Errors<'a> {
+    resolved: Resolved<'a>,
+    model: &'static Model,
+    /// Whether errors are told as they come.
+    at_once: bool,
+    /// How many have been told.
+    told: usize,
+}
+
+impl<'a> Errors<'a> {
+    /// Those of a program on a model.
+    pub fn new(program: &'a Program, model: &'static Model, at_once: bool) -> Self {
+        let (resolved, _) = resolve(program, model);
+        Errors {
+            resolved,
+            model,
+            at_once,
+            told: 0,
+        }
+    }
+
+    /// Tells of new ones, if that is wanted.
+    pub fn notice(&mut self, errors: &[OperationError]) {
+        if self.at_once {
+            for error in errors.iter().skip(self.told) {
+                tell(&format!("rungc: {}", self.describe(error)));
+            }
+            self.told = errors.len();
+        }
+    }
+
+    /// Tells of all of them at the end of the run.
+    pub fn summarise(&self, errors: &[OperationError]) {
+        for error in errors {
+            let times = match error.times {
+                1 => "once".to_string(),
+                times => format!("{times} times"),
+            };
+            tell(&format!("rungc: {}, {times}", self.describe(error)));
+        }
+        if let Some(error) = errors.first() {
+            let (code, relay) = (error.code, self.model.error_relay);
+            tell(&format!(
+                "rungc: a PLC shows these errors in M{relay} and D{relay}; `rungc explain {code}` tells more"
+            ));
+        }
+    }
+
+    /// What stopped the program: the watchdog, at a loop or a jump.
+    pub fn watchdog(&self, now_ms: u64, error: LastError) -> String {
+        let step = u32::from(error.stop_step);
+        let code = plc_errors::WATCHDOG;
+        let title = plc_errors::title(code);
+        format!(
+            "at {now_ms} ms, step {step}: {}: error {code}, {title}",
+            self.text(step)
+        )
+    }
+
+    fn describe(&self, error: &OperationError) -> String {
+        let missing = self.missing(error);
+        let title = plc_errors::title(error.code);
+        let what = match missing {
+            Some(device) => format!("{device} does not exist"),
+            None => title.to_string(),
+        };
+        let OperationError {
+            first_ms,
+            step,
+            code,
+            ..
+        } = *error;
+        format!(
+            "at {first_ms} ms, step {step}: {}: error {code}, {what}",
+            self.text(step)
+        )
+    }
+
+    /// The instruction at a step.
+    fn instr(&self, step: u32) -> Option<&Instr> {
+        let behind = self
+            .resolved
+            .instrs
+            .partition_point(|instr| instr.step <= step);
+        let own = |i: &usize| self.resolved.instrs[*i].inst.is_some();
+        let at = (0..behind).rev().find(own)?;
+        self.resolved.program.instrs.get(at)
+    }
+
+    /// The instruction at a step, as it is written.
+    fn text(&self, step: u32) -> String {
+        let source = &self.resolved.program.source.text;
+        let text = self
+            .instr(step)
+            .and_then(|instr| source.get(instr.span.range()));
+        text.map_or(String::new(), |text| {
+            text.split_whitespace().collect::<Vec<_>>().join(" ")
+        })
+    }
+
+    /// A device of the instruction that an index led to and that the model does not have.
+    fn missing(&self, error: &OperationError) -> Option<String> {
+        let instr = self.instr(error.step)?;
+        instr.operands.iter().find_map(|operand| {
+            let (device, index) = match operand.kind {
+                OperandKind::Device(device, index)
+                | OperandKind::WordBit(device, _, index)
+                | OperandKind::Nibbles(_, device, index) => (device, index?),
+                _ => return None,
+            };
+            self.led_to(device, index, error)
+        })
+    }
+
+    fn led_to(&self, device: Device, index: Index, error: &OperationError) -> Option<String> {
+        let class = match index.class {
+            DeviceClass::V => Class::V,
+            _ => Class::Z,
+        };
+        let offset = error.index(class, index.number)?;
+        let number = i64::from(device.number) + i64::from(offset);
+        let exists = self.model.in_range(device.class, number, 1);
+        let name = match u32::try_from(number) {
+            Ok(number) => device.class.number(number).to_string(),
+            Err(_) => format!("{device} with an index of {offset}"),
+        };
+        (!exists).then_some(name)
+    }
+}
