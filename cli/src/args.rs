@@ -142,6 +142,10 @@ pub struct Reporting {
     /// Treat warnings with this code or name as errors; may be repeated.
     #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = warning)]
     pub deny: Vec<&'static str>,
+    /// Treat a limit of the model with this code (E0105) or name (limits) as a warning; may be repeated. The PLC refuses the
+    /// program, but it can be compiled.
+    #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = limit)]
+    pub warn: Vec<&'static str>,
     /// What rungc.toml says about codes; the command line wins over it.
     #[arg(skip)]
     pub rules: Check,
@@ -359,6 +363,7 @@ impl Default for Reporting {
             deny_warnings: false,
             allow: Vec::new(),
             deny: Vec::new(),
+            warn: Vec::new(),
             rules: Check::default(),
             limit: DIAGNOSTICS,
         }
@@ -453,6 +458,29 @@ fn warning(name: &str) -> Result<&'static str, String> {
     match codes::find(id).map(|code| code.severity) {
         Some(Severity::Warning) => Ok(id),
         _ => Err("a note is never an error".to_string()),
+    }
+}
+
+/// The identifier of an error that can be made a warning, given by its code or name.
+fn limit(name: &str) -> Result<&'static str, String> {
+    let limits = || {
+        codes::eased()
+            .map(|code| code.id)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let code = codes::find(name).ok_or_else(|| {
+        format!(
+            "there is no such error; those that can be warnings are {}",
+            limits()
+        )
+    })?;
+    match code.severity {
+        Severity::Note | Severity::Warning => Err("it is no error".to_string()),
+        Severity::Error => match code.can_be_eased() {
+            Ok(()) => Ok(code.id),
+            Err(why) => Err(format!("it stays an error: {why}")),
+        },
     }
 }
 

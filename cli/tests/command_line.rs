@@ -53,6 +53,44 @@ fn check_for_tools() {
     }
 }
 
+/// A limit of the PLC keeps a program from being built, unless it is made a warning; what has no storage stays an error.
+#[test]
+fn limits_can_be_warnings() {
+    let list = "LD X0\nFMOV K0 D0 K513\nEND\n";
+    let folder = folder(&[("long.il", list.as_bytes())]);
+    let check = |args: &[&str]| rungc(folder.path(), &[&["check", "long.il"], args].concat());
+    assert_eq!(check(&[]).status.code(), Some(1));
+    let eased = check(&["--warn", "E0105"]);
+    assert_eq!(eased.status.code(), Some(0));
+    assert!(text(&eased.stderr).contains("warning[E0105]"));
+    assert_eq!(
+        check(&["-W", "limits", "--deny-warnings"]).status.code(),
+        Some(1)
+    );
+    let built = [
+        "build", "long.il", "--warn", "limits", "--emit", "c", "-o", "c",
+    ];
+    assert_eq!(rungc(folder.path(), &built).status.code(), Some(0));
+    for (code, why) in [
+        ("E0106", "no storage"),
+        ("E0413", "nothing can be compiled"),
+    ] {
+        let refused = check(&["--warn", code]);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(
+            text(&refused.stderr).contains(why),
+            "{}",
+            text(&refused.stderr)
+        );
+    }
+    std::fs::write(
+        folder.path().join("rungc.toml"),
+        "[check]\nwarn = [\"E0105\"]\n",
+    )
+    .unwrap();
+    assert_eq!(check(&[]).status.code(), Some(0));
+}
+
 /// What a command makes and what it reports do not mix on standard output.
 #[test]
 fn reports_for_tools_leave_standard_output_clean() {

@@ -118,7 +118,7 @@ fn all_engines_move_the_machines_alike() {
     assert!(!files.is_empty());
     files.push(fast());
     files.push(searches());
-    let suite = Suite::compile(files);
+    let suite = Suite::compile(files, &[]);
     assert!(suite.cases().all(|(_, case)| case.machine.is_some()));
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("machines");
     for kind in EngineKind::ALL {

@@ -22,6 +22,8 @@ pub struct CompileOptions {
     pub observe_all: bool,
     /// Simplify the module.
     pub optimise: bool,
+    /// Codes of errors that are warnings here: limits of the PLC which can be eased ([`codes::Code::can_be_eased`]); others stay errors.
+    pub warn: Vec<&'static str>,
 }
 
 /// What came of it.
@@ -98,6 +100,9 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let (resolved, found) = resolve(program, model);
     diagnostics.extend(found.sorted());
     diagnostics.extend(check::check(&resolved).sorted());
+    let eased = codes::eased().map(|code| code.id);
+    let eased: Vec<_> = eased.filter(|id| options.warn.contains(id)).collect();
+    diagnostics.ease(&eased);
     let module = if diagnostics.has_errors() || !program.is_complete() {
         None
     } else {

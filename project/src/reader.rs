@@ -288,6 +288,13 @@ impl Reader {
             self.wrong(name.span, message, "");
             return None;
         }
+        if key == "warn"
+            && let Err(why) = code.can_be_eased()
+        {
+            let message = format!("`{}` stays an error", name.text);
+            self.wrong(name.span, message, why);
+            return None;
+        }
         Some(code)
     }
 

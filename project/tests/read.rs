@@ -43,7 +43,7 @@ encoding = "windows-1252"
 
 [check]
 allow = ["W0201", "double-coil"]
-warn = ["E0106"]
+warn = ["E0105"]
 deny = ["W0204"]
 
 [build]
@@ -75,7 +75,7 @@ M = ["M500-M600", "M700"]
     assert_eq!(project.encoding.unwrap().name(), "windows-1252");
     assert_eq!(project.program().unwrap(), Path::new("plant/Packer.gxw"));
     assert_eq!(project.check.allow, ["W0201", "W0203"]);
-    assert_eq!(project.check.warn, ["E0106"]);
+    assert_eq!(project.check.warn, ["E0105"]);
     assert_eq!(project.check.deny, ["W0204"]);
     assert_eq!(project.build.emit.as_ref().unwrap().text, "c");
     assert_eq!(

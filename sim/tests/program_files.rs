@@ -51,7 +51,7 @@ fn models(folder: &Path) -> Vec<ModelId> {
 
 fn failures(folder: &Path) -> Vec<String> {
     let file = plctest::load(&folder.join("t.plctest.toml")).unwrap();
-    let suite = Suite::compile(vec![file]);
+    let suite = Suite::compile(vec![file], &[]);
     let mut engine = build(EngineKind::Interp, suite.modules(), folder).unwrap();
     let report = plctest::run(&suite, engine.as_mut(), &mut |_| ControlFlow::Continue(()));
     report.failures().map(|f| f.describe(&suite)).collect()

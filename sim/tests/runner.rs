@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 /// The descriptions of all outcomes, one a line.
 fn outcomes(text: &str) -> String {
     let file = plctest::parse("t.plctest.toml", text).unwrap();
-    let suite = Suite::compile(vec![file]);
+    let suite = Suite::compile(vec![file], &[]);
     let mut engine = Interpreter::new(suite.modules());
     let report = plctest::run(&suite, &mut engine, &mut |_| ControlFlow::Continue(()));
     let lines: Vec<_> = report.outcomes.iter().map(|o| o.describe(&suite)).collect();

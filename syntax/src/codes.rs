@@ -66,6 +66,60 @@ impl Code {
     }
 }
 
+/// Errors that are limits of the PLC which a compiled program does not share: it can be compiled nevertheless.
+static EASED: [&Code; 5] = [
+    &LIMITS,
+    &TOO_MANY_BLOCKS,
+    &TOO_MANY_BRANCHES,
+    &DEEP_FOR,
+    &STL_ROW,
+];
+
+/// Errors that seem to be such limits, and why nothing can be compiled.
+static NOT_EASED: [(&Code, &str); 6] = [
+    (
+        &NOT_ON_MODEL,
+        "what its operands are is known for the models that have it; choose one with --model",
+    ),
+    (&NO_SUCH_FORM, "what this form would do is not defined"),
+    (
+        &NO_DEVICE,
+        "there is no storage for a device that the model does not have; choose a model that has it with --model",
+    ),
+    (
+        &PAST_THE_END,
+        "there is no storage past the end of a range; choose a model with more devices with --model",
+    ),
+    (
+        &NOT_THIS_NUMBER,
+        "the model's hardware does not serve this device; choose a model that does with --model",
+    ),
+    (
+        &TOO_OFTEN,
+        "what more of these instructions do at once is not known",
+    ),
+];
+
+impl Code {
+    /// Whether the error is a limit of the PLC that a compiled program does not share, so that it can be made a warning.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot, as the end of a sentence.
+    pub fn can_be_eased(&self) -> Result<(), &'static str> {
+        if EASED.iter().any(|code| code.id == self.id) {
+            return Ok(());
+        }
+        let known = NOT_EASED.iter().find(|(code, _)| code.id == self.id);
+        Err(known.map_or("nothing can be compiled with it", |(_, why)| why))
+    }
+}
+
+/// The codes of errors that can be made warnings, in order.
+pub fn eased() -> impl Iterator<Item = &'static Code> {
+    EASED.iter().copied()
+}
+
 /// All codes, in order of their identifiers.
 pub fn all() -> Vec<&'static Code> {
     let families = [
@@ -153,6 +207,15 @@ mod tests {
             );
             assert_eq!(code.wrong.is_empty(), code.right.is_empty(), "{}", code.id);
         }
+    }
+
+    #[test]
+    fn limits_are_errors_that_can_be_eased() {
+        assert!(eased().all(|code| code.severity == Severity::Error));
+        assert_eq!(LIMITS.can_be_eased(), Ok(()));
+        let storage = NO_DEVICE.can_be_eased();
+        assert!(storage.is_err_and(|why| why.contains("storage")));
+        assert!(OPEN_FOR.can_be_eased().is_err());
     }
 
     #[test]

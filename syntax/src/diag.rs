@@ -190,6 +190,15 @@ impl Diagnostics {
         self.0.is_empty()
     }
 
+    /// Makes warnings of the errors with these codes.
+    pub fn ease(&mut self, codes: &[&str]) {
+        for diagnostic in &mut self.0 {
+            if diagnostic.severity == Severity::Error && codes.contains(&diagnostic.code) {
+                diagnostic.severity = Severity::Warning;
+            }
+        }
+    }
+
     /// Whether any of them is an error.
     pub fn has_errors(&self) -> bool {
         self.0.iter().any(|d| d.severity == Severity::Error)

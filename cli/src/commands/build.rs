@@ -54,10 +54,9 @@ fn build(
     let read = read(subject, reporter)?;
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
-        model: subject.model,
         name: Some(name.clone()),
         optimise: !plan.no_opt,
-        ..CompileOptions::default()
+        ..subject.options()
     };
     let compiled = progress::spin("compiling", || compile::compile(&read.program, &options));
     let mut findings = findings(subject, &read, &compiled);

@@ -5,7 +5,7 @@ use super::{Context, Result, conclude, counted, findings, grouped, read};
 use crate::args::CheckArgs;
 use crate::report::Reporter;
 use rungc_ir::Model;
-use rungc_ir::compile::{self, CompileOptions};
+use rungc_ir::compile;
 use rungc_syntax::{Device, DeviceClass, DeviceRun, OperandKind, Parameters, Program};
 use std::collections::BTreeSet;
 use std::time::Instant;
@@ -20,13 +20,7 @@ pub fn run(args: &CheckArgs, cx: Context) -> Result {
 fn check(subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
     let start = Instant::now();
     let read = read(subject, reporter)?;
-    let checked = compile::check(
-        &read.program,
-        &CompileOptions {
-            model: subject.model,
-            ..CompileOptions::default()
-        },
-    );
+    let checked = compile::check(&read.program, &subject.options());
     let findings = findings(subject, &read, &checked);
     if let Some(parameters) = &read.program.parameters {
         cx.detail(|| parameter_lines(parameters, checked.model));

@@ -67,10 +67,9 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
     let wired = described.iter().flat_map(Description::terminals);
     let options = CompileOptions {
-        model: subject.model,
         name: Some(stem(&subject, &read)),
         observe: used.flat_map(observed).chain(wired).collect(),
-        ..CompileOptions::default()
+        ..subject.options()
     };
     let compiled = compile(&read.program, &options);
     let findings = findings(&subject, &read, &compiled);

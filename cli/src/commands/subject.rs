@@ -5,6 +5,7 @@ use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
 use rungc_ir::ModelId;
+use rungc_ir::compile::CompileOptions;
 use rungc_project::{Error, Project};
 use rungc_syntax::Program;
 use std::collections::BTreeMap;
@@ -34,6 +35,16 @@ impl Subject {
     /// Whether it is read from standard input.
     pub fn is_stdin(&self) -> bool {
         self.file == Path::new(STDIN)
+    }
+
+    /// How to compile it, as far as its settings say.
+    pub fn options(&self) -> CompileOptions {
+        let Reporting { warn, rules, .. } = &self.reporting;
+        CompileOptions {
+            model: self.model,
+            warn: warn.iter().chain(&rules.warn).copied().collect(),
+            ..CompileOptions::default()
+        }
     }
 
     /// The settings of its project, if the project is about this program.

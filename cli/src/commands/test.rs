@@ -51,7 +51,8 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     if let Some(path) = &args.machine {
         wire(&mut files, path)?;
     }
-    let suite = progress::spin("compiling the cases", || Suite::compile(files));
+    let warn = settings.map_or(&[][..], |project| &project.check.warn);
+    let suite = progress::spin("compiling the cases", || Suite::compile(files, warn));
     let kinds = engines(engine.unwrap_or(EngineChoice::Interp));
     let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
     let cases = counted(suite.len(), "case");

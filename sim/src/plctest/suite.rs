@@ -33,10 +33,11 @@ pub struct Suite {
 }
 
 impl Suite {
-    /// Compiles the programs of all cases; those that do not compile are a matter of their cases.
-    pub fn compile(files: Vec<TestFile>) -> Self {
+    /// Compiles the programs of all cases; those that do not compile are a matter of their cases. Errors with the codes `warn` that can
+    /// be eased are none.
+    pub fn compile(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
         let mut modules = Vec::new();
-        let mut build = |case: &Case| match compile_case(case) {
+        let mut build = |case: &Case| match compile_case(case, warn) {
             Ok(module) => {
                 modules.push(module);
                 Built::Module(modules.len() - 1)
@@ -115,7 +116,10 @@ fn observed(case: &Case) -> Vec<(DeviceClass, u32)> {
     devices.into_iter().collect()
 }
 
-fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> {
+fn compile_case(
+    case: &Case,
+    warn: &[&'static str],
+) -> Result<Module, Vec<(Option<u16>, u32, String)>> {
     let of_list;
     let read = match &case.program {
         CaseProgram::List(list) => {
@@ -124,8 +128,9 @@ fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> 
         }
         CaseProgram::File(read) => read,
     };
-    let compiled = compile_on(case.model, case, &read.program);
-    let compiled = for_boards(case, &read.program, &compiled).unwrap_or(compiled);
+    let program = &read.program;
+    let compiled = compile_on(case.model, case, program, warn);
+    let compiled = for_boards(case, program, &compiled, warn).unwrap_or(compiled);
     let source = &read.program.source;
     let mut found = read.diagnostics.clone();
     found.refine(&compiled.diagnostics);
@@ -140,19 +145,25 @@ fn compile_case(case: &Case) -> Result<Module, Vec<(Option<u16>, u32, String)>> 
     }
 }
 
-fn compile_on(model: ModelId, case: &Case, program: &Program) -> Compiled {
+fn compile_on(model: ModelId, case: &Case, program: &Program, warn: &[&'static str]) -> Compiled {
     let options = CompileOptions {
         model: Some(model),
         name: Some(case.name.clone()),
         observe: observed(case),
         observe_all: false,
         optimise: true,
+        warn: warn.to_vec(),
     };
     compile(program, &options)
 }
 
 /// A model stands for compatible boards too: a program that only they take, compiled for them.
-fn for_boards(case: &Case, program: &Program, compiled: &Compiled) -> Option<Compiled> {
+fn for_boards(
+    case: &Case,
+    program: &Program,
+    compiled: &Compiled,
+    warn: &[&'static str],
+) -> Option<Compiled> {
     let refused = |compiled: &Compiled| {
         let mut errors = compiled.diagnostics.iter();
         errors.any(|d| d.severity == Severity::Error && d.code != codes::NOT_IMPLEMENTED.id)
@@ -162,7 +173,7 @@ fn for_boards(case: &Case, program: &Program, compiled: &Compiled) -> Option<Com
         .model
         .boards
         .filter(|_| runs && refused(compiled))?;
-    let compiled = compile_on(boards, case, program);
+    let compiled = compile_on(boards, case, program, warn);
     (!refused(&compiled)).then_some(compiled)
 }
 
