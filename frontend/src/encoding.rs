@@ -54,6 +54,16 @@ pub(crate) fn of_texts(texts: &[&[u8]], stated: Option<&'static Encoding>) -> &'
         .unwrap_or_else(|| code_page(&texts.join(&b'\n')))
 }
 
+/// The code page that files of one program share, if none of them is Unicode.
+pub(crate) fn of_files(files: &[&[u8]]) -> Option<&'static Encoding> {
+    let is_unicode = |file: &&[u8]| Encoding::for_bom(file).is_some() || wide(file).is_some();
+    if files.iter().any(is_unicode) {
+        return None;
+    }
+    let found = code_page(&files.join(&b'\n'));
+    (found != UTF_8).then_some(found)
+}
+
 /// Decodes one of these texts.
 pub(crate) fn decode_text(text: &[u8], encoding: &'static Encoding) -> String {
     encoding.decode_without_bom_handling(text).0.into_owned()

@@ -117,15 +117,22 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
         ));
     }
     let name = file.file_name().unwrap_or_default().to_string_lossy();
-    let mut read = read_bytes_with(&name, &bytes, options)?;
-    if read.program.kind == SourceKind::Csv {
-        let folder = file.parent();
-        if let Some(comments) = folder.and_then(|folder| find(folder, &["COMMENT.csv"])) {
-            let text = encoding::decode(&load(&comments)?, options.encoding);
-            read.program.comments = text
-                .map(|(text, _)| csv::comments(&text))
-                .unwrap_or_default();
-        }
+    let is_list = file
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("il"));
+    let folder = file.parent().filter(|_| !is_list && !gx::is_ole(&bytes));
+    let comments = folder.and_then(|folder| find(folder, &["COMMENT.csv"]));
+    let comments = comments.map(|path| load(&path)).transpose()?;
+    let mut options = options.clone();
+    if let (None, Some(comments)) = (options.encoding, &comments) {
+        options.encoding = encoding::of_files(&[&bytes, comments]);
+    }
+    let mut read = read_bytes_with(&name, &bytes, &options)?;
+    if let (SourceKind::Csv, Some(comments)) = (read.program.kind, &comments) {
+        let text = encoding::decode(comments, options.encoding);
+        read.program.comments = text
+            .map(|(text, _)| csv::comments(&text))
+            .unwrap_or_default();
     }
     Ok(read)
 }
@@ -221,7 +228,7 @@ fn undecoded(program: &Program) -> Diagnostic {
     codes::UNREADABLE_TEXT
         .at(span, "this text holds bytes that no known encoding reads")
         .label("the first of them")
-        .help("save the file as UTF-8")
+        .help("save the file as UTF-8, or name its encoding with `--encoding`")
 }
 
 fn load(path: &Path) -> Result<Vec<u8>, ReadError> {

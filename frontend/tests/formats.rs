@@ -311,6 +311,23 @@ fn the_longest_program_of_a_compound_file_is_taken() {
     assert_eq!(texts(&read.program).last().map(String::as_str), Some("END"));
 }
 
+/// The bytes of `Ход` alone could be Hebrew, or Chinese; beside the other comments they are Russian.
+#[test]
+fn an_export_and_its_comments_share_their_encoding() {
+    let folder = tempfile::tempdir().unwrap();
+    let encode = |text: &str| encoding_rs::WINDOWS_1251.encode(text).0.into_owned();
+    let main = export(ENGLISH, ["a", "b", "Ход"], "\t");
+    let comments = "\"Device\"\t\"Comment\"\r\n\"X000\"\t\"Пуск двигателя насоса\"\r\n";
+    std::fs::write(folder.path().join("MAIN.csv"), encode(&main)).unwrap();
+    std::fs::write(folder.path().join("COMMENT.csv"), encode(comments)).unwrap();
+    let program = read(folder.path()).unwrap().program;
+    assert_eq!(program.instrs[0].note(), Some("Ход"));
+    assert_eq!(
+        program.comments.values().collect::<Vec<_>>(),
+        ["Пуск двигателя насоса"]
+    );
+}
+
 #[test]
 fn a_project_folder_is_read_with_its_comments() {
     let folder = tempfile::tempdir().unwrap();

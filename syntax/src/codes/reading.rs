@@ -87,7 +87,7 @@ super::codes! {
 
     UNREADABLE_TEXT = "E0015" "unreadable-text" Error None,
     "bytes that no known encoding reads",
-    "Text is read as UTF-8, UTF-16, GBK or Shift-JIS, whichever fits. Here none fits every byte: the file is in another encoding, or damaged. Save it as UTF-8.",
+    "Text is read as UTF-8, as UTF-16, or in the code page in which its bytes make the most sense: GBK, Big5, Shift-JIS, EUC-KR, Windows-1252 and its like. Here none reads every byte: the file is in another encoding, or damaged. Save it as UTF-8, or name its encoding with `--encoding`.",
     wrong: "",
     right: "";
 
