@@ -184,3 +184,11 @@ fn a_text_that_a_list_cannot_hold_is_refused() {
     let again = String::from_utf16(&units.collect::<Vec<_>>()).unwrap();
     assert!(again.contains("\"\"\"a\tb\nc\"\"\""), "{again}");
 }
+
+/// A program with labels has one thing wrong with it.
+#[test]
+fn labels_are_one_error() {
+    let list = "LD bStart\nANI bStop\nOUT qMotor_on\nLD X0\nOUT Y0\nEND\n";
+    let folder = folder(&[("labels.il", list.as_bytes())]);
+    insta::assert_snapshot!(shown(folder.path(), &["check", "labels.il"]));
+}

@@ -38,7 +38,7 @@ fn kind() -> impl Strategy<Value = OperandKind> {
         any::<f32>()
             .prop_filter("finite", |v| v.is_finite())
             .prop_map(OperandKind::Float),
-        "[ -~\\t\\x01\\x1b\\x7f\u{85}]{0,12}".prop_map(|t| OperandKind::Text(t.into())),
+        "[ -~Ａ-Ｚ　\\t\\x01\\x1b\\x7f\u{85}]{0,12}".prop_map(|t| OperandKind::Text(t.into())),
         (any::<u32>(), any::<u32>(), index()).prop_map(|(module, address, index)| {
             OperandKind::Buffer {
                 module,

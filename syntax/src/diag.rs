@@ -175,7 +175,8 @@ impl Diagnostics {
             let before = lines.partition_point(|line| line.span.start <= d.span.start);
             let line = before.checked_sub(1).and_then(|last| lines.get(last));
             let second = line.is_some_and(|line| line.span.end >= d.span.end);
-            d.code != codes::BAD_OPERAND.id || !(known || second)
+            let unreadable = [codes::BAD_OPERAND.id, codes::LABEL_OPERAND.id].contains(&d.code);
+            !unreadable || !(known || second)
         });
         self.extend(compiled.iter().cloned());
     }

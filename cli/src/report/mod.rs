@@ -13,7 +13,7 @@ use crate::args::{Format, Reporting};
 use crate::commands::Context;
 use rungc_firmware::report::Report as Takes;
 use rungc_ir::compile::Compiled;
-use rungc_syntax::{Diagnostic, Diagnostics, Program, Severity};
+use rungc_syntax::{Diagnostic, Diagnostics, Label, Program, Severity, codes};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -59,7 +59,7 @@ impl<'a> Findings<'a> {
         diagnostics: Diagnostics,
         reporting: &Reporting,
     ) -> Self {
-        let mut diagnostics = diagnostics.sorted();
+        let mut diagnostics = joined_labels(diagnostics.sorted());
         diagnostics.retain_mut(|d| match level(d, reporting) {
             Some(severity) => {
                 d.severity = severity;
@@ -126,6 +126,26 @@ impl Totals {
         self.warnings += other.warnings;
         self.notes += other.notes;
     }
+}
+
+/// One error for all operands that are labels: a program with labels has hundreds of them.
+fn joined_labels(mut diagnostics: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    let is_label = |d: &Diagnostic| d.code == codes::LABEL_OPERAND.id;
+    let more: Vec<Diagnostic> = diagnostics.extract_if(.., |d| is_label(d)).collect();
+    let mut more = more.into_iter();
+    let Some(mut first) = more.next() else {
+        return diagnostics;
+    };
+    if more.len() > 0 {
+        first.message = format!("{}, and so are {} more operands", first.message, more.len());
+    }
+    first.others.extend(more.map(|d| Label {
+        span: d.span,
+        text: "a label too".into(),
+    }));
+    let at = diagnostics.partition_point(|d| d.span < first.span);
+    diagnostics.insert(at, first);
+    diagnostics
 }
 
 /// How severe a finding is under the options of the command line, which win, and the rules of the project; `None` leaves it out.

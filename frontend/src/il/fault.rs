@@ -283,9 +283,10 @@ fn operand(span: Span, text: &str) -> Diagnostic {
             .help(format!("an operand is e.g. `{prefix}10`, with an index register `D0Z0`, or a bit of a word `D0.F`")),
         _ => {
             if is_name(text) {
-                return error.label("a name, not a device").help(
-                    "write the device that it stands for; of a project with labels, export the list of the compiled program, which names devices",
-                );
+                return codes::LABEL_OPERAND
+                    .at(span, format!("`{text}` is a label, not a device"))
+                    .label("which device this is only the compiled program says")
+                    .help("export the list of the compiled program, or write the device that the label stands for");
             }
             let classes = DeviceClass::ALL.map(DeviceClass::prefix);
             let help = match did_you_mean(prefix, classes.into_iter().filter(|c| c.len() > 1)) {

@@ -3,7 +3,7 @@
 use super::fault::Faults;
 use super::fold::Folded;
 use super::grammar;
-use rungc_syntax::{Diagnostics, Operand, Span};
+use rungc_syntax::{Diagnostics, Operand, OperandKind, Span};
 use smol_str::SmolStr;
 
 /// Reads a field that names an instruction or a label; `start` is its place in the source.
@@ -34,9 +34,25 @@ pub(crate) fn operand(
     };
     report(faults, &folded, start, diagnostics);
     operand.map(|mut operand| {
-        operand.span = place(&folded, start)(operand.span);
+        let (first, last) = folded.original(operand.span.start, operand.span.end);
+        keep_text(&mut operand, &field[first as usize..last as usize]);
+        operand.span = Span::new(first + start, last + start);
         operand
     })
+}
+
+/// Makes a text what was written: in it, full-width characters mean themselves.
+pub(super) fn keep_text(operand: &mut Operand, written: &str) {
+    let OperandKind::Text(text) = &mut operand.kind else {
+        return;
+    };
+    let quoted = written
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
+    match quoted {
+        Some(inside) if !inside.is_ascii() => *text = inside.replace("\"\"", "\"").into(),
+        _ => {}
+    }
 }
 
 fn fold(field: &str, faults: &mut Faults) -> Folded {

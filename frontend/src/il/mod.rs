@@ -121,6 +121,11 @@ impl Reader {
             let mut operands = body.operands;
             for operand in &mut operands {
                 operand.span = place(operand.span);
+                let written = operand.span.start - begin..operand.span.end - begin;
+                field::keep_text(
+                    operand,
+                    &original[written.start as usize..written.end as usize],
+                );
             }
             self.push(
                 body.mnemonic.into(),

@@ -99,9 +99,9 @@ super::codes! {
 
     LABEL_OPERAND = "E0017" "label-operand" Error None,
     "operand that is a label, not a device",
-    "A source in GX Works2 may name labels. Which devices they stand for is decided when the editor converts the program, and stands in the compiled program alone: convert the program in the editor and save the project.",
-    wrong: "",
-    right: "";
+    "A source in GX Works2 may name labels, and so may a list exported from it. Which devices they stand for is decided when the editor converts the program, and stands in the compiled program alone: convert the program in the editor and save the project, or export the list of the compiled program.",
+    wrong: "LD X0\nMOV wSpeed D0\nEND\n",
+    right: "LD X0\nMOV D10 D0\nEND\n";
 
     OTHER_FAMILY = "E0018" "other-family" Error None,
     "the project is for a CPU of another family",
