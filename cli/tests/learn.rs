@@ -53,8 +53,11 @@ fn codes_are_learned_and_used_from_then_on() {
     insta::assert_snapshot!("learned_codes", shown(path, &LEARN));
     let settings = fs::read_to_string(path.join("rungc.toml")).unwrap();
     insta::assert_snapshot!("learned_settings", settings);
+    let case = "topic = \"home\"\n[[case]]\nname = \"nothing_moves\"\nprogram = { file = \"MAIN.wpg\" }\n[[case.step]]\nscans = 1\nexpect = { Y0 = 0 }\n";
+    fs::write(path.join("slide.plctest.toml"), case).unwrap();
     for args in [
         &["check", "MAIN.wpg"][..],
+        &["test", "slide.plctest.toml"],
         &["build", "MAIN.wpg", "--emit", "c"],
         &["run", "MAIN.wpg"],
     ] {

@@ -50,7 +50,7 @@ impl LearnedCodes {
     }
 
     /// The instruction that was learned for a code.
-    pub(crate) fn get(&self, code: &[u8]) -> Option<&SmolStr> {
+    pub fn get(&self, code: &[u8]) -> Option<&SmolStr> {
         self.0.get(code)
     }
 }

@@ -9,6 +9,7 @@ mod reader;
 mod template;
 
 use encoding_rs::Encoding;
+use rungc_frontend::{LearnedCodes, ReadOptions};
 use rungc_ir::ModelId;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes};
 use std::io::{self, Read};
@@ -43,8 +44,8 @@ pub struct Project {
     pub build: Build,
     /// `[test]`
     pub test: Test,
-    /// `[tokens]`: instructions by the bytes that stand for them in projects, in the order of the bytes.
-    pub tokens: Vec<Token>,
+    /// `[tokens]`: instructions by the bytes that stand for them in vendor projects.
+    pub learned: LearnedCodes,
     /// `[index]`: what indexed operands can reach.
     pub index: Vec<Bound>,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is named.
@@ -90,17 +91,6 @@ pub struct Named {
     /// The name as written.
     pub text: String,
     /// Where it stands.
-    pub span: Span,
-}
-
-/// An instruction of a vendor project.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Token {
-    /// The bytes of its body in the project.
-    pub body: Vec<u8>,
-    /// Its mnemonic, in upper case.
-    pub mnemonic: String,
-    /// Where the mnemonic stands.
     pub span: Span,
 }
 
@@ -219,6 +209,15 @@ impl Project {
             path: self.path.clone(),
             text: Box::new(self.source.clone()),
             diagnostics,
+        }
+    }
+
+    /// How programs of the project are read.
+    pub fn reading(&self) -> ReadOptions {
+        ReadOptions {
+            learned: self.learned.clone(),
+            encoding: self.encoding,
+            ..ReadOptions::default()
         }
     }
 

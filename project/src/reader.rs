@@ -1,6 +1,6 @@
 //! From TOML to [`Project`], every mistake with its place.
 
-use crate::{Bound, Latched, Named, Project, Token, device};
+use crate::{Bound, Latched, Named, Project, device};
 use encoding_rs::Encoding;
 use rungc_ir::{Model, ModelId, catalogue};
 use rungc_syntax::codes::{self, Code};
@@ -330,17 +330,12 @@ impl Reader {
                 let help = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
                 let message = format!("no model has the instruction `{}`", name.text);
                 self.wrong(name.span, message, &help);
-            } else if project.tokens.iter().any(|token| token.body == body) {
+            } else if project.learned.get(&body).is_some() {
                 self.wrong(span(key.span()), "these bytes stand here twice", "");
-            } else {
-                project.tokens.push(Token {
-                    body,
-                    mnemonic,
-                    span: name.span,
-                });
+            } else if let Err(error) = project.learned.insert(&body, &mnemonic) {
+                self.wrong(name.span, error.to_string(), "remove this line");
             }
         }
-        project.tokens.sort_by(|a, b| a.body.cmp(&b.body));
     }
 
     fn index(&mut self, table: &DeTable<'_>, project: &mut Project) {

@@ -83,12 +83,12 @@ M = ["M500-M600", "M700"]
         Some(Path::new("firmware/plc"))
     );
     assert_eq!(project.test.files.len(), 2);
-    let tokens: Vec<_> = project
-        .tokens
-        .iter()
-        .map(|t| (&t.body[..], &t.mnemonic[..]))
-        .collect();
-    assert_eq!(tokens, [(&[0x56, 9][..], "FROM"), (&[0x56, 9, 2], "TO")]);
+    let reading = project.reading();
+    let learned = |body: &[u8]| reading.learned.get(body).map(ToString::to_string);
+    assert_eq!(learned(&[0x56, 9]).as_deref(), Some("FROM"));
+    assert_eq!(learned(&[0x56, 9, 2]).as_deref(), Some("TO"));
+    assert_eq!(learned(&[0x56, 9, 0]), None);
+    assert_eq!(reading.encoding, project.encoding);
     let bounds: Vec<_> = project
         .index
         .iter()

@@ -5,29 +5,14 @@ use super::subject::Subject;
 use crate::args::{Emit, EngineChoice, Plan};
 use clap::ValueEnum;
 use rungc_firmware::target::{self, Target};
-use rungc_frontend::LearnedCodes;
 use rungc_project::{Error, Named, Project};
-use rungc_syntax::{codes, diag};
+use rungc_syntax::diag;
 
 /// Holds the names in a file to what there is.
 pub fn check(project: &Project) -> Result<(), Error> {
     emit(project)?;
     engine(project)?;
-    learned(project)?;
     machine(project).map(|_| ())
-}
-
-/// The codes of instructions that a file has learned.
-pub fn learned(project: &Project) -> Result<LearnedCodes, Error> {
-    let mut learned = LearnedCodes::default();
-    for token in &project.tokens {
-        let inserted = learned.insert(&token.body, &token.mnemonic);
-        inserted.map_err(|error| {
-            let why = codes::PROJECT_VALUE.at(token.span, error.to_string());
-            project.mistake(why.help("remove this line"))
-        })?;
-    }
-    Ok(learned)
 }
 
 fn unknown(project: &Project, name: &Named, what: &str, names: &[String]) -> Error {

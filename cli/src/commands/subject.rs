@@ -88,11 +88,9 @@ impl Projects<'_> {
             reporting.rules = project.check.clone();
         }
         let mut options = self.reading.options();
-        if let Some(project) = &project {
-            let learned = super::defaults::learned(project);
-            let refuse = |error| refuse(error, &self.reading.reporting, self.cx);
-            options.learned = learned.map_err(refuse)?;
-            options.encoding = options.encoding.or(project.encoding);
+        if let Some(usual) = project.as_ref().map(|project| project.reading()) {
+            options.learned = usual.learned;
+            options.encoding = options.encoding.or(usual.encoding);
         }
         let model = project.as_ref().and_then(|project| project.model);
         Ok(Subject {

@@ -58,7 +58,8 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
         .map(|settings| Project::load(&settings))
         .transpose()
         .map_err(|error| mistakes(&error))?;
-    let read = rungc_frontend::read(path).map_err(|error| error.to_string())?;
+    let options = project.as_ref().map(Project::reading).unwrap_or_default();
+    let read = rungc_frontend::read_with(path, &options).map_err(|error| error.to_string())?;
     let chosen = project.and_then(|project| project.model);
     let named = || read.program.cpu.as_deref().and_then(ModelId::from_cpu);
     Ok(Tested {
