@@ -197,6 +197,7 @@ impl Writer<'_, '_> {
                     around
                 },
             ),
+            Expr::Within { value, .. } => self.expr(out, *value, around),
             Expr::Narrow(a) => self.narrow(out, *a, around),
             Expr::HighWord(a) => self.call(out, "plc_high", *a),
             Expr::BitToInt(a) => self.bit_to_int(out, *a, around),
@@ -508,6 +509,10 @@ impl Writer<'_, '_> {
             Expr::I16(value) => (value.into(), value.into()),
             Expr::I32(value) => (value.into(), value.into()),
             Expr::Widen(a) => self.bounds(a, depth),
+            Expr::Within { value, low, high } => {
+                let (least, most) = self.bounds(value, depth);
+                (least.max(low.into()), most.min(high.into()))
+            }
             Expr::BitToInt(_) => (0, 1),
             Expr::ReadNibbles { digits, .. } if digits < 4 => (0, (1 << (4 * digits)) - 1),
             Expr::Bin(BinOp::And, _, mask) if matches!(*self.module.expr(mask), Expr::I32(0..)) => {

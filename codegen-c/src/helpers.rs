@@ -2,7 +2,7 @@
 
 use crate::devices::run_timer;
 use crate::fields::{Field, Fields, Kind};
-use rungc_ir::Module;
+use rungc_ir::{Module, reach};
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
@@ -160,19 +160,28 @@ impl Printer<'_> {
             });
             return writeln!(out, "}}\n");
         }
-        for timers in self.module.model.timers {
-            // The index leads anywhere in the run, so all of it is in one array.
-            if let Some(field) = self.fields.find(class, timers.first) {
+        let mut next = 0;
+        for field in self.reached(class) {
+            for timers in self.module.model.timers {
+                let first = timers.first.max(field.first);
+                let last = timers.last.min(field.end() - 1);
+                if first > last {
+                    continue;
+                }
                 let mut device = String::from("plc->");
                 field.name(&mut device);
                 field.element(&mut device, "n", "");
-                let _ = write!(out, "    if (n <= {}) {{\n        ", timers.last);
+                let _ = match first == next {
+                    true => write!(out, "    if (n <= {last}) {{\n        "),
+                    false => write!(out, "    if (n >= {first} && n <= {last}) {{\n        "),
+                };
                 let kind = TimerKind {
                     shared: true,
                     ..timers.kind
                 };
                 run_timer(out, kind, &device, "drive", "preset");
                 out.push_str("\n        return;\n    }\n");
+                next = last + 1;
             }
         }
         writeln!(out, "}}\n")
@@ -283,19 +292,31 @@ impl Printer<'_> {
 
     /// Keeps the compiler quiet where nothing of a class is stored.
     fn unused(&self, out: &mut String, class: DeviceClass, value: bool) {
-        if self.fields.of_class(class).is_empty() {
+        if self.reached(class).next().is_none() && self.aliases(class, None).is_empty() {
             out.push_str("    (void)plc;\n    (void)n;\n");
             out.push_str(if value { "    (void)value;\n" } else { "" });
         }
     }
 
-    /// Index registers that have numbers among the special registers, too.
+    /// The arrays that an index leads to.
+    fn reached(&self, class: DeviceClass) -> impl Iterator<Item = &Field> {
+        let runs = reach::by_index(self.module, class);
+        let arrays = self.fields.of_class(class).iter();
+        arrays.filter(move |field| {
+            let overlaps = |&(first, last): &(u32, u32)| field.first <= last && first < field.end();
+            field.array && !field.grid && runs.iter().any(overlaps)
+        })
+    }
+
+    /// Index registers that an index leads to by their numbers among the special registers.
     fn aliases(&self, class: DeviceClass, kind: Option<Kind>) -> Vec<(u32, Device)> {
         if class != DeviceClass::D || kind.is_some_and(|kind| kind != Kind::Word) {
             return Vec::new();
         }
+        let runs = reach::by_index(self.module, class);
         let aliases = self.module.model.index_aliases.iter();
         aliases
+            .filter(|(number, ..)| runs.iter().any(|run| (run.0..=run.1).contains(number)))
             .filter_map(|&(number, class, index)| {
                 let mut name = String::new();
                 let stored = self.fields.access(&mut name, class, index);
@@ -318,12 +339,8 @@ impl Printer<'_> {
         kind: Option<Kind>,
         write: impl Fn(&mut String, &Device),
     ) {
-        let fields = self
-            .fields
-            .of_class(class)
-            .iter()
-            .filter(|f| kind.is_none_or(|kind| f.kind == kind));
-        let (arrays, single): (Vec<&Field>, Vec<&Field>) = fields.partition(|f| f.array);
+        let arrays = self.reached(class);
+        let arrays = arrays.filter(|f| kind.is_none_or(|kind| f.kind == kind));
         let line = |out: &mut String, device: Device| {
             let mut text = String::new();
             write(&mut text, &device);
@@ -340,13 +357,10 @@ impl Printer<'_> {
         for field in arrays {
             let mut name = String::from("plc->");
             field.name(&mut name);
-            let mut condition = match field.first {
+            let condition = match field.first {
                 0 => format!("n < {}", field.end()),
                 first => format!("n >= {first} && n < {}", field.end()),
             };
-            if let Some(is_kept) = field.column_is_kept("n", "") {
-                let _ = write!(condition, " && {is_kept}");
-            }
             let _ = write!(out, "    if ({condition}) {{\n        ");
             field.element(&mut name, "n", "");
             line(
@@ -358,22 +372,10 @@ impl Printer<'_> {
             );
             out.push_str("    }\n");
         }
-        let mut cases = self.aliases(class, kind);
-        for field in single {
-            let mut name = String::from("plc->");
-            field.name(&mut name);
-            cases.push((
-                field.first,
-                Device {
-                    name,
-                    kind: field.kind,
-                },
-            ));
-        }
+        let cases = self.aliases(class, kind);
         if cases.is_empty() {
             return;
         }
-        cases.sort_by_key(|case| case.0);
         out.push_str("    switch (n) {\n");
         for (number, device) in cases {
             let _ = write!(out, "    case {number}:\n        ");

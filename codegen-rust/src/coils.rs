@@ -6,6 +6,7 @@ use crate::storage::{Elem, Field};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::node::{Expr, ExprId, Place, Stmt};
+use rungc_ir::reach;
 use rungc_ir::walk::has_many_timers;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -215,14 +216,26 @@ impl Generator<'_> {
         self.items.push(item);
     }
 
+    /// The arrays that an index leads to.
+    fn reached(&self, class: DeviceClass) -> Vec<Field> {
+        let runs = reach::by_index(self.module, class);
+        let fields = self.storage.fields.iter();
+        let reached = fields.filter(|field| {
+            let (first, last) = (field.area.first, field.last());
+            let array = field.area.array && field.grid.is_none() && field.area.class == class;
+            array && runs.iter().any(|run| first <= run.1 && run.0 <= last)
+        });
+        reached.cloned().collect()
+    }
+
     /// The timers and their kinds, by number.
     fn timer_arms(&mut self) -> TokenStream {
         let mut arms = TokenStream::new();
-        for field in self.storage.fields.clone() {
+        for field in self.reached(DeviceClass::T) {
             for timers in self.module.model.timers {
                 let first = timers.first.max(field.area.first);
                 let last = timers.last.min(field.last());
-                if field.elem == Elem::Timer && field.grid.is_none() && first <= last {
+                if first <= last {
                     let shared = TimerKind {
                         shared: true,
                         ..timers.kind
@@ -238,9 +251,9 @@ impl Generator<'_> {
 
     /// The 16-bit counters, by number.
     fn counter_arms(&self) -> TokenStream {
-        let fields = self.storage.fields.iter();
-        fields
-            .filter(|field| field.elem == Elem::Counter16 && field.grid.is_none())
+        self.reached(DeviceClass::C)
+            .iter()
+            .filter(|field| field.elem == Elem::Counter16)
             .map(|field| {
                 let cell = by_number(field);
                 let [first, last] = [field.area.first, field.last()].map(Literal::u32_unsuffixed);
@@ -254,6 +267,7 @@ impl Generator<'_> {
 fn by_number(field: &Field) -> TokenStream {
     let name = &field.name;
     match field.area.first {
+        _ if field.area.count == 1 => quote!(plc.#name[0]),
         0 => quote!(plc.#name[number as usize]),
         first => {
             let first = Literal::u32_unsuffixed(first);

@@ -216,6 +216,7 @@ impl Generator<'_> {
                 let a = self.typed(a).operand_of("as");
                 Code::shaped(quote!(#a as i16), Shape::Cast)
             }
+            Expr::Within { value, .. } => self.expr(value),
             Expr::HighWord(a) => {
                 let a = self.typed(a).operand_of(">>");
                 Code::shaped(quote!((#a >> 16) as i16), Shape::Cast)
@@ -480,7 +481,13 @@ impl Generator<'_> {
 
     /// `base` + `index`.
     pub fn offset(&mut self, base: i32, index: ExprId) -> TokenStream {
-        let cannot_overflow = matches!(self.module.expr(index), Expr::Widen(_));
+        let cannot_overflow = match *self.module.expr(index) {
+            Expr::Widen(_) => true,
+            Expr::Within { low, high, .. } => {
+                base.checked_add(low).is_some() && base.checked_add(high).is_some()
+            }
+            _ => false,
+        };
         let index = self.typed(index);
         if base == 0 {
             return index.tokens;

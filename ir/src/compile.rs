@@ -6,6 +6,7 @@ use crate::lower::{LowerOptions, lower};
 use crate::model::{Fit, Model, ModelId};
 use crate::node::Module;
 use crate::passes::optimise;
+pub use crate::ranges::Bound;
 use crate::resolve::resolve;
 use rungc_syntax::{DeviceClass, Diagnostics, Program, Span, codes};
 
@@ -20,6 +21,8 @@ pub struct CompileOptions {
     pub observe: Vec<(DeviceClass, u32)>,
     /// Store every device of the model.
     pub observe_all: bool,
+    /// What operands with an index can reach.
+    pub bounds: Vec<Bound>,
     /// Simplify the module.
     pub optimise: bool,
     /// Codes of errors that are warnings here: limits of the PLC which can be eased ([`codes::Code::can_be_eased`]); others stay errors.
@@ -110,10 +113,11 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
             name: options.name.clone(),
             observe: options.observe.clone(),
             observe_all: options.observe_all,
+            bounds: options.bounds.clone(),
         };
-        lower(&resolved, &options)
-            .map_err(|errors| diagnostics.extend(errors.sorted()))
-            .ok()
+        let (module, findings) = lower(&resolved, &options);
+        diagnostics.extend(findings.sorted());
+        module
     };
     Compiled {
         module,

@@ -418,6 +418,9 @@ impl Out<'_> {
             Expr::Narrow(a) => of("narrow", a),
             Expr::HighWord(a) => of("high", a),
             Expr::BitToInt(a) => of("int", a),
+            Expr::Within { value, low, high } => {
+                format!("{} in {low}..={high}", self.expr(*value))
+            }
             Expr::InRange { place, count } => format!("in_range({}, {count})", self.place(place)),
         }
     }

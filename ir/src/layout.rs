@@ -4,9 +4,10 @@
 //! runtime function as a run become arrays. Special devices that the program never looks at are not stored.
 
 use crate::lower::LowerOptions;
-use crate::node::{Arg, Body, Expr, Module, Place, Stmt};
-use crate::runs::{is_counter32, is_special, words_of_bits};
-use rungc_rt::RtFn;
+use crate::node::{Module, Place};
+use crate::reach::{Access, of_expr, of_stmt};
+use crate::runs::is_special;
+use crate::walk::statements;
 use rungc_syntax::DeviceClass;
 
 /// A run of stored devices.
@@ -107,6 +108,9 @@ impl Layout {
 const STORED: u8 = 1;
 const IN_ARRAY: u8 = 2;
 
+/// Relay and register of the first operation error.
+const FIRST_ERROR: u32 = 8068;
+
 /// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the functions
 /// it calls use (`flags`). They may use devices of a `whole` class by number.
 pub(crate) fn build(
@@ -116,22 +120,30 @@ pub(crate) fn build(
     whole: Option<DeviceClass>,
 ) {
     let mut builder = Builder::new(module);
+    let model = module.model;
     for function in &module.functions {
-        builder.body(&function.body);
+        statements(&function.body, &mut |stmt| {
+            of_stmt(model, stmt, &mut |access| builder.access(access));
+        });
     }
     for expr in &module.exprs {
-        builder.expr(expr);
+        of_expr(model, expr, &mut |access| builder.access(access));
     }
     for &(class, number) in options.observe.iter().chain(flags) {
         builder.mark(class, number, 1, false);
     }
     if let Some(class) = whole {
-        builder.mark_run(class, 0, false);
+        builder.mark_run(class);
     }
     if options.observe_all {
         for range in &*module.ranges {
             builder.mark(range.class, range.first, range.last - range.first + 1, true);
         }
+    }
+    // The register keeps the step of the first error as long as the relay is on.
+    let register = builder.marks[DeviceClass::D as usize].get(FIRST_ERROR as usize);
+    if register.is_some_and(|mark| mark & STORED != 0) {
+        builder.mark(DeviceClass::M, FIRST_ERROR, 1, false);
     }
     module.layout = builder.finish();
 }
@@ -140,7 +152,6 @@ struct Builder<'m> {
     module: &'m Module,
     /// Marks of each class, by number; empty for P, I, N.
     marks: Vec<Vec<u8>>,
-    runs: Vec<Vec<(u32, u32)>>,
 }
 
 impl<'m> Builder<'m> {
@@ -154,11 +165,7 @@ impl<'m> Builder<'m> {
                 vec![0; end.filter(|_| !pointer).unwrap_or(0) as usize]
             })
             .collect();
-        Builder {
-            module,
-            marks,
-            runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),
-        }
+        Builder { module, marks }
     }
 
     /// `count` devices from `number` on are stored, in an array if they are accessed as a run. Registers that are other names of
@@ -182,141 +189,21 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// The run that a device lies in is an array: an index or a runtime function may lead anywhere in it.
-    fn mark_run(&mut self, class: DeviceClass, number: u32, from_here: bool) {
-        let run = self.runs[class as usize]
-            .iter()
-            .find(|&&(first, last)| (first..=last).contains(&number));
-        if let Some(&(first, last)) = run {
-            let first = if from_here { number } else { first };
+    /// What is accessed is stored: in an array where an index leads to it, or as a run.
+    fn access(&mut self, access: Access) {
+        let Place { class, number, .. } = access.place;
+        if let (None, Some(count)) = (access.place.index, access.count) {
+            return self.mark(class, number, count, access.in_array);
+        }
+        for (first, last) in access.reach(self.module.model, &self.module.exprs) {
             self.mark(class, first, last - first + 1, true);
         }
     }
 
-    /// `count` devices from a place on are accessed.
-    fn place(&mut self, place: Place, count: u32) {
-        if place.index.is_some() {
-            self.mark_run(place.class, place.number, false);
-        } else {
-            self.mark(place.class, place.number, count, count > 1);
-        }
-    }
-
-    /// Whether the high word of a pair at this place is V.
-    fn pairs_with_v(&self, place: Place) -> bool {
-        place.class == DeviceClass::Z && self.module.model.z_pairs_with_v
-    }
-
-    /// A pair is two words that stand for themselves; that of Z is V and Z on some models.
-    fn pair(&mut self, place: Place) {
-        let counter32 = is_counter32(place.class, place.number);
-        let with_v = self.pairs_with_v(place);
-        self.place(place, 1);
-        if place.index.is_some() {
-            if with_v {
-                self.mark_run(DeviceClass::V, place.number, false);
-            }
-        } else if with_v {
-            self.mark(DeviceClass::V, place.number, 1, false);
-        } else if !counter32 {
-            self.mark(place.class, place.number + 1, 1, false);
-        }
-    }
-
-    fn extent(&mut self, place: Place, extent: Option<u32>) {
-        match (place.index, extent) {
-            (None, Some(count)) => self.mark(place.class, place.number, count, count > 1),
-            (None, None) => self.mark_run(place.class, place.number, true),
-            (Some(_), _) => self.mark_run(place.class, place.number, false),
-        }
-    }
-
-    fn expr(&mut self, expr: &Expr) {
-        match *expr {
-            Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
-                self.place(place, 1)
-            }
-            Expr::ReadPair(place) | Expr::ReadFloat(place) => self.pair(place),
-            Expr::ReadNibbles { place, digits, .. } => self.place(place, 4 * u32::from(digits)),
-            _ => {}
-        }
-    }
-
-    fn body(&mut self, body: &Body) {
-        for stmt in body {
-            self.stmt(stmt);
-        }
-    }
-
-    fn stmt(&mut self, stmt: &Stmt) {
-        match stmt {
-            Stmt::WriteBit(place, _)
-            | Stmt::WriteWordBit(place, ..)
-            | Stmt::WriteWord(place, _)
-            | Stmt::TimerAt { place, .. }
-            | Stmt::Counter16At { place, .. }
-            | Stmt::Reset(place) => self.place(*place, 1),
-            Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.pair(*place),
-            Stmt::WriteNibbles { place, digits, .. } => self.place(*place, 4 * u32::from(*digits)),
-            Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
-                self.mark(DeviceClass::T, *number, 1, false)
-            }
-            Stmt::Counter16 { number, .. }
-            | Stmt::Counter32 { number, .. }
-            | Stmt::Count { number, .. } => self.mark(DeviceClass::C, *number, 1, false),
-            Stmt::If {
-                then, otherwise, ..
-            } => {
-                self.body(then);
-                self.body(otherwise);
-            }
-            Stmt::For { body, .. } | Stmt::Repeat { body, .. } => self.body(body),
-            Stmt::Parts(parts) => parts.iter().for_each(|part| self.body(&part.body)),
-            Stmt::Call {
-                function,
-                wide,
-                args,
-                ..
-            } => {
-                args.iter().for_each(|arg| self.arg(arg, *wide));
-                // These save and restore all index registers, whether the program names them or not.
-                if matches!(function, RtFn::Zpush | RtFn::Zpop) {
-                    self.mark_run(DeviceClass::V, 0, false);
-                    self.mark_run(DeviceClass::Z, 0, false);
-                }
-            }
-            Stmt::Fetch { from, wide, .. } => self.arg(from, *wide),
-            Stmt::Send { to, wide, .. } => self.arg(to, *wide),
-            Stmt::Network(_)
-            | Stmt::Let(..)
-            | Stmt::Edge { .. }
-            | Stmt::CallSub(_)
-            | Stmt::Return
-            | Stmt::Goto(_)
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
-            | Stmt::Clear { .. } => {}
-        }
-    }
-
-    fn arg(&mut self, arg: &Arg, wide: bool) {
-        match *arg {
-            Arg::Device { place, extent } => {
-                self.extent(place, extent);
-                if wide && self.pairs_with_v(place) {
-                    let class = DeviceClass::V;
-                    self.extent(Place { class, ..place }, extent);
-                }
-            }
-            Arg::Nibbles { place, extent, .. } => self.extent(place, extent),
-            Arg::WordBit { place, bit, extent } => {
-                self.extent(place, extent.map(|bits| words_of_bits(bit, bits)));
-            }
-            Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
+    /// All devices of a class that are no special ones.
+    fn mark_run(&mut self, class: DeviceClass) {
+        if let Some(&(first, last)) = self.module.model.runs(class).first() {
+            self.mark(class, first, last - first + 1, true);
         }
     }
 

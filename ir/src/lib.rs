@@ -19,6 +19,8 @@ pub mod model;
 pub mod node;
 pub mod passes;
 pub mod plc_errors;
+pub mod ranges;
+pub mod reach;
 pub mod resolve;
 pub mod runs;
 pub mod special;

@@ -100,8 +100,7 @@ pub struct Place {
     /// Number without the index.
     pub number: u32,
     /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold; that of an
-    /// [`Expr::Stride`] does. Where an indexed
-    /// access meets a device that the model has but the layout does not store, it reads 0 and a write goes nowhere. An indexed
+    /// [`Expr::Stride`] does. Which devices it may lead to says [`crate::reach`]; all of them are stored. An indexed
     /// access of a word of C200 and up reads the low word, and writes the sign-extended word.
     pub index: Option<ExprId>,
 }
@@ -243,6 +242,15 @@ pub enum Expr {
     HighWord(ExprId),
     /// `Bit` to `I16`: 0 or 1.
     BitToInt(ExprId),
+    /// `I32`: a value that is known to lie between these ends where it is evaluated: how far an index leads ([`crate::ranges`]).
+    Within {
+        /// The value, an `I32`.
+        value: ExprId,
+        /// The least it is.
+        low: i32,
+        /// The most it is.
+        high: i32,
+    },
     /// `Bit`: whether `count` devices from `place` on all exist on the model, in one run of it ([`Model::in_range`]).
     InRange {
         /// First device.
@@ -811,6 +819,7 @@ pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         | Expr::Widen(_)
         | Expr::Cell(_)
         | Expr::Stride(..)
+        | Expr::Within { .. }
         | Expr::Entry(..) => Ty::I32,
         Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
         Expr::Temp(temp) => temps[temp.0 as usize],

@@ -4,9 +4,8 @@ use crate::node::{
     Arg, BinOp, Body, Expr, ExprId, FunctionKind, LabelId, Module, Place, Stmt, SysValue, TempId,
     Ty,
 };
-use crate::runs::is_counter32;
+use crate::reach::{self, Access};
 use crate::walk::{callees, for_exprs, operands};
-use rungc_syntax::DeviceClass;
 
 /// Checks every rule; the first one that is broken.
 pub fn validate(module: &Module) -> Result<(), String> {
@@ -66,6 +65,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::ReadWordBit(_, bit) => bit < 16,
         Expr::InRange { count, .. } => count > 0,
         Expr::Cell(cell) => (cell.0 as usize) < module.cells.len(),
+        Expr::Within { value, low, high } => ty(value) == Ty::I32 && low <= high,
         Expr::Stride(round, by) => by > 0 && module.temps.get(round.0 as usize) == Some(&Ty::I32),
         Expr::Entry(table, index) => {
             (table.0 as usize) < module.tables.len() && ty(index) == Ty::I32
@@ -267,31 +267,48 @@ impl Checker<'_> {
             Expr::Temp(temp) | Expr::Stride(temp, _) if !self.assigned[temp.0 as usize] => {
                 Some(format!("{temp:?} is not assigned on every path"))
             }
-            Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
-                self.unstored(place, 1)
+            _ => {
+                let mut missing = None;
+                reach::of_expr(self.module.model, expr, &mut |access| {
+                    missing = missing.take().or_else(|| self.unstored(access));
+                });
+                missing
             }
-            Expr::ReadPair(place) | Expr::ReadFloat(place) => self.unstored_pair(place),
-            Expr::ReadNibbles { place, digits, .. } => self.unstored(place, 4 * u32::from(digits)),
-            _ => None,
         };
         here.or_else(|| operands(expr).find_map(|operand| self.fault_in(operand)))
     }
 
-    /// The first of `count` devices from a place on that the model has and the layout lacks.
-    fn unstored(&self, place: Place, count: u32) -> Option<String> {
-        if let Some(index) = place.index {
-            return match *self.module.expr(index) {
-                Expr::Stride(_, by) => self.no_column(place, by),
-                _ => None,
-            };
+    /// The first device that an access may meet and the layout lacks.
+    fn unstored(&self, access: Access) -> Option<String> {
+        let (module, class) = (self.module, access.place.class);
+        let index = access.place.index.map(|index| module.expr(index));
+        if let Some(&Expr::Stride(_, by)) = index {
+            return self.no_column(access.place, by);
         }
-        (place.number..place.number + count)
-            .find(|&number| {
-                let (class, stored) = self.module.model.canonical(place.class, number);
-                self.module.model.has(class, stored)
-                    && self.module.layout.area(class, stored).is_none()
-            })
-            .map(|number| format!("{} is not stored", place.class.number(number)))
+        let runs = match (index, access.count) {
+            (None, Some(count)) => {
+                let first = access.place.number;
+                vec![(first, first + count - 1)]
+            }
+            _ => access.reach(module.model, &module.exprs),
+        };
+        for (first, last) in runs {
+            let mut number = first;
+            while number <= last {
+                let (own, own_number) = module.model.canonical(class, number);
+                let area = module.layout.area(own, own_number);
+                number = match area {
+                    // The code that finds devices by number looks for them in arrays.
+                    Some(area) if own == class && (area.array || index.is_none()) => {
+                        area.first + area.count
+                    }
+                    Some(_) if own != class => number + 1,
+                    _ if !module.model.has(class, number) => number + 1,
+                    _ => return Some(format!("{} is not stored", class.number(number))),
+                };
+            }
+        }
+        None
     }
 
     /// The device of a loop's rounds, if it lies in no grid that they go through.
@@ -324,20 +341,6 @@ impl Checker<'_> {
         numbers.all(|number| kind(number) == kind(place.number))
     }
 
-    fn unstored_pair(&self, place: Place) -> Option<String> {
-        match place.class {
-            DeviceClass::Z if self.module.model.z_pairs_with_v => {
-                let high = Place {
-                    class: DeviceClass::V,
-                    ..place
-                };
-                self.unstored(place, 1).or_else(|| self.unstored(high, 1))
-            }
-            class if is_counter32(class, place.number) => self.unstored(place, 1),
-            _ => self.unstored(place, 2),
-        }
-    }
-
     /// Types of what a statement writes, its handles, the devices it touches.
     fn typed(&self, stmt: &Stmt) -> Result<(), String> {
         if !self.is_well_typed(stmt) {
@@ -351,27 +354,13 @@ impl Checker<'_> {
         }
     }
 
-    /// What a statement writes that the layout lacks.
+    /// What a statement accesses that the layout lacks.
     fn unstored_target(&self, stmt: &Stmt) -> Option<String> {
-        match *stmt {
-            Stmt::WriteBit(place, _)
-            | Stmt::WriteWordBit(place, ..)
-            | Stmt::WriteWord(place, _)
-            | Stmt::TimerAt { place, .. }
-            | Stmt::Counter16At { place, .. }
-            | Stmt::Reset(place) => self.unstored(place, 1),
-            Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.unstored_pair(place),
-            Stmt::WriteNibbles { place, digits, .. } => self.unstored(place, 4 * u32::from(digits)),
-            Stmt::Count { number, .. } => {
-                let place = Place {
-                    class: DeviceClass::C,
-                    number,
-                    index: None,
-                };
-                self.unstored(place, 1)
-            }
-            _ => None,
-        }
+        let mut missing = None;
+        reach::of_stmt(self.module.model, stmt, &mut |access| {
+            missing = missing.take().or_else(|| self.unstored(access));
+        });
+        missing
     }
 
     fn is_well_typed(&self, stmt: &Stmt) -> bool {

@@ -1,6 +1,6 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
-use crate::node::{Arg, Body, Expr, ExprId, FunctionKind, Module, Part, Stmt, TempId};
+use crate::node::{Arg, Body, Expr, ExprId, FunctionKind, Module, Part, Place, Stmt, TempId};
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
@@ -26,6 +26,7 @@ macro_rules! operand_slots {
         | Expr::Narrow(a)
         | Expr::HighWord(a)
         | Expr::BitToInt(a)
+        | Expr::Within { value: a, .. }
         | Expr::Entry(_, a) => [Some(a), None],
         Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
             [Some(a), Some(b)]
@@ -149,6 +150,30 @@ for_exprs! {
 for_exprs! {
     /// Calls `f` with the expressions that a statement itself evaluates, to replace them.
     for_exprs_mut, index_of_mut, iter_mut, mut
+}
+
+/// Calls `f` with the places that a statement itself names besides those in its expressions, to replace them.
+pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
+    let of_arg = |arg: &mut Arg, f: &mut dyn FnMut(&mut Place)| match arg {
+        Arg::Device { place, .. } | Arg::Nibbles { place, .. } | Arg::WordBit { place, .. } => {
+            f(place);
+        }
+        Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
+    };
+    match stmt {
+        Stmt::WriteBit(place, _)
+        | Stmt::WriteWordBit(place, ..)
+        | Stmt::WriteWord(place, _)
+        | Stmt::WritePair(place, _)
+        | Stmt::WriteFloat(place, _)
+        | Stmt::WriteNibbles { place, .. }
+        | Stmt::TimerAt { place, .. }
+        | Stmt::Counter16At { place, .. }
+        | Stmt::Reset(place) => f(place),
+        Stmt::Call { args, .. } => args.iter_mut().for_each(|arg| of_arg(arg, f)),
+        Stmt::Fetch { from: arg, .. } | Stmt::Send { to: arg, .. } => of_arg(arg, f),
+        _ => {}
+    }
 }
 
 /// The temporary that a statement gives a value.

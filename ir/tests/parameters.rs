@@ -5,7 +5,7 @@ use rungc_ir::ModelId;
 use rungc_ir::compile::{CompileOptions, Compiled, compile};
 use rungc_syntax::{DeviceClass, DeviceRun, Parameters, Program};
 
-const PROGRAM: &str = "LD X0\nOUT M400\nOUT M499\nOUT M500\nOUT M600\nLD M400\nOR M499\nOR M500\nOR M600\nMOV D5Z0 D300\n\
+const PROGRAM: &str = "LD X0\nOUT M400\nOUT M499\nOUT M500\nOUT M600\nLD M400\nOR M499\nOR M500\nOR M600\nMOV D6 Z0\nMOV D5Z0 D300\n\
     FMOV K0 D190 K20\nEND\n";
 
 fn program(parameters: Parameters) -> Program {

@@ -6,6 +6,8 @@ use rungc_ir::node::{Expr, ExprId, LabelId, Place, Stmt, TempId};
 use rungc_ir::validate::validate;
 use rungc_ir::{ModelId, Module};
 use rungc_syntax::DeviceClass;
+use std::fmt::Write;
+use std::time::{Duration, Instant};
 
 fn module(text: &str, optimise: bool) -> Module {
     let read = rungc_frontend::read_text("test.il", text);
@@ -310,7 +312,10 @@ fn a_round_that_differs_ends_the_loop() {
 
 #[test]
 fn devices_needed_in_a_row_are_no_loop() {
-    for behind in ["LD X0\nMOV K1M0Z0 D0\n", "LD X0\nBMOV K1M100 K1M200 K2\n"] {
+    for behind in [
+        "LD X0\nMOV D9 Z0\nMOV K1M0Z0 D0\n",
+        "LD X0\nBMOV K1M100 K1M200 K2\n",
+    ] {
         let main = stations(12, station, behind);
         assert!(!main.contains("repeat"), "{main}");
     }
@@ -335,4 +340,22 @@ fn rows_go_on_over_the_border_of_latched_relays() {
         text.contains("M400[155] in 10 columns, 5 stored\n"),
         "{text}"
     );
+}
+
+/// A second in a release build, where it took minutes when each rung looked for its own rounds.
+#[test]
+fn rungs_that_cannot_be_loops_are_compared_a_few_times_only() {
+    let mut text = String::new();
+    for i in 0..2000 {
+        writeln!(text, "LD M{i}\nAND X0\nOUT M{}", 3 * i).expect("a string");
+    }
+    for i in 0..20_000 {
+        writeln!(text, "LD X{:o}\nOUT M{}\n", i % 7, 7 * i % 7000).expect("a string");
+    }
+    text.push_str("END\n");
+    let begin = Instant::now();
+    let module = module(&text, true);
+    assert_eq!(module.networks.len(), 22_000);
+    let took = begin.elapsed();
+    assert!(took < Duration::from_secs(60), "{took:?}");
 }

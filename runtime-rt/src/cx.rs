@@ -4,7 +4,7 @@ use crate::fault::{Done, Fault, report};
 use crate::hal::Hal;
 use crate::operand::{Operand, OperandKind};
 use crate::plc::{Class, Plc, Site, State};
-use crate::runs::FIRST_COUNTER32;
+use crate::runs::{FIRST_COUNTER32, FIRST_SPECIAL};
 use crate::word;
 use core::cell::RefCell;
 
@@ -52,13 +52,19 @@ pub fn send(site: Site, to: Operand, value: i32, plc: &mut dyn Plc, hal: &mut dy
     }
 }
 
-/// Device number `offset` places after `operand`.
+/// Device number `offset` places after `operand`. Devices together are all general or all special.
 fn at(operand: Operand, offset: i32) -> Result<u32, Fault> {
-    operand
+    let number = operand
         .value
         .checked_add(offset)
         .and_then(|n| u32::try_from(n).ok())
-        .ok_or(Fault::DEVICE)
+        .ok_or(Fault::DEVICE)?;
+    let special = |n: i64| n >= i64::from(FIRST_SPECIAL);
+    let apart = special(operand.value.into()) != special(number.into());
+    match operand.class {
+        Class::D | Class::M if apart => Err(Fault::DEVICE),
+        _ => Ok(number),
+    }
 }
 
 impl<'a> Cx<'a> {
@@ -183,7 +189,7 @@ impl<'a> Cx<'a> {
                 if op.class == Class::C && n >= FIRST_COUNTER32 {
                     return self.plc.counter32(n).ok_or(Fault::DEVICE);
                 }
-                let (class, high) = self.high_word(op.class, n);
+                let (class, high) = self.high_word(op, offset)?;
                 let low = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
                 let high = self.plc.word(class, high).ok_or(Fault::DEVICE)?;
                 Ok(i32::from(high) << 16 | i32::from(low as u16))
@@ -209,7 +215,7 @@ impl<'a> Cx<'a> {
                 if op.class == Class::C && n >= FIRST_COUNTER32 {
                     return self.plc.set_counter32(n, value).ok_or(Fault::DEVICE);
                 }
-                let (class, high) = self.high_word(op.class, n);
+                let (class, high) = self.high_word(op, offset)?;
                 self.plc.word(class, high).ok_or(Fault::DEVICE)?;
                 self.plc
                     .set_word(op.class, n, value as i16)
@@ -223,11 +229,11 @@ impl<'a> Cx<'a> {
     }
 
     /// Where the high word of a pair is.
-    fn high_word(&self, class: Class, n: u32) -> (Class, u32) {
-        if class == Class::Z && self.plc.z_pairs_with_v() {
-            (Class::V, n)
+    fn high_word(&self, op: Operand, offset: i32) -> Result<(Class, u32), Fault> {
+        if op.class == Class::Z && self.plc.z_pairs_with_v() {
+            Ok((Class::V, at(op, offset)?))
         } else {
-            (class, n.saturating_add(1))
+            Ok((op.class, at(op, offset.saturating_add(1))?))
         }
     }
 

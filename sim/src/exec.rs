@@ -105,6 +105,7 @@ impl<'m> Machine<'m> {
                 Value::I16(v) => Value::I16(v.wrapping_neg()),
                 v => Value::I32(int(v).wrapping_neg()),
             },
+            Expr::Within { value, .. } => self.eval(value),
             Expr::Widen(a) => Value::I32(int(self.eval(a))),
             Expr::Narrow(a) => Value::I16(int(self.eval(a)) as i16),
             Expr::HighWord(a) => Value::I16((int(self.eval(a)) >> 16) as i16),

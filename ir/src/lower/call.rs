@@ -1,11 +1,12 @@
 //! Calls of the runtime.
 
 use super::Lowerer;
+use super::operand::fixed;
 use crate::Model;
 use crate::catalogue::{CmpOp, Extent, Inst, Lower, Param, Rule, Shape};
 use crate::node::{Arg, CellId, EdgeKind, Expr, ExprId, Place, Stmt, SysValue};
 use crate::resolve::Form;
-use crate::runs::is_counter32;
+use crate::runs::{is_counter32, words_of_bits};
 use rungc_rt::{Clear, Looks, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
 use std::borrow::Cow;
@@ -30,15 +31,18 @@ impl Lowerer<'_> {
             drive
         };
         let call = |this: &mut Self, drive| {
-            let args = this.args(inst, form);
-            this.emit(Stmt::Call {
-                function,
-                wide: form.wide,
-                args,
-                drive,
-                signal: false,
-                slot,
-                step,
+            let guards = this.bounds_hold(inst, form);
+            this.guarded_while(guards, drive, |this| {
+                let args = this.args(inst, form);
+                this.emit(Stmt::Call {
+                    function,
+                    wide: form.wide,
+                    args,
+                    drive,
+                    signal: false,
+                    slot,
+                    step,
+                });
             });
         };
         if needs.always {
@@ -78,16 +82,19 @@ impl Lowerer<'_> {
             drive = self.alone(drive, runs, own);
         }
         let form = self.resolution().form;
-        let args = self.args(inst, form);
-        let step = self.step();
-        self.emit(Stmt::Call {
-            function,
-            wide: form.wide,
-            args,
-            drive: Some(drive),
-            signal: false,
-            slot,
-            step,
+        let guards = self.bounds_hold(inst, form);
+        self.guarded_while(guards, Some(drive), |this| {
+            let args = this.args(inst, form);
+            let step = this.step();
+            this.emit(Stmt::Call {
+                function,
+                wide: form.wide,
+                args,
+                drive: Some(drive),
+                signal: false,
+                slot,
+                step,
+            });
         });
     }
 
@@ -204,16 +211,21 @@ impl Lowerer<'_> {
             OperandKind::Hex(value, index) => self.constant_arg(value as u32 as i32, index, wide),
             OperandKind::Float(value) => Arg::Float(value),
             OperandKind::Device(device, index) => Arg::Device {
-                place: self.arg_place(device, index, wide),
+                place: self.arg_place(device, index, extent, wide),
                 extent,
             },
             OperandKind::Nibbles(digits, device, index) => Arg::Nibbles {
-                place: self.arg_place(device, index, wide),
+                place: self.arg_place(device, index, extent, wide),
                 digits,
                 extent,
             },
             OperandKind::WordBit(device, bit, index) => Arg::WordBit {
-                place: self.arg_place(device, index, wide),
+                place: self.arg_place(
+                    device,
+                    index,
+                    extent.map(|bits| words_of_bits(bit & 15, bits)),
+                    wide,
+                ),
                 bit: bit & 15,
                 extent,
             },
@@ -245,14 +257,22 @@ impl Lowerer<'_> {
     }
 
     /// The runtime checks the range, and finds registers by any name.
-    fn arg_place(&mut self, device: Device, index: Option<Index>, wide: bool) -> Place {
-        let index = index.map(|index| self.index(index, wide));
-        let Device { class, number } = device;
-        Place {
-            class,
-            number,
-            index,
-        }
+    fn arg_place(
+        &mut self,
+        device: Device,
+        index: Option<Index>,
+        extent: Option<u32>,
+        wide: bool,
+    ) -> Place {
+        let place = fixed(device.class, device.number);
+        let index = index.map(|written| {
+            let bound = self.bound(place, written, extent.unwrap_or(1));
+            let index = self.index(written, wide);
+            let index = self.within(index, bound);
+            self.note_index(index, place, written);
+            index
+        });
+        Place { index, ..place }
     }
 }
 

@@ -100,6 +100,10 @@ impl Lowerer<'_> {
         let place = self.place(device, Some(index), 1, false, &mut guards);
         if let (false, Some(index)) = (timer, place.index) {
             // A 32-bit counter does not count as a 16-bit one.
+            let index = match self.expr(index) {
+                Expr::Within { value, .. } => value,
+                _ => index,
+            };
             let room = self.add(Expr::I32(FIRST_COUNTER32 as i32 - device.number as i32));
             guards.demand(self.add(Expr::Cmp(CmpOp::Lt, index, room)));
         }

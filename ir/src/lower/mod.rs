@@ -7,6 +7,7 @@
 mod advanced;
 mod arith;
 mod axes;
+mod bounds;
 mod build;
 mod call;
 mod capture;
@@ -38,6 +39,7 @@ use crate::latches;
 use crate::layout;
 use crate::model::Model;
 use crate::node::{CellId, Function, FunctionKind, Module, Network, Stmt};
+use crate::ranges::{self, Bound, Reached};
 use crate::resolve::{Resolution, Resolved};
 pub use name::{module_name, stem};
 
@@ -58,21 +60,35 @@ pub struct LowerOptions {
     pub observe: Vec<(DeviceClass, u32)>,
     /// Store every device of the model.
     pub observe_all: bool,
+    /// What operands with an index can reach.
+    pub bounds: Vec<Bound>,
 }
 
-/// Lowers a program that was checked. What cannot be lowered (yet) is reported as errors.
-pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diagnostics> {
-    let mut lowerer = Lowerer::new(resolved, options);
-    lowerer.program();
-    let Lowerer {
-        mut module,
-        diagnostics,
-        specials,
-        ..
-    } = lowerer;
-    if diagnostics.has_errors() {
-        return Err(diagnostics);
-    }
+/// Lowers a program that was checked. What cannot be lowered (yet) is reported as errors, and then there is no module.
+pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Diagnostics) {
+    let mut findings = Diagnostics::new();
+    bounds::check(resolved, &options.bounds, &mut findings);
+    let mut reached = Reached::default();
+    let (mut module, specials, indexes) = loop {
+        let mut lowerer = Lowerer::new(resolved, options, &reached);
+        lowerer.program();
+        let Lowerer {
+            mut module,
+            diagnostics,
+            specials,
+            indexes,
+            ..
+        } = lowerer;
+        if diagnostics.has_errors() || findings.has_errors() {
+            findings.extend(diagnostics.sorted());
+            return (None, findings);
+        }
+        // The scan keeps special devices that an index leads to, too: then it has to be lowered with them.
+        if !reached.add(ranges::find(&mut module, options)) {
+            break (module, specials, indexes);
+        }
+    };
+    bounds::costs(&module, &indexes, &mut findings);
     shared_timers::mark(&mut module);
     watchdog::watch(&mut module, resolved);
     layout::build(&mut module, options, &specials.flags, specials.whole);
@@ -94,7 +110,16 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> Result<Module, Diag
         .filter(|&number| module.layout.area(DeviceClass::M, number).is_some())
         .collect();
     debug_assert_eq!(crate::validate::validate(&module), Ok(()));
-    Ok(module)
+    (Some(module), findings)
+}
+
+impl LowerOptions {
+    /// Whether a host may look at a device, and write it.
+    pub(crate) fn observes(&self, model: &Model, class: DeviceClass, number: u32) -> bool {
+        let mut observed = self.observe.iter();
+        self.observe_all
+            || observed.any(|other| model.canonical(other.0, other.1) == (class, number))
+    }
 }
 
 /// State of the walk.
@@ -127,6 +152,10 @@ struct Lowerer<'a> {
     exclusive: Option<(CellId, i32)>,
     /// Devices that tests or a monitor look at.
     observed: &'a [(DeviceClass, u32)],
+    /// What operands with an index can reach, where that is given.
+    bounds: &'a [Bound],
+    /// Operands with an index.
+    indexes: Vec<bounds::IndexUse>,
     /// The ordinary registers that instructions name, once it was asked.
     named: OnceCell<Vec<bool>>,
     /// How many SPD there are so far.
@@ -136,7 +165,7 @@ struct Lowerer<'a> {
 }
 
 impl<'a> Lowerer<'a> {
-    fn new(resolved: &'a Resolved<'a>, options: &'a LowerOptions) -> Self {
+    fn new(resolved: &'a Resolved<'a>, options: &'a LowerOptions, reached: &Reached) -> Self {
         let program = resolved.program;
         let model = resolved.model;
         let flow = Flow::of(resolved);
@@ -156,7 +185,7 @@ impl<'a> Lowerer<'a> {
             },
             depths: Vec::with_capacity(2 * resolved.instrs.len()),
             runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),
-            specials: Specials::of(resolved, options),
+            specials: Specials::of(resolved, options, reached),
             logic: logic::Logic::of(resolved),
             steps: stl::Steps::of(resolved),
             interrupts: interrupt::Interrupts::default(),
@@ -166,6 +195,8 @@ impl<'a> Lowerer<'a> {
             signals: signals::Signals::default(),
             exclusive: None,
             observed: &options.observe,
+            bounds: &options.bounds,
+            indexes: Vec::new(),
             named: OnceCell::new(),
             densities: 0,
             flow,

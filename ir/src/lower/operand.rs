@@ -1,9 +1,12 @@
 //! Operands: what they read, where they write, and under which conditions what they name exists.
 
 use super::Lowerer;
+use super::call::extents;
+use crate::catalogue::{CmpOp, Inst};
 use crate::node::{Arg, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue, Ty};
+use crate::resolve::Form;
 use crate::runs::{is_counter32, words_of_bits};
-use rungc_syntax::{Device, DeviceClass, Index, OperandKind, codes};
+use rungc_syntax::{Device, DeviceClass, Index, OperandKind, Span, codes};
 
 /// A device lies outside the model's range.
 const OUT_OF_RANGE: u16 = 6706;
@@ -55,6 +58,29 @@ impl Lowerer<'_> {
     /// What `make` emits is executed where `guards` hold; else the instruction faults.
     pub(super) fn guarded(&mut self, guards: Guards, make: impl FnOnce(&mut Self)) {
         self.guarded_or(guards, make, |_| {});
+    }
+
+    /// As [`Lowerer::guarded`], for what is executed driven or not: it faults only while it is driven.
+    pub(super) fn guarded_while(
+        &mut self,
+        guards: Guards,
+        drive: Option<ExprId>,
+        make: impl FnOnce(&mut Self),
+    ) {
+        let Some(drive) = drive.filter(|_| !guards.is_empty()) else {
+            return self.guarded(guards, make);
+        };
+        let holds = guards.demanded.into_iter().reduce(|a, b| self.and(a, b));
+        let cond = holds.unwrap_or_else(|| self.bit_const(true));
+        let then = self.body(make);
+        let (code, step) = (OUT_OF_RANGE, self.step());
+        let otherwise =
+            self.body(|this| this.when(drive, |this| this.emit(Stmt::Fault { code, step })));
+        self.emit(Stmt::If {
+            cond,
+            then,
+            otherwise,
+        });
     }
 
     /// As [`Lowerer::guarded`]; `instead` emits what else is done besides the fault.
@@ -111,6 +137,90 @@ impl Lowerer<'_> {
         }
     }
 
+    /// An index where it leads to a device, or where it is asked whether it does. What it can be besides this is found out when all is
+    /// lowered.
+    pub(super) fn within(&mut self, value: ExprId, bound: Option<(i32, i32)>) -> ExprId {
+        let (low, high) = bound.unwrap_or((i32::MIN, i32::MAX));
+        self.add(Expr::Within { value, low, high })
+    }
+
+    /// The condition that an index leads to `count` devices, within its bound if it has one.
+    fn demand_device(
+        &mut self,
+        place: Place,
+        index: ExprId,
+        count: u32,
+        bound: Option<(i32, i32)>,
+        guards: &mut Guards,
+    ) {
+        let Some((low, high)) = bound else {
+            let index = Some(self.within(index, None));
+            let place = Place { index, ..place };
+            return guards.demand(self.add(Expr::InRange { place, count }));
+        };
+        for (op, end) in [(CmpOp::Ge, low), (CmpOp::Le, high)] {
+            let end = self.add(Expr::I32(end));
+            guards.demand(self.add(Expr::Cmp(op, index, end)));
+        }
+    }
+
+    /// The operand of the instruction at hand to which a place with this index belongs: its device, and where it stands. A result of several
+    /// words goes on after its operand.
+    pub(super) fn indexed_operand(&self, place: Place, written: Index) -> Option<(Device, Span)> {
+        let operands = self.instr().operands.iter();
+        let found = operands.filter_map(|operand| match indexed(&operand.kind)? {
+            (device, index) if index == written => Some((device, operand.span)),
+            _ => None,
+        });
+        found
+            .filter(|(device, _)| device.class == place.class && device.number <= place.number)
+            .max_by_key(|(device, _)| device.number)
+    }
+
+    /// Between which values an index must lie so that it leads to `count` devices of those that its operand reaches, if these are given.
+    pub(super) fn bound(&self, place: Place, written: Index, count: u32) -> Option<(i32, i32)> {
+        if self.bounds.is_empty() {
+            return None;
+        }
+        let (base, _) = self.indexed_operand(place, written)?;
+        let mut bounds = self.bounds.iter();
+        let bound = bounds.find(|bound| bound.device == base && bound.index == written)?;
+        let from_place = |number: u32| number as i32 - place.number as i32;
+        let low = from_place(bound.first);
+        // A block that does not fit in leads nowhere.
+        Some((
+            low,
+            (from_place(bound.last) - (count as i32 - 1)).max(low - 1),
+        ))
+    }
+
+    /// The conditions that operands of a call lie within their bounds. The runtime checks the others.
+    pub(super) fn bounds_hold(&mut self, inst: &Inst, form: Form) -> Guards {
+        let mut guards = Guards::default();
+        if self.bounds.is_empty() {
+            return guards;
+        }
+        let operands = &self.instr().operands;
+        let extents: Vec<_> = extents(inst, form, operands, self.model).collect();
+        for (operand, extent) in operands.iter().zip(extents) {
+            let (device, written, extent) = match operand.kind {
+                OperandKind::Device(device, Some(index))
+                | OperandKind::Nibbles(_, device, Some(index)) => (device, index, extent),
+                OperandKind::WordBit(device, bit, Some(index)) => {
+                    let words = extent.map(|bits| words_of_bits(bit & 15, bits));
+                    (device, index, words)
+                }
+                _ => continue,
+            };
+            let (place, count) = (fixed(device.class, device.number), extent.unwrap_or(1));
+            if let Some(bound) = self.bound(place, written, count) {
+                let index = self.index(written, form.wide);
+                self.demand_device(place, index, count, Some(bound), &mut guards);
+            }
+        }
+        guards
+    }
+
     /// Value of an index register behind a constant, of the constant's width.
     pub(super) fn constant_index(&mut self, index: Index, wide: bool) -> ExprId {
         let place = fixed(index.class, index.number);
@@ -132,14 +242,21 @@ impl Lowerer<'_> {
         wide: bool,
         guards: &mut Guards,
     ) -> Place {
+        let written = index;
         let index = index.map(|index| self.index(index, wide));
         let place = Place {
             index,
             ..self.named(device, index.is_none() && count == 1)
         };
-        if index.is_some() {
-            guards.demand(self.add(Expr::InRange { place, count }));
-        } else if !self.exists(place.class, place.number, count) {
+        if let Some((index, written)) = index.zip(written) {
+            let bound = self.bound(place, written, count);
+            self.demand_device(place, index, count, bound, guards);
+            let index = self.within(index, bound);
+            self.note_index(index, place, written);
+            let index = Some(index);
+            return Place { index, ..place };
+        }
+        if !self.exists(place.class, place.number, count) {
             guards.demand(self.bit_const(false));
         }
         place
@@ -461,6 +578,16 @@ impl Lowerer<'_> {
             span,
             format!("`{operand}` of `{name}` is not implemented yet: this kind of operand"),
         ));
+    }
+}
+
+/// The device and the index of an operand that has one.
+pub(super) fn indexed(operand: &OperandKind) -> Option<(Device, Index)> {
+    match *operand {
+        OperandKind::Device(device, index)
+        | OperandKind::Nibbles(_, device, index)
+        | OperandKind::WordBit(device, _, index) => Some((device, index?)),
+        _ => None,
     }
 }
 

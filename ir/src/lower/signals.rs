@@ -151,15 +151,18 @@ impl Lowerer<'_> {
             return;
         };
         let form = resolution.form;
-        let (args, step) = (self.args(inst, form), self.step());
-        self.emit(Stmt::Call {
-            function: looker.function,
-            wide: form.wide,
-            args,
-            drive: None,
-            signal: true,
-            slot: looker.slot,
-            step,
+        let guards = self.bounds_hold(inst, form);
+        self.guarded(guards, |this| {
+            let (args, step) = (this.args(inst, form), this.step());
+            this.emit(Stmt::Call {
+                function: looker.function,
+                wide: form.wide,
+                args,
+                drive: None,
+                signal: true,
+                slot: looker.slot,
+                step,
+            });
         });
     }
 

@@ -3,6 +3,7 @@
 use super::call::extents;
 use super::{LowerOptions, Lowerer};
 use crate::catalogue::{Drive, Lower, Role};
+use crate::ranges::Reached;
 use crate::resolve::Resolved;
 use crate::runs::FIRST_SPECIAL;
 use rungc_syntax::{DeviceClass, OperandKind};
@@ -25,15 +26,15 @@ pub(super) struct Specials {
 }
 
 impl Specials {
-    pub(super) fn of(resolved: &Resolved, options: &LowerOptions) -> Self {
+    pub(super) fn of(resolved: &Resolved, options: &LowerOptions, reached: &Reached) -> Self {
         let mut specials = Specials {
             relays: vec![options.observe_all; COUNT],
             registers: vec![options.observe_all; COUNT],
             flags: Vec::new(),
             whole: None,
-            writes_run_flags: false,
+            writes_run_flags: reached.writes_run_flags,
         };
-        for &(class, number) in &options.observe {
+        for &(class, number) in options.observe.iter().chain(&reached.special) {
             specials.mark(class, number, Some(1));
         }
         let mut contacts = [false; 4];
@@ -117,18 +118,17 @@ impl Specials {
                 OperandKind::WordBit(device, _, index) => (device, index),
                 _ => continue,
             };
-            if index.is_some() && device.number >= FIRST_SPECIAL {
-                self.mark(device.class, FIRST_SPECIAL, None);
-            } else {
-                self.mark(device.class, device.number, extent);
+            // Where an index leads is found out from what is lowered.
+            if index.is_some() {
+                continue;
             }
+            self.mark(device.class, device.number, extent);
             let end = extent.map_or(u32::MAX, |count| device.number.saturating_add(count));
             let reads = params.get(i).is_some_and(|param| param.role == Role::Read);
             self.writes_run_flags |= !reads
                 && device.class == DeviceClass::M
                 && device.number >= FIRST_SPECIAL
-                && (index.is_some()
-                    || RUN_FLAGS.clone().any(|n| (device.number..end).contains(&n)));
+                && RUN_FLAGS.clone().any(|n| (device.number..end).contains(&n));
         }
     }
 }

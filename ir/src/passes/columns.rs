@@ -13,6 +13,41 @@ pub(super) fn last_alike(model: &Model, class: DeviceClass, number: u32) -> Opti
     (!is_special(class, number) && !is_special(class, last)).then_some(last)
 }
 
+/// Arrays that are needed as they are: an index or a block goes through them.
+pub(super) struct Arrays(Vec<Area>);
+
+impl Arrays {
+    /// Those of a layout without grids.
+    pub(super) fn of(layout: &Layout) -> Self {
+        let in_grid = |area: &&Area| layout.grid(area.class, area.first).is_some();
+        let arrays = layout
+            .areas
+            .iter()
+            .filter(|area| area.array && !in_grid(area));
+        Arrays(arrays.copied().collect())
+    }
+
+    /// Whether one of them holds one of the devices from `first` to `last`.
+    pub(super) fn meet(&self, class: DeviceClass, first: u32, last: u32) -> bool {
+        let ends_before = |area: &Area| (area.class, area.first + area.count) <= (class, first);
+        let next = self.0.get(self.0.partition_point(ends_before));
+        next.is_some_and(|area| area.class == class && area.first <= last)
+    }
+}
+
+/// Whether a grid of another number of columns touches the devices from `first` to `last`.
+pub(super) fn meets_other_grid(
+    layout: &Layout,
+    (class, first, last): (DeviceClass, u32, u32),
+    columns: u32,
+) -> bool {
+    let ends_before = |grid: &Grid| (grid.class, grid.end()) < (class, first);
+    let from = layout.grids.partition_point(ends_before);
+    let touching = layout.grids[from..].iter();
+    let mut touching = touching.take_while(|grid| grid.class == class && grid.first <= last + 1);
+    touching.any(|grid| grid.columns != columns)
+}
+
 /// Stores the devices from `first` to `last` of a class in an array of so many columns, together with its neighbours if they are stored so;
 /// false if they are needed in another order.
 pub(super) fn spread(

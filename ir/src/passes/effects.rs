@@ -55,7 +55,7 @@ impl Reads {
             }
             _ => return,
         };
-        let (first, last) = run(place, count);
+        let (first, last) = run(&arena.exprs, place, count);
         self.devices.push((place.class, first, last));
         self.index |= arena.model.has_alias(place.class, first, last);
     }
@@ -83,20 +83,26 @@ fn is_index(class: DeviceClass) -> bool {
 }
 
 /// The numbers that an access may touch.
-fn run(place: Place, count: u32) -> (u32, u32) {
-    match place.index {
-        Some(_) => (0, u32::MAX),
-        None => (place.number, place.number.saturating_add(count - 1)),
-    }
+fn run(exprs: &[Expr], place: Place, count: u32) -> (u32, u32) {
+    let (low, high) = match place.index.map(|index| &exprs[index.0 as usize]) {
+        None => (0, 0),
+        Some(&Expr::Within { low, high, .. }) => (low, high),
+        Some(_) => return (0, u32::MAX),
+    };
+    let last = place.number.saturating_add(count - 1);
+    (
+        place.number.saturating_add_signed(low),
+        last.saturating_add_signed(high),
+    )
 }
 
-/// What a statement writes, when it is executed.
-pub(super) fn writes(model: &Model, stmt: &Stmt) -> Writes {
+/// What a statement with these expressions writes, when it is executed.
+pub(super) fn writes(model: &Model, exprs: &[Expr], stmt: &Stmt) -> Writes {
     let place = |place: Place, count| {
         if is_index(place.class) {
             return Writes::Index;
         }
-        let (first, last) = run(place, count);
+        let (first, last) = run(exprs, place, count);
         if model.has_alias(place.class, first, last) {
             return Writes::All;
         }

@@ -75,14 +75,22 @@ impl<'m> Arena<'m> {
             Expr::Cmp(op, a, b) => self.cmp(op, a, b),
             Expr::Bin(op, a, b) => self.bin(op, a, b),
             Expr::InRange { place, count } => {
-                let index = match place.index.map(|index| self.get(index)) {
-                    None => 0,
-                    Some(Expr::I32(index)) => index,
+                let (low, high) = match place.index.map(|index| self.get(index)) {
+                    None => (0, 0),
+                    Some(Expr::I32(index)) => (index, index),
+                    Some(Expr::Within { low, high, .. }) => (low, high),
                     _ => return self.push(expr),
                 };
-                let first = i64::from(place.number) + i64::from(index);
-                let holds = self.model.in_range(place.class, first, count);
-                self.push(Expr::Bit(holds))
+                let first = i64::from(place.number) + i64::from(low);
+                let span = u32::try_from(i64::from(high) - i64::from(low)).unwrap_or(u32::MAX);
+                let holds = self
+                    .model
+                    .in_range(place.class, first, count.saturating_add(span));
+                self.push(if holds || low == high {
+                    Expr::Bit(holds)
+                } else {
+                    expr
+                })
             }
             _ => self.one(expr),
         }
@@ -93,6 +101,10 @@ impl<'m> Arena<'m> {
         let simple = match expr {
             Expr::Widen(a) => match get(a) {
                 Expr::I16(value) => Expr::I32(i32::from(value)),
+                _ => expr,
+            },
+            Expr::Within { value, .. } => match get(value) {
+                Expr::I32(_) => return value,
                 _ => expr,
             },
             Expr::Narrow(a) => match get(a) {

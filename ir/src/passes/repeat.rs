@@ -2,7 +2,7 @@
 //! each device is as far from the one before as in the round before, and makes a loop of them ([`Stmt::Repeat`]) that C and Rust
 //! compilers vectorise. The rounds run in the program's order, so nothing has to be proved but that they are alike.
 
-use super::columns::{self, last_alike, spread};
+use super::columns::{self, Arrays, last_alike, meets_other_grid, spread};
 use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::runs::is_counter32;
 use crate::walk::{assigned, bodies, for_exprs, operands, operands_mut};
@@ -34,12 +34,13 @@ pub(super) fn run(module: &mut Module) {
 fn roll(module: &mut Module, body: Body) -> Body {
     let shapes: Vec<Option<Shape>> = body.iter().map(|stmt| shape(module, stmt)).collect();
     let networks = Networks::of(&body, &shapes);
-    let spans = spans(module, &body);
+    let mut runs = Runs::of(module, &body, shapes);
     let mut out = Body::with_capacity(body.len());
     let mut at = 0;
     while at < body.len() {
-        let found = Group::find(module, &body, &shapes, networks.behind(at))
-            .filter(|group| group.keeps_to_itself(&body, &spans))
+        let found = runs
+            .best(module, networks.behind(at))
+            .filter(|group| group.fits(module, &runs.arrays))
             .filter(|group| group.store(module));
         match found {
             Some(group) => {
@@ -144,6 +145,7 @@ fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) 
         | Expr::Cell(_)
         | Expr::Entry(..)
         | Expr::Stride(..)
+        | Expr::Within { .. }
         | Expr::InRange { .. } => None,
     }
 }
@@ -248,109 +250,190 @@ enum Kind {
 /// What a round names, its number, and that of the next round or how much further that is.
 type Names = (Kind, u32, u32);
 
-impl Group {
-    /// The group that begins with the first of these networks and saves the most.
-    fn find(
-        module: &Module,
-        body: &Body,
-        shapes: &[Option<Shape>],
-        networks: &[Network],
-    ) -> Option<Group> {
+/// As many rounds of one length as are alike. It is sought once, and not again from each of its rounds that a group might begin with.
+struct Run {
+    /// First statement.
+    first: usize,
+    rounds: usize,
+    /// What its first round names.
+    devices: Vec<Names>,
+    /// How many of the first rounds may not begin a group: the last of them gives a temporary a value that others use, too.
+    leaking: usize,
+}
+
+/// The runs of a body.
+struct Runs<'b> {
+    body: &'b Body,
+    shapes: Vec<Option<Shape>>,
+    /// Where each temporary is used.
+    spans: Vec<Option<(usize, usize)>>,
+    arrays: Arrays,
+    /// By the length of a round and where, modulo this, rounds begin: the last that was looked for.
+    found: HashMap<(usize, usize), Run>,
+}
+
+impl<'b> Runs<'b> {
+    fn of(module: &Module, body: &'b Body, shapes: Vec<Option<Shape>>) -> Self {
+        Runs {
+            body,
+            shapes,
+            spans: spans(module, body),
+            arrays: Arrays::of(&module.layout),
+            found: HashMap::new(),
+        }
+    }
+
+    /// The group that begins with the first of these networks and saves the most, if it keeps to itself.
+    fn best(&mut self, module: &Module, networks: &[Network]) -> Option<Group> {
         let (&Network { at: first, alike }, next) = networks.split_first()?;
         let longest = LONGEST_ROUND.min(alike / LEAST_ROUNDS);
         let lengths = next.iter().map(|network| network.at - first);
-        let mut best: Option<(u64, Group)> = None;
+        let mut best: Option<(u64, usize)> = None;
+        // The shortest rounds that are alike. Several of them together save less.
+        let mut shortest: Option<(usize, usize)> = None;
         for length in lengths.take_while(|&length| length <= longest) {
-            let (one, two) = (first + length, first + 2 * length);
-            if shapes[first..one] != shapes[one..two] {
+            let together = shortest.filter(|&(of, _)| length.is_multiple_of(of));
+            if together.is_some_and(|(of, rounds)| rounds >= 2 * (length / of)) {
                 continue;
             }
-            let size: u64 = shapes[first..one].iter().flatten().map(|s| s.size).sum();
-            let Some(group) = Group::of_length(module, body, shapes, (first, length)) else {
+            let Some(rounds) = self.rounds(module, first, length) else {
                 continue;
             };
-            let saved = (group.rounds as u64 - 1) * size;
-            let enough = group.rounds >= LEAST_ROUNDS && saved >= LEAST_SAVED;
-            if enough && best.as_ref().is_none_or(|(most, _)| saved > *most) {
-                best = Some((saved, group));
+            shortest.get_or_insert((length, rounds));
+            let round = &self.shapes[first..first + length];
+            let size: u64 = round.iter().flatten().map(|s| s.size).sum();
+            let saved = (rounds as u64 - 1) * size;
+            let enough = rounds >= LEAST_ROUNDS && saved >= LEAST_SAVED;
+            if enough && best.is_none_or(|(most, _)| saved > most) {
+                best = Some((saved, length));
             }
         }
-        best.map(|(_, group)| group)
-    }
-
-    /// As many rounds of this length as are alike.
-    fn of_length(
-        module: &Module,
-        body: &Body,
-        shapes: &[Option<Shape>],
-        (first, length): (usize, usize),
-    ) -> Option<Group> {
-        let round = |n: usize| first + n * length..first + (n + 1) * length;
-        let devices_of = |n| Pair::of(module, &body[round(0)], body.get(round(n))?);
-        let devices: Vec<_> = devices_of(1)?
-            .into_iter()
-            .map(|(class, number, next)| Some((class, number, next.checked_sub(number)?)))
-            .collect::<Option<_>>()?;
-        let is_next = |n: usize| {
-            let same = shapes.get(round(n)) == Some(&shapes[round(0)]);
-            let found = same.then(|| devices_of(n)).flatten();
-            found.is_some_and(|found| {
-                let expected = devices
-                    .iter()
-                    .map(|&(class, number, by)| (class, number, number + n as u32 * by));
-                found.into_iter().eq(expected)
-            })
-        };
-        let most = |&(kind, number, by): &Names| {
-            let last = match kind {
-                Kind::Device(class) => last_alike(module.model, class, number),
-                Kind::Edge => module.edges.checked_sub(1),
-            };
-            last.map_or(0, |last| (last - number) / by + 1)
-        };
-        let moving = devices.iter().filter(|names| names.2 > 0);
-        let most = moving.map(most).min().unwrap_or(0) as usize;
-        let rounds = (2..most).take_while(|&n| is_next(n)).count() + 2;
-        (rounds <= most).then_some(Group {
+        let (_, length) = best?;
+        let run = self.found.get(&(length, first % length))?;
+        let behind = (first - run.first) / length;
+        let devices = run.devices.iter();
+        (behind >= run.leaking).then(|| Group {
             first,
             length,
+            rounds: run.rounds - behind,
+            devices: devices
+                .map(|&(kind, number, by)| (kind, number + behind as u32 * by, by))
+                .collect(),
+        })
+    }
+
+    /// How many rounds of this length are alike from a statement on, if there are two.
+    fn rounds(&mut self, module: &Module, first: usize, length: usize) -> Option<usize> {
+        let key = (length, first % length);
+        if let Some(run) = self.found.get(&key)
+            && run.first <= first
+            && first + length < run.first + run.rounds * length
+        {
+            return Some(run.rounds - (first - run.first) / length);
+        }
+        let run = self.run(module, first, length)?;
+        let rounds = run.rounds;
+        self.found.insert(key, run);
+        Some(rounds)
+    }
+
+    fn run(&self, module: &Module, first: usize, length: usize) -> Option<Run> {
+        let round = |n: usize| first + n * length..first + (n + 1) * length;
+        let is_alike = |n: usize| self.shapes.get(round(n)) == Some(&self.shapes[round(0)]);
+        let names = |n: usize| {
+            let other = is_alike(n).then(|| self.body.get(round(n))).flatten()?;
+            Pair::of(module, &self.body[round(0)], other)
+        };
+        let mut devices = names(1)?;
+        for (_, number, next) in &mut devices {
+            *next = next.checked_sub(*number)?;
+        }
+        let is_next = |n: &usize| {
+            let moved = |&(kind, number, by): &Names| (kind, number, number + *n as u32 * by);
+            names(*n).is_some_and(|found| found.into_iter().eq(devices.iter().map(moved)))
+        };
+        let most = most_rounds(module, &devices);
+        let rounds = (2..most).take_while(is_next).count() + 2;
+        let leaks = |&n: &usize| !self.keeps_to_itself(round(n));
+        (rounds <= most).then(|| Run {
+            first,
             rounds,
+            leaking: (0..rounds).rev().find(leaks).map_or(0, |n| n + 1),
             devices,
         })
     }
 
     /// Whether what a round gives to temporaries is used in that round only.
-    fn keeps_to_itself(&self, body: &Body, spans: &[Option<(usize, usize)>]) -> bool {
-        (0..self.rounds).all(|n| {
-            let first = self.first + n * self.length;
-            let round = first..first + self.length;
-            let mut inside = true;
-            for stmt in &body[round.clone()] {
-                each_assigned(stmt, &mut |temp| {
-                    let span = spans.get(temp.0 as usize).copied().flatten();
-                    inside &=
-                        span.is_none_or(|(from, to)| round.contains(&from) && round.contains(&to));
-                });
+    fn keeps_to_itself(&self, round: std::ops::Range<usize>) -> bool {
+        let mut inside = true;
+        for stmt in &self.body[round.clone()] {
+            each_assigned(stmt, &mut |temp| {
+                let span = self.spans.get(temp.0 as usize).copied().flatten();
+                inside &=
+                    span.is_none_or(|(from, to)| round.contains(&from) && round.contains(&to));
+            });
+        }
+        inside
+    }
+}
+
+/// How many rounds the devices that move on leave room for.
+fn most_rounds(module: &Module, devices: &[Names]) -> usize {
+    let most = |&(kind, number, by): &Names| {
+        let last = match kind {
+            Kind::Device(class) => last_alike(module.model, class, number),
+            Kind::Edge => module.edges.checked_sub(1),
+        };
+        last.map_or(0, |last| (last - number) / by + 1)
+    };
+    let moving = devices.iter().filter(|names| names.2 > 0);
+    moving.map(most).min().unwrap_or(0) as usize
+}
+
+impl Group {
+    /// Whether nothing is known that keeps [`Group::store`] from making its arrays, which takes longer to find out.
+    fn fits(&self, module: &Module, arrays: &Arrays) -> bool {
+        let reached = self.rounds as u32 - 1;
+        let mut devices: Vec<_> = self
+            .moving()
+            .map(|(class, first, by)| (class, first, first + reached * by, by))
+            .collect();
+        devices.sort_unstable();
+        // Per distance of what goes before in the same class: where that ends.
+        let mut ends: Vec<(DeviceClass, u32, u32)> = Vec::new();
+        devices.into_iter().all(|(class, first, last, by)| {
+            ends.retain(|end| end.0 == class);
+            let apart = ends
+                .iter()
+                .all(|&(_, other, end)| other == by || end + 1 < first);
+            match ends.iter_mut().find(|end| end.1 == by) {
+                Some(end) => end.2 = end.2.max(last),
+                None => ends.push((class, by, last)),
             }
-            inside
+            apart
+                && !arrays.meet(class, first, last)
+                && !meets_other_grid(&module.layout, (class, first, last), by)
         })
+    }
+
+    /// The devices that are others in each round, and how far apart.
+    fn moving(&self) -> impl Iterator<Item = (DeviceClass, u32, u32)> {
+        self.devices
+            .iter()
+            .filter_map(|&(kind, number, by)| match kind {
+                Kind::Device(class) => (by > 0).then_some((class, number, by)),
+                Kind::Edge => None,
+            })
     }
 
     /// Makes the areas that the rounds go through; false if the devices are needed otherwise.
     fn store(&self, module: &mut Module) -> bool {
         let mut layout = module.layout.clone();
         let reached = self.rounds as u32 - 1;
-        let stored = self
-            .devices
-            .iter()
-            .filter(|names| names.2 > 0)
-            .all(|&(kind, number, by)| match kind {
-                Kind::Device(class) => {
-                    let devices = (class, number, number + reached * by);
-                    spread(&mut layout, module, devices, by)
-                }
-                Kind::Edge => true,
-            });
+        let stored = self.moving().all(|(class, number, by)| {
+            let devices = (class, number, number + reached * by);
+            spread(&mut layout, module, devices, by)
+        });
         if stored {
             module.layout = layout;
         }

@@ -159,7 +159,7 @@ impl Rewriter<'_> {
                 out.push(stmt);
             }
             mut stmt => {
-                let writes = writes(self.arena.model, &stmt);
+                let writes = writes(self.arena.model, self.old, &stmt);
                 let shared = self.temps.shared_before(writes);
                 assign(shared, out);
                 for_exprs_mut(&mut stmt, &mut |id| *id = self.expr(*id));

@@ -151,6 +151,7 @@ fn compile_on(model: ModelId, case: &Case, program: &Program, warn: &[&'static s
         name: Some(case.name.clone()),
         observe: observed(case),
         observe_all: false,
+        bounds: Vec::new(),
         optimise: true,
         warn: warn.to_vec(),
     };

@@ -71,6 +71,12 @@ super::codes! {
     wrong: "LD X0\nSFTLP X0 M0 K4 K5\nEND\n",
     right: "LD X0\nSFTLP X0 M0 K4 K4\nEND\n";
 
+    BOUND_OUTSIDE = "E0120" "bound-outside" Error None,
+    "bound of an indexed operand that the model does not have",
+    "`[index]` in rungc.toml says which devices an operand with an index register can reach: `D100Z0 = \"D100-D163\"`. These must be devices of the operand's class that the model has, all general or all special ones.",
+    wrong: "",
+    right: "";
+
     TOO_FEW_OPERANDS = "E0301" "too-few-operands" Error Some(6503),
     "operand missing",
     "The instruction has fewer operands than it needs. The help shows its signature.",

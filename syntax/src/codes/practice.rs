@@ -199,4 +199,16 @@ super::codes! {
     "The program has more steps than the PLC can hold. Compiled code has no such limit, but the program cannot go back to the PLC.",
     wrong: "",
     right: "";
+
+    BOUND_UNUSED = "W0540" "bound-unused" Warning None,
+    "bound of an operand that the program does not have",
+    "`[index]` in rungc.toml names an operand with an index register that no instruction has, so that the bound does nothing. It is for the operand exactly as the program writes it: a bound of `D100Z0` says nothing about `D101Z0`.",
+    wrong: "",
+    right: "";
+
+    INDEX_REACHES_MUCH = "N0030" "index-reaches-much" Note None,
+    "indexed operand that makes the program store many devices",
+    "A compiled program stores the devices that its operands can reach. How far an index register leads is found out from constants, sums, masks (`WAND`), comparisons on the way, rounds of loops and what all scans leave in it; a value from a data register or a communication can be anything, and then the operand reaches every device of its class. Compare or mask the index before it is used, or bound the operand in rungc.toml: `[index]`, `D100Z0 = \"D100-D163\"`. An access beyond the bound is then the PLC's error 6706, as one beyond the devices is.",
+    wrong: "",
+    right: "";
 }

@@ -1,0 +1,167 @@
+//! Between which values index registers lie where an index leads to a device, so that no more is stored than it can lead to.
+//!
+//! A module is executed with intervals in the place of values: constants, sums, masks, comparisons on the way, rounds of loops, and what
+//! one scan leaves to the next. An index register that nothing has written is 0. What is known rests on one rule: **a host writes an index
+//! register only if it is observed** ([`crate::compile::CompileOptions::observe`]); other registers it may write between two scans, so
+//! that nothing is known of them when a scan begins. Should a host break the rule, or the watchdog end a scan halfway, an index may lead to a
+//! device that is not stored: it reads 0, and a write goes nowhere.
+
+mod eval;
+mod interval;
+mod state;
+mod walk;
+
+use crate::lower::LowerOptions;
+use crate::node::{Body, Expr, ExprId, Module, Place};
+use crate::reach::{Access, of_expr, of_stmt};
+use crate::runs::{FIRST_SPECIAL, is_special};
+use crate::walk::{bodies_mut, places_mut, statements};
+use eval::Eval;
+use interval::Interval;
+use rungc_syntax::DeviceClass::{self, C, D, M, T};
+use rungc_syntax::{Device, Index};
+use state::Words;
+use std::collections::BTreeSet;
+use walk::Walk;
+
+/// What an operand with an index register can reach, where its user says so: an access beyond is the PLC's error 6706, as one beyond the
+/// model's devices is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Bound {
+    /// The operand as the program writes it, without its index.
+    pub device: Device,
+    /// The index register.
+    pub index: Index,
+    /// First number that it reaches.
+    pub first: u32,
+    /// Last number that it reaches, inclusive. A block whose length is a constant lies in these as a whole.
+    pub last: u32,
+}
+
+/// Special devices that indexes are known to lead to. An index that only the end of the devices stops is not taken to aim at special ones.
+#[derive(Default)]
+pub(crate) struct Reached {
+    pub(crate) special: BTreeSet<(DeviceClass, u32)>,
+    /// Whether the program may write M8000–M8003 so.
+    pub(crate) writes_run_flags: bool,
+}
+
+impl Reached {
+    /// Adds what another lowering reaches; whether that is more.
+    pub(crate) fn add(&mut self, other: Reached) -> bool {
+        let before = (self.special.len(), self.writes_run_flags);
+        self.special.extend(other.special);
+        self.writes_run_flags |= other.writes_run_flags;
+        before != (self.special.len(), self.writes_run_flags)
+    }
+
+    fn access(&mut self, module: &Module, access: Access) {
+        let Place { class, number, .. } = access.place;
+        if access.place.index.is_none() || !matches!(class, M | D) {
+            return;
+        }
+        let last = module.model.runs(class).last().map_or(0, |run| run.1);
+        for (first, end) in access.reach(module.model, &module.exprs) {
+            let aims = is_special(class, number) || end < last;
+            if first >= FIRST_SPECIAL && aims {
+                self.special
+                    .extend((first..=end).map(|number| (class, number)));
+                self.writes_run_flags |= access.writes && class == M && first < FIRST_SPECIAL + 4;
+            }
+        }
+    }
+}
+
+/// Fills in what is known of each [`Expr::Within`], and names the devices that an index leads to alone.
+pub(crate) fn find(module: &mut Module, options: &LowerOptions) -> Reached {
+    let is_within = |expr: &Expr| matches!(expr, Expr::Within { .. });
+    if !module.exprs.iter().any(is_within) {
+        return Reached::default();
+    }
+    let model = module.model;
+    let observed = |class, number| options.observes(model, class, number);
+    let words = Words::of(module, observed);
+    let found = Walk::run(Eval { module, words });
+    for (expr, id) in module.exprs.iter_mut().zip(0..) {
+        if let Expr::Within { low, high, .. } = expr {
+            let bound = Interval {
+                low: *low,
+                high: *high,
+            };
+            let known = found.get(&ExprId(id)).and_then(|found| found.meet(bound));
+            // What nothing evaluates leads nowhere.
+            let known = known.unwrap_or(Interval::of(bound.low.max(0).min(bound.high)));
+            (*low, *high) = (known.low, known.high);
+        }
+    }
+    let mut reached = Reached::default();
+    let mut note = |access| reached.access(module, access);
+    for expr in &module.exprs {
+        of_expr(module.model, expr, &mut note);
+    }
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            of_stmt(module.model, stmt, &mut note)
+        });
+    }
+    name_known(module);
+    reached
+}
+
+/// Names devices that an index leads to alone, so that they need no number at run time.
+fn name_known(module: &mut Module) {
+    let model = module.model;
+    let exprs = module.exprs.clone();
+    let known = |place: &mut Place| {
+        let Some(index) = place.index else {
+            return;
+        };
+        let Expr::Within { low, high, .. } = exprs[index.0 as usize] else {
+            return;
+        };
+        let number = i64::from(place.number) + i64::from(low);
+        if low == high
+            && let Ok(number) = u32::try_from(number)
+            && model.has(place.class, number)
+        {
+            *place = Place {
+                number,
+                index: None,
+                ..*place
+            };
+        }
+    };
+    for expr in &mut module.exprs {
+        // Whether counters are 32-bit ones is known when the place is made.
+        match expr {
+            Expr::ReadBit(place)
+            | Expr::ReadWordBit(place, _)
+            | Expr::ReadWord(place)
+            | Expr::ReadPair(place)
+            | Expr::ReadFloat(place)
+            | Expr::ReadNibbles { place, .. }
+                if place.class != C =>
+            {
+                known(place);
+            }
+            _ => {}
+        }
+    }
+    for function in &mut module.functions {
+        each_place(&mut function.body, &mut |place| {
+            if !matches!(place.class, T | C) {
+                known(place);
+            }
+        });
+    }
+}
+
+/// Calls `f` with the places that statements themselves name.
+fn each_place(body: &mut Body, f: &mut impl FnMut(&mut Place)) {
+    for stmt in body {
+        places_mut(stmt, f);
+        for inner in bodies_mut(stmt) {
+            each_place(inner, f);
+        }
+    }
+}

@@ -1,0 +1,574 @@
+//! Executes a module with intervals in the place of values, until nothing more can become of it.
+
+use super::eval::Eval;
+use super::interval::Interval;
+use super::state::{Known, Mask, State, join};
+use crate::node::{
+    Arg, Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt, TempId, Ty,
+};
+use crate::runs::{FIRST_SPECIAL, words_of_bits};
+use crate::walk::{assigned, bodies, for_exprs, operands, statements};
+use rungc_rt::RtFn;
+use rungc_syntax::DeviceClass;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// From which round on states that grow are widened, and from which on to the ends of all words.
+const WIDENED: usize = 6;
+const WIDENED_WHOLLY: usize = 16;
+/// How many rounds make what was found more exact.
+const NARROWED: usize = 4;
+/// How many statements the rounds of a loop may be, all together, to be executed one by one.
+const UNROLLED: usize = 20_000;
+
+/// What is known where functions begin and end, and between scans.
+#[derive(Clone, PartialEq)]
+struct Facts {
+    entries: Vec<Option<State>>,
+    exits: Vec<Option<State>>,
+    between: State,
+}
+
+/// The walk.
+pub(super) struct Walk<'m> {
+    eval: Eval<'m>,
+    thresholds: Vec<i32>,
+    /// Which tracked words each function may write, those it calls included.
+    writes: Vec<Mask>,
+    /// Temporaries of which something is known at times.
+    told: FxHashSet<TempId>,
+    /// Statements that write tracked words, tell something of them or go elsewhere, by address.
+    matters: FxHashSet<*const Stmt>,
+    /// Statements that have a [`Expr::Within`], by address.
+    indexes: FxHashSet<*const Stmt>,
+    /// What the last round found, and what this one does.
+    known: Facts,
+    next: Facts,
+    /// What is known where the function at hand is left early, and where jumps lead.
+    returns: Option<State>,
+    labels: Vec<(LabelId, Option<State>)>,
+    /// How many statements the rounds of the next loop may be.
+    unrolled: usize,
+    /// Where each [`Expr::Within`] lies where it is evaluated, once this is asked.
+    found: Option<FxHashMap<ExprId, Interval>>,
+}
+
+impl<'m> Walk<'m> {
+    /// Where each [`Expr::Within`] of the module lies; those without an interval are never evaluated.
+    pub(super) fn run(eval: Eval<'m>) -> FxHashMap<ExprId, Interval> {
+        let functions = eval.module.functions.len();
+        let facts = Facts {
+            entries: vec![None; functions],
+            exits: vec![None; functions],
+            between: State::power_on(&eval.words),
+        };
+        let mut walk = Walk {
+            thresholds: eval.thresholds(),
+            writes: Vec::new(),
+            told: FxHashSet::default(),
+            matters: FxHashSet::default(),
+            indexes: FxHashSet::default(),
+            known: facts.clone(),
+            next: facts.clone(),
+            returns: None,
+            labels: Vec::new(),
+            unrolled: UNROLLED,
+            found: None,
+            eval,
+        };
+        walk.writes = walk.written();
+        walk.told = walk.telling();
+        for function in &walk.eval.module.functions {
+            walk.sort(&function.body);
+        }
+        walk.grow();
+        for _ in 0..NARROWED {
+            walk.next = facts.clone();
+            walk.round();
+            walk.known = walk.next.clone();
+        }
+        walk.found = Some(FxHashMap::default());
+        walk.round();
+        walk.found.unwrap_or_default()
+    }
+
+    /// Executes all functions until what is known holds for all that can happen.
+    fn grow(&mut self) {
+        for round in 0.. {
+            self.next = self.known.clone();
+            self.round();
+            if self.next == self.known {
+                return;
+            }
+            if round >= WIDENED {
+                let thresholds = match round {
+                    WIDENED_WHOLLY.. => &[],
+                    _ => self.thresholds.as_slice(),
+                };
+                let (known, next) = (&self.known, &mut self.next);
+                next.between.widen(&known.between, thresholds);
+                let before = known.entries.iter().chain(&known.exits);
+                let after = next.entries.iter_mut().chain(&mut next.exits);
+                for (before, after) in before.zip(after) {
+                    if let (Some(before), Some(after)) = (before, after) {
+                        after.widen(before, thresholds);
+                    }
+                }
+            }
+            std::mem::swap(&mut self.known, &mut self.next);
+        }
+    }
+
+    /// Which tracked words functions may write.
+    fn written(&self) -> Vec<Mask> {
+        let functions = &self.eval.module.functions;
+        let mut writes: Vec<Mask> = vec![0; functions.len()];
+        loop {
+            let before = writes.clone();
+            for (i, function) in functions.iter().enumerate() {
+                statements(&function.body, &mut |stmt| {
+                    writes[i] |= match stmt {
+                        Stmt::CallSub(n) => before.get(*n as usize).copied().unwrap_or(0),
+                        stmt => self.writes_of(stmt, None),
+                    };
+                });
+            }
+            if writes == before {
+                return writes;
+            }
+        }
+    }
+
+    /// Which temporaries are given integers, or conditions over tracked words or over each other.
+    fn telling(&self) -> FxHashSet<TempId> {
+        let mut told = FxHashSet::default();
+        for function in &self.eval.module.functions {
+            statements(&function.body, &mut |stmt| {
+                if let Stmt::Let(temp, value) = *stmt {
+                    let integer = matches!(self.eval.module.ty(value), Ty::I16 | Ty::I32);
+                    if integer || self.eval.reads(value) != (0, 0) {
+                        told.insert(temp);
+                    }
+                }
+            });
+        }
+        told
+    }
+
+    /// Sorts statements by what is to be done with them; whether any of these matters, and whether any has an index.
+    fn sort(&mut self, body: &Body) -> (bool, bool) {
+        let mut any = (false, false);
+        for stmt in body {
+            let (mut matters, mut indexes) = (self.matters(stmt), false);
+            for_exprs(stmt, &mut |id| indexes |= self.has_within(*id));
+            for inner in bodies(stmt) {
+                let inner = self.sort(inner);
+                matters |= inner.0;
+                indexes |= inner.1;
+            }
+            if matters {
+                self.matters.insert(stmt);
+            }
+            if indexes {
+                self.indexes.insert(stmt);
+            }
+            any = (any.0 | matters, any.1 | indexes);
+        }
+        any
+    }
+
+    /// Whether a statement itself changes what is known.
+    fn matters(&self, stmt: &Stmt) -> bool {
+        match stmt {
+            Stmt::CallSub(_) | Stmt::Return | Stmt::Goto(_) => true,
+            stmt => {
+                let told = assigned(stmt).is_some_and(|temp| self.told.contains(&temp));
+                told || self.writes_of(stmt, None) != 0
+            }
+        }
+    }
+
+    fn has_within(&self, id: ExprId) -> bool {
+        let expr = self.eval.module.expr(id);
+        matches!(expr, Expr::Within { .. }) || operands(expr).any(|id| self.has_within(id))
+    }
+
+    /// Which tracked words a statement itself may write: here, or anywhere.
+    fn writes_of(&self, stmt: &Stmt, state: Option<&State>) -> Mask {
+        let all = (1 as Mask)
+            .checked_shl(self.eval.words.len() as u32)
+            .map_or(Mask::MAX, |bit| bit - 1);
+        match stmt {
+            Stmt::WriteWord(place, _) | Stmt::WriteWordBit(place, ..) => {
+                self.devices(*place, Some(1), state)
+            }
+            Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.pair(*place, state),
+            Stmt::Clear { .. } => all,
+            Stmt::Call {
+                function: RtFn::Zpop,
+                ..
+            } => all,
+            Stmt::Call { wide, args, .. } => {
+                let masks = args.iter().map(|arg| self.arg(arg, *wide, state));
+                masks.fold(0, |all, mask| all | mask)
+            }
+            Stmt::Send { to, wide, .. } => self.arg(to, *wide, state),
+            _ => 0,
+        }
+    }
+
+    fn pair(&self, place: Place, state: Option<&State>) -> Mask {
+        let high = self.eval.words.high_word(place);
+        self.devices(place, Some(1), state) | self.devices(high, Some(1), state)
+    }
+
+    fn arg(&self, arg: &Arg, wide: bool, state: Option<&State>) -> Mask {
+        match *arg {
+            Arg::Device { place, extent } => {
+                let high = match wide {
+                    true => self.eval.words.high_word(place),
+                    false => place,
+                };
+                self.devices(place, extent, state) | self.devices(high, extent, state)
+            }
+            Arg::WordBit { place, bit, extent } => {
+                let words = extent.map(|bits| words_of_bits(bit, bits));
+                self.devices(place, words, state)
+            }
+            Arg::Nibbles { .. }
+            | Arg::Const { .. }
+            | Arg::Float(_)
+            | Arg::Text(_)
+            | Arg::Buffer { .. } => 0,
+        }
+    }
+
+    /// The tracked words among those from a place on.
+    fn devices(&self, place: Place, count: Option<u32>, state: Option<&State>) -> Mask {
+        use DeviceClass::{D, R, V, Z};
+        if !matches!(place.class, D | R | V | Z) {
+            return 0;
+        }
+        let words = &self.eval.words;
+        if place.index.is_none() && count == Some(1) {
+            return words.slot(place).map_or(0, |slot| 1 << slot);
+        }
+        let (first, last) = match (place.index, state) {
+            (None, _) => (place.number, place.number),
+            (Some(_), None) => (0, u32::MAX),
+            (Some(index), Some(state)) => {
+                let index = self.eval.value(state, index);
+                let to = |end: i32| {
+                    let number = i64::from(place.number) + i64::from(end);
+                    u32::try_from(number.max(0)).unwrap_or(u32::MAX)
+                };
+                (to(index.low), to(index.high))
+            }
+        };
+        let end = match count {
+            Some(count) => last.saturating_add(count.max(1) - 1),
+            None => u32::MAX,
+        };
+        // A run of ordinary registers does not go on in special ones.
+        let end = match place.class {
+            D if last < FIRST_SPECIAL => end.min(FIRST_SPECIAL - 1),
+            _ => end,
+        };
+        words.within(place.class, first, end)
+    }
+
+    /// One round over all functions.
+    fn round(&mut self) {
+        let functions: &'m [Function] = &self.eval.module.functions;
+        let mut between = self.known.between.clone();
+        between.may_become(self.eval.words.shared, Interval::WORD);
+        // `Begin`, `Main` and `End` follow each other. Nothing else is done in a scan, and in STOP `Begin` alone.
+        let begin = self.function(0, Some(between.clone()));
+        let main = self.function(1, begin.clone());
+        let end = self.function(2, main);
+        let mut ends = vec![begin, end];
+        for (i, function) in functions.iter().enumerate().skip(3) {
+            let by_host = matches!(
+                function.kind,
+                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
+            );
+            let called = self.known.entries[i].clone();
+            let entry = match by_host {
+                true => join(called, Some(between.clone())),
+                false => called,
+            };
+            let exit = self.function(i, entry);
+            if by_host {
+                ends.push(exit);
+            }
+        }
+        for end in ends.into_iter().flatten() {
+            self.next.between.join(&end.words_only());
+        }
+    }
+
+    /// Executes a function; what is known where it ends.
+    fn function(&mut self, i: usize, entry: Option<State>) -> Option<State> {
+        self.returns = None;
+        let body = &self.eval.module.functions[i].body;
+        let end = self.body(body, entry);
+        let exit = join(end, self.returns.take()).map(|exit| exit.words_only());
+        self.next.exits[i] = join(self.next.exits[i].take(), exit.clone());
+        exit
+    }
+
+    /// Executes statements; what is known behind them, `None` if nothing there is executed.
+    fn body(&mut self, body: &'m [Stmt], mut state: Option<State>) -> Option<State> {
+        let mut at = 0;
+        while let Some(stmt) = body.get(at) {
+            let before = state?;
+            let (after, next) = match *stmt {
+                Stmt::If { cond, .. } if self.is_due(stmt) => {
+                    let together = self.with_one_condition(cond, &body[at..]);
+                    let group = &body[at..at + together];
+                    (self.branches(cond, group, before), at + together)
+                }
+                _ => (self.stmt(stmt, before), at + 1),
+            };
+            state = after;
+            at = next;
+        }
+        state
+    }
+
+    /// Whether something is to be done about a statement in this round.
+    fn is_due(&self, stmt: &Stmt) -> bool {
+        let stmt: *const Stmt = stmt;
+        let asked = self.found.is_some() && self.indexes.contains(&stmt);
+        asked || self.matters.contains(&stmt)
+    }
+
+    /// How many of these statements, the first of which has a condition, may be executed as if they stood in one condition.
+    fn with_one_condition(&self, cond: ExprId, body: &[Stmt]) -> usize {
+        let Expr::Temp(temp) = *self.eval.module.expr(cond) else {
+            return 1;
+        };
+        let same = |stmt: &&Stmt| match stmt {
+            Stmt::If { cond, .. } if self.is_due(stmt) => {
+                *self.eval.module.expr(*cond) == Expr::Temp(temp)
+            }
+            stmt => !self.is_due(stmt),
+        };
+        let mut count = 0;
+        for stmt in body.iter().take_while(same) {
+            count += 1;
+            let mut reassigned = false;
+            statements(std::slice::from_ref(stmt), &mut |stmt| {
+                reassigned |= assigned(stmt) == Some(temp);
+            });
+            if reassigned {
+                break;
+            }
+        }
+        count.max(1)
+    }
+
+    /// Statements with one condition.
+    fn branches(&mut self, cond: ExprId, group: &'m [Stmt], state: State) -> Option<State> {
+        for stmt in group {
+            self.note(stmt, &state);
+        }
+        let mut ends = [true, false].map(|on| {
+            let mut state = self.eval.when(state.clone(), cond, on);
+            for stmt in group {
+                if let Stmt::If {
+                    then, otherwise, ..
+                } = stmt
+                    && self.is_due(stmt)
+                {
+                    state = self.body(if on { then } else { otherwise }, state);
+                }
+            }
+            state
+        });
+        join(ends[0].take(), ends[1].take())
+    }
+
+    fn stmt(&mut self, stmt: &'m Stmt, mut state: State) -> Option<State> {
+        if !self.is_due(stmt) {
+            return Some(state);
+        }
+        self.note(stmt, &state);
+        match *stmt {
+            Stmt::Let(temp, value) => {
+                let known = match self.eval.module.ty(value) {
+                    Ty::Bit => {
+                        let (words, temps) = self.eval.reads(value);
+                        let of_itself = temps & super::state::temp_bit(temp) != 0;
+                        let tells = (words, temps) != (0, 0) && !of_itself;
+                        tells.then_some(Known::Condition(value, words, temps))
+                    }
+                    Ty::F32 => None,
+                    _ => Some(Known::Value(self.eval.value(&state, value))),
+                };
+                state.set_temp(temp, known);
+            }
+            Stmt::WriteWord(place, value) => {
+                let value = self.eval.value(&state, value);
+                self.write(&mut state, place, value);
+            }
+            Stmt::WritePair(place, value) if place.index.is_none() => {
+                let value = self.eval.value(&state, value);
+                let (low, high) = words_of(value);
+                self.write(&mut state, place, low);
+                self.write(&mut state, self.eval.words.high_word(place), high);
+            }
+            Stmt::If { .. } => return Some(state),
+            Stmt::For { count, ref body } => return self.repeat(count, body, state),
+            Stmt::CallSub(n) => return self.call(n as usize, state),
+            Stmt::Return => {
+                self.returns = join(self.returns.take(), Some(state));
+                return None;
+            }
+            Stmt::Goto(label) => {
+                let mut labels = self.labels.iter_mut().rev();
+                if let Some((_, known)) = labels.find(|known| known.0 == label) {
+                    *known = join(known.take(), Some(state.words_only()));
+                }
+                return None;
+            }
+            Stmt::Parts(ref parts) => return self.parts(parts, &state),
+            Stmt::Clear { .. } => {
+                let all = self.writes_of(stmt, None);
+                state.may_become(all, Interval::of(0));
+            }
+            ref stmt => {
+                if let Some(temp) = assigned(stmt) {
+                    state.set_temp(temp, None);
+                }
+                let written = self.writes_of(stmt, Some(&state));
+                state.may_become(written, Interval::WORD);
+            }
+        }
+        Some(state)
+    }
+
+    fn write(&self, state: &mut State, place: Place, value: Interval) {
+        match self.eval.words.slot(place) {
+            Some(slot) => state.set(slot, value),
+            None => {
+                let written = self.devices(place, Some(1), Some(state));
+                state.may_become(written, value);
+            }
+        }
+    }
+
+    /// A subroutine leaves the words that it does not write as they are.
+    fn call(&mut self, n: usize, mut state: State) -> Option<State> {
+        let entry = &mut self.next.entries[n];
+        *entry = join(entry.take(), Some(state.words_only()));
+        let exit = self.known.exits[n].as_ref()?;
+        state.take(self.writes[n], exit);
+        Some(state)
+    }
+
+    /// A loop: round by round if these are few, else with what may be known at the begin of any round.
+    fn repeat(&mut self, count: ExprId, body: &'m Body, state: State) -> Option<State> {
+        let count = self.eval.value(&state, count);
+        let (least, most) = (count.low.max(1), count.high.max(1));
+        let mut size = 1;
+        statements(body, &mut |_| size += 1);
+        let room = self.unrolled / most as usize;
+        if size > room {
+            return self.any_round(body, state);
+        }
+        let outside = std::mem::replace(&mut self.unrolled, room);
+        let (mut now, mut end) = (Some(state), None);
+        for round in 1..=most {
+            let next = self.body(body, now.clone());
+            let settled = next == now;
+            if round >= least || settled {
+                end = join(end, next.clone());
+            }
+            if next.is_none() || settled {
+                break;
+            }
+            now = next;
+        }
+        self.unrolled = outside;
+        end
+    }
+
+    fn any_round(&mut self, body: &'m Body, mut entry: State) -> Option<State> {
+        for round in 0.. {
+            let end = self.body(body, Some(entry.clone()))?;
+            let mut next = entry.clone();
+            next.join(&end);
+            if next == entry {
+                return Some(end);
+            }
+            match round {
+                0..WIDENED => {}
+                WIDENED_WHOLLY.. => next.widen(&entry, &[]),
+                _ => next.widen(&entry, &self.thresholds),
+            }
+            entry = next;
+        }
+        None
+    }
+
+    fn parts(&mut self, parts: &'m [Part], state: &State) -> Option<State> {
+        let outside = self.labels.len();
+        let labels = parts.iter().filter_map(|part| part.label);
+        self.labels.extend(labels.map(|label| (label, None)));
+        let mut end = None;
+        for round in 0.. {
+            let before = self.labels[outside..].to_vec();
+            let mut flow = Some(state.clone());
+            for part in parts {
+                let mut labels = self.labels[outside..].iter();
+                let jumped = labels.find(|known| Some(known.0) == part.label);
+                let jumped = jumped.and_then(|known| known.1.clone());
+                flow = self.body(&part.body, join(flow, jumped));
+            }
+            end = flow;
+            let mut grown = false;
+            for ((_, after), (_, before)) in self.labels[outside..].iter_mut().zip(&before) {
+                grown |= after != before;
+                if let (Some(after), Some(before), WIDENED..) = (after, before, round) {
+                    let wholly = round >= WIDENED_WHOLLY;
+                    after.widen(before, if wholly { &[] } else { &self.thresholds });
+                }
+            }
+            if !grown {
+                break;
+            }
+        }
+        self.labels.truncate(outside);
+        end
+    }
+
+    /// Takes note of where indexes lie when a statement evaluates them.
+    fn note(&mut self, stmt: &Stmt, state: &State) {
+        let Some(found) = &mut self.found else {
+            return;
+        };
+        let mut open = Vec::new();
+        for_exprs(stmt, &mut |id| open.push(*id));
+        while let Some(id) = open.pop() {
+            let expr = self.eval.module.expr(id);
+            open.extend(operands(expr));
+            if let Expr::Within { value, .. } = *expr {
+                let value = self.eval.value(state, value);
+                let known = found.entry(id).or_insert(value);
+                *known = known.join(value);
+            }
+        }
+    }
+}
+
+/// The low and the high word of a 32-bit value.
+fn words_of(value: Interval) -> (Interval, Interval) {
+    let sign = Interval {
+        low: value.low >> 16,
+        high: value.high >> 16,
+    };
+    match value.meet(Interval::WORD) {
+        Some(same) if same == value => (value, sign),
+        _ => (Interval::WORD, sign),
+    }
+}

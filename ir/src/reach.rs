@@ -1,0 +1,195 @@
+//! Which devices an access may meet: the one rule that the layout, the validator and the passes share.
+//!
+//! A place without an index names one device, and what is accessed goes on from there. **An index leads to any device of the class that the
+//! model has**, general or special, whichever the program writes it behind ([`Expr::InRange`]); where it leads to none, the operand does not
+//! exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices together lie in one run ([`Model::runs`]): none
+//! goes on from the general devices in the special ones. How far an index may lead is known from [`Expr::Within`].
+
+use crate::model::Model;
+use crate::node::{Arg, Expr, Module, Place, Stmt};
+use crate::runs::{is_counter32, words_of_bits};
+use crate::walk::statements;
+use rungc_rt::RtFn;
+use rungc_syntax::DeviceClass;
+
+/// What an expression or a statement does with devices.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Access {
+    /// The first device.
+    pub place: Place,
+    /// How many; `None`: to the end of the run.
+    pub count: Option<u32>,
+    /// They are one unit that code by number finds only in an array: a group of bits, or what the runtime is handed.
+    pub in_array: bool,
+    /// It may write them.
+    pub writes: bool,
+}
+
+impl Access {
+    fn of(place: Place, writes: bool) -> Self {
+        Access {
+            place,
+            count: Some(1),
+            in_array: false,
+            writes,
+        }
+    }
+
+    fn run(place: Place, count: Option<u32>, writes: bool) -> Self {
+        Access {
+            place,
+            count,
+            in_array: count != Some(1),
+            writes,
+        }
+    }
+
+    /// The runs of devices that it may meet, as (first, last).
+    pub fn reach(&self, model: &Model, exprs: &[Expr]) -> Vec<(u32, u32)> {
+        let Place { class, number, .. } = self.place;
+        let (low, high) = match self.place.index.map(|index| &exprs[index.0 as usize]) {
+            None => (0, 0),
+            Some(&Expr::Within { low, high, .. }) => (low, high),
+            Some(&Expr::I32(index)) => (index, index),
+            Some(_) => (i32::MIN, i32::MAX),
+        };
+        let at = |by: i32| u32::try_from(i64::from(number) + i64::from(by)).unwrap_or(0);
+        if i64::from(number) + i64::from(high) < 0 {
+            return Vec::new();
+        }
+        let (low, high) = (at(low), at(high));
+        let from_run = |(first, last): (u32, u32)| {
+            let (low, high) = (first.max(low), last.min(high));
+            let end = match self.count {
+                Some(count) => high.saturating_add(count.max(1) - 1).min(last),
+                None => last,
+            };
+            (low <= high).then_some((low, end))
+        };
+        model.runs(class).into_iter().filter_map(from_run).collect()
+    }
+}
+
+/// The words of a pair, each by itself; that of Z is V and Z on some models.
+fn pair(model: &Model, place: Place, writes: bool, found: &mut impl FnMut(Access)) {
+    let with_v = place.class == DeviceClass::Z && model.z_pairs_with_v;
+    if place.index.is_some() {
+        return found(Access::run(place, Some(2), writes));
+    }
+    found(Access::of(place, writes));
+    if with_v {
+        let class = DeviceClass::V;
+        found(Access::of(Place { class, ..place }, writes));
+    } else if !is_counter32(place.class, place.number) {
+        let number = place.number + 1;
+        found(Access::of(Place { number, ..place }, writes));
+    }
+}
+
+/// What an expression itself reads.
+pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Access)) {
+    match *expr {
+        Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
+            found(Access::of(place, false));
+        }
+        Expr::ReadPair(place) | Expr::ReadFloat(place) => pair(model, place, false, found),
+        Expr::ReadNibbles { place, digits, .. } => {
+            found(Access::run(place, Some(4 * u32::from(digits)), false));
+        }
+        _ => {}
+    }
+}
+
+/// What a statement itself accesses besides what its expressions read. The runtime may write what it is handed.
+pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Access)) {
+    let fixed = |class, number| Place {
+        class,
+        number,
+        index: None,
+    };
+    match *stmt {
+        Stmt::WriteBit(place, _)
+        | Stmt::WriteWordBit(place, ..)
+        | Stmt::WriteWord(place, _)
+        | Stmt::TimerAt { place, .. }
+        | Stmt::Counter16At { place, .. }
+        | Stmt::Reset(place) => found(Access::of(place, true)),
+        Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => pair(model, place, true, found),
+        Stmt::WriteNibbles { place, digits, .. } => {
+            found(Access::run(place, Some(4 * u32::from(digits)), true));
+        }
+        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+            found(Access::of(fixed(DeviceClass::T, number), true));
+        }
+        Stmt::Counter16 { number, .. }
+        | Stmt::Counter32 { number, .. }
+        | Stmt::Count { number, .. } => {
+            found(Access::of(fixed(DeviceClass::C, number), true));
+        }
+        Stmt::Call {
+            function,
+            wide,
+            ref args,
+            ..
+        } => {
+            args.iter().for_each(|arg| of_arg(model, arg, wide, found));
+            // These save and restore all index registers, whether the program names them or not.
+            if matches!(function, RtFn::Zpush | RtFn::Zpop) {
+                for class in [DeviceClass::V, DeviceClass::Z] {
+                    found(Access::run(fixed(class, 0), None, true));
+                }
+            }
+        }
+        Stmt::Fetch { ref from, wide, .. } => of_arg(model, from, wide, found),
+        Stmt::Send { ref to, wide, .. } => of_arg(model, to, wide, found),
+        _ => {}
+    }
+}
+
+fn of_arg(model: &Model, arg: &Arg, wide: bool, found: &mut impl FnMut(Access)) {
+    match *arg {
+        Arg::Device { place, extent } => {
+            found(Access::run(place, extent, true));
+            if wide && place.class == DeviceClass::Z && model.z_pairs_with_v {
+                let class = DeviceClass::V;
+                found(Access::run(Place { class, ..place }, extent, true));
+            }
+        }
+        Arg::Nibbles { place, extent, .. } => found(Access::run(place, extent, true)),
+        Arg::WordBit { place, bit, extent } => {
+            let words = extent.map(|bits| words_of_bits(bit, bits));
+            found(Access::run(place, words, true));
+        }
+        Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
+    }
+}
+
+/// The devices of a class that indexes lead to, as runs (first, last) in order. They are all in arrays, but for those that are other
+/// names of index registers.
+pub fn by_index(module: &Module, class: DeviceClass) -> Vec<(u32, u32)> {
+    let mut runs = Vec::new();
+    let mut note = |access: Access| {
+        let index = access.place.index.map(|index| module.expr(index));
+        let leads = index.is_some_and(|index| !matches!(index, Expr::Stride(..)));
+        if leads && access.place.class == class {
+            runs.extend(access.reach(module.model, &module.exprs));
+        }
+    };
+    for expr in &module.exprs {
+        of_expr(module.model, expr, &mut note);
+    }
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            of_stmt(module.model, stmt, &mut note)
+        });
+    }
+    runs.sort_unstable();
+    let mut joined: Vec<(u32, u32)> = Vec::new();
+    for (first, last) in runs {
+        match joined.last_mut() {
+            Some(before) if first <= before.1 + 1 => before.1 = before.1.max(last),
+            _ => joined.push((first, last)),
+        }
+    }
+    joined
+}
