@@ -245,6 +245,42 @@ fn mutations_of_the_list_of_parts() {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Whatever a part of a project holds behind a head that can be read, it is read or told.
+    #[test]
+    fn any_parts(which in 0..7_usize, keep in 0..120_usize, noise in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let mut parts = simple("FX3U/FX3UC", TOKENS);
+        parts.push(Part {
+            name: "Global1.gh",
+            content: gh(&[("Start", "X10")]),
+        });
+        let part = &mut parts[which];
+        part.content.truncate(keep);
+        part.content.extend(&noise);
+        let read = survive(&project(&parts)).unwrap();
+        prop_assert!(!read.program.instrs.is_empty() || read.diagnostics.has_errors());
+    }
+}
+
+/// Lists with more parts than a project has are not searched one part for each other.
+#[test]
+fn projects_of_very_many_parts() {
+    let row = |i: usize| {
+        format!("<D_Projectdata><iID>{i}</iID><szName>P{i}.Program.pou</szName></D_Projectdata>")
+    };
+    let list: String = (0..20_000).map(row).collect();
+    let bytes = with_list(
+        format!("<a>{list}</a>").as_bytes(),
+        &simple("FX3U/FX3UC", TOKENS),
+    );
+    let start = std::time::Instant::now();
+    let read = survive(&bytes).unwrap();
+    assert!(read.diagnostics.iter().any(|found| found.code == "W0522"));
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+}
+
 /// Many streams that share all their sectors: a file of a few hundred kilobytes that stands for gigabytes.
 #[test]
 fn streams_that_share_sectors_are_not_read_twice() {

@@ -1,9 +1,9 @@
 //! A compound file and the list of its streams. In a GX Works2 project the outer file holds the list and, as one stream, an inner
 //! file, whose streams have numbers for names.
 
-use crate::gx::MAX_DATA;
 use cfb::CompoundFile;
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::io::{Cursor, Read as _};
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ impl<'b> Container<'b> {
     pub fn open(bytes: &'b [u8]) -> Option<Self> {
         Some(Container {
             file: RefCell::new(CompoundFile::open(Cursor::new(bytes)).ok()?),
-            left: Cell::new(bytes.len().min(MAX_DATA)),
+            left: Cell::new(bytes.len()),
         })
     }
 
@@ -61,13 +61,18 @@ pub(super) struct Row {
     pub folder: String,
 }
 
+/// A list over this size is no project's, in bytes: a hundred parts take 60 kilobytes.
+const MAX_LIST: usize = 4 << 20;
+
 /// The rows of `projectdatalist.xml`; nothing if it cannot be read.
 pub(super) fn rows(list: &[u8]) -> Option<Vec<Row>> {
+    let list = Some(list).filter(|list| list.len() <= MAX_LIST)?;
     let (text, _) = crate::encoding::decode(list, None)?;
     let document = roxmltree::Document::parse(text.trim_start_matches('\u{FEFF}')).ok()?;
     let rows = document
         .descendants()
         .filter(|node| node.has_tag_name("D_Projectdata"));
+    let mut known = BTreeSet::new();
     let rows: Vec<Row> = rows
         .filter_map(|row| {
             let field = |name| {
@@ -80,6 +85,7 @@ pub(super) fn rows(list: &[u8]) -> Option<Vec<Row>> {
                 folder: field("uiFolderNo").unwrap_or_default(),
             })
         })
+        .filter(|row| known.insert(row.id.clone()))
         .collect();
     (!rows.is_empty()).then_some(rows)
 }

@@ -13,7 +13,7 @@ mod recovery;
 
 use super::program::{self, Code};
 use super::tokens::{self, Bare, Token};
-use super::{comments, cpu, damaged_part, no_program, parameters};
+use super::{MAX_DATA, comments, cpu, damaged_part, no_program, parameters};
 use crate::text::clean;
 use crate::{Read, ReadOptions, encoding};
 use container::{Container, Row};
@@ -40,7 +40,7 @@ pub(crate) fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
     let rows = list.as_deref().and_then(container::rows);
     let mut read = match (&inner, &rows) {
         (Some(inner), Some(rows)) => Works::open(inner, rows, options)
-            .read(name)
+            .and_then(|works| works.read(name))
             .unwrap_or_else(|why| recovered(name, bytes, &data, options, &why)),
         _ => recovered(
             name,
@@ -122,32 +122,37 @@ struct Works<'o> {
 type Source<'w> = (&'w Part, Pou);
 
 impl<'o> Works<'o> {
-    fn open(inner: &Container, rows: &[Row], options: &'o ReadOptions) -> Self {
-        let parts = |ending: &str| -> Vec<Part> {
-            let wanted = rows.iter().filter(|row| ends_with(&row.name, ending));
-            wanted
-                .filter_map(|row| {
-                    Some(Part {
-                        name: row.name.clone(),
-                        folder: row.folder.clone(),
-                        bytes: inner.stream(&row.id)?,
-                    })
+    /// Takes the parts that say what the program is; says why not, if these are more than a project has.
+    fn open(inner: &Container, rows: &[Row], options: &'o ReadOptions) -> Result<Self, String> {
+        let parts = |ending: &str| -> Result<Vec<Part>, String> {
+            let wanted = || rows.iter().filter(|row| ends_with(&row.name, ending));
+            if wanted().nth(MAX_PARTS).is_some() {
+                return Err(format!(
+                    "the project lists more than {MAX_PARTS} parts `*{ending}`"
+                ));
+            }
+            let part = |row: &Row| {
+                Some(Part {
+                    name: row.name.clone(),
+                    folder: row.folder.clone(),
+                    bytes: inner.stream(&row.id)?,
                 })
-                .collect()
+            };
+            Ok(wanted().filter_map(part).collect())
         };
-        let project = parts(".prj");
-        let mut labels = parts(".gh");
-        labels.extend(parts(".lh"));
-        Works {
+        let project = parts(".prj")?;
+        let mut labels = parts(".gh")?;
+        labels.extend(parts(".lh")?);
+        Ok(Works {
             options,
             project: project.iter().find_map(|part| Project::read(&part.bytes)),
-            sources: parts(".pou"),
-            compiled: parts(".res"),
-            tasks: parts(".tsk"),
+            sources: parts(".pou")?,
+            compiled: parts(".res")?,
+            tasks: parts(".tsk")?,
             labels,
-            comments: parts("COMMENT.qcd").pop(),
-            parameters: parts("Param.wpa").pop(),
-        }
+            comments: parts("COMMENT.qcd")?.pop(),
+            parameters: parts("Param.wpa")?.pop(),
+        })
     }
 
     /// Reads the program; says why not, if no part of the project that can be read holds one.
@@ -194,9 +199,12 @@ impl<'o> Works<'o> {
             .or(self.compiled.first())
             .ok_or("the project names no program file")?;
         let others = self.compiled.iter().filter(|part| part.name != first.name);
-        let others: Vec<_> = others.map(|part| format!("`{}`", part.stem())).collect();
+        let others: Vec<_> = others.map(Part::stem).collect();
         if !others.is_empty() {
-            let message = format!("program files that are left out: {}", others.join(", "));
+            let message = format!(
+                "program files that are left out: {}",
+                listed(&others, NAMED)
+            );
             found.push(
                 codes::PROGRAM_NOT_RUN
                     .at(Span::default(), message)
@@ -308,6 +316,9 @@ impl<'o> Works<'o> {
         if pous.is_empty() {
             return Err("no task says what the program is made of".to_owned());
         }
+        if pous.len() > MAX_PARTS {
+            return Err(format!("the tasks name more than {MAX_PARTS} POUs"));
+        }
         let source = |pou: &String| {
             let mut parts = self.sources.iter();
             let part = parts.find(|part| part.stem().eq_ignore_ascii_case(pou));
@@ -319,7 +330,7 @@ impl<'o> Works<'o> {
 
     /// Reads tokens of a part.
     fn tokens(&self, name: &str, part: &Part, start: usize, end: usize) -> Read {
-        let bytes = &part.bytes[..end];
+        let bytes = &part.bytes[..end.min(start + MAX_DATA)];
         let chains = program::chains(bytes);
         let code = Code::new(bytes, start, &chains);
         let project = self.project.as_ref();
@@ -341,7 +352,7 @@ impl<'o> Works<'o> {
         if sources.iter().all(plain) {
             let missing = sources.iter().find(|(part, pou)| {
                 let source = without_end(&part.bytes[pou.start..pou.end]);
-                !source.is_empty() && !code.windows(source.len()).any(|window| window == source)
+                memmem::find(code, source).is_none()
             });
             return match missing {
                 Some((part, _)) => {
@@ -382,33 +393,42 @@ impl<'o> Works<'o> {
     /// Names the POUs that are neither run by a task nor named by another POU.
     fn name_unused(&self, found: &mut Diagnostics) {
         let tasks = self.tasks.iter().filter_map(|part| Task::read(&part.bytes));
-        let run: Vec<_> = tasks.flat_map(|task| task.pous).collect();
-        let texts = || self.sources.iter().chain(&self.labels);
-        let used = |part: &Part| {
-            let name = part.stem();
-            let wide: Vec<u8> = name.encode_utf16().flat_map(u16::to_le_bytes).collect();
-            run.iter().any(|pou| pou.eq_ignore_ascii_case(name))
-                || texts().any(|other| {
-                    other.stem() != name && memmem::find(&other.bytes, &wide).is_some()
-                })
-        };
-        let unused: Vec<_> = self
-            .sources
-            .iter()
-            .filter(|part| !used(part))
-            .map(|part| format!("`{}`", part.stem()))
+        let run: BTreeSet<_> = tasks
+            .flat_map(|task| task.pous)
+            .map(|pou| pou.to_lowercase())
             .collect();
+        let is_run = |part: &&Part| run.contains(&part.stem().to_lowercase());
+        let others: Vec<&Part> = self.sources.iter().filter(|part| !is_run(part)).collect();
+        let named = self.named(&others);
+        let unused = others.iter().filter(|part| !named.contains(part.stem()));
+        let unused: Vec<_> = unused.map(|part| part.stem()).collect();
         if !unused.is_empty() {
             found.push(
                 codes::POU_NOT_RUN
                     .at(
                         Span::default(),
-                        format!("no task runs {}", unused.join(", ")),
+                        format!("no task runs {}", listed(&unused, NAMED)),
                     )
                     .label("what the tasks run begins here")
                     .help("add them to a task in GX Works2, if they are part of the program"),
             );
         }
+    }
+
+    /// Which of these POUs the text or the labels of another POU name.
+    fn named(&self, pous: &[&Part]) -> BTreeSet<String> {
+        let names: BTreeSet<&str> = pous.iter().map(|part| part.stem()).collect();
+        let mut named = BTreeSet::new();
+        for part in self.sources.iter().chain(&self.labels) {
+            // Texts in UTF-16 begin at even and at odd offsets.
+            for bytes in [&part.bytes[..], part.bytes.get(1..).unwrap_or_default()] {
+                let (text, _) = UTF_16LE.decode_without_bom_handling(bytes);
+                let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+                let others = words.filter(|word| *word != part.stem() && names.contains(word));
+                named.extend(others.map(str::to_owned));
+            }
+        }
+        named
     }
 
     /// Adds the device comments.
@@ -428,6 +448,20 @@ impl<'o> Works<'o> {
 
 /// How many devices a message names.
 const SHOWN: usize = 5;
+/// How many POUs a message names.
+const NAMED: usize = 20;
+/// More parts of one kind than any project for an FX-family PLC has.
+const MAX_PARTS: usize = 1000;
+
+/// The first `limit` of some names, and how many more there are.
+fn listed(names: &[&str], limit: usize) -> String {
+    let shown = names.iter().take(limit).map(|name| format!("`{name}`"));
+    let shown = shown.collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(limit) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
 
 /// How old a compiled program is.
 enum Age {

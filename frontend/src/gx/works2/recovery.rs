@@ -1,13 +1,14 @@
 //! Finding a program by its bytes, where the project does not say which stream holds it.
 
 use crate::gx::program::{self, Chain, Code};
-use crate::gx::tokens;
+use crate::gx::{MAX_DATA, tokens};
 use crate::{Read, ReadOptions};
 
 /// Reads the longest program of these streams, if there is one. The editor keeps a copy of the program: the longest is the one without damage. Of
 /// equals, the first.
 pub(super) fn read(name: &str, streams: &[Vec<u8>], options: &ReadOptions) -> Option<Read> {
     let programs = streams.iter().filter_map(|stream| {
+        let stream = stream.get(..MAX_DATA).unwrap_or(stream);
         let chains = program::chains(stream);
         let start = chains.iter().position(|chain| chain.is_program())?;
         let start = stated_start(stream, start, &chains).unwrap_or(start);
