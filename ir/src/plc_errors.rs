@@ -182,6 +182,18 @@ pub const PLC_ERRORS: &[PlcError] = &[
         SKIPPED,
         "Use an input that the instruction can watch.",
     ),
+    row(
+        6764,
+        "a pulse output is already in use",
+        "On FX: two instructions send pulses at one output at the same time. The later one is skipped and the scan goes on.",
+        "Drive them one after the other: wait for M8029 or for the output to be free.",
+    ),
+    row(
+        6770,
+        "a pulse output is already in use",
+        "On H1U and H2U: two instructions send pulses at one output at the same time. The later one is skipped and the scan goes on.",
+        "Drive them one after the other: wait for M8029 or for the output to be free.",
+    ),
 ];
 
 /// The page of a code.

@@ -1,8 +1,8 @@
 //! Jumps and calls: their labels exist once, and lead where they may.
 
-use super::Code;
 use super::pointers::{Pointer, Pointers};
 use super::structure::{NONE, Places, Routine};
+use super::{Basic, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Operand, OperandKind, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -234,12 +234,21 @@ impl Calls {
             let (Some(&first), Some(&beyond)) = (chain.first(), chain.get(max as usize)) else {
                 continue;
             };
-            let message = format!(
-                "calls nest {depth} deep, but {} allows {max}",
-                code.model().name
-            );
-            let diagnostic = codes::DEEP_CALL
-                .at(code.span(beyond), message)
+            let name = code.model().name;
+            let always = chain.iter().all(|&call| is_always_made(code, call));
+            let diagnostic = match always {
+                true => codes::DEEP_CALL.at(
+                    code.span(beyond),
+                    format!("calls nest {depth} deep, but {name} allows {max}"),
+                ),
+                false => codes::MAY_CALL_DEEP
+                    .at(
+                        code.span(beyond),
+                        format!("calls may nest {depth} deep, but {name} allows {max}"),
+                    )
+                    .help("a call that is too deep is not carried out; it reports 6702 when it is reached"),
+            };
+            let diagnostic = diagnostic
                 .label("one call too many")
                 .other(code.span(first), "the chain begins here");
             out.push(diagnostic);
@@ -292,6 +301,16 @@ impl Calls {
         }
         chain
     }
+}
+
+/// Whether each run of its routine makes a call: M8000 alone drives it, and nothing jumps.
+fn is_always_made(code: &Code, call: usize) -> bool {
+    let jumps = (0..code.len).any(|i| code.basic(i) == Some(Basic::Cj));
+    let drive = call.checked_sub(1).filter(|&i| {
+        let always = code.device(i, 0).map(|device| device.to_string());
+        code.basic(i) == Some(Basic::Ld) && always.as_deref() == Some("M8000")
+    });
+    !jumps && drive.is_some() && !code.resolved.instrs[call].form.pulse
 }
 
 fn recursion(code: &Code, call: usize, called: Routine) -> rungc_syntax::Diagnostic {

@@ -4,7 +4,7 @@ use super::operand::Guards;
 use super::parts::{Item, Jump, structure};
 use super::{Lowerer, basic_of};
 use crate::catalogue::{Basic, CmpOp};
-use crate::node::{Body, Expr, ExprId, FunctionKind, Stmt, TempId};
+use crate::node::{BinOp, Body, CellId, Expr, ExprId, FunctionKind, Stmt, TempId};
 use crate::resolve::Resolved;
 use rungc_syntax::{DeviceClass, Index, OperandKind, codes};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -44,6 +44,8 @@ pub(super) struct Flow {
     subroutines: FxHashMap<u32, usize>,
     /// Calls that would be recursive: (region of the call, region called).
     recursive: FxHashSet<(usize, usize)>,
+    /// How many calls are open, where they may nest deeper than the model allows.
+    open_calls: Option<CellId>,
     /// Pointers that a jump goes to.
     jumped_to: FxHashSet<u32>,
     /// The pointers that stand in the function at hand.
@@ -109,6 +111,7 @@ impl Flow {
             }],
             subroutines: FxHashMap::default(),
             recursive: FxHashSet::default(),
+            open_calls: None,
             jumped_to,
             labels: Vec::new(),
             current: 0,
@@ -264,6 +267,33 @@ impl Flow {
         }
     }
 
+    /// How deep calls may nest: the longest chain of calls that begins in each region.
+    fn depths(&self, resolved: &Resolved) -> Vec<u32> {
+        let mut calls: Vec<Vec<usize>> = Vec::with_capacity(self.regions.len());
+        for (i, region) in self.regions.iter().enumerate() {
+            let mut made = self.calls(resolved, region);
+            made.retain(|&callee| !self.recursive.contains(&(i, callee)));
+            calls.push(made);
+        }
+        let mut depths = vec![0; calls.len()];
+        // What is known spreads by a level of calls in each round; without recursive calls it comes to an end.
+        loop {
+            let next: Vec<u32> = calls
+                .iter()
+                .map(|made| {
+                    made.iter()
+                        .map(|&callee| depths[callee] + 1)
+                        .max()
+                        .unwrap_or(0)
+                })
+                .collect();
+            if next == depths {
+                return depths;
+            }
+            depths = next;
+        }
+    }
+
     /// The regions that a region calls.
     fn calls(&self, resolved: &Resolved, region: &Region) -> Vec<usize> {
         let mut calls: Vec<usize> = self
@@ -312,6 +342,15 @@ fn pointer_index(resolved: &Resolved, i: usize) -> Option<Index> {
 }
 
 impl Lowerer<'_> {
+    /// Counts open calls if they may nest deeper than the model allows.
+    pub(super) fn limit_calls(&mut self) {
+        let depths = self.flow.depths(self.resolved);
+        if depths.into_iter().any(|depth| depth > self.model.max_call) {
+            let cell = self.cell("open_calls".to_string(), "how deep calls are nested");
+            self.flow.open_calls = Some(cell);
+        }
+    }
+
     /// Lowers a function.
     pub(super) fn region(&mut self, index: usize) -> Body {
         let region = self.flow.regions[index].clone();
@@ -347,6 +386,11 @@ impl Lowerer<'_> {
         }
         if body.last() == Some(&Stmt::Return) {
             body.pop();
+        }
+        // A scan that the watchdog cut short left calls open.
+        if let Some(open) = self.flow.open_calls.filter(|_| index == 0) {
+            let none = self.add(Expr::I32(0));
+            body.insert(0, Stmt::SetCell(open, none));
         }
         let prologue = std::mem::take(&mut self.flow.prologue);
         if !prologue.is_empty() {
@@ -541,15 +585,29 @@ impl Lowerer<'_> {
         let Some(&callee) = self.flow.subroutines.get(&pointer) else {
             return;
         };
-        let stmt = if self.flow.recursive.contains(&(self.flow.current, callee)) {
-            Stmt::Fault {
-                code: CALL_DEPTH,
-                step: self.step(),
-            }
-        } else {
-            Stmt::CallSub(self.flow.regions[callee].function)
+        let too_deep = Stmt::Fault {
+            code: CALL_DEPTH,
+            step: self.step(),
         };
-        self.emit(stmt);
+        let call = Stmt::CallSub(self.flow.regions[callee].function);
+        if self.flow.recursive.contains(&(self.flow.current, callee)) {
+            self.emit(too_deep);
+        } else if let Some(open) = self.flow.open_calls {
+            let now = self.add(Expr::Cell(open));
+            let most = self.add(Expr::I32(self.model.max_call as i32));
+            let one = self.add(Expr::I32(1));
+            let cond = self.add(Expr::Cmp(CmpOp::Lt, now, most));
+            let deeper = self.add(Expr::Bin(BinOp::Add, now, one));
+            let back = self.add(Expr::Bin(BinOp::Sub, now, one));
+            let then = vec![Stmt::SetCell(open, deeper), call, Stmt::SetCell(open, back)];
+            self.emit(Stmt::If {
+                cond,
+                then,
+                otherwise: vec![too_deep],
+            });
+        } else {
+            self.emit(call);
+        }
     }
 
     /// FEND, END, SRET, IRET: the function ends here.

@@ -228,6 +228,7 @@ impl<'a> Lowerer<'a> {
         self.limit_comparisons();
         self.find_exclusive();
         self.find_interrupts();
+        self.limit_calls();
         for region in 0..self.flow.regions.len() {
             let body = self.region(region);
             let function = self.flow.regions[region].function as usize;

@@ -40,7 +40,13 @@ super::codes! {
 
     DEEP_CALL = "E0437" "deep-call" Error Some(6702),
     "calls nested too deep",
-    "Calls nest five deep on most models (eight on HM).",
+    "Calls nest five deep on most models (eight on HM). These calls are made in every scan, so the PLC reports the error in every scan.",
+    wrong: "LD M8000\nCALL P1\nFEND\nP1\nLD M8000\nCALL P2\nSRET\nP2\nLD M8000\nCALL P3\nSRET\nP3\nLD M8000\nCALL P4\nSRET\nP4\nLD M8000\nCALL P5\nSRET\nP5\nLD M8000\nCALL P6\nSRET\nP6\nLD X0\nOUT Y0\nSRET\nEND\n",
+    right: "LD X0\nCALL P1\nFEND\nP1\nLD X0\nCALL P2\nSRET\nP2\nLD X0\nOUT Y0\nSRET\nEND\n";
+
+    MAY_CALL_DEEP = "W0510" "may-call-deep" Warning Some(6702),
+    "calls that may nest too deep",
+    "Calls nest five deep on most models (eight on HM). Whether these do depends on their conditions: when all of them are on at once, the call beyond the limit is not carried out and reports 6702.",
     wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X0\nCALL P2\nSRET\nP2\nLD X0\nCALL P3\nSRET\nP3\nLD X0\nCALL P4\nSRET\nP4\nLD X0\nCALL P5\nSRET\nP5\nLD X0\nCALL P6\nSRET\nP6\nLD X0\nOUT Y0\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nFEND\nP1\nLD X0\nCALL P2\nSRET\nP2\nLD X0\nOUT Y0\nSRET\nEND\n";
 
