@@ -342,7 +342,8 @@ impl Walk<'_, '_> {
             let diagnostic = codes::DEEP_FOR
                 .at(self.code.span(i), message)
                 .label("one too many")
-                .other(self.code.span(outermost), "the outermost loop");
+                .other(self.code.span(outermost), "the outermost loop")
+                .help("do the work of the inner loops in one loop");
             self.report(diagnostic);
         }
     }
@@ -698,5 +699,9 @@ fn not_inside(code: &Code, outer: &Open, inner: &Open, plc_error: u16) -> Diagno
         )
         .label(format!("this {within}"))
         .other(code.span(outer.at), format!("lies in this {outside}"))
+        .help(format!(
+            "end the {outside} with {} before it, or move the {within} out",
+            outer.kind.end()
+        ))
         .plc_error(plc_error)
 }

@@ -93,7 +93,10 @@ pub(super) fn broken(
         Rule::ClassLike(other) => {
             let other = operands.get(other)?;
             let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
-            differ.then(|| disagree(operand, other, "must be of the same class as"))
+            differ.then(|| {
+                disagree(operand, other, "must be of the same class as")
+                    .help("name the first and the last device of one class")
+            })
         }
     })
 }

@@ -318,8 +318,13 @@ fn similar(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant
         [] => last.clone(),
         before => format!("{} or {last}", before.join(", ")),
     };
+    let comparison = format!("{name}=");
+    let compared = match catalogue::find(&comparison).filter(|_| !names.contains(&comparison)) {
+        Some(_) => format!(" (a comparison is `{comparison}`)"),
+        None => String::new(),
+    };
     Some(Meant {
-        help: format!("did you mean {names}?"),
+        help: format!("did you mean {names}?{compared}"),
         found: match fitting.as_slice() {
             &[(_, _, found)] => Some(found),
             _ => None,
