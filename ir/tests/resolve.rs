@@ -3,6 +3,7 @@
 use rungc_frontend::read_text;
 use rungc_ir::model::{Model, ModelId};
 use rungc_ir::resolve::resolve;
+use rungc_syntax::{SourceKind, codes};
 
 /// The step numbers of a program on a model, and its length.
 fn steps(model: ModelId, text: &str) -> (Vec<u32>, u32) {
@@ -60,4 +61,55 @@ fn labels_are_known() {
         .map(|instr| instr.label.map(|label| label.number))
         .collect();
     assert_eq!(labels, [None, None, Some(1), None]);
+}
+
+/// A project on FX2N whose codes state these steps, from instruction to instruction.
+fn misfits(text: &str, cpu: &str, target: ModelId) -> Vec<String> {
+    let mut read = read_text("test", text);
+    read.program.kind = SourceKind::GxWorks2;
+    read.program.cpu = Some(cpu.to_owned());
+    let (_, diagnostics) = resolve(&read.program, Model::get(target));
+    let misfits = diagnostics
+        .iter()
+        .filter(|d| d.code == codes::CODE_MISFIT.id);
+    assert!(diagnostics.iter().all(|d| d.code != codes::STEPS_DIFFER.id));
+    misfits.map(|d| d.message.clone()).collect()
+}
+
+#[test]
+fn lengths_of_projects_are_those_of_their_cpu() {
+    let right = "0 LD X0\n1 MOV K1 D0\n6 DMOV K1 D0\n15 END\n";
+    for target in ModelId::ALL {
+        assert_eq!(misfits(right, "FX2N/FX2NC", target), [""; 0], "{target:?}");
+    }
+    let wrong = "0 LD X0\n1 MOV K1 D0\n10 DMOV K1 D0\n15 END\n";
+    let found = misfits(wrong, "FX2N/FX2NC", ModelId::Hm);
+    let [mov, dmov] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert!(
+        mov.contains("states 9 steps for `MOV`, which has 5"),
+        "{mov}"
+    );
+    assert!(
+        dmov.contains("states 5 steps for `DMOV`, which has 9"),
+        "{dmov}"
+    );
+}
+
+#[test]
+fn a_text_makes_an_instruction_longer() {
+    let long = "0 LD X0\n1 $MOV \"ABCDEF\" D0\n10 END\n";
+    assert_eq!(misfits(long, "FX3U/FX3UC", ModelId::Fx3u), [""; 0]);
+    let odd = "0 LD X0\n1 $MOV \"ABCDEF\" D0\n9 END\n";
+    assert_eq!(misfits(odd, "FX3U/FX3UC", ModelId::Fx3u).len(), 1);
+}
+
+#[test]
+fn instructions_that_are_not_read_hide_no_length() {
+    let mut read = read_text("test", "0 LD X0\n10 OUT Y0\n11 END\n");
+    read.program.kind = SourceKind::GxDeveloper;
+    read.program.unread = vec![1];
+    let (_, diagnostics) = resolve(&read.program, Model::get(ModelId::Fx3u));
+    assert!(diagnostics.is_empty(), "{diagnostics:?}");
 }

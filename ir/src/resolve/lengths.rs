@@ -9,13 +9,18 @@ pub(super) struct Checker<'p> {
     program: &'p Program,
     /// The model that the project was made for, by whose lengths it goes whatever it is compiled for.
     model: &'static Model,
+    /// The model that it is compiled for, which may have instructions that the other has not.
+    target: &'static Model,
 }
 
 impl<'p> Checker<'p> {
     pub(super) fn new(program: &'p Program, target: &'static Model) -> Self {
-        let named = program.cpu.as_deref().and_then(ModelId::from_cpu);
-        let model = named.map_or(target, Model::get);
-        Checker { program, model }
+        let named = program.cpu.as_deref().and_then(ModelId::for_cpu);
+        Checker {
+            program,
+            model: named.map_or(target, |(id, _)| Model::get(id)),
+            target,
+        }
     }
 
     /// Reports an instruction, the one at `at`, whose code states another length than it has with its operands.
@@ -29,19 +34,23 @@ impl<'p> Checker<'p> {
         let Some(stated) = self.stated(at) else {
             return;
         };
-        let length = found.inst.steps_of(found.form, operands, self.model);
+        let model = match found.inst.models.has(self.model.id) {
+            true => self.model,
+            false => self.target,
+        };
+        let length = found.inst.steps_of(found.form, operands, model);
         // A text is part of the instruction: two steps for every two characters, those of a register included in its length.
         let text = operands
             .iter()
             .any(|operand| matches!(operand.kind, OperandKind::Text(_)));
         let grown = text && stated > length && (stated - length).is_multiple_of(2);
-        if stated == length || grown || !found.inst.models.has(self.model.id) {
+        if stated == length || grown {
             return;
         }
         let instr = &self.program.instrs[at];
         let message = format!(
             "the project states {stated} steps for `{}`, which has {length} with these operands on {}",
-            instr.mnemonic, self.model.name
+            instr.mnemonic, model.name
         );
         out.push(
             codes::CODE_MISFIT
