@@ -2,7 +2,8 @@
 
 use crate::operands::{BUFFER_WORDS, Candidate, accepted};
 use crate::rng::Rng;
-use rungc_ir::ModelId;
+use rungc_ir::{Model, ModelId, catalogue};
+use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
 /// Makes one program.
@@ -80,7 +81,9 @@ impl Writer<'_> {
         for mask in masks {
             self.line(format!("RST M{mask}"));
         }
-        all.into_iter().filter(|_| self.rng.percent(60)).collect()
+        let model = Model::get(self.model);
+        let drawn = all.into_iter().filter(|_| self.rng.percent(60));
+        drawn.filter(|&n| model.has(DeviceClass::I, n)).collect()
     }
 
     /// A counter of the first inputs, sometimes, with comparisons at the count and a table.
@@ -99,14 +102,14 @@ impl Writer<'_> {
         let preset = self.rng.below(5);
         self.line(format!("OUT C{counter} K{preset}"));
         for compare in ["DHSCS K2", "DHSCR K4", "DHSZ K1 K3"] {
-            if self.rng.percent(60) {
+            if self.rng.percent(60) && self.knows(compare) {
                 self.logic(1);
                 let bit = ["Y000", "M10", "S20"][self.rng.below(3) as usize];
                 let zone = if hm { " K0" } else { "" };
                 self.line(format!("{compare} C{counter} {bit}{zone}"));
             }
         }
-        if self.rng.percent(50) {
+        if self.rng.percent(50) && self.knows("DHSZ") {
             self.logic(1);
             self.line(if hm {
                 format!("DHSCT D1000 K3 C{counter} M16 K6")
@@ -114,6 +117,12 @@ impl Writer<'_> {
                 format!("DHSZ D0 K3 C{counter} M8130")
             });
         }
+    }
+
+    /// Whether the model has the instruction that a line begins with.
+    fn knows(&self, line: &str) -> bool {
+        let found = line.split(' ').next().and_then(catalogue::find);
+        found.is_some_and(|found| found.inst.models.has(self.model))
     }
 
     fn label(&mut self) -> u32 {
@@ -296,7 +305,8 @@ impl Writer<'_> {
                 0 => format!("K{}", self.rng.value(16)),
                 _ => self.word(!wide.is_empty()),
             };
-            return format!("{join}{wide}{operator} {left} {right}");
+            let contact = format!("{join}{wide}{operator} {left} {right}");
+            return self.on_model(contact, join);
         }
         let bit = self.bit();
         let bit = self.indexed(bit);
@@ -312,7 +322,15 @@ impl Writer<'_> {
             ("OR", 3) => "ORF",
             (join, _) => join,
         };
-        format!("{verb} {bit}")
+        self.on_model(format!("{verb} {bit}"), join)
+    }
+
+    /// A contact, or another one where the model lacks one of its devices.
+    fn on_model(&self, contact: String, join: &str) -> String {
+        match accepted(&contact, self.model) {
+            true => contact,
+            false => format!("{join} M0"),
+        }
     }
 
     fn word(&mut self, wide: bool) -> String {
@@ -345,7 +363,7 @@ impl Writer<'_> {
     fn coil(&mut self) -> String {
         let n = self.rng.below(16);
         match self.rng.below(3) {
-            0 => format!("OUT Y{n:03o}"),
+            0 if Model::get(self.model).has(DeviceClass::Y, n) => format!("OUT Y{n:03o}"),
             _ => format!("OUT M{n}"),
         }
     }

@@ -133,6 +133,17 @@ pub struct Timers {
     pub kind: TimerKind,
 }
 
+/// Timers that count shorter units while a relay is on.
+#[derive(Clone, Debug)]
+pub struct FastTimers {
+    /// The special relay.
+    pub relay: u32,
+    /// Their numbers.
+    pub numbers: std::ops::RangeInclusive<u32>,
+    /// Their unit while it is on, in milliseconds.
+    pub unit_ms: u16,
+}
+
 /// All that is known of a model.
 #[derive(Debug)]
 pub struct Model {
@@ -153,6 +164,8 @@ pub struct Model {
     pub ranges: &'static [Range],
     /// Its timers, sorted, disjoint; they cover the ranges of class T.
     pub timers: &'static [Timers],
+    /// Those of them whose unit a relay changes.
+    pub fast_timers: Option<&'static FastTimers>,
     /// Devices of which the project's parameters choose the latched ones: class, first and last number. What `ranges` says of them
     /// is the factory setting.
     pub latch_choices: &'static [(DeviceClass, u32, u32)],
@@ -364,6 +377,13 @@ impl Timers {
         Timers { kind, ..self }
     }
 }
+
+/// M8028 of FX1S and FX3S: T32 to T62 count 10 ms (FX1S/FX1N/FX2N programming manual II §4.7, FX3 programming manual §4.5).
+const M8028: &FastTimers = &FastTimers {
+    relay: 8028,
+    numbers: 32..=62,
+    unit_ms: 10,
+};
 
 /// D8028, D8029 and D8182–D8195: other names of Z0, V0, Z1, V1, … Z7, V7 (h1u-h2u-programming §3.8).
 const INDEX_ALIASES: &[(u32, DeviceClass, u32)] = &{

@@ -255,10 +255,6 @@ const INTERRUPTS: Reason = because(
     Missed::Never,
     "interrupts of this kind are not implemented yet",
 );
-const UNITS: Reason = because(
-    Missed::ByWriters,
-    "these timers always count units of 100 ms here",
-);
 const NETWORK: Reason = because(Missed::ByAll, "network cards are not implemented");
 const RAW: Reason = because(
     Missed::ByWriters,

@@ -6,6 +6,7 @@ use crate::catalogue::{Basic, CmpOp};
 use crate::high_speed;
 use crate::node::{EdgeKind, Expr, ExprId, Stmt};
 use crate::runs::FIRST_COUNTER32;
+use rungc_rt::TimerKind;
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind};
 
 /// Special relay that gives the direction of C200; the others follow.
@@ -48,12 +49,30 @@ impl Lowerer<'_> {
             self.free_running.insert(number, kind);
         }
         let drive = self.drive();
+        let fast = self.model.fast_timers;
+        let fast = fast.filter(|fast| fast.numbers.contains(&number));
+        let fast = fast.filter(|fast| self.specials.has(DeviceClass::M, fast.relay));
         self.with_preset(false, Guards::default(), |this, preset| {
-            this.emit(Stmt::Timer {
+            let Some(fast) = fast else {
+                return this.emit(Stmt::Timer {
+                    number,
+                    kind,
+                    drive,
+                    preset,
+                });
+            };
+            let (drive, preset) = (this.settled(drive), this.settled(preset));
+            let timer = |unit_ms| Stmt::Timer {
                 number,
-                kind,
+                kind: TimerKind { unit_ms, ..kind },
                 drive,
                 preset,
+            };
+            let cond = this.add(Expr::ReadBit(fixed(DeviceClass::M, fast.relay)));
+            this.emit(Stmt::If {
+                cond,
+                then: vec![timer(fast.unit_ms)],
+                otherwise: vec![timer(kind.unit_ms)],
             });
         });
     }

@@ -1,7 +1,7 @@
 //! Mitsubishi FX1S and FX1N (FX1S, FX1N, FX2N, FX2NC programming manual II, JY992D88101, §8.1 and §8.2). What they keep without power,
 //! in EEPROM or by a capacitor, is fixed.
 
-use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
+use super::{INDEX_ALIASES, M8028, Model, ModelId, Range, Timers, general, latched, timers};
 use crate::catalogue::Classes;
 use rungc_rt::Pulses;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
@@ -23,6 +23,7 @@ pub(super) const FX1S: Model = Model {
     ],
     ranges: FX1S_RANGES,
     timers: FX1S_TIMERS,
+    fast_timers: Some(M8028),
     max_steps: 2000,
     ..FX1N
 };
@@ -39,6 +40,7 @@ pub(super) const FX1N: Model = Model {
     nearest: &[],
     ranges: FX1N_RANGES,
     timers: FX1N_TIMERS,
+    fast_timers: None,
     latch_choices: &[],
     latch_key: None,
     keeps_contacts: true,

@@ -27,6 +27,7 @@ pub(super) const FX2N: Model = Model {
     ],
     ranges: RANGES,
     timers: TIMERS,
+    fast_timers: None,
     latch_choices: LATCH_CHOICES,
     latch_key: None,
     keeps_contacts: true,

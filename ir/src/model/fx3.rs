@@ -2,7 +2,7 @@
 //! Latched ranges are the factory settings.
 
 use super::{
-    INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
+    INDEX_ALIASES, LATCH_CHOICES, M8028, Model, ModelId, Range, Timers, general, latched, timers,
 };
 use crate::catalogue::Classes;
 use rungc_rt::Pulses;
@@ -17,6 +17,7 @@ pub(super) const FX3S: Model = Model {
     nearest: &[],
     ranges: FX3S_RANGES,
     timers: FX3S_TIMERS,
+    fast_timers: Some(M8028),
     max_steps: 4000,
     pulse_outputs: &[(Y, 0, 1)],
     position_outputs: &[(Y, 0, 1)],
@@ -34,6 +35,7 @@ pub(super) const FX3G: Model = Model {
     nearest: &[],
     ranges: FX3G_RANGES,
     timers: FX3G_TIMERS,
+    fast_timers: None,
     latch_choices: &[],
     latch_key: None,
     keeps_contacts: true,
@@ -65,6 +67,7 @@ pub(super) const FX3U: Model = Model {
     nearest: &[],
     ranges: FX3U_RANGES,
     timers: FX3U_TIMERS,
+    fast_timers: None,
     latch_choices: LATCH_CHOICES,
     latch_key: None,
     keeps_contacts: true,

@@ -15,6 +15,7 @@ pub(super) const HM: Model = Model {
     nearest: &[],
     ranges: RANGES,
     timers: TIMERS,
+    fast_timers: None,
     latch_choices: &[],
     latch_key: Some((8020, 2222)),
     keeps_contacts: false,

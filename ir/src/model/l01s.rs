@@ -15,6 +15,7 @@ pub(super) const L01S: Model = Model {
     nearest: &[],
     ranges: RANGES,
     timers: TIMERS,
+    fast_timers: None,
     latch_choices: &[],
     latch_key: None,
     keeps_contacts: true,

@@ -1,8 +1,7 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use super::{
-    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, PORTS, POWER, SERIAL, Special, TRACE, UNITS,
-    specials,
+    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, PORTS, POWER, SERIAL, Special, TRACE, specials,
 };
 
 /// What all have.
@@ -156,7 +155,7 @@ pub(super) const NOT_FX3S: &[Special] = specials! {
 
 /// M8028 of FX1S and FX3S.
 pub(super) const FAST_TIMERS: &[Special] = specials! {
-    M 8028 rw 0 inert(UNITS) "T32–T62 count 10 ms instead of 100 ms";
+    M 8028 rw 0 by("OUT T") "T32–T62 count 10 ms instead of 100 ms";
 };
 
 /// Speeds and times of positioning before FX3.
