@@ -3,8 +3,9 @@
 mod rendered;
 
 use rendered::{findings, shown};
+use rungc_ir::compile::CompileOptions;
 use rungc_ir::model::ModelId;
-use rungc_syntax::Severity;
+use rungc_syntax::{Program, Severity, SourceKind};
 use std::fmt::Write;
 
 /// What is said about each program, after its text.
@@ -155,4 +156,19 @@ const LANGUAGES: &[&str] = &[
 fn another_language_is_one_error() {
     one_error_each(ModelId::Fx3u, LANGUAGES);
     insta::assert_snapshot!(pages(ModelId::Fx3u, LANGUAGES));
+}
+
+/// An unknown code of a project may be the NEXT that seems to be missing; a line of a list that is no instruction is not.
+#[test]
+fn an_unknown_code_may_be_any_instruction() {
+    let list = "FOR K3\nLD X0\nOUT Y0\n= Y1\nLD X1\nOUT Y1\nEND\n";
+    let mut program = rungc_frontend::read_text("program", list).program;
+    let errors = |program: &Program| {
+        let checked = rungc_ir::compile::check(program, &CompileOptions::default());
+        let codes = checked.diagnostics.iter().map(|d| d.code);
+        codes.collect::<Vec<_>>()
+    };
+    assert_eq!(errors(&program), ["E0412"]);
+    program.kind = SourceKind::GxWorks2;
+    assert!(errors(&program).is_empty());
 }

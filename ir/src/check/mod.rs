@@ -34,7 +34,7 @@ mod writes;
 use crate::catalogue::{Basic, Classes, Drive, Inst, Join, Lower, Param};
 use crate::model::Model;
 use crate::resolve::{Resolved, numbered};
-use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, Span, codes};
+use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, SourceKind, Span, codes};
 
 use std::iter::{Copied, Peekable};
 use std::slice::Iter;
@@ -200,6 +200,13 @@ impl<'a> Code<'a> {
             OperandKind::Unreadable(meant) => meant,
             _ => None,
         })
+    }
+
+    /// Whether what begins or ends a part of the program may be among what could not be read: in a project an unknown code may be any
+    /// instruction, while a line of a list without a mnemonic is none.
+    fn may_lack_structure(&self) -> bool {
+        let program = self.resolved.program;
+        program.kind != SourceKind::Il && !program.unread.is_empty()
     }
 
     /// Whether an operand that could not be read may be any device.

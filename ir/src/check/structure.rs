@@ -167,10 +167,11 @@ struct Walk<'a, 'p> {
 
 /// Checks the structure of a program and finds where its instructions stand.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> Places {
+    let mut found = Diagnostics::new();
     let mut walk = Walk {
         code,
         pointers,
-        out,
+        out: &mut found,
         at: 0,
         open: Vec::new(),
         routine: Routine::Main,
@@ -190,6 +191,9 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> 
     }
     walk.finish();
     let (places, outer) = (walk.places, walk.outer);
+    if !code.may_lack_structure() {
+        out.extend(found.iter().cloned());
+    }
     Places { places, outer }
 }
 
