@@ -159,6 +159,9 @@ pub struct Reporting {
 pub struct CheckArgs {
     #[command(flatten)]
     pub inputs: Inputs,
+    /// Change instruction lists as diagnostics propose, where that is certainly what was meant, and report what remains.
+    #[arg(long)]
+    pub fix: bool,
 }
 
 /// Arguments of `build`.

@@ -478,3 +478,30 @@ fn colours_when_asked_for() {
     let output = rungc(folder.path(), &["check", "bad.il", "--color", "always"]);
     assert!(text(&output.stderr).contains("\u{1b}["));
 }
+
+/// `check --fix` does what is certain and nothing else, keeps the file's form, and says what it did.
+#[test]
+fn certain_fixes_are_applied() {
+    let list = "\u{FEFF}; cam\u{e9}ra\r\nLD X0\r\nMOV 0x1F D0\r\nLDN X1\r\nOUTY0\r\nLD X2 OUT Y1\r\nLD X3\r\nINC D1\r\nMOV M0 D2\r\nMOV X\r\n";
+    let folder = folder(&[("old.il", list.as_bytes()), ("MAIN.wpg", &wpg())]);
+    let output = shown(folder.path(), &["check", "old.il", "--fix"]);
+    insta::assert_snapshot!("check_fix", output);
+    let fixed = std::fs::read_to_string(folder.path().join("old.il")).unwrap();
+    assert_eq!(
+        fixed,
+        "\u{FEFF}; cam\u{e9}ra\r\nLD X0\r\nMOV H1F D0\r\nLDI X1\r\nOUT Y000\r\nLD X2\r\nOUT Y1\r\nLD X3\r\nINC D1\r\nMOV M0 D2\r\nMOV X\r\nEND\r\n"
+    );
+    let again = rungc(folder.path(), &["check", "old.il", "--fix"]);
+    assert!(!text(&again.stderr).contains("Fixed"));
+    let project = rungc(folder.path(), &["check", "MAIN.wpg", "--fix"]);
+    assert!(text(&project.stderr).contains("change this one in its editor"));
+    let piped = rungc(folder.path(), &["check", "-", "--fix"]);
+    assert_eq!(piped.status.code(), Some(2));
+    // Not UTF-8: left as it is.
+    let gbk = b"; \xC6\xF4\xB6\xAF\xB0\xB4\xC5\xA5\r\nLD X0\r\nMOV 0x1F D0\r\n";
+    std::fs::write(folder.path().join("gbk.il"), gbk).unwrap();
+    let refused = rungc(folder.path(), &["check", "gbk.il", "--fix"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(text(&refused.stderr).contains("not UTF-8"));
+    assert_eq!(std::fs::read(folder.path().join("gbk.il")).unwrap(), gbk);
+}

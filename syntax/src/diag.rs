@@ -43,6 +43,92 @@ pub struct Label {
     pub text: Cow<'static, str>,
 }
 
+/// A change of the program's text that does what a diagnostic proposes.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Fix {
+    /// What it does, in the imperative: `write INCP`.
+    pub title: Cow<'static, str>,
+    /// What to replace; no edit overlaps another.
+    pub edits: Vec<Edit>,
+    /// Whether it is certainly what was meant, so that it may be applied unseen; others are suggestions.
+    pub certain: bool,
+}
+
+/// A piece of text to replace.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Edit {
+    /// What is replaced; an empty span is a place to insert at.
+    pub span: Span,
+    /// What stands there afterwards.
+    pub text: String,
+}
+
+impl Fix {
+    /// A fix that is certainly what was meant: nothing else could be, or the program does not change by it.
+    pub fn certain(title: impl Into<Cow<'static, str>>) -> Self {
+        Self::new(title.into(), true)
+    }
+
+    /// A fix that may not be what was meant.
+    pub fn suggested(title: impl Into<Cow<'static, str>>) -> Self {
+        Self::new(title.into(), false)
+    }
+
+    fn new(title: Cow<'static, str>, certain: bool) -> Self {
+        let edits = Vec::new();
+        Fix {
+            title,
+            edits,
+            certain,
+        }
+    }
+
+    /// Replaces a piece of text.
+    #[must_use]
+    pub fn replace(mut self, span: Span, text: impl Into<String>) -> Self {
+        let text = text.into();
+        self.edits.push(Edit { span, text });
+        self
+    }
+}
+
+/// A text after fixes were applied to it, and for each fix whether it was: one that touches what another changes is left out.
+pub fn apply(text: &str, fixes: &[&Fix]) -> (String, Vec<bool>) {
+    let reach = |fix: &Fix| {
+        let spans = fix.edits.iter().map(|edit| edit.span);
+        spans
+            .reduce(Span::to)
+            .filter(|span| text.get(span.range()).is_some())
+    };
+    let mut order: Vec<(Span, usize)> = Vec::new();
+    for (n, fix) in fixes.iter().enumerate() {
+        order.extend(reach(fix).map(|span| (span, n)));
+    }
+    order.sort_unstable();
+    let mut applied = vec![false; fixes.len()];
+    let mut edits: Vec<&Edit> = Vec::new();
+    // Up to where the text is taken; two insertions at one place would depend on their order.
+    let mut taken: Option<u32> = None;
+    for (span, n) in order {
+        if taken.is_none_or(|taken| taken < span.start) {
+            taken = Some(span.end);
+            applied[n] = true;
+            edits.extend(&fixes[n].edits);
+        }
+    }
+    edits.sort_by_key(|edit| edit.span);
+    let mut result = String::with_capacity(text.len());
+    let mut at = 0;
+    for Edit { span, text: new } in edits {
+        let range = span.range();
+        result.push_str(text.get(at..range.start).unwrap_or_default());
+        result.push_str(new);
+        at = range.end;
+    }
+    result.push_str(text.get(at..).unwrap_or_default());
+    (result, applied)
+}
+
 /// One finding.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Diagnostic {
@@ -62,6 +148,8 @@ pub struct Diagnostic {
     pub devices: Vec<Device>,
     /// What to do about it.
     pub help: Option<Cow<'static, str>>,
+    /// The same as a change of the text, where it is known.
+    pub fix: Option<Fix>,
     /// The PLC's own error code, where the manual gives one.
     pub plc_error: Option<u16>,
 }
@@ -93,6 +181,7 @@ impl Diagnostic {
             others: Vec::new(),
             devices: Vec::new(),
             help: None,
+            fix: None,
             plc_error: None,
         }
     }
@@ -125,6 +214,13 @@ impl Diagnostic {
     #[must_use]
     pub fn help(mut self, text: impl Into<Cow<'static, str>>) -> Self {
         self.help = Some(text.into());
+        self
+    }
+
+    /// Sets the change of the text that does what the help says.
+    #[must_use]
+    pub fn fix(mut self, fix: Fix) -> Self {
+        self.fix = Some(fix);
         self
     }
 
@@ -241,4 +337,27 @@ pub fn did_you_mean<'a>(
         .filter(|&(d, _)| d <= limit)
         .min()
         .map(|(_, c)| c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fix, Span, apply};
+
+    #[test]
+    fn fixes_that_touch_each_other_are_left_out() {
+        let text = "MOV 0x1F 1.5\n";
+        let at = |start, end| Span::new(start, end);
+        let hex = Fix::certain("write H1F").replace(at(4, 8), "H1F");
+        let both = Fix::certain("swap")
+            .replace(at(9, 12), "0x1F")
+            .replace(at(4, 8), "1.5");
+        let float = Fix::suggested("write E1.5").replace(at(9, 12), "E1.5");
+        let end = Fix::certain("add END").replace(at(13, 13), "END\n");
+        let outside = Fix::certain("nothing").replace(at(99, 100), "");
+        let (fixed, applied) = apply(text, &[&float, &both, &end, &hex, &outside]);
+        assert_eq!(fixed, "MOV H1F E1.5\nEND\n");
+        assert_eq!(applied, [true, false, true, true, false]);
+        let (fixed, applied) = apply(text, &[&both]);
+        assert_eq!((fixed.as_str(), applied), ("MOV 1.5 0x1F\n", vec![true]));
+    }
 }

@@ -11,7 +11,7 @@ mod source;
 pub mod text;
 
 pub use device::{DeviceClass, Number};
-pub use diag::{Diagnostic, Diagnostics, Label, Severity};
+pub use diag::{Diagnostic, Diagnostics, Edit, Fix, Label, Severity};
 pub use program::{
     Device, DeviceRun, Index, Instr, Operand, OperandKind, Operands, Parameters, Program, Remarks,
     SourceKind,

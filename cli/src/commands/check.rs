@@ -1,7 +1,7 @@
 //! `rungc check`.
 
 use super::subject::{self, Subject};
-use super::{Context, Result, conclude, counted, findings, grouped, read};
+use super::{Context, Result, conclude, counted, findings, fix, grouped, read};
 use crate::args::CheckArgs;
 use crate::report::Reporter;
 use rungc_ir::Model;
@@ -13,6 +13,9 @@ use std::time::Instant;
 /// Reports everything that is wrong with programs.
 pub fn run(args: &CheckArgs, cx: Context) -> Result {
     subject::each(&args.inputs, cx, |subject, reporter| {
+        if args.fix {
+            fix::fix(subject, cx)?;
+        }
         check(subject, reporter, cx)
     })
 }

@@ -5,6 +5,7 @@ pub mod check;
 pub mod convert;
 mod defaults;
 pub mod explain;
+mod fix;
 pub mod init;
 pub mod interruption;
 pub mod learn;

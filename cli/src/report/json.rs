@@ -3,7 +3,7 @@
 use super::Findings;
 use super::place::Place;
 use rungc_firmware::report::Report as Takes;
-use rungc_syntax::{Severity, codes};
+use rungc_syntax::{Diagnostic, Severity, codes};
 use serde::Serialize;
 use std::borrow::Cow;
 use std::io;
@@ -50,6 +50,9 @@ struct Item {
     devices: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     help: Option<Cow<'static, str>>,
+    /// The change of the text that the help proposes, where the source is a text.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fix: Option<Proposal>,
     #[serde(skip_serializing_if = "Option::is_none")]
     plc_error: Option<u16>,
 }
@@ -59,6 +62,35 @@ struct Related {
     message: String,
     #[serde(flatten)]
     place: Option<Place>,
+}
+
+#[derive(Serialize)]
+struct Proposal {
+    title: Cow<'static, str>,
+    /// Whether `check --fix` applies it.
+    certain: bool,
+    edits: Vec<Replacement>,
+}
+
+#[derive(Serialize)]
+struct Replacement {
+    #[serde(flatten)]
+    place: Option<Place>,
+    /// What stands at the place afterwards.
+    text: String,
+}
+
+fn proposal(findings: &Findings, d: &Diagnostic) -> Option<Proposal> {
+    let fix = findings.fix(d)?;
+    let edits = fix.edits.iter().map(|edit| Replacement {
+        place: Place::of(findings, edit.span),
+        text: edit.text.clone(),
+    });
+    Some(Proposal {
+        title: fix.title.clone(),
+        certain: fix.certain,
+        edits: edits.collect(),
+    })
 }
 
 /// What was found about one file.
@@ -90,6 +122,7 @@ pub fn file(findings: &Findings) -> File {
                     .collect(),
                 devices: d.devices.iter().map(ToString::to_string).collect(),
                 help: d.help.clone(),
+                fix: proposal(findings, d),
                 plc_error: d.plc_error,
             })
             .collect(),

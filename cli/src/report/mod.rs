@@ -13,7 +13,7 @@ use crate::args::{Format, Reporting};
 use crate::commands::Context;
 use rungc_firmware::report::Report as Takes;
 use rungc_ir::compile::Compiled;
-use rungc_syntax::{Diagnostic, Diagnostics, Label, Program, Severity, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, SourceKind, codes};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -95,6 +95,12 @@ impl<'a> Findings<'a> {
             Some(program) if !many || self.path == Path::new("-") => program.source.name.clone(),
             _ => self.path.display().to_string(),
         }
+    }
+
+    /// The fix of a diagnostic, if the program is a text that it can change.
+    fn fix<'d>(&self, diagnostic: &'d Diagnostic) -> Option<&'d Fix> {
+        let text = self.program?.kind == SourceKind::Il;
+        diagnostic.fix.as_ref().filter(|_| text)
     }
 
     /// How many have this severity.

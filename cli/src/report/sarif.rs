@@ -3,11 +3,12 @@
 use super::Findings;
 use super::place::Place;
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{Diagnostic, Severity, Span};
+use rungc_syntax::{Diagnostic, Fix, Severity, Span};
 use serde_sarif::sarif::{
-    Artifact, ArtifactLocation, Location, LogicalLocation, Message, MultiformatMessageString,
-    PhysicalLocation, PropertyBag, Region, ReportingDescriptor, Result as Item, ResultColumnKind,
-    ResultLevel, Run, Sarif, Tool, ToolComponent, Version,
+    Artifact, ArtifactChange, ArtifactContent, ArtifactLocation, Fix as SarifFix, Location,
+    LogicalLocation, Message, MultiformatMessageString, PhysicalLocation, PropertyBag, Region,
+    Replacement, ReportingDescriptor, Result as Item, ResultColumnKind, ResultLevel, Run, Sarif,
+    Tool, ToolComponent, Version,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -110,6 +111,7 @@ fn item(findings: &Findings, d: &Diagnostic) -> Item {
         .locations(vec![location(findings, d.span, None)])
         .related_locations(related)
         .build();
+    item.fixes = findings.fix(d).map(|fix| vec![change(findings, fix)]);
     if !d.devices.is_empty() {
         let devices: Vec<_> = d.devices.iter().map(ToString::to_string).collect();
         let bag = std::iter::once(("devices".to_owned(), devices.into()));
@@ -117,6 +119,24 @@ fn item(findings: &Findings, d: &Diagnostic) -> Item {
         item.properties = Some(bag.build());
     }
     item
+}
+
+/// A fix as a change of the file.
+fn change(findings: &Findings, fix: &Fix) -> SarifFix {
+    let replacements = fix.edits.iter().filter_map(|edit| {
+        let region = Place::of(findings, edit.span).as_ref().and_then(region)?;
+        let content = ArtifactContent::builder().text(edit.text.as_str()).build();
+        let replacement = Replacement::builder().deleted_region(region);
+        Some(replacement.inserted_content(content).build())
+    });
+    let change = ArtifactChange::builder()
+        .artifact_location(artifact(findings.path))
+        .replacements(replacements.collect::<Vec<_>>())
+        .build();
+    SarifFix::builder()
+        .description(message(&fix.title))
+        .artifact_changes(vec![change])
+        .build()
 }
 
 fn message(text: &str) -> Message {

@@ -4,7 +4,7 @@ use chumsky::input::{Checkpoint, Cursor, Input};
 use chumsky::inspector::Inspector;
 use chumsky::span::SimpleSpan;
 use rungc_syntax::diag::did_you_mean;
-use rungc_syntax::{DeviceClass, Diagnostic, Span, codes};
+use rungc_syntax::{DeviceClass, Diagnostic, Fix, Span, codes};
 
 /// A finding of the grammar, at a range of the folded line.
 #[derive(Clone, Copy, Debug)]
@@ -144,14 +144,19 @@ impl Kind {
             Kind::Unclosed => codes::OPEN_TEXT
                 .at(span, "this text is never closed")
                 .label("no closing `\"` on this line")
-                .help("put `\"` behind the last character"),
+                .help("put `\"` behind the last character")
+                .fix(
+                    Fix::suggested("close the text")
+                        .replace(Span::new(span.end, span.end), "\""),
+                ),
             Kind::LookAlike(letter) => codes::LOOK_ALIKE
                 .at(
                     span,
                     format!("`{letter}` is U+{:04X}, not a Latin letter", u32::from(letter)),
                 )
                 .label("only looks like one")
-                .help(format!("type `{text}` with Latin letters")),
+                .help(format!("type `{text}` with Latin letters"))
+                .fix(Fix::certain(format!("write `{text}`")).replace(span, text)),
             Kind::SpacedLabel | Kind::SpacedNumber => {
                 let joined: String = text.split_whitespace().collect();
                 let what = match self {
@@ -162,6 +167,7 @@ impl Kind {
                     .at(span, what)
                     .label("is one word")
                     .help(format!("write `{joined}`"))
+                    .fix(Fix::certain(format!("write `{joined}`")).replace(span, joined))
             }
             Kind::CommentSign => codes::BAD_INSTRUCTION
                 .at(span, format!("`{text}` does not begin a comment"))
@@ -261,7 +267,8 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     }
     let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not an operand"));
     if let Some((what, meant)) = other_notation(&upper) {
-        return error.label(what).help(format!("write `{meant}`"));
+        let fix = Fix::certain(format!("write `{meant}`")).replace(span, meant.as_str());
+        return error.label(what).help(format!("write `{meant}`")).fix(fix);
     }
     if let Ok(number) = upper.parse::<i64>() {
         return error.label("a number without its kind").help(format!(
@@ -271,7 +278,8 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     if let Some(meant) = mistyped_digit(&upper) {
         return error
             .label("a letter stands where a digit is expected")
-            .help(format!("did you mean `{meant}`?"));
+            .help(format!("did you mean `{meant}`?"))
+            .fix(Fix::suggested(format!("write `{meant}`")).replace(span, meant.as_str()));
     }
     match prefix {
         "K" => error.label("not a decimal constant").help("write e.g. `K10`, `K-5`, or `K4M0` for a group of bits"),

@@ -7,7 +7,7 @@ use super::skips::Skips;
 use super::structure::{NONE, Places, Routine};
 use crate::catalogue::{ArithOp, Forms, Lower};
 use crate::resolve::Form;
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Operand, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
 use std::collections::BTreeMap;
 
 /// Instructions whose result depends on what they have done before, whatever their operands are.
@@ -173,8 +173,14 @@ fn report(code: &Code, device: Device, changes: &[Change]) -> Option<Diagnostic>
         .at(code.span(first.at), message)
         .label("runs again and again")
         .help(format!("`{pulse}` runs once each time its contacts close"));
+    let mut fix = Fix::suggested("write the pulse form");
+    for change in changes {
+        if let Some(pulse) = pulse_form(code, change.at) {
+            fix = fix.replace(code.instr(change.at).mnemonic_span, pulse);
+        }
+    }
     for change in others {
         diagnostic = diagnostic.other(code.span(change.at), "so does this");
     }
-    Some(diagnostic)
+    Some(diagnostic.fix(fix))
 }

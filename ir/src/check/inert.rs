@@ -124,6 +124,9 @@ fn report(reason: Reason, devices: &[(Device, Used)]) -> Option<Diagnostic> {
     let mut diagnostic = codes::INERT_DEVICE
         .at(span, message)
         .label(first.row.meaning);
+    if devices.len() > MAX_NAMED {
+        diagnostic = diagnostic.devices(devices.iter().map(|(device, _)| *device));
+    }
     for (n, (device, used)) in devices.iter().enumerate() {
         for (m, &(span, written)) in used.places.iter().enumerate() {
             let what = if written { "written" } else { "read" };

@@ -34,7 +34,7 @@ mod writes;
 use crate::catalogue::{Basic, Classes, Drive, Inst, Join, Lower, Param};
 use crate::model::Model;
 use crate::resolve::{Resolved, numbered};
-use rungc_syntax::{Device, Diagnostics, Instr, OperandKind, SourceKind, Span, codes};
+use rungc_syntax::{Device, Diagnostics, Fix, Instr, OperandKind, SourceKind, Span, codes};
 
 use std::iter::{Copied, Peekable};
 use std::slice::Iter;
@@ -258,7 +258,8 @@ impl<'a> Code<'a> {
             out.push(
                 diagnostic
                     .label("the last instruction")
-                    .help("add END behind it"),
+                    .help("add END behind it")
+                    .fix(self.append_end()),
             );
             return;
         }
@@ -273,6 +274,19 @@ impl<'a> Code<'a> {
                     .other(self.span(last), "the scan ends here"),
             );
         }
+    }
+}
+
+impl Code<'_> {
+    /// Adds the line END to the text.
+    fn append_end(&self) -> Fix {
+        let text = &self.resolved.program.source.text;
+        let end = text.len() as u32;
+        let line = match text.ends_with('\n') {
+            true => "END\n",
+            false => "\nEND\n",
+        };
+        Fix::certain("add END").replace(Span::new(end, end), line)
     }
 }
 

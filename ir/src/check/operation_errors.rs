@@ -3,7 +3,7 @@
 use super::Code;
 use crate::catalogue::{ArithOp, Lower};
 use crate::resolve::constant_value;
-use rungc_syntax::{Diagnostics, OperandKind, codes};
+use rungc_syntax::{Diagnostics, Fix, OperandKind, codes};
 
 /// Checks the constants of instruction `i`.
 pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
@@ -51,9 +51,15 @@ fn reversed(code: &Code, i: usize, out: &mut Diagnostics) {
         return;
     }
     let mnemonic = &code.instr(i).mnemonic;
+    let places = &code.instr(i).operands;
     let diagnostic = codes::REVERSED_RANGE
         .at(code.span(i), format!("`{mnemonic}` resets `{first}` alone"))
         .label("the first device of the range stands behind the last")
-        .help(format!("write `{mnemonic} {last} {first}`"));
+        .help(format!("write `{mnemonic} {last} {first}`"))
+        .fix(
+            Fix::suggested("swap the operands")
+                .replace(places[0].span, last.to_string())
+                .replace(places[1].span, first.to_string()),
+        );
     out.push(diagnostic);
 }

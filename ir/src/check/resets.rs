@@ -117,6 +117,10 @@ fn summary<'a>(
         .at(span, message)
         .label(here)
         .help("nothing is wrong if an operator panel or another program resets it");
+    if !others.is_empty() {
+        let all = std::iter::once(first).chain(others.iter().map(|&(_, device, _)| device));
+        diagnostic = diagnostic.devices(all);
+    }
     for (span, device, _) in others {
         diagnostic = diagnostic.other(span, format!("`{device}` {here}"));
     }

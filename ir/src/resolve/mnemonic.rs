@@ -4,7 +4,7 @@ use super::Form;
 use super::suggest::{self, Open};
 use crate::catalogue::{self, Basic, Drive, Forms, Found, Inst, Lower};
 use crate::model::{Model, ModelId};
-use rungc_syntax::{Device, Diagnostic, Diagnostics, Instr, codes};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Instr, codes};
 
 /// How many unknown mnemonics get a suggestion; searching one costs as much as resolving hundreds of good instructions.
 const MAX_SUGGESTIONS: u32 = 200;
@@ -96,7 +96,18 @@ impl Finder {
             out.push(diagnostic);
             return None;
         };
-        out.push(diagnostic.help(meant.help));
+        let diagnostic = diagnostic.help(meant.help);
+        out.push(match meant.instead {
+            None => diagnostic,
+            Some((text, certain)) => {
+                let title = format!("write `{text}`");
+                let fix = match certain {
+                    true => Fix::certain(title),
+                    false => Fix::suggested(title),
+                };
+                diagnostic.fix(fix.replace(instr.mnemonic_span, text))
+            }
+        });
         let found = meant.found.filter(|found| is_structural(found.inst))?;
         Some(Match {
             found,

@@ -6,7 +6,8 @@ use crate::catalogue::{Classes, Extent, Found, Param, Shape};
 use crate::model::Model;
 use crate::runs::{is_counter32, words_of_bits};
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Diagnostics, Index, Instr, Operand, OperandKind, Span, codes,
+    Device, DeviceClass, Diagnostic, Diagnostics, Fix, Index, Instr, Operand, OperandKind, Span,
+    codes,
 };
 
 /// Checks operands for one model.
@@ -279,7 +280,12 @@ impl Checker {
                 ..place.found.form
             };
             match place.found.inst.spelling_of(wide) {
-                Some(name) => diagnostic.help(format!("use the 32-bit form `{name}`")),
+                Some(name) => {
+                    let fix = Fix::suggested(format!("write `{name}`"))
+                        .replace(place.instr.mnemonic_span, name.as_str());
+                    let help = format!("use the 32-bit form `{name}`");
+                    diagnostic.help(help).fix(fix)
+                }
                 None => diagnostic,
             }
         })
@@ -301,6 +307,10 @@ impl Checker {
                 .at(span, message)
                 .label("here V and Z are a pair, named by its Z")
                 .help(format!("use `Z{}`", device.number))
+                .fix(
+                    Fix::suggested(format!("write `Z{}`", device.number))
+                        .replace(span, format!("Z{}", device.number)),
+                )
         })
     }
 

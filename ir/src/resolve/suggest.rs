@@ -17,6 +17,8 @@ pub(super) struct Meant {
     pub(super) found: Option<Found>,
     /// The label, where a label was meant.
     pub(super) label: Option<Device>,
+    /// What to write instead of the mnemonic, and whether that is certain.
+    pub(super) instead: Option<(String, bool)>,
 }
 
 /// How many structures of each kind are open where an instruction stands.
@@ -163,10 +165,13 @@ pub(super) fn meant(instr: &Instr, open: Open, last: bool, model: &Model) -> Opt
 fn habit(name: &str) -> Option<Meant> {
     let mut habits = HABITS.iter();
     let (_, row, help) = habits.find(|(names, ..)| names.contains(&name))?;
+    // Others take other operands, or a contact before them.
+    let same = !matches!(*row, "OUT" | "CJ" | "CALL" | "PLS" | "PLF");
     Some(Meant {
         help: (*help).to_owned(),
         found: catalogue::find(row),
         label: None,
+        instead: same.then(|| ((*row).to_owned(), true)),
     })
 }
 
@@ -182,6 +187,7 @@ fn mistyped_label(instr: &Instr) -> Option<Meant> {
         help: format!("did you mean the label `{label}`?"),
         found: catalogue::find(letter),
         label: Some(label),
+        instead: Some((label.to_string(), false)),
     })
 }
 
@@ -201,6 +207,7 @@ fn glued(instr: &Instr, model: &Model) -> Option<Meant> {
             help: format!("a space is missing: `{name} {}`", words.join(" ")),
             found: Some(found),
             label: None,
+            instead: Some((format!("{name} {}", words.join(" ")), true)),
         })
     };
     (1..name.len()).rev().find_map(split)
@@ -267,6 +274,7 @@ fn moved_affix(instr: &Instr, model: &Model) -> Option<Meant> {
             help: format!("did you mean `{name}`?"),
             found: Some(found),
             label: None,
+            instead: Some((name, false)),
         })
     })
 }
@@ -323,13 +331,17 @@ fn similar(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant
         Some(_) => format!(" (a comparison is `{comparison}`)"),
         None => String::new(),
     };
+    let only = match fitting.as_slice() {
+        &[(_, name, found)] => Some((name, found)),
+        _ => None,
+    };
     Some(Meant {
         help: format!("did you mean {names}?{compared}"),
-        found: match fitting.as_slice() {
-            &[(_, _, found)] => Some(found),
-            _ => None,
-        },
+        found: only.map(|(_, found)| found),
         label: None,
+        instead: only
+            .filter(|_| compared.is_empty())
+            .map(|(name, _)| (name.to_owned(), false)),
     })
 }
 

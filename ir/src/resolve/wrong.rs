@@ -5,7 +5,7 @@ use crate::catalogue::{self, Basic, Classes, Inst, Lower, Param, Role};
 use crate::model::{Model, ModelId};
 use crate::resolve::Form;
 use rungc_syntax::{
-    Device, DeviceClass, Diagnostic, Instr, Operand, OperandKind, Source, Span, codes,
+    Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Source, Span, codes,
 };
 
 /// What is wrong with a line that goes on with another instruction: `LD X000 OUT Y000`.
@@ -38,7 +38,13 @@ pub(super) fn second_instruction(
     let diagnostic = codes::ONE_PER_LINE
         .at(begin.to(end), message)
         .label("begins here");
-    Some(diagnostic.help(format!("write `{}` on a line of its own", text(second))))
+    let first = at - usize::from(step.is_some());
+    let before = first.checked_sub(1).and_then(|n| instr.operands.get(n));
+    let gap = before.map_or(instr.mnemonic_span, |before| before.span).end;
+    let fix =
+        Fix::certain("put it on a line of its own").replace(Span::new(gap, begin.start), "\n");
+    let help = format!("write `{}` on a line of its own", text(second));
+    Some(diagnostic.help(help).fix(fix))
 }
 
 pub(super) fn too_few(instr: &Instr, params: &[Param]) -> Diagnostic {
@@ -117,10 +123,28 @@ pub(super) fn wrong_class(
         _ => "not accepted here",
     };
     let error = codes::OPERAND_CLASS.at(operand.span, message).label(label);
+    let error = match whole_group(operand, place, classes) {
+        Some(group) => error.fix(
+            Fix::suggested(format!("write `{group}`")).replace(operand.span, group.to_string()),
+        ),
+        None => error,
+    };
     error.help(instead(operand, place, classes).unwrap_or_else(|| {
         let all = of_all_variants(inst, at, model).or(classes);
         format!("accepted: {}", all.names().collect::<Vec<_>>().join(", "))
     }))
+}
+
+/// The group of bits that begins with a bit where a value is wanted.
+fn whole_group(operand: &Operand, place: &Place, classes: Classes) -> Option<OperandKind> {
+    use DeviceClass::{M, S, X, Y};
+    let OperandKind::Device(device, _) = operand.kind else {
+        return None;
+    };
+    let digits = if place.found.form.wide { 8 } else { 4 };
+    let group = OperandKind::Nibbles(digits, device, None);
+    let bits = matches!(device.class, X | Y | M | S);
+    (bits && classes.meets(Classes::of(&group))).then_some(group)
 }
 
 /// What to write instead of an operand of the wrong class, where that is known.
@@ -128,17 +152,15 @@ fn instead(operand: &Operand, place: &Place, classes: Classes) -> Option<String>
     let OperandKind::Device(device, _) = operand.kind else {
         return None;
     };
-    use DeviceClass::{D, M, R, S, V, X, Y, Z};
+    use DeviceClass::{D, R, V, Z};
     let group = Classes::KNX
         .or(Classes::KNY)
         .or(Classes::KNM)
         .or(Classes::KNS);
-    let digits = if place.found.form.wide { 8 } else { 4 };
-    let grouped = OperandKind::Nibbles(digits, device, None);
-    if matches!(device.class, X | Y | M | S) && classes.meets(Classes::of(&grouped)) {
+    if let Some(grouped) = whole_group(operand, place, classes) {
+        let bits = if place.found.form.wide { 32 } else { 16 };
         return Some(format!(
-            "`{device}` is one bit; a group of bits is written `{grouped}` ({} of them)",
-            4 * u32::from(digits)
+            "`{device}` is one bit; a group of bits is written `{grouped}` ({bits} of them)"
         ));
     }
     let coil = matches!(place.found.inst.lower, Lower::Basic(Basic::Out));
@@ -238,7 +260,11 @@ pub(super) fn wide_constant(
         ..place.found.form
     };
     match place.found.inst.spelling_of(wide) {
-        Some(name) if bits == 16 => diagnostic.help(format!("`{name}` takes 32 bits")),
+        Some(name) if bits == 16 => {
+            let fix = Fix::suggested(format!("write `{name}`"))
+                .replace(place.instr.mnemonic_span, name.as_str());
+            diagnostic.help(format!("`{name}` takes 32 bits")).fix(fix)
+        }
         _ => diagnostic,
     }
 }

@@ -40,6 +40,15 @@ pub fn render(source: &Source, diagnostics: &[Diagnostic]) -> String {
         if let Some(help) = &diagnostic.help {
             writeln!(text, "    help: {help}").expect("a string");
         }
+        if let Some(fix) = &diagnostic.fix {
+            let kind = if fix.certain { "fix" } else { "suggestion" };
+            let edits = fix.edits.iter().map(|edit| {
+                let (at, quoted) = (place(edit.span.start), source.slice(edit.span));
+                format!("{at} {quoted:?} to {:?}", edit.text)
+            });
+            let edits = edits.collect::<Vec<_>>().join(", ");
+            writeln!(text, "    {kind}: {}: {edits}", fix.title).expect("a string");
+        }
     }
     text
 }
