@@ -2,6 +2,7 @@
 
 use rungc_frontend::read;
 use rungc_ir::check::check;
+use rungc_ir::compile::{self, CompileOptions};
 use rungc_ir::model::{Model, ModelId};
 use rungc_ir::resolve::resolve;
 use rungc_syntax::{Severity, codes};
@@ -54,6 +55,12 @@ fn real_projects_have_no_errors() {
             wrong.push(format!("{} cannot be read", path.display()));
             continue;
         };
+        let options = CompileOptions::default();
+        let checked = compile::check(&read.program, &options);
+        let compiled = compile::compile(&read.program, &options);
+        if checked.diagnostics.has_errors() != compiled.diagnostics.has_errors() {
+            wrong.push(format!("{}: check and build disagree", path.display()));
+        }
         let id = read
             .program
             .cpu
