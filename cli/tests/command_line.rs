@@ -388,6 +388,33 @@ fn an_executable_goes_on_under_a_flood_of_commands() {
     assert!(told, "the end tells of the error");
 }
 
+/// Five loops of 32767 rounds, one in the other: the watchdog ends the scan, and the executable says so.
+#[test]
+#[cfg(unix)]
+fn an_executable_stops_a_scan_that_does_not_end() {
+    for tool in ["cc", "make", "timeout"] {
+        if Command::new(tool).arg("--version").output().is_err() {
+            println!("skipped: there is no {tool}");
+            return;
+        }
+    }
+    let (begin, end) = ("FOR K32767\n".repeat(5), "NEXT\n".repeat(5));
+    let program = format!("{begin}LD M8000\nDINC D0\n{end}END\n");
+    let folder = folder(&[("nest.il", program.as_bytes())]);
+    let path = folder.path();
+    let args = ["build", "nest.il", "--emit", "bin", "-o", "nest"];
+    assert_eq!(code(path, &args), 0);
+    let done = Command::new("timeout")
+        .args(["--preserve-status", "-s", "TERM", "-k", "8", "2", "./nest"])
+        .current_dir(path)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    assert_eq!(done.status.code(), Some(0), "it ends by itself: {done:?}");
+    let told = "nest: step 12: error 6105, a scan does not end (watchdog); the PLC is in STOP\n";
+    assert_eq!(text(&done.stderr), told);
+}
+
 #[test]
 fn build_makes_an_executable_that_scans() {
     for tool in ["cc", "make"] {
