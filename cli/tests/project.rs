@@ -108,6 +108,22 @@ fn mistakes_are_drawn() {
 }
 
 #[test]
+fn what_is_latched() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    fs::write(
+        path.join("rungc.toml"),
+        "[latched]\nD = ['D200-D299', 'D400']\n",
+    )
+    .unwrap();
+    let verbose = said(path, &["check", "motor.il", "-v"]);
+    assert!(verbose.contains("D200 to D299"), "{verbose}");
+    fs::write(path.join("rungc.toml"), "[latched]\nD = 'D10-D20'\n").unwrap();
+    let args = ["check", "motor.il", "--model", "fx3g"];
+    insta::assert_snapshot!("project_latched", shown(path, &args));
+}
+
+#[test]
 fn what_build_makes() {
     let settings = "[project]\nprogram = 'motor.il'\nname = 'press'\n\n[build]\nemit = 'c'\noutput = 'firmware/plc'\n";
     let folder = folder(&[

@@ -5,6 +5,7 @@
 #![deny(missing_docs)]
 
 mod device;
+mod program;
 mod reader;
 mod template;
 

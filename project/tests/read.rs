@@ -1,7 +1,7 @@
 //! What a file says, and what is said about its mistakes.
 
 use proptest::prelude::*;
-use rungc_ir::ModelId;
+use rungc_ir::{Model, ModelId};
 use rungc_project::{Error, FILE, Project};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -192,6 +192,41 @@ fn lines_that_are_not_toml() {
     insta::assert_snapshot!(
         "twice",
         mistakes("[project]\nmodel = 'fx3u'\nmodel = 'fx2n'\n")
+    );
+}
+
+#[test]
+fn latched_devices_are_those_that_can_be() {
+    let mut program = rungc_syntax::Program::default();
+    let project = parse("[latched]\nD = 'D200-D299'\n").unwrap();
+    project
+        .complete(&mut program, Model::get(ModelId::Fx3u))
+        .unwrap();
+    let latched = program.parameters.clone().unwrap().latched.unwrap();
+    let of = |class| {
+        let runs = latched.iter().filter(|run| run.class == class);
+        runs.map(|run| (run.first, run.count)).collect::<Vec<_>>()
+    };
+    assert_eq!(of(DeviceClass::D), [(200, 100)]);
+    assert_eq!(of(DeviceClass::M), [(500, 524)], "as usual");
+    let why = |text: &str, model| {
+        let project = parse(text).unwrap();
+        let Err(Error::Mistakes {
+            text, diagnostics, ..
+        }) = project.complete(&mut rungc_syntax::Program::default(), Model::get(model))
+        else {
+            panic!("{text} is taken");
+        };
+        let d = diagnostics.sorted().remove(0);
+        format!("{} {}; {}", text.slice(d.span), d.message, d.help.unwrap())
+    };
+    insta::assert_snapshot!(
+        "latched",
+        [
+            why("[latched]\nD = 'D100-D8005'\n", ModelId::Fx3u),
+            why("[latched]\nM = ['M500-M510', 'M3-M4']\n", ModelId::Fx3g),
+        ]
+        .join("\n")
     );
 }
 

@@ -77,6 +77,29 @@ fn the_model_is_the_projects_or_the_programs() {
     assert_eq!(failures(chosen.path()), [""; 0]);
 }
 
+/// D200 to D511 are latched on FX3U, and among those for which that can be chosen.
+#[test]
+fn settings_say_what_is_latched() {
+    let counts = "LD X000\nMOV K7 D200\nMOV K8 D300\nEND\n";
+    let cases = r#"
+topic = "latched"
+program = { file = "plc/a.il" }
+[[case]]
+name = "kept"
+[[case.step]]
+set = { X000 = 1 }
+[[case.step]]
+power_cycle = true
+set = { X000 = 0 }
+expect = { D200 = 7, D300 = 0 }
+"#;
+    let folder = folder("a.il", counts, Some("[latched]\nD = 'D200-D299'\n"));
+    fs::write(folder.path().join("t.plctest.toml"), cases).unwrap();
+    assert_eq!(failures(folder.path()), [""; 0]);
+    fs::write(folder.path().join("plc/rungc.toml"), "").unwrap();
+    assert!(failures(folder.path())[0].contains("D300 is 8, expected 0"));
+}
+
 #[test]
 fn mistakes_have_their_place() {
     let wrong = folder("a.il", LIST, Some("[project]\nmodel = 'h9u'\n"));

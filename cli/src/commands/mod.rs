@@ -18,7 +18,7 @@ mod unproven;
 use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
-use rungc_ir::compile::Compiled;
+use rungc_ir::compile::{self, CompileOptions, Compiled};
 use rungc_syntax::{SourceKind, Span, codes, text};
 use std::fmt;
 use std::fs::{self, File};
@@ -111,27 +111,42 @@ impl Context {
     }
 }
 
-/// Reads a program. That it cannot be read is an object too, for tools.
+/// Reads a program, and gives it what its settings say of it. That it cannot be read is an object too, for tools.
 pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<Read, Failure> {
-    let read = subject::source(subject).map(|mut read| {
-        unproven::suggest(&mut read, subject.model);
-        read
-    });
-    read.or_else(|error| {
-        let code = match error {
-            ReadError::Undecodable { .. } | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
-            ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,
+    let mut read = match subject::source(subject) {
+        Ok(read) => read,
+        Err(error) => return Err(unread(&error, subject, reporter)?),
+    };
+    unproven::suggest(&mut read, subject.model);
+    if let Some(project) = &subject.project {
+        let options = CompileOptions {
+            model: subject.model,
+            ..CompileOptions::default()
         };
-        let id = code.id;
-        if subject.reporting.format == Format::Human {
-            tell(&format!(
-                "rungc: error[{id}]: {error}\n       `rungc explain {id}` tells more"
-            ));
+        let model = compile::model(&read.program, &options);
+        if let Err(error) = project.complete(&mut read.program, model) {
+            subject::report_mistakes(error, &subject.reporting, reporter)?;
+            return Err(Failure::Reported);
         }
-        let why = code.at(Span::default(), error.to_string());
-        reporter.add(&Findings::unread(&subject.file, why))?;
-        Err(Failure::Reported)
-    })
+    }
+    Ok(read)
+}
+
+/// Reports that a program cannot be read.
+fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::Result<Failure> {
+    let code = match error {
+        ReadError::Undecodable { .. } | ReadError::NoProject { .. } => &codes::UNKNOWN_FORMAT,
+        ReadError::Io { .. } | ReadError::TooLarge { .. } => &codes::UNREADABLE_FILE,
+    };
+    let id = code.id;
+    if subject.reporting.format == Format::Human {
+        tell(&format!(
+            "rungc: error[{id}]: {error}\n       `rungc explain {id}` tells more"
+        ));
+    }
+    let why = code.at(Span::default(), error.to_string());
+    reporter.add(&Findings::unread(&subject.file, why))?;
+    Ok(Failure::Reported)
 }
 
 /// Writes a text to standard output, with all written out that a terminal would act on.

@@ -157,15 +157,29 @@ pub fn load(
         .map_err(|error| refuse(error, reporting, cx))
 }
 
-/// Reports what is wrong with settings.
+/// Reports what is wrong with settings, where nothing else is reported.
 pub fn refuse(error: Error, reporting: &Reporting, cx: Context) -> Failure {
+    let mut reporter = Reporter::new(reporting, cx, false);
+    let reported = report_mistakes(error, reporting, &mut reporter);
+    match reported.and_then(|()| Ok(reporter.finish()?)) {
+        Ok(()) => Failure::Reported,
+        Err(failure) => failure,
+    }
+}
+
+/// Reports what is wrong with settings.
+pub fn report_mistakes(
+    error: Error,
+    reporting: &Reporting,
+    reporter: &mut Reporter,
+) -> std::result::Result<(), Failure> {
     let Error::Mistakes {
         path,
         text,
         diagnostics,
     } = error
     else {
-        return Failure::Because(error.to_string());
+        return Err(Failure::Because(error.to_string()));
     };
     let program = Program {
         source: *text,
@@ -173,11 +187,7 @@ pub fn refuse(error: Error, reporting: &Reporting, cx: Context) -> Failure {
     };
     let path = near(path);
     let findings = Findings::new(&path, &program, diagnostics, reporting);
-    let mut reporter = Reporter::new(reporting, cx, false);
-    match reporter.add(&findings).and_then(|()| reporter.finish()) {
-        Ok(()) => Failure::Reported,
-        Err(error) => error.into(),
-    }
+    Ok(reporter.add(&findings)?)
 }
 
 /// The program of a command that takes one.

@@ -2,6 +2,7 @@
 
 use rungc_frontend::Read;
 use rungc_ir::ModelId;
+use rungc_ir::compile::{self, CompileOptions};
 use rungc_project::{Error, Project};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
@@ -54,16 +55,21 @@ impl Tested {
 
 /// Reads a program of any format, with the settings of its project.
 pub(super) fn read(path: &Path) -> Result<Tested, String> {
-    let project = Project::find(path)
-        .map(|settings| Project::load(&settings))
-        .transpose()
-        .map_err(|error| mistakes(&error))?;
-    let options = project.as_ref().map(Project::reading).unwrap_or_default();
-    let read = rungc_frontend::read_with(path, &options).map_err(|error| error.to_string())?;
-    let chosen = project.and_then(|project| project.model);
-    let named = || read.program.cpu.as_deref().and_then(ModelId::from_cpu);
+    let project = match Project::find(path) {
+        Some(settings) => Project::load(&settings).map_err(|error| mistakes(&error))?,
+        None => Project::default(),
+    };
+    let read = rungc_frontend::read_with(path, &project.reading());
+    let mut read = read.map_err(|error| error.to_string())?;
+    let compiled = CompileOptions {
+        model: project.model,
+        ..CompileOptions::default()
+    };
+    let model = compile::model(&read.program, &compiled);
+    let completed = project.complete(&mut read.program, model);
+    completed.map_err(|error| mistakes(&error))?;
     Ok(Tested {
-        model: chosen.or_else(named).or(Some(ModelId::Fx3u)),
+        model: Some(model.id),
         program: CaseProgram::File(Arc::new(read)),
     })
 }

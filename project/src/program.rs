@@ -1,0 +1,76 @@
+//! What settings say of the PLC of a program: what it keeps over power-off.
+
+use crate::{Error, Latched, Project};
+use rungc_ir::Model;
+use rungc_syntax::{Device, DeviceClass, DeviceRun, Program, codes};
+use std::collections::BTreeSet;
+
+impl Project {
+    /// Gives a program for a model the latched devices of the settings. Those that the model does not let choose are mistakes.
+    pub fn complete(&self, program: &mut Program, model: &Model) -> Result<(), Error> {
+        if self.latched.is_empty() {
+            return Ok(());
+        }
+        for run in &self.latched {
+            self.can_latch(run, model)?;
+        }
+        let named: BTreeSet<DeviceClass> = self.latched.iter().map(|run| run.class).collect();
+        let parameters = program.parameters.get_or_insert_default();
+        let others = parameters.latched.take().unwrap_or_else(|| usual(model));
+        let others = others.into_iter().filter(|run| !named.contains(&run.class));
+        let own = self.latched.iter().map(|run| DeviceRun {
+            class: run.class,
+            first: run.first,
+            count: run.last - run.first + 1,
+        });
+        parameters.latched = Some(own.chain(others).collect());
+        Ok(())
+    }
+
+    fn can_latch(&self, run: &Latched, model: &Model) -> Result<(), Error> {
+        let fits = |number| {
+            let fixed = model.range(run.class, number);
+            model.can_choose_latch(run.class, number) || fixed.is_some_and(|range| range.latched)
+        };
+        let device = |number| Device {
+            class: run.class,
+            number,
+        };
+        let Some(wrong) = (run.first..=run.last).find(|&number| !fits(number)) else {
+            return Ok(());
+        };
+        let message = format!("{} cannot be latched on {}", device(wrong), model.title);
+        let choices = model.latch_choices.iter().filter(|c| c.0 == run.class);
+        let choices: Vec<_> = choices
+            .map(|&(_, first, last)| format!("{} to {}", device(first), device(last)))
+            .collect();
+        let help = match choices.is_empty() {
+            true => format!(
+                "there is no choice among the {} of this model",
+                run.class.prefix()
+            ),
+            false => format!("there is a choice among {}", choices.join(", ")),
+        };
+        let why = codes::PROJECT_VALUE.at(run.span, message);
+        Err(self.mistake(why.help(help)))
+    }
+}
+
+/// The latched devices of a model for which that can be chosen.
+fn usual(model: &Model) -> Vec<DeviceRun> {
+    let latched = model.ranges.iter().filter(|range| range.latched);
+    let choices = latched.flat_map(|range| {
+        let choices = model.latch_choices.iter();
+        choices
+            .filter(|c| c.0 == range.class)
+            .map(|&(class, first, last)| {
+                let (first, last) = (first.max(range.first), last.min(range.last));
+                DeviceRun {
+                    class,
+                    first,
+                    count: (last + 1).saturating_sub(first),
+                }
+            })
+    });
+    choices.filter(|run| run.count > 0).collect()
+}
