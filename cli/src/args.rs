@@ -27,10 +27,12 @@ Examples:
   rungc run motor.il --set X000=1@200ms --for 5s --watch Y000,T0
   rungc build MAIN.csv --emit c -o firmware/plc
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
-  rungc test tests/*.plctest.toml --engine all
+  rungc test tests --engine all                all test files in a folder
+  rungc init machine.gxw                       settings of a project: rungc.toml
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
 
-Exit codes: 0 success, 1 errors in the program, a failed test or a damaged machine, 2 wrong usage or unreadable input.")]
+Exit codes: 0 success, 1 errors in the program, a failed test or a damaged machine, 2 wrong usage or unreadable input,
+130 after Ctrl-C.")]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
