@@ -1,11 +1,28 @@
-//! What settings say of the PLC of a program: what it keeps over power-off.
+//! What settings say of a program: what its PLC keeps over power-off, and what its indexes reach.
 
 use crate::{Error, Latched, Project};
 use rungc_ir::Model;
+use rungc_ir::compile::Bound;
 use rungc_syntax::{Device, DeviceClass, DeviceRun, Program, codes};
 use std::collections::BTreeSet;
+use std::path::Path;
 
 impl Project {
+    /// What operands with an index can reach in a program, if the project is about it.
+    pub fn bounds(&self, file: &Path) -> Vec<Bound> {
+        let bounds = self.index.iter().filter(|_| self.is_about(file));
+        let bound = |bound: &crate::Bound| Bound {
+            device: Device {
+                class: bound.class,
+                number: bound.number,
+            },
+            index: bound.index,
+            first: bound.first,
+            last: bound.last,
+        };
+        bounds.map(bound).collect()
+    }
+
     /// Gives a program for a model the latched devices of the settings. Those that the model does not let choose are mistakes.
     pub fn complete(&self, program: &mut Program, model: &Model) -> Result<(), Error> {
         if self.latched.is_empty() {

@@ -100,6 +100,27 @@ expect = { D200 = 7, D300 = 0 }
     assert!(failures(folder.path())[0].contains("D300 is 8, expected 0"));
 }
 
+/// An access beyond the bound of an index is the PLC's error, in tests as in what is built.
+#[test]
+fn settings_bound_indexes() {
+    let list = "LD X000\nMOV K9 Z0\nLD X000\nMOV K7 D100Z0\nEND\n";
+    let cases = r#"
+topic = "bound"
+program = { file = "plc/a.il" }
+[[case]]
+name = "beyond"
+[[case.step]]
+set = { X000 = 1 }
+expect = { D109 = 0 }
+"#;
+    let settings = "[project]\nprogram = 'a.il'\n[index]\n'D100Z0' = 'D100-D104'\n";
+    let folder = folder("a.il", list, Some(settings));
+    fs::write(folder.path().join("t.plctest.toml"), cases).unwrap();
+    assert_eq!(failures(folder.path()), [""; 0]);
+    fs::write(folder.path().join("plc/rungc.toml"), "").unwrap();
+    assert!(failures(folder.path())[0].contains("D109 is 7, expected 0"));
+}
+
 #[test]
 fn mistakes_have_their_place() {
     let wrong = folder("a.il", LIST, Some("[project]\nmodel = 'h9u'\n"));

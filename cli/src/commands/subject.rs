@@ -5,9 +5,9 @@ use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
 use rungc_ir::ModelId;
-use rungc_ir::compile::{Bound, CompileOptions};
+use rungc_ir::compile::CompileOptions;
 use rungc_project::{Error, Project};
-use rungc_syntax::{Device, Program};
+use rungc_syntax::Program;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -43,24 +43,12 @@ impl Subject {
         CompileOptions {
             model: self.model,
             warn: warn.iter().chain(&rules.warn).copied().collect(),
-            bounds: self.bounds(),
+            bounds: self
+                .project
+                .as_ref()
+                .map_or_else(Vec::new, |project| project.bounds(&self.file)),
             ..CompileOptions::default()
         }
-    }
-
-    /// What operands with an index can reach, as the settings of its project say.
-    fn bounds(&self) -> Vec<Bound> {
-        let bounds = self.own_project().map_or(&[][..], |project| &project.index);
-        let bound = |bound: &rungc_project::Bound| Bound {
-            device: Device {
-                class: bound.class,
-                number: bound.number,
-            },
-            index: bound.index,
-            first: bound.first,
-            last: bound.last,
-        };
-        bounds.iter().map(bound).collect()
     }
 
     /// The settings of its project, if the project is about this program.

@@ -12,7 +12,7 @@ mod suite;
 mod wiring;
 
 pub use name::Target;
-pub use program::CaseProgram;
+pub use program::{CaseProgram, ProgramFile};
 pub use report::{Failure, Outcome, Report};
 pub use runner::run;
 pub use suite::{Id, Suite};

@@ -2,7 +2,7 @@
 
 use rungc_frontend::Read;
 use rungc_ir::ModelId;
-use rungc_ir::compile::{self, CompileOptions};
+use rungc_ir::compile::{self, Bound, CompileOptions};
 use rungc_project::{Error, Project};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
@@ -15,8 +15,19 @@ use std::sync::Arc;
 pub enum CaseProgram {
     /// An instruction list in the test file.
     List(String),
-    /// A file, which may have mistakes: those are a matter of the case.
-    File(Arc<Read>),
+    /// A file.
+    File(Arc<ProgramFile>),
+}
+
+/// A program in a file of its own.
+#[derive(Clone, Debug)]
+pub struct ProgramFile {
+    /// What was read. Mistakes in it are a matter of the case.
+    pub read: Read,
+    /// What operands with an index can reach, as its settings say.
+    pub bounds: Vec<Bound>,
+    /// Codes of errors that are warnings in it.
+    pub warn: Vec<&'static str>,
 }
 
 impl CaseProgram {
@@ -24,7 +35,7 @@ impl CaseProgram {
     pub fn text(&self) -> &str {
         match self {
             CaseProgram::List(list) => list,
-            CaseProgram::File(read) => &read.program.source.text,
+            CaseProgram::File(file) => &file.read.program.source.text,
         }
     }
 }
@@ -70,7 +81,11 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
     completed.map_err(|error| mistakes(&error))?;
     Ok(Tested {
         model: Some(model.id),
-        program: CaseProgram::File(Arc::new(read)),
+        program: CaseProgram::File(Arc::new(ProgramFile {
+            bounds: project.bounds(path),
+            warn: project.check.warn,
+            read,
+        })),
     })
 }
 

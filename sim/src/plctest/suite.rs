@@ -126,7 +126,7 @@ fn compile_case(
             of_list = rungc_frontend::read_text(&format!("{}.il", case.name), list);
             &of_list
         }
-        CaseProgram::File(read) => read,
+        CaseProgram::File(file) => &file.read,
     };
     let program = &read.program;
     let compiled = compile_on(case.model, case, program, warn);
@@ -146,14 +146,18 @@ fn compile_case(
 }
 
 fn compile_on(model: ModelId, case: &Case, program: &Program, warn: &[&'static str]) -> Compiled {
+    let (bounds, eased) = match &case.program {
+        CaseProgram::List(_) => (Vec::new(), &[][..]),
+        CaseProgram::File(file) => (file.bounds.clone(), &file.warn[..]),
+    };
     let options = CompileOptions {
         model: Some(model),
         name: Some(case.name.clone()),
         observe: observed(case),
         observe_all: false,
-        bounds: Vec::new(),
+        bounds,
         optimise: true,
-        warn: warn.to_vec(),
+        warn: warn.iter().chain(eased).copied().collect(),
     };
     compile(program, &options)
 }
