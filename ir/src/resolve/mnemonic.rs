@@ -137,7 +137,7 @@ impl Finder {
             .into_iter()
             .map(|(wide, pulse)| Form { wide, pulse })
             .filter(|&form| self.has_form(inst, form))
-            .filter_map(|form| Some(format!("`{}`", inst.spelling_of(form)?)))
+            .filter_map(|form| inst.spelling_of(form))
             .collect();
         let missing = match form {
             Form { pulse: true, .. } if !inst.forms_on(self.model.id).has(Forms::PULSE) => "pulse",
@@ -149,10 +149,18 @@ impl Finder {
             "`{}` does not exist: `{}` has no {missing} form",
             instr.mnemonic, inst.name
         );
-        codes::NO_SUCH_FORM
+        let diagnostic = codes::NO_SUCH_FORM
             .at(instr.mnemonic_span, message)
-            .label(format!("no {missing} form"))
-            .help(format!("write {}", forms.join(" or ")))
+            .label(format!("no {missing} form"));
+        let quoted: Vec<_> = forms.iter().map(|form| format!("`{form}`")).collect();
+        let diagnostic = diagnostic.help(format!("write {}", quoted.join(" or ")));
+        match forms.as_slice() {
+            [only] => diagnostic.fix(
+                Fix::suggested(format!("write `{only}`"))
+                    .replace(instr.mnemonic_span, only.as_str()),
+            ),
+            _ => diagnostic,
+        }
     }
 }
 
