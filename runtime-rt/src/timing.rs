@@ -215,3 +215,78 @@ impl Counter32 {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Timer, TimerKind};
+    use crate::plc::Sys;
+
+    const KIND: TimerKind = TimerKind {
+        unit_ms: 10,
+        accumulating: false,
+        free_running: false,
+        latches_preset: false,
+        overruns: false,
+        stepwise: false,
+        shared: true,
+    };
+
+    /// Runs a coil so often in each of some scans of 10 ms; the value then.
+    fn value(kind: TimerKind, scans: u32, times: u32) -> i16 {
+        let (mut timer, mut sys) = (Timer::new(), Sys::power_on());
+        for scan in 0..scans {
+            sys.begin_scan(10 * scan, 0);
+            for _ in 0..times {
+                timer.run(kind, true, i16::MAX, &sys);
+            }
+            sys.end_scan();
+        }
+        timer.value
+    }
+
+    #[test]
+    fn a_shared_timer_counts_time_not_executions() {
+        assert_eq!([1, 2, 7].map(|times| value(KIND, 20, times)), [19; 3]);
+        let alone = TimerKind {
+            shared: false,
+            ..KIND
+        };
+        assert_eq!(value(alone, 20, 1), 19);
+    }
+
+    #[test]
+    fn no_scan_is_taken_for_an_earlier_one() {
+        // More scans than numbers of scans.
+        assert_eq!(value(KIND, 40_000, 2), i16::MAX);
+        let (mut timer, mut sys) = (Timer::new(), Sys::power_on());
+        for scan in 0..=u32::from(u16::MAX) {
+            sys.begin_scan(10 * scan, 0);
+            assert_ne!(sys.scan, 0, "0 is a coil that is off");
+            sys.end_scan();
+        }
+        timer.run(KIND, true, 5, &sys);
+        assert!(timer.coil != 0);
+        timer.run(KIND, false, 5, &sys);
+        assert_eq!(timer, Timer::new());
+    }
+
+    #[test]
+    fn a_free_running_timer_goes_on_once_in_a_scan() {
+        let kind = TimerKind {
+            free_running: true,
+            shared: false,
+            ..KIND
+        };
+        let (mut timer, mut sys) = (Timer::new(), Sys::power_on());
+        for scan in 0..10 {
+            sys.begin_scan(10 * scan, 0);
+            // Its coil is executed in every other scan only.
+            if scan % 2 == 0 {
+                timer.run(kind, true, 100, &sys);
+            }
+            timer.go_on(kind, &sys);
+            sys.end_scan();
+        }
+        assert_eq!(timer.value, 9);
+    }
+}
