@@ -311,6 +311,181 @@ static inline int32_t plc_sat_sub32(int32_t a, int32_t b)
     return (a > INT32_MAX + b) ? INT32_MAX : a - b;
 }
 
+/* The bits of a word or a pair, those that leave at the high end entering at the low end. */
+static inline int16_t plc_rotate16(int16_t value, int16_t places)
+{
+    const uint32_t bits = (uint16_t)value;
+    const unsigned n = (uint16_t)places & 15u;
+    return plc_int16((bits << n) | (bits >> (16u - n)));
+}
+
+static inline int32_t plc_rotate32(int32_t value, int32_t places)
+{
+    const uint32_t bits = (uint32_t)value;
+    const unsigned n = (uint32_t)places & 31u;
+    return plc_int32((n == 0u) ? bits : (bits << n) | (bits >> (32u - n)));
+}
+
+/* The bytes of each word exchanged. */
+static inline int32_t plc_swap32(int32_t value)
+{
+    const uint32_t bits = (uint32_t)value;
+    return plc_int32(((bits & 0x00FF00FFu) << 8) | ((bits >> 8) & 0x00FF00FFu));
+}
+
+static inline int16_t plc_swap16(int16_t value)
+{
+    return plc_low(plc_swap32(value));
+}
+
+/* How many bits are on. */
+static inline int32_t plc_ones32(int32_t value)
+{
+    int32_t ones = 0;
+    for (uint32_t bits = (uint32_t)value; bits != 0u; bits &= bits - 1u) {
+        ones++;
+    }
+    return ones;
+}
+
+static inline int16_t plc_ones16(int16_t value)
+{
+    return (int16_t)plc_ones32((uint16_t)value);
+}
+
+/* The decimal digits of 0 to 99 999 999 (0 to 9999), four bits each. */
+static inline int32_t plc_to_bcd32(int32_t value)
+{
+    uint32_t digits = 0;
+    uint32_t rest = (uint32_t)value;
+    for (unsigned shift = 0; shift < 32u; shift += 4u) {
+        digits |= (rest % 10u) << shift;
+        rest /= 10u;
+    }
+    return plc_int32(digits);
+}
+
+static inline int16_t plc_to_bcd16(int16_t value)
+{
+    return plc_low(plc_to_bcd32(value));
+}
+
+/* The number of decimal digits of four bits each; one above 9 counts as what it is. */
+static inline int32_t plc_from_bcd32(int32_t digits)
+{
+    uint32_t value = 0;
+    for (unsigned shift = 32; shift > 0u; shift -= 4u) {
+        value = value * 10u + (((uint32_t)digits >> (shift - 4u)) & 15u);
+    }
+    return plc_int32(value);
+}
+
+static inline int16_t plc_from_bcd16(int16_t digits)
+{
+    return plc_low(plc_from_bcd32((uint16_t)digits));
+}
+
+/* Whether no digit of four bits is above 9. */
+static inline bool plc_is_bcd32(int32_t digits)
+{
+    const uint32_t bits = (uint32_t)digits;
+    return ((bits & 0x88888888u) & (((bits & 0x44444444u) << 1) | ((bits & 0x22222222u) << 2))) == 0u;
+}
+
+static inline bool plc_is_bcd16(int16_t digits)
+{
+    return plc_is_bcd32((uint16_t)digits);
+}
+
+/* The integer square root; 0 of a number below 0. */
+static inline int32_t plc_root(int32_t value)
+{
+    uint32_t rest = (value > 0) ? (uint32_t)value : 0u;
+    uint32_t root = 0;
+    for (uint32_t bit = UINT32_C(1) << 30; bit != 0u; bit >>= 2) {
+        if (rest >= root + bit) {
+            rest -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+    }
+    return (int32_t)root;
+}
+
+/* ---- Floats --------------------------------------------------------------------------------------------------------- */
+
+/* Whether it is a number and not infinite. */
+static inline bool plc_is_finite(float value)
+{
+    return ((uint32_t)plc_float_bits(value) & 0x7F800000u) != 0x7F800000u;
+}
+
+/* The other sign. */
+static inline float plc_negate(float value)
+{
+    return plc_float(plc_int32((uint32_t)plc_float_bits(value) ^ 0x80000000u));
+}
+
+/* The nearest float. */
+static inline float plc_to_float(int32_t value)
+{
+    return (float)value;
+}
+
+/* The low 32 bits of the integer part, which is held at the ends of 64 bits; 0 for no number. */
+static inline int32_t plc_truncate(float value)
+{
+    if (value >= -2147483648.0f && value < 2147483648.0f) {
+        return (int32_t)value;
+    }
+    if (value >= -9223372036854775808.0f && value < 9223372036854775808.0f) {
+        return plc_int32((uint32_t)((uint64_t)(int64_t)value & 0xFFFFFFFFu));
+    }
+    return (value > 0.0f) ? -1 : 0;
+}
+
+/* A result as it is stored: the largest float of its sign where it is too large, the smallest normal one where it is too small but not
+   exactly 0. */
+static inline float plc_stored(float rounded, bool is_zero)
+{
+    const uint32_t bits = (uint32_t)plc_float_bits(rounded);
+    const uint32_t size = bits & 0x7FFFFFFFu;
+    if (size >= 0x7F800000u) {
+        return plc_float(plc_int32((bits & 0x80000000u) | 0x7F7FFFFFu));
+    }
+    if (size < 0x00800000u && !is_zero) {
+        return plc_float(plc_int32((bits & 0x80000000u) | 0x00800000u));
+    }
+    return rounded;
+}
+
+/* Arithmetic of two finite floats. */
+static inline float plc_float_add(float a, float b)
+{
+    const float sum = a + b;
+    return plc_stored(sum, sum == 0.0f);
+}
+
+static inline float plc_float_sub(float a, float b)
+{
+    const float difference = a - b;
+    return plc_stored(difference, difference == 0.0f);
+}
+
+static inline float plc_float_mul(float a, float b)
+{
+    return plc_stored(a * b, a == 0.0f || b == 0.0f);
+}
+
+/* b is not 0. */
+static inline float plc_float_div(float a, float b)
+{
+    return plc_stored(a / b, a == 0.0f);
+}
+
+/* ---- Repetition ----------------------------------------------------------------------------------------------------- */
+
 /* How often FOR repeats: at least once. */
 static inline int16_t plc_times(int16_t count)
 {

@@ -84,6 +84,7 @@ fn function(op: BinOp) -> &'static str {
         BinOp::And => "plc_and",
         BinOp::Or => "plc_or",
         BinOp::Xor => "plc_xor",
+        BinOp::RotateLeft => "plc_rotate",
     }
 }
 
@@ -172,6 +173,17 @@ impl Writer<'_, '_> {
             Expr::Or(..) => self.chain(out, id, "|", around),
             Expr::Cmp(op, a, b) => self.compare(out, *op, *a, *b, around),
             Expr::Bin(op, a, b) => self.binary(out, id, *op, (*a, *b), around),
+            Expr::Un(op, a) => {
+                let function = op.name(module.ty(*a));
+                self.call(out, &format!("plc_{function}"), *a);
+            }
+            Expr::Float(op, a, b) => {
+                let _ = write!(out, "plc_{}(", op.name());
+                self.expr(out, *a, Around::Exact);
+                out.push_str(", ");
+                self.expr(out, *b, Around::Exact);
+                out.push(')');
+            }
             Expr::Complement(a) => {
                 self.int16_of(out, id, around, |w, out| {
                     out.push('~');

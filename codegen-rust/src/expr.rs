@@ -197,6 +197,16 @@ impl Generator<'_> {
             Expr::Or(a, b) => Code::binary("|", self.expr(a), self.expr(b)),
             Expr::Cmp(op, a, b) => self.compare(op, a, b),
             Expr::Bin(op, a, b) => self.arithmetic(op, a, b, typed),
+            Expr::Un(op, a) => {
+                let function = self.word_function(op.name(self.module.ty(a)));
+                let a = self.expr(a);
+                Code::atom(quote!(#function(#a)))
+            }
+            Expr::Float(op, a, b) => {
+                let function = self.word_function(op.name());
+                let (a, b) = (self.expr(a), self.expr(b));
+                Code::atom(quote!(#function(#a, #b)))
+            }
             Expr::Complement(a) => {
                 let a = self.code(a, typed).operand_of("!");
                 Code::shaped(quote!(!#a), Shape::Unary)
@@ -287,7 +297,14 @@ impl Generator<'_> {
             _ => false,
         };
         let a = self.typed(a);
-        let b = self.expr(b);
+        let b = match (op, self.module.expr(b)) {
+            (BinOp::RotateLeft, Expr::I16(_) | Expr::I32(_)) => self.expr(b),
+            (BinOp::RotateLeft, _) => {
+                let places = self.typed(b).operand_of("as");
+                Code::shaped(quote!(#places as u32), Shape::Cast)
+            }
+            _ => self.expr(b),
+        };
         match op {
             BinOp::MulHigh => {
                 let mul_high = self.word_function("mul_high");
@@ -304,6 +321,7 @@ impl Generator<'_> {
             BinOp::Mul => quote!(#a.wrapping_mul(#b)),
             BinOp::SatAdd => quote!(#a.saturating_add(#b)),
             BinOp::SatSub => quote!(#a.saturating_sub(#b)),
+            BinOp::RotateLeft => quote!(#a.rotate_left(#b)),
             // Only MIN / -1 has no quotient left here: it wraps to MIN, with remainder 0.
             BinOp::Div => quote!(#a.checked_div(#b).unwrap_or(#min)),
             _ => quote!(#a.checked_rem(#b).unwrap_or(0)),

@@ -412,6 +412,10 @@ impl Out<'_> {
             Expr::Or(a, b) => two(a, "|", b),
             Expr::Cmp(op, a, b) => two(a, op.symbol(), b),
             Expr::Bin(op, a, b) => two(a, bin_text(*op), b),
+            Expr::Un(op, a) => of(op.name(self.module.ty(*a)), a),
+            Expr::Float(op, a, b) => {
+                format!("{}({}, {})", op.name(), self.expr(*a), self.expr(*b))
+            }
             Expr::Complement(a) => format!("~{}", self.expr(*a)),
             Expr::Neg(a) => format!("-{}", self.expr(*a)),
             Expr::Widen(a) => of("widen", a),
@@ -454,5 +458,6 @@ fn bin_text(op: BinOp) -> &'static str {
         BinOp::Xor => "xor",
         BinOp::SatAdd => "+sat",
         BinOp::SatSub => "-sat",
+        BinOp::RotateLeft => "rotl",
     }
 }

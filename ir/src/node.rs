@@ -130,6 +130,9 @@ pub enum BinOp {
     SatAdd,
     /// Difference, held at the ends of the type's range.
     SatSub,
+    /// The bits of the first operand, those that leave at the high end entering at the low end, by as many places as the second one
+    /// says, modulo the type's width.
+    RotateLeft,
 }
 
 impl BinOp {
@@ -137,6 +140,7 @@ impl BinOp {
     pub fn of_i16(self, a: i16, b: i16) -> Option<i16> {
         match self {
             BinOp::MulHigh => None,
+            BinOp::RotateLeft => Some(a.rotate_left(b as u32 % 16)),
             BinOp::SatAdd => Some(a.saturating_add(b)),
             BinOp::SatSub => Some(a.saturating_sub(b)),
             _ => self.of_i32(a.into(), b.into()).map(|wide| wide as i16),
@@ -158,7 +162,94 @@ impl BinOp {
             BinOp::Xor => a ^ b,
             BinOp::SatAdd => a.saturating_add(b),
             BinOp::SatSub => a.saturating_sub(b),
+            BinOp::RotateLeft => a.rotate_left(b as u32 % 32),
         })
+    }
+}
+
+/// One-operand functions on words and floats; [`rungc_rt::word`] has them under their names.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum UnOp {
+    /// The two bytes of each 16 bits of an integer exchanged.
+    SwapBytes,
+    /// How many bits of an integer are on, in its type.
+    CountOnes,
+    /// The decimal digits of an integer, four bits each; it must be known to be from 0 to 9999 (`I16`) or 99 999 999 (`I32`).
+    ToBcd,
+    /// The number whose decimal digits an integer holds, four bits each; a digit above 9 counts as what it is.
+    FromBcd,
+    /// `Bit`: whether no four bits of an integer are above 9.
+    IsBcd,
+    /// `I32`: the integer square root of an `I32`, which must be known to be at least 0.
+    Root,
+    /// `I32` to the nearest `F32`.
+    ToFloat,
+    /// `F32` to the low 32 bits of its integer part (`I32`), which is held at the ends of 64 bits.
+    Truncate,
+    /// `Bit`: whether an `F32` is a number and not infinite.
+    IsFinite,
+    /// An `F32` with the other sign.
+    Negate,
+}
+
+impl UnOp {
+    /// The name of the function of a value of type `ty`.
+    pub const fn name(self, ty: Ty) -> &'static str {
+        let narrow = matches!(ty, Ty::I16);
+        match self {
+            UnOp::SwapBytes if narrow => "swap16",
+            UnOp::SwapBytes => "swap32",
+            UnOp::CountOnes if narrow => "ones16",
+            UnOp::CountOnes => "ones32",
+            UnOp::ToBcd if narrow => "to_bcd16",
+            UnOp::ToBcd => "to_bcd32",
+            UnOp::FromBcd if narrow => "from_bcd16",
+            UnOp::FromBcd => "from_bcd32",
+            UnOp::IsBcd if narrow => "is_bcd16",
+            UnOp::IsBcd => "is_bcd32",
+            UnOp::Root => "root",
+            UnOp::ToFloat => "to_float",
+            UnOp::Truncate => "truncate",
+            UnOp::IsFinite => "is_finite",
+            UnOp::Negate => "negate",
+        }
+    }
+
+    /// Whether it takes a value of type `ty`.
+    pub const fn takes(self, ty: Ty) -> bool {
+        match self {
+            UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd | UnOp::IsBcd => {
+                matches!(ty, Ty::I16 | Ty::I32)
+            }
+            UnOp::Root | UnOp::ToFloat => matches!(ty, Ty::I32),
+            UnOp::Truncate | UnOp::IsFinite | UnOp::Negate => matches!(ty, Ty::F32),
+        }
+    }
+}
+
+/// Two-operand operators of `F32`. A result too large for an `F32` is the largest of its sign, one that is not 0 but too small for a
+/// normal one is the smallest normal one of its sign: [`rungc_rt::word`] has them as `float_add` and so on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum FloatOp {
+    /// Sum.
+    Add,
+    /// Difference.
+    Sub,
+    /// Product.
+    Mul,
+    /// Quotient. The divisor must be known not to be 0.
+    Div,
+}
+
+impl FloatOp {
+    /// The name of the function.
+    pub const fn name(self) -> &'static str {
+        match self {
+            FloatOp::Add => "float_add",
+            FloatOp::Sub => "float_sub",
+            FloatOp::Mul => "float_mul",
+            FloatOp::Div => "float_div",
+        }
     }
 }
 
@@ -230,6 +321,10 @@ pub enum Expr {
     Cmp(CmpOp, ExprId, ExprId),
     /// Integer operator.
     Bin(BinOp, ExprId, ExprId),
+    /// Function of one value.
+    Un(UnOp, ExprId),
+    /// Float operator, of two finite `F32`s.
+    Float(FloatOp, ExprId, ExprId),
     /// Bitwise complement of an integer.
     Complement(ExprId),
     /// Two's complement negation of an integer; MIN stays MIN.
@@ -821,7 +916,15 @@ pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         | Expr::Stride(..)
         | Expr::Within { .. }
         | Expr::Entry(..) => Ty::I32,
-        Expr::F32(_) | Expr::ReadFloat(_) => Ty::F32,
+        Expr::F32(_)
+        | Expr::ReadFloat(_)
+        | Expr::Float(..)
+        | Expr::Un(UnOp::ToFloat | UnOp::Negate, _) => Ty::F32,
+        Expr::Un(UnOp::IsBcd | UnOp::IsFinite, _) => Ty::Bit,
+        Expr::Un(UnOp::Root | UnOp::Truncate, _) => Ty::I32,
+        Expr::Un(UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd, a) => {
+            type_of(exprs, temps, a)
+        }
         Expr::Temp(temp) => temps[temp.0 as usize],
         Expr::ReadNibbles { wide, .. } => {
             if wide {

@@ -58,6 +58,8 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::Cmp(_, a, b) => ty(a) == ty(b) && ty(a) != Ty::Bit,
         Expr::Bin(BinOp::MulHigh, a, b) => ty(a) == Ty::I32 && ty(b) == Ty::I32,
         Expr::Bin(_, a, b) => ty(a) == ty(b) && integer(a),
+        Expr::Un(op, a) => op.takes(ty(a)),
+        Expr::Float(_, a, b) => ty(a) == Ty::F32 && ty(b) == Ty::F32,
         Expr::Complement(a) | Expr::Neg(a) => integer(a),
         Expr::Widen(a) => ty(a) == Ty::I16,
         Expr::Narrow(a) | Expr::HighWord(a) => ty(a) == Ty::I32,

@@ -22,15 +22,16 @@ macro_rules! operand_slots {
         Expr::Not(a)
         | Expr::Complement(a)
         | Expr::Neg(a)
+        | Expr::Un(_, a)
         | Expr::Widen(a)
         | Expr::Narrow(a)
         | Expr::HighWord(a)
         | Expr::BitToInt(a)
         | Expr::Within { value: a, .. }
         | Expr::Entry(_, a) => [Some(a), None],
-        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b) | Expr::Bin(_, a, b) => {
-            [Some(a), Some(b)]
-        }
+        Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b)
+        | Expr::Bin(_, a, b)
+        | Expr::Float(_, a, b) => [Some(a), Some(b)],
         Expr::ReadBit(place)
         | Expr::ReadWordBit(place, _)
         | Expr::ReadWord(place)

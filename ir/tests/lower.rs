@@ -2,8 +2,10 @@
 
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::dump::dump;
+use rungc_ir::node::Stmt;
 use rungc_ir::passes::optimise;
 use rungc_ir::validate::validate;
+use rungc_ir::walk::statements;
 use rungc_ir::{ModelId, Module};
 
 /// Compiles a list that must have no errors.
@@ -198,6 +200,41 @@ fn calls_of_the_runtime() {
     insta::assert_snapshot!(lowered(
         "LD X0\nBMOV D0 D10 K5\nFMOVP K0 D20Z0 K3\nALT M0\nDSUM D30 D40\nLD X1\nRAMP D50 D51 D52 K10\nEND\n"
     ));
+}
+
+#[test]
+fn conversions_and_floats_are_inline() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nSWAP D0\nXCH D1 D2\nALT M0\nBCD D3 D4\nBIN D4Z0 D5\nSUM D5 D6\nBON D6 M1 K3\nROR D7 K3\nROLP D8 K5\nSQR D9 D10\nEND\n"
+    ));
+    insta::assert_snapshot!(both(
+        &on(ModelId::Fx3u),
+        "LD X0\nFLT D0 D2\nDEADD D2 D14 D4\nDEDIV D4 D6 D8\nDECMP D8 K3 M0\nDINT D8 D10\nDENEG D12\nDEZCP D14 D16 D8 M4\nEND\n"
+    ));
+}
+
+/// Whether a module calls the runtime.
+fn has_call(module: &Module) -> bool {
+    let mut found = false;
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            found |= matches!(stmt, Stmt::Call { .. });
+        });
+    }
+    found
+}
+
+/// What sets flags that something looks at, or has operands that inline code does not know, calls the runtime.
+#[test]
+fn flags_and_operands_call_the_runtime() {
+    let calls = |text: &str| has_call(&module(&on(ModelId::Fx3u), text));
+    assert!(!calls("LD X0\nDEADD D0 D2 D4\nEND\n"));
+    assert!(calls("LD X0\nDEADD D0 D2 D4\nLD M8022\nOUT Y0\nEND\n"));
+    assert!(!calls("LD X0\nDEADD D0 D2 D4\nLD M8020\nOUT Y0\nEND\n"));
+    assert!(!calls("LD X0\nROR D0 K4\nLD M8022\nOUT Y0\nEND\n"));
+    assert!(calls("LD X0\nROR D0 D1\nEND\n"));
+    assert!(!calls("LD X0\nXCH D0 D1\nEND\n"));
+    assert!(calls("LD X0\nXCH D0 D0\nEND\n"));
 }
 
 #[test]

@@ -3,9 +3,11 @@
 use crate::devices::rt_class;
 use crate::logic::{Input, Join, Strided};
 use crate::machine::Machine;
-use rungc_ir::node::{Arg, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, SysValue};
+use rungc_ir::node::{
+    Arg, EdgeKind, Expr, ExprId, FloatOp, LabelId, Part, Place, Stmt, SysValue, UnOp,
+};
 use rungc_rt::{
-    Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report, send,
+    Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report, send, word,
 };
 
 /// Value of an expression or temporary.
@@ -43,6 +45,34 @@ fn int(value: Value) -> i32 {
         Value::I32(v) => v,
         Value::Bit(v) => v.into(),
         Value::F32(_) => 0,
+    }
+}
+
+fn float(value: Value) -> f32 {
+    match value {
+        Value::F32(v) => v,
+        _ => 0.0,
+    }
+}
+
+/// A function of one value.
+fn function(op: UnOp, value: Value) -> Value {
+    match (op, value) {
+        (UnOp::SwapBytes, Value::I16(v)) => Value::I16(word::swap16(v)),
+        (UnOp::SwapBytes, v) => Value::I32(word::swap32(int(v))),
+        (UnOp::CountOnes, Value::I16(v)) => Value::I16(word::ones16(v)),
+        (UnOp::CountOnes, v) => Value::I32(word::ones32(int(v))),
+        (UnOp::ToBcd, Value::I16(v)) => Value::I16(word::to_bcd16(v)),
+        (UnOp::ToBcd, v) => Value::I32(word::to_bcd32(int(v))),
+        (UnOp::FromBcd, Value::I16(v)) => Value::I16(word::from_bcd16(v)),
+        (UnOp::FromBcd, v) => Value::I32(word::from_bcd32(int(v))),
+        (UnOp::IsBcd, Value::I16(v)) => Value::Bit(word::is_bcd16(v)),
+        (UnOp::IsBcd, v) => Value::Bit(word::is_bcd32(int(v))),
+        (UnOp::Root, v) => Value::I32(word::root(int(v))),
+        (UnOp::ToFloat, v) => Value::F32(word::to_float(int(v))),
+        (UnOp::Truncate, v) => Value::I32(word::truncate(float(v))),
+        (UnOp::IsFinite, v) => Value::Bit(word::is_finite(float(v))),
+        (UnOp::Negate, v) => Value::F32(word::negate(float(v))),
     }
 }
 
@@ -97,6 +127,16 @@ impl<'m> Machine<'m> {
                 (Value::I16(a), Value::I16(b)) => Value::I16(op.of_i16(a, b).unwrap_or(0)),
                 (a, b) => Value::I32(op.of_i32(int(a), int(b)).unwrap_or(0)),
             },
+            Expr::Un(op, a) => function(op, self.eval(a)),
+            Expr::Float(op, a, b) => {
+                let (a, b) = (float(self.eval(a)), float(self.eval(b)));
+                Value::F32(match op {
+                    FloatOp::Add => word::float_add(a, b),
+                    FloatOp::Sub => word::float_sub(a, b),
+                    FloatOp::Mul => word::float_mul(a, b),
+                    FloatOp::Div => word::float_div(a, b),
+                })
+            }
             Expr::Complement(a) => match self.eval(a) {
                 Value::I16(v) => Value::I16(!v),
                 v => Value::I32(!int(v)),

@@ -45,12 +45,12 @@ impl Lowerer<'_> {
         }
     }
 
-    fn wide(&self) -> bool {
+    pub(super) fn wide(&self) -> bool {
         self.resolution().form.wide
     }
 
     /// Operand `i` as a value of the instruction's width.
-    fn source(&mut self, i: usize, guards: &mut Guards) -> ExprId {
+    pub(super) fn source(&mut self, i: usize, guards: &mut Guards) -> ExprId {
         let wide = self.wide();
         match self.operand(i) {
             Some(operand) => self.value(operand, wide, guards),
@@ -59,7 +59,7 @@ impl Lowerer<'_> {
     }
 
     /// Operand `i` as the target of a result of the instruction's width.
-    fn result(&mut self, i: usize, guards: &mut Guards) -> Target {
+    pub(super) fn result(&mut self, i: usize, guards: &mut Guards) -> Target {
         let wide = self.wide();
         self.result_element(i, 0, wide, guards)
     }
@@ -263,7 +263,7 @@ impl Lowerer<'_> {
         [is_zero, borrow, carry]
     }
 
-    fn set_flag(&mut self, flag: u32, value: ExprId) {
+    pub(super) fn set_flag(&mut self, flag: u32, value: ExprId) {
         if self.specials.has(DeviceClass::M, flag) {
             self.write_device(DeviceClass::M, flag, value);
         }
@@ -286,7 +286,7 @@ impl Lowerer<'_> {
         value
     }
 
-    fn is_int(&mut self, value: ExprId, int: i32, wide: bool) -> ExprId {
+    pub(super) fn is_int(&mut self, value: ExprId, int: i32, wide: bool) -> ExprId {
         let int = self.int(int, wide);
         self.add(Expr::Cmp(CmpOp::Eq, value, int))
     }

@@ -13,6 +13,9 @@ use std::borrow::Cow;
 
 impl Lowerer<'_> {
     pub(super) fn call(&mut self, inst: &Inst, function: RtFn) {
+        if self.inline_words(function) {
+            return;
+        }
         let needs = function.needs();
         let form = self.resolution().form;
         let step = self.step();

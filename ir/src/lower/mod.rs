@@ -31,6 +31,7 @@ mod special;
 mod stl;
 mod system;
 mod watchdog;
+mod words;
 
 use self::comment::shortened;
 use crate::catalogue::{Basic, Drive, Join, Lower};

@@ -138,6 +138,8 @@ fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) 
             operands(expr).try_for_each(|operand| add_expr(module, operand, hasher, size))
         }
         Expr::F32(_)
+        | Expr::Un(..)
+        | Expr::Float(..)
         | Expr::ReadWordBit(..)
         | Expr::ReadPair(_)
         | Expr::ReadFloat(_)

@@ -17,12 +17,14 @@ pub fn from_nibbles(bcd: u32) -> u32 {
     })
 }
 
+/// Whether no digit of `bcd` is above 9.
+pub fn is_bcd(bcd: u32) -> bool {
+    (0..32).step_by(4).all(|shift| bcd >> shift & 15 <= 9)
+}
+
 /// The number whose decimal digits `bcd` packs; `None` if it has a digit above 9.
 pub fn from_bcd(bcd: u32) -> Option<u32> {
-    (0..32)
-        .step_by(4)
-        .all(|shift| bcd >> shift & 15 <= 9)
-        .then(|| from_nibbles(bcd))
+    is_bcd(bcd).then(|| from_nibbles(bcd))
 }
 
 /// Character of the hexadecimal digit in the low four bits.

@@ -1,6 +1,6 @@
 //! One function per instruction, in files by the manual's families.
 
-mod digits;
+pub(crate) mod digits;
 mod output;
 
 pub mod axes;
