@@ -13,7 +13,7 @@ use std::borrow::Cow;
 
 impl Lowerer<'_> {
     pub(super) fn call(&mut self, inst: &Inst, function: RtFn) {
-        if self.inline_words(function) {
+        if self.inline_words(function) || self.inline_block(function) {
             return;
         }
         let needs = function.needs();

@@ -7,6 +7,7 @@
 mod advanced;
 mod arith;
 mod axes;
+mod blocks;
 mod bounds;
 mod build;
 mod call;

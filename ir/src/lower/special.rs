@@ -1,8 +1,7 @@
 //! Which special relays and registers something looks at. What the scan or an instruction would write to the others is left out.
 
 use super::call::extents;
-use super::words::is_inline;
-use super::{LowerOptions, Lowerer};
+use super::{LowerOptions, Lowerer, blocks, words};
 use crate::catalogue::{Drive, Lower, Role};
 use crate::ranges::Reached;
 use crate::resolve::Resolved;
@@ -92,7 +91,8 @@ impl Specials {
             return;
         };
         let lower = inst.lower_on_model(resolved.model.id);
-        if matches!(lower, Lower::Call(function) if !is_inline(function, instr)) {
+        if matches!(lower, Lower::Call(function) if !words::is_inline(function, instr) && !blocks::is_inline(function, instr))
+        {
             for (class, number) in flags_of(inst.flags) {
                 self.mark(class, number, Some(1));
                 if !self.flags.contains(&(class, number)) {

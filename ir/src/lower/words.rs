@@ -41,7 +41,7 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
 }
 
 /// The value of a constant without an index.
-fn constant(operand: &OperandKind) -> Option<i32> {
+pub(super) fn constant(operand: &OperandKind) -> Option<i32> {
     match *operand {
         OperandKind::Decimal(value, None) => Some(value as i32),
         OperandKind::Hex(value, None) => Some(value as u32 as i32),
@@ -69,16 +69,16 @@ impl Lowerer<'_> {
             RtFn::Swap => self.driven(|this| this.change_value(UnOp::SwapBytes)),
             RtFn::Xch | RtFn::XchWords => self.driven(Self::exchange),
             RtFn::Alt => self.driven(Self::alternate),
-            RtFn::Bcd => self.driven(Self::to_bcd),
-            RtFn::Bin => self.driven(|this| this.from_bcd(true)),
-            RtFn::BinUnchecked => self.driven(|this| this.from_bcd(false)),
+            RtFn::Bcd => self.driven(Self::pack_digits),
+            RtFn::Bin => self.driven(|this| this.unpack_digits(true)),
+            RtFn::BinUnchecked => self.driven(|this| this.unpack_digits(false)),
             RtFn::Sum => self.driven(Self::count_ones),
             RtFn::Bon => self.driven(Self::test_bit),
             RtFn::Ror => self.driven(|this| this.rotate(true)),
             RtFn::Rol => self.driven(|this| this.rotate(false)),
             RtFn::Sqr => self.driven(Self::square_root),
-            RtFn::Flt => self.driven(Self::to_float),
-            RtFn::Int => self.driven(Self::to_integer),
+            RtFn::Flt => self.driven(Self::float_of_integer),
+            RtFn::Int => self.driven(Self::integer_of_float),
             RtFn::Emov => self.driven(Self::move_float),
             RtFn::Eneg => self.driven(Self::negate_float),
             RtFn::Ecmp => self.driven(Self::compare_floats),
@@ -148,7 +148,7 @@ impl Lowerer<'_> {
     }
 
     /// BCD: a value that has more digits than the form faults.
-    fn to_bcd(&mut self) {
+    fn pack_digits(&mut self) {
         let wide = self.wide();
         let mut guards = Guards::default();
         let value = self.source(0, &mut guards);
@@ -170,7 +170,7 @@ impl Lowerer<'_> {
     }
 
     /// BIN: where it is checked, a digit above 9 faults.
-    fn from_bcd(&mut self, checked: bool) {
+    fn unpack_digits(&mut self, checked: bool) {
         let mut guards = Guards::default();
         let value = self.source(0, &mut guards);
         let target = self.result(1, &mut guards);
@@ -341,7 +341,7 @@ impl Lowerer<'_> {
     }
 
     /// FLT.
-    fn to_float(&mut self) {
+    fn float_of_integer(&mut self) {
         let mut guards = Guards::default();
         let value = self.source(0, &mut guards);
         let target = self.float_target(1, &mut guards);
@@ -355,7 +355,7 @@ impl Lowerer<'_> {
     }
 
     /// INT: M8020 for 0, M8021 for a dropped fraction, M8022 for a value that D cannot hold.
-    fn to_integer(&mut self) {
+    fn integer_of_float(&mut self) {
         let wide = self.wide();
         let mut guards = Guards::default();
         let value = self.float_source(0, &mut guards);
