@@ -104,7 +104,8 @@ impl Lowerer<'_> {
         let mut guards = Guards::default();
         self.demand_block(from, n, &mut guards);
         self.demand_block(to, n, &mut guards);
-        let backwards = from.class == to.class && to.number > from.number;
+        let backwards =
+            from.class == to.class && (from.number + 1..from.number + n).contains(&to.number);
         self.guarded(guards, |this| {
             for k in 0..n {
                 let k = if backwards { n - 1 - k } else { k };

@@ -114,7 +114,13 @@ impl Interval {
                 let bits = 64 - (a1 | b1).leading_zeros();
                 Interval::wrapped(0, (1 << bits) - 1, all)
             }
-            BinOp::Div | BinOp::Rem | BinOp::And | BinOp::Or | BinOp::Xor | BinOp::MulHigh => all,
+            BinOp::Div
+            | BinOp::Rem
+            | BinOp::And
+            | BinOp::Or
+            | BinOp::Xor
+            | BinOp::MulHigh
+            | BinOp::RotateLeft => all,
         }
     }
 

@@ -1,5 +1,7 @@
 //! libm in pure Rust
 #![no_std]
+// Added for rungc: here it is no crate from a registry, whose warnings nobody sees.
+#![allow(warnings, clippy::all)]
 #![cfg_attr(intrinsics_enabled, allow(internal_features))]
 #![cfg_attr(intrinsics_enabled, feature(core_intrinsics))]
 #![cfg_attr(
