@@ -4,6 +4,7 @@ use crate::rng::Rng;
 use rungc_ir::catalogue::{self, Classes, Drive, Forms, Inst, Lower, Param, Role, Shape};
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::resolve::Form;
+use rungc_ir::runs::FIRST_COUNTER32;
 use rungc_ir::{Model, ModelId};
 use rungc_syntax::DeviceClass;
 
@@ -136,6 +137,20 @@ fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<St
     Some(text)
 }
 
+/// A special register that is another name of an index register, or stands before such.
+pub fn special_register(rng: &mut Rng, model: &Model) -> u32 {
+    let aliases = model.index_aliases;
+    let first = aliases[rng.below(aliases.len() as u32) as usize].0;
+    first - rng.below(4).saturating_sub(1)
+}
+
+/// The first 32-bit counter of a model.
+pub fn first_counter32(model: &Model) -> u32 {
+    let mut numbers = FIRST_COUNTER32..256;
+    let first = numbers.find(|&number| model.has(DeviceClass::C, number));
+    first.unwrap_or(FIRST_COUNTER32)
+}
+
 fn device(
     rng: &mut Rng,
     (param, model): (&Param, &Model),
@@ -166,9 +181,10 @@ fn device(
         return Some(letters.number(number).to_string());
     }
     let number = match letters {
+        DeviceClass::D if rng.percent(6) => special_register(rng, model),
         DeviceClass::V | DeviceClass::Z => rng.below(3),
         DeviceClass::M if param.role != Role::Read && rng.percent(4) => rng.pick(&FLAGS)?,
-        DeviceClass::C if wide => 200 + rng.below(6),
+        DeviceClass::C if wide => first_counter32(model) + rng.below(6),
         DeviceClass::T | DeviceClass::C => rng.below(6),
         DeviceClass::P | DeviceClass::I | DeviceClass::N => return None,
         _ if rng.percent(50) => 2 * rng.below(CROWD / 2),

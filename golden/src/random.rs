@@ -1,6 +1,6 @@
 //! Random programs: well-formed by construction, drawing on the whole catalogue.
 
-use crate::operands::{BUFFER_WORDS, Candidate, accepted};
+use crate::operands::{BUFFER_WORDS, Candidate, accepted, first_counter32, special_register};
 use crate::rng::Rng;
 use rungc_ir::{Model, ModelId, catalogue};
 use rungc_syntax::DeviceClass;
@@ -138,11 +138,56 @@ impl Writer<'_> {
     fn body(&mut self, rungs: u32, main: bool) {
         for _ in 0..rungs {
             match self.rng.below(20) {
-                0 if self.next_label < 60 => self.jump(main),
+                0 if self.next_label < 60 && self.rng.percent(80) => self.jump(main),
+                0 => self.bounded_index(),
                 1 if self.loops < 2 => self.repeat(),
                 2 if main && self.loops == 0 && self.masters < 3 => self.master(),
                 3 if main && self.next_label < 60 => self.call(),
                 _ => self.rung(),
+            }
+        }
+    }
+
+    /// Rungs in which it shows how far an index leads: after a comparison or a mask, in a loop, or over many scans.
+    fn bounded_index(&mut self) {
+        let register = self.rng.pick(&["Z0", "Z1", "V1"]).unwrap_or("Z0");
+        let (base, source, end) = (self.rng.below(40), self.rng.below(24), self.rng.below(20));
+        let indexed = match self.rng.below(3) {
+            0 => format!("BMOV D{base}{register} D{source} K3"),
+            1 => format!("MOV D{base}{register} D{source}"),
+            _ => format!("MOV D{source} D{base}{register}"),
+        };
+        match self.rng.below(4) {
+            0 => {
+                let least = -self.rng.value(4).abs();
+                self.line(format!("LD>= D{source} K{least}"));
+                self.line(format!("AND< D{source} K{end}"));
+                self.line(format!("MOV D{source} {register}"));
+                self.line(indexed);
+            }
+            1 => {
+                self.logic(1);
+                self.line(format!("WAND D{source} K{end} {register}"));
+                self.line(indexed);
+            }
+            2 if self.loops < 2 => {
+                self.line("LD M8000");
+                self.line(format!("MOV K{end} {register}"));
+                let rounds = 1 + self.rng.below(12);
+                self.line(format!("FOR K{rounds}"));
+                self.logic(1);
+                self.line(indexed);
+                let step = self.rng.pick(&["INC", "DEC"]).unwrap_or("INC");
+                self.line(format!("{step} {register}"));
+                self.line("NEXT");
+            }
+            _ => {
+                self.logic(1);
+                self.line(format!("INC {register}"));
+                self.line(format!("LD>= {register} K{end}"));
+                self.line(format!("MOV K0 {register}"));
+                self.line("LD M8000");
+                self.line(indexed);
             }
         }
     }
@@ -258,7 +303,7 @@ impl Writer<'_> {
                     self.line(join);
                 }
                 1 => self.line("INV"),
-                2 if accepted("MEP", self.model) => {
+                2 if accepted("MEP\nOUT M0", self.model) => {
                     let edge = self.rng.pick(&["MEP", "MEF"]).unwrap_or("MEP");
                     self.line(edge);
                 }
@@ -282,7 +327,8 @@ impl Writer<'_> {
             5..=7 => format!("M{n}"),
             8 => format!("S{n}"),
             9 => format!("T{}", n % 6),
-            10 => format!("C{}", [0, 1, 2, 200, 201, 202][n as usize % 6]),
+            10 if n < 8 => format!("C{}", self.counter32(n % 3)),
+            10 => format!("C{}", n % 3),
             _ => {
                 let specials = [
                     8000, 8001, 8002, 8003, 8011, 8012, 8013, 8014, 8020, 8021, 8022,
@@ -327,10 +373,16 @@ impl Writer<'_> {
 
     /// A contact, or another one where the model lacks one of its devices.
     fn on_model(&self, contact: String, join: &str) -> String {
-        match accepted(&contact, self.model) {
+        let joined = if join == "LD" { "\nANB" } else { "" };
+        match accepted(&format!("{contact}{joined}\nOUT M0"), self.model) {
             true => contact,
             false => format!("{join} M0"),
         }
+    }
+
+    /// A 32-bit counter that the model has.
+    fn counter32(&self, n: u32) -> u32 {
+        first_counter32(Model::get(self.model)) + n
     }
 
     fn word(&mut self, wide: bool) -> String {
@@ -339,9 +391,23 @@ impl Writer<'_> {
                 format!("U0\\G{}", self.rng.below(BUFFER_WORDS))
             }
             0 if !wide => format!("T{}", self.rng.below(6)),
-            0 => format!("C{}", 200 + self.rng.below(3)),
+            0 => {
+                let n = self.rng.below(3);
+                format!("C{}", self.counter32(n))
+            }
             1 if !wide => format!("C{}", self.rng.below(3)),
-            2 => format!("K{}X{:03o}", 1 + self.rng.below(4), 8 * self.rng.below(2)),
+            2 => {
+                let (digits, further) = (1 + self.rng.below(4), self.rng.percent(50));
+                let further = further && Model::get(self.model).has(DeviceClass::X, 31);
+                format!("K{digits}X{}", if further { "010" } else { "000" })
+            }
+            3 if self.rng.percent(15) => {
+                let first = special_register(&mut self.rng, Model::get(self.model));
+                match self.rng.percent(50) {
+                    true => format!("D{first}"),
+                    false => format!("D{}Z0", 8000 + first % 10),
+                }
+            }
             3 => format!("D{}Z0", self.rng.below(20)),
             _ => format!("D{}", self.rng.below(24)),
         }
@@ -354,7 +420,7 @@ impl Writer<'_> {
         }
         let register = self.rng.pick(&["Z0", "V1"]).unwrap_or("Z0");
         let indexed = format!("{operand}{register}");
-        match accepted(&format!("LD {indexed}"), self.model) {
+        match accepted(&format!("AND {indexed}\nOUT M0"), self.model) {
             true => indexed,
             false => operand,
         }
@@ -364,7 +430,10 @@ impl Writer<'_> {
         let n = self.rng.below(16);
         match self.rng.below(3) {
             0 if Model::get(self.model).has(DeviceClass::Y, n) => format!("OUT Y{n:03o}"),
-            _ => format!("OUT M{n}"),
+            _ => {
+                let relay = self.indexed(format!("M{n}"));
+                format!("OUT {relay}")
+            }
         }
     }
 
@@ -381,17 +450,23 @@ impl Writer<'_> {
         let (timer, counter) = (self.indexed(timer), self.indexed(format!("C{}", n % 3)));
         let line = match self.rng.below(20) {
             0..=2 => self.coil(),
-            3 => format!("SET M{n}"),
-            4 => format!("RST M{n}"),
+            3 => {
+                let relay = self.indexed(format!("M{n}"));
+                format!("SET {relay}")
+            }
+            4 => {
+                let relay = self.indexed(format!("M{n}"));
+                format!("RST {relay}")
+            }
             5 => format!("SET Y{n:03o}"),
             6 => format!("RST Y{n:03o}"),
             7 => format!("{} M{n}", self.rng.pick(&["PLS", "PLF"]).unwrap_or("PLS")),
             8 => format!("OUT {timer} {preset}"),
             9 => format!("OUT {counter} {preset}"),
-            10 => format!("OUT C{} {preset}", 200 + n % 3),
+            10 => format!("OUT C{} {preset}", self.counter32(n % 3)),
             11 => format!(
                 "RST {}",
-                ["T0", "C0", "C1", "C200", "D3", "Z0"][n as usize % 6]
+                ["T0", "C0", "C1", "C200", "D8028", "Z0"][n as usize % 6]
             ),
             12 => format!("OUT T{} K{}", [200, 246, 250, 1][n as usize % 4], n),
             _ => match self.applied() {
@@ -407,13 +482,42 @@ impl Writer<'_> {
         self.line(line);
     }
 
+    /// A block over special registers, some of which are index registers.
+    fn special_block(&mut self) -> String {
+        let first = special_register(&mut self.rng, Model::get(self.model));
+        let (other, count) = (self.rng.below(24), 1 + self.rng.below(9));
+        let last = first + count;
+        match self.rng.below(8) {
+            0 => format!("BMOV D{first} D{other} K{count}"),
+            1 => format!("BMOV D{other} D{first} K{count}"),
+            2 => format!("BMOV D{first} D{other} D{count}"),
+            3 => format!("FMOV D{other} D{first} K{count}"),
+            4 => format!("ZRST D{first} D{last}"),
+            5 => format!("MEAN D{first} D{other} K{count}"),
+            6 => format!("DMOV D{first} D{other}"),
+            _ => format!("DSUM D{first} D{other}"),
+        }
+    }
+
     /// An applied instruction of the catalogue.
     fn applied(&mut self) -> Option<String> {
         // Index registers with small values keep indexed operands within reach.
         if self.rng.percent(8) {
-            let value = self.rng.below(9);
             let register = self.rng.pick(&["Z0", "Z1", "V0", "V1"])?;
-            return Some(format!("MOV K{value} {register}"));
+            let value = match self.rng.below(16) {
+                // From general devices to special ones, and to those that are index registers.
+                0 => 7990 + self.rng.below(50),
+                1 => 8160 + self.rng.below(30),
+                _ => self.rng.below(9),
+            };
+            return Some(match self.rng.below(20) {
+                0 => format!("MOV D{value} {register}"),
+                1 => format!("MOV K-{value} {register}"),
+                _ => format!("MOV K{value} {register}"),
+            });
+        }
+        if self.rng.percent(3) {
+            return Some(self.special_block());
         }
         let i = self.rng.below(self.candidates.len() as u32);
         let candidate = self.candidates.get(i as usize)?;
@@ -425,5 +529,48 @@ impl Writer<'_> {
         let drawn = candidate.draw(&mut self.rng, self.model)?;
         *uses += 1;
         Some(drawn)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Model, ModelId, program};
+    use crate::operands::candidates;
+
+    /// Engines differ in how they find special devices, most of all those that are index registers.
+    #[test]
+    fn special_devices_are_reached_in_all_ways() {
+        let (mut blocks, mut coils, mut far, mut names) = (0, 0, 0, 0);
+        for (model, programs) in [(ModelId::Fx3u, 60), (ModelId::Hm, 20)] {
+            let pool = candidates(model);
+            let aliases = Model::get(model).index_aliases;
+            let named = |operand: &&str| {
+                let number = operand.strip_prefix('D').and_then(|n| n.parse().ok());
+                aliases.iter().any(|alias| Some(alias.0) == number)
+            };
+            let special = |operand: &&str| operand.starts_with("D8") && operand.len() == 5;
+            let indexed = |operand: &&str| operand.starts_with('M') && operand.contains(['Z', 'V']);
+            let large =
+                |operand: &&str| ["K79", "K80", "K81"].iter().any(|k| operand.starts_with(k));
+            for seed in 0..programs {
+                for line in program(seed, model, &pool, 20).lines() {
+                    let words: Vec<&str> = line.split(' ').collect();
+                    let (verb, operands) = (words[0], &words[1..]);
+                    let any = |what: &dyn Fn(&&str) -> bool| u32::from(operands.iter().any(what));
+                    match verb {
+                        "BMOV" | "FMOV" | "ZRST" | "MEAN" => blocks += any(&special),
+                        "SET" | "RST" | "OUT" | "LD" | "AND" | "OR" => coils += any(&indexed),
+                        "MOV" => far += any(&large),
+                        _ => {}
+                    }
+                    names += any(&named);
+                }
+            }
+        }
+        let least = blocks.min(coils).min(far).min(names);
+        assert!(
+            least > 10,
+            "{blocks} blocks, {coils} coils, {far} far, {names} names"
+        );
     }
 }
