@@ -143,6 +143,22 @@ fn what_build_makes() {
     assert!(path.join("here/mine.c").is_file());
 }
 
+/// What is made and what is reported do not mix, also where the settings say what is made.
+#[test]
+fn what_build_prints() {
+    let settings = "[project]\nprogram = 'motor.il'\n[build]\nemit = 'ir'\n";
+    let folder = folder(&[
+        ("rungc.toml", settings.as_bytes()),
+        ("motor.il", MOTOR.as_bytes()),
+    ]);
+    let plain = rungc(folder.path(), &["build"]);
+    let output = rungc(folder.path(), &["build", "--format", "json"]);
+    assert!(!plain.stdout.is_empty());
+    assert_eq!(output.stdout, plain.stdout);
+    let read: serde_json::Value = serde_json::from_slice(&output.stderr).unwrap();
+    assert_eq!(read["errors"], 0);
+}
+
 #[test]
 fn what_test_runs() {
     let folder = folder(&[

@@ -88,6 +88,7 @@ fn build(
         findings.takes = Some(job.measure(written.as_deref())?);
     }
     if plan.emit == Some(Emit::Ir) && written.is_none() {
+        reporter.leave_output();
         reporter.add(&findings)?;
         return Ok(Outcome::Success);
     }

@@ -8,7 +8,7 @@ use rungc_ir::ModelId;
 use rungc_ir::compile::CompileOptions;
 use rungc_project::{Error, Project};
 use rungc_syntax::Program;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -231,12 +231,8 @@ fn all(inputs: &Inputs, cx: Context) -> std::result::Result<(Vec<Subject>, bool)
     if inputs.files.is_empty() {
         files.push(projects.own()?);
     }
-    let mut seen = Vec::new();
-    files.retain(|file| {
-        let fresh = !seen.contains(file);
-        seen.push(file.clone());
-        fresh
-    });
+    let mut seen = BTreeSet::new();
+    files.retain(|file| seen.insert(file.clone()));
     let subjects = files.into_iter().map(|file| projects.subject(file));
     Ok((subjects.collect::<std::result::Result<_, _>>()?, many))
 }

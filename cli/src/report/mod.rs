@@ -214,6 +214,11 @@ impl<'a> Reporter<'a> {
         self.many
     }
 
+    /// Leaves standard output to what the command makes.
+    pub fn leave_output(&mut self) {
+        self.taken = true;
+    }
+
     /// Whether the report is for people.
     pub fn is_for_people(&self) -> bool {
         self.reporting.format == Format::Human
