@@ -8,7 +8,7 @@ use encoding_rs::{
 /// How many bytes the detector looks at: those of lines that are not ASCII.
 const SAMPLE: usize = 256 << 10;
 
-/// Decodes a text file in this encoding, or in the one that it seems to have; nothing if it is no text. The flag tells whether some
+/// Decodes a text file in this encoding, or in the one that it seems to have; `None` if it is not text. The flag is set if some
 /// bytes had to be replaced. Where lines end with a carriage return alone, they end with a line feed afterwards.
 pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<(String, bool)> {
     let marked = || Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
@@ -32,7 +32,7 @@ pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<
         true => text.replace('\r', "\n"),
         false => text.into_owned(),
     };
-    // A code page of single bytes reads everything: what is no text in any of them is shown as such.
+    // A code page of single bytes reads everything: bytes that make no text in any of them are marked.
     match chosen.is_none() && encoding.is_single_byte() {
         true => {
             let padding = encoding.decode_without_bom_handling(&[0xFF; 2]).0;
@@ -316,7 +316,7 @@ mod tests {
         let read = decode(&bytes, Some(WINDOWS_1251)).unwrap();
         assert_eq!(read, ("Nнvel".to_owned(), false));
         let wrong = decode(&bytes, Some(UTF_8)).unwrap();
-        assert!(wrong.1, "some bytes are none of this encoding");
+        assert!(wrong.1, "some bytes do not exist in this encoding");
     }
 
     #[test]

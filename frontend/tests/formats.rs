@@ -3,7 +3,7 @@
 mod fixture;
 
 use encoding_rs::{Encoding, GBK, SHIFT_JIS, UTF_8};
-use fixture::{Stream, gxw, tokens, wcd, wpg};
+use fixture::{Stream, gxw, tokens, wcd, wpa, wpg};
 use rungc_frontend::{ReadError, print, read, read_bytes, read_text};
 use rungc_syntax::{Program, SourceKind};
 
@@ -343,9 +343,13 @@ fn a_project_folder_is_read_with_its_comments() {
         wcd(&[(0x9C, 8, "start"), (0xA8, 10, "speed")]),
     )
     .unwrap();
+    let parameters = wpa(0x0208, &[(0xFFE0, &[8, 0])]);
+    std::fs::write(folder.path().join("Resource/PARAM.WPA"), parameters).unwrap();
     for path in [folder.path().to_owned(), body.join("MAIN.wpg")] {
         let read = read(&path).unwrap();
         assert_eq!(texts(&read.program), MEANING);
+        let parameters = read.program.parameters.clone().unwrap();
+        assert_eq!(parameters.capacity, Some(8000));
         let name = folder.path().file_name().unwrap().to_string_lossy();
         assert_eq!(read.program.source.name, name, "{}", path.display());
         let comments: Vec<_> = read

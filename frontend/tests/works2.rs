@@ -43,7 +43,7 @@ fn codes(read: &Read) -> Vec<&'static str> {
 }
 
 /// What is said, with what is read.
-fn told(parts: &[Part], options: &ReadOptions) -> String {
+fn reported(parts: &[Part], options: &ReadOptions) -> String {
     let read = read_bytes_with("press.gxw", &project(parts), options).unwrap();
     let line = |found: &rungc_syntax::Diagnostic| {
         let help = found.help.as_deref().unwrap_or("");
@@ -109,14 +109,14 @@ fn a_converted_ladder_is_read_with_all_that_belongs_to_it() {
 }
 
 #[test]
-fn a_ladder_that_was_changed_is_taken_and_told() {
+fn a_ladder_that_was_changed_is_taken_and_reported() {
     let mut parts = simple("FX3U/FX3UC", NEW);
     replace(&mut parts, "MAIN.res", res(2, OLD, OLDEST));
     insta::assert_snapshot!(
         "ladder_that_was_changed",
-        told(&parts, &ReadOptions::default())
+        reported(&parts, &ReadOptions::default())
     );
-    insta::assert_snapshot!("compiled_on_purpose", told(&parts, &compiled()));
+    insta::assert_snapshot!("compiled_on_purpose", reported(&parts, &compiled()));
 }
 
 #[test]
@@ -154,11 +154,11 @@ fn structured_text_is_read_as_compiled() {
     replace(&mut parts, "MAIN.Program.pou", structured_text(8, text));
     insta::assert_snapshot!(
         "stale_structured_text",
-        told(&parts, &ReadOptions::default())
+        reported(&parts, &ReadOptions::default())
     );
     insta::assert_snapshot!(
         "stale_structured_text_on_purpose",
-        told(&parts, &compiled())
+        reported(&parts, &compiled())
     );
     replace(
         &mut parts,
@@ -167,19 +167,19 @@ fn structured_text_is_read_as_compiled() {
     );
     insta::assert_snapshot!(
         "structured_text_of_unknown_age",
-        told(&parts, &ReadOptions::default())
+        reported(&parts, &ReadOptions::default())
     );
     replace(&mut parts, "MAIN.res", res(9, OLD, &[]));
     insta::assert_snapshot!(
         "structured_text_of_known_age",
-        told(&parts, &ReadOptions::default())
+        reported(&parts, &ReadOptions::default())
     );
     replace(&mut parts, "MAIN.res", res(9, &[&[0x34]], OLD));
     insta::assert_snapshot!(
         "structured_text_not_compiled",
-        told(&parts, &ReadOptions::default())
+        reported(&parts, &ReadOptions::default())
     );
-    insta::assert_snapshot!("nothing_compiled_on_purpose", told(&parts, &compiled()));
+    insta::assert_snapshot!("nothing_compiled_on_purpose", reported(&parts, &compiled()));
 }
 
 #[test]
@@ -228,7 +228,7 @@ fn several_programs_are_read_in_the_order_of_their_tasks() {
     assert_eq!(codes(&read), ["N0010", "N0011"]);
     insta::assert_snapshot!(
         "one_of_several_was_changed",
-        told(&parts(OLD), &ReadOptions::default())
+        reported(&parts(OLD), &ReadOptions::default())
     );
 }
 
@@ -242,7 +242,7 @@ fn program_files_that_do_not_run_are_named() {
     parts.push(part("Block.Program.pou", ladder(2, OLD)));
     insta::assert_snapshot!(
         "program_files_left_out",
-        told(&parts, &ReadOptions::default())
+        reported(&parts, &ReadOptions::default())
     );
 }
 
@@ -258,7 +258,7 @@ fn other_families_are_refused_by_name() {
 }
 
 #[test]
-fn damaged_parts_beside_the_program_are_told() {
+fn damaged_parts_beside_the_program_are_reported() {
     let mut parts = simple("FX3U/FX3UC", NEW);
     let comments = qcd(&[(0x9C, 1, "start"), (0xA8, 10, "speed")]);
     replace(
@@ -269,7 +269,7 @@ fn damaged_parts_beside_the_program_are_told() {
     let mut parameters = wpa(0x0208, &[(0xFFE0, &[16, 0]), (0x2001, &[9, 0])]);
     parameters.extend([0; 4]);
     replace(&mut parts, "Param.wpa", parameters);
-    insta::assert_snapshot!("damaged_parts", told(&parts, &ReadOptions::default()));
+    insta::assert_snapshot!("damaged_parts", reported(&parts, &ReadOptions::default()));
     let read = read(&parts);
     let start = Device {
         class: DeviceClass::X,
@@ -289,7 +289,7 @@ fn without_a_list_the_program_is_found_by_its_bytes() {
     let mut parts = parts;
     replace(&mut parts, "MAIN.res", vec![1, 2, 3]);
     replace(&mut parts, "MAIN.Program.pou", vec![1, 2, 3]);
-    insta::assert_snapshot!("nothing_to_read", told(&parts, &ReadOptions::default()));
+    insta::assert_snapshot!("nothing_to_read", reported(&parts, &ReadOptions::default()));
 }
 
 #[test]

@@ -14,7 +14,7 @@ const DEVELOPER: u8 = 0x08;
 /// The mark of the table in `COMMENT.qcd`.
 const WORKS2: u8 = 0x0A;
 
-/// The head of a table of devices: its length and how many entries follow, with the fields behind it.
+/// The head of a table of devices: its length and how many entries follow, with the fields that follow.
 fn head(bytes: &[u8], start: usize, mark: u8) -> Option<(usize, u16, Fields<'_>)> {
     let mut fields = Fields::new(bytes.get(start..)?);
     let length = fields.u32()? as usize;

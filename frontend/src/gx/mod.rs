@@ -28,7 +28,7 @@ const HEADER: usize = 0x40;
 const MAGIC: [u8; 4] = [0x40, 0x00, 0x22, 0x01];
 /// Where the program begins in `MAIN.wpg`.
 const START: usize = 0x44;
-/// Data behind this many bytes belongs to no program.
+/// How many bytes are searched for a program; none is larger.
 const MAX_DATA: usize = 32 << 20;
 /// Where the header names the CPU: `04 02`, then its code.
 const CPU: usize = 0x24;

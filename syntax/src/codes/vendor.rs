@@ -21,7 +21,7 @@ super::codes! {
 
     AGE_UNKNOWN = "W0521" "compiled-age-unknown" Warning None,
     "the compiled program may be older than its source",
-    "Structured text, structured ladder, function block diagrams, SFC and ladders with labels are read as what GX Works2 compiled them to. Nothing in the project contradicts that this was done after the last change, but nothing proves it either: the stored times are those of the program file's creation. Choose Compile > Rebuild All in GX Works2 and save. `--compiled` says that the compiled program is meant, as it is.",
+    "Structured text, structured ladder, function block diagrams, SFC and ladders with labels are read as what GX Works2 compiled them to. Nothing in the project contradicts that this was done after the last change, but nothing proves it either: the stored times are those of the program file's creation. If the source was changed since, choose Compile > Rebuild All in GX Works2 and save. The warning stays, since the file looks the same afterwards; `-A W0521` leaves it out and still refuses a compiled program that contradicts its source (E0022).",
     wrong: "",
     right: "";
 
@@ -57,7 +57,7 @@ super::codes! {
 
     POU_NOT_RUN = "N0011" "pou-not-run" Note None,
     "program parts that no task runs",
-    "These POUs of the project are neither named by a task nor by a POU that runs, so they are no part of the program.",
+    "Neither a task nor another POU names these POUs of the project, so they are not part of the program.",
     wrong: "",
     right: "";
 }

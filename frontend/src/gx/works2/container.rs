@@ -23,7 +23,7 @@ impl<'b> Container<'b> {
         })
     }
 
-    /// A stream of the root storage, as far as it can be read; nothing if there is none.
+    /// A stream of the root storage, as far as it can be read; `None` if it does not exist.
     pub fn stream(&self, name: &str) -> Option<Vec<u8>> {
         let mut content = Vec::new();
         let mut file = self.file.borrow_mut();
@@ -61,7 +61,7 @@ pub(super) struct Row {
     pub folder: String,
 }
 
-/// A list over this size is no project's, in bytes: a hundred parts take 60 kilobytes.
+/// The largest list that is read, in bytes. One of a hundred parts takes 60 kilobytes.
 const MAX_LIST: usize = 4 << 20;
 
 /// The rows of `projectdatalist.xml`; nothing if it cannot be read.

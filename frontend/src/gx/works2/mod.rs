@@ -2,7 +2,7 @@
 //! `projectdatalist.xml` gives them names.
 //!
 //! A project holds each program twice: as it was drawn or written (`*.pou`), and as it was last compiled (`*.res`). A ladder
-//! without labels is read from its source, everything else as compiled. Times do not tell which of the two is newer: that of a
+//! without labels is read from its source, everything else as compiled. Times do not show which of the two is newer: that of a
 //! `.res` is when the program file was made (in all published projects it is older than a source which equals it byte for byte).
 //! So a compiled program is held to its source by the devices that both name.
 
@@ -467,7 +467,7 @@ fn listed(names: &[&str], limit: usize) -> String {
 enum Age {
     /// As new as its source.
     Newer,
-    /// Nothing tells.
+    /// Perhaps older: nothing in the project shows it.
     Unknown,
     /// Older, for this reason.
     Older(String),
@@ -512,7 +512,7 @@ fn age_unknown(what: &str) -> Diagnostic {
         .at(Span::default(), message)
         .label("the compiled program begins here")
         .help(format!(
-            "if it was changed since, {REBUILD}; `--compiled` says that this program is meant"
+            "if the source was changed since, {REBUILD}; `-A W0521` leaves this warning out"
         ))
 }
 
@@ -527,7 +527,7 @@ fn refused(name: &str, line: &str, code: &'static codes::Code, message: String) 
     })
 }
 
-/// What the sources of a program are, the first that is no plain ladder.
+/// What the sources of a program are, by the first that is not a plain ladder.
 fn described(sources: &[Source]) -> String {
     let unlike = |(part, pou): &&Source| pou.language != Language::Ladder || has_labels(part, pou);
     match sources.iter().find(unlike) {
@@ -567,7 +567,7 @@ fn without_end(code: &[u8]) -> &[u8] {
         .map_or(code, without_padding)
 }
 
-/// Whether a name ends so, in either case.
+/// Whether a name ends with `ending`, in upper or lower case.
 fn ends_with(name: &str, ending: &str) -> bool {
     name.to_lowercase().ends_with(&ending.to_lowercase())
 }
