@@ -142,7 +142,23 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Access)) {
         }
         Stmt::Fetch { ref from, wide, .. } => of_arg(model, from, wide, found),
         Stmt::Send { ref to, wide, .. } => of_arg(model, to, wide, found),
-        _ => {}
+        Stmt::Network(_)
+        | Stmt::Let(..)
+        | Stmt::Edge { .. }
+        | Stmt::SetFlag(..)
+        | Stmt::SetCell(..)
+        | Stmt::SetEntry(..)
+        | Stmt::If { .. }
+        | Stmt::For { .. }
+        | Stmt::Repeat { .. }
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Fault { .. }
+        | Stmt::Watch { .. }
+        | Stmt::Stop
+        | Stmt::Clear { .. } => {}
     }
 }
 

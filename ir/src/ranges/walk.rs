@@ -4,11 +4,11 @@ use super::eval::Eval;
 use super::interval::Interval;
 use super::state::{Known, Mask, State, join};
 use crate::node::{
-    Arg, Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt, TempId, Ty,
+    Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt, TempId, Ty,
 };
-use crate::runs::{FIRST_SPECIAL, words_of_bits};
+use crate::reach;
+use crate::runs::FIRST_SPECIAL;
 use crate::walk::{assigned, bodies, for_exprs, operands, statements};
-use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -197,49 +197,16 @@ impl<'m> Walk<'m> {
         let all = (1 as Mask)
             .checked_shl(self.eval.words.len() as u32)
             .map_or(Mask::MAX, |bit| bit - 1);
-        match stmt {
-            Stmt::WriteWord(place, _) | Stmt::WriteWordBit(place, ..) => {
-                self.devices(*place, Some(1), state)
-            }
-            Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => self.pair(*place, state),
-            Stmt::Clear { .. } => all,
-            Stmt::Call {
-                function: RtFn::Zpop,
-                ..
-            } => all,
-            Stmt::Call { wide, args, .. } => {
-                let masks = args.iter().map(|arg| self.arg(arg, *wide, state));
-                masks.fold(0, |all, mask| all | mask)
-            }
-            Stmt::Send { to, wide, .. } => self.arg(to, *wide, state),
-            _ => 0,
+        if let Stmt::Clear { .. } = stmt {
+            return all;
         }
-    }
-
-    fn pair(&self, place: Place, state: Option<&State>) -> Mask {
-        let high = self.eval.words.high_word(place);
-        self.devices(place, Some(1), state) | self.devices(high, Some(1), state)
-    }
-
-    fn arg(&self, arg: &Arg, wide: bool, state: Option<&State>) -> Mask {
-        match *arg {
-            Arg::Device { place, extent } => {
-                let high = match wide {
-                    true => self.eval.words.high_word(place),
-                    false => place,
-                };
-                self.devices(place, extent, state) | self.devices(high, extent, state)
+        let mut written = 0;
+        reach::of_stmt(self.eval.module.model, stmt, &mut |access| {
+            if access.writes {
+                written |= self.devices(access.place, access.count, state);
             }
-            Arg::WordBit { place, bit, extent } => {
-                let words = extent.map(|bits| words_of_bits(bit, bits));
-                self.devices(place, words, state)
-            }
-            Arg::Nibbles { .. }
-            | Arg::Const { .. }
-            | Arg::Float(_)
-            | Arg::Text(_)
-            | Arg::Buffer { .. } => 0,
-        }
+        });
+        written
     }
 
     /// The tracked words among those from a place on.
