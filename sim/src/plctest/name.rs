@@ -131,7 +131,9 @@ fn device_of(device: &str, name: &str) -> Result<(DeviceClass, u32), String> {
     let at = device
         .find(|c: char| c.is_ascii_digit())
         .unwrap_or(device.len());
-    if let Some((device, view)) = device.split_once([':', '/']) {
+    if let Some((device, view)) = device.split_once([':', '/'])
+        && device_of(device, name).is_ok()
+    {
         return Err(view_after_colon(name, device, view));
     }
     let (letters, number) = device.split_at(at);
