@@ -208,7 +208,7 @@ super::codes! {
 
     INDEX_REACHES_MUCH = "N0030" "index-reaches-much" Note None,
     "indexed operand that makes the program store many devices",
-    "A compiled program stores the devices that its operands can reach. How far an index register leads is found out from constants, sums, masks (`WAND`), comparisons on the way, rounds of loops and what all scans leave in it; a value from a data register or a communication can be anything, and then the operand reaches every device of its class. Compare or mask the index before it is used, or bound the operand in rungc.toml: `[index]`, `D100Z0 = \"D100-D163\"`. An access beyond the bound is then the PLC's error 6706, as one beyond the devices is.",
+    "A compiled program stores the devices that its operands can reach. How far an index register leads is found out from constants, sums, masks (`WAND`), comparisons on the way, rounds of loops and what all scans leave in it; a value from a data register or a communication can be anything (a host may write data registers, but no index registers), and then the operand reaches every device of its class. Compare or mask the index before it is used, or bound the operand in rungc.toml: `[index]`, `D100Z0 = \"D100-D163\"`. An access beyond the bound is then the PLC's error 6706, as one beyond the devices is.",
     wrong: "",
     right: "";
 }
