@@ -20,12 +20,12 @@ const COILS: Shape<'static> = (
 );
 const WORDS: Shape<'static> = (
     "words",
-    "LD X0\nDMOV D0 D2\nDADD D0 D2 D4\nDIV D0 D1 D8\nMOV K2M0 D10\nMOV D10 K1Y0\nLDD> D0 K100000\nOUT Y10\nLD X1\nMOV D0Z0 D20\n\
+    "LD X0\nMOV D30 Z0\nDMOV D0 D2\nDADD D0 D2 D4\nDIV D0 D1 D8\nMOV K2M0 D10\nMOV D10 K1Y0\nLDD> D0 K100000\nOUT Y10\nLD X1\nMOV D0Z0 D20\n\
      WAND D0 HFF D1\nINCP D3\nEND\n",
 );
 const CALLS: Shape<'static> = (
     "runtime_calls",
-    "LD X0\nBMOV D0 D10 K10\nDECO D0 D1 K3\nDMEAN D2 D4 K2\nDSIN E1.5 D20\nDEADD D20 E1.5 D22\nFMOV K0 D100Z1 K4\nEND\n",
+    "LD X0\nMOV D30 Z1\nBMOV D0 D10 K10\nDECO D0 D1 K3\nDMEAN D2 D4 K2\nDSIN E1.5 D20\nDEADD D20 E1.5 D22\nFMOV K0 D100Z1 K4\nEND\n",
 );
 const FLOW: Shape<'static> = (
     "flow",

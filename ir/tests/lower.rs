@@ -198,7 +198,7 @@ fn buffer_memory() {
 #[test]
 fn calls_of_the_runtime() {
     insta::assert_snapshot!(lowered(
-        "LD X0\nBMOV D0 D10 K5\nFMOVP K0 D20Z0 K3\nALT M0\nDSUM D30 D40\nLD X1\nRAMP D50 D51 D52 K10\nEND\n"
+        "LD X0\nMOV D9 Z0\nBMOV D0 D10 K10\nFMOVP K0 D20Z0 K3\nLD X1\nRAMP D50 D51 D52 K10\nEND\n"
     ));
 }
 
