@@ -107,12 +107,17 @@ fn header_file(module: &Module, unit: &Unit) -> String {
     } else {
         "rungc.h"
     };
+    let own = format!("{name}.h");
+    let mut checks = same_version(&own, "rungc.h", "RUNGC_H", RUNGC_H);
+    if unit.runtime {
+        checks += &same_version(&own, "rungc_rt.h", "RUNGC_RT_H", &runtime_header());
+    }
     let many = match has_many_timers(module) {
         true => "#define PLC_MANY_TIMERS\n",
         false => "",
     };
     format!(
-        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}#include \"{include}\"\n\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
+        "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}#include \"{include}\"\n\n{checks}\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          {}\n#ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
         banner(module, &format!("{name}.h")),
         header::embedding(module, &Fields::new(module)),
@@ -120,12 +125,36 @@ fn header_file(module: &Module, unit: &Unit) -> String {
     )
 }
 
+/// A number that tells one text of a shared header from another, the same in each build (FNV-1a).
+fn stamp(text: &str) -> u32 {
+    text.bytes().fold(0x811C_9DC5, |hash, byte| {
+        (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
+    })
+}
+
+/// A shared header that says which one it is, after the line that defines its guard.
+fn stamped(text: &str, guard: &str) -> String {
+    let defines = format!("#define {guard}\n");
+    let says = format!("{defines}\n#define {guard}_STAMP 0x{:08X}u\n", stamp(text));
+    text.replacen(&defines, &says, 1)
+}
+
+/// Refuses a shared header of another version of rungc: programs of one firmware share theirs, and the first one on the include path
+/// serves all.
+fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
+    format!(
+        "#if {guard}_STAMP != 0x{:08X}u\n#error \"{own} and the {shared} that was found come from different versions of rungc: emit all programs again\"\n#endif\n",
+        stamp(text)
+    )
+}
+
 /// What all programs share: rungc.h, the header of boards for those that take events, and if the runtime library is needed its sources.
 /// Its header has the types that describe a board, too.
 fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
-    let mut files = vec![file("rungc.h", RUNGC_H.to_string())];
+    let mut files = vec![file("rungc.h", stamped(RUNGC_H, "RUNGC_H"))];
     if runtime || board {
-        files.push(file("rungc_rt.h", runtime_header()));
+        let header = runtime_header();
+        files.push(file("rungc_rt.h", stamped(&header, "RUNGC_RT_H")));
     }
     if board {
         files.push(file("rungc_board.h", RUNGC_BOARD_H.to_string()));

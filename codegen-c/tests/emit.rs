@@ -121,3 +121,38 @@ fn host_main_runs_in_real_time() {
     );
     assert!(transcript.contains("X9=1: not an input"), "{transcript}");
 }
+
+/// Programs of one firmware share `rungc.h`: the first one on the include path serves all, and one of another version is refused.
+#[test]
+fn a_header_of_another_version_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let compile = |header: &str| {
+        for file in rungc_codegen_c::emit(&motor(), &Default::default()) {
+            let text = match file.path.as_str() {
+                "rungc.h" => header.to_string(),
+                _ => file.text,
+            };
+            std::fs::write(folder.path().join(&file.path), text).unwrap();
+        }
+        let compiled = std::process::Command::new(build::compilers()[0])
+            .args(["-std=c99", "-c", "motor.c", "-o", "motor.o"])
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        (
+            compiled.status.success(),
+            String::from_utf8_lossy(&compiled.stderr).into_owned(),
+        )
+    };
+    let files = rungc_codegen_c::emit(&motor(), &Default::default());
+    let header = files.iter().find(|file| file.path == "rungc.h").unwrap();
+    assert!(compile(&header.text).0);
+    let stamp = header.text.find("RUNGC_H_STAMP 0x").unwrap() + "RUNGC_H_STAMP 0x".len();
+    let mut other = header.text.clone();
+    other.replace_range(stamp..stamp + 8, "00000001");
+    let (compiled, said) = compile(&other);
+    assert!(
+        !compiled && said.contains("different versions of rungc"),
+        "{said}"
+    );
+}

@@ -177,7 +177,7 @@ const STRICT: [&str; 6] = [
 ];
 
 /// The C compilers that are installed; at least one must be.
-fn compilers() -> Vec<&'static str> {
+pub fn compilers() -> Vec<&'static str> {
     let there = |cc: &&str| {
         Command::new(cc)
             .arg("--version")
