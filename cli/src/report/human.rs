@@ -1,19 +1,26 @@
-//! Diagnostics for people: the message, the lines that it is about with what is to be said of them, and what to do.
+//! Diagnostics for people, drawn by ariadne: the message, the lines that it is about with what is to be said of them, and what to do.
 //!
-//! Of each line a window is drawn that holds what is marked, so that a diagnostic takes a few lines of a terminal however long the lines
-//! of the source are, and however many places it names.
+//! The library draws whole lines of whole files, numbered from 1. It is given a source made of the marked lines alone, each cut to a
+//! window, so that a diagnostic takes little time and a few lines of a terminal however long the program and its lines are and however
+//! many places the diagnostic names. The numbers of the lines, or the steps, are then written into the margin.
 
 use super::Findings;
 use super::place::{Place, instr_at};
 use super::visible::visible_line;
 use super::window::Window;
-use anstyle::{AnsiColor, Color, Style};
+use ariadne::{Color, Config, Label, Report, ReportKind, Source};
 use rungc_syntax::{Diagnostic, Severity, SourceKind, Span};
-use std::fmt::Write as _;
 use std::io::{self, Write};
+use std::ops::Range;
 
 /// How many places besides the main one are drawn.
 const MAX_PLACES: usize = 6;
+
+/// What stands between the marked lines in the source that is drawn: an empty line, which the library draws as a gap.
+const GAP: &str = "\n\n";
+
+/// The line and column that the library adds to the head of a drawing.
+const FIRST: &str = ":1:1";
 
 /// Prints at most `limit` diagnostics (0: all) about a program of this name.
 pub fn print(
@@ -29,7 +36,7 @@ pub fn print(
     let all = findings.diagnostics.len();
     let shown = if limit == 0 { all } else { limit };
     for diagnostic in findings.diagnostics.iter().take(shown) {
-        writeln!(out, "{}", draw(findings, name, diagnostic, color))?;
+        writeln!(out, "{}", draw(findings, name, diagnostic, color)?)?;
     }
     let hidden = all.saturating_sub(shown);
     if hidden > 0 {
@@ -42,7 +49,7 @@ pub fn print(
 struct Mark<'a> {
     span: Span,
     text: &'a str,
-    style: Style,
+    color: Color,
 }
 
 /// A part of a line, with what is said of places in it.
@@ -50,75 +57,63 @@ struct Row<'a> {
     /// What stands in the margin: the number of the line, or the step.
     number: String,
     window: Window<'a>,
-    marks: Vec<Placed<'a>>,
+    marks: Vec<&'a Mark<'a>>,
 }
 
-/// A mark from column to column of a row.
-struct Placed<'a> {
-    from: usize,
-    to: usize,
-    mark: &'a Mark<'a>,
-}
-
-impl Placed<'_> {
-    /// The column from which a line leads to the text.
-    fn middle(&self) -> usize {
-        self.from.midpoint(self.to)
-    }
-}
-
-fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> String {
-    let style = |color: AnsiColor| Style::new().fg_color(Some(Color::Ansi(color)));
-    let main = style(match d.severity {
-        Severity::Error => AnsiColor::Red,
-        Severity::Warning => AnsiColor::Yellow,
-        Severity::Note => AnsiColor::Cyan,
-    });
+fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> io::Result<String> {
+    let main = match d.severity {
+        Severity::Error => Color::Red,
+        Severity::Warning => Color::Yellow,
+        Severity::Note => Color::Cyan,
+    };
     let label = if d.label.is_empty() { "here" } else { &d.label };
     let mut marks = vec![Mark {
         span: d.span,
         text: label,
-        style: main,
+        color: main,
     }];
     marks.extend(d.others.iter().take(MAX_PLACES).map(|other| Mark {
         span: other.span,
         text: &other.text,
-        style: style(AnsiColor::Blue),
+        color: Color::Blue,
     }));
     marks.sort_by_key(|mark| mark.span.start);
     let rows = rows(findings, &marks);
-    let width = rows.iter().map(|row| row.number.len()).max().unwrap_or(1);
-    let mut drawing = Drawing {
-        text: String::new(),
-        width,
-        color,
-        remarked: false,
-    };
-    let heading = format!("{}[{}]:", d.severity.name(), d.code);
-    drawing.heading(&heading, main, &d.message);
+    let (source, labels) = excerpt(&rows);
     let head = Place::of(findings, d.span).unwrap_or_default().headed(name);
-    drawing.open(&visible_line(&head));
-    for row in &rows {
-        drawing.row(row);
+    let head = visible_line(&head);
+    let heading = format!("{}[{}]", d.severity.name(), d.code);
+    let mut report = Report::build(ReportKind::Custom(&heading, main), (&*head, 0..0))
+        .with_config(Config::default().with_color(color))
+        .with_message(visible_line(&d.message));
+    for (range, mark) in labels {
+        let label = Label::new((&*head, range)).with_message(visible_line(mark.text));
+        report.add_label(label.with_color(mark.color));
+    }
+    if let Some(help) = &d.help {
+        report.add_help(visible_line(help));
     }
     let more = d.others.len().saturating_sub(MAX_PLACES);
     if more > 0 {
-        drawing.remark(
-            "",
-            &format!("… and {more} more places (`--format json` names all)"),
-        );
-    }
-    if let Some(help) = &d.help {
-        drawing.remark("Help: ", help);
+        report.add_note(format!(
+            "… and {more} more places (`--format json` names all)"
+        ));
     }
     let plc = d
         .plc_error
         .map(|code| format!("the PLC reports this as error {code}; "))
         .unwrap_or_default();
-    let note = format!("{plc}`rungc explain {}` tells more", d.code);
-    drawing.remark("Note: ", &note);
-    drawing.close();
-    drawing.text
+    report.add_note(format!("{plc}`rungc explain {}` tells more", d.code));
+    let mut drawn = Vec::new();
+    let source = Source::from(source);
+    report.finish().write((&*head, &source), &mut drawn)?;
+    let drawn = String::from_utf8_lossy(&drawn);
+    let drawn = numbered(&drawn, &rows);
+    Ok(match color {
+        true => drawn,
+        // The library colours the heading even where colours are off.
+        false => anstream::adapter::strip_str(&drawn).to_string(),
+    })
 }
 
 /// The parts of lines that hold the marks, which are in the order of their places.
@@ -145,135 +140,137 @@ fn rows<'a>(findings: &'a Findings, marks: &'a [Mark<'a>]) -> Vec<Row<'a>> {
             });
         }
         if let Some(row) = rows.last_mut() {
-            let from = row.window.column(start);
-            let to = row.window.column(mark.span.end as usize).max(from);
-            row.marks.push(Placed { from, to, mark });
+            row.marks.push(mark);
         }
     }
     rows
 }
 
-/// A drawing in the making.
-struct Drawing {
-    text: String,
-    /// Columns of the numbers in the margin.
-    width: usize,
-    color: bool,
-    /// Whether a remark stands below the rows.
-    remarked: bool,
+/// The source that is drawn, each row a line of it, and the range of its characters that each mark covers.
+fn excerpt<'a>(rows: &[Row<'a>]) -> (String, Vec<(Range<usize>, &'a Mark<'a>)>) {
+    let mut lines = Vec::new();
+    let mut labels = Vec::new();
+    let mut begin = 0;
+    for row in rows {
+        // The library knows no line without a character at the end of a source.
+        let shown = Some(row.window.shown()).filter(|shown| !shown.is_empty());
+        let line = shown.unwrap_or_else(|| " ".to_owned());
+        for &mark in &row.marks {
+            let from = row.window.column(mark.span.start as usize);
+            let to = row.window.column(mark.span.end as usize).max(from);
+            // It takes an empty place at the beginning of a line for one in the line before as well.
+            let to = to.max(usize::from(from == 0 && begin > 0));
+            labels.push((begin + from..begin + to, mark));
+        }
+        begin += line.chars().count() + GAP.len();
+        lines.push(line);
+    }
+    (lines.join(GAP), labels)
 }
 
-impl Drawing {
-    fn paint(&self, text: &str, style: Style) -> String {
-        match self.color && !text.is_empty() {
-            true => format!("{style}{text}{style:#}"),
-            false => text.to_owned(),
-        }
-    }
-
-    /// A line of the margin's colour.
-    fn frame(&self, text: &str) -> String {
-        self.paint(
-            text,
-            Style::new().fg_color(Some(Color::Ansi(AnsiColor::BrightBlack))),
-        )
-    }
-
-    fn heading(&mut self, heading: &str, style: Style, message: &str) {
-        let heading = self.paint(heading, style);
-        let _ = writeln!(self.text, "{heading} {}", visible_line(message));
-    }
-
-    fn open(&mut self, head: &str) {
-        let (space, frame) = (" ".repeat(self.width + 2), self.frame("╭─["));
-        let end = self.frame("]");
-        let _ = writeln!(self.text, "{space}{frame} {head} {end}");
-        self.line("");
-    }
-
-    /// A line without a number.
-    fn line(&mut self, content: &str) {
-        let (space, frame) = (" ".repeat(self.width + 2), self.frame("│"));
-        let line = format!("{space}{frame} {content}");
-        let _ = writeln!(self.text, "{}", line.trim_end());
-    }
-
-    fn row(&mut self, row: &Row) {
-        let margin = self.frame(&format!(" {:>width$} │", row.number, width = self.width));
-        let line = format!("{margin} {}", row.window.shown());
-        let _ = writeln!(self.text, "{}", line.trim_end());
-        let end = row.marks.iter().map(|placed| placed.to).max().unwrap_or(0);
-        let mut under = Cells::default();
-        for placed in &row.marks {
-            for column in placed.from..placed.to {
-                under.put(column, '─', placed);
+/// The drawing of an [`excerpt`] with the numbers of its rows in the margin, which the library numbers 1, 3, 5, …, and no line or
+/// column of the excerpt in its head; and without spaces at the ends of lines.
+fn numbered(drawn: &str, rows: &[Row]) -> String {
+    let mut lines = drawn.lines();
+    let mut text = String::with_capacity(drawn.len() + 64);
+    let mut push = |line: &str| {
+        text.push_str(line.trim_end());
+        text.push('\n');
+    };
+    push(lines.next().unwrap_or_default());
+    let head = lines.next().unwrap_or_default();
+    let own = head.len() - head.trim_start().len();
+    let width = rows.iter().map(|row| row.number.len() + 2).max();
+    let wider = width.unwrap_or(0).saturating_sub(own);
+    let head = match head.rsplit_once(FIRST) {
+        Some((before, after)) => format!("{before}{after}"),
+        None => head.to_owned(),
+    };
+    push(&format!("{}{head}", " ".repeat(wider)));
+    for line in lines {
+        let (margin, content) = line.split_at(line.find(['│', '─']).unwrap_or(0));
+        let blank = margin.trim_end();
+        let unnumbered = blank.trim_end_matches(|c: char| c.is_ascii_digit());
+        let number = blank[unnumbered.len()..].parse::<usize>().ok();
+        push(&match number.and_then(|number| rows.get(number / 2)) {
+            Some(row) => {
+                let open = unnumbered.trim_end_matches(' ');
+                let width = wider + blank.len() - open.len();
+                format!("{open}{:>width$} {content}", row.number)
             }
-            let sign = if placed.from < placed.to {
-                '┬'
-            } else {
-                '│'
-            };
-            under.put(placed.middle(), sign, placed);
-        }
-        self.line(&under.text(self));
-        for (n, placed) in row.marks.iter().enumerate() {
-            let waiting = &row.marks[n + 1..];
-            let mut arrow = Cells::default();
-            waiting
-                .iter()
-                .for_each(|other| arrow.put(other.middle(), '│', other));
-            arrow.put(placed.middle(), '╰', placed);
-            for column in placed.middle() + 1..=end + 1 {
-                arrow.put(column, '─', placed);
+            None => {
+                let fill = if content.starts_with('─') {
+                    "─"
+                } else {
+                    " "
+                };
+                format!("{margin}{}{content}", fill.repeat(wider))
             }
-            let text = visible_line(placed.mark.text);
-            self.line(&format!("{} {text}", arrow.text(self)));
-            if !waiting.is_empty() {
-                let mut bars = Cells::default();
-                waiting
-                    .iter()
-                    .for_each(|other| bars.put(other.middle(), '│', other));
-                self.line(&bars.text(self));
-            }
-        }
-        self.line("");
+        });
     }
-
-    /// A remark below the rows, each with a line of its own between.
-    fn remark(&mut self, what: &str, text: &str) {
-        if std::mem::replace(&mut self.remarked, true) {
-            self.line("");
-        }
-        self.line(&format!("{what}{}", visible_line(text)));
-    }
-
-    fn close(&mut self) {
-        let end = self.frame(&format!("{}╯", "─".repeat(self.width + 2)));
-        let _ = writeln!(self.text, "{end}");
-    }
+    text
 }
 
-/// A line of signs, each in its colour.
-#[derive(Default)]
-struct Cells(Vec<(char, Style)>);
+#[cfg(test)]
+mod tests {
+    use super::{Color, Config, Label, Mark, Report, ReportKind, Row, Source, Span};
+    use super::{Window, excerpt, numbered};
 
-impl Cells {
-    fn put(&mut self, column: usize, sign: char, placed: &Placed) {
-        if self.0.len() <= column {
-            self.0.resize(column + 1, (' ', Style::new()));
+    /// Draws marks in rows of their own, each with its number.
+    fn drawing(text: &str, marks: &[(&str, u32, u32)], color: bool) -> String {
+        let marks: Vec<_> = marks
+            .iter()
+            .map(|&(number, start, end)| {
+                let mark = Mark {
+                    span: Span::new(start, end),
+                    text: "here",
+                    color: Color::Red,
+                };
+                (number.to_owned(), mark)
+            })
+            .collect();
+        let rows: Vec<_> = marks
+            .iter()
+            .map(|(number, mark)| Row {
+                number: number.clone(),
+                window: Window::around(text, mark.span.start as usize, false),
+                marks: vec![mark],
+            })
+            .collect();
+        let (source, labels) = excerpt(&rows);
+        let mut report = Report::build(ReportKind::Error, ("place", 0..0))
+            .with_config(Config::default().with_color(color));
+        for (range, mark) in labels {
+            report.add_label(Label::new(("place", range)).with_message(mark.text));
         }
-        self.0[column] = (sign, placed.mark.style);
+        let (source, mut drawn) = (Source::from(source), Vec::new());
+        let report = report.finish();
+        report.write(("place", &source), &mut drawn).unwrap();
+        let drawn = numbered(&String::from_utf8(drawn).unwrap(), &rows);
+        anstream::adapter::strip_str(&drawn).to_string()
     }
 
-    fn text(&self, drawing: &Drawing) -> String {
-        let mut text = String::new();
-        for run in self.0.chunk_by(|a, b| a.1 == b.1) {
-            let signs: String = run.iter().map(|&(sign, _)| sign).collect();
-            match run[0].1 == Style::new() {
-                true => text.push_str(&signs),
-                false => text.push_str(&drawing.paint(&signs, run[0].1)),
-            }
-        }
-        text
+    #[test]
+    fn numbers_stand_in_the_margin() {
+        let text = "LD 电 Y0\n\nEND\n";
+        let marks = [("8", 7, 9), ("", 10, 10), ("123", 11, 14)];
+        let expected = "Error:
+     ╭─[ place ]
+     │
+   8 │ LD 电 Y0
+     │       ─┬
+     │        ╰── here
+     │
+     │
+     │ ┬
+     │ ╰── here
+     │
+ 123 │ END
+     │ ─┬─
+     │  ╰─── here
+─────╯
+";
+        assert_eq!(drawing(text, &marks, false), expected);
+        assert_eq!(drawing(text, &marks, true), expected);
     }
 }

@@ -3,7 +3,6 @@
 use super::visible::visible_line;
 use rungc_syntax::Span;
 use std::borrow::Cow;
-use unicode_width::UnicodeWidthStr;
 
 /// How many characters of a line are drawn.
 const WIDTH: usize = 120;
@@ -79,11 +78,11 @@ impl<'t> Window<'t> {
         (self.start..=self.start + self.text.len()).contains(&at)
     }
 
-    /// The column, from 0, at which a byte of the source is drawn; what lies outside is drawn at the edge.
+    /// The character of what is drawn, from 0, that stands for a byte of the source; what lies outside is drawn at the edge.
     pub fn column(&self, at: usize) -> usize {
         let within = at.saturating_sub(self.start).min(self.text.len());
         let before = &self.text[..floor(self.text, within)];
-        usize::from(self.cut_before) + one_line(before).width()
+        usize::from(self.cut_before) + one_line(before).chars().count()
     }
 
     /// What is drawn.
