@@ -25,7 +25,7 @@ const WORDS: Shape<'static> = (
 );
 const CALLS: Shape<'static> = (
     "runtime_calls",
-    "LD X0\nMOV D30 Z1\nBMOV D0 D10 K10\nDECO D0 D1 K3\nDMEAN D2 D4 K2\nDSIN E1.5 D20\nDEADD D20 E1.5 D22\nFMOV K0 D100Z1 K4\nEND\n",
+    "LD X0\nMOV D30 Z1\nBMOV D0 D10 K10\nDECO M0 D1 K3\nDMEAN D2 D4 K2\nDSIN E1.5 D20\nDEADD D20 E1.5 D22\nFMOV K0 D100Z1 K4\nEND\n",
 );
 const FLOW: Shape<'static> = (
     "flow",

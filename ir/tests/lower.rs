@@ -316,7 +316,7 @@ fn comments_longer_than_any_editors_are_cut() {
 #[test]
 fn short_blocks_are_inline() {
     insta::assert_snapshot!(lowered(
-        "LD X0\nBMOV D0 D2 K4\nBMOV D20 D10 K3\nFMOV K0 D30 K3\nDFMOV K70000 D40 K2\nZRST M0 M3\nZRST T0 T1\nZRST C235 C235\nZRST D50 D51\nMEAN D0 D60 K4\nSFTLP X0 M10 K4 K1\nSFTR M20 M24 K4 K2\nEND\n"
+        "LD X0\nBMOV D0 D2 K4\nBMOV D20 D10 K3\nFMOV K0 D30 K3\nDFMOV K70000 D40 K2\nZRST M0 M3\nZRST T0 T1\nZRST C235 C235\nZRST D50 D51\nMEAN D0 D60 K4\nSFTLP X0 M10 K4 K1\nSFTR M20 M24 K4 K2\nDECO D70 M30 K2\nEND\n"
     ));
     let calls = |text: &str| has_call(&module(&on(ModelId::H2u), text));
     assert!(calls("LD X0\nBMOV D0 D10 K100\nEND\n"));

@@ -27,6 +27,10 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         RtFn::Bmov | RtFn::BmovForward => register(0) && register(1) && count(2, WORDS),
         RtFn::Fmov => register(1) && count(2, WORDS),
         RtFn::Mean | RtFn::MeanSum => register(0) && count(2, WORDS),
+        RtFn::Deco => {
+            let bits = kind(1).and_then(device);
+            register(0) && bits.is_some_and(|first| !is_word(first.class)) && count(2, BITS.ilog2())
+        }
         RtFn::Zrst => match (kind(0).and_then(device), kind(1).and_then(device)) {
             (Some(first), Some(last)) => {
                 first.class == last.class && last.number.saturating_sub(first.number) < BITS
@@ -40,6 +44,12 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         }
         _ => false,
     }
+}
+
+/// Whether devices of a class are words.
+fn is_word(class: DeviceClass) -> bool {
+    use DeviceClass::*;
+    matches!(class, T | C | D | R | V | Z | ER)
 }
 
 /// A device without an index.
@@ -69,6 +79,7 @@ impl Lowerer<'_> {
             RtFn::Bmov | RtFn::BmovForward => Self::move_block,
             RtFn::Fmov => Self::fill_block,
             RtFn::Mean | RtFn::MeanSum => Self::mean,
+            RtFn::Deco => Self::decode,
             RtFn::Zrst => Self::reset_block,
             RtFn::Sftl => |this| this.shift_bits(false),
             RtFn::Sftr => |this| this.shift_bits(true),
@@ -162,6 +173,26 @@ impl Lowerer<'_> {
             let mean = this.add(Expr::Bin(BinOp::Div, sum, n));
             let mean = this.add(Expr::Narrow(mean));
             this.store(target, mean);
+        });
+    }
+
+    /// DECO of a register into bits: of 2ⁿ bits the one is on whose number the low n bits of S are.
+    fn decode(&mut self) {
+        let count = 1 << self.stated(2);
+        let Some(first) = self.device_of(1) else {
+            return;
+        };
+        let mut guards = Guards::default();
+        let value = self.source(0, &mut guards);
+        self.demand_block(first, count, &mut guards);
+        let mask = self.int(count as i32 - 1, false);
+        let value = self.add(Expr::Bin(BinOp::And, value, mask));
+        self.guarded(guards, |this| {
+            let value = this.settled(value);
+            for k in 0..count {
+                let on = this.is_int(value, k as i32, false);
+                this.emit(Stmt::WriteBit(fixed(first.class, first.number + k), on));
+            }
         });
     }
 
