@@ -59,7 +59,10 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     cx.note(&format!("     Running {cases} on {}", names.join(", ")));
     let mut report = Report::default();
     if !suite.is_empty() {
-        let folder = BuildFolder::take()?;
+        let folder = match kinds.iter().all(|kind| *kind == EngineKind::Interp) {
+            true => BuildFolder::None,
+            false => BuildFolder::take()?,
+        };
         for kind in kinds {
             report.extend(run_on(kind, &suite, folder.path())?);
         }
@@ -124,6 +127,8 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
 enum BuildFolder {
     Kept(Slot),
     Temporary(tempfile::TempDir),
+    /// The interpreter is there already.
+    None,
 }
 
 impl BuildFolder {
@@ -139,6 +144,7 @@ impl BuildFolder {
         match self {
             BuildFolder::Kept(slot) => slot.path(),
             BuildFolder::Temporary(folder) => folder.path(),
+            BuildFolder::None => Path::new(""),
         }
     }
 }
