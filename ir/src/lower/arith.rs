@@ -5,12 +5,9 @@ use super::operand::{Guards, Target};
 use crate::catalogue::{ArithOp, CmpOp, Lower};
 use crate::node::{BinOp, Expr, ExprId, Stmt};
 use crate::special::{self, Special};
+use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
 use rungc_syntax::{DeviceClass, OperandKind};
 
-/// Zero, borrow and carry.
-const ZERO: u32 = 8020;
-const BORROW: u32 = 8021;
-const CARRY: u32 = 8022;
 /// On if a product or a quotient is 0, if a quotient is too large (FX3G, FX3U).
 const ZERO_PRODUCT: u32 = 8304;
 const LARGE_QUOTIENT: u32 = 8306;
@@ -214,10 +211,7 @@ impl Lowerer<'_> {
 
     /// ADD and SUB: the result wraps; the flags that something looks at are set by the true sum.
     fn with_flags(&mut self, op: BinOp) {
-        if ![ZERO, BORROW, CARRY]
-            .iter()
-            .any(|&flag| self.specials.has(DeviceClass::M, flag))
-        {
+        if !self.looks_at_flags() {
             return self.two_values(op);
         }
         let mut guards = Guards::default();
@@ -231,10 +225,18 @@ impl Lowerer<'_> {
             let value = this.settled(value);
             let [zero, borrow, carry] = this.sum_flags(op, a, b, value, wide);
             this.store(target, value);
-            this.set_flag(ZERO, zero);
-            this.set_flag(BORROW, borrow);
-            this.set_flag(CARRY, carry);
+            this.set_flag(M_ZERO, zero);
+            this.set_flag(M_BORROW, borrow);
+            this.set_flag(M_CARRY, carry);
         });
+    }
+
+    /// Whether something looks at the zero, borrow or carry flag.
+    pub(super) fn looks_at_flags(&self) -> bool {
+        let flags = [M_ZERO, M_BORROW, M_CARRY];
+        flags
+            .iter()
+            .any(|&flag| self.specials.has(DeviceClass::M, flag))
     }
 
     /// Whether the result is 0, too small, too large. A sum of two values of one sign (a difference of two of different signs)

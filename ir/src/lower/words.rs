@@ -4,7 +4,7 @@
 use super::Lowerer;
 use super::operand::{Guards, Target};
 use crate::catalogue::CmpOp;
-use crate::node::{BinOp, Expr, ExprId, FloatOp, Stmt, UnOp};
+use crate::node::{BinOp, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
 use rungc_rt::RtFn;
 use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
 use rungc_syntax::{DeviceClass, Instr, OperandKind};
@@ -205,10 +205,7 @@ impl Lowerer<'_> {
 
     /// The value, and what `set` does with it if something looks at a flag of arithmetic.
     fn flagged(&mut self, value: ExprId, set: impl FnOnce(&mut Self, ExprId)) -> ExprId {
-        let looked_at = [M_ZERO, M_BORROW, M_CARRY]
-            .iter()
-            .any(|&flag| self.specials.has(DeviceClass::M, flag));
-        if !looked_at {
+        if !self.looks_at_flags() {
             return value;
         }
         let value = self.settled(value);
@@ -413,20 +410,16 @@ impl Lowerer<'_> {
     /// EMOV: the bits, whatever they mean.
     fn move_float(&mut self) {
         let mut guards = Guards::default();
-        let target = match self.operand(0) {
-            Some(OperandKind::Device(..)) => {
-                let value = self
-                    .operand(0)
-                    .cloned()
-                    .map(|o| self.value(&o, true, &mut guards));
-                let target = self.float_target(1, &mut guards);
-                let value = value.unwrap_or_else(|| self.int(0, true));
-                return self.guarded(guards, |this| this.store(target, value));
-            }
-            _ => self.float_target(1, &mut guards),
+        let operand = self.operand(0).cloned();
+        let value = match &operand {
+            Some(register @ OperandKind::Device(..)) => self.value(register, true, &mut guards),
+            _ => self.float_source(0, &mut guards),
         };
-        let value = self.float_source(0, &mut guards);
-        self.guarded(guards, |this| this.store_float(target, value));
+        let target = self.float_target(1, &mut guards);
+        self.guarded(guards, |this| match this.module.ty(value) {
+            Ty::F32 => this.store_float(target, value),
+            _ => this.store(target, value),
+        });
     }
 
     /// ENEG.
