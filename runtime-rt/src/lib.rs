@@ -26,6 +26,7 @@ mod capi_panic;
     reason = "C hands over pointers, and the hardware is one for the process"
 )]
 pub mod capi_virtual;
+pub mod comm;
 mod cx;
 #[cfg(test)]
 mod double;

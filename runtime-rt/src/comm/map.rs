@@ -1,0 +1,129 @@
+//! The PLC's devices as codecs see them.
+
+use crate::plc::{Class, Plc};
+
+/// The devices of a PLC as its partners on a line see them.
+///
+/// Numbers are device numbers: X010 is 8. `None` stands for a device that the model does not have or that this PLC does not serve; the
+/// codec refuses the frame as its protocol says. A class that has no state (D) or no 16-bit value (M, C200 and up) gives `None` as well.
+pub trait Map {
+    /// State of a bit device; for T and C the contact.
+    fn bit(&self, class: Class, number: u32) -> Option<bool>;
+    /// Sets a bit device. An input keeps the value until its terminal is read again.
+    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()>;
+    /// Value of a 16-bit word device; for T and C0–C199 the current value.
+    fn word(&self, class: Class, number: u32) -> Option<i16>;
+    /// Sets a word device.
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()>;
+    /// Current value of a 32-bit counter (C200 and up).
+    fn counter32(&self, number: u32) -> Option<i32>;
+    /// Sets the current value of a 32-bit counter.
+    fn set_counter32(&mut self, number: u32, value: i32) -> Option<()>;
+    /// Resets a timer or counter: value 0, contact off.
+    fn reset(&mut self, class: Class, number: u32) -> Option<()>;
+    /// Whether the PLC is in RUN.
+    fn running(&self) -> bool;
+    /// Asks for RUN or STOP; the PLC changes over before its next scan.
+    fn request_running(&mut self, running: bool);
+    /// Code of model and version, which D8001 shows.
+    fn type_code(&self) -> u16;
+
+    /// Whether `count` bit devices from `first` on are all there.
+    fn has_bits(&self, class: Class, first: u32, count: u32) -> bool {
+        let end = first.checked_add(count);
+        end.is_some_and(|end| (first..end).all(|n| self.bit(class, n).is_some()))
+    }
+
+    /// Whether `count` 16-bit word devices from `first` on are all there.
+    fn has_words(&self, class: Class, first: u32, count: u32) -> bool {
+        let end = first.checked_add(count);
+        end.is_some_and(|end| (first..end).all(|n| self.word(class, n).is_some()))
+    }
+}
+
+/// A running program as its ports serve it.
+pub struct Served<'a> {
+    plc: &'a mut dyn Plc,
+    type_code: u16,
+    request: Option<bool>,
+}
+
+impl<'a> Served<'a> {
+    /// Serves the devices of `plc`, a model whose D8001 shows `type_code`.
+    pub fn new(plc: &'a mut dyn Plc, type_code: u16) -> Self {
+        Served {
+            plc,
+            type_code,
+            request: None,
+        }
+    }
+
+    /// RUN or STOP, if a frame has asked for it.
+    pub fn take_request(&mut self) -> Option<bool> {
+        self.request.take()
+    }
+}
+
+impl Map for Served<'_> {
+    fn bit(&self, class: Class, number: u32) -> Option<bool> {
+        self.plc.bit(class, number)
+    }
+
+    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
+        self.plc.set_bit(class, number, value)
+    }
+
+    fn word(&self, class: Class, number: u32) -> Option<i16> {
+        self.plc.word(class, number)
+    }
+
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
+        self.plc.set_word(class, number, value)
+    }
+
+    fn counter32(&self, number: u32) -> Option<i32> {
+        self.plc.counter32(number)
+    }
+
+    fn set_counter32(&mut self, number: u32, value: i32) -> Option<()> {
+        self.plc.set_counter32(number, value)
+    }
+
+    fn reset(&mut self, class: Class, number: u32) -> Option<()> {
+        self.plc.reset(class, number)
+    }
+
+    fn running(&self) -> bool {
+        self.plc.sys().running
+    }
+
+    fn request_running(&mut self, running: bool) {
+        self.request = Some(running);
+    }
+
+    fn type_code(&self) -> u16 {
+        self.type_code
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::double::Double;
+
+    #[test]
+    fn frames_reach_devices_and_the_switch() {
+        let mut plc = Double::new().with_d(5, &[7]);
+        let mut map = Served::new(&mut plc, 24120);
+        assert_eq!(map.word(Class::D, 5), Some(7));
+        assert_eq!(map.set_bit(Class::Y, 8, true), Some(()));
+        assert!(map.has_words(Class::D, 0, 10) && !map.has_words(Class::D, 8500, 100));
+        assert!(map.has_bits(Class::X, 0, 256) && !map.has_bits(Class::X, u32::MAX, 2));
+        assert!(map.running());
+        map.request_running(false);
+        assert_eq!(map.take_request(), Some(false));
+        assert_eq!(map.take_request(), None);
+        assert_eq!(map.type_code(), 24120);
+        assert_eq!(plc.bit(Class::Y, 8), Some(true));
+    }
+}
