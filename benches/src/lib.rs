@@ -1,5 +1,5 @@
 //! Benchmarks of rungc: what it emits, beside the C that an engineer would write by hand, in the same run and with the same compilers;
-//! how long compiling takes; how fast the interpreter is. `docs/benchmarks.md` tells the method.
+//! how long compiling takes; how fast the interpreter is. `docs/src/benchmarks.md` tells the method.
 
 pub mod checks;
 pub mod clock;

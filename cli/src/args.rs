@@ -103,7 +103,7 @@ pub struct Reading {
     /// PLC model; by default that of rungc.toml, else the CPU type that the file names, else fx3u.
     #[arg(long, value_parser = model, value_name = "MODEL")]
     pub model: Option<ModelId>,
-    /// Settings of the project (docs/project.md); by default the rungc.toml nearest above each program.
+    /// Settings of the project (docs/src/project.md); by default the rungc.toml nearest above each program.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
     /// Encoding of texts, such as windows-1252, gbk or shift_jis; by default the one that a project states or that its texts seem
@@ -181,7 +181,7 @@ pub struct Plan {
     /// What to make.
     #[arg(long, value_enum)]
     pub emit: Option<Emit>,
-    /// Tell what the program takes on the target, built from C: flash, RAM, steps of the longest scan, stack (docs/report.md).
+    /// Tell what the program takes on the target, built from C: flash, RAM, steps of the longest scan, stack (docs/src/report.md).
     #[arg(long)]
     pub report: bool,
     /// The machine to build for: `host`, or what rustc calls it, such as thumbv7em-none-eabihf. An image is for its board's.
@@ -190,7 +190,7 @@ pub struct Plan {
     /// The language that an image is built through.
     #[arg(long, value_enum, value_name = "LANGUAGE")]
     pub backend: Option<Backend>,
-    /// The board that an image is for (docs/boards.md); with c or rust, the sources of the image.
+    /// The board that an image is for (docs/src/boards.md); with c or rust, the sources of the image.
     #[arg(long, value_name = "FILE")]
     pub board: Option<PathBuf>,
     /// Inputs that switch themselves in an image, for a simulator: `X000=1@2s`; may be repeated or separated by commas.
@@ -239,7 +239,7 @@ pub struct RunArgs {
     /// writes, outputs first, and the inputs that change, twelve at most.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
-    /// The machine around the PLC, whose axes, cylinders and delays follow the outputs and drive inputs (docs/machines.md).
+    /// The machine around the PLC, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Record the program's inputs and outputs and what is watched as a value change dump, which GTKWave and other viewers of
@@ -264,13 +264,13 @@ pub struct TestArgs {
     /// Test files (`*.plctest.toml`), or folders of them. By default those of rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Settings of the project (docs/project.md); by default the rungc.toml in this folder or the nearest one above.
+    /// Settings of the project (docs/src/project.md); by default the rungc.toml in this folder or the nearest one above.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
     /// What to run the cases on; by default what rungc.toml says, else the interpreter.
     #[arg(long, value_enum)]
     pub engine: Option<EngineChoice>,
-    /// The machine around the PLC (docs/machines.md), for cases that name none.
+    /// The machine around the PLC (docs/src/machines.md), for cases that name none.
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Run only cases whose `file::name` contains this.
@@ -440,7 +440,7 @@ pub enum TestFormat {
     Human,
     /// JUnit XML, for continuous integration.
     Junit,
-    /// One JSON object (docs/test-files.md).
+    /// One JSON object (docs/src/test-files.md).
     Json,
 }
 

@@ -70,7 +70,7 @@ fn readme_shows_what_happens() {
 
 #[test]
 fn the_example_of_machines_runs() {
-    let page = fs::read_to_string(root().join("docs/machines.md")).unwrap();
+    let page = fs::read_to_string(root().join("docs/src/machines.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     let program = &blocks(&page, "", "LD M8002")[0];
@@ -96,7 +96,7 @@ fn the_example_of_machines_runs() {
 
 #[test]
 fn the_diagram_is_what_the_command_draws() {
-    let page = fs::read_to_string(root().join("docs/machines.md")).unwrap();
+    let page = fs::read_to_string(root().join("docs/src/machines.md")).unwrap();
     let examples = root().join("golden/examples");
     let machine = fs::read_to_string(examples.join("drill.machine.toml")).unwrap();
     assert_eq!(
@@ -113,21 +113,21 @@ fn the_diagram_is_what_the_command_draws() {
     let args = command.trim().strip_prefix("$ rungc ").unwrap();
     let (printed, succeeded) = rungc(folder.path(), &args.split(' ').collect::<Vec<_>>());
     assert!(succeeded, "{printed}");
-    let drawn = fs::read_to_string(folder.path().join("docs/drill.svg")).unwrap();
-    let kept = root().join("docs/drill.svg");
+    let drawn = fs::read_to_string(folder.path().join("drill.svg")).unwrap();
+    let kept = root().join("docs/src/drill.svg");
     if std::env::var_os("UPDATE_DOCS").is_some() {
         fs::write(&kept, &drawn).unwrap();
     }
     let same = fs::read_to_string(&kept).is_ok_and(|kept| kept == drawn);
     assert!(
         same,
-        "docs/drill.svg is not what the command draws: remake it with UPDATE_DOCS=1"
+        "docs/src/drill.svg is not what the command draws: remake it with UPDATE_DOCS=1"
     );
 }
 
 #[test]
 fn the_example_of_test_files_passes() {
-    let page = fs::read_to_string(root().join("docs/test-files.md")).unwrap();
+    let page = fs::read_to_string(root().join("docs/src/test-files.md")).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("lamp.plctest.toml");
     fs::write(&file, &blocks(&page, "toml", "model")[0]).unwrap();

@@ -1,4 +1,4 @@
-//! The description of a board, in TOML: docs/boards.md.
+//! The description of a board, in TOML: docs/src/boards.md.
 
 use crate::target::{self, Target};
 use rungc_syntax::{DeviceClass, Source};

@@ -50,7 +50,7 @@ fn special_devices_of_every_model() {
             model.title, model.name
         );
         check(
-            &root().join(format!("docs/special-devices/{}.md", model.name)),
+            &root().join(format!("docs/src/special-devices/{}.md", model.name)),
             &text,
         );
     }

@@ -18,7 +18,7 @@ pub fn template(program: Option<&Path>, model: Option<ModelId>) -> String {
         None => format!("# {}", key("model", "fx3u")),
     };
     format!(
-        r#"# Settings of a project for rungc, explained in docs/project.md. Options of the command line win over them.
+        r#"# Settings of a project for rungc, explained in docs/src/project.md. Options of the command line win over them.
 
 [project]
 # The program, by its path from here: what a command works on that is given no FILE.

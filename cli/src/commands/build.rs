@@ -161,7 +161,7 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
             "--board: an image is made by --emit elf, its sources by --emit c and --emit rust",
         ),
         Emit::Elf if args.board.is_none() => wrong(
-            "--emit elf: an image is for a board; --board names its description (docs/boards.md)",
+            "--emit elf: an image is for a board; --board names its description (docs/src/boards.md)",
         ),
         Emit::Bin if target.is_bare() => wrong(
             "--emit bin: nothing runs below a program there that could start it; --emit elf makes an image for a board",

@@ -1,6 +1,6 @@
 //! The machine around a PLC: axes with their switches and encoders, cylinders, and inputs that follow outputs.
 //!
-//! A [`Description`] is read from a TOML file (`docs/machines.md`). The [`Plant`] that it describes moves on a millisecond at a time:
+//! A [`Description`] is read from a TOML file (`docs/src/machines.md`). The [`Plant`] that it describes moves on a millisecond at a time:
 //! it looks at the PLC's outputs through [`Terminals`] and changes its inputs. Within a millisecond an axis moves evenly, and each
 //! switch and each encoder line changes when the axis passes the place where it does.
 

@@ -9,7 +9,7 @@ super::codes! {
 
     PROJECT_KEY = "E0041" "project-key" Error None,
     "rungc.toml has no such table or key",
-    "A table or key that rungc does not know is refused, since a misspelt setting would otherwise be ignored. The help names the keys there are; docs/project.md explains them.",
+    "A table or key that rungc does not know is refused, since a misspelt setting would otherwise be ignored. The help names the keys there are; docs/src/project.md explains them.",
     wrong: "",
     right: "";
 
