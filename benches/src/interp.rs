@@ -6,8 +6,8 @@ use crate::ladder::{Kind, Ladder};
 use crate::problem::Result;
 use crate::subject::{self, INPUT_STRIDE};
 use crate::table::{Cell, Table};
+use rungc_interp::{Machine, rt_class};
 use rungc_rt::{NoHal, Plc, Program};
-use rungc_sim::{Machine, rt_class};
 use rungc_syntax::DeviceClass;
 use std::time::Duration;
 

@@ -3,10 +3,10 @@
 use crate::clock::Clock;
 use crate::problem::{Problem, Result};
 use crate::table::{Cell, Table};
+use rungc_interp::Machine;
 use rungc_ir::ModelId;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_rt::{Class, Hal, NoHal, Plc, Program};
-use rungc_sim::Machine;
 
 /// Four outputs at 100 kHz: steady, with ramps, modulated, to a position.
 const PROGRAM: &str = "\

@@ -3,9 +3,9 @@
 //! time while scans run.
 
 use rungc_codegen_c::{Options, emit};
+use rungc_interp::Machine;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
-use rungc_sim::Machine;
 use std::path::Path;
 use std::process::Command;
 

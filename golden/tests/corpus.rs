@@ -3,10 +3,10 @@
 //! They lie beside this repository and are no part of it; without them there is nothing to test.
 
 use rungc_frontend::Read;
+use rungc_interp::Machine;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module, validate};
 use rungc_rt::{Program, VirtualHal};
-use rungc_sim::Machine;
 use rungc_syntax::{Severity, codes};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -2,9 +2,9 @@
 
 use rungc_golden::module;
 use rungc_golden::rng::Rng;
+use rungc_interp::Machine;
 use rungc_ir::{ModelId, Module};
 use rungc_rt::{Class, NoHal, Plc, Program};
-use rungc_sim::Machine;
 
 /// Inputs, and the machine that they belong to.
 struct Bench<'m> {

@@ -7,11 +7,12 @@
 //! The environment variables `RUNGC_RANDOM_PROGRAMS` and `RUNGC_RANDOM_SEED` make it longer, or another one.
 
 use rungc_golden::rng::Rng;
+use rungc_interp::Machine;
 use rungc_ir::catalogue::{self, Classes, Inst, Param};
 use rungc_ir::compile::{CompileOptions, Compiled, compile};
 use rungc_ir::{Model, ModelId, Module, dump, validate};
 use rungc_rt::{Class, Plc, Program, VirtualHal};
-use rungc_sim::{Machine, plctest};
+use rungc_sim::plctest;
 use rungc_syntax::{DeviceClass, Severity, codes};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;

@@ -2,10 +2,10 @@
 //! there are as many pulses as the program asked for.
 
 use rungc_codegen_c::{Options, emit};
+use rungc_interp::Machine;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
 use rungc_rt::{Class, Hal, Plc, Program};
-use rungc_sim::Machine;
 use std::process::Command;
 
 /// A move with ramps on Y000, and a signal of a fixed width on Y001.

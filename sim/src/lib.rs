@@ -1,20 +1,19 @@
-//! Executing compiled programs: the reference interpreter of the IR, and the runner of PLC test files.
+//! Running compiled programs: test files, the engines that execute them, the machine around a PLC, and what a run leaves behind.
 //!
-//! [`Machine`] is the executable specification of [`rungc_ir::node`]. [`plctest`] runs test files on any [`engines::Engine`]: the
-//! interpreter, or the executables that the emitted C and Rust of a batch of programs are built to.
+//! [`plctest`] reads test files and runs them on any [`engines::Engine`]: the [interpreter](rungc_interp), or the executables that the
+//! emitted C and Rust of a batch of programs are built to. [`plant`] simulates the machine that a PLC is wired to, and [`record`]
+//! writes recordings and plots. None of it knows an instruction or an output language; `engines` alone calls the backends. The
+//! modules build on one another in this order: [`Target`], [`wire`] and the mistakes in files ([`LoadError`]); `plant` and
+//! `record`; [`protocol`] and `engines`; `plctest`. Start reading at [`plctest::run`].
 
-mod devices;
 pub mod engines;
-pub mod errors;
-mod exec;
-mod logic;
-pub mod machine;
 pub mod plant;
 pub mod plctest;
 mod problem;
 pub mod protocol;
 pub mod record;
+mod target;
 pub mod wire;
 
-pub use devices::rt_class;
-pub use machine::Machine;
+pub use problem::{LoadError, Problem};
+pub use target::Target;

@@ -17,7 +17,7 @@ use rungc_firmware::sources;
 use rungc_firmware::target::{self, Target};
 use rungc_ir::compile::{self, CompileOptions};
 use rungc_ir::{Module, dump};
-use rungc_sim::plctest::Target as Device;
+use rungc_sim::Target as Device;
 use rungc_syntax::{DeviceClass, text};
 use std::fs;
 use std::path::{Path, PathBuf};

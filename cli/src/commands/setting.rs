@@ -1,7 +1,7 @@
 //! Devices that are set at a time: `X000=1@200ms`.
 
 use super::Failure;
-use rungc_sim::plctest::Target;
+use rungc_sim::Target;
 use rungc_syntax::DeviceClass;
 
 /// `X000=1@200ms`.

@@ -1,8 +1,8 @@
 //! The reference interpreter as an engine.
 
 use super::{Engine, EngineError};
-use crate::Machine;
 use crate::protocol::{Answer, Request};
+use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::{Class, Cx, Operand, Plc, Program, Site, VirtualHal};
 

@@ -2,11 +2,11 @@
 
 use super::program::{self, RawProgram, Tested};
 use super::serial::{self, Protocol, RawMode, RawSent, Switch, Way};
-use super::{
-    Basis, Case, Check, Problem, Rejects, Run, Setting, Signal, Step, Target, TestFile, Value,
-};
+use super::{Basis, Case, Check, Rejects, Run, Setting, Step, TestFile, Value};
 use crate::plant::{self, Description};
-use crate::problem;
+use crate::problem::{self, Problem};
+use crate::target::Target;
+use crate::wire::Signal;
 use rungc_ir::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::{DeviceClass, Source};

@@ -3,7 +3,6 @@
 //! [`load`] reads a file; [`Suite`] compiles the programs of many; [`run`] runs them on an [`Engine`](crate::engines::Engine).
 
 mod format;
-mod name;
 mod program;
 mod report;
 mod runner;
@@ -11,17 +10,15 @@ mod serial;
 mod suite;
 mod wiring;
 
-pub use name::Target;
 pub use program::{CaseProgram, ProgramFile};
 pub use report::{Failure, Outcome, Report};
 pub use runner::run;
 pub use suite::{Id, Suite};
 
-pub use crate::problem::{LoadError, Problem};
-pub use crate::wire::Signal;
-
 use crate::plant::Description;
-use crate::problem;
+use crate::problem::{self, LoadError};
+use crate::target::Target;
+use crate::wire::Signal;
 use rungc_ir::ModelId;
 use rungc_rt::Clock;
 use rungc_syntax::Source;

@@ -1,6 +1,7 @@
 //! What became of the cases.
 
-use super::{Id, Suite, Target, Value};
+use super::{Id, Suite, Value};
+use crate::target::Target;
 use std::fmt;
 use std::time::Duration;
 

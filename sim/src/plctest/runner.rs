@@ -2,12 +2,13 @@
 
 use super::suite::Built;
 use super::wiring;
-use super::{Check, Failure, Outcome, Rejects, Report, Run, Setting, Step, Suite, Target, Value};
-use crate::devices::rt_class;
+use super::{Check, Failure, Outcome, Rejects, Report, Run, Setting, Step, Suite, Value};
 use crate::engines::{Engine, EngineError};
 use crate::plant::{Description, Plant};
 use crate::protocol::{Answer, Request};
+use crate::target::Target;
 use crate::wire;
+use rungc_interp::rt_class;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;

@@ -1,8 +1,7 @@
 //! Values of devices, in the shapes that their names ask for.
 
-use crate::Machine;
-use crate::devices::rt_class;
-use crate::plctest::Target;
+use crate::target::Target;
+use rungc_interp::{Machine, rt_class};
 use rungc_ir::runs::is_counter32;
 use rungc_rt::{Class, Plc};
 use std::fmt;

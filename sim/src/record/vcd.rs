@@ -1,7 +1,7 @@
 //! Value change dumps (IEEE 1364-2005 §18), as GTKWave and other viewers of waveforms read them.
 
 use super::Reading;
-use crate::plctest::Target;
+use crate::target::Target;
 use rungc_syntax::DeviceClass;
 use std::io::{self, Write};
 use vcd::{IdCode, SimulationCommand, TimescaleUnit, Value, VarType, Writer};

@@ -1,9 +1,9 @@
 //! Setting devices of the machine by their names.
 
+use rungc_interp::{Machine, rt_class};
 use rungc_ir::runs::is_counter32;
 use rungc_rt::{Class, Plc};
-use rungc_sim::plctest::Target;
-use rungc_sim::{Machine, rt_class};
+use rungc_sim::Target;
 
 fn set_pair(machine: &mut Machine, class: Class, number: u32, value: i32) -> Option<()> {
     machine.set_word(class, number, value as i16)?;

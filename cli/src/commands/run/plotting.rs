@@ -1,11 +1,11 @@
 //! `rungc run --plot`: what is drawn, and the file.
 
 use super::super::{Failure, Fresh, file_name};
+use rungc_interp::Machine;
 use rungc_ir::{Module, lower};
 use rungc_rt::Program;
-use rungc_sim::Machine;
+use rungc_sim::Target;
 use rungc_sim::plant::{Axis, Plant};
-use rungc_sim::plctest::Target;
 use rungc_sim::record::plot::{CurveId, Plot, Shape};
 use rungc_sim::record::{Reading, hertz};
 use rungc_syntax::DeviceClass;

@@ -1,10 +1,10 @@
 //! `rungc run --vcd`: which devices are recorded, and the file.
 
 use super::super::{Failure, Fresh};
+use rungc_interp::Machine;
 use rungc_ir::Module;
-use rungc_sim::Machine;
+use rungc_sim::Target;
 use rungc_sim::plant::{Axis, Plant};
-use rungc_sim::plctest::Target;
 use rungc_sim::record::{Reading, Signal, Vcd};
 use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;

@@ -2,8 +2,8 @@
 
 use super::recording::Recording;
 use crate::commands::Failure;
+use rungc_interp::Machine;
 use rungc_rt::{Class, Plc, Program, VirtualHal};
-use rungc_sim::Machine;
 use rungc_sim::plant::{Look, Terminals};
 use rungc_sim::wire::Change;
 

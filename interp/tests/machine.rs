@@ -1,9 +1,9 @@
 //! The interpreter's scan cycle: what is not in any single statement.
 
+use rungc_interp::Machine;
 use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::{ModelId, Module};
 use rungc_rt::{Class, NoHal, Plc, Program};
-use rungc_sim::Machine;
 
 fn module(text: &str) -> Module {
     let read = rungc_frontend::read_text("test.il", text);
