@@ -44,7 +44,10 @@
 //! | `parallel_link.rs`, `nn_link.rs`, `qlink.rs`, `can.rs` | links between PLCs, QLink, CAN |
 
 mod frame;
+pub mod fx_port;
 mod map;
+#[cfg(test)]
+mod watched;
 
 pub use frame::{Frame, hex_byte, hex_digits};
 pub use map::{Map, Served};

@@ -1,0 +1,57 @@
+//! The monitor list: devices that a client names once and samples as often as it likes.
+
+/// Bytes that a list may have: addresses 1400h to 178Fh.
+const SIZE: usize = 0x390;
+/// Bytes before the first address: number of words, a mark, number of bits.
+const HEAD: u32 = 4;
+
+/// A list: byte 0 is the number of words, byte 1 a mark (81h), bytes 2 and 3 the number of bits; then follow the byte addresses of the words
+/// and the numbers of the bits, the low byte of each first.
+#[derive(Clone, Debug)]
+pub struct MonitorList([u8; SIZE]);
+
+impl Default for MonitorList {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl MonitorList {
+    /// An empty list, as at power-on.
+    pub const fn new() -> Self {
+        MonitorList([0; SIZE])
+    }
+
+    /// A byte of the list.
+    pub(super) fn byte(&self, index: u32) -> Option<u8> {
+        self.0.get(index as usize).copied()
+    }
+
+    /// Writes a byte of the list.
+    pub(super) fn set(&mut self, index: u32, value: u8) {
+        if let Some(byte) = self.0.get_mut(index as usize) {
+            *byte = value;
+        }
+    }
+
+    /// The two bytes at `index`, the low one first; 0 beyond the list.
+    fn word(&self, index: u32) -> u16 {
+        let byte = |index| u16::from(self.byte(index).unwrap_or(0));
+        byte(index) | byte(index + 1) << 8
+    }
+
+    /// How many words are sampled.
+    pub(super) fn words(&self) -> u32 {
+        self.0[0].into()
+    }
+
+    /// Byte address of a word.
+    pub(super) fn address(&self, index: u32) -> u32 {
+        self.word(HEAD + 2 * index).into()
+    }
+
+    /// Number of a bit.
+    pub(super) fn bit(&self, index: u32) -> Option<u16> {
+        (index < u32::from(self.word(2))).then(|| self.word(HEAD + 2 * (self.words() + index)))
+    }
+}
