@@ -2,10 +2,10 @@
 
 use crate::clock::Clock;
 use crate::table::{Cell, Table};
+use rungc_analysis::check::check;
+use rungc_analysis::resolve::resolve;
 use rungc_frontend::read_text;
-use rungc_ir::check::check;
-use rungc_ir::model::{Model, ModelId};
-use rungc_ir::resolve::resolve;
+use rungc_models::{Model, ModelId};
 use std::fmt::Write;
 
 /// Programs of `n` rungs.

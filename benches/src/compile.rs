@@ -3,11 +3,10 @@
 use crate::clock::{self, Clock};
 use crate::ladder::{Kind, Ladder};
 use crate::problem::{Problem, Result};
-use crate::subject;
 use crate::table::{Cell, Table};
-use crate::tools;
-use rungc_ir::ModelId;
-use rungc_ir::compile::{CompileOptions, check, compile};
+use crate::{subject, tools};
+use rungc_lower::compile::{CompileOptions, check, compile};
+use rungc_models::ModelId;
 use std::process::Command;
 use std::time::{Duration, Instant};
 

@@ -4,8 +4,8 @@ use crate::clock::Clock;
 use crate::problem::{Problem, Result};
 use crate::table::{Cell, Table};
 use rungc_interp::Machine;
-use rungc_ir::ModelId;
-use rungc_ir::compile::{CompileOptions, compile};
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 use rungc_rt::{Class, Hal, NoHal, Plc, Program};
 
 /// Four outputs at 100 kHz: steady, with ramps, modulated, to a position.

@@ -3,8 +3,9 @@
 use crate::ladder::{Device, FLAGS, Ladder, TERMINALS, hand};
 use crate::problem::{Problem, Result};
 use crate::tools;
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

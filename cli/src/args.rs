@@ -3,7 +3,7 @@
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::{self, Target};
 use rungc_frontend::{Encoding, ReadOptions};
-use rungc_ir::ModelId;
+use rungc_models::ModelId;
 use rungc_project::Check;
 use rungc_syntax::{Severity, codes, diag};
 use std::path::PathBuf;
@@ -523,7 +523,7 @@ fn target(name: &str) -> Result<&'static Target, String> {
 fn model(name: &str) -> Result<ModelId, String> {
     ModelId::from_name(name).ok_or_else(|| {
         let nearest = ModelId::from_cpu(name).map_or_else(String::new, |id| {
-            format!("; {} resembles it most", rungc_ir::Model::get(id).name)
+            format!("; {} resembles it most", rungc_models::Model::get(id).name)
         });
         format!("no such model{nearest}; there are {}", ModelId::names())
     })

@@ -4,7 +4,7 @@ use crate::expr::Around;
 use crate::helpers::reset_function;
 use crate::writer::Writer;
 use rungc_ir::node::{Expr, ExprId, Place, Stmt};
-use rungc_ir::runs::is_counter32;
+use rungc_models::runs::is_counter32;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;

@@ -2,8 +2,9 @@
 
 use crate::writer::function_name;
 use rungc_ir::Module;
-use rungc_ir::node::{Cell, EdgeKind, FunctionKind, Stmt};
+use rungc_ir::node::{Cell, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
+use rungc_rt::EdgeKind;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

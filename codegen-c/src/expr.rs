@@ -3,8 +3,9 @@
 use crate::fields::Kind;
 use crate::text;
 use crate::writer::Writer;
-use rungc_ir::node::{BinOp, CmpOp, Expr, ExprId, Place, SysValue, Ty};
-use rungc_ir::runs::is_counter32;
+use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
+use rungc_models::runs::is_counter32;
+use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass;
 use smallvec::SmallVec;
 use std::fmt::Write;

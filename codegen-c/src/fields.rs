@@ -1,8 +1,9 @@
 //! The program's struct: which field holds a device.
 
 use crate::text;
-use rungc_ir::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
-use rungc_ir::{Model, Module};
+use rungc_ir::Module;
+use rungc_models::Model;
+use rungc_models::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
 use std::fmt::Write;

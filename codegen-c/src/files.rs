@@ -1,12 +1,8 @@
 //! Puts units into files.
 
-use crate::board;
-use crate::events;
 use crate::fields::Fields;
-use crate::header;
-use crate::text;
 use crate::unit::{self, Unit};
-use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H};
+use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, board, events, header, text};
 use rungc_ir::Module;
 use rungc_ir::walk::has_many_timers;
 use rungc_rt::RtFn;

@@ -1,11 +1,10 @@
 //! The header of a program: its struct, field by field, and its functions.
 
-use crate::events;
 use crate::fields::{Field, Fields, Kind, Section};
 use crate::plan::Plan;
-use crate::text;
 use crate::unit::uses_runtime;
 use crate::writer::c_type;
+use crate::{events, text};
 use rungc_ir::Module;
 use rungc_rt::Axis;
 use rungc_syntax::DeviceClass;

@@ -1,8 +1,7 @@
 //! The host program for Linux: scans in real time.
 
-use crate::events;
 use crate::fields::{Field, Fields};
-use crate::text;
+use crate::{events, text};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -57,7 +56,7 @@ pub fn main_file(module: &Module) -> String {
         ""
     };
     let errors = match module.may_fail() {
-        true => rungc_ir::plc_errors::PLC_ERRORS,
+        true => rungc_models::plc_errors::PLC_ERRORS,
         false => &[],
     };
     let errors: String = errors

@@ -2,9 +2,8 @@
 
 use crate::fields::Kind;
 use crate::plan::Node;
-use crate::text;
-use crate::walk;
 use crate::writer::Writer;
+use crate::{text, walk};
 use rungc_ir::node::{Expr, ExprId, Place, Stmt};
 use rungc_ir::walk::for_exprs;
 use rungc_syntax::DeviceClass;

@@ -3,8 +3,9 @@
 use crate::plan::{Node, Plan};
 use crate::walk;
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeKind, Expr, ExprId, Stmt, TempId, Ty};
+use rungc_ir::node::{Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::for_exprs;
+use rungc_rt::EdgeKind;
 use rustc_hash::FxHashMap;
 use std::fmt::Write;
 

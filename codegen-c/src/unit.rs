@@ -1,11 +1,9 @@
 //! One module as C text: declarations, and functions in groups of bounded size.
 
-use crate::events;
 use crate::fields::{Field, Fields, Kind, Section};
-use crate::header;
 use crate::plan::Plan;
-use crate::table;
 use crate::writer::{Writer, function_name};
+use crate::{events, header, table};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, STEPS_PER_MS};
 use rungc_ir::walk::{calls_runtime, statements};

@@ -4,8 +4,9 @@ mod build;
 
 use build::{program_text, run_c};
 use rungc_codegen_c::{Options, emit};
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 
 fn module(list: &str, model: ModelId) -> Module {
     let program = rungc_frontend::read_text("shape.il", list).program;

@@ -3,7 +3,8 @@
 use crate::generate::{Generator, function_name};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{CellId, EdgeKind, Flag, FlagId, FunctionKind, TableId};
+use rungc_ir::node::{CellId, Flag, FlagId, FunctionKind, TableId};
+use rungc_rt::EdgeKind;
 
 /// A private field: name, type, value at power-on, meaning.
 pub type Hidden = (Ident, TokenStream, TokenStream, &'static str);

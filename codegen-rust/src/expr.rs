@@ -4,8 +4,8 @@ use crate::generate::Generator;
 use crate::storage::{bit_of, word_of};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
-use rungc_ir::catalogue::CmpOp;
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
+use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass;
 
 /// What kind of Rust expression it is, for parentheses.

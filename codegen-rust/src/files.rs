@@ -3,7 +3,8 @@
 use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
 use crate::{Options, OutFile, Runtime};
-use rungc_ir::{Module, plc_errors};
+use rungc_ir::Module;
+use rungc_models::plc_errors;
 use rungc_rt::TimerKind;
 use rungc_rt_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;

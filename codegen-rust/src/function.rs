@@ -4,7 +4,8 @@ use crate::analysis::{self, Declared, Temps};
 use crate::generate::{Generator, Item, function_name};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
-use rungc_ir::node::{EdgeKind, Function, FunctionKind, Stmt, TempId};
+use rungc_ir::node::{Function, FunctionKind, Stmt, TempId};
+use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass;
 
 /// A body of more lines than this is split.

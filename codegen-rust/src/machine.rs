@@ -1,10 +1,11 @@
 //! The struct that holds the devices, and what it implements: access by number, and the scan.
 
 use crate::events::Hidden;
+use crate::expr::literal32;
+use crate::format;
 use crate::format::documented;
 use crate::generate::{Generator, Item, function_name};
 use crate::storage::{Elem, Field};
-use crate::{expr::literal32, format};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_ir::layout::Area;

@@ -6,7 +6,8 @@ use crate::expr::{Code, Shape, literal32};
 use crate::generate::{Generator, function_name};
 use proc_macro2::{Delimiter, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
-use rungc_ir::node::{Arg, CellId, EdgeKind, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
+use rungc_ir::node::{Arg, CellId, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
+use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {

@@ -2,9 +2,10 @@
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
+use rungc_ir::Module;
 use rungc_ir::layout::{Area, Grid};
-use rungc_ir::runs::FIRST_COUNTER32;
-use rungc_ir::{Model, Module};
+use rungc_models::Model;
+use rungc_models::runs::FIRST_COUNTER32;
 use rungc_syntax::DeviceClass;
 
 /// What a field holds per device.

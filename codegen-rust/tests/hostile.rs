@@ -4,7 +4,7 @@ mod common;
 
 use rungc_codegen_rust::{Options, Runtime, emit};
 use rungc_ir::Module;
-use rungc_ir::compile::{CompileOptions, compile};
+use rungc_lower::compile::{CompileOptions, compile};
 use rungc_syntax::text::acts;
 
 /// Names of files as people have them: an ideographic space, a combining accent as macOS stores it, a no-break space; and worse.

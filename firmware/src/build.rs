@@ -6,11 +6,10 @@ use rungc_ir::Module;
 use rungc_ir::node::{Function, FunctionKind};
 use rungc_rt_sources::cache;
 use rungc_rt_sources::library::{self, Recipe};
-use std::env;
 use std::ffi::{OsStr, OsString};
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::{env, fs};
 
 /// Why nothing was built.
 #[derive(Debug, thiserror::Error)]

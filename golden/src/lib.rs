@@ -7,8 +7,9 @@ pub mod random;
 pub mod rng;
 pub mod stations;
 
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 
 /// The module of a list that compiles for a model.
 pub fn module(text: &str, model: ModelId) -> Module {

@@ -1,12 +1,11 @@
 //! Random applied instructions: operands as the catalogue's rows allow them.
 
 use crate::rng::Rng;
-use rungc_ir::catalogue::{self, Classes, Drive, Forms, Inst, Lower, Param, Role, Shape};
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::resolve::Form;
-use rungc_ir::runs::FIRST_COUNTER32;
-use rungc_ir::{Model, ModelId};
-use rungc_syntax::DeviceClass;
+use rungc_catalogue::{Drive, Form, Forms, Inst, Lower, Param, Role, Shape};
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::runs::FIRST_COUNTER32;
+use rungc_models::{Model, ModelId};
+use rungc_syntax::{Classes, DeviceClass};
 
 /// How many devices of a class programs use, so that instructions meet each other's results.
 const CROWD: u32 = 24;
@@ -27,7 +26,7 @@ pub struct Candidate {
 
 /// All applied instructions that a model has and that are implemented.
 pub fn candidates(model: ModelId) -> Vec<Candidate> {
-    catalogue::all()
+    rungc_catalogue::all()
         .filter(|inst| inst.models.has(model) && inst.drive == Drive::Contact)
         .filter(|inst| {
             let lower = inst.lower_on_model(model);
@@ -40,7 +39,7 @@ pub fn candidates(model: ModelId) -> Vec<Candidate> {
                 .filter(move |(spelling, form)| {
                     let width = if form.wide { Forms::W32 } else { Forms::W16 };
                     // A spelling without its D is another name on some models only.
-                    let bare = catalogue::find(spelling).is_none_or(|found| found.bare);
+                    let bare = rungc_catalogue::find(spelling).is_none_or(|found| found.bare);
                     has.has(width) && (!form.pulse || has.has(Forms::PULSE)) && !bare
                 })
                 .map(move |(spelling, form)| Candidate {
@@ -196,7 +195,7 @@ fn device(
 #[cfg(test)]
 mod tests {
     use super::{Rng, candidates};
-    use rungc_ir::ModelId;
+    use rungc_models::ModelId;
 
     #[test]
     fn every_implemented_instruction_is_drawn() {

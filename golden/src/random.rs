@@ -2,7 +2,7 @@
 
 use crate::operands::{BUFFER_WORDS, Candidate, accepted, first_counter32, special_register};
 use crate::rng::Rng;
-use rungc_ir::{Model, ModelId, catalogue};
+use rungc_models::{Model, ModelId};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 
@@ -121,7 +121,7 @@ impl Writer<'_> {
 
     /// Whether the model has the instruction that a line begins with.
     fn knows(&self, line: &str) -> bool {
-        let found = line.split(' ').next().and_then(catalogue::find);
+        let found = line.split(' ').next().and_then(rungc_catalogue::find);
         found.is_some_and(|found| found.inst.models.has(self.model))
     }
 

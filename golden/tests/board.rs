@@ -4,8 +4,9 @@
 
 use rungc_codegen_c::{Options, emit};
 use rungc_interp::Machine;
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 use std::path::Path;
 use std::process::Command;
 

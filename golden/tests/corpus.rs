@@ -4,8 +4,9 @@
 
 use rungc_frontend::Read;
 use rungc_interp::Machine;
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module, validate};
+use rungc_ir::{Module, validate};
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 use rungc_rt::{Program, VirtualHal};
 use rungc_syntax::{Severity, codes};
 use std::collections::BTreeMap;

@@ -3,7 +3,8 @@
 use rungc_golden::module;
 use rungc_golden::rng::Rng;
 use rungc_interp::Machine;
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_models::ModelId;
 use rungc_rt::{Class, NoHal, Plc, Program};
 
 /// Inputs, and the machine that they belong to.

@@ -6,15 +6,15 @@ use rungc_golden::operands::{BUFFER_WORDS, candidates};
 use rungc_golden::random::program;
 use rungc_golden::rng::Rng;
 use rungc_golden::stations;
-use rungc_ir::catalogue::Classes;
-use rungc_ir::compile::{Bound, CompileOptions, compile};
+use rungc_ir::Module;
 use rungc_ir::node::Stmt;
 use rungc_ir::walk::statements;
-use rungc_ir::{ModelId, Module};
+use rungc_lower::compile::{Bound, CompileOptions, compile};
+use rungc_models::ModelId;
 use rungc_rt::Class;
 use rungc_sim::engines::{Engine, EngineKind, Interpreter, build};
 use rungc_sim::protocol::{Answer, Request};
-use rungc_syntax::{Device, DeviceClass, Index};
+use rungc_syntax::{Classes, Device, DeviceClass, Index};
 use std::path::Path;
 
 /// Devices of a long array that are compared after each scan; the others are compared after the last.

@@ -1,8 +1,7 @@
 //! The generated parts of the documentation are what the catalogue says. `UPDATE_DOCS=1 cargo test -p rungc-golden --test docs`
 //! writes them anew.
 
-use rungc_ir::catalogue;
-use rungc_ir::{Model, ModelId};
+use rungc_models::{Model, ModelId};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -36,7 +35,7 @@ fn support_table_of_the_readme() {
     let (_, after) = rest
         .split_once(END)
         .expect("README.md marks where the table ends");
-    let table = catalogue::support_table();
+    let table = rungc_catalogue::support_table();
     check(&path, &format!("{before}{BEGIN}\n{table}\n{END}{after}"));
 }
 
@@ -44,7 +43,7 @@ fn support_table_of_the_readme() {
 fn special_devices_of_every_model() {
     for id in ModelId::ALL {
         let model = Model::get(id);
-        let table = catalogue::special_table(id);
+        let table = rungc_catalogue::special_table(id);
         let text = format!(
             "# Special devices of {}\n\nGenerated from the catalogue. `rungc explain M8013 --model {}` shows one of them.\n\n{table}",
             model.title, model.name

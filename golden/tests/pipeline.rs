@@ -6,14 +6,15 @@
 //!
 //! The environment variables `RUNGC_RANDOM_PROGRAMS` and `RUNGC_RANDOM_SEED` make it longer, or another one.
 
+use rungc_catalogue::{Inst, Param};
 use rungc_golden::rng::Rng;
 use rungc_interp::Machine;
-use rungc_ir::catalogue::{self, Classes, Inst, Param};
-use rungc_ir::compile::{CompileOptions, Compiled, compile};
-use rungc_ir::{Model, ModelId, Module, dump, validate};
+use rungc_ir::{Module, dump, validate};
+use rungc_lower::compile::{CompileOptions, Compiled, compile};
+use rungc_models::{Model, ModelId};
 use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::plctest;
-use rungc_syntax::{DeviceClass, Severity, codes};
+use rungc_syntax::{Classes, DeviceClass, Severity, codes};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::mpsc;
@@ -383,7 +384,7 @@ fn survive(trials: Vec<Trial>) {
 }
 
 fn spellings() -> Vec<(String, &'static Inst)> {
-    catalogue::all()
+    rungc_catalogue::all()
         .flat_map(|inst| {
             inst.spellings()
                 .into_iter()

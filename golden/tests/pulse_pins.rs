@@ -3,8 +3,9 @@
 
 use rungc_codegen_c::{Options, emit};
 use rungc_interp::Machine;
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 use rungc_rt::{Class, Hal, Plc, Program};
 use std::process::Command;
 

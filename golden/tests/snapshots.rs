@@ -1,7 +1,8 @@
 //! What the examples become: IR, C and Rust.
 
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module, dump};
+use rungc_ir::{Module, dump};
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 use std::path::Path;
 
 fn module(name: &str, model: ModelId) -> Module {

@@ -1,8 +1,8 @@
 //! Where the interpreter keeps devices: every device of the model, whether the program uses it or not.
 
 use rungc_ir::Module;
-use rungc_ir::model::Range;
-use rungc_ir::runs::is_special;
+use rungc_models::Range;
+use rungc_models::runs::is_special;
 use rungc_rt::{Class, Counter16, Counter32, FIRST_COUNTER32, FIRST_SPECIAL, Timer};
 use rungc_syntax::DeviceClass;
 

@@ -3,11 +3,10 @@
 use crate::devices::rt_class;
 use crate::logic::{Input, Join, Strided};
 use crate::machine::Machine;
-use rungc_ir::node::{
-    Arg, EdgeKind, Expr, ExprId, FloatOp, LabelId, Part, Place, Stmt, SysValue, UnOp,
-};
+use rungc_ir::node::{Arg, Expr, ExprId, FloatOp, LabelId, Part, Place, Stmt, SysValue, UnOp};
 use rungc_rt::{
-    Class, Cx, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report, send, word,
+    Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report,
+    send, word,
 };
 
 /// Value of an expression or temporary.

@@ -6,9 +6,8 @@
 //! expression, which `exec` evaluates.
 
 use crate::devices::{BitSlot, Devices, rt_class};
-use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Place, TempId, Ty};
-use rungc_ir::walk;
+use rungc_ir::{Module, walk};
 use rungc_rt::Class;
 
 /// What an item does with its input.
@@ -235,8 +234,9 @@ mod tests {
     use super::{Input, Join, Logic};
     use crate::Machine;
     use crate::devices::Devices;
+    use rungc_ir::Module;
     use rungc_ir::node::{Expr, ExprId, Place, Stmt};
-    use rungc_ir::{Model, ModelId, Module};
+    use rungc_models::{Model, ModelId};
     use rungc_rt::{Class, NoHal, Plc, Program};
     use rungc_syntax::DeviceClass;
 

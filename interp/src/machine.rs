@@ -8,9 +8,11 @@ use crate::errors::OperationError;
 use crate::exec::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeKind, FunctionKind, Ty};
+use rungc_ir::node::{FunctionKind, Ty};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
-use rungc_rt::{Axis, Class, Hal, LastError, Operand, Plc, Program, Pulses, State, Stop, Sys};
+use rungc_rt::{
+    Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Program, Pulses, State, Stop, Sys,
+};
 use std::collections::BTreeMap;
 
 /// The functions that a host asks for, by their places in the module.

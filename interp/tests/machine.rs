@@ -1,8 +1,9 @@
 //! The interpreter's scan cycle: what is not in any single statement.
 
 use rungc_interp::Machine;
-use rungc_ir::compile::{CompileOptions, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
 use rungc_rt::{Class, NoHal, Plc, Program};
 
 fn module(text: &str) -> Module {

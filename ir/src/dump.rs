@@ -5,10 +5,10 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Arg, BinOp, Body, CellId, EdgeKind, Expr, ExprId, FlagId, Function, FunctionKind, Module,
-    Place, Stmt, SysValue, TableId,
+    Arg, BinOp, Body, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Module, Place, Stmt,
+    SysValue, TableId,
 };
-use rungc_rt::TimerKind;
+use rungc_rt::{EdgeKind, TimerKind};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write as _;
 

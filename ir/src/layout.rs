@@ -3,11 +3,11 @@
 //! A device that is only ever named directly becomes a field of its own; devices that are indexed, moved in blocks or handed to a
 //! runtime function as a run become arrays. Special devices that the program never looks at are not stored.
 
-use crate::lower::LowerOptions;
 use crate::node::{Module, Place};
 use crate::reach::{Access, of_expr, of_stmt};
-use crate::runs::is_special;
 use crate::walk::statements;
+use rungc_models::Model;
+use rungc_models::runs::is_special;
 use rungc_syntax::DeviceClass;
 
 /// A run of stored devices.
@@ -104,6 +104,24 @@ impl Layout {
     }
 }
 
+/// Devices that a host looks at, or writes, besides those that the program names.
+#[derive(Clone, Debug, Default)]
+pub struct Wanted {
+    /// Devices that tests or a monitor look at, to be stored besides those that the program uses.
+    pub observe: Vec<(DeviceClass, u32)>,
+    /// Store every device of the model.
+    pub observe_all: bool,
+}
+
+impl Wanted {
+    /// Whether a host may look at a device, and write it.
+    pub fn observes(&self, model: &Model, class: DeviceClass, number: u32) -> bool {
+        let mut observed = self.observe.iter();
+        self.observe_all
+            || observed.any(|other| model.canonical(other.0, other.1) == (class, number))
+    }
+}
+
 /// What is known of one device while the layout is built.
 const STORED: u8 = 1;
 const IN_ARRAY: u8 = 2;
@@ -113,9 +131,9 @@ const FIRST_ERROR: u32 = 8068;
 
 /// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the functions
 /// it calls use (`flags`). They may use devices of a `whole` class by number.
-pub(crate) fn build(
+pub fn build(
     module: &mut Module,
-    options: &LowerOptions,
+    wanted: &Wanted,
     flags: &[(DeviceClass, u32)],
     whole: Option<DeviceClass>,
 ) {
@@ -129,13 +147,13 @@ pub(crate) fn build(
     for expr in &module.exprs {
         of_expr(model, expr, &mut |access| builder.access(access));
     }
-    for &(class, number) in options.observe.iter().chain(flags) {
+    for &(class, number) in wanted.observe.iter().chain(flags) {
         builder.mark(class, number, 1, false);
     }
     if let Some(class) = whole {
         builder.mark_run(class);
     }
-    if options.observe_all {
+    if wanted.observe_all {
         for range in &*module.ranges {
             builder.mark(range.class, range.first, range.last - range.first + 1, true);
         }

@@ -11,9 +11,9 @@
 //! Integers are two's complement and wrap. `I16` values are signed 16-bit, `I32` signed 32-bit, `F32` IEEE single, `Bit` true or false.
 
 use crate::layout::Layout;
-use crate::model::{Model, Range};
 use crate::walk::{calls_runtime, statements};
-use rungc_rt::{RtFn, TimerKind};
+use rungc_models::{Model, Range};
+use rungc_rt::{CmpOp, EdgeKind, RtFn, TimerKind};
 use rungc_syntax::{DeviceClass, Span};
 use std::borrow::Cow;
 
@@ -253,9 +253,6 @@ impl FloatOp {
     }
 }
 
-/// Comparison operators; signed for integers.
-pub use crate::catalogue::CmpOp;
-
 /// What the scan driver knows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub enum SysValue {
@@ -353,25 +350,6 @@ pub enum Expr {
         /// How many.
         count: u32,
     },
-}
-
-/// A rising or a falling edge.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
-pub enum EdgeKind {
-    /// Off to on.
-    Rising,
-    /// On to off.
-    Falling,
-}
-
-impl EdgeKind {
-    /// What the input does, for names: `rises`.
-    pub fn verb(self) -> &'static str {
-        match self {
-            EdgeKind::Rising => "rises",
-            EdgeKind::Falling => "falls",
-        }
-    }
 }
 
 /// Operand of a call of the runtime.
@@ -484,7 +462,7 @@ pub enum Stmt {
         preset: ExprId,
     },
     /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
-    /// ([`crate::Model::timer`]), and shared, since it may be any; not shared in the rounds of a [`Stmt::Repeat`].
+    /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the rounds of a [`Stmt::Repeat`].
     TimerAt {
         /// The timer, which has an index.
         place: Place,
@@ -697,7 +675,7 @@ pub enum FunctionKind {
     /// Runs the interrupt routines that are requested. `Main` calls it at the begin of each network, and behind what sets or resets
     /// a relay that requests or forbids one where relays keep requests (HM); `End` at its begin, and a host may between two scans
     /// ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt routine is itself. What is
-    /// requested between two of these moments counts as requested together: then [`crate::interrupts::precedence`] tells which comes
+    /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::precedence`] tells which comes
     /// first.
     TakeInterrupts,
     /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.
@@ -893,7 +871,7 @@ impl Module {
 }
 
 /// Type of an expression of an arena.
-pub(crate) fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
+pub fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
     match exprs[id.0 as usize] {
         Expr::Bit(_)
         | Expr::ReadBit(_)

@@ -5,10 +5,10 @@
 //! exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices together lie in one run ([`Model::runs`]): none
 //! goes on from the general devices in the special ones. How far an index may lead is known from [`Expr::Within`].
 
-use crate::model::Model;
 use crate::node::{Arg, Expr, Module, Place, Stmt};
-use crate::runs::{is_counter32, words_of_bits};
 use crate::walk::statements;
+use rungc_models::Model;
+use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 

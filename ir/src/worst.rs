@@ -265,7 +265,7 @@ fn own(expr: &Expr) -> u64 {
 }
 
 /// The lengths of all networks: each goes on to where the next one begins.
-pub(crate) fn lengths(module: &Module) -> Vec<u64> {
+pub fn lengths(module: &Module) -> Vec<u64> {
     let mut begins: Vec<u32> = module.networks.iter().map(|network| network.step).collect();
     begins.push(module.steps);
     begins.sort_unstable();

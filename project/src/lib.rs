@@ -11,7 +11,7 @@ mod template;
 
 use encoding_rs::Encoding;
 use rungc_frontend::{LearnedCodes, ReadOptions};
-use rungc_ir::ModelId;
+use rungc_models::ModelId;
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};

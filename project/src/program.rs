@@ -1,8 +1,8 @@
 //! What settings say of a program: what its PLC keeps over power-off, and what its indexes reach.
 
 use crate::{Error, Latched, Project};
-use rungc_ir::Model;
-use rungc_ir::compile::Bound;
+use rungc_lower::compile::Bound;
+use rungc_models::Model;
 use rungc_syntax::{Device, DeviceClass, DeviceRun, Program, codes};
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use crate::{Bound, Latched, Named, Project, device};
 use encoding_rs::Encoding;
-use rungc_ir::{Model, ModelId, catalogue};
+use rungc_models::{Model, ModelId};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{DeviceClass, Diagnostics, Severity, Span, diag};
 use std::ops::Range;
@@ -324,8 +324,8 @@ impl Reader {
                 continue;
             };
             let mnemonic = name.text.to_uppercase();
-            if catalogue::find(&mnemonic).is_none() {
-                let names: Vec<_> = catalogue::all().map(|row| row.name).collect();
+            if rungc_catalogue::find(&mnemonic).is_none() {
+                let names: Vec<_> = rungc_catalogue::all().map(|row| row.name).collect();
                 let near = diag::did_you_mean(&mnemonic, names);
                 let help = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
                 let message = format!("no model has the instruction `{}`", name.text);

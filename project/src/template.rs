@@ -1,6 +1,6 @@
 //! The file that `rungc init` writes.
 
-use rungc_ir::{Model, ModelId};
+use rungc_models::{Model, ModelId};
 use std::path::Path;
 use toml::Value;
 

@@ -1,7 +1,7 @@
 //! What a file says, and what is said about its mistakes.
 
 use proptest::prelude::*;
-use rungc_ir::{Model, ModelId};
+use rungc_models::{Model, ModelId};
 use rungc_project::{Error, FILE, Project};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;

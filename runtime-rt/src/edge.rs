@@ -18,3 +18,22 @@ impl Edge {
         !input & before
     }
 }
+
+/// A rising or a falling edge.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum EdgeKind {
+    /// Off to on.
+    Rising,
+    /// On to off.
+    Falling,
+}
+
+impl EdgeKind {
+    /// What the input does, for names: `rises`.
+    pub fn verb(self) -> &'static str {
+        match self {
+            EdgeKind::Rising => "rises",
+            EdgeKind::Falling => "falls",
+        }
+    }
+}

@@ -27,6 +27,7 @@ mod capi_panic;
 )]
 pub mod capi_virtual;
 pub mod comm;
+mod compare;
 mod cx;
 #[cfg(test)]
 mod double;
@@ -50,8 +51,9 @@ pub mod word;
 
 pub use access::Access;
 pub use axis::{Axis, advance as advance_pulses, millihertz as pulse_millihertz, pulse_timer};
+pub use compare::CmpOp;
 pub use cx::{Cx, call, fetch, send};
-pub use edge::Edge;
+pub use edge::{Edge, EdgeKind};
 pub use fault::{Done, Fault, LastError, Stop, report, trip_watchdog};
 pub use hal::{Clock, Hal, NoHal};
 pub use operand::{Operand, OperandKind, d, h, k, kn};

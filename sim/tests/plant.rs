@@ -1,6 +1,6 @@
 //! Machines around a PLC: how they move, and what is wrong in their files.
 
-use rungc_ir::{Model, ModelId};
+use rungc_models::{Model, ModelId};
 use rungc_sim::plant::{self, Look, Plant, Terminals};
 use rungc_sim::wire::Change;
 use std::collections::BTreeMap;

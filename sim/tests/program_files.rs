@@ -1,6 +1,6 @@
 //! Test files whose programs are files of their own.
 
-use rungc_ir::ModelId;
+use rungc_models::ModelId;
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plctest::{self, Suite};
 use std::fs;

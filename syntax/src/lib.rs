@@ -1,8 +1,9 @@
 //! Source text, the program as its author wrote it, and diagnostics.
 //!
-//! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper (`rungc-ir`) share. It knows
+//! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper share. It knows
 //! neither file formats nor what an instruction computes.
 
+mod classes;
 pub mod codes;
 mod device;
 pub mod diag;
@@ -10,6 +11,7 @@ mod program;
 mod source;
 pub mod text;
 
+pub use classes::Classes;
 pub use device::{DeviceClass, Number};
 pub use diag::{Diagnostic, Diagnostics, Edit, Fix, Label, Severity};
 pub use program::{

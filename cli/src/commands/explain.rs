@@ -2,7 +2,7 @@
 
 use super::{Failure, Outcome, Result, say};
 use crate::args::ExplainArgs;
-use rungc_ir::{ModelId, catalogue, plc_errors, special};
+use rungc_models::{ModelId, plc_errors, special};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{DeviceClass, diag};
 use std::fmt::Write;
@@ -14,12 +14,12 @@ pub fn run(args: &ExplainArgs) -> Result {
         .map(code_page)
         .or_else(|| plc_error_page(topic.parse().ok()?))
         .or_else(|| special_page(&topic, args.model?))
-        .or_else(|| catalogue::explain(&topic));
+        .or_else(|| rungc_catalogue::explain(&topic));
     let Some(page) = page else {
         let codes = codes::all()
             .into_iter()
             .flat_map(|code| [code.id, code.name]);
-        let names = codes.chain(catalogue::all().map(|inst| inst.name));
+        let names = codes.chain(rungc_catalogue::all().map(|inst| inst.name));
         let hint = diag::did_you_mean(&topic, names)
             .map(|near| format!("; did you mean `{near}`?"))
             .unwrap_or_default();
@@ -93,7 +93,7 @@ fn special_page(topic: &str, model: ModelId) -> Option<String> {
     };
     let number: u32 = digits.parse().ok()?;
     let special = special::find(model, class, number)?;
-    let title = rungc_ir::Model::get(model).title;
+    let title = rungc_models::Model::get(model).title;
     Some(format!("{topic} on {title}: {}", describe(special)))
 }
 

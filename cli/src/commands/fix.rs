@@ -3,7 +3,7 @@
 use super::subject::{self, Subject};
 use super::{Context, Failure, findings, write_file};
 use rungc_frontend::{Read, read_text};
-use rungc_ir::compile;
+use rungc_lower::compile;
 use rungc_syntax::diag::{self, Fix};
 use rungc_syntax::{Diagnostic, Severity, SourceKind};
 use std::fs;

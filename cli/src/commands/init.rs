@@ -2,7 +2,7 @@
 
 use super::{Context, Failure, Outcome, Result, holder, write_file};
 use crate::args::InitArgs;
-use rungc_ir::ModelId;
+use rungc_models::ModelId;
 use rungc_project::{FILE, template};
 use std::path::{Path, PathBuf};
 

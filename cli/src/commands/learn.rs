@@ -3,11 +3,11 @@
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, counted, holder, say, write_file};
 use crate::args::{Input, LearnArgs, Reading, Reporting};
+use rungc_analysis::fitting::fits;
+use rungc_catalogue::{Basic, Lower};
 use rungc_frontend::{Lesson, Read, ReadOptions, Reading as Taken, learn};
-use rungc_ir::Model;
-use rungc_ir::catalogue::{self, Basic, Lower};
-use rungc_ir::compile::{self, CompileOptions};
-use rungc_ir::fitting::fits;
+use rungc_lower::compile::{self, CompileOptions};
+use rungc_models::Model;
 use rungc_project::FILE;
 use rungc_syntax::{SourceKind, text};
 use std::fmt::Write as _;
@@ -81,7 +81,7 @@ fn plain(text: &str) -> String {
 /// Whether two mnemonics are spellings of one instruction, such as `ECMP` and `DECMP`.
 fn same(a: &str, b: &str) -> bool {
     a == b
-        || match (catalogue::find(a), catalogue::find(b)) {
+        || match (rungc_catalogue::find(a), rungc_catalogue::find(b)) {
             (Some(a), Some(b)) => {
                 let label = matches!(a.inst.lower, Lower::Basic(Basic::Label));
                 std::ptr::eq(a.inst, b.inst) && a.form == b.form && !label
@@ -93,7 +93,7 @@ fn same(a: &str, b: &str) -> bool {
 /// Holds what the list says to the catalogue.
 fn prove(lesson: &Lesson, model: &'static Model) -> std::result::Result<(), Failure> {
     let (code, mnemonic) = (lesson.shown(), &lesson.mnemonic);
-    if catalogue::find(mnemonic).is_none() {
+    if rungc_catalogue::find(mnemonic).is_none() {
         let why = format!(
             "the code {code} is `{mnemonic}` in the export, an instruction that no model has"
         );

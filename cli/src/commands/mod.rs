@@ -18,7 +18,7 @@ mod unproven;
 use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
-use rungc_ir::compile::{self, CompileOptions, Compiled};
+use rungc_lower::compile::{self, CompileOptions, Compiled};
 use rungc_syntax::{SourceKind, Span, codes, text};
 use std::fmt;
 use std::fs::{self, File};

@@ -4,8 +4,8 @@ use super::{Context, Failure, Outcome, Result, counted, counts, interruption, te
 use crate::args::{Format, Input, Inputs, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
-use rungc_ir::ModelId;
-use rungc_ir::compile::CompileOptions;
+use rungc_lower::compile::CompileOptions;
+use rungc_models::ModelId;
 use rungc_project::{Error, Project};
 use rungc_syntax::Program;
 use std::collections::{BTreeMap, BTreeSet};

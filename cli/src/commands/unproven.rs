@@ -1,9 +1,9 @@
 //! What is said about codes of instructions that nothing proves: the instructions that would fit.
 
+use rungc_analysis::fitting::fitting;
 use rungc_frontend::{Read, Unproven, has_code};
-use rungc_ir::compile::{self, CompileOptions};
-use rungc_ir::fitting::fitting;
-use rungc_ir::{Model, ModelId};
+use rungc_lower::compile::{self, CompileOptions};
+use rungc_models::{Model, ModelId};
 use rungc_syntax::{Operands, codes};
 use std::collections::{BTreeMap, HashMap};
 

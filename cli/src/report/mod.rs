@@ -12,7 +12,7 @@ pub use visible::{visible, visible_json};
 use crate::args::{Format, Reporting};
 use crate::commands::Context;
 use rungc_firmware::report::Report as Takes;
-use rungc_ir::compile::Compiled;
+use rungc_lower::compile::Compiled;
 use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, SourceKind, codes};
 use std::io::{self, Write};
 use std::path::Path;

@@ -2,10 +2,11 @@
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
 use rungc_codegen_c::{Options, batch, emit};
+use rungc_ir::Module;
 use rungc_ir::layout::Area;
 use rungc_ir::node::*;
-use rungc_ir::{Model, ModelId, Module};
-use rungc_rt::TimerKind;
+use rungc_models::{Model, ModelId};
+use rungc_rt::{CmpOp, EdgeKind, TimerKind};
 use rungc_syntax::{DeviceClass, Span};
 use std::collections::BTreeSet;
 use std::io::Write;

@@ -2,11 +2,11 @@
 #![allow(dead_code, reason = "not every test needs all of it")]
 
 use rungc_codegen_rust::OutFile;
-use rungc_ir::compile::{CompileOptions, compile};
 use rungc_ir::layout::Area;
 use rungc_ir::node::*;
-use rungc_ir::{Model, ModelId};
-use rungc_rt::TimerKind;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::{Model, ModelId};
+use rungc_rt::{CmpOp, EdgeKind, TimerKind};
 use rungc_syntax::{DeviceClass, Span};
 use std::path::{Path, PathBuf};
 use std::process::Command;

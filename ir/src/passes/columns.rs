@@ -1,9 +1,9 @@
 //! Arrays of columns for the devices that loops over rungs go through.
 
 use crate::layout::{Area, Grid, Layout};
-use crate::model::Model;
 use crate::node::Module;
-use crate::runs::is_special;
+use rungc_models::Model;
+use rungc_models::runs::is_special;
 use rungc_syntax::DeviceClass;
 
 /// The last device behind one that the model has without a gap, and that is as little special.

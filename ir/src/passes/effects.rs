@@ -1,9 +1,9 @@
 //! What expressions read and statements write, and whether a read may be moved behind a write.
 
 use super::fold::Arena;
-use crate::model::Model;
 use crate::node::{Expr, ExprId, Place, Stmt};
 use crate::walk::operands;
+use rungc_models::Model;
 use rungc_syntax::DeviceClass;
 
 /// What an expression reads.

@@ -1,9 +1,9 @@
 //! Makes expressions in their simplest form.
 
-use crate::catalogue::CmpOp;
-use crate::model::Model;
 use crate::node::{BinOp, Expr, ExprId, TempId, Ty};
 use crate::walk::operands;
+use rungc_models::Model;
+use rungc_rt::CmpOp;
 
 /// An arena of expressions that are simplified as they are added.
 pub(super) struct Arena<'m> {

@@ -4,8 +4,8 @@
 
 use super::columns::{self, Arrays, last_alike, meets_other_grid, spread};
 use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
-use crate::runs::is_counter32;
 use crate::walk::{assigned, bodies, for_exprs, operands, operands_mut};
+use rungc_models::runs::is_counter32;
 use rungc_syntax::DeviceClass;
 use rustc_hash::FxHasher;
 use std::collections::HashMap;

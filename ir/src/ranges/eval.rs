@@ -2,9 +2,9 @@
 
 use super::interval::Interval;
 use super::state::{Known, Mask, State, Words, join, temp_bit};
-use crate::catalogue::CmpOp;
 use crate::node::{BinOp, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::walk::{operands, statements};
+use rungc_rt::CmpOp;
 
 /// Looks at the expressions of a module.
 pub(super) struct Eval<'m> {

@@ -1,7 +1,7 @@
 //! Sets of integers from one to another, and what operators make of them.
 
-use crate::catalogue::CmpOp;
 use crate::node::{BinOp, Ty};
+use rungc_rt::CmpOp;
 
 /// The integers from `low` to `high`, at least one.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -159,8 +159,8 @@ impl Interval {
 #[cfg(test)]
 mod tests {
     use super::Interval;
-    use crate::catalogue::CmpOp;
     use crate::node::{BinOp, Ty};
+    use rungc_rt::CmpOp;
 
     fn to(low: i32, high: i32) -> Interval {
         Interval { low, high }

@@ -2,7 +2,7 @@
 //!
 //! A module is executed with intervals in the place of values: constants, sums, masks, comparisons on the way, rounds of loops, and what
 //! one scan leaves to the next. An index register that nothing has written is 0. What is known rests on one rule: **a host writes an index
-//! register only if it is observed** ([`crate::compile::CompileOptions::observe`]); other registers it may write between two scans, so
+//! register only if it is observed** ([`Wanted::observe`]); other registers it may write between two scans, so
 //! that nothing is known of them when a scan begins. Should a host break the rule, or the watchdog end a scan halfway, an index may lead to a
 //! device that is not stored: it reads 0, and a write goes nowhere.
 
@@ -11,13 +11,13 @@ mod interval;
 mod state;
 mod walk;
 
-use crate::lower::LowerOptions;
+use crate::layout::Wanted;
 use crate::node::{Body, Expr, ExprId, Module, Place};
 use crate::reach::{Access, of_expr, of_stmt};
-use crate::runs::{FIRST_SPECIAL, is_special};
 use crate::walk::{bodies_mut, places_mut, statements};
 use eval::Eval;
 use interval::Interval;
+use rungc_models::runs::{FIRST_SPECIAL, is_special};
 use rungc_syntax::DeviceClass::{self, C, D, M, T};
 use rungc_syntax::{Device, Index};
 use state::Words;
@@ -40,15 +40,16 @@ pub struct Bound {
 
 /// Special devices that indexes are known to lead to. An index that only the end of the devices stops is not taken to aim at special ones.
 #[derive(Default)]
-pub(crate) struct Reached {
-    pub(crate) special: BTreeSet<(DeviceClass, u32)>,
+pub struct Reached {
+    /// The devices.
+    pub special: BTreeSet<(DeviceClass, u32)>,
     /// Whether the program may write M8000–M8003 so.
-    pub(crate) writes_run_flags: bool,
+    pub writes_run_flags: bool,
 }
 
 impl Reached {
     /// Adds what another lowering reaches; whether that is more.
-    pub(crate) fn add(&mut self, other: Reached) -> bool {
+    pub fn add(&mut self, other: Reached) -> bool {
         let before = (self.special.len(), self.writes_run_flags);
         self.special.extend(other.special);
         self.writes_run_flags |= other.writes_run_flags;
@@ -73,13 +74,13 @@ impl Reached {
 }
 
 /// Fills in what is known of each [`Expr::Within`], and names the devices that an index leads to alone.
-pub(crate) fn find(module: &mut Module, options: &LowerOptions) -> Reached {
+pub fn find(module: &mut Module, wanted: &Wanted) -> Reached {
     let is_within = |expr: &Expr| matches!(expr, Expr::Within { .. });
     if !module.exprs.iter().any(is_within) {
         return Reached::default();
     }
     let model = module.model;
-    let observed = |class, number| options.observes(model, class, number);
+    let observed = |class, number| wanted.observes(model, class, number);
     let words = Words::of(module, observed);
     let found = Walk::run(Eval { module, words });
     for (expr, id) in module.exprs.iter_mut().zip(0..) {

@@ -1,10 +1,10 @@
 //! What is known of index registers, and of the words they are made from, at a point of the program.
 
 use super::interval::Interval;
-use crate::model::Model;
 use crate::node::{Expr, ExprId, Module, Place, Stmt, TempId};
-use crate::runs::is_special;
 use crate::walk::{operands, statements};
+use rungc_models::Model;
+use rungc_models::runs::is_special;
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
 

@@ -7,8 +7,8 @@ use crate::node::{
     Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt, TempId, Ty,
 };
 use crate::reach;
-use crate::runs::FIRST_SPECIAL;
 use crate::walk::{assigned, bodies, for_exprs, operands, statements};
+use rungc_models::runs::FIRST_SPECIAL;
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
 

@@ -6,7 +6,7 @@ use super::delay::Delay;
 use super::marks::{Marks, Switch};
 use crate::problem::{self, LoadError, Problem};
 use crate::target::Target;
-use rungc_ir::Model;
+use rungc_models::Model;
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
 use std::path::Path;

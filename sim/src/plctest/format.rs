@@ -7,7 +7,7 @@ use crate::plant::{self, Description};
 use crate::problem::{self, Problem};
 use crate::target::Target;
 use crate::wire::Signal;
-use rungc_ir::ModelId;
+use rungc_models::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;

@@ -19,7 +19,7 @@ use crate::plant::Description;
 use crate::problem::{self, LoadError};
 use crate::target::Target;
 use crate::wire::Signal;
-use rungc_ir::ModelId;
+use rungc_models::ModelId;
 use rungc_rt::Clock;
 use rungc_syntax::Source;
 use serde::Deserialize;

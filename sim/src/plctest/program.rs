@@ -1,8 +1,8 @@
 //! The program of a case: a list in the test file, or a file of any format.
 
 use rungc_frontend::Read;
-use rungc_ir::ModelId;
-use rungc_ir::compile::{self, Bound, CompileOptions};
+use rungc_lower::compile::{self, Bound, CompileOptions};
+use rungc_models::ModelId;
 use rungc_project::{Error, Project};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};

@@ -1,8 +1,9 @@
 //! The programs of many test files, compiled.
 
 use super::{Case, CaseProgram, Check, TestFile};
-use rungc_ir::compile::{CompileOptions, Compiled, compile};
-use rungc_ir::{ModelId, Module};
+use rungc_ir::Module;
+use rungc_lower::compile::{CompileOptions, Compiled, compile};
+use rungc_models::ModelId;
 use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
 use std::collections::BTreeSet;
 

@@ -6,7 +6,7 @@ use crate::engines::EngineError;
 use crate::plant::{Axis, Description, Look, Terminals};
 use crate::protocol::{Answer, Request};
 use crate::wire::Change;
-use rungc_ir::{Model, ModelId};
+use rungc_models::{Model, ModelId};
 use rungc_rt::Class;
 use rungc_syntax::DeviceClass;
 

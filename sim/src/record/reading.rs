@@ -2,7 +2,7 @@
 
 use crate::target::Target;
 use rungc_interp::{Machine, rt_class};
-use rungc_ir::runs::is_counter32;
+use rungc_models::runs::is_counter32;
 use rungc_rt::{Class, Plc};
 use std::fmt;
 

@@ -1,7 +1,7 @@
 //! Setting devices of the machine by their names.
 
 use rungc_interp::{Machine, rt_class};
-use rungc_ir::runs::is_counter32;
+use rungc_models::runs::is_counter32;
 use rungc_rt::{Class, Plc};
 use rungc_sim::Target;
 

@@ -1,10 +1,9 @@
 //! What the PLC would show of errors while a program runs: the operation errors, and what stopped it.
 
 use crate::commands::tell;
+use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_interp::OperationError;
-use rungc_ir::model::Model;
-use rungc_ir::plc_errors;
-use rungc_ir::resolve::{Resolved, resolve};
+use rungc_models::{Model, plc_errors};
 use rungc_rt::{Class, LastError};
 use rungc_syntax::{Device, DeviceClass, Index, Instr, OperandKind, Program};
 

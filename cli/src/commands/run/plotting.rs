@@ -2,7 +2,7 @@
 
 use super::super::{Failure, Fresh, file_name};
 use rungc_interp::Machine;
-use rungc_ir::{Module, lower};
+use rungc_ir::Module;
 use rungc_rt::Program;
 use rungc_sim::Target;
 use rungc_sim::plant::{Axis, Plant};
@@ -65,7 +65,7 @@ impl Plotting {
         duration_ms: u64,
     ) -> std::result::Result<Self, Failure> {
         let module = machine.module();
-        let name = file_name(lower::stem(&module.source_name), &module.name);
+        let name = file_name(rungc_lower::stem(&module.source_name), &module.name);
         let title = format!("{name} on {}", module.model.title);
         let mut plot = Plot::new(&title, duration_ms);
         let mut curves = Vec::new();

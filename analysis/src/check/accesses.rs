@@ -1,0 +1,121 @@
+//! Which devices each instruction reads and writes.
+
+use super::Code;
+use crate::resolve::constant_value;
+use rungc_catalogue::{Extent, Param, Role, Shape};
+use rungc_syntax::{Classes, Device, DeviceClass, Operand, OperandKind, Span};
+
+/// One operand's access to a run of devices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Access {
+    /// The first device.
+    pub(super) first: Device,
+    /// How many; `None` if that is only known at run time, so that any device of the class may be meant.
+    pub(super) count: Option<u32>,
+    /// How many devices make one value: 2 for a 32-bit value in registers.
+    pub(super) each: u32,
+    /// What is done with them.
+    pub(super) role: Role,
+    /// Where the operand stands.
+    pub(super) span: Span,
+}
+
+impl Access {
+    /// To one device, whatever is done with it.
+    pub(super) fn whole(first: Device) -> Self {
+        Access {
+            first,
+            count: Some(1),
+            each: 1,
+            role: Role::ReadWrite,
+            span: Span::default(),
+        }
+    }
+
+    pub(super) fn reads(&self) -> bool {
+        matches!(self.role, Role::Read | Role::ReadWrite)
+    }
+
+    pub(super) fn writes(&self) -> bool {
+        matches!(self.role, Role::Write | Role::ReadWrite)
+    }
+}
+
+/// The accesses of instruction `i` by its operands, without operands that do not belong there. An instruction that could not be
+/// understood has none.
+pub(super) fn of(code: &Code, i: usize) -> impl Iterator<Item = Access> {
+    let operands = &code.instr(i).operands;
+    let params = code.params(i);
+    let wide = code.wide(i);
+    let understood = !code.is_meant(i);
+    operands
+        .iter()
+        .zip(params)
+        .filter(move |(operand, param)| {
+            understood
+                && param.shape != Shape::Pointer
+                && param.classes.meets(Classes::of(&operand.kind))
+        })
+        .filter_map(move |(operand, param)| access(operands, operand, param, wide))
+}
+
+fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) -> Option<Access> {
+    let (first, digits, indexed) = match operand.kind {
+        OperandKind::Device(device, index) => (device, None, index.is_some()),
+        OperandKind::Nibbles(digits, device, index) => (device, Some(digits), index.is_some()),
+        OperandKind::WordBit(device, _, index) => (device, None, index.is_some()),
+        _ => return None,
+    };
+    let word = matches!(
+        first.class,
+        DeviceClass::D | DeviceClass::R | DeviceClass::ER
+    );
+    let pair = match param.shape {
+        Shape::Value => wide,
+        Shape::Pair | Shape::Float => true,
+        Shape::Bit | Shape::Word | Shape::Text | Shape::Pointer | Shape::Mixed => false,
+    };
+    let each = match digits {
+        Some(digits) => 4 * u32::from(digits),
+        None if pair && word => 2,
+        None => 1,
+    };
+    let values = values(operands, operand, param).filter(|_| !indexed);
+    Some(Access {
+        first,
+        count: values.map(|values| values.saturating_mul(each)),
+        each,
+        role: param.role,
+        span: operand.span,
+    })
+}
+
+/// How many values an operand takes, if that can be known.
+fn values(operands: &[Operand], operand: &Operand, param: &Param) -> Option<u32> {
+    let constant = |operand: &Operand| constant_value(&operand.kind);
+    match param.extent {
+        Extent::One => Some(1),
+        Extent::Count(count) => Some(count),
+        Extent::Operand { i, extra } => {
+            let count = constant(operands.get(i)?)?.checked_add(i64::from(extra))?;
+            u32::try_from(count).ok()
+        }
+        Extent::Of(count) => {
+            let constants: Vec<_> = operands.iter().map(constant).collect();
+            count(&constants)
+        }
+        Extent::Through(last) => {
+            let last = device(operands.get(last)?)?;
+            let first = device(operand)?;
+            let further = last.number.saturating_sub(first.number);
+            (first.class == last.class).then(|| further.saturating_add(1))
+        }
+    }
+}
+
+fn device(operand: &Operand) -> Option<Device> {
+    match operand.kind {
+        OperandKind::Device(device, None) | OperandKind::Nibbles(_, device, None) => Some(device),
+        _ => None,
+    }
+}

@@ -1,0 +1,168 @@
+//! What drives each instruction: the contacts before it, as far as that can be said without knowing their devices' values.
+
+use super::{Code, Part};
+use rungc_catalogue::Basic;
+use rungc_syntax::{Device, DeviceClass};
+use rustc_hash::FxHasher;
+use std::hash::{Hash, Hasher};
+
+/// The result of some contacts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Drive {
+    /// Equal for equal contacts, joined in the same way.
+    pub(super) signature: u64,
+    /// How long it stays on.
+    pub(super) lasts: Lasts,
+}
+
+/// How long a result stays on once it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Lasts {
+    /// As long as the program runs.
+    Always,
+    /// For many scans: it depends on inputs and slow clocks alone.
+    Long,
+    /// That depends on what the program does.
+    Unknown,
+}
+
+/// Follows the contact logic through a program.
+#[derive(Default)]
+pub(super) struct Drives {
+    stack: Vec<Drive>,
+    branches: Vec<Drive>,
+}
+
+/// What the left bus bar gives.
+const BUS: Drive = Drive {
+    signature: 0,
+    lasts: Lasts::Always,
+};
+
+impl Drives {
+    /// Takes instruction `i`, the next of the program; what drives it, if it is one that contacts drive.
+    pub(super) fn next(&mut self, code: &Code, i: usize) -> Option<Drive> {
+        match code.part(i) {
+            Part::Start => self.stack.push(contact(code, i)),
+            Part::Continue => {
+                let result = self.stack.pop().unwrap_or(BUS);
+                self.stack.push(result.joined(code, i));
+            }
+            part @ (Part::JoinSeries | Part::JoinParallel) => {
+                let right = self.stack.pop().unwrap_or(BUS);
+                let left = self.stack.pop().unwrap_or(BUS);
+                self.stack.push(left.with(right, part == Part::JoinSeries));
+            }
+            Part::Push => self.branches.push(self.top()),
+            Part::Read => self.replace(self.branches.last().copied()),
+            Part::Pop => {
+                let branch = self.branches.pop();
+                self.replace(branch);
+            }
+            Part::Output => return Some(self.top()),
+            Part::Alone | Part::Unknown => {
+                self.stack.clear();
+                self.branches.clear();
+            }
+            Part::Nothing => {}
+        }
+        None
+    }
+
+    fn top(&self) -> Drive {
+        self.stack.last().copied().unwrap_or(BUS)
+    }
+
+    fn replace(&mut self, drive: Option<Drive>) {
+        self.stack.pop();
+        self.stack.push(drive.unwrap_or(BUS));
+    }
+}
+
+impl Drive {
+    /// With the contact, or the change of the result, of instruction `i`.
+    fn joined(self, code: &Code, i: usize) -> Drive {
+        let series = match code.basic(i) {
+            Some(Basic::And | Basic::Ani) => true,
+            Some(Basic::Or | Basic::Ori) => false,
+            // An edge, a comparison or a change of the result.
+            _ => {
+                let signature = hashed(&(self.signature, signature(code, i)));
+                let lasts = Lasts::Unknown;
+                return Drive { signature, lasts };
+            }
+        };
+        self.with(contact(code, i), series)
+    }
+
+    fn with(self, other: Drive, series: bool) -> Drive {
+        use Lasts::{Always, Long, Unknown};
+        let lasts = match (self.lasts, other.lasts) {
+            (Unknown, _) | (_, Unknown) => Unknown,
+            (Always, one) | (one, Always) if series => one,
+            (Always, _) | (_, Always) => Always,
+            (Long, Long) => Long,
+        };
+        let signature = hashed(&(self.signature, other.signature, series));
+        Drive { signature, lasts }
+    }
+}
+
+/// The contact of an instruction by itself.
+fn contact(code: &Code, i: usize) -> Drive {
+    /// M8000, on while the program runs, and its inverse.
+    const RUNS: [u32; 2] = [8000, 8001];
+    /// The clocks of a second and of a minute, which are on for many scans.
+    const CLOCKS: [u32; 2] = [8013, 8014];
+    let normally_open = match code.basic(i) {
+        Some(Basic::Ld | Basic::And | Basic::Or) => Some(true),
+        Some(Basic::Ldi | Basic::Ani | Basic::Ori) => Some(false),
+        _ => None,
+    };
+    let lasts = match (code.device(i, 0), normally_open) {
+        (
+            Some(Device {
+                class: DeviceClass::X,
+                ..
+            }),
+            Some(_),
+        ) => Lasts::Long,
+        (
+            Some(Device {
+                class: DeviceClass::M,
+                number,
+            }),
+            Some(open),
+        ) => {
+            if number == RUNS[usize::from(!open)] {
+                Lasts::Always
+            } else if CLOCKS.contains(&number) {
+                Lasts::Long
+            } else {
+                Lasts::Unknown
+            }
+        }
+        _ => Lasts::Unknown,
+    };
+    let signature = hashed(&(signature(code, i), normally_open));
+    Drive { signature, lasts }
+}
+
+/// What an instruction looks at, whichever way it joins the logic.
+fn signature(code: &Code, i: usize) -> u64 {
+    if let (Some(basic), Some(device)) = (code.basic(i), code.device(i, 0)) {
+        return match basic {
+            Basic::Ld | Basic::Ldi | Basic::And | Basic::Ani | Basic::Or | Basic::Ori => {
+                hashed(&device)
+            }
+            edge => hashed(&(edge as u32, device)),
+        };
+    }
+    hashed(&code.instr(i).to_string())
+}
+
+fn hashed(what: &impl Hash) -> u64 {
+    let mut hasher = FxHasher::default();
+    what.hash(&mut hasher);
+    hasher.finish()
+}

@@ -1,0 +1,335 @@
+//! Fast inputs: high-speed counters, interrupts, pulse catch and SPD that want the same terminal, and interrupts of one source.
+
+use super::pointers::Pointers;
+use super::{Code, fast_units};
+use rungc_catalogue::{Basic, Lower};
+use rungc_models::high_speed::{self, Kind};
+use rungc_models::interrupts::{self, Source};
+use rungc_models::{ModelId, ModelSet};
+use rungc_rt::Wiring;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
+
+/// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
+const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::HM;
+
+/// Models on which counters of one input may take turns (hm-motion-controller §8.2.2).
+const COUNTERS_TAKE_TURNS: ModelSet = ModelSet::HM;
+
+/// Checks who uses the fast inputs.
+pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
+    let interrupts = interrupts(code.model().id, pointers);
+    let counters = counters(code);
+    without_input(code, out);
+    one_pointer_per_source(code, &interrupts, out);
+    let others = others(code, &interrupts);
+    inputs_shared(code, &others, &counters, out);
+    looked_at(code, &others, &counters, out);
+    fast_units::check(code, &others, &counters, out);
+    counters_share(code, &counters, out);
+    never_enabled(code, &interrupts, out);
+}
+
+/// An interrupt routine.
+struct Interrupt {
+    /// Its pointer's number.
+    number: u32,
+    /// Where it begins.
+    label: usize,
+    /// The input that requests it.
+    input: Option<u32>,
+}
+
+impl Interrupt {
+    /// What it must not share with another: an input, or one of the timers I6, I7, I8.
+    fn source(&self) -> Option<(bool, u32)> {
+        let timer = (601..=899).contains(&self.number);
+        let timer = timer.then_some((true, self.number / 100));
+        self.input.map(|input| (false, input)).or(timer)
+    }
+}
+
+/// The interrupt routines in the order of the program.
+fn interrupts(model: ModelId, pointers: &Pointers) -> Vec<Interrupt> {
+    let mut found: Vec<_> = pointers
+        .iter()
+        .filter(|(device, _)| device.class == DeviceClass::I)
+        .filter_map(|(device, pointer)| {
+            let number = device.number;
+            let label = *pointer.labels.first()?;
+            let input = match interrupts::find(model, number).and_then(|known| known.source) {
+                Some(Source::Input { number, .. }) => Some(number),
+                _ => None,
+            };
+            Some(Interrupt {
+                number,
+                label,
+                input,
+            })
+        })
+        .collect();
+    found.sort_unstable_by_key(|interrupt| interrupt.label);
+    found
+}
+
+fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
+    if BOTH_EDGES_ALLOWED.has(code.model().id) {
+        return;
+    }
+    for (n, second) in interrupts.iter().enumerate() {
+        let same =
+            |first: &&Interrupt| second.source().is_some() && first.source() == second.source();
+        let Some(first) = interrupts[..n].iter().find(same) else {
+            continue;
+        };
+        let message = match second.input {
+            Some(input) => format!("both edges of `{}` interrupt", DeviceClass::X.number(input)),
+            None => format!("timer interrupt I{} has two periods", second.number / 100),
+        };
+        let diagnostic = codes::BOTH_EDGES
+            .at(code.span(second.label), message)
+            .label("the second routine of this source")
+            .other(code.span(first.label), "the first one");
+        out.push(diagnostic);
+    }
+}
+
+/// A high-speed counter that the program drives.
+pub(super) struct Counter {
+    number: u32,
+    pub(super) kind: Kind,
+    /// What it counts, resets and starts by.
+    inputs: Vec<u32>,
+    /// Its first coil.
+    pub(super) coil: usize,
+}
+
+/// The high-speed counters that the program drives, each once.
+fn counters(code: &Code) -> Vec<Counter> {
+    let table = high_speed::counters(code.model().id);
+    let mut found: Vec<Counter> = Vec::new();
+    for i in 0..code.len {
+        if code.basic(i) != Some(Basic::Out) {
+            continue;
+        }
+        let Some(device) = code.device(i, 0) else {
+            continue;
+        };
+        let number = device.number;
+        let known = || found.iter().any(|counter| counter.number == number);
+        if device.class != DeviceClass::C || known() {
+            continue;
+        }
+        if let Some(counter) = table.iter().find(|counter| counter.number == number) {
+            found.push(Counter {
+                number,
+                kind: counter.kind,
+                inputs: counter.inputs().collect(),
+                coil: i,
+            });
+        }
+    }
+    found
+}
+
+/// Coils of counters that no input of the model drives.
+fn without_input(code: &Code, out: &mut Diagnostics) {
+    let table = high_speed::counters(code.model().id);
+    for i in (0..code.len).filter(|&i| code.basic(i) == Some(Basic::Out)) {
+        let Some(device) = code.device(i, 0) else {
+            continue;
+        };
+        let fast = device.class == DeviceClass::C && device.number >= high_speed::FIRST;
+        // That it does not exist at all is told elsewhere.
+        let fast = fast && code.model().has(device.class, device.number);
+        if fast && !table.iter().any(|counter| counter.number == device.number) {
+            let message = format!("`{device}` counts no input of {}", code.model().name);
+            let span = code
+                .instr(i)
+                .operands
+                .first()
+                .map_or(code.span(i), |o| o.span);
+            out.push(codes::NO_DEVICE.at(span, message));
+        }
+    }
+}
+
+/// What else looks at the edges of an input.
+pub(super) struct Other {
+    input: u32,
+    /// `an interrupt`.
+    name: &'static str,
+    /// `requests an interrupt`.
+    does: &'static str,
+    pub(super) at: usize,
+}
+
+/// Interrupts of inputs, and relays that catch pulses.
+fn others(code: &Code, interrupts: &[Interrupt]) -> Vec<Other> {
+    let interrupts = interrupts.iter().filter_map(|interrupt| {
+        Some(Other {
+            input: interrupt.input?,
+            name: "an interrupt",
+            does: "requests an interrupt",
+            at: interrupt.label,
+        })
+    });
+    interrupts.chain(caught(code)).collect()
+}
+
+/// The relays of pulse catch that the program looks at, each once.
+fn caught(code: &Code) -> Vec<Other> {
+    let enables = (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei));
+    let Some(catch) = interrupts::pulse_catch(code.model().id).filter(|_| enables) else {
+        return Vec::new();
+    };
+    let mut found: Vec<Other> = Vec::new();
+    for i in 0..code.len {
+        let relay = code
+            .device(i, 0)
+            .filter(|device| device.class == DeviceClass::M);
+        let Some(input) = relay.and_then(|relay| relay.number.checked_sub(catch.first)) else {
+            continue;
+        };
+        if input < catch.inputs && found.iter().all(|other| other.input != input) {
+            found.push(Other {
+                input,
+                name: "pulse catch",
+                does: "its pulses are caught",
+                at: i,
+            });
+        }
+    }
+    found
+}
+
+fn inputs_shared(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
+    for other in others {
+        for counter in counters
+            .iter()
+            .filter(|counter| counter.inputs.contains(&other.input))
+        {
+            let input = DeviceClass::X.number(other.input);
+            let message = format!(
+                "`{input}` serves both {} and counter `C{}`",
+                other.name, counter.number
+            );
+            let diagnostic = codes::INPUT_SHARED
+                .at(code.span(other.at), message)
+                .label(format!("{} here …", other.does))
+                .other(code.span(counter.coil), "… and counts here");
+            out.push(diagnostic);
+        }
+    }
+}
+
+/// SPD and positioning on an input that serves something else. The manuals advise against it, but it works all the same
+/// (h1u-h2u-programming §4.3.6 allows what §4.3.1 forbids; l01s-programming §6.4.1).
+fn looked_at(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diagnostics) {
+    let measures: Vec<(usize, u32)> = measured(code).map(|(i, x)| (i, x.number)).collect();
+    let positions = positioned(code);
+    let looks = measures.iter().chain(&positions);
+    for (n, &(i, input)) in looks.enumerate() {
+        let counter = counters
+            .iter()
+            .find(|counter| counter.inputs.contains(&input))
+            .map(|counter| (format!("counter `C{}`", counter.number), counter.coil));
+        let other = others
+            .iter()
+            .find(|other| other.input == input)
+            .map(|other| (other.name.to_string(), other.at));
+        let spd = measures
+            .iter()
+            .find(|measured| n >= measures.len() && measured.1 == input)
+            .map(|measured| ("SPD".to_string(), measured.0));
+        let (Some((name, at)), Some(inst)) = (counter.or(other).or(spd), code.inst(i)) else {
+            continue;
+        };
+        let input = DeviceClass::X.number(input);
+        let message = format!("`{input}` serves both {} and {name}", inst.name);
+        let diagnostic = codes::MEASURED_INPUT
+            .at(code.span(i), message)
+            .label("looked at here …")
+            .other(code.span(at), "… and used here")
+            .help("choose an input of its own");
+        out.push(diagnostic);
+    }
+}
+
+/// The instructions that position by fast inputs, and these inputs.
+fn positioned(code: &Code) -> Vec<(usize, u32)> {
+    let mut found = Vec::new();
+    for i in 0..code.len {
+        let Some(inst) = code.inst(i) else {
+            continue;
+        };
+        let Lower::Call(function) = inst.lower_on_model(code.model().id) else {
+            continue;
+        };
+        if !function.needs().signals {
+            continue;
+        }
+        let operands = &code.instr(i).operands;
+        let inputs = operands.iter().filter_map(|operand| match operand.kind {
+            OperandKind::Device(device, None) if device.class == DeviceClass::X => {
+                Some(device.number)
+            }
+            _ => None,
+        });
+        let mut inputs: Vec<u32> = inputs.filter(|&n| n < Wiring::FAST_INPUTS).collect();
+        // The zero signal may be that of the DOG.
+        inputs.dedup();
+        found.extend(inputs.into_iter().map(|input| (i, input)));
+    }
+    found
+}
+
+/// The instructions SPD and their inputs.
+pub(super) fn measured(code: &Code) -> impl Iterator<Item = (usize, Device)> {
+    (0..code.len).filter_map(|i| {
+        let measures = matches!(code.inst(i)?.lower, Lower::Density);
+        Some((i, measures.then(|| code.device(i, 0))??))
+    })
+}
+
+fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {
+    if COUNTERS_TAKE_TURNS.has(code.model().id) {
+        return;
+    }
+    for (n, second) in counters.iter().enumerate() {
+        for first in &counters[..n] {
+            let Some(&input) = second
+                .inputs
+                .iter()
+                .find(|input| first.inputs.contains(input))
+            else {
+                continue;
+            };
+            let input = DeviceClass::X.number(input);
+            let message = format!(
+                "`C{}` and `C{}` both use `{input}`",
+                first.number, second.number
+            );
+            let diagnostic = codes::COUNTERS_SHARE
+                .at(code.span(second.coil), message)
+                .label("used here …")
+                .other(code.span(first.coil), "… and here")
+                .help("choose counters with inputs of their own");
+            out.push(diagnostic);
+        }
+    }
+}
+
+fn never_enabled(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
+    let enabled = || (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei));
+    let Some(first) = interrupts.first().filter(|_| !enabled()) else {
+        return;
+    };
+    let diagnostic = codes::NEVER_ENABLED
+        .at(
+            code.span(first.label),
+            "this interrupt routine never runs: there is no EI",
+        )
+        .label("interrupts are disabled at the start of RUN")
+        .help("put EI at the beginning of the program");
+    out.push(diagnostic);
+}

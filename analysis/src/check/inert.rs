@@ -1,0 +1,156 @@
+//! Special devices that a program relies on and that do nothing in compiled programs.
+
+use super::Code;
+use super::accesses::Access;
+use crate::resolve::constant_value;
+use rungc_catalogue::{Basic, Lower};
+use rungc_models::runs::is_special;
+use rungc_models::special::{self, Missed, Reason, Special, Status};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
+use std::collections::BTreeMap;
+
+/// A longer run of devices is cleared or copied as a whole; it does not set up one of them.
+const MAX_RUN: u32 = 32;
+/// More devices than this that are inert for one reason share a diagnostic.
+const MAX_SINGLE: usize = 3;
+/// How many devices a message names.
+const MAX_NAMED: usize = 6;
+
+/// The inert devices that a program names.
+#[derive(Default)]
+pub(super) struct Inert(BTreeMap<Device, Used>);
+
+/// What a program does with an inert device.
+struct Used {
+    row: &'static Special,
+    reason: Reason,
+    places: Vec<(Span, bool)>,
+    /// Whether something changes it; RST and its value at power-on leave it as it is.
+    changed: bool,
+}
+
+impl Inert {
+    /// Takes an access of instruction `i`.
+    pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
+        let Some(count) = access.count.filter(|&count| count <= MAX_RUN) else {
+            return;
+        };
+        let first = access.first.number;
+        for number in first..first.saturating_add(count) {
+            let device = Device {
+                number,
+                ..access.first
+            };
+            if !is_special(device.class, number) {
+                continue;
+            }
+            let Some(row) = special::find(code.model().id, device.class, number) else {
+                continue;
+            };
+            let Status::Inert(reason) = row.status else {
+                continue;
+            };
+            let used = self.0.entry(device).or_insert_with(|| Used {
+                row,
+                reason,
+                places: Vec::new(),
+                changed: false,
+            });
+            used.places.push((access.span, access.writes()));
+            used.changed |= access.writes() && !leaves_default(code, i, row);
+        }
+    }
+
+    /// Warns of those whose work the program misses.
+    pub(super) fn report(self, out: &mut Diagnostics) {
+        let missed = self.0.into_iter().filter(|(_, used)| used.is_missed());
+        let mut by_reason: Vec<(Reason, Vec<(Device, Used)>)> = Vec::new();
+        for (device, used) in missed {
+            match by_reason
+                .iter_mut()
+                .find(|(reason, _)| *reason == used.reason)
+            {
+                Some((_, same)) => same.push((device, used)),
+                None => by_reason.push((used.reason, vec![(device, used)])),
+            }
+        }
+        for (reason, mut same) in by_reason {
+            same.sort_by_key(|(_, used)| used.places.first().map(|&(span, _)| span));
+            if same.len() > MAX_SINGLE {
+                out.extend(report(reason, &same));
+            } else {
+                out.extend(same.chunks(1).filter_map(|one| report(reason, one)));
+            }
+        }
+    }
+}
+
+impl Used {
+    fn is_missed(&self) -> bool {
+        match self.reason.missed {
+            Missed::Never => false,
+            Missed::ByWriters => self.changed,
+            Missed::ByAll => self.changed || self.places.iter().any(|(_, written)| !written),
+        }
+    }
+}
+
+/// Whether an instruction that writes a special device leaves it as it is at power-on.
+fn leaves_default(code: &Code, i: usize, row: &Special) -> bool {
+    let Some(inst) = code.inst(i) else {
+        return false;
+    };
+    let source = || constant_value(&code.instr(i).operands.first()?.kind);
+    match inst.lower {
+        Lower::Basic(Basic::Rst) => row.default == 0,
+        Lower::Move => source() == Some(row.default.into()),
+        _ => inst.name == "ZRST" && row.default == 0,
+    }
+}
+
+fn report(reason: Reason, devices: &[(Device, Used)]) -> Option<Diagnostic> {
+    let (_, first) = devices.first()?;
+    let &(span, _) = first.places.first()?;
+    let names: Vec<_> = devices
+        .iter()
+        .map(|(device, _)| format!("`{device}`"))
+        .collect();
+    let (subject, verb) = match (names.as_slice(), first.changed) {
+        ([one], true) => (one.clone(), "has no effect"),
+        ([one], false) => (one.clone(), "never changes"),
+        (many, _) => (listed(many), "have no effect"),
+    };
+    let message = format!("{subject} {verb} in a compiled program: {}", reason.text);
+    let mut diagnostic = codes::INERT_DEVICE
+        .at(span, message)
+        .label(first.row.meaning);
+    if devices.len() > MAX_NAMED {
+        diagnostic = diagnostic.devices(devices.iter().map(|(device, _)| *device));
+    }
+    for (n, (device, used)) in devices.iter().enumerate() {
+        for (m, &(span, written)) in used.places.iter().enumerate() {
+            let what = if written { "written" } else { "read" };
+            diagnostic = match (n, m) {
+                (0, 0) => diagnostic,
+                (_, 0) => diagnostic.other(span, format!("`{device}`: {}", used.row.meaning)),
+                _ => diagnostic.other(span, format!("`{device}` is {what} here")),
+            };
+        }
+    }
+    Some(
+        diagnostic.help("what it does on the PLC has to be done by the host that runs the program"),
+    )
+}
+
+/// Names in a row: all of them, if there are not too many.
+fn listed(names: &[String]) -> String {
+    match names {
+        [most @ .., last] if names.len() <= MAX_NAMED => {
+            format!("{} and {last}", most.join(", "))
+        }
+        _ => {
+            let (named, rest) = names.split_at(MAX_NAMED - 1);
+            format!("{} and {} more", named.join(", "), rest.len())
+        }
+    }
+}

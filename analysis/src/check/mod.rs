@@ -1,0 +1,324 @@
+//! Looks at a program as a whole: contact logic, structure, labels, interrupts, and what hurts in practice.
+//!
+//! Each file is one concept and walks the program once, so that checking stays linear in its length. `structure` finds where each
+//! instruction stands (routine, loop, state); what jumps, calls and warns builds on that.
+
+mod accesses;
+mod blocks;
+mod coils;
+pub mod devices;
+mod drives;
+mod every_scan;
+mod fast_inputs;
+mod fast_units;
+mod inert;
+mod jumped_over;
+mod labels;
+mod once;
+mod one_output;
+mod operation_errors;
+mod overlaps;
+mod pairs;
+mod pointers;
+mod resets;
+mod set_and_out;
+mod skips;
+mod states;
+mod structure;
+mod timers;
+pub mod unimplemented;
+mod unreachable;
+mod unused;
+mod writes;
+
+use crate::resolve::{Resolved, numbered};
+use rungc_catalogue::{Basic, Drive, Inst, Join, Lower, Param};
+use rungc_models::Model;
+use rungc_syntax::{
+    Classes, Device, Diagnostics, Fix, Instr, OperandKind, SourceKind, Span, codes,
+};
+
+use std::iter::{Copied, Peekable};
+use std::slice::Iter;
+
+/// Checks the structure of a program, and warns of what is legal but hurts.
+pub fn check(resolved: &Resolved) -> Diagnostics {
+    let mut out = Diagnostics::new();
+    let code = Code::new(resolved);
+    code.end(&mut out);
+    blocks::check(&code, &mut out);
+    let pointers = pointers::Pointers::new(&code);
+    let places = structure::check(&code, &pointers, &mut out);
+    labels::check(&code, &pointers, &places, &mut out);
+    fast_inputs::check(&code, &pointers, &mut out);
+    once::check(&code, &mut out);
+    unimplemented::check(&code, &mut out);
+    unreachable::check(&code, &places, &mut out);
+    let skips = skips::Skips::new(&code, &pointers);
+    coils::check(&code, &skips, &places, &mut out);
+    set_and_out::check(&code, &places, &skips, &mut out);
+    timers::check(&code, &places, &mut out);
+    states::check(&code, &places, &mut out);
+    driven(&code, &pointers, &places, &skips, &mut out);
+    accessed(&code, &mut out);
+    numbered(out, resolved.model)
+}
+
+/// What is found in instructions together with what drives them.
+fn driven(
+    code: &Code,
+    pointers: &pointers::Pointers,
+    places: &structure::Places,
+    skips: &skips::Skips,
+    out: &mut Diagnostics,
+) {
+    let mut drives = drives::Drives::default();
+    let mut every_scan = every_scan::EveryScan::default();
+    let mut outputs = one_output::Outputs::default();
+    let mut jumped_over = jumped_over::JumpedOver::default();
+    for i in 0..code.len {
+        if let Some(drive) = drives.next(code, i) {
+            every_scan.note(code, i, drive, places, skips);
+            outputs.note(code, i, drive, places, skips);
+            jumped_over.note(code, i, drive, (pointers, places), out);
+        }
+    }
+    every_scan.report(code, out);
+    outputs.report(code, out);
+}
+
+/// What is found in the devices that instructions read and write.
+fn accessed(code: &Code, out: &mut Diagnostics) {
+    let (mut unused, mut pairs) = (unused::Unused::new(code), pairs::Pairs::default());
+    let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
+    let mut inert = inert::Inert::default();
+    for i in 0..code.len {
+        operation_errors::check(code, i, out);
+        unused.note_broken(i);
+        for access in accesses::of(code, i) {
+            unused.note(i, &access);
+            pairs.note(&access);
+            overlaps.note(code, i, &access);
+            resets.note(code, i, &access);
+            inert.note(code, i, &access);
+            writes::check(code, i, &access, out);
+        }
+    }
+    unused.report(out);
+    pairs.report(out);
+    overlaps.report(code, out);
+    if code.is_understood() {
+        resets.report(out);
+    }
+    inert.report(out);
+}
+
+/// The part of a program that is run: up to and with its first END.
+struct Code<'a> {
+    resolved: &'a Resolved<'a>,
+    /// How many instructions that is.
+    len: usize,
+}
+
+impl<'a> Code<'a> {
+    fn new(resolved: &'a Resolved<'a>) -> Self {
+        let end = resolved
+            .instrs
+            .iter()
+            .position(|instr| matches!(lower(instr.inst), Some(Lower::Basic(Basic::End))));
+        let len = end.map_or(resolved.instrs.len(), |end| end + 1);
+        Code { resolved, len }
+    }
+
+    fn model(&self) -> &'static Model {
+        self.resolved.model
+    }
+
+    fn inst(&self, i: usize) -> Option<&'static Inst> {
+        self.resolved.instrs[i].inst
+    }
+
+    fn instr(&self, i: usize) -> &'a Instr {
+        &self.resolved.program.instrs[i]
+    }
+
+    fn span(&self, i: usize) -> Span {
+        self.instr(i).span
+    }
+
+    fn wide(&self, i: usize) -> bool {
+        self.resolved.instrs[i].form.wide
+    }
+
+    /// For each instruction that could not be read, how many stand before it.
+    fn unread(&self) -> Peekable<Copied<Iter<'a, u32>>> {
+        self.resolved.program.unread.iter().copied().peekable()
+    }
+
+    /// The basic instruction that this is, if it is one.
+    fn basic(&self, i: usize) -> Option<Basic> {
+        match lower(self.inst(i)) {
+            Some(Lower::Basic(basic)) => Some(basic),
+            _ => None,
+        }
+    }
+
+    /// The pointer that an instruction defines.
+    fn label(&self, i: usize) -> Option<Device> {
+        self.resolved.instrs[i].label
+    }
+
+    /// The device that operand `n` names without an index register.
+    fn device(&self, i: usize, n: usize) -> Option<Device> {
+        match self.instr(i).operands.get(n)?.kind {
+            OperandKind::Device(device, None) => Some(device),
+            _ => None,
+        }
+    }
+
+    /// What the operands of an instruction are.
+    fn params(&self, i: usize) -> &'static [Param] {
+        self.resolved.instrs[i].params
+    }
+
+    /// Whether what an instruction is was only guessed, for the structure of the program.
+    fn is_meant(&self, i: usize) -> bool {
+        self.resolved.instrs[i].meant
+    }
+
+    /// Whether every instruction could be read and is known.
+    fn is_understood(&self) -> bool {
+        let known = |i: usize| self.inst(i).is_some() && !self.is_meant(i);
+        self.resolved.program.is_complete() && (0..self.len).all(known)
+    }
+
+    /// The devices that the operands of an instruction name or were meant to name.
+    fn devices(&self, i: usize) -> impl Iterator<Item = Device> {
+        let operands = self.instr(i).operands.iter();
+        operands.filter_map(|operand| match operand.kind {
+            OperandKind::Device(device, _)
+            | OperandKind::WordBit(device, ..)
+            | OperandKind::Nibbles(_, device, _) => Some(device),
+            OperandKind::Unreadable(meant) => meant,
+            _ => None,
+        })
+    }
+
+    /// Whether what begins or ends a part of the program may be among what could not be read: in a project an unknown code may be any
+    /// instruction, while a line of a list without a mnemonic is none.
+    fn may_lack_structure(&self) -> bool {
+        let program = self.resolved.program;
+        program.kind != SourceKind::Il && !program.unread.is_empty()
+    }
+
+    /// Whether an operand that could not be read may be any device.
+    fn lacks_a_device(&self, i: usize) -> bool {
+        /// What names no device.
+        const CONSTANTS: Classes = Classes::K.or(Classes::H).or(Classes::E).or(Classes::TEXT);
+        let operands = self.instr(i).operands.iter().zip(self.params(i));
+        operands.clone().any(|(operand, param)| {
+            let unknown = matches!(operand.kind, OperandKind::Unreadable(None));
+            unknown && param.classes.without(CONSTANTS) != Classes::NONE
+        })
+    }
+
+    /// How an instruction takes part in the contact logic.
+    fn part(&self, i: usize) -> Part {
+        let Some(inst) = self.inst(i).filter(|_| !self.is_meant(i)) else {
+            return Part::Unknown;
+        };
+        match (inst.lower, inst.drive) {
+            (Lower::Basic(Basic::Nop), _) => Part::Nothing,
+            (Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf), _)
+            | (Lower::Compare(Join::Ld, _), _) => Part::Start,
+            (Lower::Basic(Basic::Anb), _) => Part::JoinSeries,
+            (Lower::Basic(Basic::Orb), _) => Part::JoinParallel,
+            (Lower::Basic(Basic::Mps), _) => Part::Push,
+            (Lower::Basic(Basic::Mrd), _) => Part::Read,
+            (Lower::Basic(Basic::Mpp), _) => Part::Pop,
+            (_, Drive::Logic) => Part::Continue,
+            (_, Drive::Contact) => Part::Output,
+            (_, Drive::Alone) => Part::Alone,
+        }
+    }
+
+    /// Whether there is an END, and something behind it.
+    fn end(&self, out: &mut Diagnostics) {
+        let instrs = &self.resolved.program.instrs;
+        let unread = self.resolved.program.unread.last();
+        if unread.is_some_and(|&before| before as usize >= instrs.len()) {
+            // What could not be read may have been END.
+            return;
+        }
+        let Some(last) = self.len.checked_sub(1) else {
+            let empty = codes::NO_END.at(Span::default(), "the program is empty");
+            out.push(empty.help("a program holds at least END"));
+            return;
+        };
+        if self.basic(last) != Some(Basic::End) {
+            let diagnostic = codes::NO_END.at(self.span(last), "the program does not end with END");
+            out.push(
+                diagnostic
+                    .label("the last instruction")
+                    .help("add END behind it")
+                    .fix(self.append_end()),
+            );
+            return;
+        }
+        let behind = (self.len..instrs.len()).find(|&i| self.part(i) != Part::Nothing);
+        if let Some(first) = behind
+            && self.basic(first) != Some(Basic::End)
+        {
+            let diagnostic = codes::AFTER_END.at(self.span(first), "nothing behind END is run");
+            out.push(
+                diagnostic
+                    .label("not run, and neither is what follows")
+                    .other(self.span(last), "the scan ends here"),
+            );
+        }
+    }
+}
+
+impl Code<'_> {
+    /// Adds the line END to the text.
+    fn append_end(&self) -> Fix {
+        let text = &self.resolved.program.source.text;
+        let end = text.len() as u32;
+        let line = match text.ends_with('\n') {
+            true => "END\n",
+            false => "\nEND\n",
+        };
+        Fix::certain("add END").replace(Span::new(end, end), line)
+    }
+}
+
+/// How an instruction takes part in the contact logic.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Part {
+    /// NOP.
+    Nothing,
+    /// Begins a block: LD and its kin.
+    Start,
+    /// Continues the block: AND, OR, INV and their kin.
+    Continue,
+    /// ANB.
+    JoinSeries,
+    /// ORB.
+    JoinParallel,
+    /// MPS.
+    Push,
+    /// MRD.
+    Read,
+    /// MPP.
+    Pop,
+    /// Is driven by the result.
+    Output,
+    /// Stands without contacts.
+    Alone,
+    /// Could not be resolved, which was reported.
+    Unknown,
+}
+
+fn lower(inst: Option<&'static Inst>) -> Option<Lower> {
+    inst.map(|inst| inst.lower)
+}

@@ -1,0 +1,183 @@
+//! Registers that belong to the result of one instruction and are written by another.
+//!
+//! Two 32-bit values that begin at neighbouring registers are the business of [`super::pairs`].
+
+use super::Code;
+use super::accesses::Access;
+use crate::resolve::constant_value;
+use rungc_catalogue::{ArithOp, Basic, Lower};
+use rungc_models::runs::is_special;
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
+use rustc_hash::FxHashMap;
+
+/// A result of several words: 32 bits, a double result, a quotient with its remainder.
+struct Result {
+    at: usize,
+    span: Span,
+    /// How many words it has.
+    words: u32,
+    /// How many words one value of it has.
+    each: u32,
+}
+
+/// Collects the registers that instructions write.
+#[derive(Default)]
+pub(super) struct Overlaps {
+    /// Results of several words by their first register; the longest, where several begin there.
+    results: FxHashMap<Device, Result>,
+    /// By its first register, the first thing written there that is shorter than a result and not 0.
+    parts: FxHashMap<Device, (usize, Span)>,
+    /// Blocks that are written as a whole, with their lengths.
+    blocks: Vec<(Device, u32, usize, Span)>,
+}
+
+/// A longer result than this is a block.
+const MAX_RESULT: u32 = 4;
+
+impl Overlaps {
+    /// Takes an access of instruction `i`.
+    pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
+        let first = access.first;
+        let register = matches!(first.class, DeviceClass::D | DeviceClass::R);
+        let Some(count) = access.count.filter(|_| register && access.writes()) else {
+            return;
+        };
+        if is_special(first.class, first.number) || clears(code, i) {
+            return;
+        }
+        let span = access.span;
+        match count {
+            2..=MAX_RESULT if access.each == 2 || divides_or_multiplies(code, i) => {
+                let result = Result {
+                    at: i,
+                    span,
+                    words: count,
+                    each: access.each,
+                };
+                let known = self
+                    .results
+                    .entry(first)
+                    .or_insert(Result { words: 0, ..result });
+                if known.words < count {
+                    *known = result;
+                }
+                if count == 2 {
+                    self.parts.entry(first).or_insert((i, span));
+                }
+            }
+            0 | 1 => {
+                self.parts.entry(first).or_insert((i, span));
+            }
+            2..=MAX_RESULT => {}
+            _ => self.blocks.push((first, count, i, span)),
+        }
+    }
+
+    /// Warns of results of which another instruction overwrites a part.
+    pub(super) fn report(self, code: &Code, out: &mut Diagnostics) {
+        let mut found = Vec::new();
+        for (&first, result) in &self.results {
+            let inside = (1..result.words).find_map(|offset| {
+                let number = first.number.checked_add(offset)?;
+                let device = Device { number, ..first };
+                let &(at, span) = self.parts.get(&device)?;
+                // Two pairs, which have a warning of their own.
+                let pairs = self
+                    .results
+                    .get(&device)
+                    .is_some_and(|other| other.at == at && other.each == 2);
+                (!(pairs && result.words == 2 && result.each == 2)).then_some((device, at, span))
+            });
+            // Who writes the low word by itself as well puts the value together from its words.
+            let composed = self
+                .parts
+                .get(&first)
+                .is_some_and(|&(at, _)| at != result.at);
+            if let Some((device, at, span)) = inside.filter(|_| !composed) {
+                found.push(overwritten(code, (first, result), device, at, span));
+            }
+        }
+        for &(first, count, at, span) in &self.blocks {
+            for edge in [first.number, first.number.saturating_add(count)] {
+                found.extend(self.cut(
+                    code,
+                    Device {
+                        number: edge,
+                        ..first
+                    },
+                    at,
+                    span,
+                ));
+            }
+        }
+        found.sort_by_key(|diagnostic| diagnostic.span);
+        out.extend(found);
+    }
+
+    /// A block that begins or ends before `edge`, inside a 32-bit value.
+    fn cut(&self, code: &Code, edge: Device, at: usize, span: Span) -> Option<Diagnostic> {
+        let number = edge.number.checked_sub(1)?;
+        let first = Device { number, ..edge };
+        let result = self.results.get(&first).filter(|result| result.each == 2)?;
+        Some(overwritten(code, (first, result), first, at, span))
+    }
+}
+
+/// Whether the result of an instruction has twice as many words as its operands.
+fn divides_or_multiplies(code: &Code, i: usize) -> bool {
+    let lower = code
+        .inst(i)
+        .map(|inst| inst.lower_on_model(code.model().id));
+    let op = match lower {
+        Some(Lower::Arith(op) | Lower::ArithSaturating(op)) => op,
+        _ => return false,
+    };
+    matches!(op, ArithOp::Mul | ArithOp::Div)
+}
+
+/// Whether an instruction sets what it writes to 0, as is done before a value is put together.
+fn clears(code: &Code, i: usize) -> bool {
+    let Some(inst) = code.inst(i) else {
+        return false;
+    };
+    let zero = || {
+        let source = code.instr(i).operands.first();
+        source.and_then(|source| constant_value(&source.kind)) == Some(0)
+    };
+    match inst.lower {
+        Lower::Basic(Basic::Rst) => true,
+        Lower::Move => zero(),
+        _ => inst.name == "ZRST" || inst.name == "FMOV" && zero(),
+    }
+}
+
+fn overwritten(
+    code: &Code,
+    (first, result): (Device, &Result),
+    part: Device,
+    at: usize,
+    span: Span,
+) -> Diagnostic {
+    let mnemonic = &code.instr(at).mnemonic;
+    let last = Device {
+        number: first.number + result.words - 1,
+        ..first
+    };
+    let writer = &code.instr(result.at).mnemonic;
+    let message = match part == first {
+        true => {
+            format!("`{mnemonic}` writes one half of the 32-bit value in `{first}` and `{last}`")
+        }
+        false => format!(
+            "`{mnemonic}` writes `{part}`, which is part of the result of `{writer}` at `{first}`"
+        ),
+    };
+    codes::PARTS_OVERLAP
+        .at(span, message)
+        .label(format!("overwrites part of `{first}` to `{last}`"))
+        .other(
+            result.span,
+            format!("`{writer}` writes `{first}` to `{last}`"),
+        )
+        .help("use registers of its own for each value")
+}

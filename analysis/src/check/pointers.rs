@@ -1,0 +1,133 @@
+//! Where pointers are defined, and what names them.
+
+use super::Code;
+use rungc_catalogue::Basic;
+use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rustc_hash::FxHashMap;
+
+/// What is known of one pointer.
+#[derive(Default)]
+pub(super) struct Pointer {
+    /// The labels that define it; more than one is an error.
+    pub(super) labels: Vec<usize>,
+    /// The jumps to it.
+    pub(super) jumps: Vec<usize>,
+    /// The calls of it.
+    pub(super) calls: Vec<usize>,
+    /// The other instructions that name it.
+    pub(super) others: Vec<usize>,
+}
+
+impl Pointer {
+    /// Whether it is both jumped to and called.
+    pub(super) fn is_ambiguous(&self) -> bool {
+        !self.jumps.is_empty() && !self.calls.is_empty()
+    }
+
+    /// Whether any instruction names it.
+    pub(super) fn is_named(&self) -> bool {
+        let uses = [&self.jumps, &self.calls, &self.others];
+        uses.iter().any(|uses| !uses.is_empty())
+    }
+}
+
+/// All pointers of a program.
+pub(super) struct Pointers {
+    map: FxHashMap<Device, Pointer>,
+    /// In the order they first appear.
+    order: Vec<Device>,
+    /// Whether a jump or call names its label with an index register, so that any label may be meant.
+    indexed: bool,
+    /// Whether a call does.
+    indexed_call: bool,
+}
+
+impl Pointers {
+    pub(super) fn new(code: &Code) -> Self {
+        let mut pointers = Pointers {
+            map: FxHashMap::default(),
+            order: Vec::new(),
+            indexed: false,
+            indexed_call: false,
+        };
+        for i in 0..code.len {
+            if let Some(label) = code.label(i) {
+                pointers.entry(label).labels.push(i);
+                continue;
+            }
+            // A jump whose label could not be read may lead to any.
+            let jumps = matches!(code.basic(i), Some(Basic::Cj | Basic::Call));
+            let lost = code.is_meant(i) && code.instr(i).operands.is_empty();
+            if jumps && (lost || code.lacks_a_device(i)) {
+                pointers.indexed = true;
+                pointers.indexed_call |= code.basic(i) == Some(Basic::Call);
+            }
+            for (at, operand) in code.instr(i).operands.iter().enumerate() {
+                let (device, index) = match operand.kind {
+                    OperandKind::Device(device, index) => (device, index),
+                    OperandKind::Unreadable(Some(device)) => (device, None),
+                    _ => continue,
+                };
+                let pointer = matches!(device.class, DeviceClass::P | DeviceClass::I);
+                // An operand too many is wrong in itself.
+                let known = code.inst(i).is_some() && !code.is_meant(i);
+                if !pointer || known && at >= code.params(i).len() {
+                    continue;
+                }
+                if index.is_some() {
+                    pointers.indexed = true;
+                    pointers.indexed_call |= code.basic(i) == Some(Basic::Call);
+                    continue;
+                }
+                let pointer = pointers.entry(device);
+                match code.basic(i) {
+                    Some(Basic::Cj) => pointer.jumps.push(i),
+                    Some(Basic::Call) => pointer.calls.push(i),
+                    _ => pointer.others.push(i),
+                }
+            }
+        }
+        pointers
+    }
+
+    fn entry(&mut self, device: Device) -> &mut Pointer {
+        self.map.entry(device).or_insert_with(|| {
+            self.order.push(device);
+            Pointer::default()
+        })
+    }
+
+    /// What is known of a pointer that the program defines or names.
+    pub(super) fn get(&self, device: Device) -> Option<&Pointer> {
+        self.map.get(&device)
+    }
+
+    /// All pointers, in the order they first appear.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Device, &Pointer)> {
+        self.order
+            .iter()
+            .filter_map(|&device| Some((device, self.map.get(&device)?)))
+    }
+
+    /// Whether something calls this label.
+    pub(super) fn is_called(&self, label: Device) -> bool {
+        self.get(label)
+            .is_some_and(|pointer| !pointer.calls.is_empty())
+    }
+
+    /// Whether a call with an index register may mean this label, if it stands behind FEND: any that no jump names.
+    pub(super) fn may_be_called(&self, label: Device) -> bool {
+        self.indexed_call && !self.is_jumped_to(label)
+    }
+
+    /// Whether something jumps to this label.
+    pub(super) fn is_jumped_to(&self, label: Device) -> bool {
+        self.get(label)
+            .is_some_and(|pointer| !pointer.jumps.is_empty())
+    }
+
+    /// Whether a label that nothing names may still be meant by a jump or call with an index register.
+    pub(super) fn any_may_be_meant(&self) -> bool {
+        self.indexed
+    }
+}

@@ -1,0 +1,128 @@
+//! Counters that count once, and outputs that stay on, because nothing resets them.
+
+use super::Code;
+use super::accesses::Access;
+use rungc_catalogue::{Basic, Drive};
+use rungc_syntax::codes::Code as Finding;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+use rustc_hash::FxHashMap;
+
+/// Relays that clear whole areas: M8031 and M8032.
+const CLEAR_ALL: [u32; 2] = [8031, 8032];
+/// The first counter that counts both ways, and so may come back without a reset.
+const FIRST_BOTH_WAYS: u32 = 200;
+
+/// No model has more counters or outputs.
+const MAX_DEVICES: u32 = 512;
+
+/// What is known of a counter or an output.
+#[derive(Default)]
+struct Known {
+    /// Where it is switched on or counts first.
+    driven: Option<Span>,
+    /// Whether its contact is looked at.
+    looked_at: bool,
+    /// Whether something else writes it.
+    cleared: bool,
+}
+
+/// Collects accesses to counters and outputs.
+#[derive(Default)]
+pub(super) struct Resets {
+    known: FxHashMap<Device, Known>,
+    /// Classes of which an access may clear any device, or all.
+    any: Vec<DeviceClass>,
+}
+
+impl Resets {
+    /// Takes an access of instruction `i`.
+    pub(super) fn note(&mut self, code: &Code, i: usize, access: &Access) {
+        let class = access.first.class;
+        if class == DeviceClass::M && access.writes() && CLEAR_ALL.contains(&access.first.number) {
+            self.any.extend([DeviceClass::C, DeviceClass::Y]);
+        }
+        if !matches!(class, DeviceClass::C | DeviceClass::Y) {
+            return;
+        }
+        let Some(count) = access.count else {
+            if access.writes() {
+                self.any.push(class);
+            }
+            return;
+        };
+        let drives = match code.basic(i) {
+            Some(Basic::Out) => class == DeviceClass::C,
+            Some(Basic::Set) => class == DeviceClass::Y,
+            _ => false,
+        };
+        // A comparison looks at the count, which a reset need not follow.
+        let logic = code.inst(i).is_some_and(|inst| inst.drive == Drive::Logic);
+        let contact = logic && code.basic(i).is_some();
+        let first = access.first.number;
+        for number in first..first.saturating_add(count.min(MAX_DEVICES)) {
+            let known = self.known.entry(Device { class, number }).or_default();
+            known.looked_at |= contact;
+            if drives {
+                known.driven.get_or_insert(access.span);
+            } else {
+                known.cleared |= access.writes();
+            }
+        }
+    }
+
+    /// Warns of those that nothing resets.
+    pub(super) fn report(self, out: &mut Diagnostics) {
+        let (any, known) = (&self.any, &self.known);
+        let never = |class: DeviceClass| {
+            let stuck = known.iter().filter(move |(device, known)| {
+                device.class == class && !any.contains(&class) && !known.cleared
+            });
+            let stuck = stuck.filter_map(|(device, known)| Some((known.driven?, *device, known)));
+            let mut stuck: Vec<_> = stuck.collect();
+            stuck.sort_by_key(|&(span, device, _)| (span, device));
+            stuck
+        };
+        let counters = never(DeviceClass::C)
+            .into_iter()
+            .filter(|(_, device, known)| known.looked_at && device.number < FIRST_BOTH_WAYS);
+        let words = ["reaches its preset once and is never reset", "counts here"];
+        summary(&codes::NEVER_RESET, words, counters, out);
+        let words = ["is set and never reset", "set here"];
+        summary(
+            &codes::NEVER_SWITCHED_OFF,
+            words,
+            never(DeviceClass::Y),
+            out,
+        );
+    }
+}
+
+/// One diagnostic for all devices of a kind.
+fn summary<'a>(
+    code: &'static Finding,
+    [what, here]: [&'static str; 2],
+    found: impl IntoIterator<Item = (Span, Device, &'a Known)>,
+    out: &mut Diagnostics,
+) {
+    let mut found = found.into_iter();
+    let Some((span, first, _)) = found.next() else {
+        return;
+    };
+    let others: Vec<_> = found.collect();
+    let message = match others.len() {
+        0 => format!("`{first}` {what}"),
+        n => format!("`{first}` {what}, and {n} more"),
+    };
+    let mut diagnostic = code
+        .at(span, message)
+        .label(here)
+        .help("nothing is wrong if an operator panel or another program resets it");
+    if !others.is_empty() {
+        let all = std::iter::once(first).chain(others.iter().map(|&(_, device, _)| device));
+        diagnostic = diagnostic.devices(all);
+    }
+    for (span, device, _) in others {
+        diagnostic = diagnostic.other(span, format!("`{device}` {here}"));
+    }
+    out.push(diagnostic);
+}

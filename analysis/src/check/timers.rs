@@ -1,0 +1,133 @@
+//! Timers where they do not measure well: in neighbouring states, and in routines.
+
+use super::Code;
+use super::structure::{NONE, Places, Routine};
+use rungc_catalogue::Basic;
+use rungc_models::{Model, Timers};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
+
+/// Checks the places of timers.
+pub(super) fn check(code: &Code, places: &Places, out: &mut Diagnostics) {
+    in_routines(code, places, out);
+    in_next_states(code, places, out);
+}
+
+/// The timer that an instruction drives.
+fn timer(code: &Code, i: usize) -> Option<Device> {
+    let device = code.device(i, 0)?;
+    (code.basic(i) == Some(Basic::Out) && device.class == DeviceClass::T).then_some(device)
+}
+
+/// Ordinary timers in subroutines and interrupt routines (h1u-h2u-programming §3.5, §4.3.1).
+fn in_routines(code: &Code, places: &Places, out: &mut Diagnostics) {
+    let model = code.model();
+    if !model.timers.iter().any(|timers| timers.kind.free_running) {
+        return;
+    }
+    for i in 0..code.len {
+        let subroutine = match places.of(i).routine {
+            Routine::Sub(_) => true,
+            Routine::Interrupt(_) => false,
+            Routine::Main | Routine::Nothing => continue,
+        };
+        let Some(device) = timer(code, i) else {
+            continue;
+        };
+        let Some(kind) = model.timer(device.number) else {
+            continue;
+        };
+        let fine_grained = subroutine && kind.accumulating && kind.unit_ms == 1;
+        if kind.free_running || fine_grained {
+            continue;
+        }
+        let name = if subroutine {
+            "a subroutine"
+        } else {
+            "an interrupt routine"
+        };
+        let message = format!("`{device}` is brought up to date only in scans that run {name}");
+        let diagnostic = codes::TIMER_IN_ROUTINE
+            .at(code.span(i), message)
+            .label("measures wrongly where not every scan does")
+            .help(instead(model, kind.unit_ms, subroutine));
+        out.push(diagnostic);
+    }
+}
+
+/// The timers to use in a routine instead of one that counts units of this many milliseconds.
+fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
+    let named = |timers: &Timers| {
+        let [first, last] = [timers.first, timers.last].map(|n| DeviceClass::T.number(n));
+        format!("{first} to {last}")
+    };
+    let free = model.timers.iter().find(|timers| timers.kind.free_running);
+    let free = free.map_or_else(String::new, named);
+    if unit_ms == 100 {
+        return format!("{free} go on by themselves in scans that do not run their coils");
+    }
+    let fine = model
+        .timers
+        .iter()
+        .find(|timers| timers.kind.accumulating && timers.kind.unit_ms == 1);
+    let fine = fine.filter(|_| subroutine).map(|timers| {
+        format!(
+            "; {} serve subroutines too: they count 1 ms and keep their value until RST",
+            named(timers)
+        )
+    });
+    format!(
+        "{free} go on by themselves, but count 100 ms: a preset of {unit_ms} ms units has to be converted{}",
+        fine.unwrap_or_default()
+    )
+}
+
+/// Timers that are driven in a state and in one that it leads to.
+fn in_next_states(code: &Code, places: &Places, out: &mut Diagnostics) {
+    let state_of = |i: usize| match places.of(i).state {
+        NONE => None,
+        stl => code.device(stl as usize, 0),
+    };
+    let mut transitions: FxHashMap<Device, BTreeSet<Device>> = FxHashMap::default();
+    let mut driven: FxHashMap<(Device, Device), usize> = FxHashMap::default();
+    let mut order = Vec::new();
+    for i in 0..code.len {
+        let Some(state) = state_of(i) else {
+            continue;
+        };
+        if let Some(timer) = timer(code, i) {
+            driven.entry((state, timer)).or_insert_with(|| {
+                order.push((state, timer));
+                i
+            });
+        }
+        let target = code
+            .device(i, 0)
+            .filter(|device| device.class == DeviceClass::S);
+        if let (Some(Basic::Out | Basic::Set), Some(target)) = (code.basic(i), target) {
+            transitions.entry(state).or_default().insert(target);
+        }
+    }
+    let mut told = FxHashSet::default();
+    for (state, timer) in order {
+        for &next in transitions.get(&state).into_iter().flatten() {
+            let both = (driven.get(&(state, timer)), driven.get(&(next, timer)));
+            let (Some(&first), Some(&second)) = both else {
+                continue;
+            };
+            if next == state || !told.insert((first.min(second), first.max(second))) {
+                continue;
+            }
+            let diagnostic = codes::TIMER_IN_NEXT_STATE
+                .at(
+                    code.span(second),
+                    format!("`{timer}` is driven in `{state}` and in `{next}`, which follows it"),
+                )
+                .label("not cleared when this state begins")
+                .other(code.span(first), "driven here too")
+                .help("use another timer in one of the two states");
+            out.push(diagnostic);
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Instructions that the compiler knows but cannot translate.
+
+use super::Code;
+use rungc_catalogue::{Inst, Lower};
+use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
+
+/// Reports every instruction without an implementation on the model.
+pub(super) fn check(code: &Code, out: &mut Diagnostics) {
+    let model = code.model().id;
+    for i in 0..code.len {
+        let Some(inst) = code.inst(i).filter(|_| !code.is_meant(i)) else {
+            continue;
+        };
+        if let Lower::Todo(what) = inst.lower_on_model(model) {
+            out.push(refusal(inst, what, code.instr(i).mnemonic_span));
+        }
+    }
+}
+
+/// The error of an instruction that belongs to `what`, which is missing.
+pub fn refusal(inst: &Inst, what: &str, span: Span) -> Diagnostic {
+    let message = format!("`{}` is not implemented yet: {what}", inst.name);
+    codes::NOT_IMPLEMENTED
+        .at(span, message)
+        .label("nothing can be built from a program with this")
+}

@@ -1,0 +1,26 @@
+//! Instructions that never run.
+
+use super::structure::{Places, Routine};
+use super::{Code, Part};
+use rungc_catalogue::Basic;
+use rungc_syntax::{Diagnostics, codes};
+
+/// Warns of runs of instructions behind FEND, SRET and IRET that no label leads to.
+pub(super) fn check(code: &Code, places: &Places, out: &mut Diagnostics) {
+    let mut in_run = false;
+    for i in 0..code.len {
+        let dead = places.of(i).routine == Routine::Nothing && code.part(i) != Part::Nothing;
+        let frame = matches!(
+            code.basic(i),
+            Some(Basic::End | Basic::Fend | Basic::Sret | Basic::Iret | Basic::Pret)
+        );
+        if dead && !frame && !in_run {
+            let diagnostic = codes::UNREACHABLE
+                .at(code.span(i), "this never runs")
+                .label("no label leads here, and what stands before it has ended")
+                .help("put a label before it, or move it before FEND");
+            out.push(diagnostic);
+        }
+        in_run = dead && !frame;
+    }
+}

@@ -1,0 +1,244 @@
+//! Relays, timers and counters that are driven and never read, or read and never driven.
+
+use super::Code;
+use super::accesses::Access;
+use rungc_catalogue::Basic;
+use rungc_models::interrupts;
+use rungc_models::runs::is_special;
+use rungc_syntax::codes::Code as Finding;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
+
+/// The classes that are looked at. States are not: step ladders use them in many ways.
+const CLASSES: [DeviceClass; 3] = [DeviceClass::M, DeviceClass::T, DeviceClass::C];
+/// Places in [`Class::met`].
+const COIL: usize = 0;
+const CONTACT: usize = 1;
+
+/// What is known of the devices of one class.
+#[derive(Default)]
+struct Class {
+    /// Differences of how many accesses read each device: the sum up to a device is its count.
+    reads: Vec<i32>,
+    /// The same for writes.
+    writes: Vec<i32>,
+    /// Which of them have been met as coils, and as contacts.
+    met: [Vec<bool>; 2],
+    /// Whether an access may read any of them.
+    any_read: bool,
+    /// Whether an access may write any of them.
+    any_written: bool,
+}
+
+/// Collects accesses to find devices of which one half is missing.
+pub(super) struct Unused<'a, 'p> {
+    code: &'a Code<'p>,
+    classes: [Class; 3],
+    /// Coils, each once, in the order of the program.
+    coils: Vec<(Device, Span)>,
+    /// Contacts, each once, in the order of the program.
+    contacts: Vec<(Device, Span)>,
+}
+
+impl<'a, 'p> Unused<'a, 'p> {
+    pub(super) fn new(code: &'a Code<'p>) -> Self {
+        let mut classes: [Class; 3] = Default::default();
+        for (class, known) in CLASSES.iter().zip(&mut classes) {
+            let last = code.model().ranges_of(*class).map(|range| range.last).max();
+            let len = last.map_or(0, |last| last as usize + 2);
+            known.reads = vec![0; len];
+            known.writes = vec![0; len];
+            known.met = [vec![false; len], vec![false; len]];
+        }
+        // What a line means that cannot be read at all is not known.
+        let unread = !code.resolved.program.unread.is_empty();
+        for known in &mut classes {
+            (known.any_read, known.any_written) = (unread, unread);
+        }
+        Unused {
+            code,
+            classes,
+            coils: Vec::new(),
+            contacts: Vec::new(),
+        }
+    }
+
+    /// Takes an access of instruction `i`.
+    pub(super) fn note(&mut self, i: usize, access: &Access) {
+        let Some(at) = CLASSES
+            .iter()
+            .position(|&class| class == access.first.class)
+        else {
+            return;
+        };
+        let basic = self.code.basic(i);
+        // RST alone never switches anything on.
+        if access.writes() && basic != Some(Basic::Rst) {
+            self.classes[at].add(access, true);
+        }
+        if access.reads() {
+            self.classes[at].add(access, false);
+        }
+        if access.first.class == DeviceClass::M
+            && is_special(access.first.class, access.first.number)
+        {
+            self.note_special(access);
+            return;
+        }
+        let (list, what) = match basic {
+            // Which device an index leads to is not known.
+            Some(Basic::Out | Basic::Set | Basic::Pls | Basic::Plf) if access.count.is_some() => {
+                (&mut self.coils, COIL)
+            }
+            Some(_) if access.reads() && access.count == Some(1) => (&mut self.contacts, CONTACT),
+            _ => return,
+        };
+        if self.classes[at].meets(access, what) {
+            list.push((access.first, access.span));
+        }
+    }
+
+    /// Takes an instruction that could not be read or understood: it may read and write what it names, or anything where it names
+    /// nothing that could be read.
+    pub(super) fn note_broken(&mut self, i: usize) {
+        let instr = self.code.instr(i);
+        let unknown = self.code.inst(i).is_none() || self.code.is_meant(i);
+        if !unknown && !instr.is_broken() {
+            return;
+        }
+        let anything = match unknown {
+            true => instr.operands.is_empty(),
+            false => self.code.lacks_a_device(i),
+        };
+        for (&class, known) in CLASSES.iter().zip(&mut self.classes) {
+            known.any_read |= anything;
+            known.any_written |= anything;
+            for first in self.code.devices(i).filter(|device| device.class == class) {
+                let access = Access::whole(first);
+                known.add(&access, true);
+                known.add(&access, false);
+            }
+        }
+    }
+
+    /// The table of counts looks at any counter.
+    fn note_special(&mut self, access: &Access) {
+        let table = interrupts::count_rows(self.code.model().id);
+        if table.is_some_and(|table| access.first.number == table.enable) {
+            let counters = CLASSES.iter().zip(&mut self.classes);
+            counters
+                .filter(|(class, _)| **class == DeviceClass::C)
+                .for_each(|(_, counters)| counters.any_read = true);
+        }
+    }
+
+    /// Warns of what has only one half.
+    pub(super) fn report(mut self, out: &mut Diagnostics) {
+        for class in &mut self.classes {
+            class.sum();
+        }
+        let lacks = |device: &Device, write: bool| {
+            let at = CLASSES.iter().position(|class| class == &device.class);
+            at.is_some_and(|at| self.classes[at].lacks(device.number, write))
+                && self.code.model().has(device.class, device.number)
+        };
+        let unread = self.coils.iter().filter(|(device, _)| lacks(device, false));
+        summary(
+            &codes::NEVER_READ,
+            ["driven and never read", "driven here"],
+            unread,
+            out,
+        );
+        let undriven = self
+            .contacts
+            .iter()
+            .filter(|(device, _)| lacks(device, true));
+        summary(
+            &codes::NEVER_WRITTEN,
+            ["read, but nothing drives them", "read here"],
+            undriven,
+            out,
+        );
+    }
+}
+
+impl Class {
+    /// Whether an access names a device that the model has for the first time as a coil, or as a contact.
+    fn meets(&mut self, access: &Access, what: usize) -> bool {
+        match self.met[what].get_mut(access.first.number as usize) {
+            Some(met) => !std::mem::replace(met, true),
+            None => false,
+        }
+    }
+
+    fn add(&mut self, access: &Access, write: bool) {
+        let Some(count) = access.count else {
+            let any = if write {
+                &mut self.any_written
+            } else {
+                &mut self.any_read
+            };
+            *any = true;
+            return;
+        };
+        let counts = if write {
+            &mut self.writes
+        } else {
+            &mut self.reads
+        };
+        let first = access.first.number as usize;
+        let end = first
+            .saturating_add(count as usize)
+            .min(counts.len().saturating_sub(1));
+        if first < end {
+            counts[first] += 1;
+            counts[end] -= 1;
+        }
+    }
+
+    /// Turns the differences into counts.
+    fn sum(&mut self) {
+        for counts in [&mut self.reads, &mut self.writes] {
+            let mut sum = 0;
+            for count in counts {
+                sum += *count;
+                *count = sum;
+            }
+        }
+    }
+
+    fn lacks(&self, number: u32, write: bool) -> bool {
+        let (counts, any) = match write {
+            true => (&self.writes, self.any_written),
+            false => (&self.reads, self.any_read),
+        };
+        !any && counts.get(number as usize) == Some(&0)
+    }
+}
+
+/// One diagnostic for all devices of a kind: a program with an operator panel may have many.
+fn summary<'d>(
+    code: &'static Finding,
+    [what, here]: [&'static str; 2],
+    found: impl Iterator<Item = &'d (Device, Span)>,
+    out: &mut Diagnostics,
+) {
+    let found: Vec<_> = found.collect();
+    let Some((&&(first, span), others)) = found.split_first() else {
+        return;
+    };
+    let message = match others.len() {
+        0 => format!("`{first}` is {}", what.replace("them", "it")),
+        n => format!("`{first}` and {n} more are {what}"),
+    };
+    let mut diagnostic = code
+        .at(span, message)
+        .label(here)
+        .help("nothing is wrong if an operator panel or another program uses them");
+    if !others.is_empty() {
+        diagnostic = diagnostic.devices(found.iter().map(|(device, _)| *device));
+    }
+    for (device, span) in others {
+        diagnostic = diagnostic.other(*span, format!("`{device}` {here}"));
+    }
+    out.push(diagnostic);
+}

@@ -1,0 +1,204 @@
+//! Which devices keep their values over power-off: what the model says, and for some devices the project's parameters.
+
+use rungc_models::runs::is_border;
+use rungc_models::{Model, Range};
+use rungc_syntax::DeviceClass::{C, D, M, S};
+use rungc_syntax::{Device, DeviceClass, DeviceRun, Diagnostics, Program, Span, codes};
+use std::borrow::Cow;
+
+/// The latched ranges that the editors write for every CPU type, also for those that do not take them.
+const USUAL: [(DeviceClass, u32, u32); 5] = [
+    (M, 500, 524),
+    (S, 500, 500),
+    (C, 100, 100),
+    (C, 220, 36),
+    (D, 200, 312),
+];
+
+/// The devices of the model, with the latched ones that the program's project has chosen among those for which that can be done.
+pub fn ranges(program: &Program, model: &Model) -> Cow<'static, [Range]> {
+    let latched = program
+        .parameters
+        .as_ref()
+        .and_then(|p| p.latched.as_deref());
+    let Some(latched) = latched.filter(|_| !model.latch_choices.is_empty()) else {
+        return Cow::Borrowed(model.ranges);
+    };
+    let pieces = model.ranges.iter().flat_map(|&range| {
+        let starts = borders(range, model, latched);
+        let next = starts.clone().into_iter().skip(1).map(|start| start - 1);
+        let ends: Vec<_> = next.chain([range.last]).collect();
+        starts
+            .into_iter()
+            .zip(ends)
+            .map(move |(first, last)| Range {
+                first,
+                last,
+                latched: is_latched(range, first, model, latched),
+                ..range
+            })
+    });
+    let mut ranges: Vec<Range> = pieces.collect();
+    ranges.dedup_by(|next, last| {
+        let joined = (last.class, last.latched, last.last + 1)
+            == (next.class, next.latched, next.first)
+            && !is_border(next.class, next.first)
+            && (model.can_choose_latch(next.class, last.last)
+                || model.can_choose_latch(next.class, next.first));
+        if joined {
+            last.last = next.last;
+        }
+        joined
+    });
+    match ranges == model.ranges {
+        true => Cow::Borrowed(model.ranges),
+        false => Cow::Owned(ranges),
+    }
+}
+
+/// Where in a range something may change, its beginning included, in order.
+fn borders(range: Range, model: &Model, latched: &[DeviceRun]) -> Vec<u32> {
+    let can = |number| model.can_choose_latch(range.class, number);
+    let chosen = |&number: &u32| can(number) || number.checked_sub(1).is_some_and(can);
+    let choices = model.latch_choices.iter().filter(|c| c.0 == range.class);
+    let runs = latched.iter().filter(|run| run.class == range.class);
+    let mut borders: Vec<u32> = choices
+        .flat_map(|&(_, first, last)| [first, last + 1])
+        .chain(runs.flat_map(|run| [run.first, end(run)]).filter(chosen))
+        .filter(|number| (range.first + 1..=range.last).contains(number))
+        .chain([range.first])
+        .collect();
+    borders.sort_unstable();
+    borders.dedup();
+    borders
+}
+
+/// The number after the last of a run.
+fn end(run: &DeviceRun) -> u32 {
+    run.first.saturating_add(run.count)
+}
+
+fn is_latched(range: Range, number: u32, model: &Model, latched: &[DeviceRun]) -> bool {
+    match model.can_choose_latch(range.class, number) {
+        true => latched
+            .iter()
+            .any(|run| run.class == range.class && (run.first..end(run)).contains(&number)),
+        false => range.latched,
+    }
+}
+
+/// What of a project's parameters the model does not allow.
+pub fn check(program: &Program, model: &Model) -> Diagnostics {
+    let mut out = Diagnostics::new();
+    let Some(parameters) = &program.parameters else {
+        return out;
+    };
+    let mut warn = |message: String, taken: String| {
+        let warning = codes::PARAMETER_RANGE.at(Span::default(), message);
+        out.push(warning.label(taken).help(
+            "change the PLC parameters in the editor, or choose another model with `--model`",
+        ));
+    };
+    for run in parameters.latched.iter().flatten() {
+        let usual = (run.class, run.first, run.count);
+        let fits = |number| {
+            model.can_choose_latch(run.class, number)
+                || model
+                    .range(run.class, number)
+                    .is_some_and(|range| range.latched)
+        };
+        let fixed = model.latch_choices.is_empty();
+        if fixed && USUAL.contains(&usual) {
+            continue;
+        }
+        let Some(wrong) = (run.first..end(run)).find(|&number| !fits(number)) else {
+            continue;
+        };
+        let device = |number| Device {
+            class: run.class,
+            number,
+        };
+        let range = format!("`{}` to `{}`", device(run.first), device(end(run) - 1));
+        let name = model.name;
+        match fixed {
+            true => warn(
+                format!(
+                    "the parameters latch {range}, but the latched devices of {name} are fixed"
+                ),
+                "those of the model are taken".to_owned(),
+            ),
+            false => warn(
+                format!("the parameters latch {range}, which {name} cannot do for all of them"),
+                format!(
+                    "the others are latched; `{}` is the first that is not",
+                    device(wrong)
+                ),
+            ),
+        }
+    }
+    let capacity = parameters.capacity.filter(|&steps| steps > model.max_steps);
+    if let Some(steps) = capacity {
+        let message = format!(
+            "the parameters set a memory of {steps} steps, but {} has {}",
+            model.name, model.max_steps
+        );
+        warn(message, format!("{} steps are taken", model.max_steps));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rungc_models::ModelId;
+    use rungc_syntax::Parameters;
+
+    fn program(latched: &[(DeviceClass, u32, u32)]) -> Program {
+        let run = |&(class, first, count)| DeviceRun {
+            class,
+            first,
+            count,
+        };
+        let latched = Some(latched.iter().map(run).collect());
+        Program {
+            parameters: Some(Parameters {
+                latched,
+                ..Parameters::default()
+            }),
+            ..Program::default()
+        }
+    }
+
+    fn latched_of(program: &Program, id: ModelId, class: DeviceClass) -> Vec<(u32, u32)> {
+        let ranges = ranges(program, Model::get(id));
+        let latched = ranges.iter().filter(|r| r.class == class && r.latched);
+        latched.map(|r| (r.first, r.last)).collect()
+    }
+
+    #[test]
+    fn the_usual_choice_is_that_of_the_models() {
+        for id in ModelId::ALL {
+            let model = Model::get(id);
+            let program = program(&USUAL);
+            assert!(
+                matches!(ranges(&program, model), Cow::Borrowed(_)),
+                "{}",
+                model.name
+            );
+            assert_eq!(check(&program, model).iter().count(), 0, "{}", model.name);
+        }
+    }
+
+    #[test]
+    fn choices_replace_latched_devices_where_the_model_lets_them() {
+        let chosen = program(&[(M, 0, 10), (D, 100, 10), (C, 190, 20)]);
+        let fx2n = |class| latched_of(&chosen, ModelId::Fx2n, class);
+        assert_eq!(fx2n(M), [(0, 9), (1024, 3071)]);
+        assert_eq!(fx2n(S), []);
+        assert_eq!(fx2n(C), [(190, 199), (200, 209)]);
+        assert_eq!(fx2n(D), [(100, 109), (512, 7999)]);
+        let wide = program(&[(M, 400, 2000)]);
+        assert_eq!(latched_of(&wide, ModelId::Fx2n, M), [(400, 3071)]);
+        assert_eq!(latched_of(&chosen, ModelId::Fx1n, M), [(384, 1535)]);
+    }
+}

@@ -1,0 +1,592 @@
+//! Holds the operands of an instruction to its catalogue row and to the model's devices.
+
+use super::rules;
+use super::wrong::{not_this_number, too_few, too_many, wide_constant, wrong_class};
+use rungc_catalogue::{Extent, Found, Param, Shape};
+use rungc_models::Model;
+use rungc_models::runs::{is_counter32, words_of_bits};
+use rungc_syntax::{
+    Classes, Device, DeviceClass, Diagnostic, Diagnostics, Fix, Index, Instr, Operand, OperandKind,
+    Span, codes,
+};
+
+/// Checks operands for one model.
+pub(super) struct Checker {
+    model: &'static Model,
+    /// The model's devices by class, ranges that an access may span joined.
+    runs: Vec<Vec<(u32, u32)>>,
+    /// What no operand can be on the model.
+    missing: Classes,
+}
+
+/// An instruction whose operands are looked at.
+pub(super) struct Place<'a> {
+    pub(super) instr: &'a Instr,
+    pub(super) found: Found,
+}
+
+impl Checker {
+    pub(super) fn new(model: &'static Model) -> Self {
+        let runs = DeviceClass::ALL
+            .into_iter()
+            .map(|class| model.runs(class))
+            .collect();
+        Checker {
+            model,
+            runs,
+            missing: model.missing(),
+        }
+    }
+
+    /// Checks the number of a label.
+    pub(super) fn label(&self, instr: &Instr, label: Device, out: &mut Diagnostics) {
+        if !self.has(label.class, label.number) {
+            let plc_error = match label.class {
+                DeviceClass::I => 6508,
+                _ => 6507,
+            };
+            out.push(self.no_device(instr.span, label).plc_error(plc_error));
+        }
+        if let Some(operand) = instr.operands.first() {
+            out.push(too_many(instr, operand.span, &instr.mnemonic, &[]));
+        }
+    }
+
+    /// Checks all operands of an instruction; `params` is what its row says of them.
+    pub(super) fn instr(
+        &self,
+        instr: &Instr,
+        found: Found,
+        params: &[Param],
+        out: &mut Diagnostics,
+    ) {
+        let place = Place { instr, found };
+        self.count(instr, params, out);
+        for (at, param) in params.iter().enumerate().take(instr.operands.len()) {
+            let wide = found.form.wide;
+            let wrong = self
+                .operand(&place, at, param)
+                .map(|diagnostic| self.compatible_boards(diagnostic, &place, at));
+            out.extend(wrong.or_else(|| rules::broken(&instr.operands, at, param, wide)));
+        }
+    }
+
+    /// Says that boards which take programs for the model take operand `at`, if only its value is what the model does not take.
+    fn compatible_boards(&self, diagnostic: Diagnostic, place: &Place, at: usize) -> Diagnostic {
+        let of_value = [codes::LIMITS.id, codes::NOT_THIS_NUMBER.id].contains(&diagnostic.code);
+        let boards = self.model.boards.map(Model::get).filter(|_| of_value);
+        let taken = boards.filter(|boards| {
+            let params = place.found.inst.params_of(&place.instr.operands, boards);
+            let wrong = |param| Checker::new(boards).operand(place, at, param);
+            params.get(at).is_some_and(|param| wrong(param).is_none())
+        });
+        let Some(boards) = taken else {
+            return diagnostic;
+        };
+        let before = diagnostic
+            .help
+            .as_ref()
+            .map_or(String::new(), |help| format!("{help}; "));
+        let help = format!("{before}`{}` takes it", boards.name);
+        diagnostic.help(help)
+    }
+
+    /// Reports operands that are missing or too many. Where one could not be read, only that one is judged.
+    fn count(&self, instr: &Instr, params: &[Param], out: &mut Diagnostics) {
+        let broken = instr.operands.iter().position(is_unreadable);
+        let needed = params.iter().filter(|param| !param.optional).count();
+        if instr.operands.len() < needed && broken.is_none() {
+            out.push(too_few(instr, params));
+        }
+        if let Some(extra) = instr.operands.get(params.len())
+            && broken.is_none_or(|broken| broken == params.len())
+        {
+            out.push(too_many(instr, extra.span, &instr.mnemonic, params));
+        }
+    }
+
+    /// What is wrong with one operand, if anything.
+    fn operand(&self, place: &Place, at: usize, param: &Param) -> Option<Diagnostic> {
+        let operand = &place.instr.operands[at];
+        let span = operand.span;
+        let kind = &operand.kind;
+        if is_unreadable(operand) {
+            return None;
+        }
+        let classes = param.classes_without(self.missing, self.model.id);
+        if !classes.meets(Classes::of(kind)) {
+            return Some(wrong_class(place, at, param, classes, self.model));
+        }
+        if let Some(index) = index_of(kind)
+            && let Some(diagnostic) =
+                indexes_itself(span, kind).or_else(|| self.index(place, operand, index, param))
+        {
+            return Some(diagnostic);
+        }
+        match kind {
+            OperandKind::Device(device, index) => self
+                .existing(span, *device)
+                .or_else(|| self.counter(place, span, *device, param))
+                .or_else(|| self.upper_half(place, span, *device, param))
+                .or_else(|| numbers(span, *device, param, self.model))
+                .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
+            OperandKind::WordBit(device, bit, index) => bit_of_register(span, *device, *index)
+                .or_else(|| self.existing(span, *device))
+                .or_else(|| self.bits_of_words(place, span, (*device, *bit), *index, param)),
+            OperandKind::Nibbles(digits, device, index) => digits_fit(place, span, *digits, param)
+                .or_else(|| self.existing(span, *device))
+                .or_else(|| numbers(span, *device, param, self.model))
+                .or_else(|| {
+                    let bits = 4 * u32::from(*digits);
+                    self.reach(place, span, *device, bits, index.is_some(), param)
+                }),
+            OperandKind::Decimal(value, index) => {
+                constant(place, operand, *value, index.is_some(), (param, self.model))
+            }
+            OperandKind::Hex(value, index) => {
+                hex_constant(place, operand, *value, index.is_some(), (param, self.model))
+            }
+            OperandKind::Buffer {
+                module, address, ..
+            } => no_buffer(span, *module, *address),
+            OperandKind::Float(_) | OperandKind::Text(_) | OperandKind::Unreadable(_) => None,
+        }
+    }
+
+    /// What is wrong with an index register, if anything.
+    fn index(
+        &self,
+        place: &Place,
+        operand: &Operand,
+        index: Index,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        let span = operand.span;
+        let register = Device {
+            class: index.class,
+            number: index.number,
+        };
+        let barred = |device: Device| {
+            let mut barred = param.unindexed.iter();
+            barred.any(|&(class, first, last)| {
+                device.class == class && (first..=last).contains(&device.number)
+            })
+        };
+        let direct = device_of(&operand.kind).filter(|device| barred(*device));
+        if !param.indexable || direct.is_some() {
+            let with = direct.map_or_else(String::new, |device| format!(" with `{device}`"));
+            let message = format!(
+                "operand {} of `{}` cannot take an index register{with} on {}",
+                param.name, place.instr.mnemonic, self.model.name
+            );
+            return Some(
+                codes::NOT_INDEXABLE
+                    .at(span, message)
+                    .label(format!("`{index}` is not allowed here"))
+                    .help("name the device directly, or copy the indexed one first: `MOV`, `BMOV`"),
+            );
+        }
+        let pair = place.found.form.wide && self.model.z_pairs_with_v;
+        if pair && index.class == DeviceClass::V {
+            let message = format!(
+                "`{index}` cannot be the index in the 32-bit instruction `{}`",
+                place.instr.mnemonic
+            );
+            return Some(
+                codes::INDEX_WIDTH
+                    .at(span, message)
+                    .label("here the index is a pair, named by its Z")
+                    .help(format!("use `Z{}` and clear `{index}`", index.number)),
+            );
+        }
+        self.existing(span, register)
+    }
+
+    fn has(&self, class: DeviceClass, number: u32) -> bool {
+        self.end_of_run(class, number).is_some()
+    }
+
+    /// The last device of the run that holds this one.
+    fn end_of_run(&self, class: DeviceClass, number: u32) -> Option<u32> {
+        self.runs[class as usize]
+            .iter()
+            .find(|&&(first, last)| (first..=last).contains(&number))
+            .map(|&(_, last)| last)
+    }
+
+    fn existing(&self, span: Span, device: Device) -> Option<Diagnostic> {
+        (!self.has(device.class, device.number)).then(|| self.no_device(span, device))
+    }
+
+    fn no_device(&self, span: Span, device: Device) -> Diagnostic {
+        /// More ranges than this (interrupt pointers) say nothing to a reader.
+        const MAX_RANGES: usize = 6;
+        let class = device.class;
+        let runs = &self.runs[class as usize];
+        let ranges: Vec<_> = runs
+            .iter()
+            .map(|&(first, last)| match first == last {
+                true => class.number(first).to_string(),
+                false => format!("{}–{}", class.number(first), class.number(last)),
+            })
+            .collect();
+        let ranges = match ranges.len() {
+            0 => format!("it has no {}", class.prefix()),
+            1..=MAX_RANGES => ranges.join(", "),
+            n => format!(
+                "{}, … {}",
+                ranges[..MAX_RANGES - 1].join(", "),
+                ranges[n - 1]
+            ),
+        };
+        let message = format!(
+            "`{device}` does not exist on {} ({ranges})",
+            self.model.name
+        );
+        codes::NO_DEVICE
+            .at(span, message)
+            .label(format!("not on {}", self.model.title))
+    }
+
+    /// A 32-bit counter as a 16-bit value.
+    fn counter(
+        &self,
+        place: &Place,
+        span: Span,
+        device: Device,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        if !is_counter32(device.class, device.number) {
+            return None;
+        }
+        let narrow = match param.shape {
+            Shape::Value => !place.found.form.wide,
+            Shape::Word => true,
+            Shape::Bit
+            | Shape::Pair
+            | Shape::Float
+            | Shape::Text
+            | Shape::Pointer
+            | Shape::Mixed => false,
+        };
+        narrow.then(|| {
+            let mnemonic = &place.instr.mnemonic;
+            let message = format!("`{device}` is a 32-bit counter, `{mnemonic}` takes 16 bits");
+            let diagnostic = codes::COUNTER_WIDTH
+                .at(span, message)
+                .label("C200 to C255 hold 32 bits");
+            let wide = rungc_catalogue::Form {
+                wide: true,
+                ..place.found.form
+            };
+            match place.found.inst.spelling_of(wide) {
+                Some(name) => {
+                    let fix = Fix::suggested(format!("write `{name}`"))
+                        .replace(place.instr.mnemonic_span, name.as_str());
+                    let help = format!("use the 32-bit form `{name}`");
+                    diagnostic.help(help).fix(fix)
+                }
+                None => diagnostic,
+            }
+        })
+    }
+
+    /// V as a 32-bit value: the pair of V and Z is named by its Z.
+    fn upper_half(
+        &self,
+        place: &Place,
+        span: Span,
+        device: Device,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        let half = device.class == DeviceClass::V && self.model.z_pairs_with_v;
+        (half && words(place.found, param) == 2).then(|| {
+            let mnemonic = &place.instr.mnemonic;
+            let message = format!("`{device}` is only the upper half of what `{mnemonic}` takes");
+            codes::INDEX_WIDTH
+                .at(span, message)
+                .label("here V and Z are a pair, named by its Z")
+                .help(format!("use `Z{}`", device.number))
+                .fix(
+                    Fix::suggested(format!("write `Z{}`", device.number))
+                        .replace(span, format!("Z{}", device.number)),
+                )
+        })
+    }
+
+    /// An operand that reaches past the end of its range; `each` is how many devices one value of it takes.
+    fn reach(
+        &self,
+        place: &Place,
+        span: Span,
+        device: Device,
+        each: u32,
+        indexed: bool,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        if indexed || matches!(param.shape, Shape::Pointer) {
+            return None;
+        }
+        let class = device.class;
+        let values = extent(&place.instr.operands, param);
+        let each = match class {
+            _ if each > 1 => each,
+            DeviceClass::V | DeviceClass::Z if self.model.z_pairs_with_v => 1,
+            class if is_counter32(class, device.number) => 1,
+            _ => words(place.found, param),
+        };
+        let count = values.saturating_mul(each);
+        let end = self.end_of_run(class, device.number)?;
+        let last = device.number.saturating_add(count.max(1) - 1);
+        (last > end).then(|| {
+            let message = format!(
+                "operand {} of `{}` takes {count} devices from `{device}` on, but the last is `{}`",
+                param.name,
+                place.instr.mnemonic,
+                class.number(end)
+            );
+            let highest = (end + 1)
+                .checked_sub(count)
+                .and_then(|first| (self.end_of_run(class, first) == Some(end)).then_some(first));
+            let diagnostic = codes::PAST_THE_END
+                .at(span, message)
+                .label(format!("up to `{}`", class.number(last)));
+            match highest {
+                Some(first) => {
+                    diagnostic.help(format!("begin at `{}` at the latest", class.number(first)))
+                }
+                None => diagnostic,
+            }
+        })
+    }
+
+    /// As [`Self::reach`], of a bit of a word: the bits after it go on in the next words.
+    fn bits_of_words(
+        &self,
+        place: &Place,
+        span: Span,
+        (device, bit): (Device, u8),
+        index: Option<Index>,
+        param: &Param,
+    ) -> Option<Diagnostic> {
+        let bits = extent(&place.instr.operands, param);
+        let words = words_of_bits(bit & 15, bits);
+        let end = self.end_of_run(device.class, device.number)?;
+        let last = device.number.saturating_add(words - 1);
+        (index.is_none() && last > end).then(|| {
+            let message = format!(
+                "operand {} of `{}` takes {bits} bits from `{device}.{bit:X}` on, but the last word is `{}`",
+                param.name,
+                place.instr.mnemonic,
+                device.class.number(end)
+            );
+            codes::PAST_THE_END
+                .at(span, message)
+                .label(format!("up to `{}`", device.class.number(last)))
+        })
+    }
+}
+
+pub(super) fn is_unreadable(operand: &Operand) -> bool {
+    matches!(operand.kind, OperandKind::Unreadable(_))
+}
+
+/// Whether the row takes these operands, as far as their number and their classes go.
+pub(super) fn takes(found: Found, operands: &[Operand], model: &Model) -> bool {
+    let (params, _) = found.inst.params_and_steps(found.form, operands, model);
+    let needed = params.iter().filter(|param| !param.optional).count();
+    let fits = |(operand, param): (&Operand, &Param)| {
+        is_unreadable(operand) || param.classes_on(model).meets(Classes::of(&operand.kind))
+    };
+    (needed..=params.len()).contains(&operands.len()) && operands.iter().zip(params).all(fits)
+}
+
+/// Buffer memory that cannot exist (FX3 programming manual §4.11).
+fn no_buffer(span: Span, module: u32, address: u32) -> Option<Diagnostic> {
+    const LAST_MODULE: u32 = 7;
+    const LAST_ADDRESS: u32 = 32_767;
+    (module > LAST_MODULE || address > LAST_ADDRESS).then(|| {
+        let message = format!(
+            "`U{module}\\G{address}` does not exist (modules U0–U{LAST_MODULE}, addresses G0–G{LAST_ADDRESS})"
+        );
+        codes::NO_DEVICE.at(span, message).label("no such buffer memory")
+    })
+}
+
+fn index_of(kind: &OperandKind) -> Option<Index> {
+    match *kind {
+        OperandKind::Device(_, index)
+        | OperandKind::WordBit(_, _, index)
+        | OperandKind::Nibbles(_, _, index)
+        | OperandKind::Decimal(_, index)
+        | OperandKind::Hex(_, index)
+        | OperandKind::Buffer { index, .. } => index,
+        OperandKind::Float(_) | OperandKind::Text(_) | OperandKind::Unreadable(_) => None,
+    }
+}
+
+/// The device that an operand names or begins with.
+pub(super) fn device_of(kind: &OperandKind) -> Option<Device> {
+    match *kind {
+        OperandKind::Device(device, _)
+        | OperandKind::WordBit(device, ..)
+        | OperandKind::Nibbles(_, device, _) => Some(device),
+        _ => None,
+    }
+}
+
+/// How many words one value of an operand takes.
+fn words(found: Found, param: &Param) -> u32 {
+    match param.shape {
+        Shape::Value if found.form.wide => 2,
+        Shape::Pair | Shape::Float => 2,
+        Shape::Value | Shape::Word | Shape::Bit | Shape::Text | Shape::Pointer | Shape::Mixed => 1,
+    }
+}
+
+/// How many values an operand takes; what is not known counts as one.
+fn extent(operands: &[Operand], param: &Param) -> u32 {
+    match param.extent {
+        Extent::One | Extent::Through(_) => 1,
+        Extent::Count(count) => count,
+        Extent::Operand { i, extra } => operands
+            .get(i)
+            .and_then(|operand| constant_value(&operand.kind))
+            .and_then(|count| u32::try_from(count + i64::from(extra)).ok())
+            .unwrap_or(1),
+        Extent::Of(count) => {
+            let constants = operands.iter().map(|operand| constant_value(&operand.kind));
+            let constants: Vec<_> = constants.collect();
+            count(&constants).unwrap_or(1)
+        }
+    }
+}
+
+/// The value of a constant without an index.
+pub fn constant_value(kind: &OperandKind) -> Option<i64> {
+    match *kind {
+        OperandKind::Decimal(value, None) => Some(value),
+        OperandKind::Hex(value, None) => i64::try_from(value).ok(),
+        _ => None,
+    }
+}
+
+/// A device whose number does not serve in this place.
+fn numbers(span: Span, device: Device, param: &Param, model: &Model) -> Option<Diagnostic> {
+    let mut of_class = param
+        .numbers_on(model)
+        .iter()
+        .filter(|(class, ..)| *class == device.class)
+        .peekable();
+    of_class.peek()?;
+    let allowed: Vec<_> = of_class.collect();
+    let fits = allowed
+        .iter()
+        .any(|&&(_, first, last)| (first..=last).contains(&device.number));
+    (!fits).then(|| not_this_number(span, device, &allowed, param, model))
+}
+
+/// How many bits a value of an operand has.
+fn bits(found: Found, param: &Param) -> u32 {
+    16 * words(found, param)
+}
+
+/// An index register goes with other devices, not with index registers (h1u-h2u-programming §3.8).
+fn indexes_itself(span: Span, kind: &OperandKind) -> Option<Diagnostic> {
+    let OperandKind::Device(device, Some(index)) = kind else {
+        return None;
+    };
+    matches!(device.class, DeviceClass::V | DeviceClass::Z).then(|| {
+        codes::NOT_INDEXABLE
+            .at(
+                span,
+                format!("`{device}` is an index register and takes none itself"),
+            )
+            .label(format!("`{index}` is not allowed here"))
+            .help("add the registers first, or use a data register")
+    })
+}
+
+/// The notation `D0.F` is one of data registers, and takes no index register (FX3 manual, the note to every `D□.b`).
+fn bit_of_register(span: Span, device: Device, index: Option<Index>) -> Option<Diagnostic> {
+    if device.class != DeviceClass::D {
+        let message = format!("`{device}` has no bits that can be named so");
+        let diagnostic = codes::OPERAND_CLASS.at(span, message);
+        return Some(diagnostic.label("only a data register has: `D0.F`"));
+    }
+    let index = index?;
+    let diagnostic = codes::NOT_INDEXABLE
+        .at(span, "a bit of a register cannot take an index register")
+        .label(format!("`{index}` is not allowed here"))
+        .help("move the register into a group of relays first: `MOV D0Z0 K4M0`");
+    Some(diagnostic)
+}
+
+/// Whether a group has a digit count that the operand can take; a result of two words may go to eight digits.
+fn digits_fit(place: &Place, span: Span, digits: u8, param: &Param) -> Option<Diagnostic> {
+    let values = match param.extent {
+        Extent::Count(count) => count,
+        _ => 1,
+    };
+    let bits = bits(place.found, param).saturating_mul(values).min(32);
+    let most = bits / 4;
+    (!(1..=most).contains(&u32::from(digits))).then(|| {
+        let message = format!("K{digits} is no digit count for a {bits}-bit value");
+        codes::DIGITS
+            .at(span, message)
+            .label(format!("K1 to K{most} here"))
+    })
+}
+
+fn constant(
+    place: &Place,
+    operand: &Operand,
+    value: i64,
+    indexed: bool,
+    (param, model): (&Param, &Model),
+) -> Option<Diagnostic> {
+    let bits = bits(place.found, param);
+    let half = 1i64 << (bits - 1);
+    if !(-half..half).contains(&value) {
+        return Some(wide_constant(place, operand, bits, model));
+    }
+    outside_limits(place, operand, &[value], indexed, param)
+}
+
+fn hex_constant(
+    place: &Place,
+    operand: &Operand,
+    value: u64,
+    indexed: bool,
+    (param, model): (&Param, &Model),
+) -> Option<Diagnostic> {
+    let bits = bits(place.found, param);
+    if value >> bits != 0 {
+        return Some(wide_constant(place, operand, bits, model));
+    }
+    // Fits in 32 bits, so both readings fit in i64.
+    let unsigned = value as i64;
+    let signed = unsigned - ((unsigned >> (bits - 1)) << bits);
+    outside_limits(place, operand, &[unsigned, signed], indexed, param)
+}
+
+/// A constant none of whose readings lies in the operand's limits.
+fn outside_limits(
+    place: &Place,
+    operand: &Operand,
+    readings: &[i64],
+    indexed: bool,
+    param: &Param,
+) -> Option<Diagnostic> {
+    let limits = rules::limits(param, place.found.form.wide);
+    let fits = readings.iter().any(|&value| limits.allow(value));
+    (!fits && !indexed).then(|| {
+        let message = format!(
+            "`{}` is outside the limits of operand {}",
+            operand.kind, param.name
+        );
+        codes::LIMITS
+            .at(operand.span, message)
+            .label(format!("{} here", limits.in_words("K")))
+    })
+}

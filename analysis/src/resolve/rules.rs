@@ -1,0 +1,200 @@
+//! What an operand must obey besides its class and limits: the [`Rule`]s of the catalogue.
+
+use super::operands::constant_value;
+use rungc_catalogue::{Limits, Param, Rule};
+use rungc_models::runs::{FIRST_COUNTER32, is_special};
+use rungc_syntax::{Classes, Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
+
+/// What is wrong with operand `at` of an instruction by the rules of its parameter, if anything.
+pub(super) fn broken(
+    operands: &[Operand],
+    at: usize,
+    param: &Param,
+    wide: bool,
+) -> Option<Diagnostic> {
+    let operand = operands.get(at)?;
+    let against = |other: usize, wrong: fn(i64, i64) -> bool, demand| {
+        compare(operand, operands.get(other)?, wrong, demand)
+    };
+    param.rules.iter().find_map(|rule| match *rule {
+        Rule::WideLimits(..) | Rule::WordsWith(_) => None,
+        Rule::Not(min, max) => {
+            let value = constant_value(&operand.kind)?;
+            (min..=max)
+                .contains(&value)
+                .then(|| forbidden(operand, min, max))
+        }
+        Rule::MultipleOf(of) => {
+            let value = constant_value(&operand.kind)?;
+            (of != 0 && value % of != 0).then(|| no_multiple(operand, of))
+        }
+        Rule::AtMost(other) => against(other, |v, bound| v > bound, "must not be greater than"),
+        Rule::AtLeast(other) => against(other, |v, bound| v < bound, "must not be smaller than"),
+        Rule::Below(other) => against(other, |v, bound| v >= bound, "must be smaller than"),
+        Rule::EndsInZero => {
+            let device = device_of(&operand.kind)?;
+            let base = if device.class.is_octal() { 8 } else { 10 };
+            unaligned(operand, device, base, "does not end in 0")
+        }
+        Rule::Aligned(of) => {
+            let device = device_of(&operand.kind)?;
+            unaligned(operand, device, of, &format!("is not a multiple of {of}"))
+        }
+        Rule::WholeGroup => {
+            let whole = if wide { 8 } else { 4 };
+            let digits = digits(operand)?;
+            (digits != whole).then(|| partial_group(operand, whole))
+        }
+        Rule::WideAligned(of) => {
+            digits(operand).filter(|_| wide)?;
+            let device = device_of(&operand.kind)?;
+            unaligned(operand, device, of, &format!("is not a multiple of {of}"))
+        }
+        Rule::SameDigits(other) => {
+            let other = operands.get(other)?;
+            let differ = digits(operand)? != digits(other)?;
+            differ.then(|| disagree(operand, other, "must have as many digits as"))
+        }
+        Rule::GroupLike(other) => {
+            let other = operands.get(other)?;
+            device_of(&operand.kind).and(device_of(&other.kind))?;
+            let differ = digits(operand).is_some() != digits(other).is_some();
+            differ.then(|| disagree(operand, other, "does not go with"))
+        }
+        Rule::GroupAtMost(other, max) => {
+            digits(operands.get(other)?)?;
+            let value = constant_value(&operand.kind)?;
+            (value > max).then(|| {
+                let message = format!("`{}` is too many groups of bits", operand.kind);
+                codes::LIMITS
+                    .at(operand.span, message)
+                    .label(format!("at most K{max} with a group"))
+            })
+        }
+        Rule::NotBefore(other) => {
+            let other = operands.get(other)?;
+            let (last, first) = (unindexed(&operand.kind)?, unindexed(&other.kind)?);
+            let apart =
+                is_special(first.class, first.number) != is_special(last.class, last.number);
+            (first.class == last.class && (apart || last.number < first.number))
+                .then(|| disagree(operand, other, "must be in one run with, and not before,"))
+        }
+        Rule::WideCounter => {
+            let device = device_of(&operand.kind)?;
+            let narrow = device.class == DeviceClass::C && device.number < FIRST_COUNTER32;
+            (wide && narrow).then(|| narrow_counter(operand))
+        }
+        Rule::Holds(holds, demand) => (!holds(operands)).then(|| {
+            let message = format!("`{}` does not go with the other operands", operand.kind);
+            codes::OPERANDS_DISAGREE
+                .at(operand.span, message)
+                .label(demand)
+        }),
+        Rule::ClassLike(other) => {
+            let other = operands.get(other)?;
+            let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
+            differ.then(|| {
+                disagree(operand, other, "must be of the same class as")
+                    .help("name the first and the last device of one class")
+            })
+        }
+    })
+}
+
+/// The limits of a constant in the form that is written.
+pub(super) fn limits(param: &Param, wide: bool) -> Limits {
+    let of_wide_form = param.rules.iter().find_map(|rule| match *rule {
+        Rule::WideLimits(min, max) if wide => Some(Limits::Between((min, max))),
+        _ => None,
+    });
+    of_wide_form.unwrap_or(param.limits)
+}
+
+fn forbidden(operand: &Operand, min: i64, max: i64) -> Diagnostic {
+    let message = format!("`{}` has no meaning here", operand.kind);
+    let range = match min == max {
+        true => format!("K{min} is not used"),
+        false => format!("K{min} to K{max} are not used"),
+    };
+    codes::LIMITS.at(operand.span, message).label(range)
+}
+
+fn no_multiple(operand: &Operand, of: i64) -> Diagnostic {
+    let message = format!("`{}` is not a multiple of {of}", operand.kind);
+    codes::LIMITS
+        .at(operand.span, message)
+        .label(format!("K{of}, K{}, … here", of.saturating_mul(2)))
+}
+
+fn compare(
+    operand: &Operand,
+    other: &Operand,
+    wrong: fn(i64, i64) -> bool,
+    demand: &str,
+) -> Option<Diagnostic> {
+    let (value, bound) = (constant_value(&operand.kind)?, constant_value(&other.kind)?);
+    wrong(value, bound).then(|| disagree(operand, other, demand))
+}
+
+fn unaligned(operand: &Operand, device: Device, of: u32, fault: &str) -> Option<Diagnostic> {
+    let rest = device.number.checked_rem(of).filter(|&rest| rest != 0)?;
+    let below = device.class.number(device.number - rest);
+    let message = format!("the number of `{device}` {fault}");
+    Some(
+        codes::NOT_THIS_NUMBER
+            .at(operand.span, message)
+            .label(format!("e.g. {below}")),
+    )
+}
+
+fn partial_group(operand: &Operand, whole: u8) -> Diagnostic {
+    let message = format!("`{}` must have all {whole} digits here", operand.kind);
+    codes::DIGITS
+        .at(operand.span, message)
+        .label(format!("K{whole} here"))
+}
+
+fn narrow_counter(operand: &Operand) -> Diagnostic {
+    let message = format!(
+        "`{}` is a 16-bit counter, a 32-bit one belongs here",
+        operand.kind
+    );
+    codes::NOT_THIS_NUMBER
+        .at(operand.span, message)
+        .label("C200 and up in the 32-bit form")
+}
+
+fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
+    let message = format!("`{}` {demand} `{}`", operand.kind, other.kind);
+    // The labels are read in the order of their places.
+    let (here, there) = match other.span < operand.span {
+        true => ("… does not go with this", "this …"),
+        false => ("this …", "… does not go with this"),
+    };
+    codes::OPERANDS_DISAGREE
+        .at(operand.span, message)
+        .label(here)
+        .other(other.span, there)
+}
+
+fn device_of(kind: &OperandKind) -> Option<Device> {
+    match *kind {
+        OperandKind::Device(device, _) | OperandKind::Nibbles(_, device, _) => Some(device),
+        _ => None,
+    }
+}
+
+/// The device that an operand without an index register names.
+fn unindexed(kind: &OperandKind) -> Option<Device> {
+    match *kind {
+        OperandKind::Device(device, None) => Some(device),
+        _ => None,
+    }
+}
+
+fn digits(operand: &Operand) -> Option<u8> {
+    match operand.kind {
+        OperandKind::Nibbles(digits, ..) => Some(digits),
+        _ => None,
+    }
+}

@@ -1,0 +1,384 @@
+//! What was probably meant by a mnemonic that no model has.
+//!
+//! The nearest spelling alone misleads: what the operands fit and what the program waits for at this place count as much. A suggestion
+//! never turns a contact into its opposite.
+
+use super::operands::{constant_value, takes};
+use rungc_catalogue::{Basic, Found, Inst, Lower};
+use rungc_models::{Model, ModelSet};
+use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind};
+use std::sync::OnceLock;
+
+/// What was probably meant.
+pub(super) struct Meant {
+    /// Tells the author.
+    pub(super) help: String,
+    /// The instruction, where only one comes into question.
+    pub(super) found: Option<Found>,
+    /// The label, where a label was meant.
+    pub(super) label: Option<Device>,
+    /// What to write instead of the mnemonic, and whether that is certain.
+    pub(super) instead: Option<(String, bool)>,
+}
+
+/// How many structures of each kind are open where an instruction stands.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Open {
+    branches: u32,
+    loops: u32,
+    zones: u32,
+    states: bool,
+    subroutine: bool,
+    interrupt: bool,
+    after_fend: bool,
+}
+
+impl Open {
+    /// Goes past an instruction.
+    pub(super) fn pass(&mut self, inst: &Inst, label: Option<Device>) {
+        let Lower::Basic(basic) = inst.lower else {
+            return;
+        };
+        match basic {
+            Basic::Mps => self.branches += 1,
+            Basic::Mpp => self.branches = self.branches.saturating_sub(1),
+            Basic::For => self.loops += 1,
+            Basic::Next => self.loops = self.loops.saturating_sub(1),
+            Basic::Mc => self.zones += 1,
+            Basic::Mcr => self.zones = self.zones.saturating_sub(1),
+            Basic::Stl => self.states = true,
+            Basic::Ret => self.states = false,
+            Basic::Sret => self.subroutine = false,
+            Basic::Iret => self.interrupt = false,
+            Basic::Fend => self.after_fend = true,
+            Basic::Label => {
+                let class = label.map(|label| label.class);
+                self.interrupt |= class == Some(DeviceClass::I);
+                self.subroutine |= class == Some(DeviceClass::P) && self.after_fend;
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether something that waits to be ended is ended by an instruction; `None` for one that ends nothing.
+    fn is_ended_by(self, inst: &Inst, last: bool) -> Option<bool> {
+        let Lower::Basic(basic) = inst.lower else {
+            return None;
+        };
+        match basic {
+            Basic::Mrd | Basic::Mpp => Some(self.branches > 0),
+            Basic::Next => Some(self.loops > 0),
+            Basic::Mcr => Some(self.zones > 0),
+            Basic::Ret => Some(self.states),
+            Basic::Sret => Some(self.subroutine),
+            Basic::Iret | Basic::Pret => Some(self.interrupt),
+            Basic::End => Some(last),
+            _ => None,
+        }
+    }
+}
+
+/// Mnemonics of other PLCs and of IEC 61131-3, with what does the same here: the instruction, and how to write it.
+const HABITS: &[(&[&str], &str, &str)] = &[
+    (
+        &["LDN", "LDNOT", "LD_NOT"],
+        "LDI",
+        "the negated contact is `LDI` here",
+    ),
+    (
+        &["ANDN", "ANDNOT", "ANDI", "AN"],
+        "ANI",
+        "the negated contact is `ANI` here",
+    ),
+    (
+        &["ORN", "ORNOT", "ON"],
+        "ORI",
+        "the negated contact is `ORI` here",
+    ),
+    (
+        &["OUTN", "OUTNOT", "OUTI", "STN"],
+        "OUT",
+        "there is no negated coil: write `INV` before `OUT`",
+    ),
+    (
+        &["NOT"],
+        "INV",
+        "`INV` inverts the result of the contacts before it",
+    ),
+    (&["ST"], "OUT", "the coil is `OUT` here"),
+    (&["STR"], "LD", "the first contact of a rung is `LD` here"),
+    (&["A"], "AND", "write `AND`"),
+    (&["O"], "OR", "write `OR`"),
+    (&["S"], "SET", "write `SET`"),
+    (&["R"], "RST", "write `RST`"),
+    (
+        &["ANDLD", "ANDB", "ALD"],
+        "ANB",
+        "blocks are joined with `ANB` here",
+    ),
+    (&["ORLD", "OLD"], "ORB", "blocks are joined with `ORB` here"),
+    (
+        &["JMP", "JMPC", "JP", "JC"],
+        "CJ",
+        "a jump is `CJ`, driven by contacts: `LD M8000`, `CJ P0`",
+    ),
+    (
+        &["CAL", "CALC", "JSR"],
+        "CALL",
+        "a subroutine is called with `CALL P0`",
+    ),
+    (&["RTS", "SBRT"], "SRET", "a subroutine ends with `SRET`"),
+    (
+        &["DIFU"],
+        "PLS",
+        "the coil that is on for one scan is `PLS`, the contact `LDP`",
+    ),
+    (
+        &["DIFD"],
+        "PLF",
+        "the coil that is on for one scan is `PLF`, the contact `LDF`",
+    ),
+    (
+        &["TON", "TIM", "TMR"],
+        "OUT",
+        "a timer is a coil with its preset: `OUT T0 K30`",
+    ),
+    (
+        &["CTU", "CNT"],
+        "OUT",
+        "a counter is a coil with its preset: `OUT C0 K10`",
+    ),
+];
+
+/// What was probably meant by the mnemonic of an instruction, the `last` one of the program or not.
+pub(super) fn meant(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant> {
+    /// No mnemonic is longer than this by more than a typing error.
+    const LONGEST: usize = 14;
+    let name = instr.mnemonic.as_str();
+    habit(name)
+        .or_else(|| mistyped_label(instr))
+        .or_else(|| glued(instr, model))
+        .or_else(|| moved_affix(instr, model))
+        .or_else(|| similar(instr, open, last, model).filter(|_| name.len() <= LONGEST))
+}
+
+fn habit(name: &str) -> Option<Meant> {
+    let mut habits = HABITS.iter();
+    let (_, row, help) = habits.find(|(names, ..)| names.contains(&name))?;
+    // Others take other operands, or a contact before them.
+    let same = !matches!(*row, "OUT" | "CJ" | "CALL" | "PLS" | "PLF");
+    Some(Meant {
+        help: (*help).to_owned(),
+        found: rungc_catalogue::find(row),
+        label: None,
+        instead: same.then(|| ((*row).to_owned(), true)),
+    })
+}
+
+/// `PO` or `Il01`, alone on a line.
+fn mistyped_label(instr: &Instr) -> Option<Meant> {
+    let (letter, digits) = instr.mnemonic.split_at_checked(1)?;
+    let class = DeviceClass::from_prefix(letter)
+        .filter(|class| matches!(class, DeviceClass::P | DeviceClass::I))?;
+    let number = digits.replace('O', "0").replace(['I', 'L'], "1");
+    let number = number.parse().ok().filter(|_| instr.operands.is_empty())?;
+    let label = Device { class, number };
+    Some(Meant {
+        help: format!("did you mean the label `{label}`?"),
+        found: rungc_catalogue::find(letter),
+        label: Some(label),
+        instead: Some((label.to_string(), false)),
+    })
+}
+
+/// `OUTY0`, `MOVK1D0`: a mnemonic and its operands without a space between them.
+fn glued(instr: &Instr, model: &Model) -> Option<Meant> {
+    let name = instr.mnemonic.as_str();
+    let split = |at: usize| {
+        let (name, rest) = name.split_at_checked(at)?;
+        let found = rungc_catalogue::find(name).filter(|found| found.inst.models.has(model.id))?;
+        let mut operands = glued_operands(rest)?;
+        let words: Vec<_> = operands
+            .iter()
+            .map(|operand| operand.kind.to_string())
+            .collect();
+        operands.extend(instr.operands.iter().cloned());
+        takes(found, &operands, model).then(|| Meant {
+            help: format!("a space is missing: `{name} {}`", words.join(" ")),
+            found: Some(found),
+            label: None,
+            instead: Some((format!("{name} {}", words.join(" ")), true)),
+        })
+    };
+    (1..name.len()).rev().find_map(split)
+}
+
+/// The operands that a text holds one after the other.
+fn glued_operands(text: &str) -> Option<Vec<Operand>> {
+    let mut operands: Vec<Operand> = Vec::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        let letters = rest.bytes().take_while(u8::is_ascii_uppercase).count();
+        let (prefix, behind) = rest.split_at_checked(letters)?;
+        let digits = behind.bytes().take_while(u8::is_ascii_digit).count();
+        let (number, behind) = behind.split_at_checked(digits)?;
+        rest = behind;
+        let kind = match (prefix, DeviceClass::from_prefix(prefix)) {
+            ("K", _) => OperandKind::Decimal(number.parse().ok()?, None),
+            ("H", _) => OperandKind::Hex(u64::from_str_radix(number, 16).ok()?, None),
+            (_, class) => {
+                let class = class?;
+                let radix = if class.is_octal() { 8 } else { 10 };
+                let number = u32::from_str_radix(number, radix).ok()?;
+                OperandKind::Device(Device { class, number }, None)
+            }
+        };
+        // A constant in front of a relay is the number of digits of a group.
+        let digits = operands.last().and_then(|last| constant_value(&last.kind));
+        let kind = match (digits, kind) {
+            (Some(digits @ 1..=8), OperandKind::Device(device, None))
+                if matches!(
+                    device.class,
+                    DeviceClass::X | DeviceClass::Y | DeviceClass::M | DeviceClass::S
+                ) =>
+            {
+                operands.pop();
+                OperandKind::Nibbles(digits as u8, device, None)
+            }
+            (_, kind) => kind,
+        };
+        let span = rungc_syntax::Span::default();
+        operands.push(Operand { span, kind });
+    }
+    Some(operands)
+}
+
+/// `PMOV`, `MOVD`: the P of a pulse form in front, the D of a 32-bit form behind.
+fn moved_affix(instr: &Instr, model: &Model) -> Option<Meant> {
+    let name = instr.mnemonic.as_str();
+    let stems = [
+        (name.strip_prefix('P'), "", "P"),
+        (name.strip_suffix('D'), "D", ""),
+        (name.strip_prefix("DP"), "D", "P"),
+        (name.strip_prefix("PD"), "D", "P"),
+        (name.strip_suffix("PD"), "D", "P"),
+        (name.strip_suffix("DP"), "D", "P"),
+    ];
+    let mut right = stems
+        .into_iter()
+        .filter_map(|(stem, wide, pulse)| Some(format!("{wide}{}{pulse}", stem?)));
+    right.find_map(|name| {
+        let found = rungc_catalogue::find(&name)?;
+        let fits = found.inst.models.has(model.id) && takes(found, &instr.operands, model);
+        fits.then(|| Meant {
+            help: format!("did you mean `{name}`?"),
+            found: Some(found),
+            label: None,
+            instead: Some((name, false)),
+        })
+    })
+}
+
+/// The spellings that are close to a misspelt one and fit best.
+fn similar(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant> {
+    static SPELLINGS: OnceLock<Vec<(String, ModelSet)>> = OnceLock::new();
+    /// More than this is no suggestion.
+    const MAX_NAMES: usize = 3;
+    let spellings = SPELLINGS.get_or_init(|| {
+        let spelt = |inst: &'static Inst| {
+            let spellings = inst.spellings().into_iter();
+            spellings.map(|(name, _)| (name, inst.models))
+        };
+        rungc_catalogue::all().flat_map(spelt).collect()
+    });
+    let name = instr.mnemonic.as_str();
+    let mut fitting: Vec<(i32, &str, Found)> = spellings
+        .iter()
+        .filter(|(near, models)| models.has(model.id) && near.len().abs_diff(name.len()) <= 2)
+        .filter_map(|(near, _)| {
+            let found = rungc_catalogue::find(near)?;
+            let misfit = misfit(instr, near, found, (open, last), model)?;
+            Some((misfit, near.as_str(), found))
+        })
+        .collect();
+    fitting.sort_unstable_by_key(|&(misfit, name, _)| (misfit, name));
+    fitting.dedup_by_key(|&mut (_, name, _)| name);
+    let best = fitting.first()?.0;
+    fitting.retain(|&(misfit, ..)| misfit == best);
+    // Rather no opposite than one that was not meant.
+    let opposite = |name: &str| matches!(name, "LDI" | "ANI" | "ORI" | "INV");
+    if !name.ends_with(['I', 'N']) && !fitting.iter().all(|&(_, name, _)| opposite(name)) {
+        fitting.retain(|&(_, name, _)| !opposite(name));
+    }
+    // Of a pulse form and the usual one the usual.
+    let names: Vec<_> = fitting.iter().map(|&(_, name, _)| name).collect();
+    fitting.retain(|(_, name, found)| {
+        let usual = name.strip_suffix('P').filter(|_| found.form.pulse);
+        !usual.is_some_and(|usual| names.contains(&usual))
+    });
+    fitting.truncate(MAX_NAMES);
+    let names: Vec<_> = fitting
+        .iter()
+        .map(|(_, name, _)| format!("`{name}`"))
+        .collect();
+    let (last, before) = names.split_last()?;
+    let names = match before {
+        [] => last.clone(),
+        before => format!("{} or {last}", before.join(", ")),
+    };
+    let comparison = format!("{name}=");
+    let compared = match rungc_catalogue::find(&comparison).filter(|_| !names.contains(&comparison))
+    {
+        Some(_) => format!(" (a comparison is `{comparison}`)"),
+        None => String::new(),
+    };
+    let only = match fitting.as_slice() {
+        &[(_, name, found)] => Some((name, found)),
+        _ => None,
+    };
+    Some(Meant {
+        help: format!("did you mean {names}?{compared}"),
+        found: only.map(|(_, found)| found),
+        label: None,
+        instead: only
+            .filter(|_| compared.is_empty())
+            .map(|(name, _)| (name.to_owned(), false)),
+    })
+}
+
+/// How little a spelling fits: `None` if it does not come into question.
+fn misfit(
+    instr: &Instr,
+    near: &str,
+    found: Found,
+    (open, last): (Open, bool),
+    model: &Model,
+) -> Option<i32> {
+    let name = instr.mnemonic.as_str();
+    if matches!(found.inst.lower, Lower::Basic(Basic::Label)) {
+        return None;
+    }
+    let distance = strsim::osa_distance(name, near) as i32;
+    let fits = takes(found, &instr.operands, model);
+    let ends = open.is_ended_by(found.inst, last);
+    let limit = match (name.len(), fits, ends) {
+        (_, true, Some(true)) => 2,
+        (0..=3, ..) | (_, false, _) => 1,
+        _ => 2,
+    };
+    let likely = letters(name) == letters(near) || near.starts_with(name);
+    let of_structure = match ends {
+        Some(true) => -1,
+        Some(false) => 3,
+        None => 0,
+    };
+    let of_operands = if fits { 0 } else { 3 };
+    (distance <= limit).then_some(2 * distance - i32::from(likely) + of_operands + of_structure)
+}
+
+/// The letters of a name in alphabetical order.
+fn letters(name: &str) -> Vec<u8> {
+    let mut letters = name.as_bytes().to_vec();
+    letters.sort_unstable();
+    letters
+}

@@ -1,0 +1,291 @@
+//! What is said of operands that do not fit.
+
+use super::operands::{Place, is_unreadable};
+use rungc_catalogue::{Basic, Form, Inst, Lower, Param, Role};
+use rungc_models::{Model, ModelId};
+use rungc_syntax::{
+    Classes, Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Source, Span, codes,
+};
+
+/// What is wrong with a line that goes on with another instruction: `LD X000 OUT Y000`.
+pub(super) fn second_instruction(
+    instr: &Instr,
+    params: &[Param],
+    source: &Source,
+) -> Option<Diagnostic> {
+    let text = |operand: &Operand| source.slice(operand.span).to_ascii_uppercase();
+    let names = |(at, operand): (usize, &Operand)| {
+        // `TO` is a mistyped `T0` where an operand is awaited.
+        let operand_meant = matches!(operand.kind, OperandKind::Unreadable(Some(_)));
+        is_unreadable(operand)
+            && !(operand_meant && at < params.len())
+            && rungc_catalogue::find(&text(operand)).is_some()
+    };
+    let at = instr.operands.iter().enumerate().position(names)?;
+    // The second instruction may have a step number in front.
+    let number = |operand: &&Operand| text(operand).bytes().all(|b| b.is_ascii_digit());
+    let before = at
+        .checked_sub(1)
+        .and_then(|before| instr.operands.get(before));
+    let step = before
+        .filter(|operand| is_unreadable(operand))
+        .filter(number);
+    let second = &instr.operands[at];
+    let begin = step.map_or(second.span, |step| step.span);
+    let message = format!("a second instruction, `{}`, on one line", text(second));
+    let end = Span::new(instr.span.end, instr.span.end);
+    let diagnostic = codes::ONE_PER_LINE
+        .at(begin.to(end), message)
+        .label("begins here");
+    let first = at - usize::from(step.is_some());
+    let before = first.checked_sub(1).and_then(|n| instr.operands.get(n));
+    let gap = before.map_or(instr.mnemonic_span, |before| before.span).end;
+    let fix =
+        Fix::certain("put it on a line of its own").replace(Span::new(gap, begin.start), "\n");
+    let help = format!("write `{}` on a line of its own", text(second));
+    Some(diagnostic.help(help).fix(fix))
+}
+
+pub(super) fn too_few(instr: &Instr, params: &[Param]) -> Diagnostic {
+    let found = instr.operands.len();
+    let message = format!(
+        "`{}` needs {}, found {found}",
+        instr.mnemonic,
+        counted(params.iter().filter(|param| !param.optional).count())
+    );
+    let missing: Vec<_> = params.iter().skip(found).map(|param| param.name).collect();
+    let (noun, verb) = match missing.len() {
+        1 => ("operand", "is"),
+        _ => ("operands", "are"),
+    };
+    let end = Span::new(instr.span.end, instr.span.end);
+    codes::TOO_FEW_OPERANDS
+        .at(if found == 0 { instr.span } else { end }, message)
+        .label(format!("{noun} {} {verb} missing", missing.join(", ")))
+        .help(signature(&instr.mnemonic, params))
+}
+
+pub(super) fn too_many(instr: &Instr, first: Span, name: &str, params: &[Param]) -> Diagnostic {
+    let message = match params.len() {
+        0 => format!("`{name}` takes no operand"),
+        n => format!(
+            "`{name}` takes {}, found {}",
+            counted(n),
+            instr.operands.len()
+        ),
+    };
+    codes::TOO_MANY_OPERANDS
+        .at(first, message)
+        .label("too many from here on")
+        .help(signature(name, params))
+}
+
+fn counted(operands: usize) -> String {
+    match operands {
+        1 => "1 operand".to_owned(),
+        n => format!("{n} operands"),
+    }
+}
+
+fn signature(name: &str, params: &[Param]) -> String {
+    let mut text = format!("write `{name}");
+    for param in params {
+        let (open, close) = if param.optional { ("[", "]") } else { ("", "") };
+        text.push_str(&format!(" {open}{}{close}", param.name));
+    }
+    text.push('`');
+    text
+}
+
+/// An operand of a class that the parameter does not take; `at` is its place.
+pub(super) fn wrong_class(
+    place: &Place,
+    at: usize,
+    param: &Param,
+    classes: Classes,
+    model: &Model,
+) -> Diagnostic {
+    let (instr, inst) = (place.instr, place.found.inst);
+    let operand = &instr.operands[at];
+    if let Some(device) = missing_class(&operand.kind, model) {
+        return no_such_class(operand.span, device, model);
+    }
+    let message = format!(
+        "`{}` cannot be operand {} of `{}`",
+        operand.kind, param.name, instr.mnemonic
+    );
+    let kind = Classes::of(&operand.kind);
+    let written = param.role != Role::Read;
+    let label = match kind {
+        Classes::X | Classes::KNX if written => "inputs cannot be written",
+        Classes::K | Classes::H | Classes::E if written => "a constant cannot be written",
+        _ => "not accepted here",
+    };
+    let error = codes::OPERAND_CLASS.at(operand.span, message).label(label);
+    let error = match whole_group(operand, place, classes) {
+        Some(group) => error.fix(
+            Fix::suggested(format!("write `{group}`")).replace(operand.span, group.to_string()),
+        ),
+        None => error,
+    };
+    error.help(instead(operand, place, classes).unwrap_or_else(|| {
+        let all = of_all_variants(inst, at, model).or(classes);
+        format!("accepted: {}", all.names().collect::<Vec<_>>().join(", "))
+    }))
+}
+
+/// The group of bits that begins with a bit where a value is wanted.
+fn whole_group(operand: &Operand, place: &Place, classes: Classes) -> Option<OperandKind> {
+    use DeviceClass::{M, S, X, Y};
+    let OperandKind::Device(device, _) = operand.kind else {
+        return None;
+    };
+    let digits = if place.found.form.wide { 8 } else { 4 };
+    let group = OperandKind::Nibbles(digits, device, None);
+    let bits = matches!(device.class, X | Y | M | S);
+    (bits && classes.meets(Classes::of(&group))).then_some(group)
+}
+
+/// What to write instead of an operand of the wrong class, where that is known.
+fn instead(operand: &Operand, place: &Place, classes: Classes) -> Option<String> {
+    let OperandKind::Device(device, _) = operand.kind else {
+        return None;
+    };
+    use DeviceClass::{D, R, V, Z};
+    let group = Classes::KNX
+        .or(Classes::KNY)
+        .or(Classes::KNM)
+        .or(Classes::KNS);
+    if let Some(grouped) = whole_group(operand, place, classes) {
+        let bits = if place.found.form.wide { 32 } else { 16 };
+        return Some(format!(
+            "`{device}` is one bit; a group of bits is written `{grouped}` ({bits} of them)"
+        ));
+    }
+    let coil = matches!(place.found.inst.lower, Lower::Basic(Basic::Out));
+    if coil && matches!(device.class, D | R | V | Z) {
+        return Some(format!(
+            "a coil is Y, M, S, T, C or a bit of a word (`D0.F`); a value goes to `{device}` with `MOV`"
+        ));
+    }
+    let bits = !classes.meets(group) && classes.meets(Classes::M);
+    (bits && matches!(device.class, D) && classes.meets(Classes::WORD_BIT))
+        .then(|| format!("`{device}` is a word; one bit of it is written `{device}.F`"))
+}
+
+/// The classes that an operand takes with any of the devices that may stand first.
+fn of_all_variants(inst: &Inst, at: usize, model: &Model) -> Classes {
+    let variants = inst.variants.iter();
+    let of_model = variants.filter(|variant| variant.models.has(model.id));
+    let params = of_model.filter_map(|variant| variant.params?.get(at));
+    params.fold(Classes::NONE, |all, param| all.or(param.classes_on(model)))
+}
+
+/// The device of an operand whose class the model does not have at all.
+fn missing_class(kind: &OperandKind, model: &Model) -> Option<Device> {
+    let device = super::operands::device_of(kind)?;
+    let missing = model.missing().meets(Classes::of_device(device.class));
+    (missing && matches!(device.class, DeviceClass::R | DeviceClass::ER)).then_some(device)
+}
+
+fn no_such_class(span: Span, device: Device, model: &Model) -> Diagnostic {
+    let class = device.class;
+    let having = ModelId::ALL.into_iter().map(Model::get);
+    let having = having.filter(|other| other.ranges_of(class).next().is_some());
+    let names: Vec<_> = having.map(|other| other.name).collect();
+    let message = format!(
+        "`{device}` does not exist: {} has no {}",
+        model.name,
+        class.prefix()
+    );
+    codes::NO_DEVICE
+        .at(span, message)
+        .label(format!("not on {}", model.title))
+        .help(format!("these models have it: {}", names.join(", ")))
+}
+
+/// A device whose number does not serve in this place.
+pub(super) fn not_this_number(
+    span: Span,
+    device: Device,
+    allowed: &[&(DeviceClass, u32, u32)],
+    param: &Param,
+    model: &Model,
+) -> Diagnostic {
+    let ranges: Vec<_> = allowed
+        .iter()
+        .map(|&&(class, first, last)| match first == last {
+            true => class.number(first).to_string(),
+            false => format!("{}–{}", class.number(first), class.number(last)),
+        })
+        .collect();
+    let diagnostic = codes::NOT_THIS_NUMBER
+        .at(span, format!("`{device}` cannot serve here"))
+        .label(format!("here only {}", ranges.join(", ")));
+    let task = match (param.keeps_position, param.sends_pulses) {
+        (true, _) => "keep a position",
+        (_, true) => "send pulses",
+        _ => return diagnostic,
+    };
+    diagnostic.help(format!(
+        "of the outputs of {} only these {task}: {}",
+        model.name,
+        ranges.join(", ")
+    ))
+}
+
+/// A constant that is wider than its operand.
+pub(super) fn wide_constant(
+    place: &Place,
+    operand: &Operand,
+    bits: u32,
+    model: &Model,
+) -> Diagnostic {
+    let message = format!("`{}` does not fit in {bits} bits", operand.kind);
+    let preset = preset_of(place);
+    let range = match (bits, matches!(operand.kind, OperandKind::Hex(..))) {
+        (16, false) if preset.is_some() => "K0 to K32767 here",
+        (16, true) => "H0 to HFFFF here",
+        (16, false) => "K-32768 to K32767 here",
+        (_, true) => "H0 to HFFFFFFFF here",
+        (_, false) => "K-2147483648 to K2147483647 here",
+    };
+    let diagnostic = codes::CONSTANT_WIDTH.at(operand.span, message).label(range);
+    if let Some(device) = preset.filter(|_| bits == 16) {
+        return diagnostic.help(longer_preset(device, model));
+    }
+    let wide = Form {
+        wide: true,
+        ..place.found.form
+    };
+    match place.found.inst.spelling_of(wide) {
+        Some(name) if bits == 16 => {
+            let fix = Fix::suggested(format!("write `{name}`"))
+                .replace(place.instr.mnemonic_span, name.as_str());
+            diagnostic.help(format!("`{name}` takes 32 bits")).fix(fix)
+        }
+        _ => diagnostic,
+    }
+}
+
+/// The timer or counter whose preset an instruction states.
+fn preset_of(place: &Place) -> Option<Device> {
+    match (place.found.inst.lower, &place.instr.operands.first()?.kind) {
+        (Lower::Basic(Basic::Out), &OperandKind::Device(device, _)) => Some(device),
+        _ => None,
+    }
+}
+
+/// How a timer or counter goes on beyond its greatest preset.
+fn longer_preset(device: Device, model: &Model) -> String {
+    match model
+        .timer(device.number)
+        .filter(|_| device.class == DeviceClass::T)
+    {
+        Some(kind) => format!(
+            "`{device}` counts up to {} s; for longer times let the contact of one timer drive the next",
+            f64::from(kind.unit_ms) * 32_767.0 / 1_000.0
+        ),
+        None => "C200 to C234 count with 32 bits".to_owned(),
+    }
+}

@@ -1,0 +1,224 @@
+//! Data processing, FNC 40–49 and 140–144.
+
+use super::row::*;
+use super::{Classes, Inst, Lower, Param, Rule};
+use rungc_models::ModelSet;
+use rungc_models::runs::is_counter32;
+use rungc_rt::RtFn;
+use rungc_syntax::{DeviceClass, OperandKind};
+
+/// FX1S, FX1N, FX3S and HM have no annunciators.
+const WITH_ANNUNCIATORS: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S);
+const RESETTABLE: Classes = COILS.or(REGISTERS);
+const VALUE_OR_BITS: Classes = BITS.or(REGISTERS).or(INDEX);
+
+/// Counters of 16 and of 32 bits do not stand in one range.
+const COUNTERS_ALIKE: Rule = Rule::Holds(
+    |operands| {
+        let mut wide = operands.iter().filter_map(|operand| match operand.kind {
+            OperandKind::Device(device, _) if device.class == DeviceClass::C => {
+                Some(is_counter32(device.class, device.number))
+            }
+            _ => None,
+        });
+        wide.next()
+            .is_none_or(|first| wide.all(|other| other == first))
+    },
+    "both counters have 16 bits, or both 32",
+);
+/// Models whose DECO also takes a constant.
+const DECODES_CONSTANTS: ModelSet = FX.or(L01S);
+
+const MEAN: &[Param] = &[
+    src("S", WORDS).per(2),
+    dst("D", RESULTS),
+    src("n", CONSTANTS).word().also_on(LIKE_FX3, DATA),
+];
+/// With M8490 on the sum stands behind the mean.
+const MEAN_INOVANCE: &[Param] = &[
+    src("S", WORDS).per(2),
+    dst("D", RESULTS).len(3),
+    src("n", CONSTANTS).word(),
+];
+const MEAN_HM: &[Param] = &[src("S", WORDS).per(2), dst("D", RESULTS), count("n", 1, 64)];
+const ROOT: &[Param] = &[src("S", CONSTANTS.or(DATA)), dst("D", DATA)];
+const TO_FLOAT: &[Param] = &[src("S", DATA), real_out("D", DATA)];
+const TO_FLOAT_HM: &[Param] = &[src("S", CONSTANTS.or(DATA)), real_out("D", DATA)];
+
+/// Two to the power of the constant n, operand 2.
+fn bits_of_n(constants: &[Option<i64>]) -> Option<u32> {
+    1u32.checked_shl(constant(constants, 2)?)
+}
+
+/// Words that hold n bytes, operand 2.
+fn words_of_n_bytes(constants: &[Option<i64>]) -> Option<u32> {
+    Some(constant(constants, 2)?.div_ceil(2))
+}
+
+const fn data(name: &'static str, fnc: u16, title: &'static str) -> Inst {
+    row(name, title, "h1u-h2u-programming §4.3.5")
+        .fnc(fnc)
+        .forms(ALL_FORMS)
+        .steps(5, 9)
+        .errors(&[6706])
+}
+
+pub(super) const ROWS: &[Inst] = &[
+    data("ZRST", 40, "Reset a range")
+        .forms(W16_P)
+        .takes(&[
+            mixed_out("D1", RESETTABLE).through(1),
+            mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), COUNTERS_ALIKE]),
+        ])
+        .variants(&[
+            on(INOVANCE).takes(&[
+                mixed_out("D1", RESETTABLE).through(1),
+                mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), COUNTERS_ALIKE, Rule::NotBefore(0)]),
+            ]),
+            on(HM).takes(&[
+            mixed_out("D1", RESETTABLE).through(1),
+            mixed_out("D2", RESETTABLE).rules(&[Rule::ClassLike(0), Rule::NotBefore(0)]),
+        ])])
+        .call(RtFn::Zrst)
+        .text("Switches D1 … D2 off, or sets them to 0; timers and counters also open their contacts. Both are of one class."),
+    data("DECO", 41, "Decode")
+        .forms(W16_P)
+        .steps(7, 7)
+        .on(NOT_HM)
+        .takes(&[
+            mixed("S", VALUE_OR_BITS).also_on(DECODES_CONSTANTS, CONSTANTS).per(2),
+            mixed_out("D", COILS.or(REGISTERS)).len_of(bits_of_n),
+            src("n", CONSTANTS).word(),
+        ])
+        .call(RtFn::Deco)
+        .text(
+            "Takes the low n bits of S (of bits: the n bits from S on) as a number and switches the bit of that number on, counted \
+             from D (of a word: in D), and the other bits of the 2^n off. n is 1 to 8, with a word as D to 4; 0 does nothing.",
+        ),
+    data("ENCO", 42, "Encode")
+        .forms(W16_P)
+        .steps(7, 7)
+        .on(NOT_HM)
+        .takes(&[
+            mixed("S", VALUE_OR_BITS).len_of(bits_of_n),
+            dst("D", REGISTERS.or(INDEX)),
+            src("n", CONSTANTS).word(),
+        ])
+        .call(RtFn::Enco)
+        .text(
+            "Writes to D which is the highest of the 2^n bits from S on (of a word: in S) that is on, counted from 0. None on is an \
+             error. n is 1 to 8, with a word as S to 4; 0 does nothing.",
+        ),
+    data("SUM", 43, "Count bits")
+        .on(NOT_HM_FX1)
+        .takes(&[src("S", VALUES), dst("D", RESULTS)])
+        .flags(&["M8020"])
+        .call(RtFn::Sum)
+        .text("D = how many bits of S are on. M8020 is on if none is."),
+    data("BON", 44, "Test a bit")
+        .on(NOT_HM_FX1)
+        .steps(7, 13)
+        .takes(&[src("S", VALUES), coil("D", RESULT_BITS), count("n", 0, 15).also_on(LIKE_FX3, DATA).rules(&[Rule::WideLimits(0, 31)])])
+        .call(RtFn::Bon)
+        .text("D = bit n of S, counted from 0."),
+    data("MEAN", 45, "Mean")
+        .on(NOT_FX1)
+        .steps(7, 13)
+        .takes(MEAN)
+        .variants(&[on(INOVANCE).takes(MEAN_INOVANCE), on(HM).takes(MEAN_HM)])
+        .flags(&["M8490"])
+        .errors(&[6706, 6707])
+        .call(RtFn::Mean)
+        .lower_on(&[(INOVANCE, Lower::Call(RtFn::MeanSum))])
+        .text(
+            "D = the mean of n words (32-bit: pairs) from S on, without its fraction; n is 1 to 64. H1U and H2U with M8490 on also \
+             write the sum to D+1 and D+2 in the 16-bit form.",
+        ),
+    data("ANS", 46, "Set an annunciator")
+        .forms(W16)
+        .steps(7, 7)
+        .on(WITH_ANNUNCIATORS)
+        .takes(&[
+            dst("S", Classes::T).word().changed().plain().numbers(&[(DeviceClass::T, 0, 199)]),
+            count("m", 1, 32767).also_on(LIKE_FX3, DATA),
+            coil("D", Classes::S).plain().numbers(&[(DeviceClass::S, 900, 999)]),
+        ])
+        .flags(&["M8048", "M8049", "D8049"])
+        .call(RtFn::Ans)
+        .text("Switches annunciator D on when it has been driven for m × 100 ms; D stays on. Timer S measures and is 0 otherwise."),
+    data("ANR", 47, "Reset an annunciator")
+        .forms(W16_P)
+        .steps(1, 1)
+        .on(WITH_ANNUNCIATORS)
+        .flags(&["M8048", "D8049"])
+        .call(RtFn::Anr)
+        .text("Switches the lowest annunciator of S900–S999 that is on off; at each execution one."),
+    data("SQR", 48, "Square root")
+        .on(NOT_FX1)
+        .takes(ROOT)
+        .flags(&["M8020", "M8021"])
+        .errors(&[6706])
+        .call(RtFn::Sqr)
+        .lower_on(&[(HM, Lower::Call(RtFn::SqrClamped))])
+        .text(
+            "D = the square root of S without its fraction. M8021 is on if there was one, M8020 if D is 0. A negative S is an error; \
+             on HM it gives 0.",
+        ),
+    data("FLT", 49, "Integer to float")
+        .on(NOT_FX1)
+        .takes(TO_FLOAT)
+        .variants(&[on(HM).takes(TO_FLOAT_HM)])
+        .call(RtFn::Flt)
+        .text("Writes S as a float to the pair D."),
+    data("WSUM", 140, "Sum of a block")
+        .steps(7, 13)
+        .on(FX3U_L01S)
+        .takes(&[
+            src("S", REGISTERS).per(2),
+            dst("D", REGISTERS).len(2),
+            src("n", CONSTANTS.or(DATA)),
+        ])
+        .errors(&[6706, 6707])
+        .call(RtFn::Wsum)
+        .text("D = the sum of n words (32-bit: pairs) from S on, in double width."),
+    data("WTOB", 141, "Words to bytes")
+        .forms(W16_P)
+        .steps(7, 7)
+        .on(FX3U_L01S)
+        .takes(&[
+            src("S", REGISTERS).len_of(words_of_n_bytes),
+            dst("D", REGISTERS).per(2),
+            src("n", CONSTANTS.or(DATA)),
+        ])
+        .errors(&[6706, 6707])
+        .call(RtFn::Wtob)
+        .text("Writes the n bytes from S on, low byte first, one to each word from D on."),
+    data("BTOW", 142, "Bytes to words")
+        .forms(W16_P)
+        .steps(7, 7)
+        .on(FX3U_L01S)
+        .takes(&[
+            src("S", REGISTERS).per(2),
+            dst("D", REGISTERS).len_of(words_of_n_bytes),
+            src("n", CONSTANTS.or(DATA)),
+        ])
+        .errors(&[6706, 6707])
+        .call(RtFn::Btow)
+        .text("Packs the low bytes of n words from S on two to a word from D on, low byte first."),
+    data("UNI", 143, "Unite nibbles")
+        .forms(W16_P)
+        .steps(7, 7)
+        .on(FX3U_L01S)
+        .takes(&[src("S", REGISTERS).per(2), dst("D", REGISTERS), count("n", 0, 4).also(DATA)])
+        .errors(&[6706, 6707])
+        .call(RtFn::Uni)
+        .text("Packs the low four bits of n words from S on into D, the first lowest; the other bits of D are 0."),
+    data("DIS", 144, "Separate nibbles")
+        .forms(W16_P)
+        .steps(7, 7)
+        .on(FX3U_L01S)
+        .takes(&[src("S", REGISTERS), dst("D", REGISTERS).per(2), count("n", 0, 4).also(DATA)])
+        .errors(&[6706, 6707])
+        .call(RtFn::Dis)
+        .text("Writes the lowest n groups of four bits of S one to each word from D on."),
+];

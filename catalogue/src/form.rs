@@ -1,0 +1,10 @@
+//! The forms of an instruction.
+
+/// Which form of an instruction is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Form {
+    /// 32-bit (prefix D).
+    pub wide: bool,
+    /// Pulse (suffix P): once per off-to-on change of the drive.
+    pub pulse: bool,
+}

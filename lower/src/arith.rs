@@ -1,0 +1,414 @@
+//! Moves, compares and integer arithmetic, which are inline code.
+
+use super::Lowerer;
+use super::operand::{Guards, Target};
+use rungc_catalogue::{ArithOp, Lower};
+use rungc_ir::node::{BinOp, Expr, ExprId, Stmt};
+use rungc_models::special::{self, Special};
+use rungc_rt::CmpOp;
+use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
+use rungc_syntax::{DeviceClass, OperandKind};
+
+/// On if a product or a quotient is 0, if a quotient is too large (FX3G, FX3U).
+const ZERO_PRODUCT: u32 = 8304;
+const LARGE_QUOTIENT: u32 = 8306;
+/// The ring counter that is one word.
+const RING_COUNTER: u32 = 8099;
+/// Division by zero.
+const DIVISION: u16 = 6706;
+
+impl Lowerer<'_> {
+    /// Emits what a row does that is no call of the runtime and no basic instruction; the drive is on.
+    pub(super) fn inline(&mut self, lower: Lower) {
+        if self.instr().operands.len() < self.resolution().params.len() {
+            return;
+        }
+        match lower {
+            Lower::Move => self.move_value(false),
+            Lower::MoveNot => self.move_value(true),
+            Lower::MoveCount => self.move_count(),
+            Lower::Axis(parameters) => self.axis_parameters(parameters),
+            Lower::Comment => self.device_comment(),
+            Lower::Cmp => self.compare(),
+            Lower::Zcp => self.compare_zone(),
+            Lower::Arith(op) => self.arith(op, false),
+            Lower::ArithSaturating(op) => self.arith(op, true),
+            Lower::Basic(_)
+            | Lower::Compare(..)
+            | Lower::HighSpeed(_)
+            | Lower::Density
+            | Lower::Call(_)
+            | Lower::Exclusive(_)
+            | Lower::Todo(_) => {}
+        }
+    }
+
+    pub(super) fn wide(&self) -> bool {
+        self.resolution().form.wide
+    }
+
+    /// Operand `i` as a value of the instruction's width.
+    pub(super) fn source(&mut self, i: usize, guards: &mut Guards) -> ExprId {
+        let wide = self.wide();
+        match self.operand(i) {
+            Some(operand) => self.value(operand, wide, guards),
+            None => self.int(0, wide),
+        }
+    }
+
+    /// Operand `i` as the target of a result of the instruction's width.
+    pub(super) fn result(&mut self, i: usize, guards: &mut Guards) -> Target {
+        let wide = self.wide();
+        self.result_element(i, 0, wide, guards)
+    }
+
+    pub(super) fn result_element(
+        &mut self,
+        i: usize,
+        element: u32,
+        wide: bool,
+        guards: &mut Guards,
+    ) -> Target {
+        let wide_index = self.wide();
+        match self.operand(i) {
+            Some(operand) => self.target(operand, element, wide, wide_index, guards),
+            None => Target::None,
+        }
+    }
+
+    fn move_value(&mut self, complement: bool) {
+        let mut guards = Guards::default();
+        let mut value = self.source(0, &mut guards);
+        if complement {
+            value = self.add(Expr::Complement(value));
+        }
+        let target = self.result(1, &mut guards);
+        self.guarded(guards, |this| this.store(target, value));
+    }
+
+    /// HCMOV. The ring counter of tenths of milliseconds is one word.
+    fn move_count(&mut self) {
+        let (Some(&OperandKind::Device(counter, None)), Some(clear)) =
+            (self.operand(0), self.operand(2))
+        else {
+            return;
+        };
+        let clear = matches!(clear, OperandKind::Decimal(1, _) | OperandKind::Hex(1, _));
+        let mut guards = Guards::default();
+        let from = OperandKind::Device(counter, None);
+        let is_word = counter.class == DeviceClass::D && counter.number == RING_COUNTER;
+        let mut value = self.value(&from, !is_word, &mut guards);
+        if is_word {
+            value = self.add(Expr::Widen(value));
+        }
+        let target = self.result(1, &mut guards);
+        let cleared = self.target(&from, 0, !is_word, !is_word, &mut guards);
+        self.guarded(guards, |this| {
+            this.store(target, value);
+            if clear {
+                let zero = this.int(0, !is_word);
+                this.store(cleared, zero);
+            }
+        });
+    }
+
+    fn compare(&mut self) {
+        let mut guards = Guards::default();
+        let a = self.source(0, &mut guards);
+        let b = self.source(1, &mut guards);
+        self.three_bits(2, guards, |this| {
+            let (a, b) = (this.settled(a), this.settled(b));
+            [CmpOp::Gt, CmpOp::Eq, CmpOp::Lt].map(|op| this.add(Expr::Cmp(op, a, b)))
+        });
+    }
+
+    fn compare_zone(&mut self) {
+        let mut guards = Guards::default();
+        let low = self.source(0, &mut guards);
+        let high = self.source(1, &mut guards);
+        let value = self.source(2, &mut guards);
+        self.three_bits(3, guards, |this| {
+            let (low, high, value) = (this.settled(low), this.settled(high), this.settled(value));
+            // An upper limit below the lower one counts as equal to it.
+            let below = this.add(Expr::Cmp(CmpOp::Lt, value, low));
+            let above_low = this.add(Expr::Cmp(CmpOp::Gt, value, low));
+            let above_high = this.add(Expr::Cmp(CmpOp::Gt, value, high));
+            let above = this.and(above_low, above_high);
+            let (not_below, not_above) = (this.not(below), this.not(above));
+            let inside = this.and(not_below, not_above);
+            [below, inside, above]
+        });
+    }
+
+    fn three_bits(
+        &mut self,
+        operand: usize,
+        mut guards: Guards,
+        make: impl FnOnce(&mut Self) -> [ExprId; 3],
+    ) {
+        let wide = self.wide();
+        let Some(target) = self
+            .operand(operand)
+            .and_then(|operand| self.bit_target(operand, 3, wide, &mut guards))
+        else {
+            return;
+        };
+        self.guarded(guards, |this| {
+            let bits = make(this);
+            for (offset, bit) in bits.into_iter().enumerate() {
+                this.store_bit(target, offset as u32, bit);
+            }
+        });
+    }
+
+    fn arith(&mut self, op: ArithOp, saturate: bool) {
+        match op {
+            ArithOp::Add | ArithOp::Sub if saturate => {
+                self.two_values(if op == ArithOp::Add {
+                    BinOp::SatAdd
+                } else {
+                    BinOp::SatSub
+                });
+            }
+            ArithOp::Add => self.with_flags(BinOp::Add),
+            ArithOp::Sub => self.with_flags(BinOp::Sub),
+            ArithOp::And => self.two_values(BinOp::And),
+            ArithOp::Or => self.two_values(BinOp::Or),
+            ArithOp::Xor => self.two_values(BinOp::Xor),
+            ArithOp::Inc => self.step_by_one(if saturate { BinOp::SatAdd } else { BinOp::Add }),
+            ArithOp::Dec => self.step_by_one(if saturate { BinOp::SatSub } else { BinOp::Sub }),
+            ArithOp::Neg => self.negate(),
+            ArithOp::Mul if self.wide() => self.multiply_wide(),
+            ArithOp::Mul => self.multiply(),
+            ArithOp::Div => self.divide(saturate),
+        }
+    }
+
+    fn two_values(&mut self, op: BinOp) {
+        let mut guards = Guards::default();
+        let a = self.source(0, &mut guards);
+        let b = self.source(1, &mut guards);
+        let target = self.result(2, &mut guards);
+        let value = self.add(Expr::Bin(op, a, b));
+        self.guarded(guards, |this| this.store(target, value));
+    }
+
+    fn step_by_one(&mut self, op: BinOp) {
+        let mut guards = Guards::default();
+        let value = self.source(0, &mut guards);
+        let one = self.int(1, self.wide());
+        let target = self.result(0, &mut guards);
+        let value = self.add(Expr::Bin(op, value, one));
+        self.guarded(guards, |this| this.store(target, value));
+    }
+
+    fn negate(&mut self) {
+        let mut guards = Guards::default();
+        let value = self.source(0, &mut guards);
+        let target = self.result(0, &mut guards);
+        let value = self.add(Expr::Neg(value));
+        self.guarded(guards, |this| this.store(target, value));
+    }
+
+    /// ADD and SUB: the result wraps; the flags that something looks at are set by the true sum.
+    fn with_flags(&mut self, op: BinOp) {
+        if !self.looks_at_flags() {
+            return self.two_values(op);
+        }
+        let mut guards = Guards::default();
+        let a = self.source(0, &mut guards);
+        let b = self.source(1, &mut guards);
+        let target = self.result(2, &mut guards);
+        self.guarded(guards, |this| {
+            let wide = this.wide();
+            let (a, b) = (this.settled(a), this.settled(b));
+            let value = this.add(Expr::Bin(op, a, b));
+            let value = this.settled(value);
+            let [zero, borrow, carry] = this.sum_flags(op, a, b, value, wide);
+            this.store(target, value);
+            this.set_flag(M_ZERO, zero);
+            this.set_flag(M_BORROW, borrow);
+            this.set_flag(M_CARRY, carry);
+        });
+    }
+
+    /// Whether something looks at the zero, borrow or carry flag.
+    pub(super) fn looks_at_flags(&self) -> bool {
+        let flags = [M_ZERO, M_BORROW, M_CARRY];
+        flags
+            .iter()
+            .any(|&flag| self.specials.has(DeviceClass::M, flag))
+    }
+
+    /// Whether the result is 0, too small, too large. A sum of two values of one sign (a difference of two of different signs)
+    /// has left the range if its sign is another.
+    fn sum_flags(
+        &mut self,
+        op: BinOp,
+        a: ExprId,
+        b: ExprId,
+        value: ExprId,
+        wide: bool,
+    ) -> [ExprId; 3] {
+        let zero = self.int(0, wide);
+        let is_zero = self.add(Expr::Cmp(CmpOp::Eq, value, zero));
+        let [a_neg, b_neg, neg] = [a, b, value].map(|x| self.add(Expr::Cmp(CmpOp::Lt, x, zero)));
+        let [a_pos, b_pos, pos] = [a, b, value].map(|x| self.add(Expr::Cmp(CmpOp::Ge, x, zero)));
+        let (down, up) = if op == BinOp::Add {
+            (b_neg, b_pos)
+        } else {
+            (b_pos, b_neg)
+        };
+        let borrow = self.and(a_neg, down);
+        let borrow = self.and(borrow, pos);
+        let carry = self.and(a_pos, up);
+        let carry = self.and(carry, neg);
+        [is_zero, borrow, carry]
+    }
+
+    pub(super) fn set_flag(&mut self, flag: u32, value: ExprId) {
+        if self.specials.has(DeviceClass::M, flag) {
+            self.write_device(DeviceClass::M, flag, value);
+        }
+    }
+
+    /// Sets a flag of MUL and DIV, if the model has it and something looks at it, by `value`, and returns the value to go on with.
+    fn flag_of(
+        &mut self,
+        flag: u32,
+        value: ExprId,
+        on: impl FnOnce(&mut Self, ExprId) -> ExprId,
+    ) -> ExprId {
+        let works = special::find(self.model.id, DeviceClass::M, flag).is_some_and(Special::works);
+        if !works || !self.specials.has(DeviceClass::M, flag) {
+            return value;
+        }
+        let value = self.settled(value);
+        let on = on(self, value);
+        self.write_device(DeviceClass::M, flag, on);
+        value
+    }
+
+    pub(super) fn is_int(&mut self, value: ExprId, int: i32, wide: bool) -> ExprId {
+        let int = self.int(int, wide);
+        self.add(Expr::Cmp(CmpOp::Eq, value, int))
+    }
+
+    fn multiply(&mut self) {
+        let mut guards = Guards::default();
+        let a = self.source(0, &mut guards);
+        let b = self.source(1, &mut guards);
+        let target = self.result_element(2, 0, true, &mut guards);
+        let (a, b) = (self.add(Expr::Widen(a)), self.add(Expr::Widen(b)));
+        let product = self.add(Expr::Bin(BinOp::Mul, a, b));
+        self.guarded(guards, |this| {
+            let product = this.flag_of(ZERO_PRODUCT, product, |this, product| {
+                this.is_int(product, 0, true)
+            });
+            this.store(target, product);
+        });
+    }
+
+    fn multiply_wide(&mut self) {
+        let mut guards = Guards::default();
+        let a = self.source(0, &mut guards);
+        let b = self.source(1, &mut guards);
+        let low_target = self.result_element(2, 0, true, &mut guards);
+        if self.is_group(2) {
+            let low = self.add(Expr::Bin(BinOp::Mul, a, b));
+            return self.guarded(guards, |this| {
+                let low = this.flag_of(ZERO_PRODUCT, low, |this, low| this.is_int(low, 0, true));
+                this.store(low_target, low);
+            });
+        }
+        let high_target = self.result_element(2, 1, true, &mut guards);
+        self.guarded(guards, |this| {
+            let (a, b) = (this.settled(a), this.settled(b));
+            let low = this.add(Expr::Bin(BinOp::Mul, a, b));
+            let high = this.add(Expr::Bin(BinOp::MulHigh, a, b));
+            // A product is 0 only if a factor is.
+            this.flag_of(ZERO_PRODUCT, low, |this, _| {
+                let zero = [a, b].map(|factor| this.is_int(factor, 0, true));
+                this.or(zero[0], zero[1])
+            });
+            this.store(low_target, low);
+            this.store(high_target, high);
+        });
+    }
+
+    fn is_group(&self, operand: usize) -> bool {
+        matches!(self.operand(operand), Some(OperandKind::Nibbles(..)))
+    }
+
+    fn divide(&mut self, saturate: bool) {
+        let wide = self.wide();
+        let mut guards = Guards::default();
+        let a = self.source(0, &mut guards);
+        let b = self.source(1, &mut guards);
+        let quotient_target = self.result_element(2, 0, wide, &mut guards);
+        let remainder_target = if self.is_group(2) {
+            Target::None
+        } else {
+            self.result_element(2, 1, wide, &mut guards)
+        };
+        self.guarded(guards, |this| {
+            let (a, b) = (this.settled(a), this.settled(b));
+            let zero = this.int(0, wide);
+            let cond = this.add(Expr::Cmp(CmpOp::Ne, b, zero));
+            let then = this.body(|this| {
+                let quotient = this.add(Expr::Bin(BinOp::Div, a, b));
+                let quotient = this.flag_of(ZERO_PRODUCT, quotient, |this, quotient| {
+                    this.is_int(quotient, 0, wide)
+                });
+                this.flag_of(LARGE_QUOTIENT, quotient, |this, _| {
+                    let least = if wide { i32::MIN } else { i16::MIN.into() };
+                    let (least, minus_one) =
+                        (this.is_int(a, least, wide), this.is_int(b, -1, wide));
+                    this.and(least, minus_one)
+                });
+                let remainder = this.add(Expr::Bin(BinOp::Rem, a, b));
+                this.store(quotient_target, quotient);
+                this.store(remainder_target, remainder);
+            });
+            let otherwise = this.body(|this| {
+                if saturate {
+                    this.divide_by_zero(a, quotient_target, remainder_target, wide);
+                } else {
+                    let step = this.step();
+                    this.emit(Stmt::Fault {
+                        code: DIVISION,
+                        step,
+                    });
+                }
+            });
+            this.emit(Stmt::If {
+                cond,
+                then,
+                otherwise,
+            });
+        });
+    }
+
+    /// The quotient is the end of the range on the dividend's side; nothing is left over.
+    fn divide_by_zero(&mut self, a: ExprId, quotient: Target, remainder: Target, wide: bool) {
+        let zero = self.int(0, wide);
+        let cond = self.add(Expr::Cmp(CmpOp::Ge, a, zero));
+        let (max, min) = if wide {
+            (i32::MAX, i32::MIN)
+        } else {
+            (i32::from(i16::MAX), i32::from(i16::MIN))
+        };
+        let [then, otherwise] = [max, min].map(|end| {
+            self.body(|this| {
+                let end = this.int(end, wide);
+                this.store(quotient, end);
+            })
+        });
+        self.emit(Stmt::If {
+            cond,
+            then,
+            otherwise,
+        });
+        self.store(remainder, zero);
+    }
+}

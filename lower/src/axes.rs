@@ -1,0 +1,53 @@
+//! Parameters of HM's axes: registers that instructions fill, and their values when RUN begins.
+
+use super::Lowerer;
+use super::operand::{Guards, Target, fixed};
+use rungc_ir::node::{Expr, Stmt, SysValue};
+use rungc_models::axes;
+use rungc_syntax::DeviceClass::D;
+use rungc_syntax::OperandKind;
+
+impl Lowerer<'_> {
+    /// AXPO and its like: the operands behind the axis are these parameters of it.
+    pub(super) fn axis_parameters(&mut self, parameters: &[u32]) {
+        let axis = match self.operand(0) {
+            Some(&OperandKind::Decimal(axis, _)) => u32::try_from(axis).ok(),
+            Some(&OperandKind::Hex(axis, _)) => u32::try_from(axis).ok(),
+            _ => None,
+        };
+        let Some(axis) = axis else {
+            return;
+        };
+        let mut guards = Guards::default();
+        let mut values = Vec::new();
+        for (i, &parameter) in (1..).zip(parameters) {
+            if let Some(operand) = self.operand(i) {
+                let value = self.value(operand, false, &mut guards);
+                values.push((axes::register(axis, parameter), value));
+            }
+        }
+        self.guarded(guards, |this| {
+            for (register, value) in values {
+                this.store(Target::Word(fixed(D, register)), value);
+            }
+        });
+    }
+
+    /// When RUN begins, the parameters that something looks at have their values; the first scan may set others.
+    pub(super) fn axis_defaults(&mut self) {
+        let mut defaults = axes::defaults(self.model.id);
+        defaults.retain(|&(register, _)| {
+            self.specials.flags.contains(&(D, register)) || self.looks_at(register)
+        });
+        if defaults.is_empty() {
+            return;
+        }
+        let first = self.add(Expr::Sys(SysValue::FirstScan));
+        self.when(first, |this| {
+            for (register, value) in defaults {
+                let value = this.add(Expr::I16(value));
+                this.emit(Stmt::WriteWord(fixed(D, register), value));
+            }
+        });
+    }
+}

@@ -1,0 +1,124 @@
+//! Bounds of operands with an index: whether they fit the model and the program, and what an operand without one costs.
+
+use super::Lowerer;
+use super::operand::indexed;
+use rungc_analysis::resolve::Resolved;
+use rungc_ir::node::{ExprId, Module, Place};
+use rungc_ir::ranges::Bound;
+use rungc_ir::reach::Access;
+use rungc_models::Model;
+use rungc_models::runs::is_counter32;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Index, Span, codes};
+use std::collections::BTreeMap;
+
+/// From how many bytes on it is worth knowing what an operand makes a program store.
+const MUCH: u64 = 1024;
+
+/// An operand with an index, where it leads to a device.
+pub(super) struct IndexUse {
+    /// The index in the module ([`rungc_ir::node::Expr::Within`]).
+    within: ExprId,
+    /// The place that the operand names.
+    place: Place,
+    /// The operand as the program writes it.
+    device: Device,
+    index: Index,
+    span: Span,
+}
+
+impl Lowerer<'_> {
+    /// Takes note of an operand's index.
+    pub(super) fn note_index(&mut self, within: ExprId, place: Place, index: Index) {
+        if let Some((device, span)) = self.indexed_operand(place, index) {
+            self.indexes.push(IndexUse {
+                within,
+                place,
+                device,
+                index,
+                span,
+            });
+        }
+    }
+}
+
+/// Holds bounds to the program and its model.
+pub(super) fn check(resolved: &Resolved, bounds: &[Bound], diagnostics: &mut Diagnostics) {
+    for bound in bounds {
+        let operands = resolved.program.instrs.iter().flat_map(|i| &i.operands);
+        let mut named = operands.filter(|o| indexed(&o.kind) == Some((bound.device, bound.index)));
+        let operand = format!("{}{}", bound.device, bound.index);
+        let Some(first) = named.next() else {
+            let message = format!("`{operand}` has a bound, but no instruction has this operand");
+            let help = "a bound is for the operand exactly as the program writes it";
+            diagnostics.push(codes::BOUND_UNUSED.at(Span::default(), message).help(help));
+            continue;
+        };
+        let class = bound.device.class;
+        let runs = resolved.model.runs(class);
+        let exists = |&(from, to): &(u32, u32)| from <= bound.first && bound.last <= to;
+        if bound.first > bound.last || !runs.iter().any(exists) {
+            let (from, to) = (class.number(bound.first), class.number(bound.last));
+            let title = resolved.model.title;
+            let message =
+                format!("`{operand}` is bounded to {from} to {to}, which {title} does not have");
+            let runs: Vec<_> = runs
+                .iter()
+                .map(|run| format!("{} to {}", class.number(run.0), class.number(run.1)))
+                .collect();
+            let diagnostic = codes::BOUND_OUTSIDE.at(first.span, message);
+            diagnostics.push(diagnostic.help(format!("there are {}", runs.join(" and "))));
+        }
+    }
+}
+
+/// Tells which operands make a program store many devices because little is known of their index.
+pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagnostics) {
+    let mut told: BTreeMap<(DeviceClass, u32, DeviceClass, u32), ()> = BTreeMap::new();
+    for used in uses {
+        let access = Access {
+            place: Place {
+                index: Some(used.within),
+                ..used.place
+            },
+            count: Some(1),
+            in_array: true,
+            writes: false,
+        };
+        let class = used.place.class;
+        let runs = access.reach(module.model, &module.exprs);
+        let bytes: u64 = runs.iter().map(|run| size(module.model, class, *run)).sum();
+        let index = used.index;
+        let key = (class, used.device.number, index.class, index.number);
+        if bytes <= MUCH || told.insert(key, ()).is_some() {
+            continue;
+        }
+        let devices: u32 = runs.iter().map(|run| run.1 - run.0 + 1).sum();
+        let operand = format!("{}{index}", used.device);
+        let message =
+            format!("`{operand}` can reach {devices} devices, which take {bytes} bytes of memory");
+        let (first, last) = (used.device, class.number(used.device.number + 63));
+        diagnostics.push(
+            codes::INDEX_REACHES_MUCH
+                .at(used.span, message)
+                .label(format!("little is known of {index} here"))
+                .help(format!(
+                    "compare {index} before, or bound the operand in rungc.toml: `[index]`, `{operand} = \"{first}-{last}\"`"
+                )),
+        );
+    }
+}
+
+/// How many bytes devices take.
+fn size(model: &Model, class: DeviceClass, (first, last): (u32, u32)) -> u64 {
+    use DeviceClass::{C, M, S, T, X, Y};
+    let each = match class {
+        X | Y | M | S => 1,
+        T => 8,
+        C if is_counter32(class, first) => 8,
+        C => 4,
+        _ => 2,
+    };
+    let aliases = model.index_aliases.iter();
+    let aliases = aliases.filter(|a| class == DeviceClass::D && (first..=last).contains(&a.0));
+    (u64::from(last - first + 1) - aliases.count() as u64) * each
+}

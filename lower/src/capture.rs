@@ -1,0 +1,73 @@
+//! Registers of HM that say which edges of inputs interrupt.
+
+use super::Lowerer;
+use super::interrupt::Request;
+use super::operand::fixed;
+use rungc_ir::node::{BinOp, CellId, Expr, ExprId, Stmt, SysValue};
+use rungc_models::high_speed;
+use rungc_models::interrupts::{self, Capture, Source};
+use rungc_rt::{CmpOp, EdgeKind};
+use rungc_syntax::DeviceClass::D;
+
+impl Lowerer<'_> {
+    /// Finds the registers of edges that the program names, and that its interrupts depend on.
+    pub(super) fn find_captures(&mut self, requests: &[Request]) {
+        for capture in interrupts::captures(self.model.id) {
+            let captured = |request: &Request| matches!(request.source, Some(Source::Input { number, .. }) if capture.inputs.contains(&number));
+            let named = self.names(capture.register);
+            if named && requests.iter().any(captured) {
+                let name = format!("x{:03o}_edges", capture.inputs[0]);
+                let cell = self.cell(name, "which edges interrupt");
+                self.interrupts.captures.push((capture, cell));
+            }
+        }
+    }
+
+    /// A counter is reset: a register of edges is read.
+    pub(super) fn read_captures(&mut self, counter: u32) {
+        let table = high_speed::counters(self.model.id);
+        let Some(counter) = table.iter().find(|row| row.number == counter) else {
+            return;
+        };
+        for i in 0..self.interrupts.captures.len() {
+            let (capture, cell) = self.interrupts.captures[i];
+            if counter.counts.contains(&capture.counted) {
+                self.read_capture(capture, cell);
+            }
+        }
+    }
+
+    fn read_capture(&mut self, capture: &Capture, cell: CellId) {
+        let edges = self.add(Expr::ReadWord(fixed(D, capture.register)));
+        let edges = self.add(Expr::Widen(edges));
+        self.emit(Stmt::SetCell(cell, edges));
+    }
+
+    /// When the first scan ends, registers of edges are read.
+    pub(super) fn first_captures(&mut self) {
+        let captures = std::mem::take(&mut self.interrupts.captures);
+        if captures.is_empty() {
+            return;
+        }
+        let first = self.add(Expr::Sys(SysValue::FirstScan));
+        self.when(first, |this| {
+            for (capture, cell) in captures {
+                this.read_capture(capture, cell);
+            }
+        });
+    }
+
+    /// Whether an edge interrupts; `None`: always.
+    pub(super) fn captured(&mut self, input: u32, kind: EdgeKind) -> Option<ExprId> {
+        let mut captures = self.interrupts.captures.iter();
+        let &(capture, cell) = captures.find(|(capture, _)| capture.inputs.contains(&input))?;
+        let Some((mask, value)) = capture.demands(input, kind) else {
+            return Some(self.bit_const(false));
+        };
+        let edges = self.add(Expr::Cell(cell));
+        let mask = self.add(Expr::I32(mask));
+        let edges = self.add(Expr::Bin(BinOp::And, edges, mask));
+        let value = self.add(Expr::I32(value));
+        Some(self.add(Expr::Cmp(CmpOp::Eq, edges, value)))
+    }
+}

@@ -1,0 +1,260 @@
+//! Coils, SET, RST, pulses, master control.
+
+use super::Lowerer;
+use super::operand::{BitTarget, Guards, fixed};
+use rungc_catalogue::Basic;
+use rungc_ir::node::{Expr, ExprId, Stmt};
+use rungc_models::high_speed;
+use rungc_models::runs::FIRST_COUNTER32;
+use rungc_rt::{CmpOp, EdgeKind, TimerKind};
+use rungc_syntax::{Device, DeviceClass, Index, OperandKind};
+
+/// Special relay that gives the direction of C200; the others follow.
+const FIRST_DIRECTION: u32 = 8200;
+
+impl Lowerer<'_> {
+    pub(super) fn coil(&mut self) {
+        use DeviceClass::{C, T};
+        match self.operand(0) {
+            Some(&OperandKind::Device(device, None)) if device.class == T => self.timer(device),
+            Some(&OperandKind::Device(device, None)) if device.class == C => self.counter(device),
+            Some(&OperandKind::Device(device, Some(index))) if matches!(device.class, T | C) => {
+                self.indexed_coil(device, index);
+            }
+            Some(&OperandKind::Device(device, None)) if self.is_transition(device) => {
+                self.transition(device.number);
+            }
+            Some(operand) => {
+                let drive = self.drive();
+                self.write_bits(operand, drive);
+            }
+            None => {}
+        }
+    }
+
+    /// Writes the bit that an operand names.
+    pub(super) fn write_bits(&mut self, operand: &OperandKind, value: ExprId) {
+        let mut guards = Guards::default();
+        if let Some(target) = self.bit_target(operand, 1, false, &mut guards) {
+            self.guarded(guards, |this| this.store_bit(target, 0, value));
+        }
+    }
+
+    fn timer(&mut self, device: Device) {
+        let number = device.number;
+        let Some(kind) = self.model.timer(number) else {
+            return;
+        };
+        if kind.free_running && self.flow.skips() {
+            self.free_running.insert(number, kind);
+        }
+        let drive = self.drive();
+        let fast = self.model.fast_timers;
+        let fast = fast.filter(|fast| fast.numbers.contains(&number));
+        let fast = fast.filter(|fast| self.specials.has(DeviceClass::M, fast.relay));
+        self.with_preset(false, Guards::default(), |this, preset| {
+            let Some(fast) = fast else {
+                return this.emit(Stmt::Timer {
+                    number,
+                    kind,
+                    drive,
+                    preset,
+                });
+            };
+            let (drive, preset) = (this.settled(drive), this.settled(preset));
+            let timer = |unit_ms| Stmt::Timer {
+                number,
+                kind: TimerKind { unit_ms, ..kind },
+                drive,
+                preset,
+            };
+            let cond = this.add(Expr::ReadBit(fixed(DeviceClass::M, fast.relay)));
+            this.emit(Stmt::If {
+                cond,
+                then: vec![timer(fast.unit_ms)],
+                otherwise: vec![timer(kind.unit_ms)],
+            });
+        });
+    }
+
+    fn counter(&mut self, device: Device) {
+        let number = device.number;
+        if number >= high_speed::FIRST {
+            return self.high_speed_coil(device);
+        }
+        let drive = self.drive();
+        if number < FIRST_COUNTER32 {
+            return self.with_preset(false, Guards::default(), |this, preset| {
+                this.emit(Stmt::Counter16 {
+                    number,
+                    drive,
+                    preset,
+                });
+            });
+        }
+        let direction = FIRST_DIRECTION + number - FIRST_COUNTER32;
+        let down = if self.specials.has(DeviceClass::M, direction) {
+            self.add(Expr::ReadBit(fixed(DeviceClass::M, direction)))
+        } else {
+            self.bit_const(false)
+        };
+        self.with_preset(true, Guards::default(), |this, preset| {
+            this.emit(Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            });
+        });
+    }
+
+    /// OUT T and OUT C0–C199 with an index: a timer that the index leads to is of the kind that its number has.
+    fn indexed_coil(&mut self, device: Device, index: Index) {
+        let timer = device.class == DeviceClass::T;
+        if timer && self.flow.skips() {
+            self.keep_free_running();
+        }
+        let drive = self.drive();
+        let mut guards = Guards::default();
+        let place = self.place(device, Some(index), 1, false, &mut guards);
+        if let (false, Some(index)) = (timer, place.index) {
+            // A 32-bit counter does not count as a 16-bit one.
+            let index = match self.expr(index) {
+                Expr::Within { value, .. } => value,
+                _ => index,
+            };
+            let room = self.add(Expr::I32(FIRST_COUNTER32 as i32 - device.number as i32));
+            guards.demand(self.add(Expr::Cmp(CmpOp::Lt, index, room)));
+        }
+        self.with_preset(false, guards, |this, preset| {
+            this.emit(match timer {
+                true => Stmt::TimerAt {
+                    place,
+                    drive,
+                    preset,
+                },
+                false => Stmt::Counter16At {
+                    place,
+                    drive,
+                    preset,
+                },
+            });
+        });
+    }
+
+    /// Any of the timers that go on in scans that do not execute their coils may be driven.
+    fn keep_free_running(&mut self) {
+        for timers in self.model.timers.iter().filter(|t| t.kind.free_running) {
+            let numbers = timers.first..=timers.last;
+            self.free_running
+                .extend(numbers.map(|number| (number, timers.kind)));
+        }
+    }
+
+    /// Emits a coil with its preset, the second operand; nothing but a fault where `guards` do not hold.
+    pub(super) fn with_preset(
+        &mut self,
+        wide: bool,
+        mut guards: Guards,
+        make: impl FnOnce(&mut Self, ExprId),
+    ) {
+        let Some(operand) = self.operand(1) else {
+            return;
+        };
+        let preset = self.value(operand, wide, &mut guards);
+        self.guarded(guards, |this| make(this, preset));
+    }
+
+    pub(super) fn set_or_reset(&mut self, on: bool) {
+        let Some(operand) = self.operand(0) else {
+            return;
+        };
+        match *operand {
+            OperandKind::Device(device, None) if on && self.is_transition(device) => {
+                return self.transition(device.number);
+            }
+            _ => {}
+        }
+        self.driven(|this| match *operand {
+            OperandKind::Device(device, index)
+                if matches!(device.class, DeviceClass::T | DeviceClass::C) =>
+            {
+                let mut guards = Guards::default();
+                let place = this.place(device, index, 1, false, &mut guards);
+                this.guarded(guards, |this| this.emit(Stmt::Reset(place)));
+                if index.is_none() && device.class == DeviceClass::C {
+                    this.read_captures(device.number);
+                }
+            }
+            OperandKind::Device(device, _) if is_word(device.class) => {
+                let mut guards = Guards::default();
+                let target = this.target(operand, 0, false, false, &mut guards);
+                let zero = this.int(0, false);
+                this.guarded(guards, |this| this.store(target, zero));
+            }
+            _ => {
+                let value = this.bit_const(on);
+                this.write_bits(operand, value);
+                if let &OperandKind::Device(device, None) = operand {
+                    if on {
+                        this.keep_state(device);
+                    }
+                    this.relay_changed(device);
+                }
+            }
+        });
+    }
+
+    pub(super) fn pulse(&mut self, basic: Basic) {
+        let Some(operand) = self.operand(0) else {
+            return;
+        };
+        let kind = if basic == Basic::Pls {
+            EdgeKind::Rising
+        } else {
+            EdgeKind::Falling
+        };
+        let drive = self.drive();
+        let edge = self.new_edge();
+        let pulse = self.edge(edge, kind, drive);
+        self.write_bits(operand, pulse);
+    }
+
+    pub(super) fn master_control(&mut self) {
+        let Some(&OperandKind::Device(level, _)) = self.operand(0) else {
+            return;
+        };
+        let drive = self.drive();
+        let drive = self.settled(drive);
+        if let Some(relay) = self.operand(1) {
+            self.write_bits(relay, drive);
+        }
+        self.logic.zones.push((level.number, self.logic.bus));
+        self.logic.bus = Some(drive);
+        self.logic.stack.clear();
+    }
+
+    pub(super) fn master_control_reset(&mut self) {
+        let Some(&OperandKind::Device(level, _)) = self.operand(0) else {
+            return;
+        };
+        while let Some(&(inner, outer)) = self.logic.zones.last() {
+            if inner < level.number {
+                break;
+            }
+            self.logic.bus = outer;
+            self.logic.zones.pop();
+        }
+    }
+
+    /// The bit target of a device, for what lowering writes by itself.
+    pub(super) fn write_device(&mut self, class: DeviceClass, number: u32, value: ExprId) {
+        self.store_bit(BitTarget::Device(fixed(class, number)), 0, value);
+    }
+}
+
+/// Whether a class holds words (T and C are both).
+fn is_word(class: DeviceClass) -> bool {
+    use DeviceClass::{D, ER, R, V, Z};
+    matches!(class, D | R | ER | V | Z)
+}

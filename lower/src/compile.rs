@@ -1,0 +1,131 @@
+//! The whole way from a program to its module.
+
+use crate::{LowerOptions, lower};
+use rungc_analysis::resolve::resolve;
+use rungc_analysis::{check, latches};
+use rungc_ir::layout::Wanted;
+use rungc_ir::node::Module;
+use rungc_ir::passes::optimise;
+pub use rungc_ir::ranges::Bound;
+use rungc_models::{Fit, Model, ModelId};
+use rungc_syntax::{DeviceClass, Diagnostics, Program, Span, codes};
+
+/// How to compile.
+#[derive(Clone, Debug, Default)]
+pub struct CompileOptions {
+    /// The model; else the one that the program's source names, else FX3U.
+    pub model: Option<ModelId>,
+    /// Name of the module; else it is made from the name of the source.
+    pub name: Option<String>,
+    /// Devices that tests or a monitor look at, to be stored besides those that the program uses.
+    pub observe: Vec<(DeviceClass, u32)>,
+    /// Store every device of the model.
+    pub observe_all: bool,
+    /// What operands with an index can reach.
+    pub bounds: Vec<Bound>,
+    /// Simplify the module.
+    pub optimise: bool,
+    /// Codes of errors that are warnings here: limits of the PLC which can be eased ([`codes::Code::can_be_eased`]); others stay errors.
+    pub warn: Vec<&'static str>,
+}
+
+/// What came of it.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The module; `None` if there were errors, or if the program's reader could not read all of it.
+    pub module: Option<Module>,
+    /// All findings.
+    pub diagnostics: Diagnostics,
+    /// The model it was compiled for.
+    pub model: &'static Model,
+    /// Length of the program in steps.
+    pub steps: u32,
+    /// The step number of each instruction: as the source counts where it does, else as the model does.
+    pub step_numbers: Vec<u32>,
+}
+
+/// Finds out all that keeps a program from being compiled, and what else is wrong with it: `module` is always `None`.
+pub fn check(program: &Program, options: &CompileOptions) -> Compiled {
+    Compiled {
+        module: None,
+        ..lowered(program, options)
+    }
+}
+
+/// Compiles a program.
+pub fn compile(program: &Program, options: &CompileOptions) -> Compiled {
+    let mut compiled = lowered(program, options);
+    if let Some(module) = compiled.module.as_mut().filter(|_| options.optimise) {
+        optimise(module);
+    }
+    compiled
+}
+
+/// The model that a program is compiled for.
+pub fn model(program: &Program, options: &CompileOptions) -> &'static Model {
+    model_of(program, options).0
+}
+
+/// The model that a program is for, and what is to be said of its choice.
+fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Diagnostics) {
+    let mut out = Diagnostics::new();
+    let (id, cpu) = match (options.model, program.cpu.as_deref()) {
+        (Some(id), _) => return (Model::get(id), out),
+        (None, None) => return (Model::get(ModelId::Fx3u), out),
+        (None, Some(cpu)) => (ModelId::for_cpu(cpu), cpu),
+    };
+    let taken = |id| format!("it is compiled as {}", Model::get(id).name);
+    let model = match id {
+        Some((id, Fit::Same)) => id,
+        Some((id, Fit::Nearest(different))) => {
+            let message = format!("CPU type {cpu} is not among the models; {}", taken(id));
+            let note = codes::NEAREST_MODEL.at(Span::default(), message);
+            out.push(note.help(different));
+            id
+        }
+        // Of a project that was refused nothing is compiled.
+        None if program.instrs.is_empty() => ModelId::Fx3u,
+        None => {
+            let id = ModelId::Fx3u;
+            let message = format!("CPU type {cpu} is not known; {}", taken(id));
+            let warning = codes::UNKNOWN_CPU.at(Span::default(), message);
+            out.push(warning.help(format!("`--model` takes {}", ModelId::names())));
+            id
+        }
+    };
+    (Model::get(model), out)
+}
+
+/// A program as lowering makes it. Lowering has the last word on what can be compiled, so checking ends with it too.
+fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
+    let (model, mut diagnostics) = model_of(program, options);
+    diagnostics.extend(latches::check(program, model).sorted());
+    let (resolved, found) = resolve(program, model);
+    diagnostics.extend(found.sorted());
+    diagnostics.extend(check::check(&resolved).sorted());
+    let eased = codes::eased().map(|code| code.id);
+    let eased: Vec<_> = eased.filter(|id| options.warn.contains(id)).collect();
+    diagnostics.ease(&eased);
+    let module = if diagnostics.has_errors() || !program.is_complete() {
+        None
+    } else {
+        let options = LowerOptions {
+            name: options.name.clone(),
+            wanted: Wanted {
+                observe: options.observe.clone(),
+                observe_all: options.observe_all,
+            },
+            bounds: options.bounds.clone(),
+        };
+        let (module, findings) = lower(&resolved, &options);
+        diagnostics.extend(findings.sorted());
+        module
+    };
+    Compiled {
+        module,
+        diagnostics,
+        model,
+        steps: resolved.steps,
+        step_numbers: resolved.instrs.iter().map(|instr| instr.step).collect(),
+    }
+}

@@ -1,0 +1,389 @@
+//! Lowering: from instructions to the IR of [`rungc_ir::node`].
+//!
+//! One walk over the instructions. Contact logic is collected as an expression (`logic`) until an instruction consumes it;
+//! operands become expressions and places with the conditions under which they exist (`operand`). Jumps and loops are collected
+//! as items and made into structured statements when their body ends (`flow`). What the layout stores is found last.
+
+mod advanced;
+mod arith;
+mod axes;
+mod blocks;
+mod bounds;
+mod build;
+mod call;
+mod capture;
+mod coil;
+mod comment;
+pub mod compile;
+mod count_rows;
+mod count_table;
+mod density;
+mod edges;
+mod flow;
+mod high_speed;
+mod interrupt;
+mod logic;
+mod name;
+mod operand;
+mod parts;
+mod pulse_width;
+mod shared_timers;
+mod signals;
+mod special;
+mod stl;
+mod system;
+mod watchdog;
+mod words;
+
+use self::comment::shortened;
+pub use name::{module_name, stem};
+use rungc_analysis::check::unimplemented::refusal;
+use rungc_analysis::latches;
+use rungc_analysis::resolve::{Resolution, Resolved};
+use rungc_catalogue::{Basic, Drive, Join, Lower};
+use rungc_ir::layout::{self, Wanted};
+use rungc_ir::node::{CellId, Function, FunctionKind, Module, Network, Stmt};
+use rungc_ir::ranges::{self, Bound, Reached};
+use rungc_models::Model;
+
+use flow::{Flow, Open};
+use parts::Item;
+use rungc_rt::TimerKind;
+use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
+use special::Specials;
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+
+/// What to know besides the program.
+#[derive(Clone, Debug, Default)]
+pub struct LowerOptions {
+    /// Name of the module; else it is made from the name of the source.
+    pub name: Option<String>,
+    /// What a host looks at.
+    pub wanted: Wanted,
+    /// What operands with an index can reach.
+    pub bounds: Vec<Bound>,
+}
+
+/// Lowers a program that was checked. What cannot be lowered (yet) is reported as errors, and then there is no module.
+pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Diagnostics) {
+    let mut findings = Diagnostics::new();
+    bounds::check(resolved, &options.bounds, &mut findings);
+    let mut reached = Reached::default();
+    let (mut module, specials, indexes) = loop {
+        let mut lowerer = Lowerer::new(resolved, options, &reached);
+        lowerer.program();
+        let Lowerer {
+            mut module,
+            diagnostics,
+            specials,
+            indexes,
+            ..
+        } = lowerer;
+        if diagnostics.has_errors() || findings.has_errors() {
+            findings.extend(diagnostics.sorted());
+            return (None, findings);
+        }
+        // The scan keeps special devices that an index leads to, too: then it has to be lowered with them.
+        if !reached.add(ranges::find(&mut module, &options.wanted)) {
+            break (module, specials, indexes);
+        }
+    };
+    bounds::costs(&module, &indexes, &mut findings);
+    shared_timers::mark(&mut module);
+    watchdog::watch(&mut module, resolved);
+    layout::build(
+        &mut module,
+        &options.wanted,
+        &specials.flags,
+        specials.whole,
+    );
+    module.comments = resolved
+        .program
+        .comments
+        .iter()
+        .filter(|(device, _)| module.layout.area(device.class, device.number).is_some())
+        .map(|(device, text)| (device.class, device.number, shortened(text)))
+        .collect();
+    module.initial_words = module
+        .model
+        .special_words()
+        .filter(|&(number, _)| module.layout.area(DeviceClass::D, number).is_some())
+        .collect();
+    module.initial_bits = module
+        .model
+        .special_bits()
+        .filter(|&number| module.layout.area(DeviceClass::M, number).is_some())
+        .collect();
+    debug_assert_eq!(rungc_ir::validate::validate(&module), Ok(()));
+    (Some(module), findings)
+}
+
+/// State of the walk.
+struct Lowerer<'a> {
+    resolved: &'a Resolved<'a>,
+    model: &'static Model,
+    module: Module,
+    /// How deep each expression's tree is.
+    depths: Vec<u8>,
+    /// Runs of devices of each class, see [`Model::runs`].
+    runs: Vec<Vec<(u32, u32)>>,
+    specials: Specials,
+    flow: Flow,
+    diagnostics: Diagnostics,
+    /// The instruction at hand.
+    at: usize,
+    /// What the body at hand holds so far.
+    out: Vec<Item>,
+    /// Bodies around it, from the outermost.
+    open: Vec<Open>,
+    logic: logic::Logic,
+    steps: stl::Steps,
+    interrupts: interrupt::Interrupts,
+    /// Timers that go on in scans that do not execute their coils.
+    free_running: BTreeMap<u32, TimerKind>,
+    high_speed: high_speed::HighSpeed,
+    edges: edges::Edges,
+    signals: signals::Signals,
+    /// Which of the instructions runs that run one at a time, from 1, and how many there are so far.
+    exclusive: Option<(CellId, i32)>,
+    /// Devices that tests or a monitor look at.
+    observed: &'a [(DeviceClass, u32)],
+    /// What operands with an index can reach, where that is given.
+    bounds: &'a [Bound],
+    /// Operands with an index.
+    indexes: Vec<bounds::IndexUse>,
+    /// The ordinary registers that instructions name, once it was asked.
+    named: OnceCell<Vec<bool>>,
+    /// How many SPD there are so far.
+    densities: usize,
+    /// Statement above a network that has not begun yet.
+    heading: Option<String>,
+}
+
+impl<'a> Lowerer<'a> {
+    fn new(resolved: &'a Resolved<'a>, options: &'a LowerOptions, reached: &Reached) -> Self {
+        let program = resolved.program;
+        let model = resolved.model;
+        let flow = Flow::of(resolved);
+        Lowerer {
+            resolved,
+            model,
+            module: Module {
+                steps: resolved.steps,
+                ranges: latches::ranges(program, model),
+                exprs: Vec::with_capacity(2 * resolved.instrs.len()),
+                functions: Vec::new(),
+                ..Module::empty(
+                    module_name(options.name.as_deref().unwrap_or(&program.source.name)),
+                    program.source.name.clone(),
+                    model,
+                )
+            },
+            depths: Vec::with_capacity(2 * resolved.instrs.len()),
+            runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),
+            specials: Specials::of(resolved, options, reached),
+            logic: logic::Logic::of(resolved),
+            steps: stl::Steps::of(resolved),
+            interrupts: interrupt::Interrupts::default(),
+            free_running: BTreeMap::new(),
+            high_speed: high_speed::HighSpeed::default(),
+            edges: edges::Edges::default(),
+            signals: signals::Signals::default(),
+            exclusive: None,
+            observed: &options.wanted.observe,
+            bounds: &options.bounds,
+            indexes: Vec::new(),
+            named: OnceCell::new(),
+            densities: 0,
+            flow,
+            diagnostics: Diagnostics::new(),
+            at: 0,
+            out: Vec::new(),
+            open: Vec::new(),
+            heading: None,
+        }
+    }
+
+    fn program(&mut self) {
+        for kind in [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End] {
+            self.module.functions.push(Function {
+                kind,
+                body: Vec::new(),
+            });
+        }
+        for region in 0..self.flow.regions.len() {
+            let kind = self.flow.regions[region].kind.clone();
+            if kind != FunctionKind::Main {
+                self.module.functions.push(Function {
+                    kind,
+                    body: Vec::new(),
+                });
+            }
+        }
+        self.find_counters();
+        self.limit_comparisons();
+        self.find_exclusive();
+        self.find_interrupts();
+        self.limit_calls();
+        for region in 0..self.flow.regions.len() {
+            let body = self.region(region);
+            let function = self.flow.regions[region].function as usize;
+            self.module.functions[function].body = body;
+        }
+        self.module.run_states = self.module.states;
+        self.counter_edges();
+        self.edge_counts();
+        self.pulse_widths();
+        self.signal_edges();
+        self.stop_inputs();
+        self.module.functions[0].body = self.begin_function();
+        self.module.functions[2].body = self.end_function();
+        self.take_interrupts();
+        self.edge_functions();
+    }
+
+    fn instr(&self) -> &'a Instr {
+        &self.resolved.program.instrs[self.at]
+    }
+
+    fn resolution(&self) -> &'a Resolution {
+        &self.resolved.instrs[self.at]
+    }
+
+    fn operand(&self, i: usize) -> Option<&'a OperandKind> {
+        self.instr().operands.get(i).map(|operand| &operand.kind)
+    }
+
+    fn step(&self) -> u32 {
+        self.resolution().step
+    }
+
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// Lowers the instruction at hand.
+    fn instruction(&mut self) {
+        let instr = self.instr();
+        let Some(inst) = self.resolution().inst else {
+            return;
+        };
+        if let Some(statement) = instr.statement() {
+            self.heading = Some(statement.to_string());
+        }
+        let lower = inst.lower_on_model(self.model.id);
+        let is_label = matches!(lower, Lower::Basic(Basic::Label));
+        if is_label {
+            // What is said of a label is said of what follows it.
+            if self.heading.is_none() {
+                self.heading = instr.note().map(shortened);
+            }
+        } else if self.begins_network(lower) {
+            self.begin_network();
+        } else if let Some(network) = self.module.networks.last_mut() {
+            network.span = network.span.to(instr.span);
+        }
+        if !is_label
+            && let (Some(network), Some(note)) = (self.module.networks.last_mut(), instr.note())
+        {
+            network.note.get_or_insert_with(|| shortened(note));
+        }
+        match lower {
+            Lower::Basic(basic) => self.basic(basic),
+            Lower::Compare(join, op) => self.compare_contact(join, op),
+            Lower::Call(function) => self.call(inst, function),
+            Lower::Exclusive(function) => self.exclusive_call(inst, function),
+            Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
+            Lower::Density => self.density(),
+            Lower::Todo(what) => self.report(refusal(inst, what, instr.mnemonic_span)),
+            _ => self.driven(|this| this.inline(lower)),
+        }
+        if inst.drive == Drive::Alone {
+            self.logic.stack.clear();
+        }
+    }
+
+    fn begins_network(&self, lower: Lower) -> bool {
+        match lower {
+            Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
+            | Lower::Compare(Join::Ld, _) => self.logic.starts_rung[self.at],
+            Lower::Basic(Basic::For) => true,
+            Lower::Basic(Basic::Stl) => !self.steps.continues_row[self.at],
+            _ => false,
+        }
+    }
+
+    fn begin_network(&mut self) {
+        self.logic.stack.clear();
+        let network = Network {
+            step: self.step(),
+            span: self.instr().span,
+            statement: self.heading.take(),
+            note: None,
+        };
+        // A state's own network begins in front of its block, which opens later.
+        if self.instr_is(Basic::Stl) {
+            self.close_state();
+        }
+        self.emit(Stmt::Network(self.module.networks.len() as u32));
+        self.module.networks.push(network);
+        if self.flow.in_main() {
+            self.interruptible();
+        }
+    }
+
+    fn instr_is(&self, basic: Basic) -> bool {
+        self.basic_at(self.at) == Some(basic)
+    }
+
+    /// Which basic instruction stands at `i`.
+    fn basic_at(&self, i: usize) -> Option<Basic> {
+        basic_of(self.resolved, i)
+    }
+
+    fn basic(&mut self, basic: Basic) {
+        match basic {
+            Basic::Ld | Basic::Ldi | Basic::And | Basic::Ani | Basic::Or | Basic::Ori => {
+                self.contact(basic)
+            }
+            Basic::Ldp | Basic::Ldf | Basic::Andp | Basic::Andf | Basic::Orp | Basic::Orf => {
+                self.edge_contact(basic)
+            }
+            Basic::Anb | Basic::Orb | Basic::Mps | Basic::Mrd | Basic::Mpp => {
+                self.join_blocks(basic)
+            }
+            Basic::Inv | Basic::Mep | Basic::Mef => self.change_result(basic),
+            Basic::Out => self.coil(),
+            Basic::Set | Basic::Rst => self.set_or_reset(basic == Basic::Set),
+            Basic::Pls | Basic::Plf => self.pulse(basic),
+            Basic::Mc => self.master_control(),
+            Basic::Mcr => self.master_control_reset(),
+            Basic::Stl => self.begin_state(),
+            Basic::Ret => self.close_state(),
+            Basic::For => self.begin_loop(),
+            Basic::Next => self.end_loop(),
+            Basic::Cj => self.jump(),
+            Basic::Call => self.call_subroutine(),
+            Basic::Label => self.label(),
+            Basic::Fend | Basic::End | Basic::Sret => self.return_here(),
+            Basic::Iret | Basic::Pret => self.end_interrupt(),
+            Basic::Proc => self.process_begins(),
+            Basic::Pend => self.process_ends(),
+            Basic::Ei | Basic::Di => self.enable_interrupts(basic == Basic::Ei),
+            Basic::Nop => {}
+            // The watchdog belongs to the host.
+            Basic::Wdt => {
+                self.drive();
+            }
+        }
+    }
+}
+
+/// Which basic instruction stands at `i` of a program.
+fn basic_of(resolved: &Resolved, i: usize) -> Option<Basic> {
+    match resolved.instrs.get(i)?.inst?.lower {
+        Lower::Basic(basic) => Some(basic),
+        _ => None,
+    }
+}

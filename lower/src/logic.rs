@@ -1,0 +1,267 @@
+//! Contact logic: from LD to the instruction that consumes the result.
+
+use super::operand::Guards;
+use super::{Lowerer, basic_of};
+use rungc_analysis::resolve::Resolved;
+use rungc_catalogue::{Basic, Drive, Join, Lower};
+use rungc_ir::node::{Expr, ExprId, Ty};
+use rungc_rt::{CmpOp, EdgeKind};
+
+/// The logic at hand.
+pub(super) struct Logic {
+    /// Results of the blocks that are open; the last is the one that contacts join.
+    pub(super) stack: Vec<ExprId>,
+    /// What MPS has pushed.
+    branches: Vec<ExprId>,
+    /// State of the bus that coils hang on, a temporary: of the innermost master control, or of the step. `None` is always on.
+    pub(super) bus: Option<ExprId>,
+    /// The zones of master control that are open: level and the bus around each.
+    pub(super) zones: Vec<(u32, Option<ExprId>)>,
+    /// Whether an LD begins a rung, rather than a block that ANB or ORB joins to what stands before it.
+    pub(super) starts_rung: Vec<bool>,
+}
+
+impl Logic {
+    pub(super) fn of(resolved: &Resolved) -> Self {
+        Logic {
+            stack: Vec::new(),
+            branches: Vec::new(),
+            bus: None,
+            zones: Vec::new(),
+            starts_rung: starts_of_rungs(resolved),
+        }
+    }
+
+    /// Forgets everything, at the begin of a function.
+    pub(super) fn clear(&mut self) {
+        self.stack.clear();
+        self.branches.clear();
+        self.bus = None;
+        self.zones.clear();
+    }
+}
+
+/// Which LDs begin a rung.
+fn starts_of_rungs(resolved: &Resolved) -> Vec<bool> {
+    let mut starts = vec![false; resolved.instrs.len()];
+    let mut blocks: Vec<usize> = Vec::new();
+    for (i, resolution) in resolved.instrs.iter().enumerate() {
+        let Some(inst) = resolution.inst else {
+            continue;
+        };
+        match inst.lower {
+            Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
+            | Lower::Compare(Join::Ld, _) => {
+                starts[i] = true;
+                blocks.push(i);
+            }
+            Lower::Basic(Basic::Anb | Basic::Orb) if blocks.len() > 1 => {
+                if let Some(joined) = blocks.pop() {
+                    starts[joined] = false;
+                }
+            }
+            _ if inst.drive == Drive::Alone => blocks.clear(),
+            _ => {}
+        }
+    }
+    starts
+}
+
+impl Lowerer<'_> {
+    /// Whether nothing after the instruction at hand uses the result it consumes.
+    fn result_is_dead(&self) -> bool {
+        let mut i = self.at + 1;
+        while basic_of(self.resolved, i) == Some(Basic::Nop) {
+            i += 1;
+        }
+        let Some(inst) = self.resolved.instrs.get(i).and_then(|r| r.inst) else {
+            return true;
+        };
+        match inst.lower {
+            Lower::Basic(Basic::Mrd | Basic::Mpp) => true,
+            _ => inst.drive == Drive::Alone || self.logic.starts_rung[i],
+        }
+    }
+
+    /// Drive of the instruction at hand: the bus and the result. What is used again later is evaluated now.
+    pub(super) fn drive(&mut self) -> ExprId {
+        let keep_top = !self.result_is_dead();
+        let count = self.logic.stack.len();
+        for i in 0..count {
+            if i + 1 < count || keep_top {
+                self.logic.stack[i] = self.settled(self.logic.stack[i]);
+            }
+        }
+        let on_bus = |this: &mut Self| this.bit_const(true);
+        match (self.logic.bus, self.logic.stack.last().copied()) {
+            (None, None) => on_bus(self),
+            (None, Some(result)) => result,
+            (Some(bus), None) => bus,
+            (Some(bus), Some(result)) if matches!(self.expr(result), Expr::Bit(true)) => bus,
+            (Some(bus), Some(result)) => self.and(bus, result),
+        }
+    }
+
+    /// As [`Lowerer::drive`], on for one scan if the instruction is written in its pulse form.
+    pub(super) fn drive_of_form(&mut self) -> ExprId {
+        let drive = self.drive();
+        if self.resolution().form.pulse {
+            let edge = self.new_edge();
+            self.edge(edge, EdgeKind::Rising, drive)
+        } else {
+            drive
+        }
+    }
+
+    /// What `make` emits is executed while the instruction at hand is driven.
+    pub(super) fn driven(&mut self, make: impl FnOnce(&mut Self)) {
+        let drive = self.drive_of_form();
+        self.when(drive, make);
+    }
+
+    fn join(&mut self, join: Join, contact: ExprId) {
+        let joined = match (join, self.logic.stack.pop()) {
+            (Join::Ld, below) => {
+                self.logic.stack.extend(below);
+                contact
+            }
+            (_, None) => contact,
+            (Join::And, Some(a)) if matches!(self.expr(a), Expr::Bit(true)) => contact,
+            (Join::And, Some(a)) => self.and(a, contact),
+            (Join::Or, Some(a)) => self.or(a, contact),
+        };
+        self.logic.stack.push(joined);
+    }
+
+    /// State of the bit that the first operand names, as a contact: off, with a fault, where an index leads out of range.
+    fn contact_state(&mut self) -> ExprId {
+        let Some(operand) = self.operand(0) else {
+            return self.bit_const(false);
+        };
+        let mut guards = Guards::default();
+        let state = self.bit(operand, &mut guards);
+        self.guarded_value(guards, state)
+    }
+
+    pub(super) fn contact(&mut self, basic: Basic) {
+        let state = self.contact_state();
+        let inverted = matches!(basic, Basic::Ldi | Basic::Ani | Basic::Ori);
+        let contact = match self.expr(state) {
+            Expr::Bit(on) if inverted => self.bit_const(!on),
+            _ if inverted => self.not(state),
+            _ => state,
+        };
+        let join = match basic {
+            Basic::And | Basic::Ani => Join::And,
+            Basic::Or | Basic::Ori => Join::Or,
+            _ => Join::Ld,
+        };
+        self.join(join, contact);
+    }
+
+    pub(super) fn edge_contact(&mut self, basic: Basic) {
+        let state = self.contact_state();
+        let kind = match basic {
+            Basic::Ldf | Basic::Andf | Basic::Orf => EdgeKind::Falling,
+            _ => EdgeKind::Rising,
+        };
+        let join = match basic {
+            Basic::Andp | Basic::Andf => Join::And,
+            Basic::Orp | Basic::Orf => Join::Or,
+            _ => Join::Ld,
+        };
+        let edge = self.new_edge();
+        let contact = self.edge(edge, kind, state);
+        self.join(join, contact);
+    }
+
+    pub(super) fn compare_contact(&mut self, join: Join, op: CmpOp) {
+        let (Some(a), Some(b)) = (self.operand(0), self.operand(1)) else {
+            return;
+        };
+        let wide = self.resolution().form.wide;
+        let mut guards = Guards::default();
+        let a = self.value(a, wide, &mut guards);
+        let b = self.value(b, wide, &mut guards);
+        let holds = self.add(Expr::Cmp(op, a, b));
+        let contact = self.guarded_value(guards, holds);
+        self.join(join, contact);
+    }
+
+    pub(super) fn join_blocks(&mut self, basic: Basic) {
+        match basic {
+            Basic::Anb | Basic::Orb => {
+                let Some(last) = self.logic.stack.pop() else {
+                    return;
+                };
+                let join = if basic == Basic::Anb {
+                    Join::And
+                } else {
+                    Join::Or
+                };
+                self.join(join, last);
+            }
+            Basic::Mps => {
+                let result = match self.logic.stack.pop() {
+                    Some(result) => self.settled(result),
+                    None => self.bit_const(true),
+                };
+                self.logic.stack.push(result);
+                self.logic.branches.push(result);
+            }
+            Basic::Mrd | Basic::Mpp => {
+                let pushed = self.logic.branches.last().copied();
+                if basic == Basic::Mpp {
+                    self.logic.branches.pop();
+                }
+                if let Some(pushed) = pushed {
+                    self.logic.stack.pop();
+                    self.logic.stack.push(pushed);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn change_result(&mut self, basic: Basic) {
+        let result = match self.logic.stack.pop() {
+            Some(result) => result,
+            None => self.bit_const(true),
+        };
+        let changed = match basic {
+            Basic::Inv => self.not(result),
+            _ => {
+                let kind = if basic == Basic::Mef {
+                    EdgeKind::Falling
+                } else {
+                    EdgeKind::Rising
+                };
+                let edge = self.new_edge();
+                self.edge(edge, kind, result)
+            }
+        };
+        self.logic.stack.push(changed);
+    }
+
+    /// A value whose operands exist under `guards`: else 0 or off, with a fault.
+    pub(super) fn guarded_value(&mut self, guards: Guards, value: ExprId) -> ExprId {
+        if guards.is_empty() {
+            return value;
+        }
+        let ty = self.module.ty(value);
+        let temp = self.temp(ty);
+        let zero = match ty {
+            Ty::Bit => Expr::Bit(false),
+            Ty::I16 => Expr::I16(0),
+            Ty::I32 => Expr::I32(0),
+            Ty::F32 => Expr::F32(0.0),
+        };
+        let zero = self.add(zero);
+        self.guarded_or(
+            guards,
+            |this| this.emit(rungc_ir::node::Stmt::Let(temp, value)),
+            |this| this.emit(rungc_ir::node::Stmt::Let(temp, zero)),
+        );
+        self.add(Expr::Temp(temp))
+    }
+}

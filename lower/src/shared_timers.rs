@@ -1,0 +1,142 @@
+//! Finds the timers whose coils may be executed more than once in a scan: they count the time of a scan only once
+//! ([`TimerKind::shared`](rungc_rt::TimerKind::shared)).
+//!
+//! A coil that stands once, in code that a scan passes at most once, needs no memory of the scan in which it was executed.
+
+use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt};
+use rungc_ir::walk::{bodies, bodies_mut, statements};
+use std::collections::BTreeSet;
+
+/// How often a scan executes something at most: not at all, once, or more often.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Times {
+    Never,
+    Once,
+    Often,
+}
+
+impl Times {
+    /// This and once more.
+    fn and(self, other: Times) -> Times {
+        match (self, other) {
+            (Times::Never, times) | (times, Times::Never) => times,
+            _ => Times::Often,
+        }
+    }
+
+    fn looped(self, looped: bool) -> Times {
+        match self {
+            Times::Once if looped => Times::Often,
+            times => times,
+        }
+    }
+}
+
+/// Marks the coils of timers that share the time of a scan.
+pub(super) fn mark(module: &mut Module) {
+    let has_timers = |stmt: &Stmt| matches!(stmt, Stmt::Timer { .. } | Stmt::TimerAt { .. });
+    let mut any = false;
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| any |= has_timers(stmt));
+    }
+    if !any {
+        return;
+    }
+    let times = function_times(module);
+    let (mut seen, mut shared, mut indexed) = (BTreeSet::new(), BTreeSet::new(), false);
+    for (function, &times) in module.functions.iter().zip(&times) {
+        executed(&function.body, times, &mut |stmt, times| match *stmt {
+            Stmt::Timer { number, .. } if !seen.insert(number) || times == Times::Often => {
+                shared.insert(number);
+            }
+            // It may lead to any timer.
+            Stmt::TimerAt { .. } => indexed = true,
+            _ => {}
+        });
+    }
+    if indexed || !shared.is_empty() {
+        for function in &mut module.functions {
+            mark_body(&mut function.body, &|number| {
+                indexed || shared.contains(&number)
+            });
+        }
+    }
+}
+
+fn mark_body(body: &mut [Stmt], is_shared: &impl Fn(u32) -> bool) {
+    for stmt in body {
+        if let Stmt::Timer { number, kind, .. } = stmt {
+            kind.shared = is_shared(*number);
+        }
+        for inner in bodies_mut(stmt) {
+            mark_body(inner, is_shared);
+        }
+    }
+}
+
+/// How often a scan runs each function. Interrupts come as often as they are requested.
+fn function_times(module: &Module) -> Vec<Times> {
+    let by_host: Vec<Times> = module
+        .functions
+        .iter()
+        .map(|function| match function.kind {
+            FunctionKind::Begin | FunctionKind::Main | FunctionKind::End => Times::Once,
+            FunctionKind::Subroutine(_) => Times::Never,
+            _ => Times::Often,
+        })
+        .collect();
+    let mut times = by_host.clone();
+    // What is known of callers spreads by a level of calls in each round; there is no recursion.
+    loop {
+        let mut next = by_host.clone();
+        for (function, &times) in module.functions.iter().zip(&times) {
+            executed(&function.body, times, &mut |stmt, times| {
+                if let Stmt::CallSub(callee) = *stmt
+                    && let Some(callee) = next.get_mut(callee as usize)
+                {
+                    *callee = callee.and(times);
+                }
+            });
+        }
+        if next == times {
+            return times;
+        }
+        times = next;
+    }
+}
+
+/// Calls `visit` with each statement that is executed so often, and with how often that is.
+fn executed<'m>(body: &'m [Stmt], times: Times, visit: &mut dyn FnMut(&'m Stmt, Times)) {
+    for stmt in body {
+        visit(stmt, times);
+        match stmt {
+            Stmt::For { body, .. } => executed(body, times.looped(true), visit),
+            Stmt::Parts(parts) => {
+                let looped = looped(parts);
+                for (i, part) in parts.iter().enumerate() {
+                    let looped = looped
+                        .iter()
+                        .any(|(first, last)| (*first..=*last).contains(&i));
+                    executed(&part.body, times.looped(looped), visit);
+                }
+            }
+            _ => bodies(stmt).for_each(|body| executed(body, times, visit)),
+        }
+    }
+}
+
+/// The first and the last part that each jump back repeats.
+fn looped(parts: &[Part]) -> Vec<(usize, usize)> {
+    let at = |label: LabelId| parts.iter().position(|part| part.label == Some(label));
+    let mut looped = Vec::new();
+    for (i, part) in parts.iter().enumerate() {
+        statements(&part.body, &mut |stmt| {
+            if let Stmt::Goto(label) = *stmt
+                && let Some(target) = at(label).filter(|&target| target <= i)
+            {
+                looped.push((target, i));
+            }
+        });
+    }
+    looped
+}

@@ -1,0 +1,97 @@
+//! What a project's PLC parameters change: which devices are latched, and how long a program may be.
+
+use rungc_frontend::read_text;
+use rungc_lower::compile::{CompileOptions, Compiled, compile};
+use rungc_models::ModelId;
+use rungc_syntax::{DeviceClass, DeviceRun, Parameters, Program};
+
+const PROGRAM: &str = "LD X0\nOUT M400\nOUT M499\nOUT M500\nOUT M600\nLD M400\nOR M499\nOR M500\nOR M600\nMOV D6 Z0\nMOV D5Z0 D300\n\
+    FMOV K0 D190 K20\nEND\n";
+
+fn program(parameters: Parameters) -> Program {
+    let mut program = read_text("press.il", PROGRAM).program;
+    program.parameters = Some(parameters);
+    program
+}
+
+fn compiled(parameters: Parameters, model: ModelId) -> Compiled {
+    let options = CompileOptions {
+        model: Some(model),
+        ..CompileOptions::default()
+    };
+    compile(&program(parameters), &options)
+}
+
+fn latched(runs: &[(DeviceClass, u32, u32)]) -> Parameters {
+    let run = |&(class, first, count)| DeviceRun {
+        class,
+        first,
+        count,
+    };
+    Parameters {
+        latched: Some(runs.iter().map(run).collect()),
+        ..Parameters::default()
+    }
+}
+
+/// Which of the stored devices of a class are latched.
+fn kept(compiled: &Compiled, class: DeviceClass) -> Vec<(u32, u32)> {
+    let areas = &compiled.module.as_ref().unwrap().layout.areas;
+    let kept = areas
+        .iter()
+        .filter(|area| area.class == class && area.latched);
+    kept.map(|area| (area.first, area.first + area.count - 1))
+        .collect()
+}
+
+#[test]
+fn latched_devices_are_those_of_the_project() {
+    let usual = compiled(Parameters::default(), ModelId::Fx2n);
+    assert_eq!(kept(&usual, DeviceClass::M), [(500, 500), (600, 600)]);
+    assert_eq!(kept(&usual, DeviceClass::D), [(200, 7999)]);
+    let chosen = latched(&[(DeviceClass::M, 450, 100), (DeviceClass::D, 100, 10)]);
+    let chosen = compiled(chosen, ModelId::Fx2n);
+    assert_eq!(kept(&chosen, DeviceClass::M), [(499, 499), (500, 500)]);
+    assert_eq!(kept(&chosen, DeviceClass::D), [(100, 109), (512, 7999)]);
+    let none = compiled(latched(&[]), ModelId::Fx2n);
+    assert_eq!(kept(&none, DeviceClass::M), []);
+}
+
+/// The findings of a compilation, as text.
+fn findings(parameters: Parameters, model: ModelId) -> String {
+    let found = compiled(parameters, model).diagnostics;
+    let line = |d: &rungc_syntax::Diagnostic| {
+        let help = d.help.as_deref().unwrap_or("");
+        format!("{} {}\n  / {}\n  / {help}\n", d.code, d.message, d.label)
+    };
+    found
+        .iter()
+        .filter(|d| d.code.starts_with("W05"))
+        .map(line)
+        .collect()
+}
+
+#[test]
+fn parameters_that_a_model_does_not_allow() {
+    let wide = latched(&[(DeviceClass::M, 0, 4000), (DeviceClass::T, 0, 10)]);
+    let large = Parameters {
+        capacity: Some(64_000),
+        ..Parameters::default()
+    };
+    let all = [
+        findings(wide.clone(), ModelId::Fx2n),
+        findings(wide, ModelId::Fx1n),
+        findings(large, ModelId::Fx2n),
+    ];
+    insta::assert_snapshot!(all.join("---\n"));
+}
+
+#[test]
+fn a_program_longer_than_the_memory_that_the_project_sets() {
+    let small = Parameters {
+        capacity: Some(1000),
+        file_register_blocks: 2,
+        ..Parameters::default()
+    };
+    insta::assert_snapshot!(findings(small, ModelId::Fx3u));
+}

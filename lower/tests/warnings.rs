@@ -1,0 +1,279 @@
+//! Which programs each warning is about, and which that look alike it leaves alone.
+
+use rungc_frontend::read_text;
+use rungc_lower::compile::{self, CompileOptions};
+use rungc_models::ModelId;
+use rungc_syntax::codes;
+
+/// How often a program for a model gets a warning, given by its name; it must have no error.
+fn count(model: ModelId, warning: &str, lines: &str) -> usize {
+    let code = codes::find(warning).expect("a warning").id;
+    let text = format!("{}\nEND\n", lines.replace(" / ", "\n"));
+    let read = read_text("program", &text);
+    let options = CompileOptions {
+        model: Some(model),
+        ..CompileOptions::default()
+    };
+    let checked = compile::check(&read.program, &options);
+    let found: Vec<_> = checked
+        .diagnostics
+        .iter()
+        .chain(read.diagnostics.iter())
+        .collect();
+    assert!(
+        !checked.diagnostics.has_errors() && !read.diagnostics.has_errors(),
+        "{text}{found:#?}"
+    );
+    found
+        .iter()
+        .filter(|diagnostic| diagnostic.code == code)
+        .count()
+}
+
+/// Programs on FX3U with a warning each, and programs without it.
+fn judge(warning: &str, wrong: &[&str], right: &[&str]) {
+    for (lines, expected) in wrong
+        .iter()
+        .map(|w| (w, 1))
+        .chain(right.iter().map(|r| (r, 0)))
+    {
+        let found = count(ModelId::Fx3u, warning, lines);
+        assert_eq!(found, expected, "{warning}: {lines}");
+    }
+}
+
+#[test]
+fn parts_of_results() {
+    judge(
+        "parts-overlap",
+        &[
+            "LD X0 / DMOV K100000 D0 / MOV K5 D1",
+            "LD X0 / MUL D0 D1 D10 / MOV K3 D11",
+            "LD X0 / DIV D0 D1 D10 / LD X1 / INCP D11",
+            "LD X0 / DMUL D0 D2 D10 / LD X1 / DMOV K3 D12",
+            "LD X0 / DEADD D0 D2 D10 / LD X1 / MOV D50 D11",
+            "LD X0 / DMOV D0 D109 / LD X1 / BMOV D200 D100 K10",
+            "LD X0 / DMOV D0 D99 / LD X1 / BMOV D200 D100 K10",
+        ],
+        &[
+            // Put together from words, or cleared.
+            "LD X0 / MOV D5 D0 / MOV D6 D1 / DADD D0 K1 D0",
+            "LD X0 / DMOV D5 D0 / MOV K0 D1",
+            "LD X0 / DMOV D5 D0 / RST D1 / FMOV K0 D0 K2 / ZRST D0 D1",
+            // Read, copied whole, or side by side.
+            "LD X0 / MUL D0 D1 D10 / MOV D11 D20",
+            "LD X0 / DMOV D0 D108 / BMOV D200 D100 K10",
+            "LD X0 / DMOV D0 D2 / MOV D5 D4 / MOV D6 D1",
+            // A pair that another pair overlaps has a warning of its own.
+            "LD X0 / DMOV K1 D0 / DMOV K2 D1",
+            "LD X0 / DMOV K1 D0 / MOV K5 D1Z0",
+        ],
+    );
+}
+
+#[test]
+fn coils_of_out_and_set() {
+    judge(
+        "out-and-set",
+        &[
+            "LD X0 / SET Y0 / LD X1 / RST Y0 / LD X2 / OUT Y0",
+            "LD X2 / OUT M5 / LD X0 / SET M5",
+            "LD X1 / RST Y0 / LD X2 / OUT Y0",
+            "LD X2 / OUT Y0 / LD X3 / CALL P0 / FEND / P0 / LD X0 / SET Y0 / SRET",
+        ],
+        &[
+            "LD X0 / SET Y0 / LD X1 / RST Y0",
+            // A RST after the OUT forces the coil off.
+            "LD X2 / OUT Y0 / LD X1 / RST Y0",
+            // A coil that holds itself takes SET and RST over.
+            "LD X0 / SET Y0 / LD X2 / OR Y0 / ANI X3 / OUT Y0",
+            "LD X1 / RST M0 / LD M0 / OUT Y1 / LD X2 / OUT M0",
+            // States, and jumps that skip one of the two.
+            "LD M8002 / SET S0 / STL S0 / OUT Y0 / LD X0 / SET S20 / STL S20 / SET Y0 / LD X1 / OUT S0 / RET / LD X2 / RST Y0",
+            "LD X5 / CJ P0 / LD X0 / OUT Y0 / P0 / LDI X5 / CJ P1 / LD X1 / SET Y0 / P1 / LD X6 / RST Y0",
+        ],
+    );
+}
+
+#[test]
+fn states_that_stand_twice() {
+    let ladder = |second: &str| {
+        format!(
+            "LD M8002 / SET S0 / STL S0 / LD X0 / SET S20 / LD X1 / SET S21 / STL S20 / OUT Y0 / STL S21 / OUT Y1 / {second} / RET"
+        )
+    };
+    let copied = ladder("STL S20 / OUT Y2 / LD X2 / OUT S0");
+    let parallel = ladder("STL S20 / STL S21 / LD X2 / OUT S0");
+    let selective =
+        ladder("STL S20 / LD X2 / SET S30 / STL S21 / LD X3 / SET S30 / STL S30 / LD X4 / OUT S0");
+    judge("state-twice", &[&copied], &[&parallel, &selective]);
+}
+
+#[test]
+fn ranges_and_divisors() {
+    judge(
+        "reversed-range",
+        &["LD X0 / ZRST D10 D0", "LD X0 / ZRSTP Y10 Y7"],
+        &["LD X0 / ZRST D0 D0", "LD X0 / ZRST M0 M10"],
+    );
+    judge(
+        "division-by-zero",
+        &[
+            "LD X0 / DIV D0 K0 D2",
+            "LD X0 / DDIVP D0 H0 D4",
+            "LD X0 / DEDIV D0 E0 D4",
+        ],
+        &[
+            "LD X0 / DIV D0 K1 D2",
+            "LD X0 / DIV K0 D0 D2",
+            "LD X0 / DIV D0 K0Z0 D2",
+        ],
+    );
+    assert_eq!(
+        count(ModelId::Hm, "division-by-zero", "LD X0 / DIV D0 K0 D2"),
+        1
+    );
+}
+
+#[test]
+fn changes_in_every_scan() {
+    judge(
+        "every-scan",
+        &[
+            "LD X0 / INC D0",
+            "LD X0 / ANI X1 / OR X2 / DDEC D0",
+            "LD X0 / AND M8013 / ALT Y0",
+            "LD X0 / ADD D0 K1 D0 / INC D0",
+            "LD X0 / MPS / ANI X1 / SFTL X5 M0 K8 K1 / MPP / OUT Y0",
+            "LD X0 / LD X1 / ORB / AND M8000 / ROL D0 K4",
+            "LD X1 / MOV K0 D0 / LD X0 / INC D0",
+            "LD X0 / CML D0 D0",
+        ],
+        &[
+            "LD X0 / INCP D0",
+            "LDP X0 / INC D0",
+            "LD X0 / PLS M0 / LD M0 / INC D0",
+            "LD M8000 / INC D0",
+            "LD X0 / AND< D0 K10 / INC D0",
+            "LD X0 / MEP / INC D0",
+            "LD M8013 / ANDP X0 / INC D0",
+            // What is written anew before each change is a computation.
+            "LD X0 / MOV D5 D0 / NEG D0",
+            "LD X0 / WXOR D1 D2 D3 / CML D3 D3",
+            // Loops, routines, states and jumps run their instructions as often as is meant.
+            "LD X0 / MOV K0 Z0 / FOR K5 / LD X0 / INC Z0 / NEXT",
+            "LDP X1 / CALL P0 / FEND / P0 / LD X0 / INC D0 / SRET",
+            "LDI X1 / CJ P0 / LD X0 / INC D0 / P0",
+        ],
+    );
+}
+
+#[test]
+fn counters_and_outputs_that_stay_on() {
+    judge(
+        "never-reset",
+        &["LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / LD X1 / OUT C1 K10 / LD C1 / OUT Y1"],
+        &[
+            "LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / RST C0",
+            "LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / LD X1 / ZRST C0 C5",
+            "LD X0 / OUT C0 K10 / LD X1 / MOV K0 C0 / LD C0 / OUT Y0",
+            // Only the count is looked at, or it comes back by itself.
+            "LD X0 / OUT C0 K32767 / LD> C0 K5 / OUT Y0",
+            "LD X0 / OUT C200 K10 / LD C200 / OUT Y0",
+            "LD X0 / OUT C0 K10 / LD C0 / OUT Y0 / LD X1 / OUT M8031",
+        ],
+    );
+    judge(
+        "never-switched-off",
+        &["LD X0 / SET Y0 / SET Y1"],
+        &[
+            "LD X0 / SET Y0 / LD X1 / RST Y0",
+            "LD X0 / SET Y0 / LD X1 / ZRST Y0 Y7",
+            "LD X0 / SET Y0 / LD X1 / MOV K0 K2Y0",
+            "LD X0 / SET M0 / LD M0 / OUT Y0",
+            "LD X0 / SET Y0 / LD X1 / RST Y0Z0",
+        ],
+    );
+}
+
+#[test]
+fn jumps_that_are_always_taken() {
+    judge(
+        "jumped-over",
+        &[
+            "LD M8000 / CJ P1 / LD X0 / OUT Y0 / P1 / LD X1 / OUT Y1",
+            "LD X0 / ORI M8001 / CJ P1 / LD X0 / OUT Y0 / LD M8000 / CJ P1 / LD X2 / OUT Y2 / P1",
+            "LD X1 / OUT Y1 / LDI M8001 / CJ P63 / LD X0 / OUT Y0",
+        ],
+        &[
+            "LD M8000 / CJP P1 / LD X0 / OUT Y0 / P1",
+            "LD M8000 / AND X0 / CJ P1 / LD X0 / OUT Y0 / P1",
+            "LD M8000 / CJ P1 / P1 / LD X0 / OUT Y0",
+            "LD X5 / CJ P2 / LD M8000 / CJ P1 / P2 / LD X0 / OUT Y0 / P1",
+        ],
+    );
+    judge(
+        "endless-jump",
+        &["P0 / LD X0 / OUT Y0 / LD M8000 / CJ P0"],
+        &[
+            "P0 / LD X0 / OUT Y0 / LDI X1 / CJ P0",
+            "P0 / LD X0 / CJ P1 / LD M8000 / CJ P0 / P1",
+        ],
+    );
+}
+
+#[test]
+fn outputs_that_are_taken() {
+    judge(
+        "one-output",
+        &[
+            "LD X0 / PLSY K1000 K500 Y0 / PLSY K200 K100 Y0",
+            "LD X0 / PLSY K1000 K500 Y0 / LD X0 / DRVI K200 K100 Y0 Y4",
+            "LD M8000 / PLSY K1000 D0 Y0 / LD X1 / PLSY K200 K100 Y0",
+        ],
+        &[
+            "LD X0 / PLSY K1000 K500 Y0 / PLSY K200 K100 Y1",
+            "LD X0 / PLSY K1000 K500 Y0 / LD X1 / PLSY K200 K100 Y0",
+            "LD X0 / PLSY K1000 K500 Y0 / LDI X0 / PLSY K200 K100 Y0",
+            "LD M8002 / SET S0 / STL S0 / PLSY K1000 K500 Y0 / LD X0 / SET S20 / STL S20 / PLSY K10 K50 Y0 / LD X1 / OUT S0 / RET",
+        ],
+    );
+}
+
+#[test]
+fn branches_of_states() {
+    let set = |first: u32, count: u32| -> String {
+        let states = (first..first + count).map(|state| format!(" / SET S{state}"));
+        states.collect()
+    };
+    let wide = |count| format!("LD M8002 / SET S0 / STL S0 / LD X0{} / RET", set(20, count));
+    let deep = |count| {
+        let begin = format!("LD M8002 / SET S0 / STL S0 / LD X0{}", set(20, 8));
+        format!(
+            "{begin} / STL S20 / LD X1{} / STL S30 / LD X2{} / RET",
+            set(30, 8),
+            set(40, count)
+        )
+    };
+    judge(
+        "state-branches",
+        &[&wide(9), &deep(2)],
+        &[&wide(8), &deep(1)],
+    );
+}
+
+#[test]
+fn timers_in_routines() {
+    let text = "LD X0 / CALL P1 / LD T0 / OR T200 / OR T246 / OUT Y0 / FEND / P1 / LD X1 / OUT T0 K10 / OUT T200 K1 / OUT T246 K1 / SRET";
+    assert_eq!(count(ModelId::Fx3u, "timer-in-routine", text), 2);
+}
+
+#[test]
+fn a_reset_may_be_what_could_not_be_read() {
+    let text = "LD X0\nOUT C0 K10\nSET Y1\nLD C0\nOUT Y0\nLD X1\nRST CO\nEND\n";
+    let read = read_text("program", text);
+    let checked = compile::check(&read.program, &CompileOptions::default());
+    assert!(read.diagnostics.has_errors() || checked.diagnostics.has_errors());
+    let resets = [codes::NEVER_RESET.id, codes::NEVER_SWITCHED_OFF.id];
+    assert!(!checked.diagnostics.iter().any(|d| resets.contains(&d.code)));
+}

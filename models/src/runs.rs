@@ -1,0 +1,71 @@
+//! Runs of devices: where an index or a block may go without leaving the devices it began in.
+
+use crate::Model;
+pub use rungc_rt::{FIRST_COUNTER32, FIRST_SPECIAL};
+use rungc_syntax::DeviceClass;
+
+/// Whether a run ends before device `number` of `class` although the model goes on: the special devices and the 32-bit counters
+/// are apart from what stands before them.
+pub fn is_border(class: DeviceClass, number: u32) -> bool {
+    match class {
+        DeviceClass::M | DeviceClass::D => number == FIRST_SPECIAL,
+        DeviceClass::C => number == FIRST_COUNTER32,
+        _ => false,
+    }
+}
+
+/// Whether a device is a special relay or register.
+pub fn is_special(class: DeviceClass, number: u32) -> bool {
+    matches!(class, DeviceClass::M | DeviceClass::D) && number >= FIRST_SPECIAL
+}
+
+/// Whether a device is a 32-bit counter.
+pub fn is_counter32(class: DeviceClass, number: u32) -> bool {
+    class == DeviceClass::C && number >= FIRST_COUNTER32
+}
+
+/// How many words hold `count` bits from bit number `bit` of a word on.
+pub fn words_of_bits(bit: u8, count: u32) -> u32 {
+    u32::from(bit).saturating_add(count.max(1)).div_ceil(16)
+}
+
+impl Model {
+    /// The device that a name stands for: some special registers are other names of index registers (D8028 is Z0), however they are
+    /// reached.
+    pub fn canonical(&self, class: DeviceClass, number: u32) -> (DeviceClass, u32) {
+        if class != DeviceClass::D || number < FIRST_SPECIAL {
+            return (class, number);
+        }
+        let mut aliases = self.index_aliases.iter();
+        let alias = aliases.find(|alias| alias.0 == number);
+        alias.map_or((class, number), |&(_, class, number)| (class, number))
+    }
+
+    /// Whether one of the registers `first` to `last` of a class is another name of an index register.
+    pub fn has_alias(&self, class: DeviceClass, first: u32, last: u32) -> bool {
+        let mut aliases = self.index_aliases.iter();
+        class == DeviceClass::D && aliases.any(|alias| (first..=last).contains(&alias.0))
+    }
+
+    /// The runs of a class as (first, last), in order: its ranges, general and latched neighbours joined.
+    pub fn runs(&self, class: DeviceClass) -> Vec<(u32, u32)> {
+        let mut runs: Vec<(u32, u32)> = Vec::new();
+        for range in self.ranges_of(class) {
+            match runs.last_mut() {
+                Some((_, last)) if *last + 1 == range.first && !is_border(class, range.first) => {
+                    *last = range.last;
+                }
+                _ => runs.push((range.first, range.last)),
+            }
+        }
+        runs
+    }
+
+    /// Whether `count` devices from `first` on all exist, in one run: [`rungc_ir::node::Expr::InRange`].
+    pub fn in_range(&self, class: DeviceClass, first: i64, count: u32) -> bool {
+        let last = first + i64::from(count.max(1)) - 1;
+        self.runs(class)
+            .iter()
+            .any(|&(from, to)| i64::from(from) <= first && last <= i64::from(to))
+    }
+}
