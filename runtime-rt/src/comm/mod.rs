@@ -46,6 +46,7 @@
 mod frame;
 pub mod fx_port;
 mod map;
+pub mod modbus;
 #[cfg(test)]
 mod watched;
 

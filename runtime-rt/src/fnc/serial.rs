@@ -1,6 +1,7 @@
 //! Characters and check codes for serial data: FNC 81–84 and 188, h1u-h2u-programming §4.3.9, hm-motion-controller §5.4.
 
 use super::digits::{hex_digit, hex_value};
+use crate::comm::modbus::{CRC_START, crc_step};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::{Operand, OperandKind};
@@ -125,13 +126,9 @@ pub fn ccd(cx: &mut Cx) -> Done {
 pub fn crc(cx: &mut Cx) -> Done {
     let byte_mode = cx.special(M_BYTE_MODE);
     let n = cx.count(2, 1..=256)?;
-    let mut crc = 0xffffu16;
-    for k in 0..n {
-        crc ^= u16::from(cx.byte(0, k, byte_mode)?);
-        for _ in 0..8 {
-            crc = crc >> 1 ^ if crc & 1 == 1 { 0xa001 } else { 0 };
-        }
-    }
+    let crc = (0..n).try_fold(CRC_START, |crc, k| {
+        Ok(crc_step(crc, cx.byte(0, k, byte_mode)?))
+    })?;
     if !byte_mode {
         return cx.set_word(1, 0, crc as i16);
     }

@@ -1,0 +1,358 @@
+//! Which addresses stand for which devices: the map of each model as data.
+
+use super::Profile;
+use crate::plc::Class;
+
+/// How devices fill addresses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// One bit to an address; for T and C the contact.
+    Bits,
+    /// One word to an address; for T and C the current value.
+    Words,
+    /// 32-bit counters, two registers each, the low word first.
+    Counters,
+    /// Sixteen bits to a register, the first the lowest.
+    Packed,
+}
+
+/// Addresses that stand for consecutive devices of one class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Area {
+    /// The first address, as in frames.
+    pub address: u16,
+    /// How many addresses there are.
+    pub count: u16,
+    /// The class of the devices.
+    pub class: Class,
+    /// Number of the first device.
+    pub first: u32,
+    /// How they fill addresses.
+    pub fill: Fill,
+    /// Whether a frame may write them.
+    pub writable: bool,
+}
+
+impl Area {
+    const fn new(address: u16, count: u16, class: Class, first: u32, fill: Fill) -> Self {
+        Area {
+            address,
+            count,
+            class,
+            first,
+            fill,
+            writable: true,
+        }
+    }
+
+    const fn read_only(mut self) -> Self {
+        self.writable = false;
+        self
+    }
+
+    /// What stands at `address`, if it is one of these.
+    fn place(&self, address: u16) -> Option<Place> {
+        let offset = address.checked_sub(self.address)?;
+        if offset >= self.count {
+            return None;
+        }
+        let offset = u32::from(offset);
+        Some(match self.fill {
+            Fill::Bits => Place::Bit(self.class, self.first + offset),
+            Fill::Words => Place::Word(self.class, self.first + offset),
+            Fill::Counters => Place::Half {
+                counter: self.first + offset / 2,
+                high: offset % 2 == 1,
+            },
+            Fill::Packed => Place::Packed(self.class, self.first + 16 * offset),
+        })
+    }
+}
+
+/// What stands at one address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// A bit device.
+    Bit(Class, u32),
+    /// A word device.
+    Word(Class, u32),
+    /// Half of a 32-bit counter.
+    Half {
+        /// Its number.
+        counter: u32,
+        /// Whether it is the high word.
+        high: bool,
+    },
+    /// Sixteen bit devices from this one on.
+    Packed(Class, u32),
+}
+
+/// What stands at the `count` addresses from `first` on; `None` where nothing does, or nothing that may be written.
+pub(super) fn places(
+    areas: &'static [Area],
+    first: u16,
+    count: u16,
+    writes: bool,
+) -> impl Iterator<Item = Option<Place>> {
+    // Most ranges lie in one area: the last one is asked first.
+    let mut last: Option<&Area> = None;
+    (0..count).map(move |offset| {
+        let address = first.checked_add(offset)?;
+        let found = last.filter(|area| area.place(address).is_some());
+        let area = found.or_else(|| areas.iter().find(|area| area.place(address).is_some()))?;
+        last = Some(area);
+        area.place(address).filter(|_| area.writable || !writes)
+    })
+}
+
+/// The largest numbers of coils and registers that one frame may be about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Coils or inputs read (01, 02).
+    pub read_bits: u16,
+    /// Coils written (0F).
+    pub write_bits: u16,
+    /// Registers read (03, 04).
+    pub read_words: u16,
+    /// Registers written (10).
+    pub write_words: u16,
+}
+
+impl Limits {
+    /// Those of the public standard.
+    pub const STANDARD: Self = Limits {
+        read_bits: 2000,
+        write_bits: 1968,
+        read_words: 125,
+        write_words: 123,
+    };
+    /// H2U writes at most 120 registers (h1u-h2u-programming §5.7).
+    pub const H2U: Self = Limits {
+        write_words: 120,
+        ..Self::STANDARD
+    };
+    /// H1U (h1u-h2u-programming §5.7).
+    pub const H1U: Self = Limits {
+        read_bits: 800,
+        write_bits: 800,
+        read_words: 50,
+        write_words: 50,
+    };
+    /// RD3A and WR3A of L01S over ASCII (l01s-programming §8.1.1).
+    pub const L01S_ASCII: Self = Limits {
+        read_words: 45,
+        write_words: 45,
+        ..Self::STANDARD
+    };
+}
+
+const fn bits(address: u16, count: u16, class: Class, first: u32) -> Area {
+    Area::new(address, count, class, first, Fill::Bits)
+}
+
+const fn words(address: u16, count: u16, class: Class, first: u32) -> Area {
+    Area::new(address, count, class, first, Fill::Words)
+}
+
+const fn packed(address: u16, count: u16, class: Class) -> Area {
+    Area::new(address, count, class, 0, Fill::Packed)
+}
+
+/// C200 to C255.
+const fn counters(address: u16) -> Area {
+    Area::new(address, 112, Class::C, 200, Fill::Counters)
+}
+
+/// h1u-h2u-programming §5.7.2; 02 reads what 01 reads.
+const INOVANCE_BITS: &[Area] = &[
+    bits(0x0000, 3072, Class::M, 0),
+    bits(0x1f40, 256, Class::M, 8000),
+    bits(0xe000, 1000, Class::S, 0),
+    bits(0xf000, 256, Class::T, 0),
+    bits(0xf400, 256, Class::C, 0),
+    bits(0xf800, 256, Class::X, 0).read_only(),
+    bits(0xfc00, 256, Class::Y, 0),
+];
+
+/// h1u-h2u-programming §5.7.2; 04 reads what 03 reads.
+const INOVANCE_WORDS: &[Area] = &[
+    words(0x0000, 8256, Class::D, 0),
+    words(0xf000, 256, Class::T, 0),
+    words(0xf400, 200, Class::C, 0),
+    counters(0xf700),
+];
+
+/// H2U as a slave.
+pub static H2U: Profile = Profile {
+    coils: INOVANCE_BITS,
+    inputs: INOVANCE_BITS,
+    registers: INOVANCE_WORDS,
+    input_registers: INOVANCE_WORDS,
+    limits: Limits::H2U,
+    any_value_is_on: true,
+    counters_by_06: false,
+};
+
+/// H1U as a slave.
+pub static H1U: Profile = Profile {
+    limits: Limits::H1U,
+    ..H2U
+};
+
+/// L01S as a slave (l01s-programming §8.1.4): each device in one table alone.
+pub static L01S: Profile = Profile {
+    coils: &[
+        bits(0x0000, 7680, Class::M, 0),
+        bits(0x1e00, 512, Class::M, 8000),
+        bits(0x2000, 4096, Class::S, 0),
+        bits(0x3000, 320, Class::T, 0),
+        bits(0x3200, 256, Class::C, 0),
+        bits(0x3300, 128, Class::Y, 0),
+    ],
+    inputs: &[bits(0x3400, 128, Class::X, 0)],
+    registers: &[
+        words(0x0000, 8000, Class::D, 0),
+        words(0x1f40, 512, Class::D, 8000),
+        words(0x2140, 24000, Class::R, 0),
+        words(0xa140, 320, Class::T, 0),
+        words(0xa340, 200, Class::C, 0),
+        counters(0xa408),
+        packed(0xa478, 480, Class::M),
+        Area::new(0xa658, 32, Class::M, 8000, Fill::Packed),
+        packed(0xa678, 256, Class::S),
+        packed(0xa778, 20, Class::T),
+        packed(0xa798, 16, Class::C),
+        packed(0xa7a8, 8, Class::Y),
+    ],
+    input_registers: &[packed(0xa7b8, 8, Class::X)],
+    limits: Limits::STANDARD,
+    any_value_is_on: false,
+    counters_by_06: true,
+};
+
+/// FX3 with its Modbus adapter, and the boards that are compatible with it: the addresses of L01S with all of FX3's devices (public
+/// knowledge of FX3U).
+pub static FX3U: Profile = Profile {
+    coils: &[
+        bits(0x0000, 7680, Class::M, 0),
+        bits(0x1e00, 512, Class::M, 8000),
+        bits(0x2000, 4096, Class::S, 0),
+        bits(0x3000, 512, Class::T, 0),
+        bits(0x3200, 256, Class::C, 0),
+        bits(0x3300, 256, Class::Y, 0),
+    ],
+    inputs: &[bits(0x3400, 256, Class::X, 0)],
+    registers: &[
+        words(0x0000, 8000, Class::D, 0),
+        words(0x1f40, 512, Class::D, 8000),
+        words(0x2140, 32768, Class::R, 0),
+        words(0xa140, 512, Class::T, 0),
+        words(0xa340, 200, Class::C, 0),
+        counters(0xa408),
+        packed(0xa478, 480, Class::M),
+        Area::new(0xa658, 32, Class::M, 8000, Fill::Packed),
+        packed(0xa678, 256, Class::S),
+        packed(0xa778, 32, Class::T),
+        packed(0xa798, 16, Class::C),
+        packed(0xa7a8, 16, Class::Y),
+    ],
+    input_registers: &[packed(0xa7b8, 16, Class::X)],
+    limits: Limits::STANDARD,
+    any_value_is_on: false,
+    counters_by_06: true,
+};
+
+/// hm-motion-controller §6.4.2. S0 to S1023 end at 12FFh, where the timers begin; the manual prints 0FFFh. Coils and contacts of timers
+/// and counters are one here.
+const HM_BITS: &[Area] = &[
+    bits(0x0000, 256, Class::X, 0).read_only(),
+    bits(0x0100, 256, Class::Y, 0),
+    bits(0x0200, 3072, Class::M, 0),
+    bits(0x0e00, 256, Class::M, 8000),
+    bits(0x0f00, 1024, Class::S, 0),
+    bits(0x1300, 256, Class::T, 0),
+    bits(0x1400, 256, Class::T, 0),
+    bits(0x1500, 256, Class::C, 0),
+    bits(0x1600, 256, Class::C, 0),
+];
+
+/// hm-motion-controller §6.4.2.
+const HM_WORDS: &[Area] = &[
+    words(0x0170, 8000, Class::D, 0),
+    words(0x20b0, 256, Class::D, 8000),
+    words(0x21b0, 256, Class::T, 0),
+    words(0x22b0, 200, Class::C, 0),
+    counters(0x2378),
+    words(0x23e8, 100, Class::R, 0),
+];
+
+/// HM as a slave. The manual names no refusals and no limit of a slave but the standard's.
+pub static HM: Profile = Profile {
+    coils: HM_BITS,
+    inputs: HM_BITS,
+    registers: HM_WORDS,
+    input_registers: HM_WORDS,
+    limits: Limits::STANDARD,
+    any_value_is_on: false,
+    counters_by_06: true,
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What stands at one address.
+    fn at(areas: &'static [Area], address: u16) -> Option<Place> {
+        places(areas, address, 1, false).next().flatten()
+    }
+
+    #[test]
+    fn no_address_stands_for_two_places() {
+        for profile in [&H2U, &H1U, &L01S, &FX3U, &HM] {
+            let tables = [
+                profile.coils,
+                profile.inputs,
+                profile.registers,
+                profile.input_registers,
+            ];
+            for areas in tables {
+                for pair in areas.windows(2) {
+                    let end = pair[0].address.checked_add(pair[0].count).unwrap();
+                    assert!(end <= pair[1].address, "{pair:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn addresses_that_the_manuals_print() {
+        assert_eq!(at(H2U.registers, 0xf001), Some(Place::Word(Class::T, 1)));
+        assert_eq!(at(H2U.registers, 0xf805), None);
+        let c205 = Place::Half {
+            counter: 205,
+            high: false,
+        };
+        assert_eq!(at(H2U.registers, 0xf70a), Some(c205));
+        assert_eq!(at(H2U.coils, 0xf808), Some(Place::Bit(Class::X, 8)));
+        assert_eq!(at(HM.registers, 0x20af), Some(Place::Word(Class::D, 7999)));
+        assert_eq!(at(HM.coils, 0x12ff), Some(Place::Bit(Class::S, 1023)));
+        assert_eq!(
+            at(L01S.registers, 0xa657),
+            Some(Place::Packed(Class::M, 7664))
+        );
+        assert_eq!(
+            at(L01S.registers, 0x7eff),
+            Some(Place::Word(Class::R, 23999))
+        );
+        assert_eq!(at(L01S.registers, 0x7f00), None);
+    }
+
+    #[test]
+    fn ranges_run_on_into_the_next_area_and_over_the_end() {
+        let found: std::vec::Vec<_> = places(L01S.registers, 0x1f3f, 2, true).collect();
+        let words = [7999, 8000].map(|n| Some(Place::Word(Class::D, n)));
+        assert_eq!(found, words);
+        assert_eq!(places(H2U.coils, 0xffff, 2, false).flatten().count(), 0);
+        assert_eq!(places(H2U.coils, 0xf800, 1, true).next(), Some(None));
+    }
+}

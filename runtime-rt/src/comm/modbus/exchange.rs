@@ -1,0 +1,256 @@
+//! One exchange of a master after the other, and whose turn it is.
+//!
+//! An instruction of the program that is driven while the port is free hands over its job ([`Exchange::begin`]). The port sends the request
+//! between scans and takes the answer. When the scan reaches that instruction again, driven or not, it learns how the exchange ended, and the
+//! next driven one has its turn: the search goes on right behind it and around (h1u-h2u-programming §5.7.1). So each has its turn, without
+//! a queue.
+
+use super::adu::Framing;
+use super::master::{Buffer, Job, accept};
+use crate::comm::{LineFault, Map};
+use crate::plc::Class;
+
+/// How far an exchange is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Phase {
+    /// The port is free.
+    #[default]
+    Free,
+    /// The request is to be sent.
+    Ready,
+    /// The request is on the line.
+    Sent,
+    /// The answer is awaited.
+    Waiting,
+    /// It is over; the instruction does not know yet.
+    Over,
+}
+
+/// The exchange of a port that is a master.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exchange {
+    job: Job,
+    phase: Phase,
+    /// Which instruction it is for.
+    owner: u32,
+    fault: Option<LineFault>,
+    time_out_us: u32,
+    /// When the request was out.
+    since_us: u32,
+}
+
+/// What an instruction finds that the scan reaches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Visit {
+    /// Nothing to do: the port works for another one or still for this one, or nobody drives it.
+    Pass,
+    /// The port is free and this instruction driven: its turn.
+    Turn,
+    /// Its exchange is over, well or not; the port is free again.
+    Over(Result<(), LineFault>),
+}
+
+impl Default for Exchange {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Exchange {
+    /// A port that is free.
+    pub const fn new() -> Self {
+        Exchange {
+            job: Job {
+                station: 0,
+                function: 0,
+                address: 0,
+                count: 0,
+                buffer: Buffer::Words(Class::D, 0),
+            },
+            phase: Phase::Free,
+            owner: 0,
+            fault: None,
+            time_out_us: 0,
+            since_us: 0,
+        }
+    }
+
+    /// The scan has reached instruction `owner` (any number that no other has).
+    pub fn visit(&mut self, owner: u32, driven: bool) -> Visit {
+        match self.phase {
+            Phase::Free if driven => Visit::Turn,
+            Phase::Over if self.owner == owner => {
+                self.phase = Phase::Free;
+                Visit::Over(self.fault.take().map_or(Ok(()), Err))
+            }
+            _ => Visit::Pass,
+        }
+    }
+
+    /// The instruction whose turn it is hands over its job. The answer may take `time_out_us` from when the request is out.
+    pub fn begin(&mut self, owner: u32, job: Job, time_out_us: u32) {
+        *self = Exchange {
+            job,
+            phase: Phase::Ready,
+            owner,
+            fault: None,
+            time_out_us,
+            since_us: 0,
+        };
+    }
+
+    /// Whether it is working for an instruction.
+    pub fn is_busy(&self) -> bool {
+        !matches!(self.phase, Phase::Free | Phase::Over)
+    }
+
+    /// The job whose request is to be sent now.
+    pub fn to_send(&self) -> Option<&Job> {
+        (self.phase == Phase::Ready).then_some(&self.job)
+    }
+
+    /// The request has been handed to the line, or could not be made.
+    pub fn sending(&mut self, request: Result<(), LineFault>) {
+        if self.phase == Phase::Ready {
+            self.phase = Phase::Sent;
+            if let Err(fault) = request {
+                self.end(Some(fault));
+            }
+        }
+    }
+
+    /// The last character of the request is out.
+    pub fn sent(&mut self, now_us: u32) {
+        if self.phase != Phase::Sent {
+            return;
+        }
+        self.since_us = now_us;
+        self.phase = Phase::Waiting;
+        if !self.job.is_answered() {
+            self.end(None);
+        }
+    }
+
+    /// A frame has come. One that nobody has asked for is dropped.
+    pub fn receive(&mut self, framing: Framing, frame: &[u8], map: &mut dyn Map) {
+        if self.phase == Phase::Waiting {
+            let done = accept(framing, &self.job, frame, map);
+            self.end(done.err());
+        }
+    }
+
+    /// Characters have come that are no frame.
+    pub fn receive_fault(&mut self, fault: LineFault) {
+        if self.phase == Phase::Waiting {
+            self.end(Some(fault));
+        }
+    }
+
+    /// Lets time pass. `receiving` says that an answer has begun: it is not cut off.
+    pub fn pass(&mut self, now_us: u32, receiving: bool) {
+        let waited = now_us.wrapping_sub(self.since_us);
+        if self.phase == Phase::Waiting && !receiving && waited >= self.time_out_us {
+            self.end(Some(LineFault::TimeOut));
+        }
+    }
+
+    /// When the answer is late.
+    pub fn deadline_us(&self) -> Option<u32> {
+        let waits = self.phase == Phase::Waiting;
+        waits.then(|| self.since_us.wrapping_add(self.time_out_us))
+    }
+
+    fn end(&mut self, fault: Option<LineFault>) {
+        self.fault = fault;
+        self.phase = Phase::Over;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::comm::Served;
+    use crate::double::Double;
+
+    fn job(station: u8) -> Job {
+        Job {
+            station,
+            function: 3,
+            address: 100,
+            count: 1,
+            buffer: Buffer::Words(Class::D, 10),
+        }
+    }
+
+    /// The scan passes instructions 1 to 3, of which these are driven; returns what each finds. One whose turn it is begins.
+    fn scan(exchange: &mut Exchange, driven: [bool; 3]) -> [Visit; 3] {
+        [1, 2, 3].map(|owner| {
+            let visit = exchange.visit(owner, driven[owner as usize - 1]);
+            if visit == Visit::Turn {
+                exchange.begin(owner, job(owner as u8), 100_000);
+            }
+            visit
+        })
+    }
+
+    #[test]
+    fn driven_instructions_take_turns() {
+        use Visit::{Over, Pass, Turn};
+        let mut plc = Double::new();
+        let mut exchange = Exchange::new();
+        let all = [true; 3];
+        assert_eq!(scan(&mut exchange, all), [Turn, Pass, Pass]);
+        assert_eq!(scan(&mut exchange, all), [Pass, Pass, Pass]);
+        assert_eq!(exchange.to_send(), Some(&job(1)));
+        exchange.sending(Ok(()));
+        assert_eq!(exchange.to_send(), None);
+        exchange.sent(50);
+        let answer = [1, 3, 2, 0x51, 0, 0x85, 0xd4];
+        exchange.receive(Framing::Rtu, &answer, &mut Served::new(&mut plc, 0));
+        assert_eq!(plc.d(10, 1), [0x5100]);
+        // The instruction that was switched off learns of its end; the one behind it is next.
+        assert_eq!(
+            scan(&mut exchange, [false, true, true]),
+            [Over(Ok(())), Turn, Pass]
+        );
+        exchange.sending(Err(LineFault::Data));
+        let failed = Over(Err(LineFault::Data));
+        assert_eq!(
+            scan(&mut exchange, [true, true, false]),
+            [Pass, failed, Pass]
+        );
+        assert_eq!(
+            scan(&mut exchange, [false, false, true]),
+            [Pass, Pass, Turn]
+        );
+    }
+
+    #[test]
+    fn an_answer_is_late_from_the_end_of_the_request() {
+        let mut exchange = Exchange::new();
+        assert_eq!(exchange.visit(7, true), Visit::Turn);
+        exchange.begin(7, job(1), 100_000);
+        exchange.pass(1_000_000, false);
+        exchange.sending(Ok(()));
+        exchange.sent(u32::MAX);
+        assert_eq!(exchange.deadline_us(), Some(99_999));
+        exchange.pass(99_998, false);
+        exchange.pass(99_999, true);
+        assert!(exchange.is_busy());
+        exchange.pass(99_999, false);
+        assert!(!exchange.is_busy());
+        assert_eq!(
+            exchange.visit(7, false),
+            Visit::Over(Err(LineFault::TimeOut))
+        );
+    }
+
+    #[test]
+    fn nobody_answers_a_broadcast() {
+        let mut exchange = Exchange::new();
+        exchange.begin(7, job(0), 100_000);
+        exchange.sending(Ok(()));
+        exchange.sent(0);
+        assert_eq!(exchange.visit(7, true), Visit::Over(Ok(())));
+    }
+}
