@@ -43,6 +43,7 @@
 //! | `mc.rs` | MC protocol 1E and 3E |
 //! | `parallel_link.rs`, `nn_link.rs`, `qlink.rs`, `can.rs` | links between PLCs, QLink, CAN |
 
+pub mod computer_link;
 mod frame;
 pub mod fx_port;
 mod map;
