@@ -16,19 +16,19 @@ const BARE_C: &str = include_str!("../templates/bare.c");
 const BOARD: [(&str, &str); 4] = [
     (
         "startup.c",
-        include_str!("../../examples/stm32f405/c/startup.c"),
+        include_str!("../../examples/firmware/stm32f405/c/startup.c"),
     ),
     (
         "board.c",
-        include_str!("../../examples/stm32f405/c/board.c"),
+        include_str!("../../examples/firmware/stm32f405/c/board.c"),
     ),
     (
         "board.h",
-        include_str!("../../examples/stm32f405/c/board.h"),
+        include_str!("../../examples/firmware/stm32f405/c/board.h"),
     ),
     (
         LINKER_SCRIPT,
-        include_str!("../../examples/stm32f405/c/stm32f405.ld"),
+        include_str!("../../examples/firmware/stm32f405/c/stm32f405.ld"),
     ),
 ];
 

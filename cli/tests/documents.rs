@@ -50,11 +50,11 @@ fn rungc(folder: &Path, args: &[&str]) -> (String, bool) {
 #[test]
 fn readme_shows_what_happens() {
     let readme = fs::read_to_string(root().join("README.md")).unwrap();
-    let example = fs::read_to_string(root().join("golden/examples/motor.il")).unwrap();
+    let example = fs::read_to_string(root().join("examples/programs/motor.il")).unwrap();
     assert_eq!(blocks(&readme, "", "; A motor")[0].trim(), example.trim());
     let folder = tempfile::tempdir().unwrap();
-    fs::create_dir_all(folder.path().join("golden/examples")).unwrap();
-    fs::write(folder.path().join("golden/examples/motor.il"), &example).unwrap();
+    fs::create_dir_all(folder.path().join("examples/programs")).unwrap();
+    fs::write(folder.path().join("examples/programs/motor.il"), &example).unwrap();
     let console = blocks(&readme, "", "$ rungc");
     for part in console[0].split("$ rungc ").skip(1) {
         let (command, expected) = part.split_once('\n').unwrap();
@@ -97,19 +97,19 @@ fn the_example_of_machines_runs() {
 #[test]
 fn the_diagram_is_what_the_command_draws() {
     let page = fs::read_to_string(root().join("docs/src/machines.md")).unwrap();
-    let examples = root().join("golden/examples");
+    let examples = root().join("examples/programs");
     let machine = fs::read_to_string(examples.join("drill.machine.toml")).unwrap();
     assert_eq!(
         blocks(&page, "toml", "# The machine of drill.il")[0],
         machine
     );
     let folder = tempfile::tempdir().unwrap();
-    let copies = folder.path().join("golden/examples");
+    let copies = folder.path().join("examples/programs");
     fs::create_dir_all(&copies).unwrap();
     for name in ["drill.il", "drill.machine.toml"] {
         fs::copy(examples.join(name), copies.join(name)).unwrap();
     }
-    let command = blocks(&page, "", "$ rungc run golden/").concat();
+    let command = blocks(&page, "", "$ rungc run examples/").concat();
     let args = command.trim().strip_prefix("$ rungc ").unwrap();
     let (printed, succeeded) = rungc(folder.path(), &args.split(' ').collect::<Vec<_>>());
     assert!(succeeded, "{printed}");

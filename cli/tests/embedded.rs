@@ -11,7 +11,7 @@ use tools::{cargo, leave_out, no_rust, tools};
 const TARGET: &str = "thumbv7em-none-eabihf";
 
 fn examples() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/stm32f405")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/firmware/stm32f405")
 }
 
 /// `make`, in the folder of the C example, with another folder for what it makes.
@@ -150,7 +150,8 @@ fn traffic_light_in_rust() {
         return;
     }
     let build = tempfile::tempdir().unwrap();
-    let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("../golden/examples/traffic_light.il");
+    let program =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/programs/traffic_light.il");
     if let Some(image) = rust_image("rust", &program, build.path()) {
         insta::assert_snapshot!("traffic_light", lamps(&simulate(&image, &[])));
     }

@@ -16,7 +16,7 @@ fn repository() -> PathBuf {
 }
 
 fn traffic_light() -> String {
-    let path = repository().join("golden/examples/traffic_light.il");
+    let path = repository().join("examples/programs/traffic_light.il");
     path.display().to_string()
 }
 
@@ -63,7 +63,12 @@ fn an_image_runs() {
         "--target",
         "thumbv7em-none-eabihf",
     ];
-    let image = ["--emit", "elf", "--board", &board("stm32f405/board.toml")];
+    let image = [
+        "--emit",
+        "elf",
+        "--board",
+        &board("firmware/stm32f405/board.toml"),
+    ];
     let script = [
         "--set",
         "X0=1@2s,X0=0@2.1s",
@@ -123,7 +128,12 @@ fn an_image_takes_edges() {
     }
     let folder = folder(&[("edges.il", EDGES.as_bytes())]);
     let args = ["build", "edges.il", "--emit", "elf", "--set", EDGES_SCRIPT];
-    let board = ["--for", "50ms", "--board", &board("stm32f405/board.toml")];
+    let board = [
+        "--for",
+        "50ms",
+        "--board",
+        &board("firmware/stm32f405/board.toml"),
+    ];
     quiet(&rungc(folder.path(), &[&args[..], &board].concat()));
     let printed = simulated("netduinoplus2", &folder.path().join("edges.elf"));
     assert_eq!(printed, "      0.020 s  Y000 on");
@@ -150,7 +160,7 @@ fn images_in_rust_run() {
             "edges.il",
             EDGES_SCRIPT,
             "50ms",
-            "stm32f405/board.toml",
+            "firmware/stm32f405/board.toml",
             "thumbv7em-none-eabihf",
             "netduinoplus2",
         ),
@@ -410,7 +420,7 @@ fn options_that_do_not_go_together() {
         ("panel.c", PANEL_C.as_bytes()),
         ("panel.h", b""),
     ]);
-    let board = board("stm32f405/board.toml");
+    let board = board("firmware/stm32f405/board.toml");
     let mut said = Vec::new();
     for args in [
         &["--emit", "elf"][..],
@@ -463,10 +473,10 @@ fn an_image_sends_pulses() {
     let Some(cargo) = cargo(target) else {
         return leave_out(&no_rust(target));
     };
-    let board = std::fs::read_to_string(board("stm32f405/board.toml")).unwrap();
+    let board = std::fs::read_to_string(board("firmware/stm32f405/board.toml")).unwrap();
     let board = board.replace("hz = 16_000_000", "tick_us = 50\nhz = 16_000_000");
     let folder = folder(&[("board.toml", board.as_bytes())]);
-    let stepper = repository().join("examples/stm32f405/stepper.il");
+    let stepper = repository().join("examples/firmware/stm32f405/stepper.il");
     let mut build = with_cargo(&cargo);
     build
         .args(["build", &stepper.display().to_string(), "--emit", "elf"])
@@ -492,7 +502,7 @@ fn an_image_notes_edges() {
     let mut build = Command::new(env!("CARGO_BIN_EXE_rungc"));
     build
         .args(["build", "edges.il", "--emit", "elf", "-o", "edges.elf"])
-        .args(["--board", &board("stm32f405/board.toml")])
+        .args(["--board", &board("firmware/stm32f405/board.toml")])
         .args(["--set", presses, "--for", "50ms"])
         .current_dir(folder.path());
     quiet(&build.output().unwrap());
@@ -570,7 +580,10 @@ fn what_a_program_takes_is_reported() {
     let folder = folder(&[("busy.il", BUSY.as_bytes())]);
     let mut said = Vec::new();
     for (file, place) in [
-        (traffic_light(), ["--board", &board("stm32f405/board.toml")]),
+        (
+            traffic_light(),
+            ["--board", &board("firmware/stm32f405/board.toml")],
+        ),
         (traffic_light(), ["--target", "thumbv6m-none-eabi"]),
         ("busy.il".to_string(), ["--target", "thumbv7m-none-eabi"]),
         ("busy.il".to_string(), ["--target", "host"]),
@@ -590,7 +603,7 @@ fn a_report_for_tools() {
     }
     let folder = folder(&[]);
     let args = ["build", &traffic_light(), "--report", "--format", "json"];
-    let board = ["--board", &board("stm32f405/board.toml")];
+    let board = ["--board", &board("firmware/stm32f405/board.toml")];
     let output = rungc(folder.path(), &[&args[..], &board].concat());
     let read: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let report = &read["report"];

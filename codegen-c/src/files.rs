@@ -156,7 +156,7 @@ fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
         files.push(file("rungc_board.h", RUNGC_BOARD_H.to_string()));
     }
     if runtime {
-        let sources = rungc_rt_sources::library::sources().into_iter();
+        let sources = rungc_runtime_sources::library::sources().into_iter();
         files.extend(sources.map(|(path, text)| file(format!("rungc-rt/{path}"), text)));
     }
     files

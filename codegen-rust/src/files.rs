@@ -6,7 +6,7 @@ use crate::{Options, OutFile, Runtime};
 use rungc_ir::Module;
 use rungc_models::plc_errors;
 use rungc_rt::TimerKind;
-use rungc_rt_sources::EMITTED_VERSION;
+use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
 use std::collections::BTreeMap;
@@ -33,8 +33,8 @@ fn file(path: impl Into<String>, text: impl Into<String>) -> OutFile {
 
 /// The runtime's sources, for a path dependency, and the lock file of a crate that depends on nothing else.
 fn runtime(crate_name: &str) -> Vec<OutFile> {
-    let lock = rungc_rt_sources::lock_file(&[(crate_name, &["rungc-rt"])]);
-    rungc_rt_sources::files()
+    let lock = rungc_runtime_sources::lock_file(&[(crate_name, &["rungc-rt"])]);
+    rungc_runtime_sources::files()
         .into_iter()
         .map(|(path, text)| file(format!("{RUNTIME_FOLDER}/{path}"), text))
         .chain([file("Cargo.lock", lock)])

@@ -3,7 +3,7 @@
 use crate::image::OutFile;
 use crate::target::Target;
 use rungc_ir::Module;
-use rungc_rt_sources::library::Optimise;
+use rungc_runtime_sources::library::Optimise;
 
 /// A folder of C whose `make` builds for the target.
 pub fn c(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {

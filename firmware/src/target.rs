@@ -1,6 +1,6 @@
 //! The machines that libraries and images are built for: one row each.
 
-use rungc_rt_sources::library::Optimise;
+use rungc_runtime_sources::library::Optimise;
 
 /// A machine that code is built for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/programs")
 }
 
 fn load_all() -> Vec<TestFile> {

@@ -6,7 +6,7 @@ use rungc_models::ModelId;
 use std::path::Path;
 
 fn module(name: &str, model: ModelId) -> Module {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/programs");
     let read = rungc_frontend::read(&folder.join(format!("{name}.il"))).unwrap();
     let options = CompileOptions {
         model: Some(model),

@@ -9,7 +9,7 @@ use crate::args::{EngineChoice, Shard, TestArgs, TestFormat};
 use crate::progress;
 use crate::report::visible_json;
 use report::Results;
-use rungc_rt_sources::cache::{self, Slot};
+use rungc_runtime_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Report, Suite, TestFile};

@@ -2,7 +2,7 @@
 
 use super::{Image, OutFile, comment, linker_script, terminals};
 use crate::board::OutputPin;
-use rungc_rt_sources::EMITTED_VERSION;
+use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -90,7 +90,7 @@ pub fn project(image: &Image) -> Vec<OutFile> {
 fn lock_file(package: &str) -> String {
     let mut needs = [package, "rungc-rt"];
     needs.sort_unstable();
-    rungc_rt_sources::lock_file(&[("image", &needs), (package, &["rungc-rt"])])
+    rungc_runtime_sources::lock_file(&[("image", &needs), (package, &["rungc-rt"])])
 }
 
 fn manifest(package: &str) -> String {

@@ -2,7 +2,7 @@
 
 use super::{Engine, Interpreter, Process};
 use rungc_ir::Module;
-use rungc_rt_sources::cache;
+use rungc_runtime_sources::cache;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;

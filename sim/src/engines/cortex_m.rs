@@ -46,7 +46,7 @@ impl Board {
 const SUPPORT: [(&str, &str); 3] = [
     (
         "startup.c",
-        include_str!("../../../examples/stm32f405/c/startup.c"),
+        include_str!("../../../examples/firmware/stm32f405/c/startup.c"),
     ),
     ("mps2.ld", include_str!("cortex_m/mps2.ld")),
     ("semihosting.c", include_str!("cortex_m/semihosting.c")),

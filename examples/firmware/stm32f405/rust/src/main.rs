@@ -1,4 +1,4 @@
-//! The traffic light of `golden/examples` on an STM32F405.
+//! The traffic light of `examples/programs` on an STM32F405.
 
 #![no_std]
 #![no_main]

@@ -1,4 +1,4 @@
-/* traffic_light.c: the traffic light of golden/examples on an STM32F405. */
+/* traffic_light.c: the traffic light of examples/programs on an STM32F405. */
 #include "board.h"
 #include "traffic_light.h"
 
