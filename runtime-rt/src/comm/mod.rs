@@ -47,6 +47,7 @@ pub mod computer_link;
 mod frame;
 pub mod fx_port;
 mod map;
+pub mod mc;
 pub mod modbus;
 #[cfg(test)]
 mod watched;

@@ -1,0 +1,186 @@
+//! Frame 3E: `50 00 network PC module(2) station length(2) timer(2) command(2) subcommand(2) …`, answered by
+//! `D0 00 network PC module(2) station length(2) end code(2) data`. Length counts what follows it.
+
+use super::device::Device;
+use super::{Fields, Refusal, points};
+use crate::comm::{Frame, LineFault, Map};
+
+/// Bytes up to and with the length.
+const HEAD: usize = 9;
+/// Bytes from the network number to the station, which the answer repeats.
+const ROUTE: core::ops::Range<usize> = 2..7;
+
+const BATCH_READ: u32 = 0x0401;
+const BATCH_WRITE: u32 = 0x1401;
+const RANDOM_READ: u32 = 0x0403;
+const RANDOM_WRITE: u32 = 0x1402;
+const REMOTE_RUN: u32 = 0x1001;
+const REMOTE_STOP: u32 = 0x1002;
+const CPU_TYPE: u32 = 0x0101;
+const ECHO: u32 = 0x0619;
+
+const MOST_WORDS: u32 = 960;
+const MOST_BITS: u32 = 7168;
+/// Words and double words of a random read.
+const MOST_READ: u32 = 192;
+/// Twelfths and fourteenths of this many words and double words may be written at random.
+const MOST_WRITTEN: u32 = 1920;
+/// Bits of a random write.
+const MOST_BITS_WRITTEN: u32 = 188;
+/// Characters of an echo.
+const MOST_ECHO: u32 = 960;
+
+/// What the PLC calls itself, in 16 characters; the code that follows is that of D8001.
+const NAME: &[u8; 16] = b"RUNGC           ";
+
+/// How long a request is, as far as it tells.
+pub(super) fn length(received: &[u8]) -> Option<usize> {
+    let length = received.get(HEAD - 2..HEAD)?;
+    Some(HEAD + usize::from(length[0]) + 256 * usize::from(length[1]))
+}
+
+pub(super) fn answer(
+    request: &[u8],
+    map: &mut dyn Map,
+    reply: &mut Frame,
+) -> Result<(), LineFault> {
+    let Some(route) = request.get(ROUTE) else {
+        return Err(LineFault::Length);
+    };
+    reply.extend(&[0xd0, 0]);
+    reply.extend(route);
+    reply.extend(&[0; 4]);
+    let data = reply.len();
+    let outcome = execute(request, map, reply);
+    if let Err(refusal) = outcome {
+        reply.truncate(data);
+        let code: u16 = match refusal {
+            Refusal::Command => 0xc059,
+            Refusal::Points => 0xc051,
+            Refusal::Device => 0xc056,
+            Refusal::Length => 0xc061,
+            Refusal::Data => 0xc05c,
+        };
+        reply.set(data - 2, code as u8);
+        reply.set(data - 1, (code >> 8) as u8);
+        // What was refused: route and command.
+        reply.extend(route);
+        reply.extend(request.get(HEAD + 2..HEAD + 6).unwrap_or(&[0; 4]));
+    }
+    let length = (reply.len() - HEAD) as u16;
+    reply.set(HEAD - 2, length as u8);
+    reply.set(HEAD - 1, (length >> 8) as u8);
+    outcome.map_err(Refusal::fault)
+}
+
+fn execute(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), Refusal> {
+    if length(request) != Some(request.len()) {
+        return Err(Refusal::Length);
+    }
+    let mut fields = Fields(request);
+    fields.take(HEAD + 2)?;
+    let (command, subcommand) = (fields.number(2)?, fields.number(2)?);
+    match (command, subcommand) {
+        (BATCH_READ | BATCH_WRITE, 0 | 1) => {
+            let device = Device::of_3e(&mut fields)?;
+            let count = fields.number(2)?;
+            let is_bits = subcommand == 1;
+            let count = points(count, if is_bits { MOST_BITS } else { MOST_WORDS })?;
+            if command == BATCH_READ {
+                fields.end()?;
+            }
+            match (command, is_bits) {
+                (BATCH_READ, false) => device.read_words(count, map, reply),
+                (BATCH_READ, true) => device.read_bits(count, map, reply),
+                (_, false) => device.write_words(count, fields, map),
+                (_, true) => device.write_bits(count, fields, map),
+            }
+        }
+        (RANDOM_READ, 0) => random_read(fields, map, reply),
+        (RANDOM_WRITE, 0) => random_write(fields, map),
+        (RANDOM_WRITE, 1) => random_write_bits(fields, map),
+        (REMOTE_RUN | REMOTE_STOP, 0) => {
+            fields.take(if command == REMOTE_RUN { 4 } else { 2 })?;
+            fields.end()?;
+            map.request_running(command == REMOTE_RUN);
+            Ok(())
+        }
+        (CPU_TYPE, 0) => {
+            fields.end()?;
+            reply.extend(NAME);
+            reply.push_le16(map.type_code());
+            Ok(())
+        }
+        (ECHO, 0) => {
+            let echo = fields.0;
+            let count = points(fields.number(2)?, MOST_ECHO)?;
+            fields.take(count as usize)?;
+            fields.end()?;
+            reply.extend(echo);
+            Ok(())
+        }
+        _ => Err(Refusal::Command),
+    }
+}
+
+/// Words and double words, each with its device.
+fn random_read(mut fields: Fields, map: &dyn Map, reply: &mut Frame) -> Result<(), Refusal> {
+    let (words, doubles) = (fields.number(1)?, fields.number(1)?);
+    points(words + doubles, MOST_READ)?;
+    for _ in 0..words {
+        Device::of_3e(&mut fields)?.read_words(1, map, reply)?;
+    }
+    for _ in 0..doubles {
+        let value = Device::of_3e(&mut fields)?.double_word(map)?;
+        reply.extend(&value.to_le_bytes());
+    }
+    fields.end()
+}
+
+fn random_write(mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusal> {
+    let (words, doubles) = (fields.number(1)?, fields.number(1)?);
+    points(12 * words + 14 * doubles, MOST_WRITTEN)?;
+    let mut checked = fields;
+    for index in 0..words + doubles {
+        let device = Device::of_3e(&mut checked)?;
+        let (exists, bytes) = if index < words {
+            (device.exists(false, map), 2)
+        } else {
+            (device.has_double_word(map), 4)
+        };
+        checked.take(bytes)?;
+        if !exists {
+            return Err(Refusal::Device);
+        }
+    }
+    checked.end()?;
+    for index in 0..words + doubles {
+        let device = Device::of_3e(&mut fields)?;
+        if index < words {
+            device.set(false, fields.number(2)?, map);
+        } else {
+            device.set_double_word(fields.number(4)?, map);
+        }
+    }
+    Ok(())
+}
+
+fn random_write_bits(mut fields: Fields, map: &mut dyn Map) -> Result<(), Refusal> {
+    let count = points(fields.number(1)?, MOST_BITS_WRITTEN)?;
+    let mut checked = fields;
+    for _ in 0..count {
+        let device = Device::of_3e(&mut checked)?;
+        if checked.number(1)? > 1 {
+            return Err(Refusal::Data);
+        }
+        if !device.exists(true, map) {
+            return Err(Refusal::Device);
+        }
+    }
+    checked.end()?;
+    for _ in 0..count {
+        let device = Device::of_3e(&mut fields)?;
+        device.set(true, fields.number(1)?, map);
+    }
+    Ok(())
+}

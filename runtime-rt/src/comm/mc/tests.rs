@@ -1,0 +1,292 @@
+//! Frames as pymcprotocol 0.3 sends and understands them (3E), and of FX3's description (1E).
+
+use super::*;
+use crate::comm::watched::{Watched, bytes, hex, reply_of};
+use crate::plc::Class;
+use proptest::prelude::*;
+use std::string::String;
+use std::vec::Vec;
+
+fn exchange(map: &mut Watched, request: &[u8]) -> (Vec<u8>, Result<(), LineFault>) {
+    reply_of(|reply| answer(request, map, reply))
+}
+
+fn ask(map: &mut Watched, request: &str) -> String {
+    let request = bytes(request);
+    assert_eq!(cut(&request), Cut::Whole);
+    assert_eq!(cut(&request[..request.len() - 1]), Cut::More);
+    hex(&exchange(map, &request).0)
+}
+
+const DONE: &str = "D0 00 00 FF FF 03 00 02 00 00 00";
+
+#[test]
+fn batches_of_pymcprotocol() {
+    let mut map = Watched::new();
+    map.plc.set_d(100, &[0x1234, 2, -4323]);
+    map.plc.set_m(103, "11");
+    assert_eq!(
+        ask(
+            &mut map,
+            "50 00 00 FF FF 03 00 0C 00 04 00 01 04 00 00 64 00 00 A8 03 00"
+        ),
+        "D0 00 00 FF FF 03 00 08 00 00 00 34 12 02 00 1D EF"
+    );
+    assert_eq!(
+        ask(
+            &mut map,
+            "50 00 00 FF FF 03 00 0C 00 04 00 01 04 01 00 64 00 00 90 05 00"
+        ),
+        "D0 00 00 FF FF 03 00 05 00 00 00 00 01 10"
+    );
+    let request =
+        "50 00 00 FF FF 03 00 12 00 04 00 01 14 00 00 E8 03 00 A8 03 00 13 00 12 00 FE FF";
+    assert_eq!(ask(&mut map, request), DONE);
+    assert_eq!(map.plc.d(1000, 3), [19, 18, -2]);
+    let request = "50 00 00 FF FF 03 00 0E 00 04 00 01 14 01 00 10 00 00 9D 03 00 01 10";
+    assert_eq!(ask(&mut map, request), DONE);
+    let y = [16, 17, 18, 19].map(|n| map.bit(Class::Y, n));
+    assert_eq!(y, [Some(false), Some(true), Some(true), Some(false)]);
+}
+
+#[test]
+fn random_access_of_pymcprotocol() {
+    let mut map = Watched::new();
+    map.plc.set_d(0, &[0x1995]);
+    map.set_word(Class::T, 0, 0x1202);
+    map.plc.set_m(100, "0000110001000000");
+    map.plc.set_dd(1500, 0x4c54_4f4e);
+    for y in 0x68..0x88 {
+        map.set_bit(Class::Y, y, y % 2 == 0);
+    }
+    let request = "50 00 00 FF FF 03 00 1C 00 04 00 03 04 00 00 03 02 00 00 00 A8 00 00 00 C2 64 00 00 90 DC 05 00 A8 68 00 00 9D";
+    assert_eq!(
+        ask(&mut map, request),
+        "D0 00 00 FF FF 03 00 10 00 00 00 95 19 02 12 30 02 4E 4F 54 4C 55 55 55 55"
+    );
+    let request = "50 00 00 FF FF 03 00 1C 00 04 00 02 14 00 00 02 01 E8 03 00 A8 E8 03 EA 03 00 A8 D0 07 EC 03 00 A8 02 00 0A 00";
+    assert_eq!(ask(&mut map, request), DONE);
+    assert_eq!(map.plc.d(1000, 6), [1000, 0, 2000, 0, 2, 10]);
+    map.plc.set_m(50, "100");
+    let request = "50 00 00 FF FF 03 00 11 00 04 00 02 14 01 00 02 32 00 00 90 00 34 00 00 90 01";
+    assert_eq!(ask(&mut map, request), DONE);
+    assert_eq!(map.plc.m(50, 3), "001");
+    // C200 as a double word.
+    let request = "50 00 00 FF FF 03 00 10 00 04 00 02 14 00 00 00 01 C8 00 00 C5 70 11 01 00";
+    assert_eq!(ask(&mut map, request), DONE);
+    assert_eq!(map.counter32(200), Some(70000));
+}
+
+#[test]
+fn control_of_pymcprotocol() {
+    let mut map = Watched::new();
+    let request = "50 00 00 FF FF 03 00 08 00 04 00 02 10 00 00 01 00";
+    assert_eq!(ask(&mut map, request), DONE);
+    assert_eq!(map.request, Some(false));
+    let request = "50 00 00 FF FF 03 00 0A 00 04 00 01 10 00 00 01 00 00 00";
+    assert_eq!(ask(&mut map, request), DONE);
+    assert_eq!(map.request, Some(true));
+    assert_eq!(
+        ask(&mut map, "50 00 00 FF FF 03 00 06 00 04 00 01 01 00 00"),
+        "D0 00 00 FF FF 03 00 14 00 00 00 52 55 4E 47 43 20 20 20 20 20 20 20 20 20 20 20 38 5E"
+    );
+    assert_eq!(
+        ask(
+            &mut map,
+            "50 00 00 FF FF 03 00 0B 00 04 00 19 06 00 00 03 00 41 42 43"
+        ),
+        "D0 00 00 FF FF 03 00 07 00 00 00 03 00 41 42 43"
+    );
+    // Pause, which this PLC does not have.
+    assert_eq!(
+        ask(
+            &mut map,
+            "50 00 00 FF FF 03 00 08 00 04 00 03 10 00 00 01 00"
+        ),
+        "D0 00 00 FF FF 03 00 0B 00 59 C0 00 FF FF 03 00 03 10 00 00"
+    );
+}
+
+#[test]
+fn refusals_of_3e() {
+    let mut map = Watched::new();
+    for (request, code) in [
+        // D8511 is the last register.
+        (
+            "50 00 00 FF FF 03 00 10 00 04 00 01 14 00 00 3E 21 00 A8 03 00 01 00 02 00",
+            0xc061,
+        ),
+        (
+            "50 00 00 FF FF 03 00 12 00 04 00 01 14 00 00 3E 21 00 A8 03 00 01 00 02 00 03 00",
+            0xc056,
+        ),
+        (
+            "50 00 00 FF FF 03 00 0C 00 04 00 01 04 00 00 00 00 00 A8 C1 03",
+            0xc051,
+        ),
+        (
+            "50 00 00 FF FF 03 00 0C 00 04 00 01 04 00 00 00 00 00 A8 00 00",
+            0xc051,
+        ),
+        (
+            "50 00 00 FF FF 03 00 0C 00 04 00 01 04 01 00 00 00 00 A8 01 00",
+            0xc056,
+        ),
+        (
+            "50 00 00 FF FF 03 00 0C 00 04 00 01 04 00 00 C8 00 00 C5 01 00",
+            0xc056,
+        ),
+        (
+            "50 00 00 FF FF 03 00 0C 00 04 00 01 04 00 00 00 00 00 92 01 00",
+            0xc056,
+        ),
+        (
+            "50 00 00 FF FF 03 00 0D 00 04 00 01 04 00 00 00 00 00 A8 01 00 00",
+            0xc061,
+        ),
+        (
+            "50 00 00 FF FF 03 00 0C 00 04 00 02 14 01 00 01 32 00 00 90 02",
+            0xc05c,
+        ),
+    ] {
+        let (reply, outcome) = exchange(&mut map, &bytes(request));
+        assert_eq!(u16::from_le_bytes([reply[9], reply[10]]), code, "{request}");
+        assert!(outcome.is_err());
+    }
+    assert_eq!((map.writes, map.strays), (0, 0));
+}
+
+#[test]
+fn frames_of_1e() {
+    let mut map = Watched::new();
+    map.plc.set_d(100, &[0x1234, 2]);
+    map.plc.set_m(100, "00011");
+    assert_eq!(
+        ask(&mut map, "01 FF 0A 00 64 00 00 00 20 44 02 00"),
+        "81 00 34 12 02 00"
+    );
+    assert_eq!(
+        ask(&mut map, "00 FF 0A 00 64 00 00 00 20 4D 05 00"),
+        "80 00 00 01 10"
+    );
+    assert_eq!(
+        ask(&mut map, "01 FF 0A 00 64 00 00 00 20 4D 01 00"),
+        "81 00 18 00"
+    );
+    assert_eq!(
+        ask(&mut map, "02 FF 0A 00 08 00 00 00 20 59 03 00 11 00"),
+        "82 00"
+    );
+    assert_eq!(map.bit(Class::Y, 9), Some(true));
+    assert_eq!(
+        ask(&mut map, "03 FF 0A 00 F4 01 00 00 20 44 01 00 34 12"),
+        "83 00"
+    );
+    assert_eq!(map.plc.d(500, 1), [0x1234]);
+    assert_eq!(
+        ask(&mut map, "03 FF 0A 00 C8 00 00 00 4E 43 01 00 70 11 01 00"),
+        "83 00"
+    );
+    assert_eq!(
+        ask(&mut map, "01 FF 0A 00 C8 00 00 00 4E 43 01 00"),
+        "81 00 70 11 01 00"
+    );
+    assert_eq!(
+        ask(
+            &mut map,
+            "04 FF 0A 00 02 00 64 00 00 00 20 4D 01 67 00 00 00 20 4D 00"
+        ),
+        "84 00"
+    );
+    assert_eq!(map.plc.m(100, 5), "10001");
+    assert_eq!(
+        ask(&mut map, "05 FF 0A 00 01 00 65 00 00 00 20 44 07 00"),
+        "85 00"
+    );
+    assert_eq!(map.plc.d(101, 1), [7]);
+    assert_eq!(ask(&mut map, "14 FF 0A 00"), "94 00");
+    assert_eq!(map.request, Some(false));
+    assert_eq!(ask(&mut map, "13 FF 0A 00"), "93 00");
+    assert_eq!(map.request, Some(true));
+    assert_eq!(ask(&mut map, "15 FF 0A 00"), "95 00 F3 00");
+    assert_eq!(
+        ask(&mut map, "16 FF 0A 00 03 41 42 43"),
+        "96 00 03 41 42 43"
+    );
+}
+
+#[test]
+fn refusals_of_1e() {
+    let mut map = Watched::new();
+    assert_eq!(
+        ask(&mut map, "01 00 0A 00 64 00 00 00 20 44 02 00"),
+        "81 5B 10 00"
+    );
+    assert_eq!(
+        ask(&mut map, "01 FF 0A 00 64 00 00 00 20 41 02 00"),
+        "81 56"
+    );
+    assert_eq!(
+        ask(&mut map, "01 FF 0A 00 64 00 00 01 20 44 02 00"),
+        "81 56"
+    );
+    assert_eq!(
+        ask(&mut map, "01 FF 0A 00 64 00 00 00 20 44 41 00"),
+        "81 57"
+    );
+    assert_eq!(
+        ask(&mut map, "00 FF 0A 00 64 00 00 00 20 44 01 00"),
+        "80 56"
+    );
+    assert_eq!(
+        ask(
+            &mut map,
+            "03 FF 0A 00 64 00 00 00 20 4D 0B 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00"
+        ),
+        "83 57"
+    );
+    assert_eq!(cut(b"\x06\xff"), Cut::Drop);
+    assert_eq!(cut(b"\x50"), Cut::More);
+    assert_eq!(cut(b"\x50\x01"), Cut::Drop);
+    assert_eq!(cut(b"\x50\x00\x00\xff\xff\x03\x00\xff\xff"), Cut::Drop);
+    assert_eq!(map.writes, 0);
+}
+
+/// Whether an answer says that all went well.
+fn is_done(reply: &[u8]) -> bool {
+    match reply {
+        [0xd0, 0, _, _, _, _, _, _, _, code @ ..] => code.starts_with(&[0, 0]),
+        [_, code, ..] => *code == 0,
+        _ => false,
+    }
+}
+
+proptest! {
+    /// Any bytes after a head that is right: no panic, and what is refused writes nothing.
+    #[test]
+    fn any_bytes(
+        command in proptest::sample::select(std::vec![
+            [0x01u8, 0x04, 0, 0], [0x01, 0x04, 1, 0], [0x01, 0x14, 0, 0], [0x01, 0x14, 1, 0], [0x03, 0x04, 0, 0],
+            [0x02, 0x14, 0, 0], [0x02, 0x14, 1, 0], [0x19, 0x06, 0, 0],
+        ]),
+        code in proptest::sample::select(std::vec![0x9cu8, 0x90, 0xa8, 0xc2, 0xc5, 0xc4]),
+        number in 0u16..9000,
+        data in proptest::collection::vec(any::<u8>(), 0..60),
+        short in 0u8..20,
+    ) {
+        let [low, high] = number.to_le_bytes();
+        let body = [&[4, 0][..], &command, &[low, high, 0, code, short, 0], &data].concat();
+        let three = [&[0x50, 0, 0, 0xff, 0xff, 3, 0, body.len() as u8, 0][..], &body].concat();
+        let one = [&[command[0] & 7, 0xff, 0, 0, low, high, 0, 0, 0x20, 0x44, short, 0][..], &data].concat();
+        for request in [three.as_slice(), &one, &data] {
+            let mut map = Watched::new();
+            cut(request);
+            let (reply, outcome) = exchange(&mut map, request);
+            prop_assert_eq!(outcome.is_ok(), is_done(&reply));
+            if outcome.is_err() {
+                prop_assert_eq!(map.writes, 0);
+            }
+            prop_assert_eq!(map.strays, 0);
+        }
+    }
+}
