@@ -1,8 +1,8 @@
 //! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events and where it is asked for.
 
 use crate::events;
-use crate::fields::Fields;
 use crate::host::terminals;
+use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -57,7 +57,7 @@ pub fn header(module: &Module) -> String {
 
 /// `NAME_board.c`.
 pub fn source(module: &Module, runtime: bool) -> String {
-    let fields = Fields::new(module);
+    let fields = Storage::new(module);
     let mut cases = String::new();
     let mut inputs = String::new();
     for (number, access) in terminals(&fields, DeviceClass::X) {

@@ -1,6 +1,7 @@
 //! Statements that write to devices, as C.
 
 use crate::expr::Around;
+use crate::fields::PrintStorage;
 use crate::helpers::reset_function;
 use crate::writer::Writer;
 use rungc_ir::node::{Expr, ExprId, Place, Stmt};
@@ -218,7 +219,7 @@ impl Writer<'_, '_> {
                 (DeviceClass::T | DeviceClass::C, _) => ".value = ",
                 _ => " = ",
             });
-            match self.is_level(place.class, place.number) {
+            match self.fields.is_level(place.class, place.number) {
                 true => self.grid_value(code, value),
                 false => self.expr(code, value, Around::Exact),
             }

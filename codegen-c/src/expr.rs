@@ -1,6 +1,6 @@
 //! Expressions as C.
 
-use crate::fields::Kind;
+use crate::fields::PrintStorage;
 use crate::text;
 use crate::writer::Writer;
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
@@ -265,17 +265,11 @@ impl Writer<'_, '_> {
             return false;
         }
         match *self.module.expr(e) {
-            Expr::ReadBit(place) => self.is_level(place.class, place.number),
+            Expr::ReadBit(place) => self.fields.is_level(place.class, place.number),
             Expr::Not(a) => self.is_number(a),
             Expr::And(a, b) | Expr::Or(a, b) => self.is_number(a) || self.is_number(b),
             _ => false,
         }
-    }
-
-    /// Whether a device is a bit that is stored as a number.
-    pub fn is_level(&self, class: DeviceClass, number: u32) -> bool {
-        Kind::of(class, number) == Some(Kind::Bit)
-            && self.module.layout.grid(class, number).is_some()
     }
 
     /// Writes a value for an element of an array of columns.

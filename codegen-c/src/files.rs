@@ -1,8 +1,8 @@
 //! Puts units into files.
 
-use crate::fields::Fields;
 use crate::unit::{self, Unit};
 use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, board, events, header, text};
+use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::walk::has_many_timers;
 use rungc_rt::RtFn;
@@ -116,7 +116,7 @@ fn header_file(module: &Module, unit: &Unit) -> String {
         "/*\n * {}\n *\n{} */\n#ifndef {guard}\n#define {guard}\n\n{many}#include \"{include}\"\n\n{checks}\n#ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          {}\n#ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
         banner(module, &format!("{name}.h")),
-        header::embedding(module, &Fields::new(module)),
+        header::embedding(module, &Storage::new(module)),
         unit.api,
     )
 }

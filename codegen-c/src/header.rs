@@ -1,10 +1,11 @@
 //! The header of a program: its struct, field by field, and its functions.
 
-use crate::fields::{Field, Fields, Kind, Section};
+use crate::fields::{self, PrintField};
 use crate::plan::Plan;
 use crate::unit::uses_runtime;
 use crate::writer::c_type;
 use crate::{events, text};
+use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_ir::Module;
 use rungc_rt::Axis;
 use rungc_syntax::DeviceClass;
@@ -29,7 +30,7 @@ fn heading(section: Section) -> &'static str {
 }
 
 /// Writes struct and prototypes.
-pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> String {
+pub fn api(module: &Module, fields: &Storage, plan: &Plan, runtime: bool) -> String {
     let name = &module.name;
     let mut out = String::new();
     let mut size = Size::default();
@@ -64,9 +65,9 @@ pub fn api(module: &Module, fields: &Fields, plan: &Plan, runtime: bool) -> Stri
 }
 
 /// The fields of devices, by sections.
-fn devices(out: &mut String, size: &mut Size, fields: &Fields) {
+fn devices(out: &mut String, size: &mut Size, fields: &Storage) {
     let mut section = None;
-    for field in fields.in_struct_order() {
+    for field in fields.in_sections() {
         if section != Some(field.section) {
             if section.is_some() {
                 out.push('\n');
@@ -158,13 +159,13 @@ impl Size {
     }
 }
 
-fn field_line(out: &mut String, fields: &Fields, field: &Field) {
+fn field_line(out: &mut String, storage: &Storage, field: &Field) {
     let (class, first) = (field.class, field.first);
-    let ty = field.c_type();
+    let ty = fields::c_type(field.kind);
     let mut line = format!("    {ty} ");
     field.name(&mut line);
     if field.array {
-        line.push_str(&field.dimensions());
+        line.push_str(&field.extents());
     }
     line.push(';');
     let mut comment = String::new();
@@ -175,12 +176,12 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
             class.number(first),
             class.number(field.end() - 1)
         );
-        if field.grid && field.kind == Kind::Bit {
+        if field.kind == Kind::Level {
             comment.push_str(", 0 or 1");
         }
-        if field.columns > 1 {
+        if let Some(grid) = field.columns() {
             let n = class.number(first + 1);
-            let (columns, kept) = (field.columns, field.kept);
+            let (columns, kept) = (grid.columns, grid.kept);
             let _ = match kept {
                 1 => write!(comment, ", {columns} apart"),
                 _ if kept < columns => {
@@ -192,9 +193,9 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
                 _ => write!(comment, ", in {columns} columns: [1][0] is {n}"),
             };
         }
-        for run in fields
+        for run in storage
             .runs(field)
-            .filter(|run| field.section == Section::Mixed && run.is_latched())
+            .filter(|run| field.section == Section::Mixed && run.keep == Keep::Latched)
         {
             let (from, to) = (
                 class.number(run.first),
@@ -203,7 +204,7 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
             let _ = write!(comment, ", latched: {from} to {to}");
         }
     } else {
-        if let Some(text) = fields.comment(class, first) {
+        if let Some(text) = storage.comment(class, first) {
             comment = text::comment(text);
         }
         // X10 stands for X010.
@@ -213,8 +214,8 @@ fn field_line(out: &mut String, fields: &Fields, field: &Field) {
     }
     push_with_comment(out, &line, &comment);
     if field.array {
-        for number in (first..field.end()).filter(|&n| field.holds(n)) {
-            if let Some(text) = fields.comment(class, number) {
+        for number in field.numbers() {
+            if let Some(text) = storage.comment(class, number) {
                 let comment = format!(
                     "  {} {}: {}",
                     field.subscript(number),
@@ -256,7 +257,7 @@ fn prototypes(out: &mut String, name: &str) {
 }
 
 /// The comment at the top of the header: how to use it.
-pub fn embedding(module: &Module, fields: &Fields) -> String {
+pub fn embedding(module: &Module, fields: &Storage) -> String {
     let name = &module.name;
     let input = first_name(fields, DeviceClass::X).unwrap_or_else(|| "X0".to_string());
     let output = fields
@@ -327,7 +328,7 @@ pub fn embedding(module: &Module, fields: &Fields) -> String {
     out
 }
 
-fn first_name(fields: &Fields, class: DeviceClass) -> Option<String> {
+fn first_name(fields: &Storage, class: DeviceClass) -> Option<String> {
     let field = fields.of_class(class).first()?;
     let mut name = String::new();
     field.name(&mut name);

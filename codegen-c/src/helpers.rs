@@ -1,7 +1,8 @@
 //! Functions of a program for devices whose number is only known at run time, emitted where the program indexes.
 
 use crate::devices::run_timer;
-use crate::fields::{Field, Fields, Kind};
+use crate::fields::{PrintField, PrintStorage};
+use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::{Module, reach};
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -78,7 +79,7 @@ impl Helpers {
     }
 
     /// Writes them.
-    pub fn write(&self, out: &mut String, module: &Module, fields: &Fields) {
+    pub fn write(&self, out: &mut String, module: &Module, fields: &Storage) {
         let printer = Printer {
             name: &module.name,
             module,
@@ -97,7 +98,7 @@ impl Helpers {
 struct Printer<'a> {
     name: &'a str,
     module: &'a Module,
-    fields: &'a Fields<'a>,
+    fields: &'a Storage<'a>,
 }
 
 impl Printer<'_> {
@@ -304,7 +305,7 @@ impl Printer<'_> {
         let arrays = self.fields.of_class(class).iter();
         arrays.filter(move |field| {
             let overlaps = |&(first, last): &(u32, u32)| field.first <= last && first < field.end();
-            field.array && !field.grid && runs.iter().any(overlaps)
+            field.array && field.grid.is_none() && runs.iter().any(overlaps)
         })
     }
 

@@ -1,7 +1,8 @@
 //! The host program for Linux: scans in real time.
 
-use crate::fields::{Field, Fields};
+use crate::fields::PrintStorage;
 use crate::{events, text};
+use rungc_emit::storage::{Field, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -19,7 +20,7 @@ for (uint64_t now = microseconds(); now < next && !stopped; now = microseconds()
 
 /// `main.c` for a program.
 pub fn main_file(module: &Module) -> String {
-    let fields = Fields::new(module);
+    let fields = Storage::new(module);
     let name = &module.name;
     let mut inputs = String::new();
     for (number, statements) in inputs_of(module, &fields) {
@@ -76,7 +77,7 @@ pub fn main_file(module: &Module) -> String {
 }
 
 /// The input terminals, and what it means to each that it goes on or off.
-fn inputs_of(module: &Module, fields: &Fields) -> BTreeMap<u32, String> {
+fn inputs_of(module: &Module, fields: &Storage) -> BTreeMap<u32, String> {
     let mut inputs: BTreeMap<u32, String> = BTreeMap::new();
     for (number, access) in terminals(fields, DeviceClass::X) {
         inputs.insert(number, format!("        {access} = on;\n"));
@@ -89,7 +90,7 @@ fn inputs_of(module: &Module, fields: &Fields) -> BTreeMap<u32, String> {
 }
 
 /// The terminals that the program looks at, and the fields that they have.
-pub fn terminals(fields: &Fields, class: DeviceClass) -> Vec<(u32, String)> {
+pub fn terminals(fields: &Storage, class: DeviceClass) -> Vec<(u32, String)> {
     let numbers = |f: &Field| f.first..f.end();
     let numbers = fields.of_class(class).iter().flat_map(numbers);
     numbers

@@ -4,7 +4,8 @@
 //! the program calls the runtime, the runtime's sources, and if it takes events or it is asked for, the wiring between it and a board.
 //! [`batch`] makes one executable of many programs, for tests.
 //!
-//! How a program becomes C: `fields` decides on the struct, `plan` divides the program into functions of bounded size,
+//! How a program becomes C: `fields` names the fields of the struct that
+//! `rungc_emit` decides on, `plan` divides the program into functions of bounded size,
 //! `scopes` finds where temporaries live, `writer` and `expr` write statements and expressions, `unit` puts it all together.
 
 mod board;
@@ -28,6 +29,7 @@ mod walk;
 mod writer;
 
 pub use places::Places;
+use rungc_emit::storage::{Field, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 
@@ -77,14 +79,11 @@ pub struct Memory {
 
 /// What the devices of a program take, by their classes; the rest of the struct is private.
 pub fn memory(module: &Module) -> Vec<Memory> {
-    let fields = fields::Fields::new(module);
+    let fields = Storage::new(module);
     let of = |class: DeviceClass| {
         let fields = fields.of_class(class);
-        let bytes = |field: &fields::Field| field.kind.size().0 * field.room();
-        let devices = |field: &fields::Field| {
-            let numbers = field.first..field.end();
-            numbers.filter(|&number| field.holds(number)).count() as u32
-        };
+        let bytes = |field: &Field| field.kind.size().0 * field.room();
+        let devices = |field: &Field| field.numbers().count() as u32;
         Memory {
             class,
             devices: fields.iter().map(devices).sum(),

@@ -1,19 +1,20 @@
 //! Where a host that reads and writes devices itself finds them.
 
-use crate::fields::Fields;
+use crate::fields::PrintStorage;
+use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 
 /// Where the devices of an emitted program are in its struct.
 pub struct Places<'m> {
-    fields: Fields<'m>,
+    fields: Storage<'m>,
 }
 
 impl<'m> Places<'m> {
     /// Those of a program.
     pub fn new(module: &'m Module) -> Self {
         Places {
-            fields: Fields::new(module),
+            fields: Storage::new(module),
         }
     }
 

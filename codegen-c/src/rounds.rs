@@ -1,9 +1,10 @@
 //! Loops over rungs that the program repeats.
 
-use crate::fields::Kind;
+use crate::fields::PrintStorage;
 use crate::plan::Node;
 use crate::writer::Writer;
 use crate::{text, walk};
+use rungc_emit::storage::Kind;
 use rungc_ir::node::{Expr, ExprId, Place, Stmt};
 use rungc_ir::walk::for_exprs;
 use rungc_syntax::DeviceClass;
@@ -80,7 +81,7 @@ impl<'m> Writer<'_, 'm> {
             .filter(|device| !written.contains(device))
             .filter(|&(class, number)| {
                 let field = self.fields.find(class, number);
-                field.is_some_and(|field| field.kind == Kind::Bit && !field.grid)
+                field.is_some_and(|field| field.kind == Kind::Bit)
             })
             .collect()
     }

@@ -1,7 +1,8 @@
 //! The tables by which the runtime finds a program's devices.
 
-use crate::fields::{Field, Fields, Kind};
+use crate::fields::PrintField;
 use crate::text;
+use rungc_emit::storage::{Field, Kind, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -14,7 +15,7 @@ fn class_name(class: DeviceClass) -> String {
 /// The C name of what an area is made of.
 fn kind_name(kind: Kind) -> &'static str {
     match kind {
-        Kind::Bit => "RUNGC_AREA_KIND_BITS",
+        Kind::Bit | Kind::Level => "RUNGC_AREA_KIND_BITS",
         Kind::Word => "RUNGC_AREA_KIND_WORDS",
         Kind::Timer => "RUNGC_AREA_KIND_TIMERS",
         Kind::Counter16 => "RUNGC_AREA_KIND_COUNTERS16",
@@ -32,7 +33,7 @@ fn rank(class: DeviceClass) -> usize {
 }
 
 /// Writes the tables and the function that binds them to a struct.
-pub fn write(out: &mut String, module: &Module, fields: &Fields) {
+pub fn write(out: &mut String, module: &Module, fields: &Storage) {
     let name = &module.name;
     let mut layout = Vec::new();
     let areas = areas(name, fields);
@@ -145,9 +146,8 @@ fn table(
 }
 
 /// Areas: arrays, and relays or words of consecutive numbers that stand side by side.
-fn areas(name: &str, fields: &Fields) -> Vec<String> {
-    let mut order: Vec<(usize, &Field)> =
-        fields.in_struct_order().into_iter().enumerate().collect();
+fn areas(name: &str, fields: &Storage) -> Vec<String> {
+    let mut order: Vec<(usize, &Field)> = fields.in_sections().into_iter().enumerate().collect();
     order.sort_by_key(|(_, f)| (rank(f.class), f.first));
     let mut rows: Vec<(usize, &Field, u32)> = Vec::new();
     for (place, field) in order {
@@ -157,8 +157,8 @@ fn areas(name: &str, fields: &Fields) -> Vec<String> {
                 if *last + 1 == place
                     && first.class == field.class
                     && first.kind == field.kind
-                    && !first.grid
-                    && !field.grid
+                    && first.grid.is_none()
+                    && field.grid.is_none()
                     && first.first + *count == field.first =>
             {
                 *last = place;
@@ -171,13 +171,12 @@ fn areas(name: &str, fields: &Fields) -> Vec<String> {
         .map(|(_, field, count)| {
             let mut member = String::new();
             field.name(&mut member);
+            let (columns, kept) = field.grid.map_or((1, 1), |grid| (grid.columns, grid.kept));
             format!(
-                "{{{}, {}, {}, {count}, {}, {}, offsetof({name}_plc, {member})}}",
+                "{{{}, {}, {}, {count}, {columns}, {kept}, offsetof({name}_plc, {member})}}",
                 class_name(field.class),
                 kind_name(field.kind),
                 field.first,
-                field.columns,
-                field.kept
             )
         })
         .collect()

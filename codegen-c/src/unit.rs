@@ -1,9 +1,10 @@
 //! One module as C text: declarations, and functions in groups of bounded size.
 
-use crate::fields::{Field, Fields, Kind, Section};
+use crate::fields::{PrintField, PrintStorage};
 use crate::plan::Plan;
 use crate::writer::{Writer, function_name};
 use crate::{events, header, table};
+use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, STEPS_PER_MS};
 use rungc_ir::walk::{calls_runtime, statements};
@@ -34,7 +35,7 @@ pub struct Unit {
 
 /// Makes it. `by_number`: the host finds devices by number, so the device table is there even if no instruction needs it.
 pub fn unit(module: &Module, by_number: bool) -> Unit {
-    let fields = Fields::new(module);
+    let fields = Storage::new(module);
     let plan = Plan::new(module);
     let total: u64 = plan.functions.iter().map(|f| f.weight).sum();
     let single = total <= FILE_WEIGHT;
@@ -163,7 +164,7 @@ fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
 /// Writes what belongs to the module as a whole.
 pub struct Printer<'a> {
     pub(crate) module: &'a Module,
-    pub(crate) fields: &'a Fields<'a>,
+    pub(crate) fields: &'a Storage<'a>,
 }
 
 impl Printer<'_> {
@@ -303,7 +304,7 @@ impl Printer<'_> {
             );
         };
         let mut body = String::new();
-        self.clear(&mut body, Section::General, |run| run.is_general());
+        self.clear(&mut body, Section::General, Some(Keep::General));
         function(
             "Clears all devices but inputs, latched and special ones.",
             "general",
@@ -311,20 +312,15 @@ impl Printer<'_> {
         );
         if latched_too {
             body.clear();
-            self.clear(&mut body, Section::Latched, |run| run.is_latched());
+            self.clear(&mut body, Section::Latched, Some(Keep::Latched));
             function("Clears the latched devices.", "latched", &body);
         }
         out
     }
 
     /// Writes the clearing of a section and of what mixed arrays hold of its kind.
-    fn clear(
-        &self,
-        out: &mut String,
-        section: Section,
-        wanted: impl Fn(&crate::fields::Run) -> bool,
-    ) {
-        let order = self.fields.in_struct_order();
+    fn clear(&self, out: &mut String, section: Section, of_mixed: Option<Keep>) {
+        let order = self.fields.in_sections();
         if let Some(first) = order.iter().position(|f| f.section == section) {
             let behind = order[first..].iter().find(|f| f.section != section);
             let (mut from, mut to) = (String::new(), String::new());
@@ -340,14 +336,18 @@ impl Printer<'_> {
             );
         }
         for field in order.iter().filter(|f| f.section == Section::Mixed) {
-            for run in self.fields.runs(field).filter(|run| wanted(run)) {
+            for run in self
+                .fields
+                .runs(field)
+                .filter(|run| Some(run.keep) == of_mixed)
+            {
                 let mut array = String::from("plc->");
                 field.name(&mut array);
-                if field.columns > 1 {
+                if field.columns().is_some() {
                     let (first, end) = (run.first, run.first + run.count);
                     field.element(&mut array, "n", "u");
                     let mut clear = match field.kind {
-                        Kind::Bit | Kind::Word => format!("        {array} = 0;\n"),
+                        Kind::Bit | Kind::Level | Kind::Word => format!("        {array} = 0;\n"),
                         _ => format!("        memset(&{array}, 0, sizeof {array});\n"),
                     };
                     if let Some(is_kept) = field.column_is_kept("n", "u") {
@@ -373,9 +373,9 @@ impl Printer<'_> {
     fn api_functions(&self, out: &mut String) {
         let (name, module) = (self.name(), self.module);
         let mut inputs = String::new();
-        self.clear(&mut inputs, Section::Inputs, |_| false);
+        self.clear(&mut inputs, Section::Inputs, None);
         let mut special = String::new();
-        self.clear(&mut special, Section::Special, |run| run.is_special());
+        self.clear(&mut special, Section::Special, Some(Keep::Special));
         for &(number, value) in &module.initial_words {
             if let Some(device) = self.stored(DeviceClass::D, number) {
                 let _ = writeln!(special, "    {device} = {value};");
@@ -506,19 +506,17 @@ impl Printer<'_> {
             for field in self.fields.of_class(class) {
                 let mut device = String::from("plc->");
                 field.name(&mut device);
-                let rows = field.count.div_ceil(field.columns);
-                let _ = match field.array {
-                    true if field.columns > 1 => write!(
+                let _ = match field.dimensions() {
+                    (Some(columns), rows) => write!(
                         out,
-                        "    for (int i = 0; i < {}; i++) {{\n        for (int j = 0; j < {rows}; j++) {{\n            \
-                         {device}[i][j].{what};\n        }}\n    }}\n",
-                        field.kept
+                        "    for (int i = 0; i < {columns}; i++) {{\n        for (int j = 0; j < {rows}; j++) {{\n            \
+                         {device}[i][j].{what};\n        }}\n    }}\n"
                     ),
-                    true => write!(
+                    (None, rows) if field.array => write!(
                         out,
                         "    for (int i = 0; i < {rows}; i++) {{\n        {device}[i].{what};\n    }}\n"
                     ),
-                    false => writeln!(out, "    {device}.{what};"),
+                    (None, _) => writeln!(out, "    {device}.{what};"),
                 };
             }
         }

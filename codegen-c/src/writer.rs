@@ -2,11 +2,11 @@
 
 use crate::devices::written;
 use crate::expr::Around;
-use crate::fields::Fields;
 use crate::helpers::Helpers;
 use crate::plan::{CFunction, Flow, Node, Plan};
 use crate::rounds::Device;
 use crate::{text, walk};
+use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeId, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
 use rungc_ir::walk::{for_exprs, operands};
@@ -27,7 +27,7 @@ type Memory = (EdgeId, Option<ExprId>);
 pub struct Writer<'a, 'm> {
     pub(crate) module: &'m Module,
     pub(crate) plan: &'a Plan<'m>,
-    pub(crate) fields: &'a Fields<'m>,
+    pub(crate) fields: &'a Storage<'m>,
     /// Functions for indexed access that are needed.
     pub helpers: Helpers,
     /// Whether [`Stmt::Fault`] occurs where something of it is to be seen.
@@ -58,7 +58,7 @@ pub struct Writer<'a, 'm> {
 
 impl<'a, 'm> Writer<'a, 'm> {
     /// A writer.
-    pub fn new(module: &'m Module, plan: &'a Plan<'m>, fields: &'a Fields<'m>) -> Self {
+    pub fn new(module: &'m Module, plan: &'a Plan<'m>, fields: &'a Storage<'m>) -> Self {
         let mut writer = Writer {
             module,
             plan,

@@ -2,9 +2,10 @@
 
 use crate::expr::Code;
 use crate::generate::{Generator, kind_name};
-use crate::storage::{Elem, Field};
+use crate::storage::{PrintField, PrintStorage};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use rungc_emit::storage::{Field, Kind};
 use rungc_ir::node::{Expr, ExprId, Place, Stmt};
 use rungc_ir::reach;
 use rungc_ir::walk::has_many_timers;
@@ -219,13 +220,15 @@ impl Generator<'_> {
     /// The arrays that an index leads to.
     fn reached(&self, class: DeviceClass) -> Vec<Field> {
         let runs = reach::by_index(self.module, class);
-        let fields = self.storage.fields.iter();
+        let fields = self.storage.of_class(class).iter();
         let reached = fields.filter(|field| {
-            let (first, last) = (field.area.first, field.last());
-            let array = field.area.array && field.grid.is_none() && field.area.class == class;
-            array && runs.iter().any(|run| first <= run.1 && run.0 <= last)
+            let array = field.array && field.grid.is_none();
+            array
+                && runs
+                    .iter()
+                    .any(|run| field.first <= run.1 && run.0 <= field.last())
         });
-        reached.cloned().collect()
+        reached.copied().collect()
     }
 
     /// The timers and their kinds, by number.
@@ -233,7 +236,7 @@ impl Generator<'_> {
         let mut arms = TokenStream::new();
         for field in self.reached(DeviceClass::T) {
             for timers in self.module.model.timers {
-                let first = timers.first.max(field.area.first);
+                let first = timers.first.max(field.first);
                 let last = timers.last.min(field.last());
                 if first <= last {
                     let shared = TimerKind {
@@ -253,10 +256,10 @@ impl Generator<'_> {
     fn counter_arms(&self) -> TokenStream {
         self.reached(DeviceClass::C)
             .iter()
-            .filter(|field| field.elem == Elem::Counter16)
+            .filter(|field| field.kind == Kind::Counter16)
             .map(|field| {
                 let cell = by_number(field);
-                let [first, last] = [field.area.first, field.last()].map(Literal::u32_unsuffixed);
+                let [first, last] = [field.first, field.last()].map(Literal::u32_unsuffixed);
                 quote!(#first..=#last => &mut #cell,)
             })
             .collect()
@@ -265,9 +268,9 @@ impl Generator<'_> {
 
 /// The device of an array whose number is in a variable. What an index leads to is stored in arrays.
 fn by_number(field: &Field) -> TokenStream {
-    let name = &field.name;
-    match field.area.first {
-        _ if field.area.count == 1 => quote!(plc.#name[0]),
+    let name = field.name();
+    match field.first {
+        _ if field.count == 1 => quote!(plc.#name[0]),
         0 => quote!(plc.#name[number as usize]),
         first => {
             let first = Literal::u32_unsuffixed(first);

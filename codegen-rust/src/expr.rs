@@ -1,9 +1,10 @@
 //! Expressions of the IR as expressions of Rust, with as few parentheses as a reader would write.
 
 use crate::generate::Generator;
-use crate::storage::{bit_of, word_of};
+use crate::storage::{PrintField, PrintStorage, bit_of, word_of};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
+use rungc_emit::storage::Kind;
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
 use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass;
@@ -462,13 +463,9 @@ impl Generator<'_> {
 
     /// `plc.m[4..20]`, if all of these bits lie in one array.
     pub fn array_slice(&self, place: Place, count: u32) -> Option<TokenStream> {
-        let field = self.storage.find(place.class, place.number)?;
-        let offset = place.number - field.area.first;
-        let is_bits = field.elem == crate::storage::Elem::Bit;
-        if !field.area.array || !is_bits || offset + count > field.area.count {
-            return None;
-        }
-        let name = &field.name;
+        let array = self.storage.array(place.class, place.number, count);
+        let field = array.filter(|field| field.kind == Kind::Bit)?;
+        let (name, offset) = (field.name(), place.number - field.first);
         let from = Literal::u32_unsuffixed(offset);
         let to = Literal::u32_unsuffixed(offset + count);
         Some(quote!(plc.#name[#from..#to]))

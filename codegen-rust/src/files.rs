@@ -381,9 +381,8 @@ fn lines(item: &Item) -> usize {
 
 fn host(generator: &Generator, crate_name: &str) -> String {
     let mut table = String::new();
-    let fields = &generator.storage.fields;
-    for field in fields.iter().filter(|f| f.area.class == DeviceClass::Y) {
-        for number in field.area.first..=field.last() {
+    for field in generator.storage.of_class(DeviceClass::Y) {
+        for number in field.first..field.end() {
             // Those that send pulses would be printed all the time.
             if generator.module.pulse_outputs.contains(&number) {
                 continue;

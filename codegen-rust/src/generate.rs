@@ -2,9 +2,9 @@
 
 use crate::analysis::{self, Calls, Position, Temps};
 use crate::format::Comments;
-use crate::storage::Storage;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
+use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::node::{ExprId, Function, FunctionKind, LabelId, TempId, Ty};
 use rungc_ir::walk::operands;
@@ -85,7 +85,7 @@ pub struct Generator<'m> {
     /// The module.
     pub module: &'m Module,
     /// Its fields.
-    pub storage: Storage,
+    pub storage: Storage<'m>,
     /// Name of the struct.
     pub type_name: Ident,
     /// Which functions call what.
@@ -122,7 +122,6 @@ pub struct Generator<'m> {
     names: HashSet<String>,
     /// Expressions that have a `let` in the statement being written.
     hoisted: HashMap<ExprId, Ident>,
-    device_comments: HashMap<(DeviceClass, u32), &'m str>,
 }
 
 impl<'m> Generator<'m> {
@@ -149,17 +148,12 @@ impl<'m> Generator<'m> {
             timer_coils: BTreeMap::new(),
             names: HashSet::new(),
             hoisted: HashMap::new(),
-            device_comments: module
-                .comments
-                .iter()
-                .map(|(class, number, text)| ((*class, *number), text.as_str()))
-                .collect(),
         }
     }
 
     /// The comment on a device.
     pub fn device_comment(&self, class: DeviceClass, number: u32) -> Option<&'m str> {
-        self.device_comments.get(&(class, number)).copied()
+        self.storage.comment(class, number)
     }
 
     /// A name from `rungc_rt`, imported.

@@ -3,9 +3,10 @@
 use crate::analysis::{self, Declared};
 use crate::expr::Code;
 use crate::generate::Generator;
-use crate::storage::Elem;
+use crate::storage::PrintStorage;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
+use rungc_emit::storage::Kind;
 use rungc_ir::node::{Expr, ExprId, Place, Stmt, TempId};
 use rungc_syntax::DeviceClass;
 use std::collections::HashSet;
@@ -67,7 +68,7 @@ impl Generator<'_> {
             .filter(|device| !written.contains(device))
             .filter(|&(class, number)| {
                 let field = self.storage.find(class, number);
-                field.is_some_and(|field| field.elem == Elem::Bit)
+                field.is_some_and(|field| field.kind == Kind::Bit)
             })
             .collect();
         devices.sort_unstable();

@@ -5,10 +5,11 @@ use crate::expr::literal32;
 use crate::format;
 use crate::format::documented;
 use crate::generate::{Generator, Item, function_name};
-use crate::storage::{Elem, Field};
+use crate::storage;
+use crate::storage::{PrintField, PrintStorage, type_name};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::layout::Area;
+use rungc_emit::storage::{Field, Keep, Kind, Member, Run, Section};
 use rungc_ir::node::{FunctionKind, Stmt};
 use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_syntax::DeviceClass;
@@ -28,8 +29,8 @@ impl Generator<'_> {
         let name = self.type_name.clone();
         let fields: Vec<TokenStream> = self
             .storage
-            .fields
-            .clone()
+            .fields()
+            .to_vec()
             .iter()
             .map(|field| self.field(field))
             .collect();
@@ -62,15 +63,15 @@ impl Generator<'_> {
     }
 
     fn field(&mut self, field: &Field) -> TokenStream {
-        let area = field.area;
-        let mut text = area.class.number(area.first).to_string();
-        let latched = if area.latched { " (latched)" } else { "" };
-        if area.array {
-            if area.count > 1 {
-                text.push_str(&format!("–{}", area.class.number(field.last())));
+        let (class, first) = (field.class, field.first);
+        let mut text = class.number(first).to_string();
+        let latched = self.latched(field);
+        if field.array {
+            if field.count > 1 {
+                text.push_str(&format!("–{}", class.number(field.last())));
             }
             if let Some(grid) = field.columns() {
-                let second = area.class.number(area.first + 1);
+                let second = class.number(first + 1);
                 let (columns, kept) = (grid.columns, grid.kept);
                 text.push_str(&match kept {
                     1 => format!(", {columns} apart"),
@@ -80,34 +81,54 @@ impl Generator<'_> {
                     _ => format!(" in {columns} columns, [1][0] is {second}"),
                 });
             }
-            if field.elem == Elem::Level {
+            if field.kind == Kind::Level {
                 text.push_str(", 0 or 1");
             }
-            text.push_str(latched);
-            let named = (area.first..=field.last())
-                .filter(|&n| field.holds(n))
-                .filter_map(|n| Some((n, self.device_comment(area.class, n)?)))
-                .map(|(n, comment)| format!("{} {}", area.class.number(n), documented(comment)));
+            text.push_str(&latched);
+            let named = field
+                .numbers()
+                .filter_map(|n| Some((n, self.device_comment(class, n)?)))
+                .map(|(n, comment)| format!("{} {}", class.number(n), documented(comment)));
             let named: Vec<String> = named.collect();
             if !named.is_empty() {
                 text.push_str(": ");
                 text.push_str(&named.join(", "));
             }
         } else {
-            text.push_str(latched);
-            if let Some(comment) = self.device_comment(area.class, area.first) {
+            text.push_str(&latched);
+            if let Some(comment) = self.device_comment(class, first) {
                 text.push_str(&format!(": {}", documented(comment)));
             }
         }
         let doc = self.doc(&text);
-        let (name, ty) = (&field.name, self.field_type(field));
+        let (name, ty) = (field.name(), self.field_type(field));
         quote!(#doc pub #name: #ty)
     }
 
+    /// Which of a field's devices are kept over power-off, for its documentation.
+    fn latched(&self, field: &Field) -> String {
+        match field.section {
+            Section::Latched | Section::Records => " (latched)".to_string(),
+            Section::Inputs | Section::General | Section::Special => String::new(),
+            Section::Mixed => {
+                let runs = self.storage.runs(field);
+                let latched = runs
+                    .filter(|run| matches!(run.keep, Keep::Latched | Keep::Record))
+                    .map(|run| {
+                        let last = run.first + run.count - 1;
+                        let [first, last] = [run.first, last].map(|n| field.class.number(n));
+                        format!(", latched: {first}–{last}")
+                    });
+                latched.collect()
+            }
+        }
+    }
+
     fn field_type(&mut self, field: &Field) -> TokenStream {
-        let ty = match field.elem {
-            Elem::Bit | Elem::Level | Elem::Word => format_ident!("{}", field.elem.type_name()),
-            _ => self.rt(field.elem.type_name()),
+        let name = type_name(field.kind);
+        let ty = match field.kind.has_members() {
+            true => self.rt(name),
+            false => format_ident!("{name}"),
         };
         dimensions(field, quote!(#ty))
     }
@@ -120,11 +141,11 @@ impl Generator<'_> {
 
     /// The same of one of its devices.
     fn zero_element(&mut self, field: &Field) -> TokenStream {
-        match field.elem {
-            Elem::Bit => quote!(false),
-            Elem::Level | Elem::Word => quote!(0),
-            _ => {
-                let ty = self.rt(field.elem.type_name());
+        match field.kind {
+            Kind::Bit => quote!(false),
+            Kind::Level | Kind::Word => quote!(0),
+            Kind::Timer | Kind::Counter16 | Kind::Counter32 => {
+                let ty = self.rt(type_name(field.kind));
                 quote!(#ty::new())
             }
         }
@@ -187,8 +208,8 @@ impl Generator<'_> {
     pub fn machine_impl(&mut self) -> Item {
         self.uses = Default::default();
         let name = self.type_name.clone();
-        let fields = self.storage.fields.clone();
-        let names: Vec<&Ident> = fields.iter().map(|f| &f.name).collect();
+        let fields = self.storage.fields().to_vec();
+        let names: Vec<Ident> = fields.iter().map(PrintField::name).collect();
         let zeros: Vec<TokenStream> = fields.iter().map(|f| self.zero(f)).collect();
         let hidden = self.hidden_fields();
         let hidden_names: Vec<&Ident> = hidden.iter().map(|f| &f.0).collect();
@@ -260,19 +281,26 @@ impl Generator<'_> {
     }
 
     /// The statements that set fields to 0.
-    fn zeroing(&mut self, pick: impl Fn(&Area) -> bool) -> TokenStream {
-        let fields = self.storage.fields.clone();
+    fn zeroing(&mut self, keeps: &[Keep]) -> TokenStream {
+        let fields = self.storage.fields().to_vec();
         let mut out = TokenStream::new();
         for field in &fields {
-            let (name, zero) = (&field.name, self.zero(field));
-            if field.parts.iter().all(&pick) {
+            let (name, zero) = (field.name(), self.zero(field));
+            let runs: Vec<Run> = self.storage.runs(field).collect();
+            if runs.iter().all(|run| keeps.contains(&run.keep)) {
                 out.extend(quote!(self.#name = #zero;));
                 continue;
             }
-            for part in field.parts.iter().filter(|part| pick(part)) {
-                let [first, end] = [part.first, part.first + part.count]
-                    .map(|number| number_literal(part.class, number));
-                let (cell, zero) = (Self::matched(field), self.zero_element(field));
+            for run in runs.iter().filter(|run| keeps.contains(&run.keep)) {
+                let zero = self.zero_element(field);
+                let numbers = [run.first, run.first + run.count];
+                if field.columns().is_none() {
+                    let [first, end] = numbers.map(|n| Literal::u32_unsuffixed(n - field.first));
+                    out.extend(quote!(self.#name[#first..#end].fill(#zero);));
+                    continue;
+                }
+                let [first, end] = numbers.map(|number| number_literal(field.class, number));
+                let cell = Self::matched(field);
                 let clear = quote!(#cell = #zero;);
                 let clear = match Self::column_is_kept(field) {
                     Some(is_kept) => quote!(if #is_kept { #clear }),
@@ -285,7 +313,11 @@ impl Generator<'_> {
     }
 
     fn clear(&mut self, latched: bool) -> TokenStream {
-        let statements = self.zeroing(|area| area.is_cleared(latched));
+        let statements = self.zeroing(&[if latched {
+            Keep::Latched
+        } else {
+            Keep::General
+        }]);
         let (name, doc) = if latched {
             (
                 format_ident!("clear_latched"),
@@ -325,18 +357,19 @@ impl Generator<'_> {
 
     /// Does the first thing with a member of each timer, the second with one of each counter.
     fn each_timer_and_counter(&self, timer: &TokenStream, counter: &TokenStream) -> TokenStream {
-        let fields = self.storage.fields.iter();
+        let fields = self.storage.fields().iter();
         fields
-            .filter(|field| !matches!(field.elem, Elem::Bit | Elem::Level | Elem::Word))
+            .filter(|field| field.kind.has_members())
             .map(|field| {
-                let name = &field.name;
-                let what = match field.elem {
-                    Elem::Timer => timer,
-                    _ => counter,
+                let name = field.name();
+                let what = if field.kind == Kind::Timer {
+                    timer
+                } else {
+                    counter
                 };
                 if field.columns().is_some() {
                     quote!(for device in self.#name.iter_mut().flatten() { device.#what; })
-                } else if field.area.array {
+                } else if field.array {
                     quote!(for device in &mut self.#name { device.#what; })
                 } else {
                     quote!(self.#name.#what;)
@@ -457,7 +490,7 @@ impl Generator<'_> {
                 }
             }
         });
-        let others = self.zeroing(|area| !area.latched && !area.is_cleared(false));
+        let others = self.zeroing(&[Keep::Input, Keep::Special]);
         let preset = (!self.preset().is_empty()).then(|| quote!(self.preset();));
         let contacts = (!self.module.model.keeps_contacts)
             .then(|| self.each_timer_and_counter(&quote!(done = false), &quote!(done = false)));
@@ -591,16 +624,16 @@ impl Generator<'_> {
 
     /// The numbers of a field's devices as a pattern.
     fn pattern(&mut self, field: &Field, with_class: bool) -> TokenStream {
-        let number = |n: u32| number_literal(field.area.class, n);
-        let first = number(field.area.first);
-        let numbers = if field.area.count > 1 {
+        let number = |n: u32| number_literal(field.class, n);
+        let first = number(field.first);
+        let numbers = if field.count > 1 {
             let last = number(field.last());
             quote!(#first..=#last)
         } else {
             quote!(#first)
         };
         if with_class {
-            let class = self.class(field.area.class);
+            let class = self.class(field.class);
             let guard = Self::column_is_kept(field).map(|is_kept| quote!(if #is_kept));
             quote!((#class, #numbers) #guard)
         } else {
@@ -610,8 +643,8 @@ impl Generator<'_> {
 
     /// A field's device behind `self` where a pattern has matched its number.
     fn matched(field: &Field) -> TokenStream {
-        let name = &field.name;
-        if !field.area.array {
+        let name = field.name();
+        if !field.array {
             return quote!(self.#name);
         }
         if let Some(grid) = field.columns() {
@@ -619,11 +652,11 @@ impl Generator<'_> {
             let n = Self::distance(field);
             return quote!(self.#name[(#n % #columns) as usize][(#n / #columns) as usize]);
         }
-        match (field.area.first, field.area.count) {
+        match (field.first, field.count) {
             (_, 1) => quote!(self.#name[0]),
             (0, _) => quote!(self.#name[number as usize]),
             (first, _) => {
-                let first = number_literal(field.area.class, first);
+                let first = number_literal(field.class, first);
                 quote!(self.#name[(number - #first) as usize])
             }
         }
@@ -631,10 +664,10 @@ impl Generator<'_> {
 
     /// How far a number is behind a field's first.
     fn distance(field: &Field) -> TokenStream {
-        match field.area.first {
+        match field.first {
             0 => quote!(number),
             first => {
-                let first = number_literal(field.area.class, first);
+                let first = number_literal(field.class, first);
                 quote!((number - #first))
             }
         }
@@ -642,36 +675,36 @@ impl Generator<'_> {
 
     /// That a field holds one of its numbers, if it does not hold all.
     fn column_is_kept(field: &Field) -> Option<TokenStream> {
-        let grid = field.grid.filter(|grid| grid.kept < grid.columns)?;
+        let grid = field.trimmed()?;
         let n = Self::distance(field);
         let [columns, kept] = [grid.columns, grid.kept].map(Literal::u32_unsuffixed);
         Some(quote!(#n % #columns < #kept))
     }
 
     fn arms(&mut self, access: Access, set: bool) -> TokenStream {
-        let fields = self.storage.fields.clone();
+        let fields = self.storage.fields().to_vec();
         let mut out = TokenStream::new();
         for field in &fields {
             let pattern = self.pattern(field, access != Access::Counter32);
             let cell = Self::matched(field);
-            if (access, field.elem) == (Access::Bit, Elem::Level) {
+            if (access, field.kind) == (Access::Bit, Kind::Level) {
                 out.extend(match set {
                     true => quote!(#pattern => #cell = u8::from(value),),
                     false => quote!(#pattern => #cell != 0,),
                 });
                 continue;
             }
-            let part = match (access, field.elem) {
-                (Access::Bit, Elem::Bit) | (Access::Word, Elem::Word) => TokenStream::new(),
-                (Access::Bit, Elem::Timer | Elem::Counter16 | Elem::Counter32) => quote!(.done),
-                (Access::Word, Elem::Timer | Elem::Counter16)
-                | (Access::Counter32, Elem::Counter32) => quote!(.value),
-                _ => continue,
+            let member = match access {
+                Access::Bit => field.kind.bit(),
+                Access::Word => field.kind.word(),
+                Access::Counter32 => (field.kind == Kind::Counter32).then_some(Member::Value),
             };
+            let Some(member) = member else { continue };
+            let cell = storage::member(cell, member);
             out.extend(if set {
-                quote!(#pattern => #cell #part = value,)
+                quote!(#pattern => #cell = value,)
             } else {
-                quote!(#pattern => #cell #part,)
+                quote!(#pattern => #cell,)
             });
         }
         if access == Access::Word {
@@ -699,10 +732,10 @@ impl Generator<'_> {
     }
 
     fn reset_arms(&mut self) -> TokenStream {
-        let fields = self.storage.fields.clone();
+        let fields = self.storage.fields().to_vec();
         let mut out = TokenStream::new();
         for field in &fields {
-            if !matches!(field.elem, Elem::Bit | Elem::Level | Elem::Word) {
+            if field.kind.has_members() {
                 let pattern = self.pattern(field, true);
                 let cell = Self::matched(field);
                 out.extend(quote!(#pattern => #cell.reset(),));
@@ -777,15 +810,15 @@ fn writer(
 
 /// What an array has of each element: of a type the array's type, of a value its value.
 fn dimensions(field: &Field, element: TokenStream) -> TokenStream {
-    if let Some(grid) = field.columns() {
-        let [columns, rows] = [grid.kept, grid.rows()].map(Literal::u32_unsuffixed);
-        return quote!([[#element; #rows]; #columns]);
-    }
-    if !field.area.array {
+    if !field.array {
         return element;
     }
-    let count = Literal::u32_unsuffixed(field.area.count);
-    quote!([#element; #count])
+    let (columns, rows) = field.dimensions();
+    let rows = Literal::u32_unsuffixed(rows);
+    match columns.map(Literal::u32_unsuffixed) {
+        Some(columns) => quote!([[#element; #rows]; #columns]),
+        None => quote!([#element; #rows]),
+    }
 }
 
 /// A device number as its class writes it.

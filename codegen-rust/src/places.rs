@@ -1,20 +1,21 @@
 //! Where a host that reads and writes devices itself finds them.
 
 use crate::generate::type_name;
-use crate::storage::Storage;
+use crate::storage::PrintStorage;
 use quote::quote;
+use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 
 /// Where the devices of an emitted program are in its struct.
-pub struct Places {
-    storage: Storage,
+pub struct Places<'m> {
+    storage: Storage<'m>,
     type_name: String,
 }
 
-impl Places {
+impl<'m> Places<'m> {
     /// Those of a program.
-    pub fn new(module: &Module) -> Self {
+    pub fn new(module: &'m Module) -> Self {
         Places {
             storage: Storage::new(module),
             type_name: type_name(&module.name).to_string(),

@@ -4,6 +4,7 @@ use crate::analysis::{self, Declared};
 use crate::coils::{OUT_COUNTER, OUT_TIMER};
 use crate::expr::{Code, Shape, literal32};
 use crate::generate::{Generator, function_name};
+use crate::storage::PrintStorage;
 use proc_macro2::{Delimiter, Literal, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rungc_ir::node::{Arg, CellId, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};

@@ -1,6 +1,7 @@
 //! What stops a scan that does not end, and what a host asks when something has gone wrong.
 
 use crate::generate::Generator;
+use crate::storage::PrintStorage;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use rungc_ir::Module;

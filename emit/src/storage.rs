@@ -1,0 +1,515 @@
+//! The storage of devices: which field of the program's struct holds each of them.
+
+use rungc_ir::Module;
+use rungc_ir::layout::{Area, Grid};
+use rungc_models::Model;
+use rungc_models::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
+use rungc_syntax::DeviceClass;
+use std::collections::HashMap;
+
+/// What a device is stored as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// A bit.
+    Bit,
+    /// A number, 0 or 1: a bit in a [`Grid`]. Compilers vectorise loops over numbers better than loops over booleans.
+    Level,
+    /// A signed 16-bit word.
+    Word,
+    /// A timer of the runtime.
+    Timer,
+    /// A 16-bit counter of the runtime.
+    Counter16,
+    /// A 32-bit counter of the runtime.
+    Counter32,
+}
+
+impl Kind {
+    /// What a device of this class and number is stored as outside a grid; `None` for what is not a device (labels, nesting levels).
+    pub fn of(class: DeviceClass, number: u32) -> Option<Kind> {
+        use DeviceClass::*;
+        Some(match class {
+            X | Y | M | S => Kind::Bit,
+            T => Kind::Timer,
+            C if is_counter32(class, number) => Kind::Counter32,
+            C => Kind::Counter16,
+            D | R | ER | V | Z => Kind::Word,
+            P | I | N => return None,
+        })
+    }
+
+    /// The same in a grid.
+    fn in_grid(self) -> Kind {
+        match self {
+            Kind::Bit => Kind::Level,
+            other => other,
+        }
+    }
+
+    /// Whether it has a contact, a value and a coil, as timers and counters have.
+    pub fn has_members(self) -> bool {
+        matches!(self, Kind::Timer | Kind::Counter16 | Kind::Counter32)
+    }
+
+    /// Where its state as a bit is; `None` if it has none.
+    pub fn bit(self) -> Option<Member> {
+        match self {
+            Kind::Bit | Kind::Level => Some(Member::Whole),
+            Kind::Word => None,
+            Kind::Timer | Kind::Counter16 | Kind::Counter32 => Some(Member::Done),
+        }
+    }
+
+    /// Where its value as a 16-bit word is; `None` if it has none.
+    pub fn word(self) -> Option<Member> {
+        match self {
+            Kind::Word => Some(Member::Whole),
+            Kind::Timer | Kind::Counter16 => Some(Member::Value),
+            Kind::Bit | Kind::Level | Kind::Counter32 => None,
+        }
+    }
+
+    /// Its size and alignment in bytes, on a 32-bit machine.
+    pub fn size(self) -> (u32, u32) {
+        match self {
+            Kind::Bit | Kind::Level => (1, 1),
+            Kind::Word => (2, 2),
+            Kind::Timer => (8, 2),
+            Kind::Counter16 => (4, 2),
+            Kind::Counter32 => (8, 4),
+        }
+    }
+}
+
+/// What of a stored device is meant.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Member {
+    /// All of it: a bit or a word.
+    Whole,
+    /// The contact of a timer or counter.
+    Done,
+    /// The current value of a timer or counter.
+    Value,
+}
+
+/// What RUN/STOP and power-off do to a run of devices.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Keep {
+    /// X: never cleared, set by the host.
+    Input,
+    /// Cleared in STOP and at power-on.
+    General,
+    /// Kept over STOP and power-off.
+    Latched,
+    /// Special relays and registers: their power-on values come back at power-on only.
+    Special,
+    /// Special registers that are kept over power-off, and that no program clears.
+    Record,
+}
+
+/// In which section of the struct a field stands. The order puts together what is cleared together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Section {
+    /// [`Keep::Input`].
+    Inputs,
+    /// An array of which some devices are kept and others are not.
+    Mixed,
+    /// [`Keep::General`].
+    General,
+    /// [`Keep::Latched`].
+    Latched,
+    /// [`Keep::Special`].
+    Special,
+    /// [`Keep::Record`].
+    Records,
+}
+
+impl Section {
+    fn of(keep: Keep) -> Self {
+        match keep {
+            Keep::Input => Section::Inputs,
+            Keep::General => Section::General,
+            Keep::Latched => Section::Latched,
+            Keep::Special => Section::Special,
+            Keep::Record => Section::Records,
+        }
+    }
+}
+
+/// A field of the struct: one device, or an array of neighbours.
+#[derive(Clone, Copy, Debug)]
+pub struct Field {
+    /// Class.
+    pub class: DeviceClass,
+    /// First number.
+    pub first: u32,
+    /// How many devices, with those that a grid leaves out.
+    pub count: u32,
+    /// An array, even of one.
+    pub array: bool,
+    /// How the array is divided into columns, if a loop over rungs goes through it.
+    pub grid: Option<Grid>,
+    /// What each device is.
+    pub kind: Kind,
+    /// Where it stands.
+    pub section: Section,
+}
+
+impl Field {
+    /// Whether its name carries the number it begins with; an array that begins with device 0 is named by its class alone.
+    pub fn is_numbered(&self) -> bool {
+        !self.array || self.first != 0
+    }
+
+    /// The grid, if it has more than one column: a field of two dimensions.
+    pub fn columns(&self) -> Option<Grid> {
+        self.grid.filter(|grid| grid.columns > 1)
+    }
+
+    /// The grid, if it leaves columns out.
+    pub fn trimmed(&self) -> Option<Grid> {
+        self.grid.filter(|grid| grid.kept < grid.columns)
+    }
+
+    /// How many devices each dimension has: columns, if there are several, and rows.
+    pub fn dimensions(&self) -> (Option<u32>, u32) {
+        match self.columns() {
+            Some(grid) => (Some(grid.kept), self.count.div_ceil(grid.columns)),
+            None => (None, self.count),
+        }
+    }
+
+    /// How many devices it has room for.
+    pub fn room(&self) -> u32 {
+        let (columns, rows) = self.dimensions();
+        columns.unwrap_or(1) * rows
+    }
+
+    /// Whether it holds a device of its class.
+    pub fn holds(&self, number: u32) -> bool {
+        (self.first..self.end()).contains(&number)
+            && self.grid.is_none_or(|grid| grid.holds(number))
+    }
+
+    /// The numbers that it holds.
+    pub fn numbers(&self) -> impl Iterator<Item = u32> {
+        (self.first..self.end()).filter(|&number| self.holds(number))
+    }
+
+    /// One past the last number.
+    pub fn end(&self) -> u32 {
+        self.first + self.count
+    }
+
+    /// The last number.
+    pub fn last(&self) -> u32 {
+        self.end() - 1
+    }
+
+    /// Where in it one of its devices is.
+    pub fn at(&self, number: u32) -> At {
+        match self.columns() {
+            Some(grid) => {
+                let (column, row) = grid.place(number);
+                At::Column { column, row }
+            }
+            None if self.array => At::Element(number - self.first),
+            None => At::Field,
+        }
+    }
+}
+
+/// Where in a field a device is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum At {
+    /// It is the field.
+    Field,
+    /// An element of an array, counted from 0.
+    Element(u32),
+    /// An element of an array of columns.
+    Column {
+        /// Which column.
+        column: u32,
+        /// Where in it.
+        row: u32,
+    },
+}
+
+/// Where the device of a loop's present round is.
+#[derive(Clone, Copy, Debug)]
+pub struct RoundSlot<'a> {
+    /// The field.
+    pub field: &'a Field,
+    /// Which column, if there are several.
+    pub column: Option<u32>,
+    /// Where in it the device of round 0 is; those of the next rounds follow.
+    pub row: u32,
+}
+
+/// A run of devices within one field that power-off treats alike.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// First number.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+    /// What happens to it.
+    pub keep: Keep,
+}
+
+/// Stands for devices that no field holds.
+const NO_FIELD: u32 = u32::MAX;
+
+/// All fields of a program's struct.
+pub struct Storage<'m> {
+    model: &'static Model,
+    /// By class and number.
+    fields: Vec<Field>,
+    /// Where each class begins in `fields`.
+    of_class: [(usize, usize); DeviceClass::ALL.len()],
+    /// For each class by number: which of its fields holds the device, [`NO_FIELD`] if none does.
+    by_number: [Vec<u32>; DeviceClass::ALL.len()],
+    /// By class and number: runs treated alike, cut at the ends of fields.
+    runs: Vec<(DeviceClass, Run)>,
+    comments: HashMap<(DeviceClass, u32), &'m str>,
+}
+
+impl<'m> Storage<'m> {
+    /// Decides on the fields.
+    pub fn new(module: &'m Module) -> Self {
+        let pieces = pieces(module);
+        let fields = fields(&pieces);
+        let mut of_class = [(0, 0); DeviceClass::ALL.len()];
+        for class in DeviceClass::ALL {
+            of_class[class as usize] = (
+                fields.partition_point(|f| f.class < class),
+                fields.partition_point(|f| f.class <= class),
+            );
+        }
+        let by_number = of_class.map(|(from, to)| fields_by_number(&fields[from..to]));
+        let comments = module.comments.iter();
+        Storage {
+            model: module.model,
+            fields,
+            of_class,
+            by_number,
+            runs: runs(&pieces),
+            comments: comments
+                .map(|(class, n, text)| ((*class, *n), text.as_str()))
+                .collect(),
+        }
+    }
+
+    /// All fields, by class and number.
+    pub fn fields(&self) -> &[Field] {
+        &self.fields
+    }
+
+    /// The fields of a class.
+    pub fn of_class(&self, class: DeviceClass) -> &[Field] {
+        let (from, to) = self.of_class[class as usize];
+        &self.fields[from..to]
+    }
+
+    /// How many bytes the devices take, without padding.
+    pub fn bytes(&self) -> u64 {
+        let bytes = |field: &Field| u64::from(field.room()) * u64::from(field.kind.size().0);
+        self.fields.iter().map(bytes).sum()
+    }
+
+    /// The fields by sections. Arrays that loops over rungs go through stand side by side: clang makes vectors of two bytes only if few
+    /// others lie between what a loop reads and what it writes.
+    pub fn in_sections(&self) -> Vec<&Field> {
+        let mut fields: Vec<&Field> = self.fields.iter().collect();
+        fields.sort_by_key(|f| match f.section {
+            Section::Inputs | Section::Mixed => (f.section, f.grid.is_some()),
+            Section::General | Section::Latched | Section::Special | Section::Records => {
+                (f.section, f.grid.is_none())
+            }
+        });
+        fields
+    }
+
+    /// The field that holds a device, under whichever name.
+    pub fn find(&self, class: DeviceClass, number: u32) -> Option<&Field> {
+        self.slot(class, number).map(|(field, _)| field)
+    }
+
+    /// The field that holds a device, and the device's number in it: that of an index register, if it is another name of one.
+    pub fn slot(&self, class: DeviceClass, number: u32) -> Option<(&Field, u32)> {
+        let (class, number) = self.model.canonical(class, number);
+        let i = *self.by_number[class as usize].get(number as usize)?;
+        let field = self.of_class(class).get(i as usize)?;
+        field.holds(number).then_some((field, number))
+    }
+
+    /// Where the device of a loop's present round is, which moves on by so many numbers with each round.
+    pub fn round_slot(&self, class: DeviceClass, number: u32, by: u32) -> Option<RoundSlot<'_>> {
+        let field = self.find(class, number)?;
+        let grid = field.grid.filter(|grid| grid.columns == by)?;
+        let (column, row) = grid.place(number);
+        Some(RoundSlot {
+            field,
+            column: (by > 1).then_some(column),
+            row,
+        })
+    }
+
+    /// The array that holds `count` devices from `number` on, one after the other.
+    pub fn array(&self, class: DeviceClass, number: u32, count: u32) -> Option<&Field> {
+        self.find(class, number)
+            .filter(|f| f.array && f.grid.is_none() && f.end() - number >= count)
+    }
+
+    /// Whether a device is a bit that is stored as a number.
+    pub fn is_level(&self, class: DeviceClass, number: u32) -> bool {
+        let field = self.find(class, number);
+        field.is_some_and(|field| field.kind == Kind::Level)
+    }
+
+    /// The runs of a field that power-off treats alike.
+    pub fn runs(&self, field: &Field) -> impl Iterator<Item = Run> + use<'_> {
+        let (class, first, end) = (field.class, field.first, field.end());
+        let from = self
+            .runs
+            .partition_point(|(c, r)| (*c, r.first + r.count) <= (class, first));
+        self.runs[from..]
+            .iter()
+            .take_while(move |(c, r)| *c == class && r.first < end)
+            .map(|(_, r)| *r)
+    }
+
+    /// The comment on a device.
+    pub fn comment(&self, class: DeviceClass, number: u32) -> Option<&'m str> {
+        self.comments.get(&(class, number)).copied()
+    }
+}
+
+/// Which of the fields of one class holds a device, by number.
+fn fields_by_number(fields: &[Field]) -> Vec<u32> {
+    let end = fields.last().map_or(0, Field::end);
+    let mut by_number = vec![NO_FIELD; end as usize];
+    for (field, i) in fields.iter().zip(0..) {
+        by_number[field.first as usize..field.end() as usize].fill(i);
+    }
+    by_number
+}
+
+/// A part of an area that is treated alike and of one kind.
+struct Piece {
+    class: DeviceClass,
+    run: Run,
+    array: bool,
+    grid: Option<Grid>,
+    kind: Kind,
+}
+
+impl Piece {
+    fn end(&self) -> u32 {
+        self.run.first + self.run.count
+    }
+
+    fn field(&self, first: u32, count: u32) -> Field {
+        Field {
+            class: self.class,
+            first,
+            count,
+            array: self.array,
+            grid: self.grid,
+            kind: self.kind,
+            section: Section::of(self.run.keep),
+        }
+    }
+}
+
+/// The layout's areas, cut where counters become 32-bit ones and where special devices begin.
+fn pieces(module: &Module) -> Vec<Piece> {
+    let mut pieces = Vec::with_capacity(module.layout.areas.len());
+    for area in &module.layout.areas {
+        let (first, end) = (area.first, area.first + area.count);
+        let cut = match area.class {
+            DeviceClass::C => FIRST_COUNTER32,
+            DeviceClass::M | DeviceClass::D => FIRST_SPECIAL,
+            _ => end,
+        };
+        let cut = cut.clamp(first, end);
+        for (first, end) in [(first, cut), (cut, end)] {
+            let Some(kind) = Kind::of(area.class, first).filter(|_| first < end) else {
+                continue;
+            };
+            let grid = module.layout.grid(area.class, first).copied();
+            pieces.push(Piece {
+                class: area.class,
+                run: Run {
+                    first,
+                    count: end - first,
+                    keep: keep(area, first),
+                },
+                array: area.array,
+                kind: if grid.is_some() { kind.in_grid() } else { kind },
+                grid,
+            });
+        }
+    }
+    pieces
+}
+
+/// What happens to the devices of an area from this one on.
+fn keep(area: &Area, first: u32) -> Keep {
+    match (area.class, is_special(area.class, first), area.latched) {
+        (DeviceClass::X, ..) => Keep::Input,
+        (_, true, true) => Keep::Record,
+        (_, true, false) => Keep::Special,
+        (_, false, true) => Keep::Latched,
+        (_, false, false) => Keep::General,
+    }
+}
+
+/// The fields: neighbouring arrays of one kind are one, however power-off treats them.
+fn fields(pieces: &[Piece]) -> Vec<Field> {
+    let mut fields: Vec<Field> = Vec::new();
+    for piece in pieces {
+        let run = piece.run;
+        if !piece.array {
+            fields.extend((run.first..piece.end()).map(|number| piece.field(number, 1)));
+            continue;
+        }
+        let last = fields.last_mut().filter(|last| {
+            let alike = last.array && last.class == piece.class && last.kind == piece.kind;
+            let continues = match piece.grid {
+                Some(grid) => last.grid.is_some_and(|of_last| of_last.first == grid.first),
+                None => last.grid.is_none() && last.end() == run.first,
+            };
+            alike && continues
+        });
+        match last {
+            Some(last) => {
+                last.count = piece.end() - last.first;
+                if last.section != Section::of(run.keep) {
+                    last.section = Section::Mixed;
+                }
+            }
+            None => fields.push(piece.field(run.first, run.count)),
+        }
+    }
+    fields
+}
+
+/// The runs: what a grid does not store is no gap between them.
+fn runs(pieces: &[Piece]) -> Vec<(DeviceClass, Run)> {
+    let mut runs: Vec<(DeviceClass, Run)> = Vec::new();
+    for piece in pieces {
+        let run = piece.run;
+        let last = runs.last_mut().filter(|(class, last)| {
+            let in_grid = |grid: &Grid| grid.first < run.first && grid.first <= last.first;
+            *class == piece.class
+                && piece.grid.is_some_and(|g| in_grid(&g))
+                && last.keep == run.keep
+        });
+        match last {
+            Some((_, last)) => last.count = piece.end() - last.first,
+            None => runs.push((piece.class, run)),
+        }
+    }
+    runs
+}
