@@ -54,11 +54,7 @@ impl Writer<'_, '_> {
                 code.push_str("plc_timer_go_on(&");
                 self.fields.access(code, DeviceClass::T, number);
                 let _ = write!(code, ", &plc->sys, {}u, ", kind.unit_ms.max(1));
-                let kind = TimerKind {
-                    latches_preset: self.latches(number, kind),
-                    ..kind
-                };
-                timer_options(code, kind);
+                timer_options(code, self.coils.kind(number, kind));
                 code.push_str(");");
             }
             Stmt::Counter16 {
@@ -101,10 +97,7 @@ impl Writer<'_, '_> {
         drive: ExprId,
         preset: ExprId,
     ) {
-        let kind = TimerKind {
-            latches_preset: self.latches(number, kind),
-            ..kind
-        };
+        let kind = self.coils.kind(number, kind);
         let mut timer = String::new();
         self.fields.access(&mut timer, DeviceClass::T, number);
         self.run_timer(code, (&timer, kind), drive, preset);
@@ -143,11 +136,9 @@ impl Writer<'_, '_> {
                     Some(&Expr::Stride(_, by)) => by,
                     _ => 0,
                 };
-                let mut numbers = (0..self.rounds).map(|n| place.number + n * by);
-                let kind = TimerKind {
-                    latches_preset: numbers.any(|number| self.latches(number, kind)),
-                    ..kind
-                };
+                let kind = self
+                    .coils
+                    .kind_of_rounds(place.number, by, self.rounds, kind);
                 self.run_timer(code, (&device, kind), drive, preset);
             }
             _ => {
@@ -179,11 +170,6 @@ impl Writer<'_, '_> {
             self.expr(code, argument, Around::Exact);
         }
         code.push_str(");");
-    }
-
-    /// Whether a timer has to remember the preset with which it began: a constant that only one coil names cannot change.
-    fn latches(&self, number: u32, kind: TimerKind) -> bool {
-        kind.latches_preset && self.plain_timers.get(&number) != Some(&1)
     }
 
     fn counter(&mut self, code: &mut String, function: &str, number: u32, arguments: &[ExprId]) {

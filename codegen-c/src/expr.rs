@@ -612,7 +612,7 @@ impl Writer<'_, '_> {
     }
 
     fn read_bit(&mut self, out: &mut String, place: &Place) {
-        if self.constant_of_rounds(out, place) {
+        if self.invariant_of_rounds(out, place) {
             return;
         }
         let of_round = self.access_round(out, place);

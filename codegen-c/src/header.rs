@@ -1,11 +1,12 @@
 //! The header of a program: its struct, field by field, and its functions.
 
 use crate::fields::{self, PrintField};
-use crate::plan::Plan;
 use crate::unit::uses_runtime;
 use crate::writer::c_type;
 use crate::{events, text};
+use rungc_emit::plan::Plan;
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
+use rungc_emit::temps::Home;
 use rungc_ir::Module;
 use rungc_rt::Axis;
 use rungc_syntax::DeviceClass;
@@ -109,11 +110,14 @@ fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
         );
         size.add(4, 4);
     }
-    for (i, temp) in plan.temps.iter().enumerate().filter(|(_, t)| t.field) {
+    for (i, temp) in plan
+        .temps
+        .iter()
+        .enumerate()
+        .filter(|(_, t)| t.home() == Home::Field)
+    {
         let ty = module.temps[i];
-        let mut line = format!("    {} ", c_type(ty));
-        temp.name(&mut line);
-        line.push(';');
+        let line = format!("    {} {temp};", c_type(ty));
         push_with_comment(out, &line, "found in one function, used in another");
         let bytes = match c_type(ty) {
             "bool" => 1,

@@ -4,9 +4,8 @@
 //! the program calls the runtime, the runtime's sources, and if it takes events or it is asked for, the wiring between it and a board.
 //! [`batch`] makes one executable of many programs, for tests.
 //!
-//! How a program becomes C: `fields` names the fields of the struct that
-//! `rungc_emit` decides on, `plan` divides the program into functions of bounded size,
-//! `scopes` finds where temporaries live, `writer` and `expr` write statements and expressions, `unit` puts it all together.
+//! `rungc_emit` decides on the fields of the program's struct, on its functions and on where temporaries live. What is done here is to
+//! print that: `fields` the struct's fields, `writer` and `expr` statements and expressions; `unit` puts it all together.
 
 mod board;
 mod devices;
@@ -18,14 +17,11 @@ mod header;
 mod helpers;
 mod host;
 mod places;
-mod plan;
 mod rounds;
 mod runtime;
-mod scopes;
 mod table;
 mod text;
 mod unit;
-mod walk;
 mod writer;
 
 pub use places::Places;

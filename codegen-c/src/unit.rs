@@ -1,9 +1,9 @@
 //! One module as C text: declarations, and functions in groups of bounded size.
 
 use crate::fields::{PrintField, PrintStorage};
-use crate::plan::Plan;
 use crate::writer::{Writer, function_name};
 use crate::{events, header, table};
+use rungc_emit::plan::Plan;
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, STEPS_PER_MS};
@@ -116,12 +116,8 @@ pub fn uses_runtime(module: &Module) -> bool {
 
 /// The states of parts.
 fn states(out: &mut String, writer: &Writer, plan: &Plan) {
-    for (root, names) in plan
-        .state_names
-        .iter()
-        .enumerate()
-        .filter(|(_, names)| !names.is_empty())
-    {
+    let roots = (0..writer.module.functions.len()).map(|root| (root, plan.state_names(root)));
+    for (root, names) in roots.filter(|(_, names)| !names.is_empty()) {
         out.push_str("/* Where the program goes on after a jump. */\nenum {\n");
         for state in 1..=names.len() {
             let comma = if state < names.len() { "," } else { "" };

@@ -3,22 +3,27 @@
 use crate::devices::written;
 use crate::expr::Around;
 use crate::helpers::Helpers;
-use crate::plan::{CFunction, Flow, Node, Plan};
-use crate::rounds::Device;
-use crate::{text, walk};
+use crate::text;
+use rungc_emit::edges::{Asker, asker};
+use rungc_emit::parts::{self, Limits};
+use rungc_emit::plan::{Flow, Function, Node, Plan};
+use rungc_emit::stations::Device;
 use rungc_emit::storage::Storage;
+use rungc_emit::temps::Home;
+use rungc_emit::timers::Coils;
 use rungc_ir::Module;
 use rungc_ir::node::{EdgeId, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
-use rungc_ir::walk::{for_exprs, operands};
 use rungc_rt::EdgeKind;
-use rungc_syntax::DeviceClass;
 use rustc_hash::FxHashMap;
-use smallvec::SmallVec;
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
-/// Expressions that nest deeper than this get a name for their inner parts: readers and compilers have limits.
-const MAX_DEPTH: u32 = 12;
+/// How much of an expression stands in one place.
+const LIMITS: Limits = Limits {
+    depth: 12,
+    shared: 8,
+    plain: 256,
+};
 
 /// The memory of an edge, and how far behind it that of a loop's present round is.
 type Memory = (EdgeId, Option<ExprId>);
@@ -36,9 +41,9 @@ pub struct Writer<'a, 'm> {
     pub clears: [bool; 2],
     /// Names of parts of the current statement's expressions.
     pub(crate) named: FxHashMap<ExprId, String>,
-    /// Timers with one coil and a constant preset: taking the preset over makes no difference to them.
-    pub(crate) plain_timers: FxHashMap<u32, u32>,
-    /// The current C function.
+    /// What timers have to remember.
+    pub(crate) coils: Coils,
+    /// The current function.
     function: usize,
     /// Loops around the current statement.
     pub(crate) loops: usize,
@@ -49,9 +54,9 @@ pub struct Writer<'a, 'm> {
     /// How many rounds that has.
     pub(crate) rounds: u32,
     /// Devices that it reads before its first round.
-    pub(crate) constants: HashSet<Device>,
+    pub(crate) invariants: BTreeSet<Device>,
     /// Devices that a loop of this function reads so.
-    pub(crate) constants_named: HashSet<Device>,
+    pub(crate) invariants_named: BTreeSet<Device>,
     /// Parts that have been given a name in this function.
     names: u32,
 }
@@ -59,7 +64,7 @@ pub struct Writer<'a, 'm> {
 impl<'a, 'm> Writer<'a, 'm> {
     /// A writer.
     pub fn new(module: &'m Module, plan: &'a Plan<'m>, fields: &'a Storage<'m>) -> Self {
-        let mut writer = Writer {
+        Writer {
             module,
             plan,
             fields,
@@ -67,75 +72,26 @@ impl<'a, 'm> Writer<'a, 'm> {
             faults: false,
             clears: [false; 2],
             named: FxHashMap::default(),
-            plain_timers: FxHashMap::default(),
+            coils: Coils::of(module, plan, fields),
             function: 0,
             loops: 0,
             numbers: false,
             round: String::new(),
             rounds: 0,
-            constants: HashSet::new(),
-            constants_named: HashSet::new(),
+            invariants: BTreeSet::new(),
+            invariants_named: BTreeSet::new(),
             names: 0,
-        };
-        for function in &plan.functions {
-            writer.count_timers(&function.body, 1);
-        }
-        writer
-    }
-
-    /// Counts the coils of each timer in statements that are in a loop of so many rounds; a preset that may change counts twice.
-    fn count_timers(&mut self, nodes: &[Node], rounds: u32) {
-        for node in nodes {
-            match node {
-                Node::Stmt(Stmt::Timer { number, preset, .. }) => {
-                    *self.plain_timers.entry(*number).or_default() += self.coils(*preset);
-                }
-                Node::Stmt(Stmt::TimerAt { place, preset, .. }) => {
-                    let coils = self.coils(*preset);
-                    match place.index.map(|index| self.module.expr(index)) {
-                        Some(&Expr::Stride(_, by)) => {
-                            for n in 0..rounds {
-                                *self.plain_timers.entry(place.number + n * by).or_default() +=
-                                    coils;
-                            }
-                        }
-                        // An index may lead to any of them.
-                        _ => {
-                            let fields = self.fields.of_class(DeviceClass::T).iter();
-                            let numbers = fields.flat_map(|field| field.first..field.end());
-                            self.plain_timers.extend(numbers.map(|number| (number, 2)));
-                        }
-                    }
-                }
-                Node::If {
-                    then, otherwise, ..
-                } => {
-                    self.count_timers(then, rounds);
-                    self.count_timers(otherwise, rounds);
-                }
-                Node::For { body, .. } => self.count_timers(body, rounds),
-                Node::Repeat { count, body, .. } => self.count_timers(body, *count),
-                _ => {}
-            }
-        }
-    }
-
-    /// As how many a coil of a timer with this preset counts.
-    fn coils(&self, preset: ExprId) -> u32 {
-        match self.module.expr(preset) {
-            Expr::I16(_) => 1,
-            _ => 2,
         }
     }
 
     /// Name of a C function.
-    pub fn function_name(&self, out: &mut String, function: &CFunction) {
+    pub fn function_name(&self, out: &mut String, function: &Function) {
         function_name(out, self.module, function.root);
         out.push_str(&function.suffix);
     }
 
     /// The head of a C function, without storage class and body.
-    pub fn signature(&self, function: &CFunction) -> String {
+    pub fn signature(&self, function: &Function) -> String {
         let mut out = String::from(if function.flow == Flow::Void {
             "void "
         } else {
@@ -153,7 +109,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         self.function = index;
         self.loops = 0;
         self.names = 0;
-        self.constants_named.clear();
+        self.invariants_named.clear();
         let _ = write!(out, "{storage}{}\n{{\n", self.signature(function));
         if function
             .body
@@ -162,26 +118,23 @@ impl<'a, 'm> Writer<'a, 'm> {
         {
             out.push_str("    (void)plc;\n");
         }
-        if calls_runtime(&function.body) {
+        if function.calls_runtime {
             let _ = writeln!(out, "    rungc_map map = {}_map(plc);", self.module.name);
         }
-        for (temp, _) in plan
+        for (temp, known) in plan
             .temps
             .iter()
             .enumerate()
-            .filter(|(_, t)| t.at_top == Some(index) && !t.field && t.used > 0)
+            .filter(|(_, t)| t.home() == Home::Variable(index) && t.used > 0)
         {
             let mut code = String::from(c_type(self.module.temps[temp]));
             code.push(' ');
-            plan.temps[temp].name(&mut code);
+            let _ = write!(code, "{known}");
             code.push_str(zero(self.module.temps[temp]));
             text::line(out, 4, &code, None);
         }
         self.nodes(out, &function.body, 4);
-        let ends = matches!(
-            function.body.last(),
-            Some(Node::Stmt(Stmt::Goto(_) | Stmt::Return))
-        );
+        let ends = function.ends_by_jump();
         match function.flow {
             Flow::Part { next: Some(next) } if !ends => {
                 let code = format!("return {};", self.state_name(function.root, next));
@@ -198,7 +151,7 @@ impl<'a, 'm> Writer<'a, 'm> {
     pub fn state_name(&self, root: usize, state: u32) -> String {
         let mut name = String::new();
         function_name(&mut name, self.module, root);
-        let _ = write!(name, "_{}", self.plan.state_names[root][state as usize - 1]);
+        let _ = write!(name, "_{}", self.plan.state_names(root)[state as usize - 1]);
         name.to_ascii_uppercase()
     }
 
@@ -206,69 +159,33 @@ impl<'a, 'm> Writer<'a, 'm> {
         let mut i = 0;
         while let Some(node) = nodes.get(i) {
             i += 1;
-            if self.is_silent_network(node, nodes.get(i)) {
+            if Plan::is_silent(self.module, node, nodes.get(i)) {
                 continue;
             }
-            // An edge that only the next statement asks for is asked for there.
+            // An edge within an expression would be a call whose result `&` joins, for which compilers warn.
             if let (
                 Node::Stmt(Stmt::Edge {
                     edge,
                     index,
                     kind,
                     input,
-                    out: temp,
+                    ..
                 }),
                 Some(next),
             ) = (node, nodes.get(i))
-                && self.inline_edge(out, ((*edge, *index), *kind, *input), *temp, next, indent)
+                && let Some(Asker::Whole(asker)) = asker(self.module, self.plan, node, next)
             {
+                self.name_parts(out, &[*input], indent);
+                let mut call = String::new();
+                self.edge_call(&mut call, ((*edge, *index), *kind, *input));
+                self.named.clear();
+                self.named.insert(asker, call);
+                self.node_with_names(out, next, indent);
                 i += 1;
                 continue;
             }
             self.node(out, node, indent);
         }
-    }
-
-    /// Whether nothing is left of a network, so that it needs no heading.
-    fn is_silent_network(&self, node: &Node, next: Option<&Node>) -> bool {
-        let Node::Stmt(Stmt::Network(network)) = node else {
-            return false;
-        };
-        let known = self.module.networks.get(*network as usize);
-        let silent = known.is_none_or(|n| n.statement.is_none() && n.note.is_none());
-        silent && matches!(next, None | Some(Node::Stmt(Stmt::Network(_))))
-    }
-
-    fn inline_edge(
-        &mut self,
-        out: &mut String,
-        edge: (Memory, EdgeKind, ExprId),
-        temp: TempId,
-        next: &Node<'m>,
-        indent: usize,
-    ) -> bool {
-        let known = self.plan.temps[temp.0 as usize];
-        let is_it = |e: ExprId| *self.module.expr(e) == Expr::Temp(temp);
-        let user = match next {
-            Node::If { cond, .. } if is_it(*cond) => *cond,
-            Node::Stmt(Stmt::WriteBit(place, e)) if place.index.is_none() && is_it(*e) => *e,
-            Node::Stmt(
-                Stmt::Timer { drive, .. }
-                | Stmt::Counter16 { drive, .. }
-                | Stmt::Counter32 { drive, .. },
-            ) if is_it(*drive) => *drive,
-            _ => return false,
-        };
-        if known.used != 1 || known.field {
-            return false;
-        }
-        self.name_parts(out, &[edge.2], indent);
-        let mut call = String::new();
-        self.edge_call(&mut call, edge);
-        self.named.clear();
-        self.named.insert(user, call);
-        self.node_with_names(out, next, indent);
-        true
     }
 
     fn edge_call(&mut self, out: &mut String, (memory, kind, input): (Memory, EdgeKind, ExprId)) {
@@ -304,59 +221,21 @@ impl<'a, 'm> Writer<'a, 'm> {
     }
 
     fn node(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
-        let mut roots: SmallVec<[ExprId; 4]> = SmallVec::new();
-        match node {
-            Node::Stmt(stmt) => for_exprs(stmt, &mut |&e| roots.push(e)),
-            Node::If { cond, .. } => roots.push(*cond),
-            Node::For { count, .. } => roots.push(*count),
-            Node::Repeat { .. } | Node::Parts { .. } | Node::Stretch(_) => {}
-        }
-        self.name_parts(out, &roots, indent);
+        self.name_parts(out, &node.roots(), indent);
         self.node_with_names(out, node, indent);
     }
 
     /// Gives names to inner parts of expressions that nest deep, or that share parts so much that writing them out would explode.
     fn name_parts(&mut self, out: &mut String, roots: &[ExprId], indent: usize) {
         self.named.clear();
-        let plan = self.plan;
-        for &root in roots {
-            if plan.sizes.depth(root) <= MAX_DEPTH && !plan.sizes.is_large(root) {
-                continue;
-            }
-            let mut below = Vec::new();
-            walk::below(self.module, root, &mut below);
-            let mut parents: FxHashMap<ExprId, u32> = FxHashMap::default();
-            for &e in &below {
-                for o in operands(self.module.expr(e)) {
-                    *parents.entry(o).or_default() += 1;
-                }
-            }
-            let mut depth: FxHashMap<ExprId, u32> = FxHashMap::default();
-            for &e in below.iter().filter(|&&e| e != root) {
-                let expr = self.module.expr(e);
-                let mut own = 0;
-                for o in operands(expr) {
-                    let same =
-                        std::mem::discriminant(expr) == std::mem::discriminant(self.module.expr(o));
-                    own = own.max(depth.get(&o).copied().unwrap_or(0) + u32::from(!same));
-                }
-                let shared = parents.get(&e).is_some_and(|&n| n > 1) && plan.sizes.size(e) > 8;
-                if own < MAX_DEPTH && !shared {
-                    depth.insert(e, own);
-                    continue;
-                }
-                if self.named.contains_key(&e) {
-                    continue;
-                }
-                let ty = self.module.ty(e);
-                self.names += 1;
-                let name = format!("part{}", self.names);
-                let mut code = format!("const {} {name} = ", c_type(ty));
-                self.expr(&mut code, e, Around::Exact);
-                code.push(';');
-                text::line(out, indent, &code, None);
-                self.named.insert(e, name);
-            }
+        for e in parts::named(self.module, &self.plan.sizes, roots, LIMITS) {
+            self.names += 1;
+            let name = format!("part{}", self.names);
+            let mut code = format!("const {} {name} = ", c_type(self.module.ty(e)));
+            self.expr(&mut code, e, Around::Exact);
+            code.push(';');
+            text::line(out, indent, &code, None);
+            self.named.insert(e, name);
         }
     }
 
@@ -370,7 +249,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                 otherwise,
             } => self.branch(out, *cond, (then, otherwise), indent),
             Node::For { count, body } => self.repeat(out, *count, body, indent),
-            Node::Repeat { count, body, steps } => self.rounds(out, (*count, *steps), body, indent),
+            Node::Repeat(stations) => self.rounds(out, stations, indent),
             Node::Parts { parts, leaves } => self.parts(out, parts, *leaves, indent),
             Node::Stretch(function) => self.stretch(out, *function, indent),
         }
@@ -503,18 +382,19 @@ impl<'a, 'm> Writer<'a, 'm> {
 
     /// Writes a temporary's name as it is used.
     pub(crate) fn temp(&self, out: &mut String, temp: TempId) {
-        let known = &self.plan.temps[temp.0 as usize];
-        if known.field {
-            out.push_str("plc->");
-        }
-        known.name(out);
+        let known = self.plan.temp(temp);
+        let plc = if known.home() == Home::Field {
+            "plc->"
+        } else {
+            ""
+        };
+        let _ = write!(out, "{plc}{known}");
     }
 
     /// The left side of an assignment to a temporary.
     fn assigned_temp(&self, temp: TempId) -> String {
-        let known = &self.plan.temps[temp.0 as usize];
         let mut code = String::new();
-        if known.is_constant() {
+        if self.plan.temp(temp).home() == Home::Constant {
             let _ = write!(
                 code,
                 "const {} ",
@@ -530,7 +410,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         let mut code = String::with_capacity(text::WIDTH);
         match stmt {
             Stmt::Let(temp, value) => {
-                if self.plan.temps[temp.0 as usize].used == 0 {
+                if self.plan.temp(*temp).used == 0 {
                     return;
                 }
                 code = self.assigned_temp(*temp);
@@ -545,7 +425,7 @@ impl<'a, 'm> Writer<'a, 'm> {
                 out: temp,
             } => {
                 let memory = (*edge, *index);
-                if self.plan.temps[temp.0 as usize].used == 0 {
+                if self.plan.temp(*temp).used == 0 {
                     self.edge_memory(&mut code, memory);
                     code.push_str(" = ");
                     self.expr(&mut code, *input, Around::Exact);
@@ -598,12 +478,12 @@ impl<'a, 'm> Writer<'a, 'm> {
             }
             Stmt::Goto(label) => {
                 let root = self.plan.functions[self.function].root;
-                if let Some(&state) = self.plan.states.get(&(root, *label)) {
+                if let Some(state) = self.plan.state(root, *label) {
                     code = format!("return {};", self.state_name(root, state));
                 }
             }
             Stmt::Fetch { there, .. } => {
-                if self.plan.temps[there.0 as usize].used > 0 {
+                if self.plan.temp(*there).used > 0 {
                     code = self.assigned_temp(*there);
                 }
                 self.transfer(&mut code, stmt);
@@ -687,15 +567,4 @@ fn zero(ty: Ty) -> &'static str {
         Ty::I16 | Ty::I32 => " = 0;",
         Ty::F32 => " = 0.0f;",
     }
-}
-
-fn calls_runtime(nodes: &[Node]) -> bool {
-    nodes.iter().any(|node| match node {
-        Node::Stmt(stmt) => rungc_ir::walk::calls_runtime(stmt),
-        Node::If {
-            then, otherwise, ..
-        } => calls_runtime(then) || calls_runtime(otherwise),
-        Node::For { body, .. } | Node::Repeat { body, .. } => calls_runtime(body),
-        Node::Parts { .. } | Node::Stretch(_) => false,
-    })
 }

@@ -1,8 +1,17 @@
 //! The emission plan: every decision about a program that does not depend on the language it is printed in.
 //!
-//! The crate lies between the IR and the backends. It decides how devices are stored ([`storage`]), and it knows no syntax of any
-//! output language: a backend prints what stands here, and decides nothing about what a program means.
+//! The crate lies between the IR and the backends. It decides how devices are stored ([`storage`]), how a program is divided into
+//! functions of bounded size ([`plan`]), where its temporaries live and what they are called ([`temps`]), which parts of expressions
+//! get a name ([`parts`]) and what a loop over stations reads before its first round ([`stations`]). It knows no syntax of any output
+//! language: a backend prints what stands here, and decides nothing about what a program means.
 //!
-//! Start reading at [`storage::Storage`].
+//! Start reading at [`plan::Plan`] and [`storage::Storage`].
 
+pub mod edges;
+pub mod measure;
+pub mod parts;
+pub mod plan;
+pub mod stations;
 pub mod storage;
+pub mod temps;
+pub mod timers;

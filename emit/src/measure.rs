@@ -1,4 +1,4 @@
-//! Measures expressions, and looks at what is below them.
+//! Sizes of expressions, and what is below them.
 
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, TempId};

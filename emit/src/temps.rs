@@ -1,18 +1,18 @@
-//! Where temporaries live, and what they are called.
+//! The temporaries: where each lives, and what it is called.
 
-use crate::plan::{Node, Plan};
-use crate::walk;
+use crate::measure::{self, Sizes};
+use crate::plan::{Function, Node};
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::for_exprs;
 use rungc_rt::EdgeKind;
 use rustc_hash::FxHashMap;
-use std::fmt::Write;
+use std::fmt::{self, Display, Formatter};
 
 /// A temporary of the module.
 #[derive(Clone, Copy, Default, Debug)]
 pub struct Temp {
-    /// Name without number: `step`.
+    /// Its name without numbers: `step`.
     prefix: &'static str,
     /// Step number of the network.
     step: Option<u32>,
@@ -20,40 +20,58 @@ pub struct Temp {
     ordinal: u32,
     /// How often it is used.
     pub used: u32,
-    /// Lives in several C functions: a field of the struct.
-    pub field: bool,
-    /// Cannot be declared where it is given its value: declared at the top of this C function.
-    pub at_top: Option<usize>,
+    /// Where it lives.
+    home: Home,
+}
+
+/// Where a temporary lives.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum Home {
+    /// A constant of its block: declared by the one statement that gives it its value, and read below that.
+    #[default]
+    Constant,
+    /// A variable of this function of the plan, declared at its top, since no one statement can declare it.
+    Variable(usize),
+    /// A field of the struct: found in one function, used in another.
+    Field,
 }
 
 impl Temp {
-    /// Writes its name: `step12`, `step12_2`.
-    pub fn name(&self, out: &mut String) {
-        out.push_str(self.prefix);
-        // Writing to a String does not fail.
-        let _ = match (self.step, self.ordinal) {
-            (Some(step), 0) => write!(out, "{step}"),
-            (Some(step), n) => write!(out, "{step}_{}", n + 1),
-            (None, n) => write!(out, "_{}", n + 1),
-        };
+    /// Where it lives.
+    pub fn home(&self) -> Home {
+        self.home
     }
 
-    /// Whether it may be declared, as a constant, by the statement that gives it its value.
-    pub fn is_constant(&self) -> bool {
-        !self.field && self.at_top.is_none()
+    /// It is given its value in several blocks of this function, or used outside the one where it is.
+    fn leave_block(&mut self, function: usize) {
+        if self.home == Home::Constant {
+            self.home = Home::Variable(function);
+        }
+    }
+}
+
+/// Its name: `step12`, `step12_2`.
+impl Display for Temp {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(self.prefix)?;
+        match (self.step, self.ordinal) {
+            (Some(step), 0) => write!(f, "{step}"),
+            (Some(step), n) => write!(f, "{step}_{}", n + 1),
+            (None, n) => write!(f, "_{}", n + 1),
+        }
     }
 }
 
 /// Finds out about all temporaries.
-pub fn temps(module: &Module, plan: &Plan) -> Vec<Temp> {
+pub(crate) fn temps(module: &Module, functions: &[Function], sizes: &Sizes) -> Vec<Temp> {
     if module.temps.is_empty() {
         return Vec::new();
     }
     let mut scopes = Scopes {
         module,
-        plan,
+        sizes,
         temps: vec![Temp::default(); module.temps.len()],
-        homes: vec![Home::default(); module.temps.len()],
+        first: vec![First::default(); module.temps.len()],
         open: Vec::new(),
         blocks: 0,
         function: 0,
@@ -61,8 +79,7 @@ pub fn temps(module: &Module, plan: &Plan) -> Vec<Temp> {
         names: FxHashMap::default(),
         seen: Vec::new(),
     };
-    // Functions stand behind those they call, but the network a stretch begins in is its own first statement, so order is no matter.
-    for (i, function) in plan.functions.iter().enumerate() {
+    for (i, function) in functions.iter().enumerate() {
         scopes.function = i;
         scopes.step = None;
         scopes.block(&function.body);
@@ -70,29 +87,30 @@ pub fn temps(module: &Module, plan: &Plan) -> Vec<Temp> {
     scopes.temps
 }
 
+/// Where a temporary occurs first.
 #[derive(Clone, Copy, Default)]
-struct Home {
+struct First {
     function: Option<usize>,
     /// Block of its one assignment.
     block: Option<u32>,
 }
 
-struct Scopes<'a, 'm> {
-    module: &'m Module,
-    plan: &'a Plan<'m>,
+struct Scopes<'a> {
+    module: &'a Module,
+    sizes: &'a Sizes,
     temps: Vec<Temp>,
-    homes: Vec<Home>,
+    first: Vec<First>,
     /// Blocks that are open, from the function's on.
     open: Vec<u32>,
     blocks: u32,
     function: usize,
     step: Option<u32>,
     names: FxHashMap<(&'static str, Option<u32>), u32>,
-    /// Buffer of walks.
+    /// A buffer of walks.
     seen: Vec<ExprId>,
 }
 
-impl Scopes<'_, '_> {
+impl Scopes<'_> {
     fn block(&mut self, nodes: &[Node]) {
         self.blocks += 1;
         self.open.push(self.blocks);
@@ -112,7 +130,7 @@ impl Scopes<'_, '_> {
                     self.uses(*count);
                     self.block(body);
                 }
-                Node::Repeat { body, .. } => self.block(body),
+                Node::Repeat(stations) => self.block(&stations.body),
                 Node::Parts { .. } | Node::Stretch(_) => {}
             }
         }
@@ -150,13 +168,14 @@ impl Scopes<'_, '_> {
 
     fn uses(&mut self, expr: ExprId) {
         let mut seen = std::mem::take(&mut self.seen);
-        walk::temps(self.module, &self.plan.sizes, expr, &mut seen, |temp| {
+        measure::temps(self.module, self.sizes, expr, &mut seen, |temp| {
             let known = &mut self.temps[temp.0 as usize];
             known.used += 1;
-            let home = &mut self.homes[temp.0 as usize];
-            known.field |= *home.function.get_or_insert(self.function) != self.function;
-            if !home.block.is_some_and(|block| self.open.contains(&block)) {
-                known.at_top = Some(self.function);
+            let first = &mut self.first[temp.0 as usize];
+            if *first.function.get_or_insert(self.function) != self.function {
+                known.home = Home::Field;
+            } else if !first.block.is_some_and(|block| self.open.contains(&block)) {
+                known.leave_block(self.function);
             }
         });
         self.seen = seen;
@@ -164,12 +183,13 @@ impl Scopes<'_, '_> {
 
     fn assigns(&mut self, temp: TempId, prefix: &'static str) {
         let known = &mut self.temps[temp.0 as usize];
-        let home = &mut self.homes[temp.0 as usize];
-        known.field |= *home.function.get_or_insert(self.function) != self.function;
-        if home.block.is_some() {
-            known.at_top = Some(self.function);
+        let first = &mut self.first[temp.0 as usize];
+        if *first.function.get_or_insert(self.function) != self.function {
+            known.home = Home::Field;
+        } else if first.block.is_some() {
+            known.leave_block(self.function);
         } else {
-            home.block = self.open.last().copied();
+            first.block = self.open.last().copied();
         }
         // A value at the start of the program belongs to no rung; a later one tells more.
         if known.prefix.is_empty() || (known.step.is_none() && self.step.is_some()) {

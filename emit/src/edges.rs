@@ -1,0 +1,58 @@
+//! Edges that only the next statement asks for: they are written in it.
+
+use crate::measure;
+use crate::plan::{Node, Plan};
+use crate::temps::Home;
+use rungc_ir::Module;
+use rungc_ir::node::{Expr, ExprId, Stmt, TempId};
+
+/// Who asks for an edge.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Asker {
+    /// An expression that is the edge alone: a condition, a value, a drive.
+    Whole(ExprId),
+    /// An operand somewhere in a condition or a value.
+    Operand(ExprId),
+}
+
+/// What of `next` asks for the edge that `node` finds, if nothing else does and `next` evaluates it exactly once.
+pub fn asker(module: &Module, plan: &Plan, node: &Node, next: &Node) -> Option<Asker> {
+    let Node::Stmt(Stmt::Edge { out, .. }) = node else {
+        return None;
+    };
+    let temp = plan.temp(*out);
+    if temp.used != 1 || temp.home() == Home::Field {
+        return None;
+    }
+    let is_it = |e: ExprId| *module.expr(e) == Expr::Temp(*out);
+    match next {
+        Node::If { cond: value, .. } => {
+            whole(is_it, *value).or_else(|| operand(module, *value, *out))
+        }
+        Node::Stmt(Stmt::WriteBit(place, value)) if place.index.is_none() => {
+            whole(is_it, *value).or_else(|| operand(module, *value, *out))
+        }
+        Node::Stmt(
+            Stmt::Timer { drive, .. }
+            | Stmt::Counter16 { drive, .. }
+            | Stmt::Counter32 { drive, .. },
+        ) => whole(is_it, *drive),
+        Node::Stmt(_)
+        | Node::For { .. }
+        | Node::Repeat(_)
+        | Node::Parts { .. }
+        | Node::Stretch(_) => None,
+    }
+}
+
+fn whole(is_it: impl Fn(ExprId) -> bool, value: ExprId) -> Option<Asker> {
+    is_it(value).then_some(Asker::Whole(value))
+}
+
+fn operand(module: &Module, value: ExprId, temp: TempId) -> Option<Asker> {
+    let mut below = Vec::new();
+    measure::below(module, value, &mut below);
+    let mut found = below.into_iter();
+    let found = found.find(|&e| *module.expr(e) == Expr::Temp(temp));
+    found.map(Asker::Operand)
+}

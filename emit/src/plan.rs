@@ -1,0 +1,493 @@
+//! The functions of the emitted program: a module divided into functions of bounded size.
+
+use crate::measure::Sizes;
+use crate::temps::{self, Temp};
+use rungc_ir::Module;
+use rungc_ir::node::{Body, ExprId, LabelId, Part, Stmt, TempId};
+use rungc_ir::walk::{called_functions, calls_runtime, for_exprs};
+use smallvec::SmallVec;
+use std::collections::{BTreeSet, HashMap};
+
+/// About how many operations a function may hold: what a reader can take in and every compiler optimises in linear time.
+const FUNCTION_WEIGHT: u64 = 1200;
+/// How deep blocks may nest in one function (C99 promises 127 levels).
+const MAX_NESTING: u32 = 24;
+
+/// A function of the emitted program.
+pub struct Function<'m> {
+    /// Which of [`Module::functions`] it belongs to.
+    pub root: usize,
+    /// What its name adds to the root's: nothing, `_2`, `_P12`.
+    pub suffix: String,
+    /// Its statements.
+    pub body: Vec<Node<'m>>,
+    /// How it ends.
+    pub flow: Flow,
+    /// Its size, in operations.
+    pub weight: u64,
+    /// Whether its own statements call the runtime.
+    pub calls_runtime: bool,
+    /// Whether it or a function that it calls does, so that it needs the hardware.
+    pub needs_hardware: bool,
+}
+
+impl Function<'_> {
+    /// Whether it is a whole function of the module, or what is left of one when stretches and parts have been moved out.
+    pub fn is_whole(&self) -> bool {
+        self.suffix.is_empty()
+    }
+
+    /// Whether it ends by a jump or a return of its own.
+    pub fn ends_by_jump(&self) -> bool {
+        let last = self.body.last();
+        matches!(last, Some(Node::Stmt(Stmt::Goto(_) | Stmt::Return)))
+    }
+}
+
+/// How a function ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Flow {
+    /// No result; runs to its end or returns.
+    Void,
+    /// A stretch of another one, with jumps out of it: returns the state of the part to continue with, or that the root is to be left, or
+    /// that it has come to its end.
+    Stretch,
+    /// A part: returns the same; from its end it continues with this part.
+    Part {
+        /// State of the next part, if there is one.
+        next: Option<u32>,
+    },
+}
+
+/// A statement of a function.
+pub enum Node<'m> {
+    /// A simple one.
+    Stmt(&'m Stmt),
+    /// `if`.
+    If {
+        /// Condition.
+        cond: ExprId,
+        /// If on.
+        then: Vec<Node<'m>>,
+        /// If off.
+        otherwise: Vec<Node<'m>>,
+    },
+    /// `for`.
+    For {
+        /// How often.
+        count: ExprId,
+        /// What.
+        body: Vec<Node<'m>>,
+    },
+    /// A loop over stations: rungs that are alike.
+    Repeat(Stations<'m>),
+    /// The choice between parts.
+    Parts {
+        /// State and function of each.
+        parts: Vec<(u32, usize)>,
+        /// Whether a part may continue outside of them.
+        leaves: bool,
+    },
+    /// A call of a stretch of this function that is a function of its own.
+    Stretch(usize),
+}
+
+impl Node<'_> {
+    /// The bodies directly inside it.
+    pub fn bodies(&self) -> impl Iterator<Item = &[Self]> {
+        let bodies: [&[Self]; 2] = match self {
+            Node::If {
+                then, otherwise, ..
+            } => [then, otherwise],
+            Node::For { body, .. } => [body, &[]],
+            Node::Repeat(stations) => [&stations.body, &[]],
+            Node::Stmt(_) | Node::Parts { .. } | Node::Stretch(_) => [&[], &[]],
+        };
+        bodies.into_iter()
+    }
+
+    /// The expressions that it evaluates itself, without those of the bodies inside it.
+    pub fn roots(&self) -> SmallVec<[ExprId; 4]> {
+        let mut roots = SmallVec::new();
+        match self {
+            Node::Stmt(stmt) => for_exprs(stmt, &mut |&e| roots.push(e)),
+            Node::If { cond, .. } => roots.push(*cond),
+            Node::For { count, .. } => roots.push(*count),
+            Node::Repeat(_) | Node::Parts { .. } | Node::Stretch(_) => {}
+        }
+        roots
+    }
+}
+
+/// A loop over stations.
+pub struct Stations<'m> {
+    /// How many there are.
+    pub count: u32,
+    /// The rungs of one.
+    pub body: Vec<Node<'m>>,
+    /// Steps of its first and last network.
+    pub steps: (u32, u32),
+}
+
+/// Calls `visit` with every statement of some nodes, those of the bodies inside them after them.
+pub fn statements<'m>(nodes: &[Node<'m>], visit: &mut dyn FnMut(&'m Stmt)) {
+    for node in nodes {
+        if let Node::Stmt(stmt) = node {
+            visit(stmt);
+        }
+        for body in node.bodies() {
+            statements(body, visit);
+        }
+    }
+}
+
+/// Where control may go from a body besides its end.
+#[derive(Clone, Default)]
+struct Leaves {
+    returns: bool,
+    labels: BTreeSet<LabelId>,
+}
+
+impl Leaves {
+    fn add(&mut self, other: &Leaves) {
+        self.returns |= other.returns;
+        self.labels.extend(&other.labels);
+    }
+
+    fn any(&self) -> bool {
+        self.returns || !self.labels.is_empty()
+    }
+}
+
+/// A node with what is known of it.
+struct Item<'m> {
+    node: Node<'m>,
+    weight: u64,
+    leaves: Leaves,
+}
+
+/// A finished body.
+#[derive(Default)]
+struct Closed<'m> {
+    nodes: Vec<Node<'m>>,
+    weight: u64,
+    leaves: Leaves,
+}
+
+fn weight(items: &[Item]) -> u64 {
+    items.iter().map(|item| item.weight).sum()
+}
+
+fn close(items: Vec<Item>) -> Closed {
+    let mut closed = Closed::default();
+    closed.nodes.reserve(items.len());
+    for item in items {
+        closed.weight += item.weight;
+        closed.leaves.add(&item.leaves);
+        closed.nodes.push(item.node);
+    }
+    closed
+}
+
+/// The division.
+pub struct Plan<'m> {
+    /// The functions, each after those it calls (but for subroutines).
+    pub functions: Vec<Function<'m>>,
+    /// The temporaries, by their handles.
+    pub temps: Vec<Temp>,
+    /// Sizes of expressions.
+    pub sizes: Sizes,
+    /// States of labelled parts: (root, label) to state.
+    states: HashMap<(usize, LabelId), u32>,
+    /// Names of states by root: the suffix of each, from state 1 on.
+    state_names: Vec<Vec<String>>,
+    /// The whole function of each root, if it is emitted.
+    whole: Vec<Option<usize>>,
+}
+
+impl<'m> Plan<'m> {
+    /// Makes it.
+    pub fn new(module: &'m Module) -> Self {
+        let mut builder = Builder {
+            functions: Vec::new(),
+            sizes: Sizes::new(module),
+            states: HashMap::new(),
+            state_names: vec![Vec::new(); module.functions.len()],
+            stretches: vec![0; module.functions.len()],
+        };
+        let mut whole = vec![None; module.functions.len()];
+        let called = called_functions(module);
+        for (root, function) in module
+            .functions
+            .iter()
+            .enumerate()
+            .filter(|&(root, _)| called[root])
+        {
+            let items = builder.body(&function.body, root, 0);
+            let items = builder.bounded(items, root);
+            whole[root] = Some(builder.function(close(items), root, String::new(), Flow::Void));
+        }
+        let mut functions = builder.functions;
+        hand_hardware_on(&mut functions, &whole);
+        Plan {
+            temps: temps::temps(module, &functions, &builder.sizes),
+            functions,
+            sizes: builder.sizes,
+            states: builder.states,
+            state_names: builder.state_names,
+            whole,
+        }
+    }
+
+    /// What the whole function of a root is in the plan; `None` if it is not emitted.
+    pub fn whole(&self, root: usize) -> Option<&Function<'m>> {
+        self.functions.get((*self.whole.get(root)?)?)
+    }
+
+    /// The state that stands for the part with this label.
+    pub fn state(&self, root: usize, label: LabelId) -> Option<u32> {
+        self.states.get(&(root, label)).copied()
+    }
+
+    /// The names of a root's states, from state 1 on: what a name adds to the root's, `P12`, `part3`.
+    pub fn state_names(&self, root: usize) -> &[String] {
+        &self.state_names[root]
+    }
+
+    /// A temporary.
+    pub fn temp(&self, temp: TempId) -> &Temp {
+        &self.temps[temp.0 as usize]
+    }
+
+    /// Whether nothing is left of a network, so that it needs no heading.
+    pub fn is_silent(module: &Module, node: &Node, next: Option<&Node>) -> bool {
+        let Node::Stmt(Stmt::Network(network)) = node else {
+            return false;
+        };
+        let known = module.networks.get(*network as usize);
+        let silent = known.is_none_or(|n| n.statement.is_none() && n.note.is_none());
+        silent && matches!(next, None | Some(Node::Stmt(Stmt::Network(_))))
+    }
+}
+
+/// Finds the functions that need the hardware because one that they call does.
+fn hand_hardware_on(functions: &mut [Function], whole: &[Option<usize>]) {
+    let callees: Vec<Vec<usize>> = functions.iter().map(|f| callees(&f.body, whole)).collect();
+    // Calls do not recurse, so this ends after as many rounds as calls nest.
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for (caller, callees) in callees.iter().enumerate() {
+            let needs = callees
+                .iter()
+                .any(|&callee| functions[callee].needs_hardware);
+            changed |= needs && !functions[caller].needs_hardware;
+            functions[caller].needs_hardware |= needs;
+        }
+    }
+}
+
+/// The functions that some nodes call.
+fn callees(nodes: &[Node], whole: &[Option<usize>]) -> Vec<usize> {
+    let mut found = Vec::new();
+    for node in nodes {
+        match node {
+            Node::Stmt(Stmt::CallSub(root)) => found.extend(whole[*root as usize]),
+            Node::Parts { parts, .. } => found.extend(parts.iter().map(|&(_, function)| function)),
+            Node::Stretch(function) => found.push(*function),
+            Node::Stmt(_) | Node::If { .. } | Node::For { .. } | Node::Repeat(_) => {}
+        }
+        for body in node.bodies() {
+            found.extend(callees(body, whole));
+        }
+    }
+    found
+}
+
+struct Builder<'m> {
+    functions: Vec<Function<'m>>,
+    sizes: Sizes,
+    states: HashMap<(usize, LabelId), u32>,
+    state_names: Vec<Vec<String>>,
+    /// Stretches made so far, by root.
+    stretches: Vec<u32>,
+}
+
+impl<'m> Builder<'m> {
+    fn function(&mut self, body: Closed<'m>, root: usize, suffix: String, flow: Flow) -> usize {
+        let mut runtime = false;
+        statements(&body.nodes, &mut |stmt| runtime |= calls_runtime(stmt));
+        self.functions.push(Function {
+            root,
+            suffix,
+            body: body.nodes,
+            flow,
+            weight: body.weight,
+            calls_runtime: runtime,
+            needs_hardware: runtime,
+        });
+        self.functions.len() - 1
+    }
+
+    fn body(&mut self, body: &'m Body, root: usize, nesting: u32) -> Vec<Item<'m>> {
+        body.iter()
+            .map(|stmt| self.stmt(stmt, root, nesting))
+            .collect()
+    }
+
+    fn stmt(&mut self, stmt: &'m Stmt, root: usize, nesting: u32) -> Item<'m> {
+        let mut leaves = Leaves::default();
+        let mut weight = 1;
+        for_exprs(stmt, &mut |&e| weight += self.sizes.size(e));
+        let mut inner = |body: &'m Body| {
+            let closed = self.inner(body, root, nesting + 1);
+            weight += closed.weight;
+            leaves.add(&closed.leaves);
+            closed.nodes
+        };
+        let node = match stmt {
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => Node::If {
+                cond: *cond,
+                then: inner(then),
+                otherwise: inner(otherwise),
+            },
+            Stmt::For { count, body } => Node::For {
+                count: *count,
+                body: inner(body),
+            },
+            Stmt::Repeat {
+                count, body, steps, ..
+            } => Node::Repeat(Stations {
+                count: *count,
+                body: inner(body),
+                steps: *steps,
+            }),
+            Stmt::Parts(parts) => {
+                weight += 2 * parts.len() as u64;
+                self.parts(parts, root, &mut leaves)
+            }
+            Stmt::Return | Stmt::Watch { .. } => {
+                leaves.returns = true;
+                Node::Stmt(stmt)
+            }
+            Stmt::Goto(label) => {
+                leaves.labels.insert(*label);
+                Node::Stmt(stmt)
+            }
+            _ => Node::Stmt(stmt),
+        };
+        Item {
+            node,
+            weight,
+            leaves,
+        }
+    }
+
+    /// A branch or a loop's body: bounded, and in a function of its own if it nests too deep.
+    fn inner(&mut self, body: &'m Body, root: usize, nesting: u32) -> Closed<'m> {
+        let items = self.body(body, root, nesting);
+        let items = self.bounded(items, root);
+        if nesting.is_multiple_of(MAX_NESTING) && items.len() > 1 {
+            close(vec![self.stretch(items, root)])
+        } else {
+            close(items)
+        }
+    }
+
+    fn parts(&mut self, parts: &'m [Part], root: usize, leaves: &mut Leaves) -> Node<'m> {
+        let first = self.state_names[root].len() as u32 + 1;
+        for (part, state) in parts.iter().zip(first..) {
+            let name = match &part.name {
+                Some(name) => name.chars().filter(char::is_ascii_alphanumeric).collect(),
+                None => format!("part{state}"),
+            };
+            self.state_names[root].push(name);
+            if let Some(label) = part.label {
+                self.states.insert((root, label), state);
+            }
+        }
+        let mut own = Vec::with_capacity(parts.len());
+        for (part, state) in parts.iter().zip(first..) {
+            let items = self.body(&part.body, root, 0);
+            let body = close(self.bounded(items, root));
+            leaves.add(&body.leaves);
+            let suffix = format!("_{}", self.state_names[root][state as usize - 1]);
+            let next = (own.len() + 1 < parts.len()).then_some(state + 1);
+            own.push((
+                state,
+                self.function(body, root, suffix, Flow::Part { next }),
+            ));
+        }
+        for label in parts.iter().filter_map(|p| p.label) {
+            leaves.labels.remove(&label);
+        }
+        Node::Parts {
+            parts: own,
+            leaves: leaves.any(),
+        }
+    }
+
+    /// Moves stretches of a body that is too large into functions of their own.
+    fn bounded(&mut self, mut items: Vec<Item<'m>>, root: usize) -> Vec<Item<'m>> {
+        while weight(&items) > FUNCTION_WEIGHT {
+            let before = items.len();
+            items = self.divided(items, root);
+            if items.len() == before {
+                break;
+            }
+        }
+        items
+    }
+
+    fn divided(&mut self, items: Vec<Item<'m>>, root: usize) -> Vec<Item<'m>> {
+        let mut outer = Vec::new();
+        let mut stretch = Vec::new();
+        let mut size = 0;
+        for item in items {
+            // Rungs stay together, unless one is larger than a whole function.
+            let limit = match item.node {
+                Node::Stmt(Stmt::Network(_)) => FUNCTION_WEIGHT * 3 / 4,
+                _ => FUNCTION_WEIGHT,
+            };
+            if size + item.weight > limit {
+                let full = std::mem::take(&mut stretch);
+                self.put_stretch(full, root, &mut outer);
+                size = 0;
+            }
+            size += item.weight;
+            stretch.push(item);
+        }
+        self.put_stretch(stretch, root, &mut outer);
+        outer
+    }
+
+    fn put_stretch(&mut self, items: Vec<Item<'m>>, root: usize, outer: &mut Vec<Item<'m>>) {
+        // A single statement would not get smaller by a function of its own.
+        if items.len() > 1 {
+            outer.push(self.stretch(items, root));
+        } else {
+            outer.extend(items);
+        }
+    }
+
+    fn stretch(&mut self, items: Vec<Item<'m>>, root: usize) -> Item<'m> {
+        let body = close(items);
+        let leaves = body.leaves.clone();
+        let flow = if leaves.any() {
+            Flow::Stretch
+        } else {
+            Flow::Void
+        };
+        self.stretches[root] += 1;
+        let suffix = format!("_{}", self.stretches[root]);
+        Item {
+            node: Node::Stretch(self.function(body, root, suffix, flow)),
+            weight: 1,
+            leaves,
+        }
+    }
+}
