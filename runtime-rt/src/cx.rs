@@ -1,5 +1,6 @@
 //! The call context: operands, devices and hardware in the terms in which manuals describe instructions.
 
+use crate::comm::{LineFault, note_missing};
 use crate::fault::{Done, Fault, report};
 use crate::hal::Hal;
 use crate::operand::{Operand, OperandKind};
@@ -488,6 +489,28 @@ impl<'a> Cx<'a> {
     /// Sets special register `number`, if the program looks at it.
     pub fn set_special_word(&mut self, number: u32, value: i16) {
         let _ = self.plc.set_word(Class::D, number, value);
+    }
+
+    /// The serial port that operand `i` names; one that the program does not have is an error of communication.
+    pub fn named_port(&mut self, i: usize) -> Result<Option<u8>, Fault> {
+        let number = self.read(i)?;
+        let named = self.plc.ports().named(number);
+        let named = named.filter(|&number| self.plc.port(number).is_some());
+        if named.is_none() {
+            note_missing(self.plc);
+        }
+        Ok(named)
+    }
+
+    /// Shows an error of a serial port in the program's special devices.
+    pub fn note_line(&mut self, number: u8, fault: LineFault) {
+        let protocol = match self.plc.port(number) {
+            Some(port) => port.status.protocol,
+            None => return,
+        };
+        if let Some(wiring) = self.plc.ports().get(number) {
+            wiring.note(self.plc, protocol, fault);
+        }
     }
 
     /// Module and address of word number `offset` behind the one that `op` names.

@@ -1,6 +1,7 @@
 //! The hardware as instructions see it.
 
 use crate::axis::Axis;
+use crate::comm::{LineFormat, Received};
 
 /// A moment of the real-time clock.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -126,6 +127,21 @@ impl Clock {
     }
 }
 
+/// A serial port: characters in with their times, characters out. Times are microseconds since power-on, wrapping.
+///
+/// An implementation buffers both ways: what comes in by interrupts waits until the program takes it, between two scans.
+pub trait SerialPort {
+    /// How characters stand on the line from now on. It is called before anything else, and again when the format changes.
+    fn set_format(&mut self, format: LineFormat);
+    /// Takes the oldest character that was in by `now_us`.
+    fn receive(&mut self, now_us: u32) -> Option<Received>;
+    /// Takes a character to be sent after those before it, at `now_us` if there are none; false if there is no room for it now. On
+    /// a half-duplex line the driver is on from the first of them to the stop bit of the last.
+    fn send(&mut self, byte: u8, now_us: u32) -> bool;
+    /// How many characters taken by [`SerialPort::send`] are not out by `now_us`, to the end of their stop bits.
+    fn unsent(&mut self, now_us: u32) -> u16;
+}
+
 /// What an instruction may ask of the hardware. Every method has a default that means "not fitted".
 pub trait Hal {
     /// Reads the real-time clock.
@@ -160,6 +176,11 @@ pub trait Hal {
     /// Sets an output terminal now, outside the output refresh: REF, and [`crate::Program::pulse_timer`] for the pins of pulse outputs.
     fn set_output(&mut self, number: u16, value: bool) {
         let _ = (number, value);
+    }
+    /// The serial port that the model's manual numbers so.
+    fn serial_port(&mut self, number: u8) -> Option<&mut dyn SerialPort> {
+        let _ = number;
+        None
     }
     /// Keeps the interrupt from coming that calls [`crate::Program::pulse_timer`], or lets it come again, for the few microseconds in which
     /// an instruction changes what an output sends. For a host that has no such interrupt there is nothing to do.

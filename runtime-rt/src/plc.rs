@@ -1,6 +1,7 @@
 //! The devices of a PLC as instructions see them.
 
 use crate::axis::Axis;
+use crate::comm::{Port, Ports};
 use crate::wiring::Pulses;
 
 /// Device class. The numbers are part of the C ABI.
@@ -184,6 +185,19 @@ pub trait Plc {
     fn axis(&mut self, output: u32) -> Option<&mut Axis> {
         let _ = output;
         None
+    }
+    /// The serial port that the model's manual numbers so, if the program has it.
+    fn port(&mut self, number: u8) -> Option<&mut Port> {
+        let _ = number;
+        None
+    }
+    /// The serial ports that the model has.
+    fn ports(&self) -> Ports {
+        Ports::Without
+    }
+    /// Code of model and version, which D8001 shows and partners on a line ask for.
+    fn type_code(&self) -> u16 {
+        0
     }
     /// The pulse outputs that the model has.
     fn pulses(&self) -> Pulses {

@@ -30,6 +30,10 @@ pub struct Needs {
     /// It looks at inputs X, and is also called at their edges ([`crate::Site::signal`]): at those of the inputs that it names or that
     /// belong to its output ([`crate::Wiring::inputs`]).
     pub signals: bool,
+    /// It works on the serial port of RS ([`crate::Ports::of_rs`]).
+    pub port: bool,
+    /// It works on the serial port that its last operand names ([`crate::Ports::named`]).
+    pub names_port: bool,
 }
 
 impl Needs {
@@ -94,6 +98,8 @@ macro_rules! registry {
                         clears: false,
                         interrupt: false,
                         signals: false,
+                        port: false,
+                        names_port: false,
                     };
                     $($(needs.$need = true;)*)?
                     needs
@@ -268,6 +274,16 @@ registry! {
     Ccd = serial::ccd(s, d, n);
     /// CRC (FNC 188): CRC-16 of bytes.
     Crc = serial::crc(s, d, n);
+    /// RS (FNC 80): sends and receives bytes.
+    Rs = serial::rs(s, m, d, n) [always, port];
+    /// RS2 (FNC 87): the same on a port.
+    Rs2 = serial::rs2(s, m, d, n, n1) [always, names_port];
+    /// UINIT (HM): sets up a port.
+    Uinit = serial::uinit(s1, s2, d1, d2) [names_port];
+    /// USEND (HM): sends bytes.
+    Usend = serial::usend(s1, s2, d) [names_port];
+    /// URCV (HM): receives bytes.
+    Urcv = serial::urcv(s1, s2, d) [names_port];
     /// TCMP (FNC 160): compares times of day.
     Tcmp = clock::tcmp(s1, s2, s3, s, d);
     /// TZCP (FNC 161): compares a time of day with a zone.

@@ -1,12 +1,16 @@
 //! Hardware for tests, simulation and `rungc run`: everything is memory, and time is virtual.
 
-use crate::hal::{Clock, Hal};
+use crate::hal::{Clock, Hal, SerialPort};
+use crate::virtual_line::VirtualLine;
 
 /// Words of buffer memory that all modules together may hold.
 const BFM_WORDS: usize = 1024;
 
 /// Built-in analog inputs.
 const ANALOG_CHANNELS: usize = 16;
+
+/// Serial ports; COM0 to COM3.
+const LINES: usize = 4;
 
 /// A word of buffer memory.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,6 +34,7 @@ pub struct VirtualHal {
     base: Clock,
     since_base_ms: u64,
     now_ms: u32,
+    lines: [VirtualLine; LINES],
 }
 
 impl Default for VirtualHal {
@@ -60,7 +65,13 @@ impl VirtualHal {
             },
             since_base_ms: 0,
             now_ms: 0,
+            lines: [const { VirtualLine::new() }; LINES],
         }
+    }
+
+    /// The other end of a serial port; `None` if the number is above 3.
+    pub fn line(&mut self, number: u8) -> Option<&mut VirtualLine> {
+        self.lines.get_mut(usize::from(number))
     }
 
     /// Virtual time is now `now_ms` milliseconds after power-on (wrapping); call it before each scan.
@@ -73,6 +84,7 @@ impl VirtualHal {
     /// Virtual time begins at 0 again, as after power off and on; the clock goes on where it is.
     pub fn restart(&mut self) {
         self.now_ms = 0;
+        self.lines = [const { VirtualLine::new() }; LINES];
     }
 
     fn find(&self, unit: u16, address: u16) -> Option<usize> {
@@ -139,6 +151,11 @@ impl Hal for VirtualHal {
 
     fn analog(&mut self, channel: u8) -> Option<i16> {
         self.analog.get(usize::from(channel)).copied().flatten()
+    }
+
+    fn serial_port(&mut self, number: u8) -> Option<&mut dyn SerialPort> {
+        let line = self.lines.get_mut(usize::from(number))?;
+        Some(line)
     }
 }
 

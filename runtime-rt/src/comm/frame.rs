@@ -6,6 +6,7 @@ pub struct Frame<'a> {
     bytes: &'a mut [u8],
     len: usize,
     overflows: bool,
+    wait_ms: u16,
 }
 
 impl<'a> Frame<'a> {
@@ -15,7 +16,18 @@ impl<'a> Frame<'a> {
             bytes,
             len: 0,
             overflows: false,
+            wait_ms: 0,
         }
+    }
+
+    /// The frame is to be sent so many milliseconds after the request at the earliest.
+    pub fn wait(&mut self, ms: u16) {
+        self.wait_ms = ms;
+    }
+
+    /// After how many milliseconds it may be sent.
+    pub fn wait_ms(&self) -> u16 {
+        self.wait_ms
     }
 
     /// Appends a character.

@@ -17,7 +17,7 @@
 //!
 //! * **Framing**: `fn cut(received: &[u8]) -> Cut` says after each character whether the characters so far are a whole frame ([`Cut`]).
 //!   Protocols whose frames end by silence (Modbus RTU) have none: the port waits for 3.5 characters of silence.
-//! * **Slaves** answer: `fn answer(settings, request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault>`. `request` is one
+//! * **Slaves** answer: `fn answer(settings: &Settings, request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault>`. `request` is one
 //!   frame as [`Cut`] or the silence ended it. The reply is what `reply` holds; an empty one is silence. `Err` says what the port notes in
 //!   the PLC's error register (D8063 and its like); the reply is sent all the same. A codec checks a request whole before it writes the first
 //!   device, and writes nothing where it refuses.
@@ -25,8 +25,8 @@
 //!   `fn accept(job, reply: &[u8], map: &mut dyn Map) -> Result<(), LineFault>` takes the answer; retries, time-outs and whose turn it is are
 //!   the port's.
 //!
-//! Settings (station, format, limits and address tables of a model) are plain values that the port reads from the program's registers for
-//! each frame; so a change of the station number in RUN is live.
+//! Settings (station, format, what the model serves) are plain values that the port makes of the program's registers for each frame
+//! (`slaves.rs`); so a change of the station number in RUN is live.
 //!
 //! # Files
 //!
@@ -35,7 +35,9 @@
 //! | `map.rs` | [`Map`]: the PLC's devices as codecs see them |
 //! | `frame.rs` | [`Frame`]: a buffer of fixed capacity; digits and sums |
 //! | `line.rs` | format words, character times, line errors |
-//! | `port.rs` | the state machine of one port, choice of protocols |
+//! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
+//! | `port.rs` | the state machine of one port |
+//! | `slaves.rs` | which codec answers under which protocol |
 //! | `free.rs` | RS, RS2, USEND, URCV |
 //! | `modbus/` | Modbus RTU, ASCII, TCP: slave and master |
 //! | `fx_port.rs` | programming port, HMI monitor |
@@ -45,15 +47,25 @@
 
 pub mod computer_link;
 mod frame;
+pub(crate) mod free;
 pub mod fx_port;
+mod line;
 mod map;
 pub mod mc;
 pub mod modbus;
+mod port;
+mod slaves;
 #[cfg(test)]
 mod watched;
+mod wiring;
 
 pub use frame::{Frame, hex_byte, hex_digits};
+pub use free::{Free, Transfer};
+pub use line::{CharFault, LineFormat, Parity, Received};
 pub use map::{Map, Served};
+pub use port::{FRAME, Port, Status, advance};
+pub(crate) use wiring::note_missing;
+pub use wiring::{Choice, PortWiring, Ports, Protocol};
 
 /// What the characters received so far are, in a protocol whose frames have a length or an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

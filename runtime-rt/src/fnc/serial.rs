@@ -1,11 +1,13 @@
-//! Characters and check codes for serial data: FNC 81–84 and 188, h1u-h2u-programming §4.3.9, hm-motion-controller §5.4.
+//! Characters and check codes for serial data: FNC 81–84 and 188, h1u-h2u-programming §4.3.9, hm-motion-controller §5.4; the instructions of
+//! free protocols: RS, RS2, UINIT, USEND, URCV, which leave what they want in the [`Port`](crate::Port).
 
 use super::digits::{hex_digit, hex_value};
 use crate::comm::modbus::{CRC_START, crc_step};
+use crate::comm::{LineFault, Protocol, Transfer, free};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::{Operand, OperandKind};
-use crate::plc::Class;
+use crate::plc::{Class, Plc};
 use crate::special::M_BYTE_MODE;
 
 /// PRUN S D (FNC 81): copies a group of bits, counting both in octal rows: bits 8 and 9 of each ten of M are left out.
@@ -135,6 +137,108 @@ pub fn crc(cx: &mut Cx) -> Done {
     cx.check_words(1, 2)?;
     cx.set_word(1, 0, (crc & 255) as i16)?;
     cx.set_word(1, 1, (crc >> 8) as i16)
+}
+
+/// RS S m D n (FNC 80): sends m bytes from S on at the program's request and receives n to D, on the port of RS.
+pub fn rs(cx: &mut Cx) -> Done {
+    let number = cx.plc.ports().of_rs();
+    transfer(cx, number)
+}
+
+/// RS2 S m D n n1 (FNC 87): the same on port n1.
+pub fn rs2(cx: &mut Cx) -> Done {
+    match cx.named_port(4)? {
+        Some(number) => transfer(cx, number),
+        None => Ok(()),
+    }
+}
+
+/// The longest transfer in bytes: 256 on H1U and H2U; FX takes up to 4096.
+const LONGEST: i32 = 4096;
+
+/// What a free protocol sends and receives on a port, as long as it is driven.
+fn transfer(cx: &mut Cx, number: u8) -> Done {
+    let owner = cx.site.step + 1;
+    let Some(status) = cx.plc.port(number).map(|port| port.status) else {
+        return Ok(());
+    };
+    if !cx.site.drive {
+        if let Some(port) = cx.plc.port(number).filter(|_| status.free.owner == owner) {
+            port.status.free.owner = 0;
+        }
+        return Ok(());
+    }
+    if status.free.owner != 0 && status.free.owner != owner {
+        return Ok(());
+    }
+    if status.protocol != Protocol::Free {
+        if status.bound || !cx.plc.sys().first_scan {
+            cx.note_line(number, LineFault::Protocol);
+        }
+        return Ok(());
+    }
+    let one_a_word = cx.special(M_BYTE_MODE);
+    let send = cx.count(1, 0..=LONGEST)?;
+    let receive = cx.count(3, 0..=LONGEST)?;
+    cx.check_bytes(0, send, one_a_word)?;
+    cx.check_bytes(2, receive, one_a_word)?;
+    let (source, target) = match cx.ops {
+        [source, _, target, ..] => (*source, *target),
+        _ => return Err(Fault::DEVICE),
+    };
+    if let Some(port) = cx.plc.port(number) {
+        port.status.free.owner = owner;
+        port.status.free.transfer = Transfer {
+            source: source.value as u32,
+            target: target.value as u32,
+            send: send as u16,
+            receive: receive as u16,
+            source_class: source.class as u8,
+            target_class: target.class as u8,
+            one_a_word,
+        };
+    }
+    Ok(())
+}
+
+/// UINIT S1 S2 D1 D2 (hm-motion-controller §6.2): starts port D2 with protocol S1 and format S2; D1 is the first register of its work area.
+pub fn uinit(cx: &mut Cx) -> Done {
+    let [protocol, format, area] = [cx.word(0, 0)?, cx.word(1, 0)?, cx.word(2, 0)?];
+    let number = cx.named_port(3)?;
+    let Some(port) = number.and_then(|number| cx.plc.port(number)) else {
+        return Ok(());
+    };
+    port.status.uinit = [protocol as u16, format as u16, area as u16];
+    port.status.protocol = Protocol::Off;
+    const FREE: u16 = 5;
+    if protocol as u16 >> 8 == FREE {
+        free::check_area(cx.plc, area as u16 as u32);
+    }
+    Ok(())
+}
+
+/// USEND S1 S2 D (hm-motion-controller §6.5.2): sends the low bytes of S2 registers from number S1 on by port D.
+pub fn usend(cx: &mut Cx) -> Done {
+    work_area(cx, free::usend)
+}
+
+/// URCV S1 S2 D (hm-motion-controller §6.5.2): waits for S2 bytes on port D, one to each register from number S1 on.
+pub fn urcv(cx: &mut Cx) -> Done {
+    work_area(cx, free::urcv)
+}
+
+/// Leaves a request of a free protocol in the work area of the port.
+fn work_area(cx: &mut Cx, request: fn(&mut dyn Plc, u32, u16, u16)) -> Done {
+    let first = cx.read(0)?;
+    let count = cx.count(1, 1..=255)?;
+    let number = cx.named_port(2)?;
+    let Some(port) = number.and_then(|number| cx.plc.port(number)) else {
+        return Ok(());
+    };
+    let area = port.status.uinit[2].into();
+    let first = u16::try_from(first).unwrap_or(u16::MAX);
+    request(cx.plc, area, first, count as u16);
+    Ok(())
 }
 
 #[cfg(test)]

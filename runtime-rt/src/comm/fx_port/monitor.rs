@@ -8,6 +8,7 @@ const HEAD: u32 = 4;
 /// A list: byte 0 is the number of words, byte 1 a mark (81h), bytes 2 and 3 the number of bits; then follow the byte addresses of the words
 /// and the numbers of the bits, the low byte of each first.
 #[derive(Clone, Debug)]
+#[repr(C)]
 pub struct MonitorList([u8; SIZE]);
 
 impl Default for MonitorList {

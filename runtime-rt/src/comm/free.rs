@@ -1,0 +1,475 @@
+//! Protocols of the program's own: RS, RS2 (h1u-h2u-programming §5.6, l01s-programming §9), USEND and URCV (hm-motion-controller §6.5).
+
+use super::LineFault;
+use super::line::{CharFault, Received};
+use super::port::{Session, has_come};
+use super::wiring::{Choice, is_on, set, set_value, value};
+use crate::plc::{Class, Plc};
+use crate::runs::FIRST_SPECIAL;
+
+/// Bits of the format word: RS sends and waits for a character before the data, and after it.
+const START: u16 = 1 << 8;
+const END: u16 = 1 << 9;
+
+/// Words of HM's work area, counted from its first register.
+mod work {
+    pub const SEND: u32 = 0;
+    pub const SEND_COUNT: u32 = 1;
+    pub const RECEIVE: u32 = 2;
+    pub const RECEIVE_COUNT: u32 = 3;
+    pub const START: u32 = 4;
+    pub const END: u32 = 5;
+    pub const WAIT_MS: u32 = 6;
+    pub const CONTROL: u32 = 7;
+    pub const FLAGS: u32 = 8;
+    pub const RECEIVED: u32 = 9;
+}
+
+/// Bits of the control word of HM's work area.
+mod control {
+    pub const THEN_RECEIVE: u16 = 1;
+    pub const FROM_START: u16 = 1 << 1;
+    pub const TO_END: u16 = 1 << 2;
+}
+
+/// Bits of the flags of HM's work area.
+mod flag {
+    pub const SEND: u16 = 1;
+    pub const SENT: u16 = 1 << 1;
+    pub const RECEIVE: u16 = 1 << 2;
+    pub const RECEIVED: u16 = 1 << 3;
+    pub const START: u16 = 1 << 4;
+    pub const END: u16 = 1 << 5;
+    pub const PARITY: u16 = 1 << 6;
+    pub const TIME_OUT: u16 = 1 << 7;
+    pub const RANGE: u16 = 1 << 8;
+}
+
+/// What an instruction sends and receives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Transfer {
+    /// First word to send.
+    pub source: u32,
+    /// First word for what is received.
+    pub target: u32,
+    /// Characters to send.
+    pub send: u16,
+    /// Characters to receive.
+    pub receive: u16,
+    /// Class of the words to send, by its number.
+    pub source_class: u8,
+    /// Class of the others.
+    pub target_class: u8,
+    /// One character stands in a word, in its low byte; else two, the first in the low byte.
+    pub one_a_word: bool,
+}
+
+/// What a port does for RS or the like. All zero is nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Free {
+    /// What the driven instruction wants.
+    pub transfer: Transfer,
+    /// The step of the instruction, plus 1; 0: none is driven.
+    pub owner: u32,
+    /// Characters are being received, or may come.
+    listens: bool,
+    /// The character before the data has come.
+    begun: bool,
+    /// All of them have been received, and the program has not taken notice yet.
+    complete: bool,
+    /// An answer is expected, and nothing of it has come.
+    awaits: bool,
+    /// Characters to send, those before and after the data included.
+    total: u16,
+    /// How many of them the hardware has taken.
+    taken: u16,
+    /// Data characters received.
+    received: u16,
+    /// When the last character was in.
+    last_us: u32,
+}
+
+impl Free {
+    /// Nothing.
+    pub const fn new() -> Self {
+        Free {
+            transfer: Transfer {
+                source: 0,
+                target: 0,
+                send: 0,
+                receive: 0,
+                source_class: 0,
+                target_class: 0,
+                one_a_word: false,
+            },
+            owner: 0,
+            listens: false,
+            begun: false,
+            complete: false,
+            awaits: false,
+            total: 0,
+            taken: 0,
+            received: 0,
+            last_us: 0,
+        }
+    }
+}
+
+/// The longest message of HM (hm-motion-controller §6.5).
+const HM_LONGEST: u16 = 255;
+
+/// D or R.
+fn class(number: u8) -> Class {
+    if number == Class::R as u8 {
+        Class::R
+    } else {
+        Class::D
+    }
+}
+
+/// The place of a character: number of its word, and whether it is the high byte.
+fn place(first: u32, index: u16, one_a_word: bool) -> (u32, bool) {
+    if one_a_word {
+        (first.saturating_add(index.into()), false)
+    } else {
+        (first.saturating_add(u32::from(index / 2)), index % 2 == 1)
+    }
+}
+
+impl Session<'_> {
+    /// A character of a protocol of the program's own.
+    pub(super) fn take_free(&mut self, character: Received) {
+        match self.wiring.choice {
+            Choice::Uinit => self.take_hm(character),
+            _ => self.take_rs(character),
+        }
+    }
+
+    /// Sends, and takes notice of time, for a protocol of the program's own.
+    pub(super) fn advance_free(&mut self) {
+        match self.wiring.choice {
+            Choice::Uinit => self.advance_hm(),
+            _ => self.advance_rs(),
+        }
+    }
+
+    /// Sends data characters with what stands before and after them; returns how many are not out yet.
+    fn send_data(&mut self, before: Option<u8>, after: Option<u8>) -> u16 {
+        let free = self.status.free;
+        let head = u16::from(before.is_some());
+        let mut taken = free.taken;
+        while taken < free.total {
+            let byte = match taken.checked_sub(head) {
+                None => before,
+                Some(i) if i < free.transfer.send => self.data(i),
+                Some(_) => after,
+            };
+            let byte = byte.unwrap_or(0);
+            if !self
+                .serial()
+                .is_some_and(|(port, now)| port.send(byte, now))
+            {
+                break;
+            }
+            taken += 1;
+        }
+        self.status.free.taken = taken;
+        let unsent = self.serial().map_or(0, |(port, now)| port.unsent(now));
+        (free.total - taken).saturating_add(unsent)
+    }
+
+    /// Data character number `index` to send.
+    fn data(&self, index: u16) -> Option<u8> {
+        let transfer = self.status.free.transfer;
+        let (number, high) = place(transfer.source, index, transfer.one_a_word);
+        let word = self.plc.word(class(transfer.source_class), number)?;
+        let [low, high_byte] = word.to_le_bytes();
+        Some(if high { high_byte } else { low })
+    }
+
+    /// Stores data character number `index`.
+    fn store_data(&mut self, index: u16, byte: u8) {
+        let transfer = self.status.free.transfer;
+        let (number, high) = place(transfer.target, index, transfer.one_a_word);
+        let class = class(transfer.target_class);
+        let Some(before) = self.plc.word(class, number) else {
+            return;
+        };
+        let [low, high_byte] = before.to_le_bytes();
+        let bytes = match (transfer.one_a_word, high) {
+            (true, _) => [byte, 0],
+            (false, true) => [low, byte],
+            (false, false) => [byte, high_byte],
+        };
+        let _ = self.plc.set_word(class, number, i16::from_le_bytes(bytes));
+    }
+
+    /// The next character begins another reception.
+    fn end_reception(&mut self) {
+        self.status.free.listens = false;
+        self.status.free.begun = false;
+    }
+
+    /// When a character began.
+    fn begin_of(&self, character: Received) -> u32 {
+        character
+            .at_us
+            .wrapping_sub(self.status.format.character_us())
+    }
+
+    /// Whether a character is lost; shows that something was wrong with it.
+    fn is_wrong(&mut self, character: Received) -> bool {
+        if character.fault == CharFault::None {
+            return false;
+        }
+        self.note(LineFault::Character);
+        character.fault != CharFault::Overrun
+    }
+}
+
+/// RS and RS2.
+impl Session<'_> {
+    /// The characters that the format word puts before and after data.
+    fn marks(&self) -> [Option<u8>; 2] {
+        let format = value(self.plc, self.wiring.format);
+        let of = |bit: u16, register: u32| {
+            (format & bit != 0 && register != 0).then(|| value(self.plc, register) as u8)
+        };
+        [of(START, self.wiring.start), of(END, self.wiring.end)]
+    }
+
+    fn take_rs(&mut self, character: Received) {
+        self.close_rs(self.begin_of(character));
+        let transfer = self.status.free.transfer;
+        let wants = self.status.free.owner != 0 && transfer.receive > 0;
+        if !wants || is_on(self.plc, self.wiring.done) || self.is_wrong(character) {
+            return;
+        }
+        let byte = character.byte & self.status.format.mask();
+        let [start, end] = self.marks();
+        if !self.status.free.listens {
+            if start.is_some_and(|start| start != byte) {
+                return;
+            }
+            self.status.free.listens = true;
+            self.status.free.received = 0;
+        }
+        let begins = start.is_some() && !core::mem::replace(&mut self.status.free.begun, true);
+        self.status.free.last_us = character.at_us;
+        let ends = end == Some(byte);
+        if begins {
+            return;
+        }
+        if !ends {
+            self.store_data(self.status.free.received, byte);
+            self.status.free.received += 1;
+        }
+        if ends || self.status.free.received >= transfer.receive {
+            self.end_reception();
+            self.status.free.complete = true;
+            set(self.plc, self.wiring.done, true);
+        }
+    }
+
+    /// An answer that does not go on in time is over.
+    fn close_rs(&mut self, at_us: u32) {
+        let free = self.status.free;
+        let quiet_us = at_us.wrapping_sub(free.last_us);
+        let late = has_come(at_us, free.last_us) && quiet_us > self.wiring.time_out_us(self.plc);
+        if free.listens && late {
+            self.end_reception();
+            set(self.plc, self.wiring.late, true);
+        }
+    }
+
+    fn advance_rs(&mut self) {
+        let wiring = self.wiring;
+        self.close_rs(self.now_us);
+        let free = self.status.free;
+        let asked = free.owner != 0 && is_on(self.plc, wiring.sends);
+        let busy = free.listens && self.status.format.half_duplex;
+        let [start, end] = self.marks();
+        if asked && !self.status.sending && !busy {
+            let marks = u16::from(start.is_some()) + u16::from(end.is_some());
+            self.status.free.total = free.transfer.send + marks;
+            self.status.free.taken = 0;
+            self.status.sending = true;
+        }
+        if self.status.sending {
+            let left = self.send_data(start, end);
+            set_value(self.plc, wiring.left, left);
+            if left == 0 {
+                self.status.sending = false;
+                set(self.plc, wiring.sends, false);
+            }
+        }
+        let waits = asked && busy && !self.status.sending;
+        set(self.plc, wiring.waits, waits);
+        // The program's reset of the flag opens the next reception.
+        if self.status.free.complete && !is_on(self.plc, wiring.done) {
+            self.status.free.complete = false;
+            self.status.free.received = 0;
+        }
+        let free = self.status.free;
+        set_value(self.plc, wiring.received, free.received);
+        set(self.plc, wiring.receives, free.listens);
+    }
+}
+
+/// USEND and URCV.
+impl Session<'_> {
+    /// A word of the work area.
+    fn work(&self, word: u32) -> u16 {
+        value(self.plc, u32::from(self.status.uinit[2]) + word)
+    }
+
+    fn set_work(&mut self, word: u32, value: u16) {
+        set_value(self.plc, u32::from(self.status.uinit[2]) + word, value);
+    }
+
+    fn raise(&mut self, flags: u16) {
+        self.set_work(work::FLAGS, self.work(work::FLAGS) | flags);
+    }
+
+    fn clear(&mut self, flags: u16) {
+        self.set_work(work::FLAGS, self.work(work::FLAGS) & !flags);
+    }
+
+    fn take_hm(&mut self, character: Received) {
+        self.close_hm(self.begin_of(character));
+        if self.work(work::FLAGS) & flag::RECEIVE == 0 {
+            return;
+        }
+        if matches!(character.fault, CharFault::Parity | CharFault::Framing) {
+            self.raise(flag::PARITY);
+        }
+        if !matches!(character.fault, CharFault::None | CharFault::Overrun) {
+            return;
+        }
+        let control = self.work(work::CONTROL);
+        let byte = character.byte & self.status.format.mask();
+        let is = |this: &Self, word: u32| this.work(word) == u16::from(byte);
+        if is(self, work::START) {
+            self.raise(flag::START);
+        } else if control & control::FROM_START != 0 && !self.status.free.listens {
+            return;
+        }
+        if !core::mem::replace(&mut self.status.free.listens, true) {
+            self.status.free.received = 0;
+            self.status.free.transfer = Transfer {
+                target: self.work(work::RECEIVE).into(),
+                receive: self.work(work::RECEIVE_COUNT),
+                one_a_word: true,
+                target_class: Class::D as u8,
+                ..self.status.free.transfer
+            };
+        }
+        self.status.free.last_us = character.at_us;
+        self.status.free.awaits = false;
+        self.store_data(self.status.free.received, byte);
+        self.status.free.received += 1;
+        self.set_work(work::RECEIVED, self.status.free.received);
+        let mut ends = self.status.free.received >= self.status.free.transfer.receive;
+        if is(self, work::END) {
+            self.raise(flag::END);
+            ends |= control & control::TO_END != 0;
+        }
+        if ends {
+            self.end_hm();
+        }
+    }
+
+    /// What was to be received is there.
+    fn end_hm(&mut self) {
+        self.end_reception();
+        self.clear(flag::RECEIVE);
+        self.raise(flag::RECEIVED);
+    }
+
+    /// A reception ends when nothing more comes; an answer that does not come is late.
+    fn close_hm(&mut self, at_us: u32) {
+        let free = self.status.free;
+        if !free.listens && !free.awaits {
+            return;
+        }
+        let wait_us = u32::from(self.work(work::WAIT_MS)) * 1000;
+        let quiet_us = at_us.wrapping_sub(free.last_us);
+        if !has_come(at_us, free.last_us) || quiet_us <= wait_us {
+            return;
+        }
+        if free.listens {
+            self.end_hm();
+        } else {
+            self.status.free.awaits = false;
+            self.raise(flag::TIME_OUT);
+        }
+    }
+
+    fn advance_hm(&mut self) {
+        self.close_hm(self.now_us);
+        if !self.status.sending && self.work(work::FLAGS) & flag::SEND != 0 {
+            let send = self.work(work::SEND_COUNT).min(HM_LONGEST);
+            self.status.free.transfer = Transfer {
+                source: self.work(work::SEND).into(),
+                source_class: Class::D as u8,
+                send,
+                one_a_word: true,
+                ..self.status.free.transfer
+            };
+            self.status.free.total = send;
+            self.status.free.taken = 0;
+            self.status.sending = true;
+        }
+        if !self.status.sending || self.send_data(None, None) > 0 {
+            return;
+        }
+        self.status.sending = false;
+        self.clear(flag::SEND);
+        self.raise(flag::SENT);
+        if self.work(work::CONTROL) & control::THEN_RECEIVE != 0 {
+            self.clear(flag::RECEIVED);
+            self.raise(flag::RECEIVE);
+            self.status.free.awaits = true;
+            self.status.free.last_us = self.now_us;
+        }
+    }
+}
+
+/// The instructions of HM, which leave what they want in the work area.
+pub(crate) fn usend(plc: &mut dyn Plc, area: u32, first: u16, count: u16) {
+    if !fits(first, count) {
+        return change_flags(plc, area, 0, flag::RANGE);
+    }
+    set_value(plc, area + work::SEND, first);
+    set_value(plc, area + work::SEND_COUNT, count);
+    change_flags(plc, area, flag::SENT, flag::SEND);
+}
+
+/// Waits for characters.
+pub(crate) fn urcv(plc: &mut dyn Plc, area: u32, first: u16, count: u16) {
+    if !fits(first, count) {
+        return change_flags(plc, area, 0, flag::RANGE);
+    }
+    set_value(plc, area + work::RECEIVE, first);
+    set_value(plc, area + work::RECEIVE_COUNT, count);
+    change_flags(plc, area, flag::RECEIVED, flag::RECEIVE);
+}
+
+/// UINIT finds fault with a work area whose receive area lies beyond the registers.
+pub(crate) fn check_area(plc: &mut dyn Plc, area: u32) {
+    let first = value(plc, area + work::RECEIVE);
+    if !fits(first, value(plc, area + work::RECEIVE_COUNT)) {
+        change_flags(plc, area, 0, flag::RANGE);
+    }
+}
+
+fn fits(first: u16, count: u16) -> bool {
+    u32::from(first) + u32::from(count) <= FIRST_SPECIAL
+}
+
+fn change_flags(plc: &mut dyn Plc, area: u32, clear: u16, raise: u16) {
+    let flags = value(plc, area + work::FLAGS);
+    set_value(plc, area + work::FLAGS, flags & !clear | raise);
+}

@@ -1,0 +1,399 @@
+//! The state machine of one port, beside the scan.
+
+use super::free::Free;
+use super::fx_port::MonitorList;
+use super::line::{CharFault, LineFormat, Received};
+use super::slaves::Slave;
+use super::wiring::{PortWiring, Protocol, value};
+use super::{Cut, Frame, LineFault, Served};
+use crate::hal::{Hal, SerialPort};
+use crate::plc::{Plc, Sys};
+
+/// Characters of the longest frame: Modbus ASCII has 513, computer link fewer.
+pub const FRAME: usize = 528;
+
+/// After so much silence a frame that has a length or an end is given up, in microseconds (Modbus over serial line §2.5.2.1).
+const GIVEN_UP_US: u32 = 1_000_000;
+
+/// What a port is doing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Status {
+    /// What it speaks.
+    pub protocol: Protocol,
+    /// The first scan in RUN is over: what the port speaks stays until STOP.
+    pub bound: bool,
+    /// Characters of a frame have come, and the silence that ends it has not.
+    pub open: bool,
+    /// A character of the frame was wrong: it is not answered.
+    pub spoiled: bool,
+    /// A frame is being sent, or waits to be.
+    pub sending: bool,
+    /// What the hardware was told.
+    pub format: LineFormat,
+    /// What UINIT has set up: protocol and station, format, first register of the work area.
+    pub uinit: [u16; 3],
+    /// Characters received.
+    pub received: u16,
+    /// Characters to send.
+    pub to_send: u16,
+    /// Characters of them that the hardware has taken.
+    pub taken: u16,
+    /// When the last character was in.
+    pub last_us: u32,
+    /// When a frame begins to be sent.
+    pub due_us: u32,
+    /// RS, RS2, USEND, URCV.
+    pub free: Free,
+}
+
+/// A serial port in a program's memory. All zero is one that has not been set up.
+#[derive(Clone, Debug)]
+#[repr(C)]
+pub struct Port {
+    /// What it is doing.
+    pub status: Status,
+    /// The frame that is received or sent.
+    pub buffer: [u8; FRAME],
+    /// What a client of the programming port monitors.
+    pub monitored: MonitorList,
+}
+
+impl Default for Port {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Port {
+    /// A port that has not been set up.
+    pub const fn new() -> Self {
+        Port {
+            status: Status {
+                protocol: Protocol::Off,
+                bound: false,
+                open: false,
+                spoiled: false,
+                sending: false,
+                format: LineFormat {
+                    data_bits: 0,
+                    stop_bits: 0,
+                    ..LineFormat::new()
+                },
+                uinit: [0; 3],
+                received: 0,
+                to_send: 0,
+                taken: 0,
+                last_us: 0,
+                due_us: 0,
+                free: Free::new(),
+            },
+            buffer: [0; FRAME],
+            monitored: MonitorList::new(),
+        }
+    }
+}
+
+/// One port while it is advanced.
+pub(super) struct Session<'a> {
+    pub(super) plc: &'a mut dyn Plc,
+    pub(super) hal: &'a mut dyn Hal,
+    pub(super) wiring: &'static PortWiring,
+    pub(super) status: Status,
+    pub(super) now_us: u32,
+    /// RUN or STOP, if a frame has asked for it.
+    request: Option<bool>,
+}
+
+/// Whether `at_us` has come, both wrapping.
+pub(super) fn has_come(now_us: u32, at_us: u32) -> bool {
+    now_us.wrapping_sub(at_us) as i32 >= 0
+}
+
+/// Brings all ports to `now_us`, microseconds since power-on, wrapping: when a scan begins, when it ends, and at ticks. Takes the characters
+/// that have come, answers, sends, and shows in special devices what has happened. Returns RUN or STOP if a partner has asked for it.
+pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool> {
+    let mut request = None;
+    for wiring in plc.ports().all() {
+        let Some(status) = plc.port(wiring.number).map(|port| port.status) else {
+            continue;
+        };
+        let mut session = Session {
+            plc,
+            hal,
+            wiring,
+            status,
+            now_us,
+            request: None,
+        };
+        session.run();
+        let status = session.status;
+        request = request.or(session.request);
+        if let Some(port) = plc.port(wiring.number) {
+            port.status = status;
+        }
+    }
+    request
+}
+
+impl Session<'_> {
+    fn run(&mut self) {
+        self.choose();
+        if !self.set_up() {
+            return;
+        }
+        self.send();
+        while let Some(character) = self.serial().and_then(|(port, now)| port.receive(now)) {
+            self.take(character);
+        }
+        let quiet_us = self.now_us.wrapping_sub(self.status.last_us);
+        if self.status.open && quiet_us >= self.silence_us() {
+            self.silence();
+        }
+        if self.status.protocol == Protocol::Free {
+            self.advance_free();
+        }
+        self.send();
+    }
+
+    /// The hardware of the port, and the time.
+    pub(super) fn serial(&mut self) -> Option<(&mut dyn SerialPort, u32)> {
+        let port = self.hal.serial_port(self.wiring.number)?;
+        Some((port, self.now_us))
+    }
+
+    /// What the port speaks from now on.
+    fn choose(&mut self) {
+        let Sys {
+            running,
+            first_scan,
+            ..
+        } = *self.plc.sys();
+        let settled = running && !first_scan;
+        if self.status.bound && settled {
+            return;
+        }
+        let protocol = self.wiring.protocol(self.plc, self.status.uinit);
+        self.status.bound = settled && self.wiring.binds();
+        if protocol != self.status.protocol {
+            self.status.protocol = protocol;
+            self.drop_frame();
+            self.status.sending = false;
+            self.status.free = Free::new();
+        }
+    }
+
+    /// Tells the hardware the format of the line; false if there is no hardware.
+    fn set_up(&mut self) -> bool {
+        let status = self.status;
+        let format = self.wiring.line(self.plc, status.protocol, status.uinit);
+        let Some((port, _)) = self.serial() else {
+            return false;
+        };
+        if format != status.format {
+            port.set_format(format);
+            self.status.format = format;
+        }
+        true
+    }
+
+    /// After how much silence a frame ends or is given up. Characters come with times in whole microseconds.
+    fn silence_us(&self) -> u32 {
+        if self.status.protocol.ends_by_silence() {
+            self.status.format.silence_us() - 2
+        } else {
+            GIVEN_UP_US
+        }
+    }
+
+    /// A character has come.
+    fn take(&mut self, character: Received) {
+        if self.status.sending && self.status.format.half_duplex {
+            return;
+        }
+        if self.status.protocol == Protocol::Free {
+            return self.take_free(character);
+        }
+        let begin_us = character
+            .at_us
+            .wrapping_sub(self.status.format.character_us());
+        let quiet_us = begin_us.wrapping_sub(self.status.last_us);
+        if self.status.open
+            && has_come(begin_us, self.status.last_us)
+            && quiet_us >= self.silence_us()
+        {
+            self.silence();
+        }
+        if self.status.sending {
+            return;
+        }
+        if !self.store(character) {
+            return;
+        }
+        if !self.status.protocol.ends_by_silence() {
+            self.cut();
+        }
+    }
+
+    /// Appends a character to the frame; false if it was wrong.
+    fn store(&mut self, character: Received) -> bool {
+        self.status.open = true;
+        self.status.last_us = character.at_us;
+        if character.fault != CharFault::None {
+            self.note(LineFault::Character);
+            self.status.spoiled = true;
+            return false;
+        }
+        let at = usize::from(self.status.received);
+        let byte = character.byte & self.status.format.mask();
+        let buffer = self
+            .plc
+            .port(self.wiring.number)
+            .map(|port| &mut port.buffer);
+        match buffer.and_then(|buffer| buffer.get_mut(at)) {
+            Some(place) => {
+                *place = byte;
+                self.status.received += 1;
+                true
+            }
+            None => {
+                self.status.spoiled = true;
+                false
+            }
+        }
+    }
+
+    /// Looks whether the frame is whole, in a protocol whose frames have an end.
+    fn cut(&mut self) {
+        let received = usize::from(self.status.received);
+        let slave = self.slave();
+        let Some(port) = self.plc.port(self.wiring.number) else {
+            return;
+        };
+        match slave.cut(&port.buffer[..received]) {
+            Cut::More => {}
+            Cut::Whole => self.answer(),
+            Cut::Restart => {
+                port.buffer[0] = port.buffer[received - 1];
+                self.status.received = 1;
+            }
+            Cut::Drop => self.drop_frame(),
+        }
+    }
+
+    /// The line has been silent for as long as ends a frame.
+    fn silence(&mut self) {
+        let whole = self.status.received > 0 && !self.status.spoiled;
+        if self.status.protocol.ends_by_silence() && whole {
+            self.answer();
+        } else {
+            self.drop_frame();
+        }
+    }
+
+    /// Forgets what has been received.
+    fn drop_frame(&mut self) {
+        self.status.received = 0;
+        self.status.open = false;
+        self.status.spoiled = false;
+    }
+
+    /// Shows an error of the port.
+    pub(super) fn note(&mut self, fault: LineFault) {
+        self.wiring.note(self.plc, self.status.protocol, fault);
+    }
+
+    /// Who answers, as the registers say now.
+    fn slave(&self) -> Slave {
+        let uinit = self.status.uinit;
+        let (station, format) = match self.wiring.station {
+            0 => (uinit[0] & 0xff, uinit[1]),
+            register => (
+                value(self.plc, register),
+                value(self.plc, self.wiring.format),
+            ),
+        };
+        Slave {
+            protocol: self.status.protocol,
+            family: self.plc.ports(),
+            type_code: self.plc.type_code(),
+            station,
+            format,
+        }
+    }
+
+    /// A frame is whole: answers it.
+    fn answer(&mut self) {
+        let received = usize::from(self.status.received);
+        self.drop_frame();
+        let slave = self.slave();
+        let Some(port) = self.plc.port(self.wiring.number) else {
+            return;
+        };
+        let buffer = port.buffer;
+        let mut list = core::mem::take(&mut port.monitored);
+        let mut bytes = [0; FRAME];
+        let mut reply = Frame::new(&mut bytes);
+        let mut map = Served::new(self.plc, slave.type_code);
+        let answered = slave.answer(&buffer[..received], &mut list, &mut map, &mut reply);
+        self.request = map.take_request().or(self.request);
+        if let Some(port) = self.plc.port(self.wiring.number) {
+            port.monitored = list;
+        }
+        if let Err(fault) = answered {
+            self.note(fault);
+        }
+        let wait_us = u32::from(reply.wait_ms()) * 1000;
+        let reply = reply.len();
+        self.begin_sending(&bytes[..reply], wait_us);
+    }
+
+    /// Sends a frame, not before `wait_us` after the last character received.
+    pub(super) fn begin_sending(&mut self, frame: &[u8], wait_us: u32) {
+        let Some(port) = self.plc.port(self.wiring.number) else {
+            return;
+        };
+        if let Some(place) = port
+            .buffer
+            .get_mut(..frame.len())
+            .filter(|_| !frame.is_empty())
+        {
+            place.copy_from_slice(frame);
+            self.status.sending = true;
+            self.status.to_send = frame.len() as u16;
+            self.status.taken = 0;
+            self.status.due_us = self.status.last_us.wrapping_add(wait_us);
+        }
+    }
+
+    /// Hands the frame to the hardware, and takes notice of its end.
+    fn send(&mut self) {
+        if self.status.protocol == Protocol::Free
+            || !self.status.sending
+            || !has_come(self.now_us, self.status.due_us)
+        {
+            return;
+        }
+        let number = self.wiring.number;
+        while self.status.taken < self.status.to_send {
+            let at = usize::from(self.status.taken);
+            let byte = self
+                .plc
+                .port(number)
+                .and_then(|port| port.buffer.get(at).copied());
+            let Some((byte, (port, now_us))) = byte.zip(self.serial()) else {
+                break;
+            };
+            if !port.send(byte, now_us) {
+                return;
+            }
+            self.status.taken += 1;
+        }
+        if self
+            .serial()
+            .is_none_or(|(port, now_us)| port.unsent(now_us) == 0)
+        {
+            self.status.sending = false;
+        }
+    }
+}

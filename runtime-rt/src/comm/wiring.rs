@@ -1,0 +1,576 @@
+//! The special devices of serial ports, by family of models, and the protocol that they choose.
+
+use super::LineFault;
+use super::line::LineFormat;
+use crate::plc::{Class, Plc};
+
+/// What a port speaks. The numbers are part of the C ABI.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Protocol {
+    /// Nothing: what comes in is dropped.
+    #[default]
+    Off = 0,
+    /// The program's own, by RS, RS2, USEND, URCV.
+    Free = 1,
+    /// The programming port's, which HMIs use.
+    ProgrammingPort = 2,
+    /// Slave by Modbus RTU, QLink.
+    ModbusRtu = 3,
+    /// Slave by Modbus ASCII.
+    ModbusAscii = 4,
+    /// Master by Modbus RTU, for instructions.
+    MasterRtu = 5,
+    /// Master by Modbus ASCII, for instructions.
+    MasterAscii = 6,
+    /// Master by Modbus RTU, for a table.
+    MasterTable = 7,
+    /// Slave of a computer link.
+    ComputerLink = 8,
+    /// Master of a computer link (HM).
+    ComputerLinkMaster = 9,
+    /// Master of a parallel link.
+    ParallelMaster = 10,
+    /// Slave of a parallel link.
+    ParallelSlave = 11,
+    /// Master of an N:N link.
+    NnMaster = 12,
+    /// Slave of an N:N link.
+    NnSlave = 13,
+    /// Master of an enhanced N:N link.
+    EnhancedMaster = 14,
+    /// Slave of an enhanced N:N link.
+    EnhancedSlave = 15,
+}
+
+impl Protocol {
+    /// What a protocol number (D8126 and its like) means on H1U and H2U (h1u-h2u-programming §5.1).
+    fn from_number(number: u16) -> Self {
+        match number {
+            0x00 | 0x10 => Protocol::Free,
+            0x01 | 0x81 => Protocol::ProgrammingPort,
+            0x02 => Protocol::ModbusRtu,
+            0x03 => Protocol::ModbusAscii,
+            0x04 => Protocol::NnSlave,
+            0x40 => Protocol::NnMaster,
+            0x14 => Protocol::EnhancedSlave,
+            0x41 => Protocol::EnhancedMaster,
+            0x05 => Protocol::ParallelSlave,
+            0x50 => Protocol::ParallelMaster,
+            0x06 => Protocol::ComputerLink,
+            0x20 => Protocol::MasterRtu,
+            0x30 => Protocol::MasterAscii,
+            0x60 => Protocol::MasterTable,
+            _ => Protocol::Off,
+        }
+    }
+
+    /// Whether its frames are Modbus.
+    pub const fn is_modbus(self) -> bool {
+        matches!(
+            self,
+            Protocol::ModbusRtu
+                | Protocol::ModbusAscii
+                | Protocol::MasterRtu
+                | Protocol::MasterAscii
+                | Protocol::MasterTable
+        )
+    }
+
+    /// Whether bytes of 8 bits stand in its frames.
+    const fn is_binary(self) -> bool {
+        matches!(
+            self,
+            Protocol::ModbusRtu | Protocol::MasterRtu | Protocol::MasterTable
+        )
+    }
+}
+
+/// What chooses the protocol of a port.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// The programming port of H1U and H2U, whose register may make it a Modbus slave in RUN.
+    Com0,
+    /// The protocol register of a port of H1U and H2U; the end of the first scan in RUN binds.
+    Number,
+    /// The same port, with the relays of parallel links before it.
+    Com1,
+    /// A programming port that is nothing else.
+    ProgrammingPort,
+    /// Port 2 of L01S: M8196, M8125 and the format word.
+    L01sPort2,
+    /// Port 3 of L01S: M8192 and D8401.
+    L01sPort3,
+    /// UINIT (HM).
+    Uinit,
+    /// The format word alone: computer link by bit 14, else RS (FX).
+    Format,
+    /// The format word of compatible boards: Modbus master by bit 15, slave by bit 14, else RS.
+    Board,
+}
+
+/// The special devices of one port. A 0 stands for none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PortWiring {
+    /// Its number in the model's manual.
+    pub number: u8,
+    /// What chooses its protocol.
+    pub choice: Choice,
+    /// Register: format word.
+    pub format: u32,
+    /// Register: own station number.
+    pub station: u32,
+    /// Register: protocol number or mode.
+    pub protocol: u32,
+    /// Register: characters left to send.
+    pub left: u32,
+    /// Register: characters received.
+    pub received: u32,
+    /// Register: character before the data of RS.
+    pub start: u32,
+    /// Register: character after the data of RS.
+    pub end: u32,
+    /// Register: time-out.
+    pub time_out: u32,
+    /// Unit of the time-out, in microseconds.
+    pub time_out_unit_us: u32,
+    /// Relay: RS waits to send.
+    pub waits: u32,
+    /// Relay: RS is to send; a master's instruction is in work.
+    pub sends: u32,
+    /// Relay: RS has received; a master's exchange has failed.
+    pub done: u32,
+    /// Relay: RS is receiving.
+    pub receives: u32,
+    /// Relay: time-out.
+    pub late: u32,
+    /// Relay and register with the code of an error.
+    pub error: u32,
+    /// The lowest code of an error of Modbus; 0: errors of Modbus have none of their own.
+    pub modbus_errors: u16,
+    /// It has one pair of wires whatever the format word says.
+    pub one_pair: bool,
+}
+
+/// Registers of an error of a programming port, and of any other port.
+const PROGRAMMING_PORT_ERROR: u32 = 8062;
+const SERIAL_ERROR: u32 = 8063;
+
+/// Lowest codes of the errors of programming ports and of other ports (h1u-h2u-programming §8.1).
+const PROGRAMMING_PORT_CODES: u16 = 6200;
+const SERIAL_CODES: u16 = 6300;
+
+/// Code of a port that is not there.
+const NO_PORT: u16 = SERIAL_CODES + 77;
+
+/// A port without registers.
+const fn bare(number: u8, choice: Choice) -> PortWiring {
+    PortWiring {
+        number,
+        choice,
+        format: 0,
+        station: 0,
+        protocol: 0,
+        left: 0,
+        received: 0,
+        start: 0,
+        end: 0,
+        time_out: 0,
+        time_out_unit_us: 10_000,
+        waits: 0,
+        sends: 0,
+        done: 0,
+        receives: 0,
+        late: 0,
+        error: SERIAL_ERROR,
+        modbus_errors: 0,
+        one_pair: false,
+    }
+}
+
+/// A port with ten registers and relays from `base` on (h1u-h2u-programming §5.1, tables of D8110 to D8279).
+const fn block(number: u8, choice: Choice, base: u32) -> PortWiring {
+    PortWiring {
+        format: base,
+        station: base + 1,
+        protocol: base + 6,
+        left: base + 2,
+        received: base + 3,
+        start: base + 4,
+        end: base + 5,
+        time_out: base + 9,
+        waits: base + 1,
+        sends: base + 2,
+        done: base + 3,
+        receives: base + 4,
+        late: base + 9,
+        modbus_errors: 6330 + 10 * number as u16,
+        ..bare(number, choice)
+    }
+}
+
+const INOVANCE: [PortWiring; 4] = [
+    block(0, Choice::Com0, 8110),
+    block(1, Choice::Com1, 8120),
+    block(2, Choice::Number, 8260),
+    block(3, Choice::Number, 8270),
+];
+
+/// l01s-programming §9: port 1 is the programming port, ports 2 and 3 are RS-485.
+const L01S: [PortWiring; 3] = [
+    bare(1, Choice::ProgrammingPort),
+    PortWiring {
+        protocol: 0,
+        time_out_unit_us: 1000,
+        modbus_errors: 0,
+        one_pair: true,
+        ..block(2, Choice::L01sPort2, 8120)
+    },
+    PortWiring {
+        format: 8400,
+        protocol: 8401,
+        left: 8402,
+        received: 8403,
+        station: 8414,
+        time_out: 8409,
+        time_out_unit_us: 1000,
+        waits: 8401,
+        sends: 8402,
+        done: 8403,
+        receives: 8404,
+        late: 8409,
+        one_pair: true,
+        ..bare(3, Choice::L01sPort3)
+    },
+];
+
+/// hm-motion-controller §6.2: COM0 is RS-232, COM1 RS-485.
+const HM: [PortWiring; 2] = [
+    PortWiring {
+        error: 0,
+        ..bare(0, Choice::Uinit)
+    },
+    PortWiring {
+        error: 0,
+        one_pair: true,
+        ..bare(1, Choice::Uinit)
+    },
+];
+
+const fn fx(choice: Choice) -> [PortWiring; 2] {
+    [
+        bare(0, Choice::ProgrammingPort),
+        PortWiring {
+            protocol: 0,
+            modbus_errors: 0,
+            ..block(1, choice, 8120)
+        },
+    ]
+}
+
+const FX: [PortWiring; 2] = fx(Choice::Format);
+const BOARD: [PortWiring; 2] = fx(Choice::Board);
+
+/// The serial ports that a family of models has. The numbers are part of the C ABI.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Ports {
+    /// None.
+    #[default]
+    Without = 0,
+    /// H1U, H2U: COM0 to COM3.
+    Inovance = 1,
+    /// L01S: ports 1 to 3.
+    L01s = 2,
+    /// HM: COM0 and COM1.
+    Hm = 3,
+    /// FX: the programming port, and the communication board.
+    Fx = 4,
+    /// Boards that are compatible with FX2N and FX3U.
+    Board = 5,
+}
+
+impl Ports {
+    /// The ports in the order of their numbers.
+    pub const fn all(self) -> &'static [PortWiring] {
+        match self {
+            Ports::Without => &[],
+            Ports::Inovance => &INOVANCE,
+            Ports::L01s => &L01S,
+            Ports::Hm => &HM,
+            Ports::Fx => &FX,
+            Ports::Board => &BOARD,
+        }
+    }
+
+    /// The port on which RS works.
+    pub const fn of_rs(self) -> u8 {
+        match self {
+            Ports::L01s => 2,
+            _ => 1,
+        }
+    }
+
+    /// The port that an operand of an instruction names: n1 of RS2 and MODBUS2, D2 of UINIT and its like.
+    pub fn named(self, operand: i32) -> Option<u8> {
+        let number = match (self, operand) {
+            (Ports::Inovance | Ports::Fx | Ports::Board, 0) => return None,
+            (Ports::L01s, 0..=1) => 2 + operand,
+            _ => operand,
+        };
+        let number = u8::try_from(number).ok()?;
+        self.get(number).map(|port| port.number)
+    }
+
+    /// The port of a number.
+    pub fn get(self, number: u8) -> Option<&'static PortWiring> {
+        self.all().iter().find(|port| port.number == number)
+    }
+}
+
+/// State of a special relay, if there is one.
+pub(crate) fn is_on(plc: &dyn Plc, relay: u32) -> bool {
+    relay != 0 && plc.bit(Class::M, relay) == Some(true)
+}
+
+/// Sets a special relay, if there is one and the program looks at it.
+pub(crate) fn set(plc: &mut dyn Plc, relay: u32, on: bool) {
+    if relay != 0 {
+        let _ = plc.set_bit(Class::M, relay, on);
+    }
+}
+
+/// Value of a special register; 0 if there is none.
+pub(crate) fn value(plc: &dyn Plc, register: u32) -> u16 {
+    if register == 0 {
+        return 0;
+    }
+    plc.word(Class::D, register).unwrap_or(0) as u16
+}
+
+/// Sets a special register, if there is one and the program looks at it.
+pub(crate) fn set_value(plc: &mut dyn Plc, register: u32, value: u16) {
+    if register != 0 {
+        let _ = plc.set_word(Class::D, register, value as i16);
+    }
+}
+
+impl PortWiring {
+    /// Whether the end of the first scan in RUN binds the choice; elsewhere the registers choose at any time.
+    pub(crate) const fn binds(&self) -> bool {
+        matches!(self.choice, Choice::Com0 | Choice::Com1 | Choice::Number)
+    }
+
+    /// What the registers choose now; `uinit` is what UINIT has set up.
+    pub(crate) fn protocol(&self, plc: &dyn Plc, uinit: [u16; 3]) -> Protocol {
+        let format = value(plc, self.format);
+        let number = value(plc, self.protocol);
+        match self.choice {
+            Choice::ProgrammingPort => Protocol::ProgrammingPort,
+            Choice::Com0 => match number {
+                2 if plc.sys().running => Protocol::ModbusRtu,
+                3 if plc.sys().running => Protocol::ModbusAscii,
+                _ => Protocol::ProgrammingPort,
+            },
+            Choice::Com1 => match (is_on(plc, 8070), is_on(plc, 8071)) {
+                (true, true) => Protocol::Off,
+                (true, false) => Protocol::ParallelMaster,
+                (false, true) => Protocol::ParallelSlave,
+                (false, false) => by_number(number, format),
+            },
+            Choice::Number => by_number(number, format),
+            Choice::L01sPort2 => self.l01s_port2(plc, format),
+            Choice::L01sPort3 if !is_on(plc, 8192) => Protocol::ProgrammingPort,
+            Choice::L01sPort3 => match number {
+                0x000 => Protocol::Free,
+                0x001 => Protocol::MasterRtu,
+                0x011 => Protocol::ModbusRtu,
+                0x101 => Protocol::MasterAscii,
+                0x111 => Protocol::ModbusAscii,
+                _ => Protocol::Off,
+            },
+            Choice::Uinit => match (uinit[0] >> 8, uinit[0] & 0xff) {
+                (0, 0) | (1, _) => Protocol::ProgrammingPort,
+                (2, _) => Protocol::ComputerLinkMaster,
+                (3, _) => Protocol::ComputerLink,
+                (4, 0) => Protocol::MasterRtu,
+                (4, _) => Protocol::ModbusRtu,
+                (5, _) => Protocol::Free,
+                _ => Protocol::Off,
+            },
+            Choice::Format if format & 1 << 14 != 0 => Protocol::ComputerLink,
+            Choice::Board if format & 1 << 15 != 0 => Protocol::MasterRtu,
+            Choice::Board if format & 1 << 14 != 0 => Protocol::ModbusRtu,
+            Choice::Format | Choice::Board => Protocol::Free,
+        }
+    }
+
+    /// l01s-programming §9.2: a master of Modbus has station 255.
+    fn l01s_port2(&self, plc: &dyn Plc, format: u16) -> Protocol {
+        const MASTER: u16 = 255;
+        let ascii = format & 1 << 12 != 0;
+        if !is_on(plc, 8196) {
+            Protocol::ProgrammingPort
+        } else if !is_on(plc, 8125) {
+            match format >> 13 & 3 {
+                3 => Protocol::ComputerLink,
+                _ => Protocol::Free,
+            }
+        } else {
+            match (value(plc, self.station) == MASTER, ascii) {
+                (false, false) => Protocol::ModbusRtu,
+                (false, true) => Protocol::ModbusAscii,
+                (true, false) => Protocol::MasterRtu,
+                (true, true) => Protocol::MasterAscii,
+            }
+        }
+    }
+
+    /// How characters stand on the line under a protocol.
+    pub(crate) fn line(&self, plc: &dyn Plc, protocol: Protocol, uinit: [u16; 3]) -> LineFormat {
+        let word = value(plc, self.format);
+        let format = match protocol {
+            Protocol::ProgrammingPort => return LineFormat::seven_even(9600, self.one_pair),
+            // The rate of the format word replaces the usual one where it is not 0 (h1u-h2u-communication §3.4).
+            Protocol::ParallelMaster | Protocol::ParallelSlave => return linked(word, 19_200),
+            Protocol::NnMaster | Protocol::NnSlave => return linked(word, 38_400),
+            Protocol::EnhancedMaster | Protocol::EnhancedSlave => {
+                return LineFormat::seven_even(38_400, true);
+            }
+            _ if self.choice == Choice::Uinit => LineFormat::from_uinit(uinit[1], self.one_pair),
+            _ => LineFormat::from_word(word),
+        };
+        let format = match protocol {
+            Protocol::Free => format,
+            _ if self.choice == Choice::Uinit => format,
+            _ => format.half_duplex(),
+        };
+        let format = if self.one_pair {
+            format.half_duplex()
+        } else {
+            format
+        };
+        if protocol.is_binary() {
+            format.eight_bits()
+        } else {
+            format
+        }
+    }
+
+    /// The time-out in microseconds; one that is not set is 100 ms.
+    pub(crate) fn time_out_us(&self, plc: &dyn Plc) -> u32 {
+        match value(plc, self.time_out) {
+            0 => 100_000,
+            time => u32::from(time) * self.time_out_unit_us,
+        }
+    }
+
+    /// Shows an error of the port in the PLC's relay and register, where it stays until the program clears it.
+    pub(crate) fn note(&self, plc: &mut dyn Plc, protocol: Protocol, fault: LineFault) {
+        let general = match fault {
+            LineFault::Character => 1,
+            LineFault::Unknown => 2,
+            LineFault::Sum => 3,
+            LineFault::Command => 5,
+            LineFault::TimeOut => 6,
+            LineFault::Address => 76,
+            _ => 4,
+        };
+        let (place, code) = match (protocol, fault.of_modbus()) {
+            (Protocol::ProgrammingPort, _) => {
+                (PROGRAMMING_PORT_ERROR, PROGRAMMING_PORT_CODES + general)
+            }
+            (_, Some(kind))
+                if self.modbus_errors != 0
+                    && (protocol.is_modbus() || fault == LineFault::Protocol) =>
+            {
+                (self.error, self.modbus_errors + kind)
+            }
+            _ => (self.error, SERIAL_CODES + general),
+        };
+        set(plc, place, true);
+        set_value(plc, place, code);
+    }
+
+    /// Registers of the port, which are stored where a program uses it.
+    pub fn registers(&self) -> impl Iterator<Item = u32> {
+        let registers = [
+            self.format,
+            self.station,
+            self.protocol,
+            self.left,
+            self.received,
+            self.start,
+            self.end,
+            self.time_out,
+        ];
+        registers.into_iter().filter(|&register| register != 0)
+    }
+
+    /// Relays of the port, which are stored where a program uses it.
+    pub fn relays(&self) -> impl Iterator<Item = u32> {
+        let choosing: [u32; 2] = match self.choice {
+            Choice::Com1 => [8070, 8071],
+            Choice::L01sPort2 => [8196, 8125],
+            Choice::L01sPort3 => [8192, 0],
+            _ => [0, 0],
+        };
+        let relays = [
+            self.waits,
+            self.sends,
+            self.done,
+            self.receives,
+            self.late,
+            choosing[0],
+            choosing[1],
+        ];
+        relays.into_iter().filter(|&relay| relay != 0)
+    }
+}
+
+/// Shows that an instruction names a port that is not there.
+pub(crate) fn note_missing(plc: &mut dyn Plc) {
+    set(plc, SERIAL_ERROR, true);
+    set_value(plc, SERIAL_ERROR, NO_PORT);
+}
+
+/// Computer link by bit 14 of the format word, else the protocol of a number.
+fn by_number(number: u16, format: u16) -> Protocol {
+    let protocol = Protocol::from_number(number);
+    match protocol {
+        Protocol::NnMaster
+        | Protocol::NnSlave
+        | Protocol::ParallelMaster
+        | Protocol::ParallelSlave => protocol,
+        _ if format & 1 << 14 != 0 => Protocol::ComputerLink,
+        _ => protocol,
+    }
+}
+
+/// The line of a link between PLCs.
+fn linked(word: u16, usual: u32) -> LineFormat {
+    let rate = match word >> 4 & 15 {
+        0 => usual,
+        _ => LineFormat::from_word(word).bits_per_second,
+    };
+    LineFormat::seven_even(rate, true)
+}
+
+impl LineFault {
+    /// The last digit of the code of a Modbus error; `None` for what all protocols share.
+    fn of_modbus(self) -> Option<u16> {
+        Some(match self {
+            LineFault::Station => 0,
+            LineFault::Length => 1,
+            LineFault::Address => 2,
+            LineFault::Sum => 3,
+            LineFault::Command => 4,
+            LineFault::TimeOut => 5,
+            LineFault::Data => 6,
+            LineFault::Overflow => 7,
+            LineFault::Form => 8,
+            LineFault::Protocol => 9,
+            LineFault::Character | LineFault::Unknown => return None,
+        })
+    }
+}
