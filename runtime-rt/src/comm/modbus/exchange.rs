@@ -12,31 +12,48 @@ use crate::plc::Class;
 
 /// How far an exchange is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
 enum Phase {
     /// The port is free.
     #[default]
-    Free,
+    Free = 0,
     /// The request is to be sent.
-    Ready,
+    Ready = 1,
     /// The request is on the line.
-    Sent,
+    Sent = 2,
     /// The answer is awaited.
-    Waiting,
+    Waiting = 3,
     /// It is over; the instruction does not know yet.
-    Over,
+    Over = 4,
 }
 
-/// The exchange of a port that is a master.
+/// How an exchange has ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum End {
+    /// As it should.
+    #[default]
+    Well = 0,
+    /// With a refusal, or with an answer or a request that is wrong.
+    Badly = 1,
+    /// Without an answer.
+    Late = 2,
+}
+
+/// The exchange of a port that is a master. All zero is a port that is free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
 pub struct Exchange {
     job: Job,
-    phase: Phase,
     /// Which instruction it is for.
     owner: u32,
-    fault: Option<LineFault>,
     time_out_us: u32,
     /// When the request was out.
     since_us: u32,
+    phase: Phase,
+    end: End,
+    /// The scan in which the instruction has learnt of the last end ([`crate::Sys::scan`]); 0 before.
+    pub told: u16,
 }
 
 /// What an instruction finds that the scan reaches.
@@ -46,8 +63,8 @@ pub enum Visit {
     Pass,
     /// The port is free and this instruction driven: its turn.
     Turn,
-    /// Its exchange is over, well or not; the port is free again.
-    Over(Result<(), LineFault>),
+    /// Its exchange is over; the port is free again.
+    Over(End),
 }
 
 impl Default for Exchange {
@@ -65,13 +82,14 @@ impl Exchange {
                 function: 0,
                 address: 0,
                 count: 0,
-                buffer: Buffer::Words(Class::D, 0),
+                buffer: Buffer::words(Class::X, 0),
             },
-            phase: Phase::Free,
             owner: 0,
-            fault: None,
             time_out_us: 0,
             since_us: 0,
+            phase: Phase::Free,
+            end: End::Well,
+            told: 0,
         }
     }
 
@@ -81,7 +99,7 @@ impl Exchange {
             Phase::Free if driven => Visit::Turn,
             Phase::Over if self.owner == owner => {
                 self.phase = Phase::Free;
-                Visit::Over(self.fault.take().map_or(Ok(()), Err))
+                Visit::Over(self.end)
             }
             _ => Visit::Pass,
         }
@@ -91,77 +109,73 @@ impl Exchange {
     pub fn begin(&mut self, owner: u32, job: Job, time_out_us: u32) {
         *self = Exchange {
             job,
-            phase: Phase::Ready,
             owner,
-            fault: None,
             time_out_us,
             since_us: 0,
+            phase: Phase::Ready,
+            end: End::Well,
+            told: self.told,
         };
     }
 
-    /// Whether it is working for an instruction.
-    pub fn is_busy(&self) -> bool {
-        !matches!(self.phase, Phase::Free | Phase::Over)
-    }
-
     /// The job whose request is to be sent now.
-    pub fn to_send(&self) -> Option<&Job> {
-        (self.phase == Phase::Ready).then_some(&self.job)
+    pub fn to_send(&self) -> Option<Job> {
+        (self.phase == Phase::Ready).then_some(self.job)
     }
 
-    /// The request has been handed to the line, or could not be made.
-    pub fn sending(&mut self, request: Result<(), LineFault>) {
-        if self.phase == Phase::Ready {
-            self.phase = Phase::Sent;
-            if let Err(fault) = request {
-                self.end(Some(fault));
-            }
-        }
+    /// The request has been handed to the line.
+    pub fn sending(&mut self) {
+        self.phase = Phase::Sent;
+    }
+
+    /// Whether the request is on the line.
+    pub fn is_sending(&self) -> bool {
+        self.phase == Phase::Sent
     }
 
     /// The last character of the request is out.
     pub fn sent(&mut self, now_us: u32) {
-        if self.phase != Phase::Sent {
-            return;
-        }
         self.since_us = now_us;
         self.phase = Phase::Waiting;
         if !self.job.is_answered() {
-            self.end(None);
+            self.end(End::Well);
         }
     }
 
-    /// A frame has come. One that nobody has asked for is dropped.
-    pub fn receive(&mut self, framing: Framing, frame: &[u8], map: &mut dyn Map) {
-        if self.phase == Phase::Waiting {
-            let done = accept(framing, &self.job, frame, map);
-            self.end(done.err());
+    /// A frame has come; `Err` says what is wrong with it. One that nobody has asked for is dropped.
+    pub fn receive(
+        &mut self,
+        framing: Framing,
+        frame: &[u8],
+        map: &mut dyn Map,
+    ) -> Result<(), LineFault> {
+        if self.phase != Phase::Waiting {
+            return Ok(());
+        }
+        let done = accept(framing, &self.job, frame, map);
+        self.end(done.map_or(End::Badly, |()| End::Well));
+        done
+    }
+
+    /// The request cannot be made, or characters have come that are no answer.
+    pub fn fail(&mut self) {
+        if self.phase != Phase::Free {
+            self.end(End::Badly);
         }
     }
 
-    /// Characters have come that are no frame.
-    pub fn receive_fault(&mut self, fault: LineFault) {
-        if self.phase == Phase::Waiting {
-            self.end(Some(fault));
-        }
-    }
-
-    /// Lets time pass. `receiving` says that an answer has begun: it is not cut off.
-    pub fn pass(&mut self, now_us: u32, receiving: bool) {
+    /// Lets time pass; returns whether the answer is late. `receiving` says that it has begun: then it is not.
+    pub fn is_late(&mut self, now_us: u32, receiving: bool) -> bool {
         let waited = now_us.wrapping_sub(self.since_us);
-        if self.phase == Phase::Waiting && !receiving && waited >= self.time_out_us {
-            self.end(Some(LineFault::TimeOut));
+        let late = self.phase == Phase::Waiting && !receiving && waited >= self.time_out_us;
+        if late {
+            self.end(End::Late);
         }
+        late
     }
 
-    /// When the answer is late.
-    pub fn deadline_us(&self) -> Option<u32> {
-        let waits = self.phase == Phase::Waiting;
-        waits.then(|| self.since_us.wrapping_add(self.time_out_us))
-    }
-
-    fn end(&mut self, fault: Option<LineFault>) {
-        self.fault = fault;
+    fn end(&mut self, end: End) {
+        self.end = end;
         self.phase = Phase::Over;
     }
 }
@@ -178,7 +192,7 @@ mod tests {
             function: 3,
             address: 100,
             count: 1,
-            buffer: Buffer::Words(Class::D, 10),
+            buffer: Buffer::words(Class::D, 10),
         }
     }
 
@@ -201,20 +215,20 @@ mod tests {
         let all = [true; 3];
         assert_eq!(scan(&mut exchange, all), [Turn, Pass, Pass]);
         assert_eq!(scan(&mut exchange, all), [Pass, Pass, Pass]);
-        assert_eq!(exchange.to_send(), Some(&job(1)));
-        exchange.sending(Ok(()));
+        assert_eq!(exchange.to_send(), Some(job(1)));
+        exchange.sending();
         assert_eq!(exchange.to_send(), None);
         exchange.sent(50);
         let answer = [1, 3, 2, 0x51, 0, 0x85, 0xd4];
-        exchange.receive(Framing::Rtu, &answer, &mut Served::new(&mut plc, 0));
-        assert_eq!(plc.d(10, 1), [0x5100]);
+        let taken = exchange.receive(Framing::Rtu, &answer, &mut Served::new(&mut plc, 0));
+        assert_eq!((taken, plc.d(10, 1)), (Ok(()), std::vec![0x5100]));
         // The instruction that was switched off learns of its end; the one behind it is next.
         assert_eq!(
             scan(&mut exchange, [false, true, true]),
-            [Over(Ok(())), Turn, Pass]
+            [Over(End::Well), Turn, Pass]
         );
-        exchange.sending(Err(LineFault::Data));
-        let failed = Over(Err(LineFault::Data));
+        exchange.fail();
+        let failed = Over(End::Badly);
         assert_eq!(
             scan(&mut exchange, [true, true, false]),
             [Pass, failed, Pass]
@@ -230,27 +244,22 @@ mod tests {
         let mut exchange = Exchange::new();
         assert_eq!(exchange.visit(7, true), Visit::Turn);
         exchange.begin(7, job(1), 100_000);
-        exchange.pass(1_000_000, false);
-        exchange.sending(Ok(()));
+        assert!(!exchange.is_late(1_000_000, false));
+        exchange.sending();
         exchange.sent(u32::MAX);
-        assert_eq!(exchange.deadline_us(), Some(99_999));
-        exchange.pass(99_998, false);
-        exchange.pass(99_999, true);
-        assert!(exchange.is_busy());
-        exchange.pass(99_999, false);
-        assert!(!exchange.is_busy());
-        assert_eq!(
-            exchange.visit(7, false),
-            Visit::Over(Err(LineFault::TimeOut))
-        );
+        assert!(!exchange.is_late(99_998, false));
+        assert!(!exchange.is_late(99_999, true));
+        assert!(exchange.is_late(99_999, false));
+        assert!(!exchange.is_late(99_999, false));
+        assert_eq!(exchange.visit(7, false), Visit::Over(End::Late));
     }
 
     #[test]
     fn nobody_answers_a_broadcast() {
         let mut exchange = Exchange::new();
         exchange.begin(7, job(0), 100_000);
-        exchange.sending(Ok(()));
+        exchange.sending();
         exchange.sent(0);
-        assert_eq!(exchange.visit(7, true), Visit::Over(Ok(())));
+        assert_eq!(exchange.visit(7, true), Visit::Over(End::Well));
     }
 }

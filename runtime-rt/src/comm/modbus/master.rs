@@ -11,24 +11,59 @@ use super::{COIL_ON, Exception};
 use crate::comm::{Frame, LineFault, Map};
 use crate::plc::Class;
 
-/// Devices of the master that a request sends or its answer fills. Device numbers count from the first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Buffer {
-    /// Bit devices, one for each coil.
-    Bits(Class, u32),
+/// How data stands in the devices of a master.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Layout {
     /// Words, one for each register; coils stand sixteen to a word, the first the lowest.
-    Words(Class, u32),
-    /// Words as above; of coils the first byte is the high one (FX3U-compatible boards).
-    WordsHighFirst(Class, u32),
+    #[default]
+    Words = 0,
+    /// Words as above, but of coils the first byte is the high one (FX3U-compatible boards).
+    HighFirst = 1,
+    /// Bit devices, one for each coil.
+    Bits = 2,
+    /// A constant.
+    Constant = 3,
+}
+
+/// Devices of the master that a request sends or its answer fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
+pub struct Buffer {
+    /// Their class.
+    pub class: Class,
+    /// How data stands in them.
+    pub layout: Layout,
+    /// Number of the first, or the constant.
+    pub first: u32,
 }
 
 impl Buffer {
+    /// Words from this one on.
+    pub const fn words(class: Class, first: u32) -> Self {
+        Buffer {
+            class,
+            layout: Layout::Words,
+            first,
+        }
+    }
+
+    /// Bits from this one on.
+    pub const fn bits(class: Class, first: u32) -> Self {
+        Buffer {
+            class,
+            layout: Layout::Bits,
+            first,
+        }
+    }
+
     /// Word number `index`.
     fn word(self, index: u32, map: &dyn Map) -> Option<u16> {
-        match self {
-            Buffer::Bits(..) => None,
-            Buffer::Words(class, first) | Buffer::WordsHighFirst(class, first) => {
-                let word = map.word(class, first.checked_add(index)?)?;
+        match self.layout {
+            Layout::Bits => None,
+            Layout::Constant => Some(self.first as u16),
+            Layout::Words | Layout::HighFirst => {
+                let word = map.word(self.class, self.first.checked_add(index)?)?;
                 Some(word as u16)
             }
         }
@@ -36,61 +71,59 @@ impl Buffer {
 
     /// Writes word number `index`.
     fn set_word(self, index: u32, value: u16, map: &mut dyn Map) -> Option<()> {
-        match self {
-            Buffer::Bits(..) => None,
-            Buffer::Words(class, first) | Buffer::WordsHighFirst(class, first) => {
-                map.set_word(class, first.checked_add(index)?, value as i16)
+        match self.layout {
+            Layout::Bits | Layout::Constant => None,
+            Layout::Words | Layout::HighFirst => {
+                map.set_word(self.class, self.first.checked_add(index)?, value as i16)
             }
+        }
+    }
+
+    /// A word of coils with the first coil in its lowest bit, of one as it stands in the device, and the other way round.
+    fn ordered(self, word: u16) -> u16 {
+        match self.layout {
+            Layout::HighFirst => word.swap_bytes(),
+            _ => word,
         }
     }
 
     /// Coil number `index`.
     fn coil(self, index: u32, map: &dyn Map) -> Option<bool> {
-        match self {
-            Buffer::Bits(class, first) => map.bit(class, first.checked_add(index)?),
-            Buffer::Words(..) => {
-                let word = self.word(index / 16, map)?;
-                Some(word >> (index % 16) & 1 == 1)
-            }
-            Buffer::WordsHighFirst(..) => {
-                let word = self.word(index / 16, map)?.swap_bytes();
-                Some(word >> (index % 16) & 1 == 1)
-            }
+        if self.layout == Layout::Bits {
+            return map.bit(self.class, self.first.checked_add(index)?);
         }
+        let word = self.ordered(self.word(index / 16, map)?);
+        Some(word >> (index % 16) & 1 == 1)
     }
 
     /// Writes `count` coils that stand in `body` from byte `at` on. The rest of the last word is 0.
     fn set_coils(self, count: u16, body: Body, at: usize, map: &mut dyn Map) -> Option<()> {
         let count = u32::from(count);
-        if let Buffer::Bits(class, first) = self {
+        if self.layout == Layout::Bits {
             return (0..count).try_for_each(|index| {
                 let on = body.bit(at, index as usize)?;
-                map.set_bit(class, first.checked_add(index)?, on)
+                map.set_bit(self.class, self.first.checked_add(index)?, on)
             });
         }
-        for index in 0..count.div_ceil(16) {
+        (0..count.div_ceil(16)).try_for_each(|index| {
             let bits = (count - 16 * index).min(16);
             let word = (0..bits).try_fold(0u16, |word, bit| {
                 let on = body.bit(at, (16 * index + bit) as usize)?;
                 Some(word | u16::from(on) << bit)
             })?;
-            let word = match self {
-                Buffer::WordsHighFirst(..) => word.swap_bytes(),
-                _ => word,
-            };
-            self.set_word(index, word, map)?;
-        }
-        Some(())
+            self.set_word(index, self.ordered(word), map)
+        })
     }
 
     /// Whether `count` coils or registers fit in devices that exist.
     fn holds(self, count: u16, coils: bool, map: &dyn Map) -> bool {
         let count = u32::from(count);
-        match self {
-            Buffer::Bits(class, first) => coils && map.has_bits(class, first, count),
-            Buffer::Words(class, first) | Buffer::WordsHighFirst(class, first) => {
+        match self.layout {
+            Layout::Bits => coils && map.has_bits(self.class, self.first, count),
+            Layout::Constant => count == 1,
+            Layout::Words | Layout::HighFirst => {
                 let words = if coils { count.div_ceil(16) } else { count };
-                map.has_words(class, first, words)
+                map.has_words(self.class, self.first, words)
             }
         }
     }
@@ -98,6 +131,7 @@ impl Buffer {
 
 /// What a master asks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
 pub struct Job {
     /// The slave; 0 for all.
     pub station: u8,
@@ -161,8 +195,8 @@ pub fn request(
     match job.function {
         WRITE_COIL => {
             // A register stands for on by any value but 0.
-            let on = match buffer {
-                Buffer::Bits(..) => coils().next().flatten() == Some(true),
+            let on = match buffer.layout {
+                Layout::Bits => coils().next().flatten() == Some(true),
                 _ => words.next() != Some(0),
             };
             writer.push_word(if on { COIL_ON } else { 0 });
@@ -265,7 +299,7 @@ mod tests {
             function,
             address,
             count,
-            buffer: Buffer::Words(Class::D, 10),
+            buffer: Buffer::words(Class::D, 10),
         }
     }
 
@@ -278,6 +312,13 @@ mod tests {
 
     fn take(job: &Job, reply: &[u8], plc: &mut Double) -> Result<(), LineFault> {
         accept(Framing::Rtu, job, reply, &mut Served::new(plc, 0))
+    }
+
+    fn high_first(first: u32) -> Buffer {
+        Buffer {
+            layout: Layout::HighFirst,
+            ..Buffer::words(Class::D, first)
+        }
     }
 
     fn hex(text: &str) -> Vec<u8> {
@@ -318,14 +359,14 @@ mod tests {
             (job(1, 8, 0, 1), LineFault::Command),
             (
                 Job {
-                    buffer: Buffer::Words(Class::D, 8511),
+                    buffer: Buffer::words(Class::D, 8511),
                     ..job(1, 3, 0, 2)
                 },
                 LineFault::Address,
             ),
             (
                 Job {
-                    buffer: Buffer::Bits(Class::M, 0),
+                    buffer: Buffer::bits(Class::M, 0),
                     ..job(1, 3, 0, 2)
                 },
                 LineFault::Address,
@@ -343,20 +384,20 @@ mod tests {
         assert_eq!(take(&read, &hex("01 03 02 51 00 85 D4"), &mut plc), Ok(()));
         assert_eq!(plc.d(10, 1), [0x5100]);
         let relays = Job {
-            buffer: Buffer::Bits(Class::M, 100),
+            buffer: Buffer::bits(Class::M, 100),
             ..job(1, 1, 0, 4)
         };
         assert_eq!(take(&relays, &hex("01 01 01 0B 10 4F"), &mut plc), Ok(()));
         let on = [0, 1, 2, 3, 4].map(|n| plc.bit(Class::M, 100 + n).unwrap());
         assert_eq!(on, [true, true, false, true, false]);
         let board = Job {
-            buffer: Buffer::WordsHighFirst(Class::D, 2),
+            buffer: high_first(2),
             ..job(2, 1, 0, 7)
         };
         assert_eq!(take(&board, &hex("02 01 01 41 91 FC"), &mut plc), Ok(()));
         assert_eq!(plc.d(2, 2), [0x4100, 0]);
         let words = Job {
-            buffer: Buffer::Words(Class::D, 2),
+            buffer: Buffer::words(Class::D, 2),
             ..board
         };
         assert_eq!(take(&words, &hex("02 01 01 41 91 FC"), &mut plc), Ok(()));
@@ -367,7 +408,7 @@ mod tests {
     fn coils_come_back_from_words_as_they_were_read() {
         let mut plc = Double::new().with_d(10, &[0x0201]);
         let write = Job {
-            buffer: Buffer::WordsHighFirst(Class::D, 10),
+            buffer: high_first(10),
             ..job(1, 15, 0, 10)
         };
         let frame = ask(Framing::Rtu, &write, &mut plc).unwrap();

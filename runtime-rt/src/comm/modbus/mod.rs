@@ -31,8 +31,8 @@ pub mod tcp;
 pub use adu::{Framing, LONGEST_ASCII, LONGEST_RTU, cut_ascii};
 pub use areas::{Area, FX3U, Fill, H1U, H2U, HM, L01S, Limits};
 pub use check::{CRC_START, crc_step, crc16};
-pub use exchange::{Exchange, Visit};
-pub use master::{Buffer, Job, accept, request};
+pub use exchange::{End, Exchange, Visit};
+pub use master::{Buffer, Job, Layout, accept, request};
 pub use slave::{Settings, answer};
 
 use super::LineFault;

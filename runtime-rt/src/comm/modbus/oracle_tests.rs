@@ -196,7 +196,7 @@ proptest! {
         function in prop::sample::select(&[1u8, 2, 3, 4, 5, 6, 15, 16][..]),
     ) {
         let (mut plc, mut storage) = fill(seed);
-        let job = Job { station: 1, function, address, count, buffer: Buffer::Words(Class::D, 1000) };
+        let job = Job { station: 1, function, address, count, buffer: Buffer::words(Class::D, 1000) };
         let values: Vec<i32> = (0..80).map(|n| seed.rotate_left(n) as i32).collect();
         plc.set_d(1000, &values);
         let mut bytes = [0; 256];
