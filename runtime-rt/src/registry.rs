@@ -34,6 +34,8 @@ pub struct Needs {
     pub port: bool,
     /// It works on the serial port that its last operand names ([`crate::Ports::named`]).
     pub names_port: bool,
+    /// It works on a serial port that a register names: all of the model are there.
+    pub any_port: bool,
 }
 
 impl Needs {
@@ -100,6 +102,7 @@ macro_rules! registry {
                         signals: false,
                         port: false,
                         names_port: false,
+                        any_port: false,
                     };
                     $($(needs.$need = true;)*)?
                     needs
@@ -278,6 +281,36 @@ registry! {
     Rs = serial::rs(s, m, d, n) [always, port];
     /// RS2 (FNC 87): the same on a port.
     Rs2 = serial::rs2(s, m, d, n, n1) [always, names_port];
+    /// MODBUS (FNC 89, H1U and H2U): Modbus requests.
+    Modbus = modbus::modbus(s1, s2, n, d) [always, port];
+    /// MODBUS2 (FNC 93, H1U and H2U): the same on a port.
+    Modbus2 = modbus::modbus2(s1, s2, n, d, n1) [always, names_port];
+    /// RD3A (FNC 176, L01S): reads registers by Modbus.
+    Rd3aModbus = modbus::rd3a_modbus(m1, m2, d) [always, any_port];
+    /// WR3A (FNC 177, L01S): writes registers by Modbus.
+    Wr3aModbus = modbus::wr3a_modbus(m1, m2, s) [always, any_port];
+    /// ADPRW (FNC 276, L01S): a Modbus request.
+    Adprw = modbus::adprw(s, s1, s2, s3, d) [always, any_port];
+    /// IVRD (FNC 272, compatible boards): reads by Modbus.
+    Ivrd = modbus::ivrd(s1, s2, d, n) [always, port];
+    /// IVWR (FNC 273, compatible boards): writes by Modbus.
+    Ivwr = modbus::ivwr(s1, s2, s3, n) [always, port];
+    /// MRDC (HM): reads coils.
+    Mrdc = modbus::mrdc(s1, s2, s3, d1, d2) [state, always, names_port];
+    /// MRDI (HM): reads inputs.
+    Mrdi = modbus::mrdi(s1, s2, s3, d1, d2) [state, always, names_port];
+    /// MRDD (HM): reads registers.
+    Mrdd = modbus::mrdd(s1, s2, s3, d1, d2) [state, always, names_port];
+    /// MRDAI (HM): reads input registers.
+    Mrdai = modbus::mrdai(s1, s2, s3, d1, d2) [state, always, names_port];
+    /// MWRC (HM): writes a coil.
+    Mwrc = modbus::mwrc(s1, s2, d1, d2) [state, always, names_port];
+    /// MWRD (HM): writes a register.
+    Mwrd = modbus::mwrd(s1, s2, d1, d2) [state, always, names_port];
+    /// MWRCS (HM): writes coils.
+    Mwrcs = modbus::mwrcs(s1, s2, s3, d1, d2) [state, always, names_port];
+    /// MWRDS (HM): writes registers.
+    Mwrds = modbus::mwrds(s1, s2, s3, d1, d2) [state, always, names_port];
     /// UINIT (HM): sets up a port.
     Uinit = serial::uinit(s1, s2, d1, d2) [names_port];
     /// USEND (HM): sends bytes.

@@ -39,6 +39,7 @@
 //! | `port.rs` | the state machine of one port |
 //! | `slaves.rs` | which codec answers under which protocol |
 //! | `free.rs` | RS, RS2, USEND, URCV |
+//! | `masters.rs` | a port as a Modbus master |
 //! | `modbus/` | Modbus RTU, ASCII, TCP: slave and master |
 //! | `fx_port.rs` | programming port, HMI monitor |
 //! | `computer_link.rs` | computer link, BD protocol of L01S |
@@ -51,6 +52,7 @@ pub(crate) mod free;
 pub mod fx_port;
 mod line;
 mod map;
+mod masters;
 pub mod mc;
 pub mod modbus;
 mod port;

@@ -3,6 +3,7 @@
 use super::free::Free;
 use super::fx_port::MonitorList;
 use super::line::{CharFault, LineFormat, Received};
+use super::modbus::Exchange;
 use super::slaves::Slave;
 use super::wiring::{PortWiring, Protocol, value};
 use super::{Cut, Frame, LineFault, Served};
@@ -45,6 +46,8 @@ pub struct Status {
     pub due_us: u32,
     /// RS, RS2, USEND, URCV.
     pub free: Free,
+    /// Instructions of a Modbus master.
+    pub exchange: Exchange,
 }
 
 /// A serial port in a program's memory. All zero is one that has not been set up.
@@ -87,6 +90,7 @@ impl Port {
                 last_us: 0,
                 due_us: 0,
                 free: Free::new(),
+                exchange: Exchange::new(),
             },
             buffer: [0; FRAME],
             monitored: MonitorList::new(),
@@ -153,6 +157,9 @@ impl Session<'_> {
         if self.status.protocol == Protocol::Free {
             self.advance_free();
         }
+        if self.status.protocol.is_master() {
+            self.advance_master();
+        }
         self.send();
     }
 
@@ -180,6 +187,7 @@ impl Session<'_> {
             self.drop_frame();
             self.status.sending = false;
             self.status.free = Free::new();
+            self.status.exchange = Exchange::new();
         }
     }
 
@@ -304,7 +312,7 @@ impl Session<'_> {
     }
 
     /// Who answers, as the registers say now.
-    fn slave(&self) -> Slave {
+    pub(super) fn slave(&self) -> Slave {
         let uinit = self.status.uinit;
         let (station, format) = match self.wiring.station {
             0 => (uinit[0] & 0xff, uinit[1]),
@@ -322,10 +330,13 @@ impl Session<'_> {
         }
     }
 
-    /// A frame is whole: answers it.
+    /// A frame is whole: answers it, or takes it for an answer.
     fn answer(&mut self) {
         let received = usize::from(self.status.received);
         self.drop_frame();
+        if self.status.protocol.is_master() {
+            return self.take_answer(received);
+        }
         let slave = self.slave();
         let Some(port) = self.plc.port(self.wiring.number) else {
             return;

@@ -37,7 +37,7 @@ impl Slave {
     /// Whether the characters received so far are a frame.
     pub(super) fn cut(&self, received: &[u8]) -> Cut {
         match self.protocol {
-            Protocol::ModbusAscii => modbus::cut_ascii(received),
+            Protocol::ModbusAscii | Protocol::MasterAscii => modbus::cut_ascii(received),
             Protocol::ProgrammingPort => fx_port::cut(received),
             _ => Cut::Drop,
         }
@@ -84,7 +84,7 @@ impl Slave {
     }
 
     /// What the model serves as a Modbus slave.
-    fn profile(&self) -> &'static Profile {
+    pub(super) fn profile(&self) -> &'static Profile {
         match self.family {
             Ports::Inovance | Ports::Without if self.type_code / 1000 == H1U => &modbus::H1U,
             Ports::Inovance | Ports::Without => &modbus::H2U,

@@ -65,6 +65,14 @@ impl Protocol {
         }
     }
 
+    /// Whether instructions of the program ask by Modbus.
+    pub const fn is_master(self) -> bool {
+        matches!(
+            self,
+            Protocol::MasterRtu | Protocol::MasterAscii | Protocol::MasterTable
+        )
+    }
+
     /// Whether its frames are Modbus.
     pub const fn is_modbus(self) -> bool {
         matches!(
@@ -144,6 +152,10 @@ pub struct PortWiring {
     pub receives: u32,
     /// Relay: time-out.
     pub late: u32,
+    /// Relay: the answer to RD3A or WR3A has come (L01S).
+    pub answered: u32,
+    /// Register: scans between two requests of RD3A and WR3A (L01S).
+    pub gap: u32,
     /// Relay and register with the code of an error.
     pub error: u32,
     /// The lowest code of an error of Modbus; 0: errors of Modbus have none of their own.
@@ -182,6 +194,8 @@ const fn bare(number: u8, choice: Choice) -> PortWiring {
         done: 0,
         receives: 0,
         late: 0,
+        answered: 0,
+        gap: 0,
         error: SERIAL_ERROR,
         modbus_errors: 0,
         one_pair: false,
@@ -224,6 +238,8 @@ const L01S: [PortWiring; 3] = [
         time_out_unit_us: 1000,
         modbus_errors: 0,
         one_pair: true,
+        answered: 8128,
+        gap: 8126,
         ..block(2, Choice::L01sPort2, 8120)
     },
     PortWiring {
@@ -239,6 +255,8 @@ const L01S: [PortWiring; 3] = [
         done: 8403,
         receives: 8404,
         late: 8409,
+        answered: 8408,
+        gap: 8406,
         one_pair: true,
         ..bare(3, Choice::L01sPort3)
     },
@@ -465,6 +483,11 @@ impl PortWiring {
         }
     }
 
+    /// How many scans lie between two requests of RD3A and WR3A.
+    pub(crate) fn gap_scans(&self, plc: &dyn Plc) -> u16 {
+        value(plc, self.gap)
+    }
+
     /// Shows an error of the port in the PLC's relay and register, where it stays until the program clears it.
     pub(crate) fn note(&self, plc: &mut dyn Plc, protocol: Protocol, fault: LineFault) {
         let general = match fault {
@@ -503,6 +526,7 @@ impl PortWiring {
             self.start,
             self.end,
             self.time_out,
+            self.gap,
         ];
         registers.into_iter().filter(|&register| register != 0)
     }
@@ -521,6 +545,7 @@ impl PortWiring {
             self.done,
             self.receives,
             self.late,
+            self.answered,
             choosing[0],
             choosing[1],
         ];

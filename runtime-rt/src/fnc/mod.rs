@@ -18,6 +18,7 @@ pub mod float;
 pub mod gray;
 pub mod handy;
 pub mod keys;
+pub mod modbus;
 pub mod modules;
 pub mod move_;
 pub mod pid;

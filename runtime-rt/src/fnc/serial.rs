@@ -139,10 +139,15 @@ pub fn crc(cx: &mut Cx) -> Done {
     cx.set_word(1, 1, (crc >> 8) as i16)
 }
 
-/// RS S m D n (FNC 80): sends m bytes from S on at the program's request and receives n to D, on the port of RS.
+/// RS S m D n (FNC 80): sends m bytes from S on at the program's request and receives n to D, on the port of RS. Where that is a Modbus
+/// master, RS is MODBUS (h1u-h2u-programming §5.7.1).
 pub fn rs(cx: &mut Cx) -> Done {
     let number = cx.plc.ports().of_rs();
-    transfer(cx, number)
+    let port = cx.plc.port(number);
+    match port.is_some_and(|port| port.status.protocol.is_master()) {
+        true => super::modbus::modbus(cx),
+        false => transfer(cx, number),
+    }
 }
 
 /// RS2 S m D n n1 (FNC 87): the same on port n1.

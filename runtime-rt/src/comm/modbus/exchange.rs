@@ -118,6 +118,11 @@ impl Exchange {
         };
     }
 
+    /// Whether the port works for another instruction than this one.
+    pub fn works_for_another(&self, owner: u32) -> bool {
+        self.phase != Phase::Free && self.owner != owner
+    }
+
     /// The job whose request is to be sent now.
     pub fn to_send(&self) -> Option<Job> {
         (self.phase == Phase::Ready).then_some(self.job)

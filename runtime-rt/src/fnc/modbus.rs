@@ -1,0 +1,330 @@
+//! Modbus masters: MODBUS, MODBUS2 and RS of H1U and H2U (h1u-h2u-programming §5.7.1), RD3A, WR3A and ADPRW of L01S (l01s-programming
+//! §8.1), MRDC to MWRDS of HM (hm-motion-controller §6.4.3), IVRD and IVWR of compatible boards.
+//!
+//! All hand a [`Job`] to the port when their turn comes, and learn in a later scan how the exchange has ended ([`Exchange`]).
+//!
+//! [`Exchange`]: crate::comm::modbus::Exchange
+
+use crate::comm::modbus::{Buffer, End, Job, Layout, Visit};
+use crate::comm::{LineFault, PortWiring};
+use crate::cx::Cx;
+use crate::fault::{Done, Fault};
+use crate::operand::OperandKind;
+use crate::plc::{Class, Sys};
+use crate::special::M_COMPLETE;
+
+/// What came of an instruction that the scan has reached.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Turn {
+    /// It has handed over its job.
+    Begun,
+    /// Its exchange has ended.
+    Over(End),
+    /// Neither.
+    None,
+}
+
+/// What a port knows the instruction at a step by.
+fn owner(step: u32) -> u32 {
+    step + 1
+}
+
+/// Works on port `number`: hands over the job of the instruction if it is its turn, and learns how it ended.
+fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<Turn, Fault> {
+    let (owner, driven) = (owner(cx.site.step), cx.site.drive);
+    let Sys {
+        scan, first_scan, ..
+    } = *cx.plc.sys();
+    let Some(port) = cx.plc.port(number) else {
+        return Ok(Turn::None);
+    };
+    if !port.status.protocol.is_master() {
+        // What the first scan sets up binds at its end.
+        if driven && (port.status.bound || !first_scan) {
+            cx.note_line(number, LineFault::Protocol);
+        }
+        return Ok(Turn::None);
+    }
+    let exchange = &mut port.status.exchange;
+    match exchange.visit(owner, driven) {
+        Visit::Pass => Ok(Turn::None),
+        Visit::Over(end) => {
+            exchange.told = scan;
+            Ok(Turn::Over(end))
+        }
+        Visit::Turn => {
+            let told = exchange.told;
+            let Some(wiring) = cx.plc.ports().get(number) else {
+                return Ok(Turn::None);
+            };
+            let gap = wiring.gap_scans(cx.plc);
+            // Scans are numbered by odd numbers.
+            if told != 0 && scan.wrapping_sub(told) / 2 < gap {
+                return Ok(Turn::None);
+            }
+            let job = job(cx)?;
+            let time_out_us = wiring.time_out_us(cx.plc);
+            if let Some(port) = cx.plc.port(number) {
+                port.status.exchange.begin(owner, job, time_out_us);
+            }
+            Ok(Turn::Begun)
+        }
+    }
+}
+
+/// A special relay of a port, by its number there; 0: there is none.
+fn show(cx: &mut Cx, number: u8, relay: fn(&PortWiring) -> u32, on: bool) {
+    let relay = cx.plc.ports().get(number).map_or(0, relay);
+    if relay != 0 {
+        let _ = cx.plc.set_bit(Class::M, relay, on);
+    }
+}
+
+/// Operand `i` as an unsigned word.
+fn unsigned(cx: &Cx, i: usize) -> Result<u16, Fault> {
+    Ok(cx.word(i, 0)? as u16)
+}
+
+/// Operand `i` as a number of one byte.
+fn byte(cx: &Cx, i: usize) -> Result<u8, Fault> {
+    u8::try_from(cx.word(i, 0)?).map_err(|_| Fault::VALUE)
+}
+
+/// Operand `i` and the devices behind it.
+fn buffer(cx: &Cx, i: usize) -> Result<Buffer, Fault> {
+    let op = *cx.ops.get(i).ok_or(Fault::DEVICE)?;
+    let first = op.value as u32;
+    let layout = match op.kind {
+        OperandKind::Const => Layout::Constant,
+        OperandKind::Device if cx.is_bit(i) => Layout::Bits,
+        OperandKind::Device => Layout::Words,
+        _ => return Err(Fault::DEVICE),
+    };
+    Ok(Buffer {
+        class: op.class,
+        layout,
+        first,
+    })
+}
+
+/// Station and function stand in one operand, address, number and data in the next three.
+fn station_and_function(cx: &Cx) -> Result<Job, Fault> {
+    let [station, function] = unsigned(cx, 0)?.to_be_bytes();
+    Ok(Job {
+        station,
+        function,
+        address: unsigned(cx, 1)?,
+        count: unsigned(cx, 2)?,
+        buffer: buffer(cx, 3)?,
+    })
+}
+
+/// MODBUS S1 S2 n D (FNC 89): one exchange after the other while it is driven, on COM1.
+pub fn modbus(cx: &mut Cx) -> Done {
+    let number = cx.plc.ports().of_rs();
+    inovance(cx, number)
+}
+
+/// MODBUS2 S1 S2 n D n1 (FNC 93): the same on port n1.
+pub fn modbus2(cx: &mut Cx) -> Done {
+    match cx.named_port(4)? {
+        Some(number) => inovance(cx, number),
+        None => Ok(()),
+    }
+}
+
+/// Shows that an instruction is in work (M8122), and how it ended (M8123).
+fn inovance(cx: &mut Cx, number: u8) -> Done {
+    match work(cx, number, station_and_function)? {
+        Turn::Begun => show(cx, number, |wiring| wiring.sends, true),
+        Turn::Over(end) => {
+            show(cx, number, |wiring| wiring.sends, false);
+            show(cx, number, |wiring| wiring.done, end != End::Well);
+        }
+        Turn::None => {}
+    }
+    Ok(())
+}
+
+/// IVRD S1 S2 D n (FNC 272) of compatible boards: reads; of coils the first byte goes to the high half of D.
+pub fn ivrd(cx: &mut Cx) -> Done {
+    board(cx)
+}
+
+/// IVWR S1 S2 S3 n (FNC 273) of compatible boards: writes; the end resets the request to send.
+pub fn ivwr(cx: &mut Cx) -> Done {
+    board(cx)
+}
+
+fn board(cx: &mut Cx) -> Done {
+    let number = cx.plc.ports().of_rs();
+    let job = |cx: &Cx| {
+        let [station, function] = unsigned(cx, 0)?.to_be_bytes();
+        let buffer = buffer(cx, 2)?;
+        let layout = match buffer.layout {
+            Layout::Words => Layout::HighFirst,
+            other => other,
+        };
+        Ok(Job {
+            station,
+            function,
+            address: unsigned(cx, 1)?,
+            count: unsigned(cx, 3)?,
+            buffer: Buffer { layout, ..buffer },
+        })
+    };
+    if let Turn::Over(end) = work(cx, number, job)? {
+        show(cx, number, |wiring| wiring.sends, false);
+        if end == End::Well {
+            show(cx, number, |wiring| wiring.done, true);
+        }
+    }
+    Ok(())
+}
+
+/// ADPRW S S1 S2 S3 D (FNC 276) of L01S, on the port that D8397 names. M8029 is on when it has ended, until the program resets it or
+/// the next one is executed.
+pub fn adprw(cx: &mut Cx) -> Done {
+    /// Which port: 0 for port 2, 1 for port 3.
+    const D_PORT: u32 = 8397;
+    let port = cx.plc.word(Class::D, D_PORT).unwrap_or(0);
+    let Some(number) = l01s_port(cx, port)? else {
+        return Ok(());
+    };
+    let turn = work(cx, number, |cx| {
+        Ok(Job {
+            station: byte(cx, 0)?,
+            function: byte(cx, 1)?,
+            address: unsigned(cx, 2)?,
+            count: unsigned(cx, 3)?,
+            buffer: buffer(cx, 4)?,
+        })
+    })?;
+    let over = matches!(turn, Turn::Over(_));
+    if over || cx.drive() {
+        let _ = cx.plc.set_bit(Class::M, M_COMPLETE, over);
+    }
+    Ok(())
+}
+
+/// The port that a register names: 0 for port 2, 1 for port 3. Another value is an error of an instruction that is driven.
+fn l01s_port(cx: &Cx, named: i16) -> Result<Option<u8>, Fault> {
+    match cx.plc.ports().named(named.into()) {
+        None if cx.drive() => Err(Fault::VALUE),
+        number => Ok(number),
+    }
+}
+
+/// Functions of RD3A and WR3A.
+const READ: u8 = 0x03;
+const WRITE_ONE: u8 = 0x06;
+const WRITE: u8 = 0x10;
+
+/// RD3A m1 m2 D (FNC 176) of L01S: reads as many registers as D says to the registers behind it; the port stands before it.
+pub fn rd3a_modbus(cx: &mut Cx) -> Done {
+    l01s(cx, |cx| l01s_job(cx, READ))
+}
+
+/// WR3A m1 m2 S (FNC 177) of L01S: writes as many registers as S says from behind it; the port stands before it.
+pub fn wr3a_modbus(cx: &mut Cx) -> Done {
+    l01s(cx, |cx| {
+        let function = match cx.word(2, 0)? {
+            1 => WRITE_ONE,
+            _ => WRITE,
+        };
+        l01s_job(cx, function)
+    })
+}
+
+fn l01s_job(cx: &Cx, function: u8) -> Result<Job, Fault> {
+    let counted = buffer(cx, 2)?;
+    Ok(Job {
+        station: byte(cx, 0)?,
+        function,
+        address: unsigned(cx, 1)?,
+        count: unsigned(cx, 2)?,
+        buffer: Buffer {
+            first: counted.first.saturating_add(1),
+            ..counted
+        },
+    })
+}
+
+/// Shows a good answer (M8128, M8408) or none (M8129, M8409) until the next scan.
+fn l01s(cx: &mut Cx, job: fn(&Cx) -> Result<Job, Fault>) -> Done {
+    let port = cx.word(2, -1)?;
+    let Some(number) = l01s_port(cx, port)? else {
+        return Ok(());
+    };
+    let scan = cx.plc.sys().scan;
+    let told = cx
+        .plc
+        .port(number)
+        .map_or(0, |port| port.status.exchange.told);
+    if told != 0 && told != scan {
+        show(cx, number, |wiring| wiring.answered, false);
+        show(cx, number, |wiring| wiring.late, false);
+    }
+    if let Turn::Over(end) = work(cx, number, job)? {
+        show(cx, number, |wiring| wiring.answered, end == End::Well);
+        show(cx, number, |wiring| wiring.late, end == End::Late);
+    }
+    Ok(())
+}
+
+/// What an instruction of HM asks: station, address, number if there is one, data.
+fn hm_job(cx: &Cx, function: u8, several: bool) -> Result<Job, Fault> {
+    let data = if several { 3 } else { 2 };
+    Ok(Job {
+        station: byte(cx, 0)?,
+        function,
+        address: unsigned(cx, 1)?,
+        count: if several { unsigned(cx, 2)? } else { 1 },
+        buffer: buffer(cx, data)?,
+    })
+}
+
+/// An instruction of HM that finds its port busy waits, however briefly it was driven.
+fn hm(cx: &mut Cx, port: usize, job: fn(&Cx) -> Result<Job, Fault>) -> Done {
+    const WAITS: usize = 0;
+    let Some(number) = cx.named_port(port)? else {
+        return Ok(());
+    };
+    let (step, driven) = (cx.site.step, cx.site.drive);
+    cx.site.drive = driven || cx.state().0[WAITS] != 0;
+    let turn = work(cx, number, job);
+    let port = cx.plc.port(number);
+    let taken = port.is_some_and(|port| port.status.exchange.works_for_another(owner(step)));
+    let waits = cx.site.drive && taken && turn == Ok(Turn::None);
+    cx.site.drive = driven;
+    cx.state().0[WAITS] = waits.into();
+    turn.map(drop)
+}
+
+macro_rules! hm {
+    ($($(#[$doc:meta])* $name:ident($function:literal, $several:literal);)*) => {
+        $($(#[$doc])*
+        pub fn $name(cx: &mut Cx) -> Done {
+            hm(cx, if $several { 4 } else { 3 }, |cx| hm_job(cx, $function, $several))
+        })*
+    };
+}
+
+hm! {
+    /// MRDC S1 S2 S3 D1 D2 (HM): reads coils.
+    mrdc(0x01, true);
+    /// MRDI S1 S2 S3 D1 D2 (HM): reads inputs.
+    mrdi(0x02, true);
+    /// MRDD S1 S2 S3 D1 D2 (HM): reads registers.
+    mrdd(0x03, true);
+    /// MRDAI S1 S2 S3 D1 D2 (HM): reads input registers.
+    mrdai(0x04, true);
+    /// MWRC S1 S2 D1 D2 (HM): writes a coil.
+    mwrc(0x05, false);
+    /// MWRD S1 S2 D1 D2 (HM): writes a register.
+    mwrd(0x06, false);
+    /// MWRCS S1 S2 S3 D1 D2 (HM): writes coils.
+    mwrcs(0x0f, true);
+    /// MWRDS S1 S2 S3 D1 D2 (HM): writes registers.
+    mwrds(0x10, true);
+}
