@@ -134,8 +134,10 @@ pub(super) const ROWS: &[Inst] = &[
             table("D2").open_ended(),
             table("D3"),
             src("D4", CONSTANTS.or(DATA)),
-            both("D5", DATA).word().len(28),
+            // The manual says 28 words, and lists parameters up to the thirty-first.
+            both("D5", DATA).word().len(31),
         ])
+        .call(RtFn::AxisCam)
         .text("The axis follows register D3 along the cam table at D2; the 28 words at D5 say when it engages and disengages."),
     wide("PCTAB", "Cam table")
         .takes(&[both("D1", DATA).word().len(16), table("D2").open_ended()])

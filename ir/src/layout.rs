@@ -130,12 +130,12 @@ const IN_ARRAY: u8 = 2;
 const FIRST_ERROR: u32 = 8068;
 
 /// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the functions
-/// it calls use (`flags`). They may use devices of a `whole` class by number.
+/// it calls use (`flags`). They may use devices of the `whole` classes by number.
 pub fn build(
     module: &mut Module,
     wanted: &Wanted,
     flags: &[(DeviceClass, u32)],
-    whole: Option<DeviceClass>,
+    whole: &[DeviceClass],
 ) {
     let mut builder = Builder::new(module);
     let model = module.model;
@@ -150,7 +150,7 @@ pub fn build(
     for &(class, number) in wanted.observe.iter().chain(flags) {
         builder.mark(class, number, 1, false);
     }
-    if let Some(class) = whole {
+    for &class in whole {
         builder.mark_run(class);
     }
     if wanted.observe_all {

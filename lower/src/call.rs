@@ -10,6 +10,17 @@ use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
 use std::borrow::Cow;
 
+/// Classes of which registers may name a device at run time.
+const ANYWHERE: [DeviceClass; 7] = [
+    DeviceClass::X,
+    DeviceClass::Y,
+    DeviceClass::M,
+    DeviceClass::S,
+    DeviceClass::T,
+    DeviceClass::C,
+    DeviceClass::D,
+];
+
 impl Lowerer<'_> {
     pub(super) fn call(&mut self, inst: &Inst, function: RtFn) {
         if self.inline_words(function) || self.inline_block(function) {
@@ -21,6 +32,9 @@ impl Lowerer<'_> {
         let slot = self.slot(needs.state);
         if needs.pulses {
             self.use_outputs(inst, needs.looks());
+        }
+        if needs.anywhere {
+            self.specials.whole.extend(ANYWHERE);
         }
         if needs.signals {
             self.find_signals(inst, function, slot);
@@ -168,7 +182,7 @@ impl Lowerer<'_> {
             return;
         }
         if self.specials.has(DeviceClass::D, clear.register) {
-            self.specials.whole = Some(DeviceClass::Y);
+            self.specials.whole.push(DeviceClass::Y);
         }
         let mut words = self.model.special_words();
         let chosen = words.find(|word| clear.chooses == 0 && word.0 == clear.register);

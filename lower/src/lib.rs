@@ -96,7 +96,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Di
         &mut module,
         &options.wanted,
         &specials.flags,
-        specials.whole,
+        &specials.whole,
     );
     module.comments = resolved
         .program

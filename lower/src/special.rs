@@ -19,8 +19,8 @@ pub(super) struct Specials {
     registers: Vec<bool>,
     /// Those that the called functions use as flags.
     pub(super) flags: Vec<(DeviceClass, u32)>,
-    /// A class that called functions may access anywhere.
-    pub(super) whole: Option<DeviceClass>,
+    /// Classes that called functions may access anywhere.
+    pub(super) whole: Vec<DeviceClass>,
     /// Whether the program writes one of M8000–M8003.
     pub(super) writes_run_flags: bool,
 }
@@ -31,7 +31,7 @@ impl Specials {
             relays: vec![options.wanted.observe_all; COUNT],
             registers: vec![options.wanted.observe_all; COUNT],
             flags: Vec::new(),
-            whole: None,
+            whole: Vec::new(),
             writes_run_flags: reached.writes_run_flags,
         };
         for &(class, number) in options.wanted.observe.iter().chain(&reached.special) {

@@ -36,6 +36,8 @@ pub struct Needs {
     pub names_port: bool,
     /// It works on a serial port that a register names: all of the model are there.
     pub any_port: bool,
+    /// Registers tell it devices by number, of any class that a scan may write.
+    pub anywhere: bool,
 }
 
 impl Needs {
@@ -103,6 +105,7 @@ macro_rules! registry {
                         port: false,
                         names_port: false,
                         any_port: false,
+                        anywhere: false,
                     };
                     $($(needs.$need = true;)*)?
                     needs
@@ -503,6 +506,8 @@ registry! {
     AxisGear = axis_follow::axis_gear(axis, d2, d3, d4, d5) [state, always, pulses];
     /// PTOUT of HM: follows a table.
     AxisPtout = axis_follow::axis_ptout(axis, d2, d3, d4, d5) [state, always, pulses];
+    /// CAM of HM: follows a master along a curve while it is engaged.
+    AxisCam = axis_cam::axis_cam(axis, d2, d3, d4, d5) [state, always, pulses, anywhere];
     /// IPL of HM: inserts pulses.
     AxisIpl = axis_follow::axis_ipl(axis, d2) [state, always, pulses];
     /// JOG of HM.

@@ -16,10 +16,10 @@ use crate::plc::Class;
 use crate::pulse::Train;
 
 /// Words of the memory.
-const PENDING: usize = 2;
+pub(super) const PENDING: usize = 2;
 const MASTER: usize = 3;
 const REST: usize = 4;
-const PLACE: usize = 5;
+pub(super) const PLACE: usize = 5;
 
 /// GEAR D1 D2 D3 D4 D5: axis D1 follows register D2, a count (D3 = 0) or what it has moved on (1), by D4 / D5. It stops at once with its drive.
 pub fn axis_gear(cx: &mut Cx) -> Done {
@@ -96,17 +96,21 @@ fn table(cx: &mut Cx, axis: Registers) -> Done {
     let master = cx.dword(2, 0)?;
     let mut moved = i64::from(master.wrapping_sub(cx.state().0[MASTER])).max(0);
     let mut pulses = 0;
-    while again && moved >= range {
-        pulses += go_to(cx, steps, range, range)?;
+    let rounds = moved / range;
+    if again && rounds > 0 {
+        pulses += i64::from(go_to(cx, steps, range, range)?);
         let first = cx.dword(1, 2)?;
         let state = cx.state();
-        state.0[MASTER] = state.0[MASTER].wrapping_add(range as i32);
+        let whole = i64::from(state.0[PLACE]) - i64::from(first);
+        pulses += whole * (rounds - 1);
+        state.0[MASTER] = state.0[MASTER].wrapping_add((rounds * range) as i32);
         state.0[PLACE] = first;
-        moved -= range;
+        moved -= rounds * range;
     }
     let moved = moved.min(range);
-    pulses += go_to(cx, steps, moved, range)?;
-    hand_over(cx, axis, pulses)?;
+    pulses += i64::from(go_to(cx, steps, moved, range)?);
+    let pulses = pulses.clamp(i64::from(i32::MIN), i64::from(i32::MAX));
+    hand_over(cx, axis, pulses as i32)?;
     if moved == range && cx.state().0[PENDING] == 0 && !axis.generator(cx)?.is_busy() {
         axis.end(cx, state::DONE);
     }
@@ -114,7 +118,7 @@ fn table(cx: &mut Cx, axis: Registers) -> Done {
 }
 
 /// The pulses to the place in the table where the master has moved by so much of its range, between two of its points.
-fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i32, Fault> {
+pub(super) fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i32, Fault> {
     let point = |cx: &Cx, n: i64| -> Result<i64, Fault> {
         let offset = i32::try_from(2 + 2 * n).map_err(|_| Fault::DEVICE)?;
         cx.dword(1, offset).map(i64::from)
@@ -133,7 +137,7 @@ fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i32, Fault> 
 
 /// Hands pulses over to the axis. Those in the other direction wait until it rests. More than its output could send in the time of a scan
 /// are an error.
-fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
+pub(super) fn hand_over(cx: &mut Cx, axis: Registers, pulses: i32) -> Done {
     let wanted = u64::from(pulses.unsigned_abs()) * 1_000_000 / cx.dt_ms().max(1) as u64;
     if wanted > axis.most(cx) {
         return axis.fail(cx, error::OVERSPEED);

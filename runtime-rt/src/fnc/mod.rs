@@ -4,6 +4,7 @@ pub(crate) mod digits;
 mod output;
 
 pub mod axes;
+pub mod axis_cam;
 pub mod axis_follow;
 pub mod axis_home;
 pub mod axis_jog;
