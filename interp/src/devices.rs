@@ -6,7 +6,7 @@ use rungc_models::runs::is_special;
 use rungc_rt::{Class, Counter16, Counter32, FIRST_COUNTER32, FIRST_SPECIAL, Timer};
 use rungc_syntax::DeviceClass;
 
-/// The class as the runtime numbers it; `None` for pointers and nesting levels, which are no storage.
+/// The class as the runtime numbers it; `None` for pointers and nesting levels, which are not storage.
 pub fn rt_class(class: DeviceClass) -> Option<Class> {
     Some(match class {
         DeviceClass::X => Class::X,
@@ -45,13 +45,13 @@ struct Row {
 pub(crate) struct BitSlot(u32);
 
 impl BitSlot {
-    /// The slot so many numbers on in the same class.
+    /// The slot `numbers` further on in the same class.
     pub(crate) fn plus(self, numbers: u32) -> Self {
         BitSlot(self.0.wrapping_add(numbers))
     }
 }
 
-/// The devices of some classes, one class behind the other.
+/// The devices of some classes, one class after the other.
 struct Bank<T> {
     cells: Vec<T>,
     presence: Vec<Presence>,
@@ -155,7 +155,7 @@ impl Devices {
         }
     }
 
-    /// The storage behind a word device's name.
+    /// The device that a word device's name stands for.
     fn canonical(&self, class: Class, number: u32) -> (Class, u32) {
         if class == Class::D && number >= FIRST_SPECIAL {
             let alias = self.aliases.iter().find(|(d, ..)| *d == number);
@@ -186,7 +186,15 @@ impl Devices {
                 self.counters16.get(class, number).map(|c| c.done)
             }
             Class::C => self.counters32.get(class, number).map(|c| c.done),
-            _ => self.bits.get(class, number).copied(),
+            Class::X
+            | Class::Y
+            | Class::M
+            | Class::S
+            | Class::D
+            | Class::R
+            | Class::V
+            | Class::Z
+            | Class::ER => self.bits.get(class, number).copied(),
         }
     }
 
@@ -201,7 +209,15 @@ impl Devices {
                 let counter = self.counters32.get_mut(class, number);
                 counter.map(|c| &mut c.done)
             }
-            _ => self.bits.get_mut(class, number),
+            Class::X
+            | Class::Y
+            | Class::M
+            | Class::S
+            | Class::D
+            | Class::R
+            | Class::V
+            | Class::Z
+            | Class::ER => self.bits.get_mut(class, number),
         }
     }
 
@@ -210,7 +226,15 @@ impl Devices {
         match class {
             Class::T => self.timers.get(class, number).map(|t| t.value),
             Class::C => self.counters16.get(class, number).map(|c| c.value),
-            _ => self.words.get(class, number).copied(),
+            Class::X
+            | Class::Y
+            | Class::M
+            | Class::S
+            | Class::D
+            | Class::R
+            | Class::V
+            | Class::Z
+            | Class::ER => self.words.get(class, number).copied(),
         }
     }
 
@@ -222,7 +246,15 @@ impl Devices {
                 let counter = self.counters16.get_mut(class, number);
                 counter.map(|c| &mut c.value)
             }
-            _ => self.words.get_mut(class, number),
+            Class::X
+            | Class::Y
+            | Class::M
+            | Class::S
+            | Class::D
+            | Class::R
+            | Class::V
+            | Class::Z
+            | Class::ER => self.words.get_mut(class, number),
         }
     }
 

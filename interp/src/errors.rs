@@ -3,6 +3,9 @@
 use crate::machine::Machine;
 use rungc_rt::{Class, Plc};
 
+/// The classes of index registers.
+const INDEX_CLASSES: [Class; 2] = [Class::Z, Class::V];
+
 /// How many index registers of each class are kept.
 const INDEXES: usize = 8;
 
@@ -18,18 +21,14 @@ pub struct OperationError {
     /// How often it has happened.
     pub times: u64,
     /// Z0 to Z7 and V0 to V7, as they were the first time.
-    indexes: [[i16; INDEXES]; 2],
+    indexes: [[i16; INDEXES]; INDEX_CLASSES.len()],
 }
 
 impl OperationError {
     /// What an index register held when it happened first.
     pub fn index(&self, class: Class, number: u32) -> Option<i16> {
-        let of_class = match class {
-            Class::Z => &self.indexes[0],
-            Class::V => &self.indexes[1],
-            _ => return None,
-        };
-        of_class.get(number as usize).copied()
+        let i = INDEX_CLASSES.iter().position(|&index| index == class)?;
+        self.indexes[i].get(number as usize).copied()
     }
 }
 
@@ -39,15 +38,15 @@ impl Machine<'_> {
         &self.errors
     }
 
-    /// Takes note of an error.
+    /// Records an error.
     pub(crate) fn log_error(&mut self, code: u16, step: u32) {
-        if let Some(&i) = self.errors_by_place.get(&(step, code)) {
+        if let Some(&i) = self.errors_by_site.get(&(step, code)) {
             self.errors[i].times += 1;
             return;
         }
-        self.errors_by_place.insert((step, code), self.errors.len());
+        self.errors_by_site.insert((step, code), self.errors.len());
         let register = |class, n: usize| self.word(class, n as u32).unwrap_or(0);
-        let indexes = [Class::Z, Class::V].map(|class| std::array::from_fn(|n| register(class, n)));
+        let indexes = INDEX_CLASSES.map(|class| std::array::from_fn(|n| register(class, n)));
         self.errors.push(OperationError {
             first_ms: self.sys.now_ms,
             step,

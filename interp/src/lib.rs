@@ -2,11 +2,14 @@
 //!
 //! A [`Machine`] holds the devices of a model and executes a module on them, statement by statement, as [`rungc_ir::node`] specifies.
 //! It depends on the IR and on the runtime's instruction functions only: not on the passage from instructions to the IR, not on a
-//! backend, and not on whoever runs it. Start reading at [`Machine`] (`machine.rs`, the scan cycle), then `exec.rs` (statements and
-//! expressions), `logic.rs` (contact logic, decoded when a program is loaded) and `devices.rs` (the memory).
+//! backend, and not on whoever runs it. Start reading at [`Machine`] (`machine.rs`, the scan cycle), then `exec.rs` (statements), `eval.rs`
+//! (expressions), `logic.rs` (contact logic, decoded when a program is loaded) and `devices.rs` (the memory).
+
+#![deny(clippy::wildcard_enum_match_arm)]
 
 mod devices;
 mod errors;
+mod eval;
 mod exec;
 mod logic;
 mod machine;

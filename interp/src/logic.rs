@@ -2,8 +2,8 @@
 //!
 //! Nearly all of a scan is the logic of contacts, so its expressions ([`Expr::And`], [`Expr::Or`], [`Expr::Not`] and what they join)
 //! are not walked as trees. They are decoded into what a ladder's contacts are written as, an instruction list:
-//! `((X000 | M0) & !X001)` is LD X000, OR M0, ANI X001. What is joined is a device whose place is known, or any other
-//! expression, which `exec` evaluates.
+//! `((X000 | M0) & !X001)` is LD X000, OR M0, ANI X001. What is joined is a device whose slot is known, or any other
+//! expression, which `eval` evaluates.
 
 use crate::devices::{BitSlot, Devices, rt_class};
 use rungc_ir::node::{Expr, ExprId, Place, TempId, Ty};
@@ -26,7 +26,7 @@ pub(crate) enum Join {
 pub(crate) enum Input {
     /// A device.
     Bit(BitSlot),
-    /// A device that moves on in each round of a loop: [`Logic::strided`] so many.
+    /// A device that is another one in each iteration of a loop: an index of [`Logic::strided`].
     Strided(u32),
     /// The contact of a timer or counter, which is in its memory.
     Contact(Class, u32),
@@ -34,7 +34,7 @@ pub(crate) enum Input {
     Temp(TempId),
     /// Any other expression.
     Expr(ExprId),
-    /// The block that has just been finished, which is thereby taken away.
+    /// The block that has just been finished, which this removes.
     Block,
 }
 
@@ -50,11 +50,11 @@ pub(crate) struct Item {
 /// A device that a [`rungc_ir::node::Stmt::Repeat`] leads to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Strided {
-    /// In round 0.
+    /// In iteration 0.
     pub(crate) first: BitSlot,
-    pub(crate) round: TempId,
-    /// How far it moves on in each round.
-    pub(crate) by: u32,
+    pub(crate) iteration: TempId,
+    /// The distance between the devices of two iterations.
+    pub(crate) stride: u32,
 }
 
 /// The lists of a module.
@@ -149,14 +149,14 @@ impl Decoder<'_> {
     /// Appends the items that make a block of an expression. Returns how many blocks are open at most meanwhile.
     fn block(&mut self, id: ExprId) -> u32 {
         let (inner, inverted) = self.plain(id);
-        let depth = match *self.module.expr(inner) {
-            Expr::And(a, b) => self.join(Join::And, a, b),
-            Expr::Or(a, b) => self.join(Join::Or, a, b),
-            _ => {
-                let input = self.input(inner);
-                self.push(Join::Load, input, inverted);
-                return 1;
-            }
+        let depth = if let Expr::And(a, b) = *self.module.expr(inner) {
+            self.join(Join::And, a, b)
+        } else if let Expr::Or(a, b) = *self.module.expr(inner) {
+            self.join(Join::Or, a, b)
+        } else {
+            let input = self.input(inner);
+            self.push(Join::Load, input, inverted);
+            return 1;
         };
         if inverted {
             self.push(Join::Load, Input::Block, true);
@@ -198,31 +198,33 @@ impl Decoder<'_> {
 
     /// What an expression that joins no others is to an item.
     fn input(&mut self, id: ExprId) -> Input {
-        let known = match *self.module.expr(id) {
-            Expr::Temp(temp) => Some(Input::Temp(temp)),
-            Expr::ReadBit(place) => self.device(place),
-            _ => None,
-        };
-        known.unwrap_or_else(|| {
-            self.open.extend(walk::operands(self.module.expr(id)));
-            Input::Expr(id)
-        })
+        let expr = self.module.expr(id);
+        if let Expr::Temp(temp) = *expr {
+            return Input::Temp(temp);
+        }
+        if let Expr::ReadBit(place) = *expr
+            && let Some(device) = self.device(place)
+        {
+            return device;
+        }
+        self.open.extend(walk::operands(expr));
+        Input::Expr(id)
     }
 
-    /// A device whose place is known when the program is loaded, but for the round of a loop.
+    /// A device whose slot is known when the program is loaded, except for the iteration of a loop.
     fn device(&mut self, place: Place) -> Option<Input> {
         let class = rt_class(place.class)?;
         let slot = self.devices.bit_slot(class, place.number);
         let Some(index) = place.index else {
             return Some(slot.map_or(Input::Contact(class, place.number), Input::Bit));
         };
-        let Expr::Stride(round, by) = *self.module.expr(index) else {
+        let Expr::Stride(iteration, stride) = *self.module.expr(index) else {
             return None;
         };
         let strided = Strided {
             first: slot?,
-            round,
-            by,
+            iteration,
+            stride,
         };
         self.logic.strided.push(strided);
         Some(Input::Strided(self.logic.strided.len() as u32 - 1))
@@ -323,14 +325,14 @@ mod tests {
         let (mut module, contacts) = contacts(32);
         let pairs = contacts.chunks(2).map(|pair| halves(&mut module, pair));
         let pairs: Vec<_> = pairs.collect();
-        let behind = |a, b| Expr::And(a, b);
+        let after = |a, b| Expr::And(a, b);
         let before = |a, b| Expr::And(b, a);
         let mut chain = |join: fn(ExprId, ExprId) -> Expr| {
             let all = pairs.iter().copied();
             all.reduce(|chain, pair| module.add(join(chain, pair)))
                 .expect("16 pairs")
         };
-        let chains = [chain(behind), chain(before)];
+        let chains = [chain(after), chain(before)];
         let tree = halves(&mut module, &contacts);
         for (number, (value, most)) in (0..).zip([(chains[0], 2), (chains[1], 2), (tree, 5)]) {
             out(&mut module, number, value);

@@ -1,21 +1,21 @@
 //! The reference interpreter: the machine that a [`Module`] runs on, and its scan cycle.
 //!
 //! It has every device of the model, so it answers for devices that compiled code leaves out. What statements and expressions
-//! mean is in `exec`, word for word as [`rungc_ir::node`] specifies it.
+//! mean is in `exec` and `eval`, word for word as [`rungc_ir::node`] specifies it.
 
 use crate::devices::Devices;
 use crate::errors::OperationError;
-use crate::exec::Value;
+use crate::eval::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
-use rungc_ir::node::{FunctionKind, Ty};
+use rungc_ir::node::FunctionKind;
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_rt::{
     Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Program, Pulses, State, Stop, Sys,
 };
 use std::collections::BTreeMap;
 
-/// The functions that a host asks for, by their places in the module.
+/// The functions that a host calls, by their indexes in the module.
 struct Entries {
     take_interrupts: Option<usize>,
     /// By input terminal: of its falling, and of its rising edge.
@@ -29,16 +29,14 @@ impl Entries {
             edges: Vec::new(),
         };
         for (i, function) in module.functions.iter().enumerate() {
-            match function.kind {
-                FunctionKind::TakeInterrupts => entries.take_interrupts = Some(i),
-                FunctionKind::InputEdge { input, kind } => {
-                    let input = input as usize;
-                    if entries.edges.len() <= input {
-                        entries.edges.resize(input + 1, [None; 2]);
-                    }
-                    entries.edges[input][usize::from(kind == EdgeKind::Rising)] = Some(i);
+            if function.kind == FunctionKind::TakeInterrupts {
+                entries.take_interrupts = Some(i);
+            } else if let FunctionKind::InputEdge { input, kind } = function.kind {
+                let input = input as usize;
+                if entries.edges.len() <= input {
+                    entries.edges.resize(input + 1, [None; 2]);
                 }
-                _ => {}
+                entries.edges[input][usize::from(kind == EdgeKind::Rising)] = Some(i);
             }
         }
         entries
@@ -72,8 +70,8 @@ pub struct Machine<'m> {
     steps_left: u32,
     pub(crate) last_error: LastError,
     pub(crate) errors: Vec<OperationError>,
-    /// Where the error of a step and a code stands among them.
-    pub(crate) errors_by_place: BTreeMap<(u32, u16), usize>,
+    /// By step and code: the index of the error in `errors`.
+    pub(crate) errors_by_site: BTreeMap<(u32, u16), usize>,
     /// Operands of the call being executed; kept to save the allocation.
     pub(crate) operands: Vec<Operand>,
     states: Vec<State>,
@@ -104,7 +102,7 @@ impl<'m> Machine<'m> {
             steps_left: 0,
             last_error: LastError::NONE,
             errors: Vec::new(),
-            errors_by_place: BTreeMap::new(),
+            errors_by_site: BTreeMap::new(),
             operands: Vec::new(),
             states: vec![State::default(); usize::from(module.states) + 1],
             axes: vec![Axis::new(); module.pulse_outputs.len()],
@@ -145,7 +143,7 @@ impl<'m> Machine<'m> {
         }
         self.sys = Sys::power_on();
         self.errors.clear();
-        self.errors_by_place.clear();
+        self.errors_by_site.clear();
         self.restart_watchdog();
         self.begin_run();
     }
@@ -162,7 +160,7 @@ impl<'m> Machine<'m> {
         self.devices.forget_coils();
     }
 
-    /// Counts the pulses that have been sent, and takes notice of trains that have ended.
+    /// Counts the pulses that have been sent, and sets the flags of the trains that have ended.
     fn count_pulses(&mut self, hal: &mut dyn Hal, now_us: u32) {
         if !self.module.sends_pulses() {
             return;
@@ -321,7 +319,7 @@ impl Plc for Machine<'_> {
     }
 
     fn state(&mut self, slot: u16) -> &mut State {
-        // Slot 0 belongs to instructions without memory; a slot that the module does not have is taken for it.
+        // Slot 0 belongs to instructions without memory; a slot that the module does not have is treated as slot 0.
         let i = usize::from(slot);
         let i = if i < self.states.len() { i } else { 0 };
         &mut self.states[i]
@@ -372,20 +370,18 @@ impl Plc for Machine<'_> {
                 Some(counter) => counter.reset(),
                 None => self.devices.counter32_mut(number)?.reset(),
             },
-            _ => return None,
+            Class::X
+            | Class::Y
+            | Class::M
+            | Class::S
+            | Class::D
+            | Class::R
+            | Class::V
+            | Class::Z
+            | Class::ER => {
+                return None;
+            }
         }
         Some(())
-    }
-}
-
-impl Value {
-    /// What a temporary of this type holds before it is first assigned.
-    fn zero(ty: Ty) -> Self {
-        match ty {
-            Ty::Bit => Value::Bit(false),
-            Ty::I16 => Value::I16(0),
-            Ty::I32 => Value::I32(0),
-            Ty::F32 => Value::F32(0.0),
-        }
     }
 }
