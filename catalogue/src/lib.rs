@@ -32,7 +32,7 @@ mod tests;
 pub use explain::{explain, special_table, support_table};
 pub use form::Form;
 pub use limits::Limits;
-pub use lookup::{Found, all, find};
+pub use lookup::{Family, Found, all, families, find};
 
 use rungc_models::{Model, ModelId, ModelSet};
 use rungc_rt::{CmpOp, RtFn};

@@ -8,26 +8,110 @@ use crate::Form;
 use rustc_hash::FxHashMap;
 use std::sync::OnceLock;
 
+/// A family of instructions, as the manuals group them.
+#[derive(Clone, Copy, Debug)]
+pub struct Family {
+    /// Short name in lower case, for file names: `high-speed`.
+    pub name: &'static str,
+    /// Title of its page.
+    pub title: &'static str,
+    /// Its rows, in the manuals' order.
+    pub rows: &'static [Inst],
+}
+
 /// The families, each a file of this folder.
-const FAMILIES: &[&[Inst]] = &[
-    basic::ROWS,
-    flow::ROWS,
-    compare::ROWS,
-    move_::ROWS,
-    arith::ROWS,
-    rotate::ROWS,
-    data::ROWS,
-    high_speed::ROWS,
-    handy::ROWS,
-    external_io::ROWS,
-    serial::ROWS,
-    float::ROWS,
-    position::ROWS,
-    clock::ROWS,
-    block::ROWS,
-    string::ROWS,
-    motion_hm::ROWS,
+const FAMILIES: &[Family] = &[
+    Family {
+        name: "basic",
+        title: "Contacts, coils and the step ladder",
+        rows: basic::ROWS,
+    },
+    Family {
+        name: "flow",
+        title: "Program flow",
+        rows: flow::ROWS,
+    },
+    Family {
+        name: "compare",
+        title: "Comparisons",
+        rows: compare::ROWS,
+    },
+    Family {
+        name: "move",
+        title: "Moving values",
+        rows: move_::ROWS,
+    },
+    Family {
+        name: "arithmetic",
+        title: "Integer arithmetic and logic",
+        rows: arith::ROWS,
+    },
+    Family {
+        name: "rotate",
+        title: "Rotating, shifting and queues",
+        rows: rotate::ROWS,
+    },
+    Family {
+        name: "data",
+        title: "Data processing",
+        rows: data::ROWS,
+    },
+    Family {
+        name: "high-speed",
+        title: "High-speed inputs and outputs",
+        rows: high_speed::ROWS,
+    },
+    Family {
+        name: "handy",
+        title: "Handy instructions",
+        rows: handy::ROWS,
+    },
+    Family {
+        name: "external-io",
+        title: "Keys, displays and modules",
+        rows: external_io::ROWS,
+    },
+    Family {
+        name: "serial",
+        title: "Communication and memory cassettes",
+        rows: serial::ROWS,
+    },
+    Family {
+        name: "float",
+        title: "Floating point",
+        rows: float::ROWS,
+    },
+    Family {
+        name: "position",
+        title: "Positioning",
+        rows: position::ROWS,
+    },
+    Family {
+        name: "clock",
+        title: "Clock",
+        rows: clock::ROWS,
+    },
+    Family {
+        name: "block",
+        title: "Blocks, limits, scaling and tables",
+        rows: block::ROWS,
+    },
+    Family {
+        name: "string",
+        title: "Text",
+        rows: string::ROWS,
+    },
+    Family {
+        name: "motion-hm",
+        title: "Axis motion and advanced interrupts of HM",
+        rows: motion_hm::ROWS,
+    },
 ];
+
+/// All families, in the manuals' order.
+pub fn families() -> &'static [Family] {
+    FAMILIES
+}
 
 /// A row and the form that its spelling names.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +128,7 @@ pub struct Found {
 
 /// All rows, in the order of the manual's families.
 pub fn all() -> impl Iterator<Item = &'static Inst> {
-    FAMILIES.iter().copied().flatten()
+    FAMILIES.iter().flat_map(|family| family.rows)
 }
 
 /// Finds an instruction by any of its spellings, in upper case: `DADDP`, `LDD>=`, `ECMP`. A label (`P12`, `I001`) is found as the

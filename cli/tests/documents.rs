@@ -1,6 +1,11 @@
-//! What the documents show is what the command line does.
+//! What the documentation shows is what the command line does.
+//!
+//! A fence with a file name (` ```toml lamp.plctest.toml `) is a file of the page's example. In a fence marked `console`, each line
+//! that begins with `$ rungc` is run in a folder with these files and the example programs, and what follows it is compared with
+//! what the command prints: `...` stands for any lines, times are ignored, and a command without output need only succeed.
 
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -8,130 +13,270 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The fenced blocks of a page in this language that begin like this, without their fences.
-fn blocks(page: &str, language: &str, start: &str) -> Vec<String> {
+fn updating() -> bool {
+    std::env::var_os("UPDATE_DOCS").is_some()
+}
+
+/// A fenced block of a page.
+struct Block {
+    /// What follows the fence: a language, and the name of a file.
+    info: String,
+    text: String,
+}
+
+fn blocks(page: &str) -> Vec<Block> {
     let mut found = Vec::new();
-    let mut open: Option<(bool, String)> = None;
+    let mut open: Option<Block> = None;
     for line in page.lines() {
         match (open.as_mut(), line.strip_prefix("```")) {
-            (None, Some(fence)) => open = Some((fence == language, String::new())),
-            (Some((_, text)), None) => *text += &format!("{line}\n"),
+            (None, Some(info)) => {
+                open = Some(Block {
+                    info: info.to_owned(),
+                    text: String::new(),
+                });
+            }
+            (Some(block), None) => block.text += &format!("{line}\n"),
             (Some(_), Some(_)) => found.extend(open.take()),
             (None, None) => {}
         }
     }
-    let wanted = |(fits, text): (bool, String)| (fits && text.starts_with(start)).then_some(text);
-    found.into_iter().filter_map(wanted).collect()
+    assert!(open.is_none(), "a fence is not closed");
+    found
+}
+
+/// The file of a page's example that has this name.
+fn example(page: &str, name: &str) -> String {
+    let block = blocks(page)
+        .into_iter()
+        .find(|block| block.info.split(' ').nth(1) == Some(name));
+    block.unwrap_or_else(|| panic!("no fence {name}")).text
 }
 
 /// Lines without the times that differ from run to run.
 fn lines(text: &str) -> Vec<String> {
-    let timeless = |line: &str| match line.split_once(") in ") {
-        Some((before, rest)) => {
+    let timeless = |line: &str| match (line.split_once(") in "), line.rsplit_once(" (0.")) {
+        (Some((before, rest)), _) => {
             let counts = rest.trim_start_matches(|c: char| c.is_ascii_digit());
             format!("{before}) in{counts}")
         }
-        None => line.to_owned(),
+        (None, Some((before, rest))) if rest.ends_with(" s)") => before.to_owned(),
+        _ => line.trim_end().to_owned(),
     };
     let filled = text.lines().filter(|line| !line.trim().is_empty());
     filled.map(timeless).collect()
 }
 
+/// Whether lines are as expected; `...` stands for any of them.
+fn fits(printed: &[String], expected: &[String]) -> bool {
+    match expected.split_first() {
+        None => printed.is_empty(),
+        Some((first, rest)) if first == "..." => {
+            (0..=printed.len()).any(|skipped| fits(&printed[skipped..], rest))
+        }
+        Some((first, rest)) => printed.first() == Some(first) && fits(&printed[1..], rest),
+    }
+}
+
+/// What rungc prints in a folder, as a terminal would show it, and whether it succeeds.
 fn rungc(folder: &Path, args: &[&str]) -> (String, bool) {
-    let output = Command::new(env!("CARGO_BIN_EXE_rungc"))
+    let (mut printed, terminal) = std::io::pipe().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
         .args(args)
         .current_dir(folder)
-        .output()
+        .stdout(terminal.try_clone().unwrap())
+        .stderr(terminal)
+        .spawn()
         .unwrap();
-    let text = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    (text.concat(), output.status.success())
+    let mut text = String::new();
+    printed.read_to_string(&mut text).unwrap();
+    (text, child.wait().unwrap().success())
 }
 
-#[test]
-fn readme_shows_what_happens() {
-    let readme = fs::read_to_string(root().join("README.md")).unwrap();
-    let example = fs::read_to_string(root().join("examples/programs/motor.il")).unwrap();
-    assert_eq!(blocks(&readme, "", "; A motor")[0].trim(), example.trim());
-    let folder = tempfile::tempdir().unwrap();
-    fs::create_dir_all(folder.path().join("examples/programs")).unwrap();
-    fs::write(folder.path().join("examples/programs/motor.il"), &example).unwrap();
-    let console = blocks(&readme, "", "$ rungc");
-    for part in console[0].split("$ rungc ").skip(1) {
-        let (command, expected) = part.split_once('\n').unwrap();
-        let args: Vec<_> = command.split_whitespace().collect();
-        let (printed, succeeded) = rungc(folder.path(), &args);
-        assert!(succeeded, "{command}");
-        assert_eq!(lines(&printed), lines(expected), "{command}");
+/// The pages that are shown to readers: README and the book's.
+fn pages() -> Vec<PathBuf> {
+    let mut pages = vec![root().join("README.md")];
+    for entry in fs::read_dir(root().join("docs/src")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "md") {
+            pages.push(path);
+        }
     }
-    let emitted = fs::read_to_string(folder.path().join("firmware/plc/motor.c")).unwrap();
-    let heart = blocks(&readme, "c", "    /* step 0");
-    assert!(emitted.contains(&heart[0]), "motor.c is now:\n{emitted}");
+    pages.sort();
+    pages
+}
+
+/// A folder with the example programs and the files of a page.
+fn desk(page: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let examples = folder.path().join(EXAMPLES);
+    fs::create_dir_all(&examples).unwrap();
+    for entry in fs::read_dir(root().join(EXAMPLES)).unwrap() {
+        let entry = entry.unwrap();
+        fs::copy(entry.path(), examples.join(entry.file_name())).unwrap();
+    }
+    for block in blocks(page) {
+        if let Some(name) = block.info.split(' ').nth(1) {
+            fs::write(folder.path().join(name), block.text).unwrap();
+        }
+    }
+    folder
+}
+
+const EXAMPLES: &str = "examples/programs";
+
+#[test]
+fn commands_print_what_the_pages_show() {
+    let mut run = 0;
+    for path in pages() {
+        let page = fs::read_to_string(&path).unwrap();
+        let folder = desk(&page);
+        for block in blocks(&page) {
+            if block.info != "console" {
+                continue;
+            }
+            for part in block.text.split("$ rungc ").skip(1) {
+                let (command, expected) = part.split_once('\n').unwrap();
+                let args: Vec<_> = command.split_whitespace().collect();
+                let (printed, succeeded) = rungc(folder.path(), &args);
+                let page = path.display();
+                assert!(succeeded, "{page}: {command}\n{printed}");
+                let (printed, expected) = (lines(&printed), lines(expected));
+                assert!(
+                    expected.is_empty() || fits(&printed, &expected),
+                    "{page}: {command}\nprints\n{}\nnot\n{}",
+                    printed.join("\n"),
+                    expected.join("\n")
+                );
+                run += 1;
+            }
+        }
+    }
+    assert!(run >= 10, "only {run} commands were found");
 }
 
 #[test]
-fn the_example_of_machines_runs() {
+fn readme_shows_the_example_and_its_code() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    let motor = fs::read_to_string(root().join(EXAMPLES).join("motor.il")).unwrap();
+    let folder = desk(&readme);
+    let shown = |start: &str| {
+        let block = blocks(&readme)
+            .into_iter()
+            .find(|block| block.text.starts_with(start));
+        block.unwrap_or_else(|| panic!("no fence {start}")).text
+    };
+    assert_eq!(shown("; A motor").trim(), motor.trim());
+    let program = format!("{EXAMPLES}/motor.il");
+    let (printed, succeeded) = rungc(
+        folder.path(),
+        &["build", &program, "--emit", "c", "-o", "plc"],
+    );
+    assert!(succeeded, "{printed}");
+    let emitted = fs::read_to_string(folder.path().join("plc/motor.c")).unwrap();
+    assert!(
+        emitted.contains(&shown("    /* step 0")),
+        "motor.c is now:\n{emitted}"
+    );
+}
+
+#[test]
+fn the_test_of_the_feeder_has_its_program() {
     let page = fs::read_to_string(root().join("docs/src/machines.md")).unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
-    let program = &blocks(&page, "", "LD M8002")[0];
-    let test = &blocks(&page, "toml", "model")[0];
-    write("feeder.il", program);
-    write("feeder.machine.toml", &blocks(&page, "toml", "[[axis]]")[0]);
-    write("feeder.plctest.toml", test);
+    let program = example(&page, "feeder.il");
     let bare = |line: &str| line.split(';').next().unwrap().trim_end().to_owned();
     let bare: Vec<_> = program.lines().map(bare).collect();
-    assert!(
-        test.contains(&bare.join("\n")),
-        "the test has another program"
-    );
-    let (printed, succeeded) = rungc(folder.path(), &["test", "feeder.plctest.toml"]);
-    assert!(succeeded, "{printed}");
-    let command = blocks(&page, "", "$ rungc run feeder").concat();
-    let args = command.trim().strip_prefix("$ rungc ").unwrap();
-    let (printed, succeeded) = rungc(folder.path(), &args.split(' ').collect::<Vec<_>>());
-    assert!(succeeded, "{printed}");
-    let counted = printed.lines().any(|line| line.ends_with("·    █      1"));
-    assert!(counted, "{printed}");
+    let test = example(&page, "feeder.plctest.toml");
+    assert!(test.contains(&bare.join("\n")));
 }
 
 #[test]
 fn the_diagram_is_what_the_command_draws() {
     let page = fs::read_to_string(root().join("docs/src/machines.md")).unwrap();
-    let examples = root().join("examples/programs");
+    let examples = root().join(EXAMPLES);
     let machine = fs::read_to_string(examples.join("drill.machine.toml")).unwrap();
-    assert_eq!(
-        blocks(&page, "toml", "# The machine of drill.il")[0],
-        machine
-    );
-    let folder = tempfile::tempdir().unwrap();
-    let copies = folder.path().join("examples/programs");
-    fs::create_dir_all(&copies).unwrap();
-    for name in ["drill.il", "drill.machine.toml"] {
-        fs::copy(examples.join(name), copies.join(name)).unwrap();
-    }
-    let command = blocks(&page, "", "$ rungc run examples/").concat();
-    let args = command.trim().strip_prefix("$ rungc ").unwrap();
-    let (printed, succeeded) = rungc(folder.path(), &args.split(' ').collect::<Vec<_>>());
+    assert!(blocks(&page).iter().any(|block| block.text == machine));
+    let folder = desk(&page);
+    let command = page
+        .lines()
+        .find_map(|line| {
+            line.strip_prefix("$ rungc ")
+                .filter(|line| line.contains("--plot"))
+        })
+        .unwrap();
+    let (printed, succeeded) = rungc(folder.path(), &command.split(' ').collect::<Vec<_>>());
     assert!(succeeded, "{printed}");
     let drawn = fs::read_to_string(folder.path().join("drill.svg")).unwrap();
     let kept = root().join("docs/src/drill.svg");
-    if std::env::var_os("UPDATE_DOCS").is_some() {
+    if updating() {
         fs::write(&kept, &drawn).unwrap();
     }
     let same = fs::read_to_string(&kept).is_ok_and(|kept| kept == drawn);
     assert!(
         same,
-        "docs/src/drill.svg is not what the command draws: remake it with UPDATE_DOCS=1"
+        "docs/src/drill.svg is not what the command draws: UPDATE_DOCS=1 makes it anew"
     );
 }
 
+/// The project of the page on embedding builds with CMake, where there is one.
 #[test]
-fn the_example_of_test_files_passes() {
-    let page = fs::read_to_string(root().join("docs/src/test-files.md")).unwrap();
+fn the_cmake_project_builds() {
+    let page = fs::read_to_string(root().join("docs/src/embedding.md")).unwrap();
+    let folder = desk(&page);
+    let tool = |args: &[&str]| {
+        let own = Path::new(env!("CARGO_BIN_EXE_rungc")).parent().unwrap();
+        let mut path = vec![own.to_owned()];
+        path.extend(std::env::split_paths(
+            &std::env::var_os("PATH").unwrap_or_default(),
+        ));
+        Command::new("cmake")
+            .args(args)
+            .current_dir(folder.path())
+            .env("PATH", std::env::join_paths(path).unwrap())
+            .output()
+    };
+    let Ok(configured) = tool(&["-S", ".", "-B", "build"]) else {
+        eprintln!("skipped: cmake is not installed");
+        return;
+    };
+    assert!(configured.status.success(), "{configured:?}");
+    let built = tool(&["--build", "build"]).unwrap();
+    assert!(built.status.success(), "{built:?}");
+    let run = Command::new(folder.path().join("build/firmware")).status();
+    assert!(run.unwrap().success());
+}
+
+/// `docs/src/commands.md` is what `--help` prints; `UPDATE_DOCS=1` makes it anew.
+#[test]
+fn the_page_on_commands_is_what_help_prints() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("lamp.plctest.toml");
-    fs::write(&file, &blocks(&page, "toml", "model")[0]).unwrap();
-    let (printed, succeeded) = rungc(folder.path(), &["test", "lamp.plctest.toml"]);
-    assert!(succeeded, "{printed}");
-    assert!(printed.contains("3 passed, 0 failed"), "{printed}");
+    let help = |args: &[&str]| {
+        let (printed, succeeded) = rungc(folder.path(), args);
+        assert!(succeeded, "{printed}");
+        let lines: Vec<_> = printed.lines().map(str::trim_end).collect();
+        lines.join("\n").trim_end().to_owned()
+    };
+    let all = help(&["--help"]);
+    let commands = all.lines().skip_while(|line| *line != "Commands:").skip(1);
+    let names: Vec<_> = commands
+        .take_while(|line| !line.is_empty())
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|name| *name != "help")
+        .collect();
+    let mut page = format!(
+        "# Commands\n\nWhat `rungc help` and `rungc help COMMAND` print.\n\n```text\n{all}\n```\n"
+    );
+    for name in names {
+        let text = help(&[name, "--help"]);
+        page += &format!("\n## {name}\n\n```text\n{text}\n```\n");
+    }
+    let kept = root().join("docs/src/commands.md");
+    if updating() {
+        fs::write(&kept, &page).unwrap();
+    }
+    let same = fs::read_to_string(&kept).is_ok_and(|kept| kept == page);
+    assert!(
+        same,
+        "docs/src/commands.md is not what --help prints: UPDATE_DOCS=1 cargo test -p rungc --test documents makes it anew"
+    );
 }

@@ -2,6 +2,7 @@
 //!
 //! Programs are made from the catalogue's rows; what they should do is not known here: the engines are held to each other.
 
+pub mod book;
 pub mod operands;
 pub mod random;
 pub mod rng;
