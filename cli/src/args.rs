@@ -9,10 +9,10 @@ use rungc_syntax::{Severity, codes, diag};
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// How many diagnostics are printed for people if nothing else is asked for.
+/// Default maximum number of diagnostics in the human format.
 const DIAGNOSTICS: usize = 100;
 
-/// Compiles programs of FX-family PLCs into native Rust and C.
+/// Compile FX-family PLC programs to C and Rust.
 #[derive(Parser, Debug)]
 #[command(
     name = "rungc",
@@ -23,7 +23,7 @@ const DIAGNOSTICS: usize = 100;
 )]
 #[command(after_help = "\
 Examples:
-  rungc check machine.gxw                      what is wrong with a program
+  rungc check machine.gxw                      check a program
   rungc run motor.il --set X000=1@200ms --for 5s --watch Y000,T0
   rungc build MAIN.csv --emit c -o firmware/plc
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
@@ -31,8 +31,8 @@ Examples:
   rungc init machine.gxw                       settings of a project: rungc.toml
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
 
-Exit codes: 0 success, 1 errors in the program, a failed test or a damaged machine, 2 wrong usage or unreadable input,
-130 after Ctrl-C.")]
+Exit codes: 0: success; 1: errors in the program, a failed test, or a simulated machine that hit its end stop;
+2: incorrect usage or unreadable input; 130: interrupted with Ctrl-C.")]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -40,10 +40,10 @@ pub struct Cli {
     /// When to use colours.
     #[arg(long, global = true, value_enum, default_value_t = ColorWhen::Auto, value_name = "WHEN")]
     pub color: ColorWhen,
-    /// Print diagnostics and results alone, without lines about what was done.
+    /// Print only diagnostics and results, no progress.
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Say more about what is done.
+    /// Print more details.
     #[arg(short, long, global = true)]
     pub verbose: bool,
 }
@@ -51,7 +51,7 @@ pub struct Cli {
 /// The commands.
 #[derive(Subcommand, Debug)]
 pub enum Command {
-    /// Report everything that is wrong with a program, without compiling it.
+    /// Check a program without compiling it.
     Check(CheckArgs),
     /// Compile a program to C, Rust, an executable, or show its IR.
     Build(BuildArgs),
@@ -61,9 +61,9 @@ pub enum Command {
     Test(TestArgs),
     /// Rewrite a program as an instruction list or a list export.
     Convert(ConvertArgs),
-    /// Write a rungc.toml, the settings of a project, with a comment on each.
+    /// Write rungc.toml, the settings of a project, with a comment on each.
     Init(InitArgs),
-    /// Learn the codes of instructions that a vendor project holds and rungc does not know, from the list that the editor exports.
+    /// Learn unknown instruction codes in a vendor project from the list that the editor exports.
     Learn(LearnArgs),
     /// Explain a diagnostic code, an instruction or a special device.
     Explain(ExplainArgs),
@@ -77,8 +77,8 @@ pub enum Command {
 /// A program and how to read it.
 #[derive(Args, Debug)]
 pub struct Input {
-    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw); found by
-    /// content, not by name. `-` is standard input. By default the program of rungc.toml.
+    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw); recognised
+    /// by content, not by name. `-` is standard input. Default: the program of rungc.toml.
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     #[command(flatten)]
@@ -88,8 +88,8 @@ pub struct Input {
 /// Programs and how to read them.
 #[derive(Args, Debug)]
 pub struct Inputs {
-    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg) and GX Works2 projects (.gxw), found by
-    /// content, not by name; folders, for all programs in them and below; `-` is standard input. By default the program of
+    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg) and GX Works2 projects (.gxw), recognised by
+    /// content, not by name; folders, for all programs in them and below; `-` is standard input. Default: the program of
     /// rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
@@ -100,17 +100,17 @@ pub struct Inputs {
 /// How to read programs, and how to report what is found.
 #[derive(Args, Debug, Default)]
 pub struct Reading {
-    /// PLC model; by default that of rungc.toml, else the CPU type that the file names, else fx3u.
+    /// PLC model. Default: that of rungc.toml, else the CPU type that the file names, else fx3u.
     #[arg(long, value_parser = model, value_name = "MODEL")]
     pub model: Option<ModelId>,
-    /// Settings of the project (docs/src/project.md); by default the rungc.toml nearest above each program.
+    /// Settings of the project (docs/src/project.md). Default: the nearest rungc.toml, in each program's folder or above it.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
-    /// Encoding of texts, such as windows-1252, gbk or shift_jis; by default the one that a project states or that its texts seem
-    /// to have.
+    /// Encoding of texts, such as windows-1252, gbk or shift_jis. Default: the one that a project states, or the most likely
+    /// one.
     #[arg(long, value_parser = encoding, value_name = "NAME")]
     pub encoding: Option<&'static Encoding>,
-    /// Of a GX Works2 project, read the program as it was last compiled, not its source.
+    /// Read the compiled program of a GX Works2 project, not its source.
     #[arg(long)]
     pub compiled: bool,
     #[command(flatten)]
@@ -118,7 +118,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The same for readers.
+    /// The options for the readers.
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
             encoding: self.encoding,
@@ -131,27 +131,27 @@ impl Reading {
 /// How to report diagnostics.
 #[derive(Args, Clone, Debug)]
 pub struct Reporting {
-    /// How to print diagnostics: for people to standard error; for tools to standard output, or to standard error where the
+    /// Format of diagnostics. Human-readable ones go to standard error, others to standard output, or to standard error if the
     /// command itself writes to standard output.
     #[arg(long, value_enum, default_value_t = Format::Human)]
     pub format: Format,
     /// Treat warnings as errors.
     #[arg(long)]
     pub deny_warnings: bool,
-    /// Leave out warnings and notes with this code (W0203) or name (double-coil); may be repeated.
+    /// Suppress warnings and notes with this code (W0203) or name (double-coil); may be repeated.
     #[arg(short = 'A', long = "allow", value_name = "CODE", value_parser = omissible)]
     pub allow: Vec<&'static str>,
     /// Treat warnings with this code or name as errors; may be repeated.
     #[arg(short = 'D', long = "deny", value_name = "CODE", value_parser = warning)]
     pub deny: Vec<&'static str>,
-    /// Treat a limit of the model with this code (E0105) or name (limits) as a warning; may be repeated. The PLC refuses the
+    /// Treat a limit of the model with this code (E0105) or name (limits) as a warning; may be repeated. The PLC rejects the
     /// program, but it can be compiled.
     #[arg(short = 'W', long = "warn", value_name = "CODE", value_parser = limit)]
     pub warn: Vec<&'static str>,
-    /// What rungc.toml says about codes; the command line wins over it.
+    /// What rungc.toml says about codes; the command line takes precedence.
     #[arg(skip)]
     pub rules: Check,
-    /// How many diagnostics to print for people at most; 0 prints all.
+    /// Maximum number of diagnostics to print in the human format; 0 prints all.
     #[arg(long, default_value_t = DIAGNOSTICS, value_name = "N")]
     pub limit: usize,
 }
@@ -161,7 +161,7 @@ pub struct Reporting {
 pub struct CheckArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// Change instruction lists as diagnostics propose, where that is certainly what was meant, and report what remains.
+    /// Apply the fixes that are certain to instruction lists, and report what remains.
     #[arg(long)]
     pub fix: bool,
 }
@@ -175,47 +175,47 @@ pub struct BuildArgs {
     pub plan: Plan,
 }
 
-/// What to build; rungc.toml gives what the command line leaves open.
+/// What to build; rungc.toml supplies what the command line omits.
 #[derive(Args, Clone, Debug)]
 pub struct Plan {
-    /// What to make.
+    /// Output form.
     #[arg(long, value_enum)]
     pub emit: Option<Emit>,
-    /// Tell what the program takes on the target, built from C: flash, RAM, steps of the longest scan, stack (docs/src/report.md).
+    /// Report resource usage on the target, built from C: flash, RAM, stack, steps of the longest scan (docs/src/report.md).
     #[arg(long)]
     pub report: bool,
-    /// The machine to build for: `host`, or what rustc calls it, such as thumbv7em-none-eabihf. An image is for its board's.
+    /// Target: `host` or a Rust target triple such as thumbv7em-none-eabihf. Images use the board's target.
     #[arg(long, value_parser = target, value_name = "TARGET")]
     pub target: Option<&'static Target>,
-    /// The language that an image is built through.
+    /// Language used to build an image.
     #[arg(long, value_enum, value_name = "LANGUAGE")]
     pub backend: Option<Backend>,
-    /// The board that an image is for (docs/src/boards.md); with c or rust, the sources of the image.
+    /// Description of the board for an image (docs/src/boards.md); with c or rust, writes the sources of the image.
     #[arg(long, value_name = "FILE")]
     pub board: Option<PathBuf>,
-    /// Inputs that switch themselves in an image, for a simulator: `X000=1@2s`; may be repeated or separated by commas.
+    /// Scripted inputs for simulator images: `X000=1@2s`; may be repeated or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "INPUT=VALUE[@TIME]")]
     pub set: Vec<String>,
-    /// When an image ends the simulator that it runs in: `30s`.
+    /// When a simulator image exits: `30s`.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
-    /// What cargo is told besides, such as `-Zbuild-std=core`; may be repeated.
+    /// Extra argument for cargo, such as `-Zbuild-std=core`; may be repeated.
     #[arg(long, value_name = "ARG", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
-    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several programs, the
-    /// folder that takes what is made of each, under its name.
+    /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several programs, a
+    /// folder for all outputs, each under its program's name.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
-    /// Name of the program in the emitted code; by default made from the file's name.
+    /// Name of the program in the emitted code. Default: derived from the file's name.
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
-    /// Add a main program for a host, which scans in real time.
+    /// Add a main program for a host that scans in real time.
     #[arg(long)]
     pub main: bool,
-    /// Leave the IR as lowering made it.
+    /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,
-    /// Replace files that are already there.
+    /// Overwrite existing files.
     #[arg(long)]
     pub force: bool,
 }
@@ -225,35 +225,35 @@ pub struct Plan {
 pub struct RunArgs {
     #[command(flatten)]
     pub input: Input,
-    /// How much virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds.
+    /// Virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds.
     #[arg(long = "for", default_value = "1s", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: u64,
-    /// Virtual time from scan to scan.
+    /// Scan period, in virtual time.
     #[arg(long, default_value = "10ms", value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: u64,
     /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`; may be repeated or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,
     /// Devices to show: `Y000`, `T0`, `D0`, a pair of registers as an integer (`D0.i32`), a float (`D0.f32`) or characters
-    /// (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`). By default what the program
-    /// writes, outputs first, and the inputs that change, twelve at most.
+    /// (`D0.str`), a group of bits (`K4M0`), pulses sent by an output (`Y000.pulses`, `Y000.hz`). Default: what the program
+    /// writes, outputs first, and the inputs that change, up to twelve.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE")]
     pub watch: Vec<String>,
-    /// The machine around the PLC, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
+    /// Simulated machine, whose axes, cylinders and delays follow the outputs and drive inputs (docs/src/machines.md).
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
-    /// Record the program's inputs and outputs and what is watched as a value change dump, which GTKWave and other viewers of
-    /// waveforms show; a file that is there is replaced.
+    /// Record inputs, outputs and watched devices as a value change dump for GTKWave and other waveform viewers; overwrites an
+    /// existing file.
     #[arg(long, value_name = "FILE")]
     pub vcd: Option<PathBuf>,
-    /// Draw positions and speeds of the machine's axes and of pulse outputs, and what is watched, as an SVG; a file that is there
-    /// is replaced.
+    /// Draw positions and speeds of the machine's axes and of pulse outputs, and watched devices, as an SVG; overwrites an
+    /// existing file.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
-    /// Keep step with the clock instead of running as fast as possible.
+    /// Run in real time instead of as fast as possible.
     #[arg(long)]
     pub real_time: bool,
-    /// Fail (exit code 1) if the PLC would show an operation error; --verbose tells of each as it comes.
+    /// Fail (exit code 1) on PLC operation errors; --verbose reports each as it occurs.
     #[arg(long)]
     pub deny_errors: bool,
 }
@@ -261,28 +261,28 @@ pub struct RunArgs {
 /// Arguments of `test`.
 #[derive(Args, Debug)]
 pub struct TestArgs {
-    /// Test files (`*.plctest.toml`), or folders of them. By default those of rungc.toml.
+    /// Test files (`*.plctest.toml`), or folders of them. Default: those of rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// Settings of the project (docs/src/project.md); by default the rungc.toml in this folder or the nearest one above.
+    /// Settings of the project (docs/src/project.md). Default: the rungc.toml in this folder or the nearest one above.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
-    /// What to run the cases on; by default what rungc.toml says, else the interpreter.
+    /// Engine to run the cases on. Default: that of rungc.toml, else the interpreter.
     #[arg(long, value_enum)]
     pub engine: Option<EngineChoice>,
-    /// The machine around the PLC (docs/src/machines.md), for cases that name none.
+    /// Simulated machine (docs/src/machines.md) for cases that do not specify one.
     #[arg(long, value_name = "FILE")]
     pub machine: Option<PathBuf>,
     /// Run only cases whose `file::name` contains this.
     #[arg(long, alias = "only", value_name = "TEXT")]
     pub filter: Option<String>,
-    /// Run only one part of the cases, for several machines that share the work: `1/4` is the first of four.
+    /// Run only one part of the cases, to share the work between machines: `1/4` is the first of four.
     #[arg(long, value_name = "PART/PARTS")]
     pub shard: Option<Shard>,
-    /// How to report the results.
+    /// Format of the results.
     #[arg(long, value_enum, default_value_t = TestFormat::Human)]
     pub format: TestFormat,
-    /// File to write the report to; by default standard output. A file that is there is replaced.
+    /// File to write the results to, overwriting an existing one. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
 }
@@ -292,13 +292,13 @@ pub struct TestArgs {
 pub struct ConvertArgs {
     #[command(flatten)]
     pub inputs: Inputs,
-    /// The form to write.
+    /// Output form.
     #[arg(long, value_enum)]
     pub to: ConvertTo,
-    /// File to write; by default standard output. With several programs, the folder that takes a file for each.
+    /// File to write. Default: standard output. With several programs, a folder for all outputs.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
-    /// Replace the file if it is already there.
+    /// Overwrite an existing file.
     #[arg(long)]
     pub force: bool,
 }
@@ -306,7 +306,7 @@ pub struct ConvertArgs {
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub struct InitArgs {
-    /// The program that the project is about; rungc.toml goes into its folder. By default the only program in this folder.
+    /// The program of the project; rungc.toml is written to its folder. Default: the only program in this folder.
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
 }
@@ -317,13 +317,13 @@ pub struct LearnArgs {
     /// GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw).
     #[arg(value_name = "PROJECT")]
     pub file: PathBuf,
-    /// The list that the editor exported of it (CSV), in the same state.
+    /// The list (CSV) that the editor exported from the same state of the project.
     #[arg(value_name = "EXPORT")]
     pub export: PathBuf,
-    /// Settings that the codes are written to; by default the rungc.toml nearest above the project, else a new one beside it.
+    /// Settings file to write the codes to. Default: the nearest rungc.toml, in the project's folder or above it, else a new one beside it.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
-    /// PLC model; by default that of the settings, else the CPU type that the project names.
+    /// PLC model. Default: that of the settings, else the CPU type that the project names.
     #[arg(long, value_parser = model, value_name = "MODEL")]
     pub model: Option<ModelId>,
 }
@@ -333,7 +333,7 @@ pub struct LearnArgs {
 pub struct ExplainArgs {
     /// A diagnostic code (E0106), an instruction (ADD, LD>=), or a special device (M8013).
     pub topic: String,
-    /// The model whose special devices are meant.
+    /// Model to show special devices for.
     #[arg(long, value_parser = model, value_name = "MODEL")]
     pub model: Option<ModelId>,
 }
@@ -349,19 +349,19 @@ pub enum ColorWhen {
     Never,
 }
 
-/// How to print diagnostics.
+/// Format of diagnostics.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Format {
-    /// For people.
+    /// Human-readable.
     Human,
-    /// One JSON object.
+    /// JSON: one object.
     Json,
     /// SARIF 2.1.0.
     Sarif,
 }
 
 impl Default for Reporting {
-    /// As if the command line said nothing.
+    /// The options of an empty command line.
     fn default() -> Self {
         Reporting {
             format: Format::Human,
@@ -375,7 +375,7 @@ impl Default for Reporting {
     }
 }
 
-/// What `build` makes.
+/// Output forms of `build`.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Emit {
     /// The intermediate representation, as text.
@@ -384,24 +384,24 @@ pub enum Emit {
     C,
     /// A Rust crate.
     Rust,
-    /// An executable for this machine (through C).
+    /// An executable for this machine (built from C).
     Bin,
-    /// A folder with a static library and its headers (through C).
+    /// A folder with a static library and its headers (built from C).
     Lib,
     /// An image for a board.
     Elf,
 }
 
-/// The language that an image is built through.
+/// Language used to build an image.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Backend {
     /// C: the default.
     C,
-    /// Rust: the board's pins alone, no functions in C.
+    /// Rust: the board's pins only, no C functions.
     Rust,
 }
 
-/// What `convert` writes.
+/// Output forms of `convert`.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ConvertTo {
     /// Instruction list.
@@ -410,12 +410,12 @@ pub enum ConvertTo {
     Csv,
 }
 
-/// One part of the cases, of as many.
+/// One part of the cases.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Shard {
-    /// Which, from 1.
+    /// Its number, from 1.
     pub part: usize,
-    /// Of how many.
+    /// The number of parts.
     pub parts: usize,
 }
 
@@ -428,23 +428,23 @@ impl FromStr for Shard {
             numbers.and_then(|(part, parts)| Some((part.parse().ok()?, parts.parse().ok()?)));
         match numbers {
             Some((part, parts)) if (1..=parts).contains(&part) => Ok(Shard { part, parts }),
-            _ => Err("write a part and the number of parts, from 1/4 to 4/4".to_string()),
+            _ => Err("expected a part and the number of parts, from 1/4 to 4/4".to_string()),
         }
     }
 }
 
-/// How `test` reports its results.
+/// Formats of test results.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum TestFormat {
-    /// For people: cases that fail, and how many do.
+    /// Human-readable: failed cases and totals.
     Human,
     /// JUnit XML, for continuous integration.
     Junit,
-    /// One JSON object (docs/src/test-files.md).
+    /// JSON: one object (docs/src/test-files.md).
     Json,
 }
 
-/// What `test` runs on.
+/// Engines of `test`.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EngineChoice {
     /// The reference interpreter.
@@ -462,7 +462,7 @@ fn warning(name: &str) -> Result<&'static str, String> {
     let id = omissible(name)?;
     match codes::find(id).map(|code| code.severity) {
         Some(Severity::Warning) => Ok(id),
-        _ => Err("a note is never an error".to_string()),
+        _ => Err("a note cannot be an error".to_string()),
     }
 }
 
@@ -474,17 +474,13 @@ fn limit(name: &str) -> Result<&'static str, String> {
             .collect::<Vec<_>>()
             .join(", ")
     };
-    let code = codes::find(name).ok_or_else(|| {
-        format!(
-            "there is no such error; those that can be warnings are {}",
-            limits()
-        )
-    })?;
+    let code = codes::find(name)
+        .ok_or_else(|| format!("unknown error; these can be warnings: {}", limits()))?;
     match code.severity {
-        Severity::Note | Severity::Warning => Err("it is no error".to_string()),
+        Severity::Note | Severity::Warning => Err("it is not an error".to_string()),
         Severity::Error => match code.can_be_eased() {
             Ok(()) => Ok(code.id),
-            Err(why) => Err(format!("it stays an error: {why}")),
+            Err(why) => Err(format!("it cannot be a warning: {why}")),
         },
     }
 }
@@ -498,11 +494,11 @@ fn omissible(name: &str) -> Result<&'static str, String> {
         let names = omissible.flat_map(|c| [c.id, c.name]);
         let near = diag::did_you_mean(&name.to_lowercase(), names);
         let hint = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-        format!("there is no such warning{hint}")
+        format!("unknown warning{hint}")
     })?;
     match code.severity {
         Severity::Note | Severity::Warning => Ok(code.id),
-        Severity::Error => Err("an error cannot be left out".to_string()),
+        Severity::Error => Err("errors cannot be suppressed".to_string()),
     }
 }
 
@@ -510,21 +506,21 @@ fn encoding(name: &str) -> Result<&'static Encoding, String> {
     let names =
         "utf-8, utf-16le, windows-1252, windows-1250, windows-1251, gbk, big5, shift_jis, euc-kr";
     Encoding::for_label_no_replacement(name.as_bytes())
-        .ok_or_else(|| format!("no such encoding; there are, among others, {names}"))
+        .ok_or_else(|| format!("unknown encoding; some of those available: {names}"))
 }
 
 fn target(name: &str) -> Result<&'static Target, String> {
     target::find(name).ok_or_else(|| {
         let names: Vec<_> = target::ALL.iter().map(|target| target.triple).collect();
-        format!("no such target; there are {}", names.join(", "))
+        format!("unknown target; available: {}", names.join(", "))
     })
 }
 
 fn model(name: &str) -> Result<ModelId, String> {
     ModelId::from_name(name).ok_or_else(|| {
         let nearest = ModelId::from_cpu(name).map_or_else(String::new, |id| {
-            format!("; {} resembles it most", rungc_models::Model::get(id).name)
+            format!("; the nearest is {}", rungc_models::Model::get(id).name)
         });
-        format!("no such model{nearest}; there are {}", ModelId::names())
+        format!("unknown model{nearest}; available: {}", ModelId::names())
     })
 }

@@ -136,7 +136,7 @@ fn instructions() -> Vec<Page> {
         };
         let links: Vec<_> = family.rows.iter().map(link).collect();
         let (title, name) = (family.title, family.name);
-        let _ = write!(index, "- [{title}]({name}.md): {}\n", links.join(", "));
+        let _ = writeln!(index, "- [{title}]({name}.md): {}", links.join(", "));
     }
     index += "\n## Support by model\n\n✓ = works on all three engines; a number refers to a note below; – = not on this model.\n\n{{#include ../../../README.md:support}}\n";
     let first = Page {
@@ -191,7 +191,7 @@ fn special_devices() -> Vec<Page> {
     for id in ModelId::ALL {
         let model = Model::get(id);
         let (title, name) = (model.title, model.name);
-        let _ = write!(index, "- [{title}]({name}.md)\n");
+        let _ = writeln!(index, "- [{title}]({name}.md)");
         pages.push(Page {
             path: format!("special-devices/{name}.md"),
             title: title.to_owned(),
