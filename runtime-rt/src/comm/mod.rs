@@ -44,13 +44,15 @@
 //! | `fx_port.rs` | programming port, HMI monitor |
 //! | `computer_link.rs` | computer link, BD protocol of L01S |
 //! | `mc.rs` | MC protocol 1E and 3E |
-//! | `parallel_link.rs`, `nn_link.rs`, `qlink.rs`, `can.rs` | links between PLCs, QLink, CAN |
+//! | `link.rs` | links between PLCs: parallel link, N:N link; polling by HM as a computer link's master |
+//! | `qlink.rs`, `can.rs` | QLink, CAN |
 
 pub mod computer_link;
 mod frame;
 pub(crate) mod free;
 pub mod fx_port;
 mod line;
+pub mod link;
 mod map;
 mod masters;
 pub mod mc;

@@ -6,8 +6,8 @@
 //!
 //! The manual does not say where the second block of a kind begins; it is taken to follow the first: `1 + bytes / 2` registers on.
 
-use super::{ACK, Dialect, ENQ, ETX, STX, Settings, end, head};
-use crate::comm::{Frame, LineFault, Map, hex_digits};
+use super::{ACK, Dialect, ENQ, ETX, NAK, STX, Settings, end, head};
+use crate::comm::{Cut, Frame, LineFault, Map, hex_digits};
 use crate::plc::Class;
 
 /// Microseconds after which a slave that has not answered counts as off line. The manual states none.
@@ -32,23 +32,48 @@ const KINDS: [[(u32, bool); 2]; 2] = [[(0, false), (3, true)], [(6, false), (9, 
 const TURNS: [usize; 3] = [0, 0, 1];
 
 /// One frame's work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
 pub struct Job {
     /// The slave's station.
     pub station: u8,
     /// Whether its registers are written.
     pub write: bool,
     /// First register, of master and slave.
-    pub first: u32,
+    pub first: u16,
     /// How many registers.
-    pub count: u32,
+    pub count: u16,
+}
+
+impl Job {
+    /// No job.
+    pub const fn new() -> Self {
+        Job {
+            station: 0,
+            write: false,
+            first: 0,
+            count: 0,
+        }
+    }
+
+    /// Numbers of its registers.
+    fn registers(self) -> core::ops::Range<u32> {
+        let first = u32::from(self.first);
+        first..first + u32::from(self.count)
+    }
+
+    /// Characters of the answer to a read.
+    fn answer(self) -> usize {
+        5 + 4 * usize::from(self.count) + 3
+    }
 }
 
 /// Whose turn it is.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
 pub struct Schedule {
-    turn: usize,
-    next: [u32; 2],
+    turn: u8,
+    next: [u16; 2],
 }
 
 impl Schedule {
@@ -62,8 +87,9 @@ impl Schedule {
 
     /// The next job of the work area that begins at D`area`; `None` if there is nothing to do.
     pub fn next(&mut self, area: u32, map: &dyn Map) -> Option<Job> {
-        let level = TURNS.get(self.turn).copied().unwrap_or(0);
-        self.turn = (self.turn + 1) % TURNS.len();
+        let turn = usize::from(self.turn) % TURNS.len();
+        let level = TURNS[turn];
+        self.turn = turn as u8 + 1;
         self.next_of(level, area, map)
             .or_else(|| self.next_of(1 - level, area, map))
     }
@@ -75,8 +101,8 @@ impl Schedule {
         if total == 0 {
             return None;
         }
-        let mut index = *place % total;
-        *place = (index + 1) % total;
+        let mut index = u32::from(*place) % total;
+        *place = ((index + 1) % total) as u16;
         for &(registers, write) in kinds {
             let count = tasks(area + registers, map);
             if index < count {
@@ -111,8 +137,8 @@ fn job(kind: u32, index: u32, write: bool, map: &dyn Map) -> Option<Job> {
     (block + 1 + words <= REGISTERS).then_some(Job {
         station,
         write,
-        first: block + 1,
-        count: words,
+        first: (block + 1) as u16,
+        count: words as u16,
     })
 }
 
@@ -133,21 +159,27 @@ pub fn request(job: Job, map: &dyn Map, frame: &mut Frame) {
     for place in [1000, 100, 10, 1] {
         frame.push(b'0' + (job.first / place % 10) as u8);
     }
-    frame.push_hex(job.count, 2);
+    frame.push_hex(job.count.into(), 2);
     if job.write {
-        for number in job.first..job.first + job.count {
+        for number in job.registers() {
             frame.push_hex(register(number, map), 4);
         }
     }
     end(settings(job.station), frame);
 }
 
-/// Whether the characters received so far are an answer.
-pub fn is_whole(job: Job, received: &[u8]) -> bool {
-    match received.first() {
-        Some(&STX) => received.len() == 5 + 4 * job.count as usize + 3,
-        Some(&ACK) => received.len() == 5,
-        _ => received.len() >= 7,
+/// Whether the characters received so far are the answer to a job.
+pub fn cut(job: Job, received: &[u8]) -> Cut {
+    let length = match received.first() {
+        Some(&STX) => job.answer(),
+        Some(&ACK) => 5,
+        Some(&NAK) => 7,
+        _ => return Cut::Drop,
+    };
+    if received.len() < length {
+        Cut::More
+    } else {
+        Cut::Whole
     }
 }
 
@@ -181,13 +213,13 @@ pub fn accept(job: Job, reply: &[u8], map: &mut dyn Map) -> Result<(), LineFault
     if hex_digits(&[*high, *low]) != Some(sum.into()) {
         return Err(LineFault::Sum);
     }
-    if digits.len() != 4 * job.count as usize {
+    if digits.len() != 4 * usize::from(job.count) {
         return Err(LineFault::Length);
     }
     if digits.chunks(4).any(|word| hex_digits(word).is_none()) {
         return Err(LineFault::Unknown);
     }
-    for (number, word) in (job.first..).zip(digits.chunks(4)) {
+    for (number, word) in job.registers().zip(digits.chunks(4)) {
         let value = hex_digits(word).unwrap_or(0) as u16 as i16;
         let _ = map.set_word(Class::D, number, value);
     }

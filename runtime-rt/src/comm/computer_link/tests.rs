@@ -291,7 +291,8 @@ fn a_master_reads_and_writes() {
         Ok(())
     });
     assert_eq!(request, b"\x0501FFWR0D71010134");
-    assert!(master::is_whole(job, b"\x0201FF007B\x03C9"));
+    assert_eq!(master::cut(job, b"\x0201FF007B\x03C"), Cut::More);
+    assert_eq!(master::cut(job, b"\x0201FF007B\x03C9"), Cut::Whole);
     assert_eq!(
         master::accept(job, b"\x0201FF007B\x03C8", &mut map),
         Err(LineFault::Sum)
@@ -328,7 +329,7 @@ fn levels_share_the_line() {
     let firsts = |tasks| {
         let map = work_area(tasks);
         let mut schedule = Schedule::new();
-        let jobs: Vec<u32> = (0..6)
+        let jobs: Vec<u16> = (0..6)
             .filter_map(|_| schedule.next(1000, &map))
             .map(|job| job.first)
             .collect();
@@ -387,7 +388,7 @@ proptest! {
                     Ok(())
                 });
                 prop_assert!(request.len() <= LONGEST);
-                master::is_whole(job, &reply);
+                master::cut(job, &reply);
                 prop_assert!(master::accept(job, &reply, &mut map).is_err());
                 prop_assert_eq!((map.writes, map.strays), (0, 0));
             }
