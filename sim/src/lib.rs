@@ -4,7 +4,7 @@
 //! emitted C and Rust of a batch of programs are built to. [`plant`] simulates the machine that a PLC is wired to, and [`record`]
 //! writes recordings and plots. None of it knows an instruction or an output language; `engines` alone calls the backends. The
 //! modules build on one another in this order: [`Target`], [`wire`] and the mistakes in files ([`LoadError`]); `plant` and
-//! `record`; [`protocol`] and `engines`; `plctest`. Start reading at [`plctest::run`].
+//! `record`; [`serve`]; [`protocol`] and `engines`; `plctest`. Start reading at [`plctest::run`].
 
 pub mod engines;
 pub mod plant;
@@ -12,6 +12,7 @@ pub mod plctest;
 mod problem;
 pub mod protocol;
 pub mod record;
+pub mod serve;
 mod target;
 pub mod wire;
 

@@ -55,13 +55,7 @@ impl Slave {
             Protocol::ModbusRtu => self.modbus(Framing::Rtu, request, map, reply),
             Protocol::ModbusAscii => self.modbus(Framing::Ascii, request, map, reply),
             Protocol::ProgrammingPort => {
-                let settings = fx_port::Settings {
-                    space: match self.family {
-                        Ports::L01s | Ports::Fx | Ports::Board => Space::Fx3,
-                        Ports::Without | Ports::Inovance | Ports::Hm => Space::Fx2n,
-                    },
-                    fx_relays: self.family != Ports::Hm,
-                };
+                let settings = self.family.programming_port();
                 fx_port::answer(settings, list, request, map, reply)
             }
             _ => Ok(()),
@@ -85,12 +79,30 @@ impl Slave {
 
     /// What the model serves as a Modbus slave.
     pub(super) fn profile(&self) -> &'static Profile {
-        match self.family {
-            Ports::Inovance | Ports::Without if self.type_code / 1000 == H1U => &modbus::H1U,
+        self.family.modbus(self.type_code)
+    }
+}
+
+impl Ports {
+    /// What a model of the family serves as a Modbus slave; `type_code` is what its D8001 shows.
+    pub fn modbus(self, type_code: u16) -> &'static Profile {
+        match self {
+            Ports::Inovance | Ports::Without if type_code / 1000 == H1U => &modbus::H1U,
             Ports::Inovance | Ports::Without => &modbus::H2U,
             Ports::L01s => &modbus::L01S,
             Ports::Hm => &modbus::HM,
             Ports::Fx | Ports::Board => &modbus::FX3U,
+        }
+    }
+
+    /// What a model of the family makes of the programming port's protocol.
+    pub fn programming_port(self) -> fx_port::Settings {
+        fx_port::Settings {
+            space: match self {
+                Ports::L01s | Ports::Fx | Ports::Board => Space::Fx3,
+                Ports::Without | Ports::Inovance | Ports::Hm => Space::Fx2n,
+            },
+            fx_relays: self != Ports::Hm,
         }
     }
 }

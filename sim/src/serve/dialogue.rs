@@ -1,0 +1,117 @@
+//! What one connection has said, and what it is answered.
+
+use rungc_rt::Ports;
+use rungc_rt::comm::fx_port::{self, MonitorList};
+use rungc_rt::comm::modbus::{Profile, tcp};
+use rungc_rt::comm::{Cut, Frame, Map, mc};
+
+/// More characters than an answer of any service has.
+const LONGEST_REPLY: usize = 8192;
+
+/// What a server speaks.
+#[derive(Clone, Copy, Debug)]
+pub enum Service {
+    /// Modbus TCP, with the address table of a model.
+    Modbus(&'static Profile),
+    /// MC protocol, frames 1E and 3E in binary.
+    Mc,
+    /// The programming port's protocol, as a model speaks it.
+    ProgrammingPort(fx_port::Settings),
+}
+
+impl Service {
+    /// Modbus TCP of a model: its family, and what its D8001 shows.
+    pub fn modbus(family: Ports, type_code: u16) -> Self {
+        Service::Modbus(family.modbus(type_code))
+    }
+
+    /// The programming port of a model.
+    pub fn programming_port(family: Ports) -> Self {
+        Service::ProgrammingPort(family.programming_port())
+    }
+
+    /// Whether the characters so far are a request.
+    fn cut(&self, received: &[u8]) -> Cut {
+        match self {
+            Service::Modbus(_) => tcp::cut(received),
+            Service::Mc => mc::cut(received),
+            Service::ProgrammingPort(_) => fx_port::cut(received),
+        }
+    }
+
+    /// Whether a character that begins no request ends the connection: nothing says where the next request begins.
+    fn is_lost_after_drop(&self) -> bool {
+        !matches!(self, Service::ProgrammingPort(_))
+    }
+}
+
+/// One connection to a PLC.
+#[derive(Debug)]
+pub struct Dialogue {
+    service: Service,
+    /// The request so far.
+    received: Vec<u8>,
+    list: MonitorList,
+}
+
+/// What a connection does next.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reaction {
+    /// What it sends.
+    pub reply: Vec<u8>,
+    /// Whether it closes: what came is no request.
+    pub closes: bool,
+}
+
+impl Dialogue {
+    /// A new connection.
+    pub fn new(service: Service) -> Self {
+        Dialogue {
+            service,
+            received: Vec::new(),
+            list: MonitorList::default(),
+        }
+    }
+
+    /// Takes what has come, and carries out and answers each request in it.
+    pub fn receive(&mut self, bytes: &[u8], map: &mut dyn Map) -> Reaction {
+        let mut reaction = Reaction::default();
+        for &byte in bytes {
+            self.received.push(byte);
+            match self.service.cut(&self.received) {
+                Cut::More => {}
+                Cut::Whole => {
+                    self.answer(map, &mut reaction.reply);
+                    self.received.clear();
+                }
+                Cut::Restart => {
+                    self.received.clear();
+                    self.received.push(byte);
+                }
+                Cut::Drop => {
+                    self.received.clear();
+                    if self.service.is_lost_after_drop() {
+                        reaction.closes = true;
+                        return reaction;
+                    }
+                }
+            }
+        }
+        reaction
+    }
+
+    fn answer(&mut self, map: &mut dyn Map, reply: &mut Vec<u8>) {
+        let mut bytes = [0; LONGEST_REPLY];
+        let mut frame = Frame::new(&mut bytes);
+        let request = &self.received;
+        // What is wrong with a request the answer says; a PLC has no register for errors of a network.
+        let _ = match self.service {
+            Service::Modbus(profile) => tcp::answer(profile, request, map, &mut frame),
+            Service::Mc => mc::answer(request, map, &mut frame),
+            Service::ProgrammingPort(settings) => {
+                fx_port::answer(settings, &mut self.list, request, map, &mut frame)
+            }
+        };
+        reply.extend_from_slice(frame.as_slice());
+    }
+}

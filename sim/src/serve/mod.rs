@@ -1,0 +1,15 @@
+//! Servers of a PLC over TCP: Modbus, MC protocol, the programming port's protocol.
+//!
+//! A [`Dialogue`] is what one connection has said so far and is answered; it knows no network. A [`Server`] has the connections of one
+//! address. Both work only when they are asked to, between two scans, so a frame's writes reach the program together.
+//!
+//! None of these protocols knows a password: whoever reaches the address reads and writes every device. Hence servers bind to the loopback
+//! address unless they are told otherwise.
+
+mod dialogue;
+mod server;
+#[cfg(test)]
+mod tests;
+
+pub use dialogue::{Dialogue, Reaction, Service};
+pub use server::Server;

@@ -1,0 +1,134 @@
+//! The connections of one address.
+
+use super::{Dialogue, Service};
+use rungc_rt::comm::Map;
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::time::Instant;
+
+/// Connections at once. When one more comes, the one that has been silent longest gives way.
+const CONNECTIONS: usize = 16;
+
+/// Bytes that one connection may have carried out between two scans.
+const AT_ONCE: usize = 4096;
+
+/// Bytes that wait for a client that does not read; then its connection is closed.
+const UNREAD: usize = 1 << 16;
+
+/// A server that is asked between scans, and never waits.
+#[derive(Debug)]
+pub struct Server {
+    listener: TcpListener,
+    service: Service,
+    connections: Vec<Connection>,
+}
+
+#[derive(Debug)]
+struct Connection {
+    stream: TcpStream,
+    dialogue: Dialogue,
+    to_send: Vec<u8>,
+    /// What is to be sent ends the connection.
+    closes: bool,
+    /// When something came last.
+    heard: Instant,
+}
+
+impl Server {
+    /// Listens at an address.
+    ///
+    /// # Errors
+    /// What the system says: the address is taken, or not to be had.
+    pub fn bind(address: SocketAddr, service: Service) -> io::Result<Self> {
+        let listener = TcpListener::bind(address)?;
+        listener.set_nonblocking(true)?;
+        Ok(Server {
+            listener,
+            service,
+            connections: Vec::new(),
+        })
+    }
+
+    /// Where it listens; port 0 has become a free one.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn address(&self) -> io::Result<SocketAddr> {
+        self.listener.local_addr()
+    }
+
+    /// Takes new connections, and carries out and answers what has come over all of them.
+    pub fn poll(&mut self, map: &mut dyn Map) {
+        // A listener that fails (too many open files) is asked again after the next scan.
+        while let Ok((stream, _)) = self.listener.accept() {
+            self.accept(stream);
+        }
+        self.connections
+            .retain_mut(|connection| connection.poll(map));
+    }
+
+    fn accept(&mut self, stream: TcpStream) {
+        if stream.set_nonblocking(true).is_err() {
+            return;
+        }
+        // An answer is one small packet: waiting for more only delays it.
+        let _ = stream.set_nodelay(true);
+        if self.connections.len() == CONNECTIONS {
+            let silent = self.connections.iter().enumerate();
+            let longest = silent.min_by_key(|(_, connection)| connection.heard);
+            if let Some(n) = longest.map(|(n, _)| n) {
+                self.connections.swap_remove(n);
+            }
+        }
+        self.connections.push(Connection {
+            stream,
+            dialogue: Dialogue::new(self.service),
+            to_send: Vec::new(),
+            closes: false,
+            heard: Instant::now(),
+        });
+    }
+}
+
+impl Connection {
+    /// Does what there is to do; false when the connection is over.
+    fn poll(&mut self, map: &mut dyn Map) -> bool {
+        let mut left = AT_ONCE;
+        while left > 0 && !self.closes && self.to_send.len() < UNREAD {
+            let mut bytes = [0; 512];
+            let most = bytes.len().min(left);
+            match self.stream.read(&mut bytes[..most]) {
+                Ok(0) => self.closes = true,
+                Ok(count) => {
+                    left -= count;
+                    self.heard = Instant::now();
+                    let reaction = self.dialogue.receive(&bytes[..count], map);
+                    self.to_send.extend(reaction.reply);
+                    self.closes |= reaction.closes;
+                }
+                Err(error) if error.kind() == ErrorKind::WouldBlock => break,
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(_) => return false,
+            }
+        }
+        self.send()
+    }
+
+    /// Sends what the client takes; false when the connection is over.
+    fn send(&mut self) -> bool {
+        while !self.to_send.is_empty() {
+            match self.stream.write(&self.to_send) {
+                Ok(0) => return false,
+                Ok(count) => {
+                    self.to_send.drain(..count);
+                }
+                Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                    return !self.closes && self.to_send.len() < UNREAD;
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(_) => return false,
+            }
+        }
+        !self.closes
+    }
+}

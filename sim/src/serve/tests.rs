@@ -1,0 +1,202 @@
+//! Servers talked to over real sockets, and dialogues over none.
+
+use super::{Dialogue, Reaction, Server, Service};
+use rungc_rt::comm::Map;
+use rungc_rt::comm::modbus::H2U;
+use rungc_rt::{Class, Ports};
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::thread;
+use std::time::Duration;
+
+/// A PLC that has 512 registers D and nothing else.
+struct Registers {
+    words: Vec<i16>,
+    running: bool,
+}
+
+impl Registers {
+    fn new() -> Self {
+        Registers {
+            words: vec![0; 512],
+            running: true,
+        }
+    }
+}
+
+impl Map for Registers {
+    fn bit(&self, _: Class, _: u32) -> Option<bool> {
+        None
+    }
+
+    fn set_bit(&mut self, _: Class, _: u32, _: bool) -> Option<()> {
+        None
+    }
+
+    fn word(&self, class: Class, number: u32) -> Option<i16> {
+        let words = (class == Class::D).then_some(&self.words)?;
+        words.get(number as usize).copied()
+    }
+
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
+        let words = (class == Class::D).then_some(&mut self.words)?;
+        words.get_mut(number as usize).map(|word| *word = value)
+    }
+
+    fn counter32(&self, _: u32) -> Option<i32> {
+        None
+    }
+
+    fn set_counter32(&mut self, _: u32, _: i32) -> Option<()> {
+        None
+    }
+
+    fn reset(&mut self, _: Class, _: u32) -> Option<()> {
+        None
+    }
+
+    fn running(&self) -> bool {
+        self.running
+    }
+
+    fn request_running(&mut self, running: bool) {
+        self.running = running;
+    }
+
+    fn type_code(&self) -> u16 {
+        24120
+    }
+}
+
+const WRITE_D100: [u8; 12] = [0, 1, 0, 0, 0, 6, 1, 6, 0, 100, 0, 7];
+const READ_D100: [u8; 12] = [0, 2, 0, 0, 0, 6, 1, 3, 0, 100, 0, 1];
+const D100_IS_7: [u8; 11] = [0, 2, 0, 0, 0, 5, 1, 3, 2, 0, 7];
+
+#[test]
+fn requests_come_in_pieces_and_together() {
+    let mut plc = Registers::new();
+    let mut dialogue = Dialogue::new(Service::Modbus(&H2U));
+    let (begin, end) = WRITE_D100.split_at(5);
+    assert_eq!(dialogue.receive(begin, &mut plc), Reaction::default());
+    let rest = [end, &READ_D100, &READ_D100].concat();
+    let reaction = dialogue.receive(&rest, &mut plc);
+    let replies = [&WRITE_D100[..], &D100_IS_7, &D100_IS_7].concat();
+    assert_eq!((reaction.reply, reaction.closes), (replies, false));
+}
+
+#[test]
+fn what_is_no_request_ends_the_dialogue_after_what_was_asked_before() {
+    let mut plc = Registers::new();
+    let mut dialogue = Dialogue::new(Service::modbus(Ports::Inovance, 24120));
+    let http = [&READ_D100[..], b"GET / HTTP/1.1\r\n"].concat();
+    let reaction = dialogue.receive(&http, &mut plc);
+    assert!(reaction.closes);
+    assert_eq!(reaction.reply[..9], [0, 2, 0, 0, 0, 5, 1, 3, 2]);
+    let mut mc = Dialogue::new(Service::Mc);
+    assert!(mc.receive(b"GET / HTTP/1.1\r\n", &mut plc).closes);
+}
+
+#[test]
+fn a_programming_port_waits_for_the_next_request() {
+    let mut plc = Registers::new();
+    let mut dialogue = Dialogue::new(Service::programming_port(Ports::Inovance));
+    let reaction = dialogue.receive(b"noise\x05", &mut plc);
+    assert_eq!(
+        (&reaction.reply[..], reaction.closes),
+        (&b"\x06"[..], false)
+    );
+}
+
+/// A server, and where it listens.
+fn server() -> (Server, SocketAddr) {
+    let any = SocketAddr::from(([127, 0, 0, 1], 0));
+    let server = Server::bind(any, Service::Modbus(&H2U)).unwrap();
+    let address = server.address().unwrap();
+    (server, address)
+}
+
+/// What a client does while the server is asked over and over.
+fn while_served<R: Send>(
+    server: &mut Server,
+    plc: &mut Registers,
+    client: impl FnOnce() -> R + Send,
+) -> R {
+    thread::scope(|scope| {
+        let client = scope.spawn(client);
+        while !client.is_finished() {
+            server.poll(plc);
+            thread::sleep(Duration::from_millis(1));
+        }
+        client.join().unwrap()
+    })
+}
+
+fn connect(address: SocketAddr) -> TcpStream {
+    let stream = TcpStream::connect(address).unwrap();
+    stream
+        .set_read_timeout(Some(Duration::from_secs(20)))
+        .unwrap();
+    stream
+}
+
+fn read(stream: &mut TcpStream, length: usize) -> Vec<u8> {
+    let mut reply = vec![0; length];
+    stream.read_exact(&mut reply).unwrap();
+    reply
+}
+
+#[test]
+fn clients_are_answered_over_sockets() {
+    let (mut server, address) = server();
+    let mut plc = Registers::new();
+    while_served(&mut server, &mut plc, || {
+        let [mut one, mut other] = [connect(address), connect(address)];
+        one.write_all(&WRITE_D100).unwrap();
+        assert_eq!(read(&mut one, 12), WRITE_D100);
+        other.write_all(&READ_D100).unwrap();
+        assert_eq!(read(&mut other, 11), D100_IS_7);
+        other.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
+        let mut rest = Vec::new();
+        // Closed with unread bytes, a connection may also be reset.
+        let _ = other.read_to_end(&mut rest);
+        assert_eq!(rest, []);
+    });
+    assert_eq!(plc.words[100], 7);
+}
+
+#[test]
+fn idle_connections_give_way() {
+    let (mut server, address) = server();
+    let mut plc = Registers::new();
+    plc.words[100] = 7;
+    while_served(&mut server, &mut plc, || {
+        // Each of them sends half a request, and waits.
+        let idle: Vec<TcpStream> = (0..40)
+            .map(|_| {
+                let mut stream = connect(address);
+                stream.write_all(&READ_D100[..6]).unwrap();
+                stream
+            })
+            .collect();
+        let mut client = connect(address);
+        client.write_all(&READ_D100).unwrap();
+        assert_eq!(read(&mut client, 11), D100_IS_7);
+        drop(idle);
+    });
+}
+
+#[test]
+fn a_client_that_does_not_read_is_cut_off() {
+    let (mut server, address) = server();
+    let mut plc = Registers::new();
+    let read_125 = [0, 2, 0, 0, 0, 6, 1, 3, 0, 0, 0, 125];
+    let cut_off = while_served(&mut server, &mut plc, || {
+        let mut stream = connect(address);
+        stream
+            .set_write_timeout(Some(Duration::from_secs(20)))
+            .unwrap();
+        // 260 bytes come back for each 12; buffers of the system take some megabytes.
+        (0..1_000_000).any(|_| stream.write_all(&read_125).is_err())
+    });
+    assert!(cut_off);
+}
