@@ -1,7 +1,6 @@
 //! The grammar of one line. It reads half-width text; places are byte offsets within the line.
 
 use super::fault::{Fault, Faults, Kind, mistyped_digit};
-use chumsky::container::Container;
 use chumsky::error::EmptyErr;
 use chumsky::input::{InputRef, MapExtra};
 use chumsky::prelude::*;
@@ -35,16 +34,6 @@ pub(super) struct Body<'s> {
     pub mnemonic_span: Span,
     /// The operands.
     pub operands: Operands,
-}
-
-/// All operands of one line.
-#[derive(Default)]
-struct AllOperands(Operands);
-
-impl Container<Operand> for AllOperands {
-    fn push(&mut self, operand: Operand) {
-        self.0.push(operand);
-    }
 }
 
 /// Says what is wrong with what a parser has read.
@@ -401,7 +390,7 @@ fn operand<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
         )))
 }
 
-fn operands<'s>() -> impl Parser<'s, &'s str, AllOperands, Extra> + Copy {
+fn operands<'s>() -> impl Parser<'s, &'s str, Operands, Extra> + Copy {
     space().ignore_then(operand()).repeated().collect()
 }
 
@@ -469,7 +458,7 @@ fn asc<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
     name.then_ignore(space())
         .then(placed(text))
         .then(operands())
-        .map(|((name, text), AllOperands(mut rest))| {
+        .map(|((name, text), mut rest)| {
             rest.insert(0, text);
             Body {
                 mnemonic: Cow::Borrowed("ASC"),
@@ -480,14 +469,13 @@ fn asc<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
 }
 
 fn body<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
-    let usual =
-        mnemonic()
-            .then(operands())
-            .map(|((mnemonic, mnemonic_span), AllOperands(operands))| Body {
-                mnemonic,
-                mnemonic_span,
-                operands,
-            });
+    let usual = mnemonic()
+        .then(operands())
+        .map(|((mnemonic, mnemonic_span), operands)| Body {
+            mnemonic,
+            mnemonic_span,
+            operands,
+        });
     choice((asc(), usual))
 }
 
