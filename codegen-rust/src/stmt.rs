@@ -5,7 +5,7 @@ use crate::coils::{OUT_COUNTER, OUT_TIMER};
 use crate::expr::{Code, Shape, literal32};
 use crate::generate::{Generator, function_name};
 use crate::storage::PrintStorage;
-use proc_macro2::{Delimiter, Literal, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Literal, Punct, Spacing, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use rungc_ir::node::{Arg, CellId, Expr, ExprId, LabelId, Part, Place, Stmt, TempId, Ty};
 use rungc_rt::EdgeKind;
@@ -701,13 +701,13 @@ fn jumps_to(stmts: &[Stmt], parts: &[Part]) -> bool {
     found
 }
 
-fn jump_label(depth: usize) -> syn::Lifetime {
-    let name = if depth == 0 {
-        "'parts".to_string()
-    } else {
-        format!("'parts{depth}")
+fn jump_label(depth: usize) -> TokenStream {
+    let tick = Punct::new('\'', Spacing::Joint);
+    let name = match depth {
+        0 => format_ident!("parts"),
+        _ => format_ident!("parts{depth}"),
     };
-    syn::Lifetime::new(&name, proc_macro2::Span::call_site())
+    quote!(#tick #name)
 }
 
 fn part_variable(depth: usize) -> proc_macro2::Ident {

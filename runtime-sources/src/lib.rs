@@ -6,36 +6,47 @@
 pub mod cache;
 pub mod library;
 
-use include_dir::{Dir, include_dir};
 use std::fmt::Write;
+use std::sync::OnceLock;
 
-/// Everything below `src`.
-static SRC: Dir = include_dir!("$CARGO_MANIFEST_DIR/../runtime-rt/src");
+/// The sources as the build script packs them: paths and contents in turn, each ended by NUL, deflated. `cargo xtask package` puts it
+/// into the published package.
+pub static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin"));
 
-/// The manifest.
-static MANIFEST: &str = include_str!("../../runtime-rt/Cargo.toml");
-
-/// The crate that the runtime depends on.
-static LIBM: Dir = include_dir!("$CARGO_MANIFEST_DIR/vendor/libm");
-
-/// How the manifest names it, and how it does where the crate lies beside the sources.
+/// How the manifest names the crate that the runtime depends on, and how it does where that lies beside the sources.
 const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm\" }");
 
 /// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and `src/…`.
 pub fn files() -> Vec<(String, String)> {
-    let mut files = Vec::new();
-    collect(&SRC, "src/", &mut files);
-    collect(&LIBM, "libm/", &mut files);
-    files.sort();
-    files.insert(0, ("Cargo.toml".to_string(), manifest()));
+    let mut files = unpacked().to_vec();
+    files[0].1 = manifest();
     files
+}
+
+/// The packed files as they are in the repository, the runtime's `Cargo.toml` first.
+fn unpacked() -> &'static [(String, String)] {
+    static FILES: OnceLock<Vec<(String, String)>> = OnceLock::new();
+    FILES.get_or_init(|| {
+        let text = miniz_oxide::inflate::decompress_to_vec(PACKED);
+        let text = text.expect("the build script deflated it");
+        let text = String::from_utf8(text).expect("the build script packs text");
+        let parts: Vec<&str> = text.split_terminator('\0').collect();
+        let files = parts.chunks_exact(2);
+        files.map(|file| (file[0].into(), file[1].into())).collect()
+    })
+}
+
+/// The text of a packed file.
+fn text(path: &str) -> &'static str {
+    let file = unpacked().iter().find(|(packed, _)| packed == path);
+    file.map_or("", |(_, text)| text)
 }
 
 /// The manifest without what only tests need, which is inherited from a workspace that is not there, and with `libm` beside it.
 fn manifest() -> String {
     let mut kept = String::new();
     let mut is_for_tests = false;
-    for line in MANIFEST.lines() {
+    for line in text("Cargo.toml").lines() {
         if line.starts_with('[') {
             is_for_tests = line.starts_with("[dev-dependencies");
         }
@@ -54,10 +65,9 @@ pub const EMITTED_VERSION: &str = "0.1.0";
 /// A `Cargo.lock` for emitted crates: each by its name, with the names of what it depends on in order, `rungc-rt` among them; without
 /// any, for the runtime alone. All packages are in it: with it `cargo build --locked --offline` needs nothing but the sources.
 pub fn lock_file(emitted: &[(&str, &[&str])]) -> String {
-    let libm = LIBM.get_file("Cargo.toml").and_then(|f| f.contents_utf8());
     let mut packages: Vec<(&str, &str, &[&str])> = vec![
-        ("libm", version(libm.unwrap_or_default()), &[]),
-        ("rungc-rt", version(MANIFEST), &["libm"]),
+        ("libm", version(text("libm/Cargo.toml")), &[]),
+        ("rungc-rt", version(text("Cargo.toml")), &["libm"]),
     ];
     let emitted = emitted.iter();
     packages.extend(emitted.map(|&(name, needs)| (name, EMITTED_VERSION, needs)));
@@ -84,19 +94,6 @@ fn version(manifest: &str) -> &str {
         .lines()
         .find_map(|line| line.strip_prefix("version = \"")?.strip_suffix('"'))
         .unwrap_or_default()
-}
-
-fn collect(dir: &Dir<'static>, folder: &str, files: &mut Vec<(String, String)>) {
-    for file in dir.files() {
-        // Sources are UTF-8; anything else in the folder is none of the crate's.
-        if let Some(text) = file.contents_utf8() {
-            let path = format!("{folder}{}", file.path().display());
-            files.push((path, text.to_string()));
-        }
-    }
-    for dir in dir.dirs() {
-        collect(dir, folder, files);
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! `rungc test`.
 
+mod junit;
 mod report;
 
 use super::{
@@ -104,7 +105,7 @@ fn run_on(kind: EngineKind, suite: &Suite, folder: &Path) -> std::result::Result
 fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Result<(), Failure> {
     let text = match args.format {
         TestFormat::Human => report::human(results),
-        TestFormat::Junit => report::junit(results)?,
+        TestFormat::Junit => junit::junit(results)?,
         TestFormat::Json => visible_json(&report::json(results)?).into_owned(),
     };
     let Some(path) = &args.output else {

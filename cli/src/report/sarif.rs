@@ -4,13 +4,8 @@ use super::Findings;
 use super::place::Place;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Diagnostic, Fix, Severity, Span};
-use serde_sarif::sarif::{
-    Artifact, ArtifactChange, ArtifactContent, ArtifactLocation, Fix as SarifFix, Location,
-    LogicalLocation, Message, MultiformatMessageString, PhysicalLocation, PropertyBag, Region,
-    Replacement, ReportingDescriptor, Result as Item, ResultColumnKind, ResultLevel, Run, Sarif,
-    Tool, ToolComponent, Version,
-};
-use std::collections::{BTreeMap, BTreeSet};
+use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::Path;
 
@@ -18,8 +13,8 @@ use std::path::Path;
 #[derive(Default)]
 pub struct Log {
     used: BTreeSet<&'static str>,
-    results: Vec<Item>,
-    artifacts: Vec<Artifact>,
+    results: Vec<Value>,
+    artifacts: Vec<Value>,
     /// Whether anything was added.
     begun: bool,
 }
@@ -34,8 +29,7 @@ impl Log {
         self.results.extend(items);
         if many {
             let place = artifact(findings.path);
-            self.artifacts
-                .push(Artifact::builder().location(place).build());
+            self.artifacts.push(json!({ "location": place }));
         }
     }
 
@@ -46,153 +40,151 @@ impl Log {
 
     /// The log as pretty-printed text.
     pub fn render(self) -> io::Result<String> {
-        let rules: Vec<ReportingDescriptor> = codes::all()
+        let rules: Vec<Value> = codes::all()
             .into_iter()
             .filter(|code| self.used.contains(code.id))
             .map(rule)
             .collect();
-        let driver = ToolComponent::builder()
-            .name("rungc")
-            .version(env!("CARGO_PKG_VERSION"))
-            .rules(rules)
-            .build();
-        let mut run = Run::builder()
-            .tool(Tool::builder().driver(driver).build())
-            .results(self.results)
-            .column_kind(serde_json::to_value(ResultColumnKind::UnicodeCodePoints)?)
-            .build();
-        run.artifacts = Some(self.artifacts).filter(|artifacts| !artifacts.is_empty());
-        let log = Sarif::builder()
-            .schema("https://json.schemastore.org/sarif-2.1.0.json")
-            .version(Version::V2_1_0.to_string())
-            .runs(vec![run])
-            .build();
+        let driver = json!({
+            "name": "rungc",
+            "version": env!("CARGO_PKG_VERSION"),
+            "rules": rules,
+        });
+        let mut run = json!({
+            "tool": { "driver": driver },
+            "results": self.results,
+            "columnKind": "unicodeCodePoints",
+        });
+        if !self.artifacts.is_empty() {
+            run["artifacts"] = self.artifacts.into();
+        }
+        let log = json!({
+            "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+            "version": "2.1.0",
+            "runs": [run],
+        });
         Ok(serde_json::to_string_pretty(&log)?)
     }
 }
 
 /// What a code means, for those who see only the log.
-fn rule(code: &Code) -> ReportingDescriptor {
-    let text = |text: &str| MultiformatMessageString::builder().text(text).build();
+fn rule(code: &Code) -> Value {
     let mut help = code.text.to_string();
     for (title, list) in [("Wrong", code.wrong), ("Right", code.right)] {
         if !list.is_empty() {
             help = format!("{help}\n\n{title}:\n\n{}", list.trim_end());
         }
     }
-    ReportingDescriptor::builder()
-        .id(code.id)
-        .name(code.name)
-        .short_description(text(code.title))
-        .full_description(text(code.text))
-        .help(text(&help))
-        .build()
+    json!({
+        "id": code.id,
+        "name": code.name,
+        "shortDescription": { "text": code.title },
+        "fullDescription": { "text": code.text },
+        "help": { "text": help },
+    })
 }
 
-fn item(findings: &Findings, d: &Diagnostic) -> Item {
+fn item(findings: &Findings, d: &Diagnostic) -> Value {
     let level = match d.severity {
-        Severity::Error => ResultLevel::Error,
-        Severity::Warning => ResultLevel::Warning,
-        Severity::Note => ResultLevel::Note,
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
     };
     let mut text = d.message.clone();
     if let Some(help) = &d.help {
         text = format!("{text}\n\nHelp: {help}");
     }
-    let related: Vec<Location> = d
+    let related: Vec<Value> = d
         .others
         .iter()
         .map(|o| location(findings, o.span, Some(&o.text)))
         .collect();
-    let mut item = Item::builder()
-        .rule_id(d.code)
-        .level(level)
-        .message(message(&text))
-        .locations(vec![location(findings, d.span, None)])
-        .related_locations(related)
-        .build();
-    item.fixes = findings.fix(d).map(|fix| vec![change(findings, fix)]);
+    let mut item = json!({
+        "ruleId": d.code,
+        "level": level,
+        "message": { "text": text },
+        "locations": [location(findings, d.span, None)],
+        "relatedLocations": related,
+    });
+    if let Some(fix) = findings.fix(d) {
+        item["fixes"] = json!([change(findings, fix)]);
+    }
     if !d.devices.is_empty() {
         let devices: Vec<_> = d.devices.iter().map(ToString::to_string).collect();
-        let bag = std::iter::once(("devices".to_owned(), devices.into()));
-        let bag = PropertyBag::builder().additional_properties(bag.collect::<BTreeMap<_, _>>());
-        item.properties = Some(bag.build());
+        item["properties"] = json!({ "devices": devices });
     }
     item
 }
 
 /// A fix as a change of the file.
-fn change(findings: &Findings, fix: &Fix) -> SarifFix {
+fn change(findings: &Findings, fix: &Fix) -> Value {
     let replacements = fix.edits.iter().filter_map(|edit| {
         let region = Place::of(findings, edit.span).as_ref().and_then(region)?;
-        let content = ArtifactContent::builder().text(edit.text.as_str()).build();
-        let replacement = Replacement::builder().deleted_region(region);
-        Some(replacement.inserted_content(content).build())
+        Some(json!({
+            "deletedRegion": region,
+            "insertedContent": { "text": edit.text.as_str() },
+        }))
     });
-    let change = ArtifactChange::builder()
-        .artifact_location(artifact(findings.path))
-        .replacements(replacements.collect::<Vec<_>>())
-        .build();
-    SarifFix::builder()
-        .description(message(&fix.title))
-        .artifact_changes(vec![change])
-        .build()
+    json!({
+        "description": { "text": fix.title },
+        "artifactChanges": [{
+            "artifactLocation": artifact(findings.path),
+            "replacements": replacements.collect::<Vec<_>>(),
+        }],
+    })
 }
 
-fn message(text: &str) -> Message {
-    Message::builder().text(text).build()
+fn artifact(path: &Path) -> Value {
+    json!({ "uri": uri(path) })
 }
 
-fn artifact(path: &Path) -> ArtifactLocation {
-    ArtifactLocation::builder().uri(uri(path)).build()
-}
-
-fn location(findings: &Findings, span: Span, text: Option<&str>) -> Location {
+fn location(findings: &Findings, span: Span, text: Option<&str>) -> Value {
     let place = Place::of(findings, span);
-    let file = PhysicalLocation::builder().artifact_location(artifact(findings.path));
-    let region = place.as_ref().and_then(region);
-    let physical = match region {
-        Some(region) => file.region(region).build(),
-        None => file.build(),
-    };
-    let mut location = Location::builder().physical_location(physical).build();
-    location.logical_locations = place
-        .as_ref()
-        .and_then(logical)
-        .map(|logical| vec![logical]);
-    location.message = text.map(message);
+    let mut physical = json!({ "artifactLocation": artifact(findings.path) });
+    if let Some(region) = place.as_ref().and_then(region) {
+        physical["region"] = region;
+    }
+    let mut location = json!({ "physicalLocation": physical });
+    if let Some(logical) = place.as_ref().and_then(logical) {
+        location["logicalLocations"] = json!([logical]);
+    }
+    if let Some(text) = text {
+        location["message"] = json!({ "text": text });
+    }
     location
 }
 
 /// The lines and columns of a place in a text.
-fn region(place: &Place) -> Option<Region> {
-    let mut region = Region::builder().build();
-    region.start_line = Some(i64::from(place.line?));
-    region.start_column = place.column.map(i64::from);
-    region.end_line = place.end_line.map(i64::from);
-    region.end_column = place.end_column.map(i64::from);
+fn region(place: &Place) -> Option<Value> {
+    let mut region = json!({ "startLine": place.line? });
+    let rest = [
+        ("startColumn", place.column),
+        ("endLine", place.end_line),
+        ("endColumn", place.end_column),
+    ];
+    for (name, value) in rest {
+        if let Some(value) = value {
+            region[name] = value.into();
+        }
+    }
     Some(region)
 }
 
 /// The step of a place in a project or an export, as its editor shows it.
-fn logical(place: &Place) -> Option<LogicalLocation> {
+fn logical(place: &Place) -> Option<Value> {
     let program = place.program.as_ref()?;
-    let mut logical = LogicalLocation::builder().build();
-    let (name, whole) = match place.step {
-        Some(step) => (format!("step {step}"), format!("{program}/step {step}")),
-        None => (program.clone(), program.clone()),
-    };
-    logical.name = Some(name);
-    logical.fully_qualified_name = Some(whole);
-    logical.kind = Some(
-        if place.step.is_some() {
-            "member"
-        } else {
-            "module"
-        }
-        .to_owned(),
-    );
-    Some(logical)
+    Some(match place.step {
+        Some(step) => json!({
+            "name": format!("step {step}"),
+            "fullyQualifiedName": format!("{program}/step {step}"),
+            "kind": "member",
+        }),
+        None => json!({
+            "name": program,
+            "fullyQualifiedName": program,
+            "kind": "module",
+        }),
+    })
 }
 
 /// A path as a URI reference: its separators as they are on the web, and everything escaped that has a meaning there or none.

@@ -1,6 +1,5 @@
 //! Results of tests, for people and for tools.
 
-use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use serde::Serialize;
 use std::io;
@@ -138,7 +137,7 @@ fn why(failure: &Failure) -> Why<'_> {
 }
 
 /// The name of a kind of failure in reports.
-fn kind(failure: &Failure) -> &'static str {
+pub(super) fn kind(failure: &Failure) -> &'static str {
     match failure {
         Failure::Refused(_) => "does-not-compile",
         Failure::Accepted(_) => "not-rejected",
@@ -150,7 +149,7 @@ fn kind(failure: &Failure) -> &'static str {
     }
 }
 
-fn message(failure: &Failure) -> String {
+pub(super) fn message(failure: &Failure) -> String {
     failure.to_string().trim_end_matches(';').to_string()
 }
 
@@ -160,38 +159,4 @@ fn value(value: &Value) -> serde_json::Value {
         Value::Float(v) => (*v).into(),
         Value::Text(v) => v.as_str().into(),
     }
-}
-
-/// JUnit XML: a suite for each file; a case's class is its file and engine.
-pub fn junit(results: &Results) -> io::Result<String> {
-    let mut report = quick_junit::Report::new("rungc test");
-    report.set_time(results.elapsed);
-    for (number, file) in results.suite.files().iter().enumerate() {
-        let mut suite = TestSuite::new(&file.name);
-        let outcomes = results.report.outcomes.iter();
-        for outcome in outcomes.filter(|outcome| outcome.id.file == number) {
-            let name = &file.cases[outcome.id.case].name;
-            let mut case = TestCase::new(name, status(results.suite, outcome));
-            case.set_classname(format!("{} [{}]", file.name, outcome.engine));
-            case.set_time(outcome.elapsed);
-            suite.add_test_case(case);
-        }
-        suite.set_time(suite.test_cases.iter().filter_map(|case| case.time).sum());
-        report.add_test_suite(suite);
-    }
-    report.to_string().map_err(io::Error::other)
-}
-
-fn status(suite: &Suite, outcome: &Outcome) -> TestCaseStatus {
-    let Some(failure) = &outcome.failure else {
-        return TestCaseStatus::success();
-    };
-    let mut status = TestCaseStatus::non_success(match failure {
-        Failure::Engine { .. } => NonSuccessKind::Error,
-        _ => NonSuccessKind::Failure,
-    });
-    status.set_type(kind(failure));
-    status.set_message(message(failure));
-    status.set_description(outcome.describe(suite));
-    status
 }
