@@ -82,7 +82,7 @@ impl PrintField for Field {
             0 => number.to_string(),
             first => format!("({number} - {first}{unsigned})"),
         };
-        let (columns, kept) = (grid.columns, grid.kept);
+        let (columns, kept) = (grid.columns, grid.stored_columns);
         Some(format!(
             "{distance} % {columns}{unsigned} < {kept}{unsigned}"
         ))

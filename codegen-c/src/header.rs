@@ -185,7 +185,7 @@ fn field_line(out: &mut String, storage: &Storage, field: &Field) {
         }
         if let Some(grid) = field.columns() {
             let n = class.number(first + 1);
-            let (columns, kept) = (grid.columns, grid.kept);
+            let (columns, kept) = (grid.columns, grid.stored_columns);
             let _ = match kept {
                 1 => write!(comment, ", {columns} apart"),
                 _ if kept < columns => {

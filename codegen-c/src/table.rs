@@ -171,7 +171,9 @@ fn areas(name: &str, fields: &Storage) -> Vec<String> {
         .map(|(_, field, count)| {
             let mut member = String::new();
             field.name(&mut member);
-            let (columns, kept) = field.grid.map_or((1, 1), |grid| (grid.columns, grid.kept));
+            let (columns, kept) = field
+                .grid
+                .map_or((1, 1), |grid| (grid.columns, grid.stored_columns));
             format!(
                 "{{{}, {}, {}, {count}, {columns}, {kept}, offsetof({name}_plc, {member})}}",
                 class_name(field.class),

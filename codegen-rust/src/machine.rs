@@ -72,7 +72,7 @@ impl Generator<'_> {
             }
             if let Some(grid) = field.columns() {
                 let second = class.number(first + 1);
-                let (columns, kept) = (grid.columns, grid.kept);
+                let (columns, kept) = (grid.columns, grid.stored_columns);
                 text.push_str(&match kept {
                     1 => format!(", {columns} apart"),
                     _ if kept < columns => {
@@ -677,7 +677,7 @@ impl Generator<'_> {
     fn column_is_kept(field: &Field) -> Option<TokenStream> {
         let grid = field.trimmed()?;
         let n = Self::distance(field);
-        let [columns, kept] = [grid.columns, grid.kept].map(Literal::u32_unsuffixed);
+        let [columns, kept] = [grid.columns, grid.stored_columns].map(Literal::u32_unsuffixed);
         Some(quote!(#n % #columns < #kept))
     }
 

@@ -168,13 +168,13 @@ impl Field {
 
     /// The grid, if it leaves columns out.
     pub fn trimmed(&self) -> Option<Grid> {
-        self.grid.filter(|grid| grid.kept < grid.columns)
+        self.grid.filter(|grid| grid.stored_columns < grid.columns)
     }
 
     /// How many devices each dimension has: columns, if there are several, and rows.
     pub fn dimensions(&self) -> (Option<u32>, u32) {
         match self.columns() {
-            Some(grid) => (Some(grid.kept), self.count.div_ceil(grid.columns)),
+            Some(grid) => (Some(grid.stored_columns), self.count.div_ceil(grid.columns)),
             None => (None, self.count),
         }
     }
@@ -188,7 +188,7 @@ impl Field {
     /// Whether it holds a device of its class.
     pub fn holds(&self, number: u32) -> bool {
         (self.first..self.end()).contains(&number)
-            && self.grid.is_none_or(|grid| grid.holds(number))
+            && self.grid.is_none_or(|grid| grid.stores(number))
     }
 
     /// The numbers that it holds.
@@ -210,7 +210,7 @@ impl Field {
     pub fn at(&self, number: u32) -> At {
         match self.columns() {
             Some(grid) => {
-                let (column, row) = grid.place(number);
+                let (column, row) = grid.position(number);
                 At::Column { column, row }
             }
             None if self.array => At::Element(number - self.first),
@@ -347,7 +347,7 @@ impl<'m> Storage<'m> {
     pub fn round_slot(&self, class: DeviceClass, number: u32, by: u32) -> Option<RoundSlot<'_>> {
         let field = self.find(class, number)?;
         let grid = field.grid.filter(|grid| grid.columns == by)?;
-        let (column, row) = grid.place(number);
+        let (column, row) = grid.position(number);
         Some(RoundSlot {
             field,
             column: (by > 1).then_some(column),

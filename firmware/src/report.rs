@@ -217,8 +217,8 @@ fn scan(worst: &Worst) -> Scan {
     });
     let loops = worst.open_loops.iter().map(|open| LoopCost {
         step: open.step,
-        steps: open.round.steps,
-        operations: open.round.operations,
+        steps: open.iteration.steps,
+        operations: open.iteration.operations,
     });
     Scan {
         steps,

@@ -173,8 +173,8 @@ impl Writer<'_> {
             2 if self.loops < 2 => {
                 self.line("LD M8000");
                 self.line(format!("MOV K{end} {register}"));
-                let rounds = 1 + self.rng.below(12);
-                self.line(format!("FOR K{rounds}"));
+                let iterations = 1 + self.rng.below(12);
+                self.line(format!("FOR K{iterations}"));
                 self.logic(1);
                 self.line(indexed);
                 let step = self.rng.pick(&["INC", "DEC"]).unwrap_or("INC");

@@ -145,8 +145,11 @@ impl<'m> Machine<'m> {
                 return self.run_loop(count as u32, None, body, hal);
             }
             Stmt::Repeat {
-                count, round, body, ..
-            } => return self.run_loop(*count, Some(*round), body, hal),
+                count,
+                iteration,
+                body,
+                ..
+            } => return self.run_loop(*count, Some(*iteration), body, hal),
             Stmt::CallSub(n) => {
                 let module = self.module;
                 if let Some(function) = module.functions.get(*n as usize) {

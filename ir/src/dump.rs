@@ -29,8 +29,8 @@ pub fn dump(module: &Module) -> String {
     for grid in &module.layout.grids {
         let first = grid.class.number(grid.first);
         let mut line = format!("{first}[{}] in {} columns", grid.count, grid.columns);
-        if grid.kept < grid.columns {
-            line.push_str(&format!(", {} stored", grid.kept));
+        if grid.stored_columns < grid.columns {
+            line.push_str(&format!(", {} stored", grid.stored_columns));
         }
         out.line(&line);
     }
@@ -124,8 +124,11 @@ impl Out<'_> {
             }
             Stmt::For { count, body } => self.block(&format!("for {}", self.expr(*count)), body),
             Stmt::Repeat {
-                count, round, body, ..
-            } => self.block(&format!("repeat {count} times: t{}", round.0), body),
+                count,
+                iteration,
+                body,
+                ..
+            } => self.block(&format!("repeat {count} times: t{}", iteration.0), body),
             Stmt::Parts(parts) => {
                 self.line("parts {");
                 self.indent += 1;
@@ -400,7 +403,7 @@ impl Out<'_> {
                 format!("K{digits}{}{wide}", self.place(place))
             }
             Expr::Cell(cell) => self.cell(*cell),
-            Expr::Stride(round, by) => format!("{by} * t{}", round.0),
+            Expr::Stride(iteration, by) => format!("{by} * t{}", iteration.0),
             Expr::Entry(table, index) => format!("{}[{}]", self.table(*table), self.expr(*index)),
             Expr::Flag(flag) => self.flag(*flag),
             Expr::Sys(SysValue::Running) => "running".into(),

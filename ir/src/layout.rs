@@ -35,8 +35,8 @@ impl Area {
     }
 }
 
-/// Devices that a [`Stmt::Repeat`] goes through: an array of columns, each of which has every so manieth device. The devices lie in areas
-/// that are arrays.
+/// Devices that a [`Stmt::Repeat`](crate::node::Stmt::Repeat) goes through, as an array of columns: column 0 holds the first device of each row, column 1 the second, and
+/// so on. Each iteration of the loop moves on by one row. The devices lie in areas that are arrays.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Grid {
     /// Class.
@@ -45,22 +45,22 @@ pub struct Grid {
     pub first: u32,
     /// How many; need not be a multiple of the columns.
     pub count: u32,
-    /// How far the devices of a column are apart, and how many columns that makes. At least 1.
+    /// The number of columns, at least 1: the stride of the loop, by which the devices of a column are apart.
     pub columns: u32,
     /// How many of the columns are stored, at least 1: the first ones. The program names no device of the others.
-    pub kept: u32,
+    pub stored_columns: u32,
 }
 
 impl Grid {
-    /// In which column a device is, and where in that.
-    pub fn place(&self, number: u32) -> (u32, u32) {
+    /// The column and the row of a device.
+    pub fn position(&self, number: u32) -> (u32, u32) {
         let n = number.wrapping_sub(self.first);
         (n % self.columns, n / self.columns)
     }
 
     /// Whether it stores a device.
-    pub fn holds(&self, number: u32) -> bool {
-        (self.first..self.end()).contains(&number) && self.place(number).0 < self.kept
+    pub fn stores(&self, number: u32) -> bool {
+        (self.first..self.end()).contains(&number) && self.position(number).0 < self.stored_columns
     }
 
     /// Length of a column.
@@ -89,7 +89,7 @@ impl Layout {
         let after = |g: &Grid| (g.class, g.first) <= (class, number);
         let i = self.grids.partition_point(after).checked_sub(1)?;
         let grid = self.grids.get(i)?;
-        (grid.class == class && grid.holds(number)).then_some(grid)
+        (grid.class == class && grid.stores(number)).then_some(grid)
     }
 
     /// The area that holds a device.

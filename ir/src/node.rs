@@ -306,7 +306,7 @@ pub enum Expr {
     Cell(CellId),
     /// `I32`: entry of a table. The index, an `I32`, must be known to be at least 0 and less than the table's length.
     Entry(TableId, ExprId),
-    /// `I32`: the number of a round of the [`Stmt::Repeat`] around, times so much (at least 1). Stands as an index only.
+    /// `I32`: the number of an iteration of the [`Stmt::Repeat`] around, times so much (at least 1). Stands as an index only.
     Stride(TempId, u32),
     /// Not, of a `Bit`.
     Not(ExprId),
@@ -462,7 +462,7 @@ pub enum Stmt {
         preset: ExprId,
     },
     /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
-    /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the rounds of a [`Stmt::Repeat`].
+    /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the iterations of a [`Stmt::Repeat`].
     TimerAt {
         /// The timer, which has an index.
         place: Place,
@@ -534,14 +534,14 @@ pub enum Stmt {
         /// What.
         body: Body,
     },
-    /// Executes the body `count` times, for rungs that the program repeats with other devices. `round` (`I32`) is 0, 1, 2 …, and leads to the
-    /// devices of each round ([`Expr::Stride`]), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
+    /// Executes the body `count` times, for rungs that the program repeats with other devices. `iteration` (`I32`) is 0, 1, 2 …, and leads to the
+    /// devices of each iteration ([`Expr::Stride`]), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
     /// apart. The timers of a [`Stmt::TimerAt`] are of one kind. The body has neither loops nor jumps.
     Repeat {
         /// How often, at least 2.
         count: u32,
-        /// Number of the round.
-        round: TempId,
+        /// Number of the iteration.
+        iteration: TempId,
         /// What.
         body: Body,
         /// Steps of the first and the last of its networks in the program, for a comment.
@@ -607,7 +607,7 @@ pub enum Stmt {
     /// Takes so many steps of those that the scan may still execute ([`Module::scan_steps`]). If there are not so many left, the PLC stops as by
     /// its watchdog ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
     Watch {
-        /// How many PLC steps of the program come now: a round of a loop, or what a jump back repeats, with the subroutines that are called
+        /// How many PLC steps of the program come now: an iteration of a loop, or what a jump back repeats, with the subroutines that are called
         /// and the short loops in it.
         steps: u32,
         /// Step of the loop or the jump.

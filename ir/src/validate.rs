@@ -30,7 +30,7 @@ pub fn validate(module: &Module) -> Result<(), String> {
             assigned: vec![false; module.temps.len()],
             log: Vec::new(),
             labels: Vec::new(),
-            rounds: 1,
+            iterations: 1,
         };
         checker
             .body(&function.body)
@@ -68,7 +68,9 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::InRange { count, .. } => count > 0,
         Expr::Cell(cell) => (cell.0 as usize) < module.cells.len(),
         Expr::Within { value, low, high } => ty(value) == Ty::I32 && low <= high,
-        Expr::Stride(round, by) => by > 0 && module.temps.get(round.0 as usize) == Some(&Ty::I32),
+        Expr::Stride(iteration, by) => {
+            by > 0 && module.temps.get(iteration.0 as usize) == Some(&Ty::I32)
+        }
         Expr::Entry(table, index) => {
             (table.0 as usize) < module.tables.len() && ty(index) == Ty::I32
         }
@@ -144,8 +146,8 @@ struct Checker<'m> {
     log: Vec<TempId>,
     /// Labels of the parts around, innermost last.
     labels: Vec<LabelId>,
-    /// How many rounds the loop over rungs around has.
-    rounds: u32,
+    /// How many iterations the loop over rungs around has.
+    iterations: u32,
 }
 
 impl Checker<'_> {
@@ -182,13 +184,16 @@ impl Checker<'_> {
                 Ok(true)
             }
             Stmt::Repeat {
-                count, round, body, ..
+                count,
+                iteration,
+                body,
+                ..
             } => {
                 let begin = self.log.len();
-                self.assign(*round);
-                self.rounds = *count;
+                self.assign(*iteration);
+                self.iterations = *count;
                 self.body(body)?;
-                self.rounds = 1;
+                self.iterations = 1;
                 self.forget(begin);
                 Ok(true)
             }
@@ -313,33 +318,33 @@ impl Checker<'_> {
         None
     }
 
-    /// The device of a loop's rounds, if it lies in no grid that they go through.
+    /// The device of a loop's iterations, if it lies in no grid that they go through.
     fn no_column(&self, place: Place, by: u32) -> Option<String> {
         let grid = self.module.layout.grid(place.class, place.number);
         let name = place.class.number(place.number);
-        let last = self.last_of_rounds(place.number, by);
-        grid.is_none_or(|grid| grid.columns != by || !grid.holds(last))
+        let last = self.last_of_iterations(place.number, by);
+        grid.is_none_or(|grid| grid.columns != by || !grid.stores(last))
             .then(|| format!("{name} lies in no grid of {by} columns"))
     }
 
-    /// A number of the last round of the loop around, of which that of the first is known.
-    fn last_of_rounds(&self, first: u32, by: u32) -> u32 {
-        first.saturating_add(self.rounds.saturating_sub(1).saturating_mul(by))
+    /// A number of the last iteration of the loop around, of which that of the first is known.
+    fn last_of_iterations(&self, first: u32, by: u32) -> u32 {
+        first.saturating_add(self.iterations.saturating_sub(1).saturating_mul(by))
     }
 
-    /// Numbers in all rounds of what is named so in the first.
-    fn in_rounds(&self, first: u32, index: Option<ExprId>) -> impl Iterator<Item = u32> {
+    /// Numbers in all iterations of what is named so in the first.
+    fn in_iterations(&self, first: u32, index: Option<ExprId>) -> impl Iterator<Item = u32> {
         let by = match index.map(|index| self.module.expr(index)) {
             Some(&Expr::Stride(_, by)) => by,
             _ => 0,
         };
-        (0..self.rounds).map(move |n| first.saturating_add(n.saturating_mul(by)))
+        (0..self.iterations).map(move |n| first.saturating_add(n.saturating_mul(by)))
     }
 
-    /// Whether a coil leads to timers of one kind, if it is that of a loop's rounds.
+    /// Whether a coil leads to timers of one kind, if it is that of a loop's iterations.
     fn leads_to_one_kind(&self, place: Place) -> bool {
         let kind = |number| self.module.model.timer(number);
-        let mut numbers = self.in_rounds(place.number, place.index);
+        let mut numbers = self.in_iterations(place.number, place.index);
         numbers.all(|number| kind(number) == kind(place.number))
     }
 
@@ -379,7 +384,7 @@ impl Checker<'_> {
                 out,
                 ..
             } => {
-                let mut memories = self.in_rounds(edge.0, index);
+                let mut memories = self.in_iterations(edge.0, index);
                 let exist = memories.all(|memory| memory < module.edges);
                 exist && is(input, Ty::Bit) && temp_is(out, Ty::Bit)
             }
@@ -414,7 +419,9 @@ impl Checker<'_> {
             Stmt::Count { down, preset, .. } => is(down, Ty::Bit) && is(preset, Ty::I32),
             Stmt::If { cond, .. } => is(cond, Ty::Bit),
             Stmt::For { count, .. } => is(count, Ty::I16),
-            Stmt::Repeat { count, round, .. } => count > 1 && temp_is(round, Ty::I32),
+            Stmt::Repeat {
+                count, iteration, ..
+            } => count > 1 && temp_is(iteration, Ty::I32),
             Stmt::Call {
                 ref args,
                 drive,

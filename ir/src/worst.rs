@@ -44,8 +44,8 @@ impl Cost {
 pub struct OpenLoop {
     /// Step where the network begins that it stands in.
     pub step: u32,
-    /// What each further round does; one is counted.
-    pub round: Cost,
+    /// What each further iteration does; one is counted.
+    pub iteration: Cost,
 }
 
 /// What happens between two scans or in the midst of one.
@@ -100,7 +100,7 @@ pub fn worst(module: &Module) -> Worst {
     }
     let loops = finder.open_loops.into_iter();
     worst.open_loops = loops
-        .map(|(step, round)| OpenLoop { step, round })
+        .map(|(step, iteration)| OpenLoop { step, iteration })
         .collect();
     worst.jumps_back = finder.jumps_back;
     worst.jumps_back.sort_unstable();
@@ -181,18 +181,18 @@ impl<'m> Finder<'m> {
             }
             Stmt::For { count, body } => {
                 let step = self.step;
-                let round = self.body(body);
+                let iteration = self.body(body);
                 match *self.module.expr(*count) {
-                    Expr::I16(count) => cost.plus(round.times(count.max(1) as u64)),
+                    Expr::I16(count) => cost.plus(iteration.times(count.max(1) as u64)),
                     _ => {
-                        self.open_loops.insert(step, round);
-                        cost.plus(round)
+                        self.open_loops.insert(step, iteration);
+                        cost.plus(iteration)
                     }
                 }
             }
             Stmt::Repeat { count, body, .. } => {
-                let round = self.body(body);
-                cost.plus(round.times(u64::from(*count)))
+                let iteration = self.body(body);
+                cost.plus(iteration.times(u64::from(*count)))
             }
             Stmt::CallSub(number) => {
                 let number = *number as usize;

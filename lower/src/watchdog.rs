@@ -13,7 +13,7 @@ use rungc_ir::worst::lengths;
 use rungc_syntax::OperandKind;
 use std::collections::BTreeMap;
 
-/// A loop that executes no more steps than these in all its rounds needs no watching: the fastest PLC takes some milliseconds.
+/// A loop that executes no more steps than these in all its iterations needs no watching: the fastest PLC takes some milliseconds.
 const SHORT: u64 = 20_000;
 
 /// What is known of a function.
@@ -143,15 +143,15 @@ impl Watcher<'_> {
     /// FOR: how many steps it executes, if it is not watched.
     fn repeated(&mut self, count: ExprId, body: Body, out: &mut Body) -> u64 {
         let at = self.step;
-        let (mut body, round) = self.body(body);
-        let round = round.max(1);
+        let (mut body, iteration) = self.body(body);
+        let iteration = iteration.max(1);
         let all = match *self.module.expr(count) {
-            Expr::I16(count) => Some(round.saturating_mul(count.max(1) as u64)),
+            Expr::I16(count) => Some(iteration.saturating_mul(count.max(1) as u64)),
             _ => None,
         };
         let short = all.filter(|&all| all <= SHORT);
         if short.is_none() {
-            body.insert(0, self.watched(round, at));
+            body.insert(0, self.watched(iteration, at));
         }
         out.push(Stmt::For { count, body });
         short.unwrap_or(0)

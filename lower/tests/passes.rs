@@ -343,7 +343,7 @@ fn rows_go_on_over_the_border_of_latched_relays() {
     );
 }
 
-/// A second in a release build, where it took minutes when each rung looked for its own rounds.
+/// A second in a release build, where it took minutes when each rung looked for its own iterations.
 #[test]
 fn rungs_that_cannot_be_loops_are_compared_a_few_times_only() {
     let mut text = String::new();

@@ -31,8 +31,8 @@ fn loops_count_as_often_as_they_run() {
     assert!(ten.steps >= once.steps + 9 * 8, "{once:?} {ten:?}");
     let open = of(&list("D5"));
     assert_eq!(open.open_loops.len(), 1);
-    let round = open.open_loops[0].round;
-    assert_eq!(open.scan.steps + 9 * round.steps, ten.steps);
+    let iteration = open.open_loops[0].iteration;
+    assert_eq!(open.scan.steps + 9 * iteration.steps, ten.steps);
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! Passes over a module. None changes what a scan does to any device.
 //!
-//! [`optimise`] rewrites the module twice: the first round leaves conditions with fewer uses, which the second puts where they are
+//! [`optimise`] rewrites the module twice: the first pass leaves conditions with fewer uses, which the second puts where they are
 //! used, so that emitted code reads as one would write it by hand. Where there are no temporaries the first leaves nothing. In the end rungs that are repeated with other devices become loops.
 
-mod columns;
 mod effects;
 mod fold;
+mod grids;
 mod inline;
 mod repeat;
 mod rewrite;

@@ -1,8 +1,8 @@
 //! Machines are built of equal stations, and their programs repeat the same rungs with other devices. This pass finds such rungs, where
-//! each device is as far from the one before as in the round before, and makes a loop of them ([`Stmt::Repeat`]) that C and Rust
-//! compilers vectorise. The rounds run in the program's order, so nothing has to be proved but that they are alike.
+//! each device is as far from the one before as in the iteration before, and makes a loop of them ([`Stmt::Repeat`]) that C and Rust
+//! compilers vectorise. The iterations run in the program's order, so nothing has to be proved but that they are alike.
 
-use super::columns::{self, Arrays, last_alike, meets_other_grid, spread};
+use super::grids::{self, Arrays, last_alike, meets_other_grid, spread};
 use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::walk::{assigned, bodies, for_exprs, operands, operands_mut};
 use rungc_models::runs::is_counter32;
@@ -11,14 +11,14 @@ use rustc_hash::FxHasher;
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
 
-/// Fewer rounds stay as they are written.
-const LEAST_ROUNDS: usize = 4;
+/// Fewer iterations stay as they are written.
+const LEAST_ITERATIONS: usize = 4;
 /// How many operations a loop has to save: below, a program is easier to read with each device by its name.
 const LEAST_SAVED: u64 = 200;
-/// How many statements a round may have.
-const LONGEST_ROUND: usize = 100;
+/// How many statements an iteration may have.
+const LONGEST_ITERATION: usize = 100;
 
-/// How many operations a statement of a round may be.
+/// How many operations a statement of an iteration may be.
 const LARGEST_STATEMENT: u64 = 500;
 
 /// Makes loops of repeated rungs.
@@ -28,7 +28,7 @@ pub(super) fn run(module: &mut Module) {
         let body = std::mem::take(&mut module.functions[n].body);
         module.functions[n].body = roll(module, body);
     }
-    columns::trim(module, &named);
+    grids::trim(module, &named);
 }
 
 fn roll(module: &mut Module, body: Body) -> Body {
@@ -45,7 +45,7 @@ fn roll(module: &mut Module, body: Body) -> Body {
         match found {
             Some(group) => {
                 out.push(group.repeat(module, &body));
-                at += group.length * group.rounds;
+                at += group.length * group.iterations;
             }
             None => {
                 out.push(body[at].clone());
@@ -234,14 +234,14 @@ impl Networks {
 struct Group {
     /// First statement.
     first: usize,
-    /// Statements of a round.
+    /// Statements of an iteration.
     length: usize,
-    rounds: usize,
-    /// What the first round names, in order, and how far from each that of the next round is.
+    iterations: usize,
+    /// What the first iteration names, in order, and how far from each that of the next iteration is.
     devices: Vec<Names>,
 }
 
-/// What rounds name.
+/// What iterations name.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Device(DeviceClass),
@@ -249,17 +249,17 @@ enum Kind {
     Edge,
 }
 
-/// What a round names, its number, and that of the next round or how much further that is.
+/// What an iteration names, its number, and that of the next iteration or how much further that is.
 type Names = (Kind, u32, u32);
 
-/// As many rounds of one length as are alike. It is sought once, and not again from each of its rounds that a group might begin with.
+/// As many iterations of one length as are alike. It is sought once, and not again from each of its iterations that a group might begin with.
 struct Run {
     /// First statement.
     first: usize,
-    rounds: usize,
-    /// What its first round names.
+    iterations: usize,
+    /// What its first iteration names.
     devices: Vec<Names>,
-    /// How many of the first rounds may not begin a group: the last of them gives a temporary a value that others use, too.
+    /// How many of the first iterations may not begin a group: the last of them gives a temporary a value that others use, too.
     leaking: usize,
 }
 
@@ -270,7 +270,7 @@ struct Runs<'b> {
     /// Where each temporary is used.
     spans: Vec<Option<(usize, usize)>>,
     arrays: Arrays,
-    /// By the length of a round and where, modulo this, rounds begin: the last that was looked for.
+    /// By the length of an iteration and where, modulo this, iterations begin: the last that was looked for.
     found: HashMap<(usize, usize), Run>,
 }
 
@@ -288,24 +288,24 @@ impl<'b> Runs<'b> {
     /// The group that begins with the first of these networks and saves the most, if it keeps to itself.
     fn best(&mut self, module: &Module, networks: &[Network]) -> Option<Group> {
         let (&Network { at: first, alike }, next) = networks.split_first()?;
-        let longest = LONGEST_ROUND.min(alike / LEAST_ROUNDS);
+        let longest = LONGEST_ITERATION.min(alike / LEAST_ITERATIONS);
         let lengths = next.iter().map(|network| network.at - first);
         let mut best: Option<(u64, usize)> = None;
-        // The shortest rounds that are alike. Several of them together save less.
+        // The shortest iterations that are alike. Several of them together save less.
         let mut shortest: Option<(usize, usize)> = None;
         for length in lengths.take_while(|&length| length <= longest) {
             let together = shortest.filter(|&(of, _)| length.is_multiple_of(of));
-            if together.is_some_and(|(of, rounds)| rounds >= 2 * (length / of)) {
+            if together.is_some_and(|(of, iterations)| iterations >= 2 * (length / of)) {
                 continue;
             }
-            let Some(rounds) = self.rounds(module, first, length) else {
+            let Some(iterations) = self.iterations(module, first, length) else {
                 continue;
             };
-            shortest.get_or_insert((length, rounds));
-            let round = &self.shapes[first..first + length];
-            let size: u64 = round.iter().flatten().map(|s| s.size).sum();
-            let saved = (rounds as u64 - 1) * size;
-            let enough = rounds >= LEAST_ROUNDS && saved >= LEAST_SAVED;
+            shortest.get_or_insert((length, iterations));
+            let iteration = &self.shapes[first..first + length];
+            let size: u64 = iteration.iter().flatten().map(|s| s.size).sum();
+            let saved = (iterations as u64 - 1) * size;
+            let enough = iterations >= LEAST_ITERATIONS && saved >= LEAST_SAVED;
             if enough && best.is_none_or(|(most, _)| saved > most) {
                 best = Some((saved, length));
             }
@@ -317,76 +317,77 @@ impl<'b> Runs<'b> {
         (behind >= run.leaking).then(|| Group {
             first,
             length,
-            rounds: run.rounds - behind,
+            iterations: run.iterations - behind,
             devices: devices
-                .map(|&(kind, number, by)| (kind, number + behind as u32 * by, by))
+                .map(|&(kind, number, stride)| (kind, number + behind as u32 * stride, stride))
                 .collect(),
         })
     }
 
-    /// How many rounds of this length are alike from a statement on, if there are two.
-    fn rounds(&mut self, module: &Module, first: usize, length: usize) -> Option<usize> {
+    /// How many iterations of this length are alike from a statement on, if there are two.
+    fn iterations(&mut self, module: &Module, first: usize, length: usize) -> Option<usize> {
         let key = (length, first % length);
         if let Some(run) = self.found.get(&key)
             && run.first <= first
-            && first + length < run.first + run.rounds * length
+            && first + length < run.first + run.iterations * length
         {
-            return Some(run.rounds - (first - run.first) / length);
+            return Some(run.iterations - (first - run.first) / length);
         }
         let run = self.run(module, first, length)?;
-        let rounds = run.rounds;
+        let iterations = run.iterations;
         self.found.insert(key, run);
-        Some(rounds)
+        Some(iterations)
     }
 
     fn run(&self, module: &Module, first: usize, length: usize) -> Option<Run> {
-        let round = |n: usize| first + n * length..first + (n + 1) * length;
-        let is_alike = |n: usize| self.shapes.get(round(n)) == Some(&self.shapes[round(0)]);
+        let iteration = |n: usize| first + n * length..first + (n + 1) * length;
+        let is_alike = |n: usize| self.shapes.get(iteration(n)) == Some(&self.shapes[iteration(0)]);
         let names = |n: usize| {
-            let other = is_alike(n).then(|| self.body.get(round(n))).flatten()?;
-            Pair::of(module, &self.body[round(0)], other)
+            let other = is_alike(n).then(|| self.body.get(iteration(n))).flatten()?;
+            Pair::of(module, &self.body[iteration(0)], other)
         };
         let mut devices = names(1)?;
         for (_, number, next) in &mut devices {
             *next = next.checked_sub(*number)?;
         }
         let is_next = |n: &usize| {
-            let moved = |&(kind, number, by): &Names| (kind, number, number + *n as u32 * by);
+            let moved =
+                |&(kind, number, stride): &Names| (kind, number, number + *n as u32 * stride);
             names(*n).is_some_and(|found| found.into_iter().eq(devices.iter().map(moved)))
         };
-        let most = most_rounds(module, &devices);
-        let rounds = (2..most).take_while(is_next).count() + 2;
-        let leaks = |&n: &usize| !self.keeps_to_itself(round(n));
-        (rounds <= most).then(|| Run {
+        let most = most_iterations(module, &devices);
+        let iterations = (2..most).take_while(is_next).count() + 2;
+        let leaks = |&n: &usize| !self.keeps_to_itself(iteration(n));
+        (iterations <= most).then(|| Run {
             first,
-            rounds,
-            leaking: (0..rounds).rev().find(leaks).map_or(0, |n| n + 1),
+            iterations,
+            leaking: (0..iterations).rev().find(leaks).map_or(0, |n| n + 1),
             devices,
         })
     }
 
-    /// Whether what a round gives to temporaries is used in that round only.
-    fn keeps_to_itself(&self, round: std::ops::Range<usize>) -> bool {
+    /// Whether what an iteration gives to temporaries is used in that iteration only.
+    fn keeps_to_itself(&self, iteration: std::ops::Range<usize>) -> bool {
         let mut inside = true;
-        for stmt in &self.body[round.clone()] {
+        for stmt in &self.body[iteration.clone()] {
             each_assigned(stmt, &mut |temp| {
                 let span = self.spans.get(temp.0 as usize).copied().flatten();
-                inside &=
-                    span.is_none_or(|(from, to)| round.contains(&from) && round.contains(&to));
+                inside &= span
+                    .is_none_or(|(from, to)| iteration.contains(&from) && iteration.contains(&to));
             });
         }
         inside
     }
 }
 
-/// How many rounds the devices that move on leave room for.
-fn most_rounds(module: &Module, devices: &[Names]) -> usize {
-    let most = |&(kind, number, by): &Names| {
+/// How many iterations the devices that move on leave room for.
+fn most_iterations(module: &Module, devices: &[Names]) -> usize {
+    let most = |&(kind, number, stride): &Names| {
         let last = match kind {
             Kind::Device(class) => last_alike(module.model, class, number),
             Kind::Edge => module.edges.checked_sub(1),
         };
-        last.map_or(0, |last| (last - number) / by + 1)
+        last.map_or(0, |last| (last - number) / stride + 1)
     };
     let moving = devices.iter().filter(|names| names.2 > 0);
     moving.map(most).min().unwrap_or(0) as usize
@@ -395,46 +396,46 @@ fn most_rounds(module: &Module, devices: &[Names]) -> usize {
 impl Group {
     /// Whether nothing is known that keeps [`Group::store`] from making its arrays, which takes longer to find out.
     fn fits(&self, module: &Module, arrays: &Arrays) -> bool {
-        let reached = self.rounds as u32 - 1;
+        let reached = self.iterations as u32 - 1;
         let mut devices: Vec<_> = self
             .moving()
-            .map(|(class, first, by)| (class, first, first + reached * by, by))
+            .map(|(class, first, stride)| (class, first, first + reached * stride, stride))
             .collect();
         devices.sort_unstable();
         // Per distance of what goes before in the same class: where that ends.
         let mut ends: Vec<(DeviceClass, u32, u32)> = Vec::new();
-        devices.into_iter().all(|(class, first, last, by)| {
+        devices.into_iter().all(|(class, first, last, stride)| {
             ends.retain(|end| end.0 == class);
             let apart = ends
                 .iter()
-                .all(|&(_, other, end)| other == by || end + 1 < first);
-            match ends.iter_mut().find(|end| end.1 == by) {
+                .all(|&(_, other, end)| other == stride || end + 1 < first);
+            match ends.iter_mut().find(|end| end.1 == stride) {
                 Some(end) => end.2 = end.2.max(last),
-                None => ends.push((class, by, last)),
+                None => ends.push((class, stride, last)),
             }
             apart
                 && !arrays.meet(class, first, last)
-                && !meets_other_grid(&module.layout, (class, first, last), by)
+                && !meets_other_grid(&module.layout, (class, first, last), stride)
         })
     }
 
-    /// The devices that are others in each round, and how far apart.
+    /// The devices that are others in each iteration, and how far apart.
     fn moving(&self) -> impl Iterator<Item = (DeviceClass, u32, u32)> {
         self.devices
             .iter()
-            .filter_map(|&(kind, number, by)| match kind {
-                Kind::Device(class) => (by > 0).then_some((class, number, by)),
+            .filter_map(|&(kind, number, stride)| match kind {
+                Kind::Device(class) => (stride > 0).then_some((class, number, stride)),
                 Kind::Edge => None,
             })
     }
 
-    /// Makes the areas that the rounds go through; false if the devices are needed otherwise.
+    /// Makes the areas that the iterations go through; false if the devices are needed otherwise.
     fn store(&self, module: &mut Module) -> bool {
         let mut layout = module.layout.clone();
-        let reached = self.rounds as u32 - 1;
-        let stored = self.moving().all(|(class, number, by)| {
-            let devices = (class, number, number + reached * by);
-            spread(&mut layout, module, devices, by)
+        let reached = self.iterations as u32 - 1;
+        let stored = self.moving().all(|(class, number, stride)| {
+            let devices = (class, number, number + reached * stride);
+            spread(&mut layout, module, devices, stride)
         });
         if stored {
             module.layout = layout;
@@ -444,16 +445,16 @@ impl Group {
 
     /// The loop.
     fn repeat(&self, module: &mut Module, body: &Body) -> Stmt {
-        let round = TempId(module.temps.len() as u32);
+        let iteration = TempId(module.temps.len() as u32);
         module.temps.push(Ty::I32);
         let mut maker = Maker {
             module,
-            round,
+            iteration,
             strides: self.devices.iter().map(|device| device.2),
         };
         let statements = &body[self.first..self.first + self.length];
         let inner = maker.body(statements);
-        let all = &body[self.first..self.first + self.rounds * self.length];
+        let all = &body[self.first..self.first + self.iterations * self.length];
         let mut steps = all.iter().filter_map(|stmt| match stmt {
             Stmt::Network(network) => Some(maker.module.networks.get(*network as usize)?.step),
             _ => None,
@@ -461,8 +462,8 @@ impl Group {
         let first = steps.next().unwrap_or_default();
         let last = steps.next_back().unwrap_or(first);
         Stmt::Repeat {
-            count: self.rounds as u32,
-            round,
+            count: self.iterations as u32,
+            iteration,
             body: inner,
             steps: (first, last),
         }
@@ -478,17 +479,17 @@ fn each_assigned(stmt: &Stmt, f: &mut impl FnMut(TempId)) {
         .for_each(|stmt| each_assigned(stmt, f));
 }
 
-/// Two rounds side by side.
+/// Two iterations side by side.
 struct Pair<'m> {
     module: &'m Module,
-    /// Temporaries of the first round, and what they are in the other.
+    /// Temporaries of the first iteration, and what they are in the other.
     temps: HashMap<TempId, TempId>,
     /// What both name.
     devices: Vec<Names>,
 }
 
 impl<'m> Pair<'m> {
-    /// What two rounds name, in order; `None` if the rounds differ otherwise.
+    /// What two iterations name, in order; `None` if the iterations differ otherwise.
     fn of(module: &'m Module, one: &[Stmt], other: &[Stmt]) -> Option<Vec<Names>> {
         let mut pair = Pair {
             module,
@@ -649,11 +650,11 @@ fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Place, bool)>)> {
     (otherwise.is_empty() && !writes.is_empty()).then_some((*cond, writes))
 }
 
-/// Makes the body of a loop of a first round.
+/// Makes the body of a loop of a first iteration.
 struct Maker<'m, S> {
     module: &'m mut Module,
-    round: TempId,
-    /// How far the devices are from those of the next round, in the order in which the round names them.
+    iteration: TempId,
+    /// How far the devices are from those of the next iteration, in the order in which the iteration names them.
     strides: S,
 }
 
@@ -743,7 +744,7 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         self.module.add(expr)
     }
 
-    /// A coil of a timer or counter. All rounds have one kind of timers, so it is of its own number's.
+    /// A coil of a timer or counter. All iterations have one kind of timers, so it is of its own number's.
     fn coil(&mut self, stmt: &Stmt) -> Stmt {
         let Some((place, drive, preset)) = coil(stmt) else {
             return stmt.clone();
@@ -780,9 +781,9 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         Place { index, ..place }
     }
 
-    /// What leads from the next thing named in the first round to that of the present one, if it is another.
+    /// What leads from the next thing named in the first iteration to that of the present one, if it is another.
     fn index(&mut self) -> Option<ExprId> {
-        let by = self.strides.next().unwrap_or_default();
-        (by > 0).then(|| self.module.add(Expr::Stride(self.round, by)))
+        let stride = self.strides.next().unwrap_or_default();
+        (stride > 0).then(|| self.module.add(Expr::Stride(self.iteration, stride)))
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn run(module: &mut Module, room: Vec<Expr>) -> Vec<Expr> {
     std::mem::replace(&mut module.exprs, exprs)
 }
 
-/// Whether another round may find something: a temporary that has fewer uses now, or a label that nothing jumps to any more.
+/// Whether another pass may find something: a temporary that has fewer uses now, or a label that nothing jumps to any more.
 pub(super) fn may_gain(module: &Module) -> bool {
     if !module.temps.is_empty() {
         return true;
@@ -134,7 +134,7 @@ impl Rewriter<'_> {
             }
             Stmt::Repeat {
                 count,
-                round,
+                iteration,
                 body,
                 steps,
             } => {
@@ -144,7 +144,7 @@ impl Rewriter<'_> {
                 self.temps.set_available(Vec::new());
                 out.push(Stmt::Repeat {
                     count,
-                    round,
+                    iteration,
                     body,
                     steps,
                 });

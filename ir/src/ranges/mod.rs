@@ -1,6 +1,6 @@
 //! Between which values index registers lie where an index leads to a device, so that no more is stored than it can lead to.
 //!
-//! A module is executed with intervals in the place of values: constants, sums, masks, comparisons on the way, rounds of loops, and what
+//! A module is executed with intervals in the place of values: constants, sums, masks, comparisons on the way, iterations of loops, and what
 //! one scan leaves to the next. An index register that nothing has written is 0. What is known rests on one rule: **a host writes an index
 //! register only if it is observed** ([`Wanted::observe`]); other registers it may write between two scans, so
 //! that nothing is known of them when a scan begins. Should a host break the rule, or the watchdog end a scan halfway, an index may lead to a

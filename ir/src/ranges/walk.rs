@@ -12,12 +12,12 @@ use rungc_models::runs::FIRST_SPECIAL;
 use rungc_syntax::DeviceClass;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// From which round on states that grow are widened, and from which on to the ends of all words.
+/// From which sweep or iteration on states that grow are widened, and from which on to the ends of all words.
 const WIDENED: usize = 6;
 const WIDENED_WHOLLY: usize = 16;
-/// How many rounds make what was found more exact.
+/// How many sweeps narrow what was found.
 const NARROWED: usize = 4;
-/// How many statements the rounds of a loop may be, all together, to be executed one by one.
+/// How many statements the iterations of a loop may be, all together, to be executed one by one.
 const UNROLLED: usize = 20_000;
 
 /// What is known where functions begin and end, and between scans.
@@ -40,13 +40,13 @@ pub(super) struct Walk<'m> {
     matters: FxHashSet<*const Stmt>,
     /// Statements that have a [`Expr::Within`], by address.
     indexes: FxHashSet<*const Stmt>,
-    /// What the last round found, and what this one does.
+    /// What the last sweep found, and what this one does.
     known: Facts,
     next: Facts,
     /// What is known where the function at hand is left early, and where jumps lead.
     returns: Option<State>,
     labels: Vec<(LabelId, Option<State>)>,
-    /// How many statements the rounds of the next loop may be.
+    /// How many statements the iterations of the next loop may be.
     unrolled: usize,
     /// Where each [`Expr::Within`] lies where it is evaluated, once this is asked.
     found: Option<FxHashMap<ExprId, Interval>>,
@@ -83,24 +83,24 @@ impl<'m> Walk<'m> {
         walk.grow();
         for _ in 0..NARROWED {
             walk.next = facts.clone();
-            walk.round();
+            walk.sweep();
             walk.known = walk.next.clone();
         }
         walk.found = Some(FxHashMap::default());
-        walk.round();
+        walk.sweep();
         walk.found.unwrap_or_default()
     }
 
     /// Executes all functions until what is known holds for all that can happen.
     fn grow(&mut self) {
-        for round in 0.. {
+        for sweep in 0.. {
             self.next = self.known.clone();
-            self.round();
+            self.sweep();
             if self.next == self.known {
                 return;
             }
-            if round >= WIDENED {
-                let thresholds = match round {
+            if sweep >= WIDENED {
+                let thresholds = match sweep {
                     WIDENED_WHOLLY.. => &[],
                     _ => self.thresholds.as_slice(),
                 };
@@ -243,8 +243,8 @@ impl<'m> Walk<'m> {
         words.within(place.class, first, end)
     }
 
-    /// One round over all functions.
-    fn round(&mut self) {
+    /// Executes all functions once.
+    fn sweep(&mut self) {
         let functions: &'m [Function] = &self.eval.module.functions;
         let mut between = self.known.between.clone();
         between.may_become(self.eval.words.shared, Interval::WORD);
@@ -302,7 +302,7 @@ impl<'m> Walk<'m> {
         state
     }
 
-    /// Whether something is to be done about a statement in this round.
+    /// Whether something is to be done about a statement in this sweep.
     fn is_due(&self, stmt: &Stmt) -> bool {
         let stmt: *const Stmt = stmt;
         let asked = self.found.is_some() && self.indexes.contains(&stmt);
@@ -433,7 +433,7 @@ impl<'m> Walk<'m> {
         Some(state)
     }
 
-    /// A loop: round by round if these are few, else with what may be known at the begin of any round.
+    /// A loop: iteration by iteration if there are few, otherwise with what holds at the start of every iteration.
     fn repeat(&mut self, count: ExprId, body: &'m Body, state: State) -> Option<State> {
         let count = self.eval.value(&state, count);
         let (least, most) = (count.low.max(1), count.high.max(1));
@@ -441,14 +441,14 @@ impl<'m> Walk<'m> {
         statements(body, &mut |_| size += 1);
         let room = self.unrolled / most as usize;
         if size > room {
-            return self.any_round(body, state);
+            return self.any_iteration(body, state);
         }
         let outside = std::mem::replace(&mut self.unrolled, room);
         let (mut now, mut end) = (Some(state), None);
-        for round in 1..=most {
+        for iteration in 1..=most {
             let next = self.body(body, now.clone());
             let settled = next == now;
-            if round >= least || settled {
+            if iteration >= least || settled {
                 end = join(end, next.clone());
             }
             if next.is_none() || settled {
@@ -460,15 +460,15 @@ impl<'m> Walk<'m> {
         end
     }
 
-    fn any_round(&mut self, body: &'m Body, mut entry: State) -> Option<State> {
-        for round in 0.. {
+    fn any_iteration(&mut self, body: &'m Body, mut entry: State) -> Option<State> {
+        for iteration in 0.. {
             let end = self.body(body, Some(entry.clone()))?;
             let mut next = entry.clone();
             next.join(&end);
             if next == entry {
                 return Some(end);
             }
-            match round {
+            match iteration {
                 0..WIDENED => {}
                 WIDENED_WHOLLY.. => next.widen(&entry, &[]),
                 _ => next.widen(&entry, &self.thresholds),
@@ -483,7 +483,7 @@ impl<'m> Walk<'m> {
         let labels = parts.iter().filter_map(|part| part.label);
         self.labels.extend(labels.map(|label| (label, None)));
         let mut end = None;
-        for round in 0.. {
+        for iteration in 0.. {
             let before = self.labels[outside..].to_vec();
             let mut flow = Some(state.clone());
             for part in parts {
@@ -496,8 +496,8 @@ impl<'m> Walk<'m> {
             let mut grown = false;
             for ((_, after), (_, before)) in self.labels[outside..].iter_mut().zip(&before) {
                 grown |= after != before;
-                if let (Some(after), Some(before), WIDENED..) = (after, before, round) {
-                    let wholly = round >= WIDENED_WHOLLY;
+                if let (Some(after), Some(before), WIDENED..) = (after, before, iteration) {
+                    let wholly = iteration >= WIDENED_WHOLLY;
                     after.widen(before, if wholly { &[] } else { &self.thresholds });
                 }
             }

@@ -1,4 +1,4 @@
-//! Arrays of columns for the devices that loops over rungs go through.
+//! Grids for the devices that loops over repeated rungs go through ([`Grid`]).
 
 use crate::layout::{Area, Grid, Layout};
 use crate::node::Module;
@@ -6,14 +6,14 @@ use rungc_models::Model;
 use rungc_models::runs::is_special;
 use rungc_syntax::DeviceClass;
 
-/// The last device behind one that the model has without a gap, and that is as little special.
+/// The last device of the run of general devices that holds this one; `None` if it is a special device.
 pub(super) fn last_alike(model: &Model, class: DeviceClass, number: u32) -> Option<u32> {
     let mut runs = model.runs(class).into_iter();
     let (_, last) = runs.find(|(first, last)| (first..=last).contains(&&number))?;
     (!is_special(class, number) && !is_special(class, last)).then_some(last)
 }
 
-/// Arrays that are needed as they are: an index or a block goes through them.
+/// Arrays that must stay contiguous: an index or a block goes through them.
 pub(super) struct Arrays(Vec<Area>);
 
 impl Arrays {
@@ -35,7 +35,7 @@ impl Arrays {
     }
 }
 
-/// Whether a grid of another number of columns touches the devices from `first` to `last`.
+/// Whether a grid with another number of columns touches the devices from `first` to `last`.
 pub(super) fn meets_other_grid(
     layout: &Layout,
     (class, first, last): (DeviceClass, u32, u32),
@@ -48,15 +48,15 @@ pub(super) fn meets_other_grid(
     touching.any(|grid| grid.columns != columns)
 }
 
-/// Stores the devices from `first` to `last` of a class in an array of so many columns, together with its neighbours if they are stored so;
-/// false if they are needed in another order.
+/// Stores the devices from `first` to `last` of a class in a grid of `columns` columns, joined with neighbouring grids of as many;
+/// false if something needs them in another order.
 pub(super) fn spread(
     layout: &mut Layout,
     module: &Module,
     (class, first, last): (DeviceClass, u32, u32),
     columns: u32,
 ) -> bool {
-    // A gap of less than a round belongs to both neighbours.
+    // A gap of less than an iteration belongs to both neighbours.
     let touches = |grid: &Grid| {
         let gap = if grid.columns == columns {
             columns - 1
@@ -81,13 +81,13 @@ pub(super) fn spread(
     let end = joined.last().map_or(0, Grid::end).max(last + 1);
     let areas = &mut layout.areas;
     let begin = areas.partition_point(|a| (a.class, a.first + a.count) <= (class, first));
-    let behind = areas.partition_point(|a| (a.class, a.first) < (class, end));
+    let after = areas.partition_point(|a| (a.class, a.first) < (class, end));
     let in_grid = |area: &Area| {
         joined
             .iter()
             .any(|g| (g.first..g.end()).contains(&area.first))
     };
-    if areas[begin..behind]
+    if areas[begin..after]
         .iter()
         .any(|area| area.array && !in_grid(area))
     {
@@ -108,20 +108,20 @@ pub(super) fn spread(
             }
         })
         .collect();
-    areas.splice(begin..behind, new);
+    areas.splice(begin..after, new);
     let grid = Grid {
         class,
         first,
         count: end - first,
         columns,
-        kept: columns,
+        stored_columns: columns,
     };
     grids.splice(from..to, [grid]);
     true
 }
 
-/// Takes columns away that hold no device that the program names, which `named` stores. Each array then begins with the column behind as
-/// many of them as there are in a row, if that is free.
+/// Leaves out columns without a device that the program names (`named` stores those). A grid then starts at the column after the longest
+/// row of unused ones, if its devices are free.
 pub(super) fn trim(module: &mut Module, named: &Layout) {
     for i in 0..module.layout.grids.len() {
         let grid = module.layout.grids[i];
@@ -130,10 +130,10 @@ pub(super) fn trim(module: &mut Module, named: &Layout) {
         for area in areas {
             let end = (area.first + area.count).min(grid.end());
             for number in area.first.max(grid.first)..end {
-                used[grid.place(number).0 as usize] = true;
+                used[grid.position(number).0 as usize] = true;
             }
         }
-        let (first, kept) = turned(&used);
+        let (first, stored) = rotated(&used);
         let before = (grid.columns - first) % grid.columns;
         let begin = grid.first.saturating_sub(before);
         let free = |number| module.layout.area(grid.class, number).is_none();
@@ -144,23 +144,23 @@ pub(super) fn trim(module: &mut Module, named: &Layout) {
             && previous.is_none_or(|previous| previous.end() <= begin)
             && alike.is_some_and(|last| last >= grid.first)
             && (begin..grid.first).all(free);
-        let (first, kept) = match turns {
-            true => (begin, kept),
+        let (first, stored_columns) = match turns {
+            true => (begin, stored),
             false => (grid.first, last_used(&used)),
         };
         let grid = Grid {
             first,
             count: grid.end() - first,
-            kept,
+            stored_columns,
             ..grid
         };
         module.layout.grids[i] = grid;
-        store_kept(module, &grid);
+        store_columns(module, &grid);
     }
 }
 
-/// Behind which column the longest row of unused ones ends, and how many columns there are from there to its begin.
-fn turned(used: &[bool]) -> (u32, u32) {
+/// The column after the longest row of unused ones, and how many columns there are from there to the start of that row.
+fn rotated(used: &[bool]) -> (u32, u32) {
     let columns = used.len();
     let row = |first: usize| {
         let before = (1..=columns).take_while(|n| !used[(first + columns - n) % columns]);
@@ -171,27 +171,27 @@ fn turned(used: &[bool]) -> (u32, u32) {
     (first as u32, (columns - row(first)).max(1) as u32)
 }
 
-/// How many columns there are up to the last that is used.
+/// The number of columns up to the last one used.
 fn last_used(used: &[bool]) -> u32 {
     let last = used.iter().rposition(|&used| used);
     last.map_or(1, |last| last as u32 + 1)
 }
 
-/// Makes the areas of an array those of its columns that it keeps.
-fn store_kept(module: &mut Module, grid: &Grid) {
+/// Replaces the areas of a grid by those of its stored columns.
+fn store_columns(module: &mut Module, grid: &Grid) {
     let ranges = module.ranges_of(grid.class).copied();
     let ranges: Vec<_> = ranges
         .filter(|r| r.first < grid.end() && grid.first <= r.last)
         .collect();
-    let mut kept: Vec<Area> = Vec::new();
+    let mut stored: Vec<Area> = Vec::new();
     for range in ranges {
         let numbers = range.first.max(grid.first)..=range.last.min(grid.end() - 1);
-        for number in numbers.filter(|&number| grid.holds(number)) {
-            match kept.last_mut() {
+        for number in numbers.filter(|&number| grid.stores(number)) {
+            match stored.last_mut() {
                 Some(last) if last.first + last.count == number && last.first >= range.first => {
                     last.count += 1;
                 }
-                _ => kept.push(Area {
+                _ => stored.push(Area {
                     class: grid.class,
                     first: number,
                     count: 1,
@@ -203,16 +203,16 @@ fn store_kept(module: &mut Module, grid: &Grid) {
     }
     let areas = &mut module.layout.areas;
     let begin = areas.partition_point(|a| (a.class, a.first) < (grid.class, grid.first));
-    let behind = areas.partition_point(|a| (a.class, a.first) < (grid.class, grid.end()));
-    areas.splice(begin..behind, kept);
+    let after = areas.partition_point(|a| (a.class, a.first) < (grid.class, grid.end()));
+    areas.splice(begin..after, stored);
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{last_used, turned};
+    use super::{last_used, rotated};
 
     #[test]
-    fn arrays_begin_behind_the_longest_row_of_unused_columns() {
+    fn grids_start_after_the_longest_row_of_unused_columns() {
         let columns = |text: &str| text.chars().map(|c| c == '1').collect::<Vec<_>>();
         for (used, expected) in [
             ("11111", (0, 5)),
@@ -221,7 +221,7 @@ mod tests {
             ("10001011", (4, 5)),
             ("1", (0, 1)),
         ] {
-            assert_eq!(turned(&columns(used)), expected, "{used}");
+            assert_eq!(rotated(&columns(used)), expected, "{used}");
         }
         assert_eq!(last_used(&columns("10100")), 3);
     }
