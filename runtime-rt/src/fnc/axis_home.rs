@@ -3,7 +3,7 @@
 //! Its memory: words 0 and 1 see `axis_registers`; word 2 the stage, word 3 the zero signals that are still to come, word 4 whether the zero
 //! signal was there, word 5 whether it has turned round at the limit.
 
-use super::axis_registers::{Registers, event, motion, state};
+use super::axis_registers::{Registers, error, event, motion, state};
 use crate::axis_place as at;
 use crate::cx::Cx;
 use crate::fault::Done;
@@ -69,6 +69,9 @@ fn begin(cx: &mut Cx, axis: Registers) -> Done {
     if !axis.has(cx, event::DOG.0) && !axis.has(cx, event::ZERO.0) {
         return axis.refuse(cx, 0);
     }
+    if let Some(code) = wrong_speed(cx, axis) {
+        return axis.refuse(cx, code);
+    }
     let signals = signals(cx, axis);
     cx.state().0[TURNED] = 0;
     let first = match (signals.only_zero, signals.left, signals.dog) {
@@ -77,6 +80,23 @@ fn begin(cx: &mut Cx, axis: Registers) -> Done {
         _ => stage::SEEK,
     };
     run(cx, axis, first, signals.only_zero)
+}
+
+/// What is wrong with the speeds of a return. The manual says when each code is checked and not against what: an axis that starts faster than
+/// it is to return is above its speed, one that returns slower than it is to creep is below it, and one that stands still never arrives.
+fn wrong_speed(cx: &Cx, axis: Registers) -> Option<i16> {
+    let [first, back, creep] = [at::FIRST, at::RETURN, at::CREEP].map(|at| axis.speed(cx, at));
+    // Without a DOG it creeps from the beginning.
+    let returns = axis.has(cx, event::DOG.0);
+    if returns && first > back {
+        Some(error::ABOVE_RETURN)
+    } else if returns && back < creep {
+        Some(error::BELOW_CREEP)
+    } else if creep == 0 {
+        Some(error::BELOW_FIRST)
+    } else {
+        None
+    }
 }
 
 /// Runs a stage.

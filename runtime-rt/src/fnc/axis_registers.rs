@@ -26,6 +26,8 @@ pub(super) mod error {
     pub const NO_OUTPUT: i16 = 2;
     pub const TOO_FAST: i16 = 3;
     pub const BELOW_FIRST: i16 = 4;
+    pub const ABOVE_RETURN: i16 = 5;
+    pub const BELOW_CREEP: i16 = 6;
     pub const FIRST_TOO_FAST: i16 = 7;
 }
 
