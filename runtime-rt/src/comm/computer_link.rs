@@ -76,16 +76,17 @@ pub enum Dialect {
 }
 
 /// What a slave keeps between frames.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Slave {
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct Remote {
     /// RUN was begun by RR, so that RS may end it.
     forced_run: bool,
 }
 
-impl Slave {
+impl Remote {
     /// As at power-on.
     pub const fn new() -> Self {
-        Slave { forced_run: false }
+        Remote { forced_run: false }
     }
 }
 
@@ -129,9 +130,9 @@ fn expected(settings: Settings, received: &[u8]) -> Option<usize> {
 }
 
 /// Milliseconds that the computer asks to wait before the answer: ten for each count of the wait digit.
-pub fn wait_ms(request: &[u8]) -> u32 {
+fn wait_ms(request: &[u8]) -> u16 {
     let digit = request.get(HEAD - 1..HEAD).and_then(hex_digits);
-    10 * digit.unwrap_or(0)
+    10 * digit.unwrap_or(0) as u16
 }
 
 /// Why a request is refused: the code that follows NAK.
@@ -192,7 +193,7 @@ enum Answer {
 /// What is wrong with a request for this station.
 pub fn answer(
     settings: Settings,
-    slave: &mut Slave,
+    remote: &mut Remote,
     request: &[u8],
     map: &mut dyn Map,
     reply: &mut Frame,
@@ -208,9 +209,10 @@ pub fn answer(
     if station != settings.station && !is_global {
         return Ok(());
     }
+    reply.wait(wait_ms(request));
     head(STX, settings.station, b"FF", reply);
     let data = reply.len();
-    match execute(settings, slave, text, map, reply) {
+    match execute(settings, remote, text, map, reply) {
         Ok(Answer::Data) => {
             reply.push(ETX);
             end(settings, reply);
@@ -274,7 +276,7 @@ fn terminate(settings: Settings, frame: &mut Frame) {
 /// Checks and executes a request for this station.
 fn execute(
     settings: Settings,
-    slave: &mut Slave,
+    remote: &mut Remote,
     text: &[u8],
     map: &mut dyn Map,
     reply: &mut Frame,
@@ -313,7 +315,7 @@ fn execute(
         b"WT" => test_words(&mut contents, map),
         b"RR" | b"RS" => {
             contents.end()?;
-            remote(slave, command == b"RR", map)
+            switch(remote, command == b"RR", map)
         }
         b"PC" => {
             contents.end()?;
@@ -519,17 +521,17 @@ fn test_words(contents: &mut Contents, map: &mut dyn Map) -> Result<Answer, Refu
 }
 
 /// RUN out of STOP; STOP out of a RUN that was begun so.
-fn remote(slave: &mut Slave, run: bool, map: &mut dyn Map) -> Result<Answer, Refusal> {
+fn switch(remote: &mut Remote, run: bool, map: &mut dyn Map) -> Result<Answer, Refusal> {
     let running = map.running();
     let possible = if run {
         !running
     } else {
-        running && slave.forced_run
+        running && remote.forced_run
     };
     if !possible {
         return Err(Refusal::Remote);
     }
-    slave.forced_run = run;
+    remote.forced_run = run;
     map.request_running(run);
     Ok(Answer::Done)
 }

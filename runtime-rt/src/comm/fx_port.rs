@@ -12,9 +12,9 @@ mod space;
 #[cfg(test)]
 mod tests;
 
-use super::{Cut, Frame, LineFault, Map, hex_digits};
+use super::{Cut, Frame, LineFault, Map, Memory, hex_digits};
 use crate::plc::Class;
-pub use monitor::MonitorList;
+use monitor::MonitorList;
 pub use space::Space;
 use space::{Area, Place};
 
@@ -76,7 +76,7 @@ pub fn cut(received: &[u8]) -> Cut {
 /// What is wrong with a request that no PLC would take.
 pub fn answer(
     settings: Settings,
-    list: &mut MonitorList,
+    memory: &mut Memory,
     request: &[u8],
     map: &mut dyn Map,
     reply: &mut Frame,
@@ -87,7 +87,7 @@ pub fn answer(
     }
     let server = Server {
         settings,
-        list,
+        list: MonitorList(memory),
         map,
     };
     let outcome = text_of(request).and_then(|text| server.execute(text, reply));
@@ -164,7 +164,7 @@ impl Fields<'_> {
 /// One request on its way.
 struct Server<'a> {
     settings: Settings,
-    list: &'a mut MonitorList,
+    list: MonitorList<'a>,
     map: &'a mut dyn Map,
 }
 

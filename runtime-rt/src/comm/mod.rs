@@ -33,6 +33,7 @@
 //! | file | what |
 //! |---|---|
 //! | `map.rs` | [`Map`]: the PLC's devices as codecs see them |
+//! | `memory.rs` | [`Memory`]: what a slave keeps from one frame to the next |
 //! | `frame.rs` | [`Frame`]: a buffer of fixed capacity; digits and sums |
 //! | `line.rs` | format words, character times, line errors |
 //! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
@@ -53,11 +54,14 @@ pub(crate) mod free;
 pub mod fx_port;
 mod line;
 pub mod link;
+mod links;
 mod map;
 mod masters;
 pub mod mc;
+mod memory;
 pub mod modbus;
 mod port;
+mod qlink;
 mod slaves;
 #[cfg(test)]
 mod watched;
@@ -67,6 +71,7 @@ pub use frame::{Frame, hex_byte, hex_digits};
 pub use free::{Free, Transfer};
 pub use line::{CharFault, LineFormat, Parity, Received};
 pub use map::{Map, Served};
+pub use memory::Memory;
 pub use port::{FRAME, Port, Status, advance};
 pub(crate) use wiring::note_missing;
 pub use wiring::{Choice, PortWiring, Ports, Protocol};

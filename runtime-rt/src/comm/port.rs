@@ -1,12 +1,13 @@
 //! The state machine of one port, beside the scan.
 
+use super::computer_link::Remote;
 use super::free::Free;
-use super::fx_port::MonitorList;
 use super::line::{CharFault, LineFormat, Received};
+use super::link::Link;
 use super::modbus::Exchange;
 use super::slaves::Slave;
 use super::wiring::{PortWiring, Protocol, value};
-use super::{Cut, Frame, LineFault, Served};
+use super::{Cut, Frame, LineFault, Memory, Served};
 use crate::hal::{Hal, SerialPort};
 use crate::plc::{Plc, Sys};
 
@@ -46,6 +47,10 @@ pub struct Status {
     pub due_us: u32,
     /// RS, RS2, USEND, URCV.
     pub free: Free,
+    /// Links between PLCs.
+    pub link: Link,
+    /// RUN and STOP by computer link.
+    pub remote: Remote,
     /// Instructions of a Modbus master.
     pub exchange: Exchange,
 }
@@ -58,8 +63,8 @@ pub struct Port {
     pub status: Status,
     /// The frame that is received or sent.
     pub buffer: [u8; FRAME],
-    /// What a client of the programming port monitors.
-    pub monitored: MonitorList,
+    /// What a slave keeps.
+    pub memory: Memory,
 }
 
 impl Default for Port {
@@ -90,10 +95,12 @@ impl Port {
                 last_us: 0,
                 due_us: 0,
                 free: Free::new(),
+                link: Link::new(),
+                remote: Remote::new(),
                 exchange: Exchange::new(),
             },
             buffer: [0; FRAME],
-            monitored: MonitorList::new(),
+            memory: Memory::new(),
         }
     }
 }
@@ -160,6 +167,8 @@ impl Session<'_> {
         if self.status.protocol.is_master() {
             self.advance_master();
         }
+        self.advance_link();
+        self.advance_on_demand();
         self.send();
     }
 
@@ -187,6 +196,8 @@ impl Session<'_> {
             self.drop_frame();
             self.status.sending = false;
             self.status.free = Free::new();
+            self.status.link = Link::new();
+            self.forget();
             self.status.exchange = Exchange::new();
         }
     }
@@ -274,16 +285,27 @@ impl Session<'_> {
     /// Looks whether the frame is whole, in a protocol whose frames have an end.
     fn cut(&mut self) {
         let received = usize::from(self.status.received);
+        let (role, link) = (self.role(), self.status.link);
         let slave = self.slave();
         let Some(port) = self.plc.port(self.wiring.number) else {
             return;
         };
-        match slave.cut(&port.buffer[..received]) {
+        let cut = match role {
+            Some(role) => link.cut(role, &port.buffer[..received]),
+            None => slave.cut(&port.buffer[..received]),
+        };
+        match cut {
             Cut::More => {}
+            Cut::Whole if self.status.spoiled => self.drop_frame(),
             Cut::Whole => self.answer(),
             Cut::Restart => {
                 port.buffer[0] = port.buffer[received - 1];
                 self.status.received = 1;
+                self.status.spoiled = false;
+                // The character may be a whole frame.
+                if received > 1 {
+                    self.cut();
+                }
             }
             Cut::Drop => self.drop_frame(),
         }
@@ -337,20 +359,31 @@ impl Session<'_> {
         if self.status.protocol.is_master() {
             return self.take_answer(received);
         }
+        if let Some(role) = self.role() {
+            return self.take_linked(role, received);
+        }
         let slave = self.slave();
         let Some(port) = self.plc.port(self.wiring.number) else {
             return;
         };
         let buffer = port.buffer;
-        let mut list = core::mem::take(&mut port.monitored);
+        let mut memory = core::mem::take(&mut port.memory);
+        let mut remote = self.status.remote;
         let mut bytes = [0; FRAME];
         let mut reply = Frame::new(&mut bytes);
         let mut map = Served::new(self.plc, slave.type_code);
-        let answered = slave.answer(&buffer[..received], &mut list, &mut map, &mut reply);
+        let answered = slave.answer(
+            &buffer[..received],
+            &mut memory,
+            &mut remote,
+            &mut map,
+            &mut reply,
+        );
         self.request = map.take_request().or(self.request);
         if let Some(port) = self.plc.port(self.wiring.number) {
-            port.monitored = list;
+            port.memory = memory;
         }
+        self.status.remote = remote;
         if let Err(fault) = answered {
             self.note(fault);
         }
@@ -405,6 +438,7 @@ impl Session<'_> {
             .is_none_or(|(port, now_us)| port.unsent(now_us) == 0)
         {
             self.status.sending = false;
+            self.end_on_demand();
         }
     }
 }

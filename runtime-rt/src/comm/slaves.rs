@@ -1,9 +1,11 @@
 //! Which codec answers under which protocol, and how it is set up.
 
-use super::fx_port::{self, MonitorList, Space};
+use super::computer_link::{self, Dialect, Remote};
+use super::fx_port::{self, Space};
+use super::link::Role;
 use super::modbus::{self, Framing, Profile};
 use super::wiring::{Ports, Protocol};
-use super::{Cut, Frame, LineFault, Map};
+use super::{Cut, Frame, LineFault, Map, Memory, qlink};
 
 /// A port's partner is answered like this.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +35,27 @@ impl Protocol {
     }
 }
 
+/// What a port is on a link that PLCs keep up by themselves; `area` is the first register of HM's work area.
+pub(super) fn role(protocol: Protocol, area: u16) -> Option<Role> {
+    Some(match protocol {
+        Protocol::ParallelMaster => Role::ParallelMaster,
+        Protocol::ParallelSlave => Role::ParallelSlave,
+        Protocol::NnMaster => Role::NnMaster { enhanced: false },
+        Protocol::NnSlave => Role::NnSlave { enhanced: false },
+        Protocol::EnhancedMaster => Role::NnMaster { enhanced: true },
+        Protocol::EnhancedSlave => Role::NnSlave { enhanced: true },
+        Protocol::ComputerLinkMaster => Role::ComputerLinkMaster { area },
+        _ => return None,
+    })
+}
+
 impl Slave {
     /// Whether the characters received so far are a frame.
     pub(super) fn cut(&self, received: &[u8]) -> Cut {
         match self.protocol {
             Protocol::ModbusAscii | Protocol::MasterAscii => modbus::cut_ascii(received),
             Protocol::ProgrammingPort => fx_port::cut(received),
+            Protocol::ComputerLink => computer_link::cut(self.computer_link(), received),
             _ => Cut::Drop,
         }
     }
@@ -47,16 +64,25 @@ impl Slave {
     pub(super) fn answer(
         &self,
         request: &[u8],
-        list: &mut MonitorList,
+        memory: &mut Memory,
+        remote: &mut Remote,
         map: &mut dyn Map,
         reply: &mut Frame,
     ) -> Result<(), LineFault> {
         match self.protocol {
+            Protocol::ModbusRtu if self.has_qlink() && qlink::is_qlink(request) => {
+                let settings = self.modbus_settings(Framing::Rtu);
+                qlink::answer(&settings, self.qlink_devices(), memory, request, map, reply)
+            }
             Protocol::ModbusRtu => self.modbus(Framing::Rtu, request, map, reply),
             Protocol::ModbusAscii => self.modbus(Framing::Ascii, request, map, reply),
             Protocol::ProgrammingPort => {
                 let settings = self.family.programming_port();
-                fx_port::answer(settings, list, request, map, reply)
+                fx_port::answer(settings, memory, request, map, reply)
+            }
+            Protocol::ComputerLink => {
+                let settings = self.computer_link();
+                computer_link::answer(settings, remote, request, map, reply)
             }
             _ => Ok(()),
         }
@@ -69,12 +95,46 @@ impl Slave {
         map: &mut dyn Map,
         reply: &mut Frame,
     ) -> Result<(), LineFault> {
-        let settings = modbus::Settings {
+        modbus::answer(&self.modbus_settings(framing), request, map, reply)
+    }
+
+    fn modbus_settings(&self, framing: Framing) -> modbus::Settings {
+        modbus::Settings {
             framing,
             station: self.station,
             profile: self.profile(),
-        };
-        modbus::answer(&settings, request, map, reply)
+        }
+    }
+
+    fn has_qlink(&self) -> bool {
+        matches!(self.family, Ports::Inovance)
+    }
+
+    /// Most devices of a QLink block (h1u-h2u-programming §5.7.3).
+    fn qlink_devices(&self) -> u16 {
+        if self.type_code / 1000 == H1U {
+            50
+        } else {
+            120
+        }
+    }
+
+    /// What the model and the format word make of a computer link.
+    pub(super) fn computer_link(&self) -> computer_link::Settings {
+        const SUM: u16 = 1 << 13;
+        const CR_LF: u16 = 1 << 15;
+        let is_hm = self.family == Ports::Hm;
+        computer_link::Settings {
+            // A number that is no station is that of no frame.
+            station: u8::try_from(self.station).unwrap_or(u8::MAX),
+            sum: is_hm || self.format & SUM != 0,
+            crlf: !is_hm && self.format & CR_LF != 0,
+            dialect: match self.family {
+                Ports::Hm => Dialect::Hm,
+                Ports::L01s => Dialect::Fx(*b"F4"),
+                _ => Dialect::Fx(*b"9D"),
+            },
+        }
     }
 
     /// What the model serves as a Modbus slave.

@@ -499,6 +499,12 @@ impl PortWiring {
             LineFault::Address => 76,
             _ => 4,
         };
+        let of_parallel = match fault {
+            LineFault::Character | LineFault::Unknown => 12,
+            LineFault::Sum => 13,
+            LineFault::TimeOut => 15,
+            _ => 14,
+        };
         let (place, code) = match (protocol, fault.of_modbus()) {
             (Protocol::ProgrammingPort, _) => {
                 (PROGRAMMING_PORT_ERROR, PROGRAMMING_PORT_CODES + general)
@@ -508,6 +514,9 @@ impl PortWiring {
                     && (protocol.is_modbus() || fault == LineFault::Protocol) =>
             {
                 (self.error, self.modbus_errors + kind)
+            }
+            (Protocol::ParallelMaster | Protocol::ParallelSlave, _) => {
+                (self.error, SERIAL_CODES + of_parallel)
             }
             _ => (self.error, SERIAL_CODES + general),
         };

@@ -1,9 +1,9 @@
 //! What one connection has said, and what it is answered.
 
 use rungc_rt::Ports;
-use rungc_rt::comm::fx_port::{self, MonitorList};
 use rungc_rt::comm::modbus::{Profile, tcp};
 use rungc_rt::comm::{Cut, Frame, Map, mc};
+use rungc_rt::comm::{Memory, fx_port};
 
 /// More characters than an answer of any service has.
 const LONGEST_REPLY: usize = 8192;
@@ -51,7 +51,7 @@ pub struct Dialogue {
     service: Service,
     /// The request so far.
     received: Vec<u8>,
-    list: MonitorList,
+    memory: Memory,
 }
 
 /// What a connection does next.
@@ -69,7 +69,7 @@ impl Dialogue {
         Dialogue {
             service,
             received: Vec::new(),
-            list: MonitorList::default(),
+            memory: Memory::new(),
         }
     }
 
@@ -78,15 +78,17 @@ impl Dialogue {
         let mut reaction = Reaction::default();
         for &byte in bytes {
             self.received.push(byte);
-            match self.service.cut(&self.received) {
-                Cut::More => {}
+            let mut cut = self.service.cut(&self.received);
+            if cut == Cut::Restart {
+                self.received.clear();
+                self.received.push(byte);
+                cut = self.service.cut(&self.received);
+            }
+            match cut {
+                Cut::More | Cut::Restart => {}
                 Cut::Whole => {
                     self.answer(map, &mut reaction.reply);
                     self.received.clear();
-                }
-                Cut::Restart => {
-                    self.received.clear();
-                    self.received.push(byte);
                 }
                 Cut::Drop => {
                     self.received.clear();
@@ -109,7 +111,7 @@ impl Dialogue {
             Service::Modbus(profile) => tcp::answer(profile, request, map, &mut frame),
             Service::Mc => mc::answer(request, map, &mut frame),
             Service::ProgrammingPort(settings) => {
-                fx_port::answer(settings, &mut self.list, request, map, &mut frame)
+                fx_port::answer(settings, &mut self.memory, request, map, &mut frame)
             }
         };
         reply.extend_from_slice(frame.as_slice());

@@ -33,7 +33,7 @@ const HM: Settings = Settings {
 
 fn exchange(
     settings: Settings,
-    slave: &mut Slave,
+    slave: &mut Remote,
     map: &mut Watched,
     request: &[u8],
 ) -> (Vec<u8>, Result<(), LineFault>) {
@@ -44,7 +44,7 @@ fn exchange(
 fn ask(settings: Settings, map: &mut Watched, text: &str) -> String {
     let request = frame(settings, text);
     assert_eq!(cut(settings, &request), Cut::Whole, "{text}");
-    let (reply, _) = exchange(settings, &mut Slave::new(), map, &request);
+    let (reply, _) = exchange(settings, &mut Remote::new(), map, &request);
     text_of(settings, &reply)
 }
 
@@ -85,7 +85,7 @@ fn worked_examples_of_h1u_h2u() {
     for input in [0o41, 0o42, 0o44] {
         map.set_bit(Class::X, input, true);
     }
-    let mut slave = Slave::new();
+    let mut slave = Remote::new();
     let (reply, _) = exchange(FORMAT4, &mut slave, &mut map, b"\x0505FFBRAX00400547\r\n");
     assert_eq!(reply, b"\x0205FF01101\x03E7\r\n");
     assert_eq!(wait_ms(b"\x0505FFBRAX00400547\r\n"), 100);
@@ -164,7 +164,7 @@ fn global_flag() {
 #[test]
 fn remote_run_and_stop() {
     let mut map = Watched::new();
-    let mut slave = Slave::new();
+    let mut slave = Remote::new();
     let mut ask = |map: &mut Watched, text: &str| {
         let request = frame(FORMAT4, text);
         let (reply, outcome) = exchange(FORMAT4, &mut slave, map, &request);
@@ -205,7 +205,7 @@ fn refusals() {
     }
     let (reply, outcome) = exchange(
         FORMAT4,
-        &mut Slave::new(),
+        &mut Remote::new(),
         &mut map,
         b"\x0505FFBR0M09030500\r\n",
     );
@@ -258,7 +258,7 @@ fn worked_examples_of_hm() {
     let mut map = Watched::of(Double::new().with_d(7223, &[0x101, 0x909, 0xffff, 0x6565, 0x6d6d]));
     let request = b"\x050AFFWR0D7223054D";
     assert_eq!(cut(HM, request), Cut::Whole);
-    let (reply, _) = exchange(HM, &mut Slave::new(), &mut map, request);
+    let (reply, _) = exchange(HM, &mut Remote::new(), &mut map, request);
     assert_eq!(reply, b"\x020AFF01010909FFFF65656D6D\x0376");
     assert_eq!(ask(HM, &mut map, "0AFFWW0D15000200FFAB96"), "ACK 0AFF");
     assert_eq!(map.plc.d(1500, 2), [0xff, 0xab96_u16 as i16]);
@@ -349,7 +349,7 @@ proptest! {
         for settings in [FORMAT4, FORMAT1, PLAIN, HM] {
             let mut map = Watched::new();
             cut(settings, &request);
-            let (reply, _) = exchange(settings, &mut Slave::new(), &mut map, &request);
+            let (reply, _) = exchange(settings, &mut Remote::new(), &mut map, &request);
             if reply.first() != Some(&ACK) {
                 prop_assert_eq!(map.writes, 0);
             }
@@ -362,7 +362,7 @@ proptest! {
         for settings in [FORMAT4, FORMAT1] {
             let mut map = Watched::new();
             let request = frame(settings, &text);
-            let (reply, outcome) = exchange(settings, &mut Slave::new(), &mut map, &request);
+            let (reply, outcome) = exchange(settings, &mut Remote::new(), &mut map, &request);
             if reply.first() == Some(&NAK) {
                 prop_assert!(outcome.is_err());
                 prop_assert_eq!(map.writes, 0);

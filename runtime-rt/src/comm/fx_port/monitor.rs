@@ -1,36 +1,23 @@
 //! The monitor list: devices that a client names once and samples as often as it likes.
 
-/// Bytes that a list may have: addresses 1400h to 178Fh.
-const SIZE: usize = 0x390;
+use crate::comm::Memory;
+
 /// Bytes before the first address: number of words, a mark, number of bits.
 const HEAD: u32 = 4;
 
-/// A list: byte 0 is the number of words, byte 1 a mark (81h), bytes 2 and 3 the number of bits; then follow the byte addresses of the words
-/// and the numbers of the bits, the low byte of each first.
-#[derive(Clone, Debug)]
-#[repr(C)]
-pub struct MonitorList([u8; SIZE]);
+/// A list, at addresses 1400h to 178Fh: byte 0 is the number of words, byte 1 a mark (81h), bytes 2 and 3 the number of bits; then follow the
+/// byte addresses of the words and the numbers of the bits, the low byte of each first.
+pub(super) struct MonitorList<'a>(pub(super) &'a mut Memory);
 
-impl Default for MonitorList {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl MonitorList {
-    /// An empty list, as at power-on.
-    pub const fn new() -> Self {
-        MonitorList([0; SIZE])
-    }
-
+impl MonitorList<'_> {
     /// A byte of the list.
     pub(super) fn byte(&self, index: u32) -> Option<u8> {
-        self.0.get(index as usize).copied()
+        self.0.0.get(index as usize).copied()
     }
 
     /// Writes a byte of the list.
     pub(super) fn set(&mut self, index: u32, value: u8) {
-        if let Some(byte) = self.0.get_mut(index as usize) {
+        if let Some(byte) = self.0.0.get_mut(index as usize) {
             *byte = value;
         }
     }
@@ -43,7 +30,7 @@ impl MonitorList {
 
     /// How many words are sampled.
     pub(super) fn words(&self) -> u32 {
-        self.0[0].into()
+        self.byte(0).unwrap_or(0).into()
     }
 
     /// Byte address of a word.

@@ -22,7 +22,7 @@ const HM: Settings = Settings {
 /// A client that speaks to one PLC.
 struct Client {
     settings: Settings,
-    list: MonitorList,
+    memory: Memory,
     map: Watched,
 }
 
@@ -30,13 +30,21 @@ impl Client {
     fn of(settings: Settings) -> Self {
         Client {
             settings,
-            list: MonitorList::new(),
+            memory: Memory::new(),
             map: Watched::new(),
         }
     }
 
     fn exchange(&mut self, request: &[u8]) -> (Vec<u8>, Result<(), LineFault>) {
-        reply_of(|reply| answer(self.settings, &mut self.list, request, &mut self.map, reply))
+        reply_of(|reply| {
+            answer(
+                self.settings,
+                &mut self.memory,
+                request,
+                &mut self.map,
+                reply,
+            )
+        })
     }
 
     /// The reply to a frame in hexadecimal pairs.

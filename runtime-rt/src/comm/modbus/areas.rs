@@ -71,7 +71,7 @@ impl Area {
 
 /// What stands at one address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(in crate::comm) enum Place {
     /// A bit device.
     Bit(Class, u32),
     /// A word device.
@@ -85,6 +85,11 @@ pub(super) enum Place {
     },
     /// Sixteen bit devices from this one on.
     Packed(Class, u32),
+}
+
+/// What stands at an address.
+pub(in crate::comm) fn place(areas: &[Area], address: u16) -> Option<Place> {
+    areas.iter().find_map(|area| area.place(address))
 }
 
 /// What stands at the `count` addresses from `first` on; `None` where nothing does, or nothing that may be written.

@@ -1,0 +1,106 @@
+//! A port on a link that PLCs keep up by themselves, and on-demand transmission of a computer link.
+
+use super::computer_link::on_demand::{self, Devices};
+use super::link::Role;
+use super::port::{FRAME, Session};
+use super::slaves;
+use super::wiring::{Ports, Protocol, is_on, set};
+use super::{Frame, Memory, Served};
+
+/// The parallel link is set up wrongly: M8070 and M8071 are both on.
+const M_SET_UP_WRONGLY: u32 = 8073;
+/// Master and slave of a parallel link.
+const M_PARALLEL: [u32; 2] = [8070, 8071];
+
+impl Session<'_> {
+    /// What the port is on a link.
+    pub(super) fn role(&self) -> Option<Role> {
+        slaves::role(self.status.protocol, self.status.uinit[2])
+    }
+
+    /// Forgets what a slave keeps, when the protocol changes.
+    pub(super) fn forget(&mut self) {
+        if let Some(port) = self.plc.port(self.wiring.number) {
+            port.memory = Memory::new();
+        }
+    }
+
+    /// Takes a frame of a link.
+    pub(super) fn take_linked(&mut self, role: Role, received: usize) {
+        let Some(port) = self.plc.port(self.wiring.number) else {
+            return;
+        };
+        let buffer = port.buffer;
+        let mut map = Served::new(self.plc, 0);
+        let frame = &buffer[..received];
+        let taken = self.status.link.receive(role, frame, self.now_us, &mut map);
+        if let Err(fault) = taken {
+            self.note(fault);
+        }
+    }
+
+    /// Sends what the link has to send.
+    pub(super) fn advance_link(&mut self) {
+        if self.plc.ports() == Ports::Inovance && self.wiring.number == 1 {
+            let both = M_PARALLEL.iter().all(|&relay| is_on(self.plc, relay));
+            set(self.plc, M_SET_UP_WRONGLY, both);
+        }
+        let Some(role) = self.role() else {
+            return;
+        };
+        if self.status.sending || self.status.open {
+            return;
+        }
+        let mut bytes = [0; FRAME];
+        let mut frame = Frame::new(&mut bytes);
+        let mut map = Served::new(self.plc, 0);
+        let polled = self
+            .status
+            .link
+            .poll(role, self.now_us, &mut map, &mut frame);
+        let length = frame.len();
+        if let Err(fault) = polled {
+            self.note(fault);
+        }
+        self.send_now(&bytes[..length]);
+    }
+
+    /// The devices of on-demand transmission, if the port has them.
+    fn on_demand(&self) -> Option<Devices> {
+        let has = self.status.protocol == Protocol::ComputerLink
+            && matches!(self.plc.ports(), Ports::Inovance | Ports::Fx);
+        has.then(|| Devices::of_block(self.wiring.format))
+    }
+
+    /// Sends what the program asks to be sent on demand.
+    pub(super) fn advance_on_demand(&mut self) {
+        let Some(devices) = self.on_demand() else {
+            return;
+        };
+        if self.status.sending || self.status.open || !self.plc.sys().running {
+            return;
+        }
+        let settings = self.slave().computer_link();
+        let mut bytes = [0; FRAME];
+        let mut frame = Frame::new(&mut bytes);
+        let mut map = Served::new(self.plc, 0);
+        on_demand::request(settings, devices, &mut map, &mut frame);
+        let length = frame.len();
+        self.send_now(&bytes[..length]);
+    }
+
+    /// A frame has been sent.
+    pub(super) fn end_on_demand(&mut self) {
+        if let Some(devices) = self.on_demand() {
+            on_demand::sent(devices, &mut Served::new(self.plc, 0));
+        }
+    }
+
+    /// Begins to send a frame that answers nothing.
+    fn send_now(&mut self, frame: &[u8]) {
+        if !frame.is_empty() {
+            self.begin_sending(frame, 0);
+            self.status.due_us = self.now_us;
+        }
+    }
+}

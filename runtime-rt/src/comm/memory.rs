@@ -1,0 +1,23 @@
+//! What a slave keeps from one frame to the next.
+
+/// Bytes of a monitor list of the programming port, which needs the most.
+pub(super) const SIZE: usize = 0x390;
+
+/// What a slave keeps from one frame to the next: the monitor list of the programming port, or the blocks of QLink. A port speaks one protocol at a
+/// time, so they share it. All zero is nothing.
+#[derive(Clone, Debug)]
+#[repr(C)]
+pub struct Memory(pub(super) [u8; SIZE]);
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Memory {
+    /// Nothing is kept, as at power-on.
+    pub const fn new() -> Self {
+        Memory([0; SIZE])
+    }
+}
