@@ -200,6 +200,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(INOVANCE).takes(RS_INOVANCE),
         ])
         .flags(&["M8121", "M8122", "M8123", "M8124", "M8129", "M8161", "D8120"])
+        .call(RtFn::Rs)
         .text(
             "Sends m bytes from S on when the program sets M8122, and receives n bytes to D; M8123 is on when they are there. On H1U and \
              H2U, with 20h or 30h in D8126, it is a Modbus request: S is station × 256 + function, m the address, D how many, n the first \
@@ -251,6 +252,8 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[SEND, SEND_LENGTH, RECEIVE, RECEIVE_LENGTH, any("n1").limits(0, 3)])
         .flags(&["M8122", "M8123", "M8262", "M8263", "M8272", "M8273"])
         .errors(&[6376, 6377])
+        .call(RtFn::Rs2)
+        .lower_on(&[(FX3, Lower::Todo(SERIAL))])
         .text("As RS, on port n1."),
     serial("PID", 88, "PID control")
         .takes(PID)
@@ -297,7 +300,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("D1", CONSTANTS.or(Classes::D)),
             src("D2", CONSTANTS.or(Classes::D)).limits(0, 1),
         ])
-        .todo(SERIAL)
+        .call(RtFn::Uinit)
         .text("Starts port D2 with protocol S1 and format S2; D1 is the number of the first register of its work area."),
     modbus_hm("MRDC", "Modbus: read coils").takes(READ_BITS),
     modbus_hm("MRDI", "Modbus: read inputs").takes(READ_BITS),
@@ -311,13 +314,13 @@ pub(super) const ROWS: &[Inst] = &[
         .on(HM)
         .forms(W16_W32)
         .takes(FREE)
-        .todo(SERIAL)
+        .call(RtFn::Usend)
         .text("Sends the low bytes of S2 registers from register number S1 on by port D."),
     row("URCV", "Receive bytes", "hm-motion-controller §7")
         .on(HM)
         .forms(W16_W32)
         .takes(FREE)
-        .todo(SERIAL)
+        .call(RtFn::Urcv)
         .text("Waits for S2 bytes on port D, one to each register from number S1 on."),
     inverter("IVCK", 270, "Monitor an inverter", "Reads monitor value S2 of inverter S1 on port n to D.")
         .takes(&[any("S1"), any("S2"), dst("D", RESULT_GROUPS.or(DATA)), number("n", 2)]),

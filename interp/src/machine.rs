@@ -11,7 +11,8 @@ use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
 use rungc_rt::{
-    Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Program, Pulses, State, Stop, Sys,
+    Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
+    Sys,
 };
 use std::collections::BTreeMap;
 
@@ -77,6 +78,9 @@ pub struct Machine<'m> {
     states: Vec<State>,
     /// Of the module's pulse outputs, in their order.
     axes: Vec<Axis>,
+    /// Of the module's serial ports, in their order.
+    ports: Vec<Port>,
+    type_code: u16,
 }
 
 impl<'m> Machine<'m> {
@@ -106,6 +110,8 @@ impl<'m> Machine<'m> {
             operands: Vec::new(),
             states: vec![State::default(); usize::from(module.states) + 1],
             axes: vec![Axis::new(); module.pulse_outputs.len()],
+            ports: vec![Port::new(); module.ports.len()],
+            type_code: module.model.type_code(),
         };
         machine.power_on();
         machine
@@ -137,6 +143,7 @@ impl<'m> Machine<'m> {
         }
         self.states.fill(State::default());
         self.axes.fill(Axis::new());
+        self.ports.fill(Port::new());
         self.cells.fill(0);
         for table in &mut self.tables {
             table.fill(0);
@@ -171,6 +178,16 @@ impl<'m> Machine<'m> {
                 let ended = axis.take_end();
                 self.flags[i] |= ended;
             }
+        }
+    }
+
+    /// Brings the serial ports up to date, and changes over to RUN or STOP if a partner has asked for it.
+    fn advance_ports(&mut self, hal: &mut dyn Hal, now_us: u32) {
+        if !self.module.has_ports() {
+            return;
+        }
+        if let Some(running) = rungc_rt::advance_ports(self, hal, now_us) {
+            self.set_running(running);
         }
     }
 
@@ -211,7 +228,9 @@ impl<'m> Machine<'m> {
 impl Program for Machine<'_> {
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
         self.sys.begin_scan(now_ms, scan_us);
-        self.count_pulses(hal, now_ms.wrapping_mul(1000));
+        let now_us = now_ms.wrapping_mul(1000);
+        self.count_pulses(hal, now_us);
+        self.advance_ports(hal, now_us);
         self.restart_watchdog();
 
         // A module's first functions are `Begin`, `Main`, `End`.
@@ -220,6 +239,7 @@ impl Program for Machine<'_> {
             self.run_function(hal, Some(function));
         }
         self.sys.end_scan();
+        self.advance_ports(hal, now_us);
     }
 
     fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
@@ -240,7 +260,9 @@ impl Program for Machine<'_> {
         for (_, value) in cells.filter(|(cell, _)| cell.follows_time) {
             *value = now_ms as i32;
         }
-        self.count_pulses(hal, now_ms.wrapping_mul(1000));
+        let now_us = now_ms.wrapping_mul(1000);
+        self.count_pulses(hal, now_us);
+        self.advance_ports(hal, now_us);
     }
 
     fn take_interrupts(&mut self, hal: &mut dyn Hal) {
@@ -332,6 +354,19 @@ impl Plc for Machine<'_> {
     fn axis(&mut self, output: u32) -> Option<&mut Axis> {
         let i = self.module.pulse_outputs.binary_search(&output).ok()?;
         self.axes.get_mut(i)
+    }
+
+    fn port(&mut self, number: u8) -> Option<&mut Port> {
+        let i = self.module.ports.binary_search(&number).ok()?;
+        self.ports.get_mut(i)
+    }
+
+    fn ports(&self) -> Ports {
+        self.module.model.ports
+    }
+
+    fn type_code(&self) -> u16 {
+        self.type_code
     }
 
     fn pulses(&self) -> Pulses {

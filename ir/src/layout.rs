@@ -111,6 +111,8 @@ pub struct Wanted {
     pub observe: Vec<(DeviceClass, u32)>,
     /// Store every device of the model.
     pub observe_all: bool,
+    /// Serial ports that the host opens, besides those that the program uses.
+    pub ports: Vec<u8>,
 }
 
 impl Wanted {

@@ -737,6 +737,9 @@ pub struct Module {
     /// ([`rungc_rt::advance_pulses`]) at the begin of each scan before `Begin`, and each time that a host tells the time
     /// ([`rungc_rt::Program::tick`]).
     pub pulse_outputs: Vec<u32>,
+    /// Serial ports, in order: those that instructions use, that the program sets up, and that a host opens. They are brought up to date
+    /// ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time that a host tells the time.
+    pub ports: Vec<u8>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
     /// Comments on devices.
@@ -772,6 +775,7 @@ impl Module {
             cells: Vec::new(),
             tables: Vec::new(),
             pulse_outputs: Vec::new(),
+            ports: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),
@@ -801,12 +805,17 @@ impl Module {
                 FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
             )
         };
-        self.sends_pulses() || self.functions.iter().any(by_host)
+        self.sends_pulses() || self.has_ports() || self.functions.iter().any(by_host)
     }
 
     /// Whether it has pulse outputs.
     pub fn sends_pulses(&self) -> bool {
         !self.pulse_outputs.is_empty()
+    }
+
+    /// Whether it has serial ports.
+    pub fn has_ports(&self) -> bool {
+        !self.ports.is_empty()
     }
 
     /// The flags with a period, and their periods in milliseconds.
@@ -819,6 +828,7 @@ impl Module {
     pub fn takes_time(&self) -> bool {
         let taken = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
         self.sends_pulses()
+            || self.has_ports()
             || self.cells.iter().any(|cell| cell.follows_time)
             || self.functions.iter().any(taken)
     }

@@ -36,6 +36,9 @@ impl Lowerer<'_> {
         if needs.anywhere {
             self.specials.whole.extend(ANYWHERE);
         }
+        if needs.port || needs.names_port || needs.any_port {
+            self.use_ports(needs);
+        }
         if needs.signals {
             self.find_signals(inst, function, slot);
         }

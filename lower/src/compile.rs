@@ -21,6 +21,8 @@ pub struct CompileOptions {
     pub observe: Vec<(DeviceClass, u32)>,
     /// Store every device of the model.
     pub observe_all: bool,
+    /// Serial ports that the host opens, besides those that the program uses; numbers that the model does not have mean nothing.
+    pub ports: Vec<u8>,
     /// What operands with an index can reach.
     pub bounds: Vec<Bound>,
     /// Simplify the module.
@@ -114,6 +116,7 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
             wanted: Wanted {
                 observe: options.observe.clone(),
                 observe_all: options.observe_all,
+                ports: options.ports.clone(),
             },
             bounds: options.bounds.clone(),
         };

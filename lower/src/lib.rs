@@ -26,6 +26,7 @@ mod logic;
 mod name;
 mod operand;
 mod parts;
+mod ports;
 mod pulse_width;
 mod shared_timers;
 mod signals;
@@ -72,7 +73,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Di
     let mut reached = Reached::default();
     let (mut module, specials, indexes) = loop {
         let mut lowerer = Lowerer::new(resolved, options, &reached);
-        lowerer.program();
+        lowerer.program(&options.wanted);
         let Lowerer {
             mut module,
             diagnostics,
@@ -205,7 +206,7 @@ impl<'a> Lowerer<'a> {
         }
     }
 
-    fn program(&mut self) {
+    fn program(&mut self, wanted: &Wanted) {
         for kind in [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End] {
             self.module.functions.push(Function {
                 kind,
@@ -232,6 +233,7 @@ impl<'a> Lowerer<'a> {
             self.module.functions[function].body = body;
         }
         self.module.run_states = self.module.states;
+        self.find_ports(&wanted.ports);
         self.counter_edges();
         self.edge_counts();
         self.pulse_widths();

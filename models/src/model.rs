@@ -12,7 +12,7 @@ use crate::special;
 use rungc_syntax::Classes;
 pub use set::ModelSet;
 
-use rungc_rt::{Pulses, TimerKind};
+use rungc_rt::{Ports, Pulses, TimerKind};
 use rungc_syntax::DeviceClass;
 
 /// A PLC model.
@@ -199,6 +199,8 @@ pub struct Model {
     pub max_for: u32,
     /// How deep CALL may nest.
     pub max_call: u32,
+    /// What its serial ports are.
+    pub ports: Ports,
     /// What its pulse outputs are.
     pub pulses: Pulses,
     /// Their numbers, as far as instructions name them by output.
@@ -209,7 +211,16 @@ pub struct Model {
     pub index_aliases: &'static [(u32, DeviceClass, u32)],
 }
 
+/// Shows model and version.
+const D_TYPE: u32 = 8001;
+
 impl Model {
+    /// Code of model and version, which D8001 shows; 0 on a model that does not show any.
+    pub fn type_code(&self) -> u16 {
+        let shown = self.special_words().find(|word| word.0 == D_TYPE);
+        shown.map_or(0, |word| word.1 as u16)
+    }
+
     /// The data of a model.
     pub fn get(id: ModelId) -> &'static Model {
         match id {

@@ -3,6 +3,7 @@
 //! A batch executable holds many compiled programs. It reads one request a line and answers each with one line: `ok`, `none` (no
 //! such device, module or channel), or a decimal value. It flushes its output when its input is exhausted or a value was asked for.
 
+use rungc_rt::comm::Received;
 use rungc_rt::{Class, Clock};
 use std::fmt;
 
@@ -11,6 +12,11 @@ use std::fmt;
 pub enum Request {
     /// Program number `.0` of the batch, freshly powered on, with hardware that has nothing set.
     Case(usize),
+    /// Program number `.0` of the batch in another PLC of the case, freshly powered on, with hardware of its own. The first PLC is that of
+    /// [`Request::Case`].
+    Join(usize),
+    /// What follows is for this PLC of the case, 0 for the first.
+    Plc(usize),
     /// Sets a bit device.
     SetBit(Class, u32, bool),
     /// Sets a word device.
@@ -42,6 +48,14 @@ pub enum Request {
     Pulses(u32),
     /// Asks for the frequency at which an output sends pulses, in millihertz.
     Frequency(u32),
+    /// A character comes to a serial port; it was in at its time, after those before it.
+    Receive(u8, Received),
+    /// Takes the oldest character that a serial port has sent by a time, in microseconds since power-on: the time at which it was out,
+    /// shifted left by 8, plus the character. There is none: [`Answer::Missing`].
+    Sent(u8, u32),
+    /// Asks how characters stand on the line of a serial port: bits per second, 8 bits of data bits, 4 of parity (none, odd, even), 4 of stop
+    /// bits.
+    Line(u8),
     /// The RUN/STOP switch.
     Run(bool),
     /// Power off and on; virtual time begins at 0 again.
@@ -111,6 +125,8 @@ impl fmt::Display for Request {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Request::Case(i) => write!(f, "case {i}"),
+            Request::Join(i) => write!(f, "join {i}"),
+            Request::Plc(i) => write!(f, "plc {i}"),
             Request::SetBit(c, n, v) => write!(f, "bit {} {n} {}", letters(c), u8::from(v)),
             Request::SetWord(c, n, v) => write!(f, "word {} {n} {v}", letters(c)),
             Request::SetDouble(c, n, v) => write!(f, "dword {} {n} {v}", letters(c)),
@@ -124,6 +140,11 @@ impl fmt::Display for Request {
             Request::Output(n) => write!(f, "out {n}"),
             Request::Pulses(n) => write!(f, "pulses {n}"),
             Request::Frequency(n) => write!(f, "frequency {n}"),
+            Request::Receive(port, c) => {
+                write!(f, "receive {port} {} {} {}", c.at_us, c.byte, c.fault as u8)
+            }
+            Request::Sent(port, now_us) => write!(f, "sent {port} {now_us}"),
+            Request::Line(port) => write!(f, "line {port}"),
             Request::Run(run) => write!(f, "run {}", u8::from(run)),
             Request::Power => write!(f, "power"),
             Request::SetBfm(unit, address, v) => write!(f, "bfm {unit} {address} {v}"),

@@ -80,7 +80,9 @@ pub fn find(module: &mut Module, wanted: &Wanted) -> Reached {
         return Reached::default();
     }
     let model = module.model;
-    let observed = |class, number| wanted.observes(model, class, number);
+    // Partners on a line write any device.
+    let served = module.has_ports();
+    let observed = |class, number| served || wanted.observes(model, class, number);
     let words = Words::of(module, observed);
     let found = Walk::run(Eval { module, words });
     for (expr, id) in module.exprs.iter_mut().zip(0..) {

@@ -2,7 +2,7 @@
 //! in EEPROM or by a capacitor, is fixed.
 
 use super::{INDEX_ALIASES, M8028, Model, ModelId, Range, Timers, general, latched, timers};
-use rungc_rt::Pulses;
+use rungc_rt::{Ports, Pulses};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
 
@@ -52,6 +52,7 @@ pub(super) const FX1N: Model = Model {
     annunciators_are_states: false,
     value_error: 6706,
     pulses: Pulses::Fx1,
+    ports: Ports::Fx,
     pulse_outputs: &[(Y, 0, 1)],
     position_outputs: &[(Y, 0, 1)],
     notations: Classes::NONE,

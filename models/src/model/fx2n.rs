@@ -4,7 +4,7 @@
 use super::{
     INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
 };
-use rungc_rt::Pulses;
+use rungc_rt::{Ports, Pulses};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
 
@@ -39,6 +39,7 @@ pub(super) const FX2N: Model = Model {
     annunciators_are_states: false,
     value_error: 6706,
     pulses: Pulses::Fx2n,
+    ports: Ports::Fx,
     pulse_outputs: &[(Y, 0, 1)],
     position_outputs: &[(Y, 0, 1)],
     notations: Classes::TEXT,
@@ -59,6 +60,7 @@ pub(super) const FX2N_COMPATIBLE: Model = Model {
     cpus: &[],
     nearest: &[],
     pulses: Pulses::Board2n,
+    ports: Ports::Board,
     pulse_outputs: &[(Y, 0, 7)],
     ..FX2N
 };

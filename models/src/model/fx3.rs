@@ -4,7 +4,7 @@
 use super::{
     INDEX_ALIASES, LATCH_CHOICES, M8028, Model, ModelId, Range, Timers, general, latched, timers,
 };
-use rungc_rt::Pulses;
+use rungc_rt::{Ports, Pulses};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
 
@@ -47,6 +47,7 @@ pub(super) const FX3G: Model = Model {
     annunciators_are_states: false,
     value_error: 6706,
     pulses: Pulses::Fx3,
+    ports: Ports::Fx,
     pulse_outputs: &[(Y, 0, 2)],
     position_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
@@ -79,6 +80,7 @@ pub(super) const FX3U: Model = Model {
     annunciators_are_states: false,
     value_error: 6706,
     pulses: Pulses::Fx3,
+    ports: Ports::Fx,
     pulse_outputs: &[(Y, 0, 3)],
     position_outputs: &[(Y, 0, 3)],
     notations: Classes::E
@@ -102,6 +104,7 @@ pub(super) const FX3U_COMPATIBLE: Model = Model {
     cpus: &[],
     nearest: &[],
     pulses: Pulses::Board3u,
+    ports: Ports::Board,
     pulse_outputs: &[(Y, 0, 7)],
     ..FX3U
 };

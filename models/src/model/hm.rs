@@ -1,7 +1,7 @@
 //! Kewei HM motion controller (hm-motion-controller §5.1).
 
 use super::{Model, ModelId, Range, Timers, general, latched, timers};
-use rungc_rt::Pulses;
+use rungc_rt::{Ports, Pulses};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{self, C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 
@@ -27,6 +27,7 @@ pub(super) const HM: Model = Model {
     annunciators_are_states: false,
     value_error: 6707,
     pulses: Pulses::Hm,
+    ports: Ports::Hm,
     pulse_outputs: &[],
     position_outputs: &[],
     notations: Classes::NONE,

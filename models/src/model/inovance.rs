@@ -3,7 +3,7 @@
 use super::{
     INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
 };
-use rungc_rt::Pulses;
+use rungc_rt::{Ports, Pulses};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
 
@@ -29,6 +29,7 @@ pub(super) const H1U: Model = Model {
     annunciators_are_states: true,
     value_error: 6707,
     pulses: Pulses::Inovance,
+    ports: Ports::Inovance,
     pulse_outputs: &[(Y, 0, 2)],
     position_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
@@ -61,6 +62,7 @@ pub(super) const H2U: Model = Model {
     annunciators_are_states: true,
     value_error: 6707,
     pulses: Pulses::Inovance,
+    ports: Ports::Inovance,
     pulse_outputs: &[(Y, 0, 7)],
     position_outputs: &[(Y, 0, 7)],
     notations: Classes::E.or(Classes::TEXT),

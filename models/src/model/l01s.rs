@@ -1,7 +1,7 @@
 //! Coolmay L01S (l01s-programming §3).
 
 use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
-use rungc_rt::Pulses;
+use rungc_rt::{Ports, Pulses};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, I, M, N, P, R, S, T, V, X, Y, Z};
 
@@ -27,6 +27,7 @@ pub(super) const L01S: Model = Model {
     annunciators_are_states: false,
     value_error: 6706,
     pulses: Pulses::L01s,
+    ports: Ports::L01s,
     pulse_outputs: &[(Y, 0, 3)],
     position_outputs: &[(Y, 0, 3)],
     notations: Classes::E.or(Classes::TEXT),

@@ -142,6 +142,14 @@ impl LineFormat {
         }
     }
 
+    /// What partners have to agree on, as one number: bits per second, 8 bits of data bits, 4 of parity, 4 of stop bits.
+    pub const fn packed(&self) -> i64 {
+        (self.bits_per_second as i64) << 16
+            | (self.data_bits as i64) << 8
+            | (self.parity as i64) << 4
+            | self.stop_bits as i64
+    }
+
     /// The bits of a byte that a character carries.
     pub const fn mask(&self) -> u8 {
         if self.data_bits == 7 { 0x7f } else { 0xff }

@@ -540,14 +540,25 @@ impl PortWiring {
         registers.into_iter().filter(|&register| register != 0)
     }
 
-    /// Relays of the port, which are stored where a program uses it.
-    pub fn relays(&self) -> impl Iterator<Item = u32> {
-        let choosing: [u32; 2] = match self.choice {
+    /// Registers that choose what the port speaks.
+    pub fn setup_registers(&self) -> impl Iterator<Item = u32> {
+        let registers = [self.format, self.protocol];
+        registers.into_iter().filter(|&register| register != 0)
+    }
+
+    /// Relays that choose what the port speaks.
+    pub fn setup_relays(&self) -> impl Iterator<Item = u32> {
+        let relays = match self.choice {
             Choice::Com1 => [8070, 8071],
             Choice::L01sPort2 => [8196, 8125],
             Choice::L01sPort3 => [8192, 0],
             _ => [0, 0],
         };
+        relays.into_iter().filter(|&relay| relay != 0)
+    }
+
+    /// Relays of the port, which are stored where a program uses it.
+    pub fn relays(&self) -> impl Iterator<Item = u32> {
         let relays = [
             self.waits,
             self.sends,
@@ -555,10 +566,9 @@ impl PortWiring {
             self.receives,
             self.late,
             self.answered,
-            choosing[0],
-            choosing[1],
         ];
-        relays.into_iter().filter(|&relay| relay != 0)
+        let relays = relays.into_iter().filter(|&relay| relay != 0);
+        relays.chain(self.setup_relays())
     }
 }
 

@@ -9,8 +9,10 @@ use rungc_rt::{Class, Cx, Operand, Plc, Program, Site, VirtualHal};
 /// The reference interpreter and virtual hardware.
 pub struct Interpreter<'m> {
     modules: &'m [Module],
-    machine: Option<Machine<'m>>,
-    hal: VirtualHal,
+    /// The PLCs of the case, with their hardware.
+    plcs: Vec<(Machine<'m>, VirtualHal)>,
+    /// Which of them is asked.
+    current: usize,
 }
 
 impl<'m> Interpreter<'m> {
@@ -18,8 +20,8 @@ impl<'m> Interpreter<'m> {
     pub fn new(modules: &'m [Module]) -> Self {
         Interpreter {
             modules,
-            machine: None,
-            hal: VirtualHal::new(),
+            plcs: Vec::new(),
+            current: 0,
         }
     }
 }
@@ -39,16 +41,23 @@ impl Engine for Interpreter<'_> {
     }
 
     fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
-        if let Request::Case(i) = request {
-            let module = self.modules.get(i).ok_or(EngineError::NoProgram(i))?;
-            self.machine = Some(Machine::new(module));
-            self.hal = VirtualHal::new();
-            return Ok(Answer::Ok);
+        match request {
+            Request::Case(i) | Request::Join(i) => {
+                let module = self.modules.get(i).ok_or(EngineError::NoProgram(i))?;
+                if matches!(request, Request::Case(_)) {
+                    self.plcs.clear();
+                    self.current = 0;
+                }
+                self.plcs.push((Machine::new(module), VirtualHal::new()));
+                return Ok(Answer::Ok);
+            }
+            Request::Plc(i) => self.current = i,
+            _ => {}
         }
-        let hal = &mut self.hal;
-        let machine = self.machine.as_mut().ok_or(EngineError::NoProgram(0))?;
+        let plc = self.plcs.get_mut(self.current);
+        let (machine, hal) = plc.ok_or(EngineError::NoProgram(self.current))?;
         Ok(match request {
-            Request::Case(_) | Request::Exit => Answer::Ok,
+            Request::Case(_) | Request::Join(_) | Request::Plc(_) | Request::Exit => Answer::Ok,
             Request::SetBit(class, n, value) => Answer::done(machine.set_bit(class, n, value)),
             Request::SetWord(class, n, value) => Answer::done(machine.set_word(class, n, value)),
             Request::SetDouble(class, n, value) => {
@@ -82,6 +91,13 @@ impl Engine for Interpreter<'_> {
             Request::Output(n) => Answer::value(Some(machine.output(n))),
             Request::Pulses(n) => Answer::value(Some(machine.pulses_sent(n))),
             Request::Frequency(n) => Answer::value(Some(machine.pulse_millihertz(n))),
+            Request::Receive(port, character) => {
+                Answer::done(hal.line(port).and_then(|line| line.feed(character)))
+            }
+            Request::Sent(port, now_us) => {
+                Answer::value(hal.line(port).and_then(|line| line.take_packed(now_us)))
+            }
+            Request::Line(port) => Answer::value(hal.line(port).map(|line| line.format().packed())),
             Request::Run(running) => {
                 machine.set_running(running);
                 Answer::Ok

@@ -1,8 +1,8 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
 use super::program::{self, RawProgram, Tested};
-use super::serial::{self, Protocol, RawMode, RawSent, Switch, Way};
-use super::{Basis, Case, Check, Rejects, Run, Setting, Step, TestFile, Value};
+use super::serial::{self, Port, PortId, Protocol, RawMode, RawSent, Switch, Way};
+use super::{Basis, Case, Check, OtherPlc, Rejects, Run, Setting, Step, TestFile, Value};
 use crate::plant::{self, Description};
 use crate::problem::{self, Problem};
 use crate::target::Target;
@@ -11,7 +11,7 @@ use rungc_models::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
@@ -134,7 +134,7 @@ struct Reader<'t> {
     /// The programs in files that were read, by their paths.
     programs: BTreeMap<PathBuf, Tested>,
     /// Names of the other PLCs of the case being read.
-    others: BTreeSet<String>,
+    others: Vec<String>,
 }
 
 /// Reads the text of a test file.
@@ -144,7 +144,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
         source,
         problems: Vec::new(),
         programs: BTreeMap::new(),
-        others: BTreeSet::new(),
+        others: Vec::new(),
     };
     let file = reader.file(raw);
     if reader.problems.is_empty() {
@@ -254,7 +254,12 @@ impl Reader<'_> {
             self.report(at, message);
             ModelId::Fx3u
         });
-        let needs = self.network(raw.plc, &raw.wire, &raw.serve);
+        let others = self.others(raw.plc, model);
+        let wires = raw.wire.iter();
+        let wires = wires.map(|line| line.iter().filter_map(|port| self.port(port)).collect());
+        let wires = wires.collect();
+        let served = raw.serve.keys().filter_map(|port| self.port(port));
+        let needs: Vec<_> = served.map(|_| serial::SERVERS).collect();
         let init = self.settings(raw.init);
         let mut steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
         if let Some(first) = steps.first_mut() {
@@ -286,6 +291,8 @@ impl Reader<'_> {
             note: raw.note,
             program: tested.program,
             machine: self.machine(raw.machine.as_ref()),
+            others,
+            wires,
             check,
         }
     }
@@ -309,23 +316,31 @@ impl Reader<'_> {
             }
             ms => ms.map_or(10, Spanned::into_inner),
         };
-        let mut needs = Vec::new();
-        if raw.rx.is_some() || raw.expect_tx.is_some() || raw.cut.is_some() {
-            needs.push(serial::PORTS);
+        let mut rx = Vec::new();
+        for (port, text) in raw.rx.into_iter().flatten() {
+            let port = self.line_text(&port, Way::ToPlc, std::slice::from_ref(&text));
+            rx.extend(port.map(|port| (port, serial::items(&text))));
         }
-        for (port, bytes) in raw.rx.iter().flatten() {
-            self.line_text(port, Way::ToPlc, std::slice::from_ref(bytes));
+        let mut expect_tx = Vec::new();
+        for (port, sent) in raw.expect_tx.into_iter().flatten() {
+            let port = self.line_text(&port, Way::FromPlc, sent.texts());
+            let texts = sent.texts().iter();
+            let sent = texts.map(|text| serial::bytes(serial::items(text)));
+            expect_tx.extend(port.map(|port| (port, sent.collect())));
         }
-        for (port, sent) in raw.expect_tx.iter().flatten() {
-            self.line_text(port, Way::FromPlc, sent.texts());
-        }
-        for port in raw.cut.iter().flatten() {
-            self.port(port);
-        }
+        let cut = raw
+            .cut
+            .map(|cut| cut.iter().filter_map(|port| self.port(port)).collect());
+        let ports = rx.iter().map(|(port, _)| port);
+        let ports = ports.chain(expect_tx.iter().map(|(port, _): &(Port, Vec<_>)| port));
+        let needs = ports.filter_map(|port| port.id.lacking()).collect();
         Step {
             line: self.line(at),
             power_cycle: raw.power_cycle,
-            running: raw.mode.and_then(|mode| self.mode(&mode)),
+            running: raw.mode.map_or(Vec::new(), |mode| self.mode(&mode)),
+            rx,
+            expect_tx,
+            cut,
             clock: raw.clock.and_then(|text| self.clock(&text)),
             bfm: self.buffer(raw.bfm),
             analog: self.analog(raw.analog),
@@ -340,84 +355,86 @@ impl Reader<'_> {
         }
     }
 
-    /// The other PLCs of a case and what joins them; returns what they need.
-    fn network(
-        &mut self,
-        plcs: Vec<RawPlc>,
-        wire: &[Vec<Spanned<String>>],
-        serve: &Map<Protocol>,
-    ) -> Vec<&'static str> {
-        let mut needs = Vec::new();
-        if !plcs.is_empty() {
-            needs.push(serial::OTHER_PLCS);
-        }
-        if !wire.is_empty() || !serve.is_empty() {
-            needs.push(serial::PORTS);
-        }
-        self.others.clear();
+    /// The other PLCs of a case.
+    fn others(&mut self, plcs: Vec<RawPlc>, usual: ModelId) -> Vec<OtherPlc> {
+        self.others = plcs.iter().map(|plc| plc.name.get_ref().clone()).collect();
+        let mut others: Vec<OtherPlc> = Vec::new();
         for plc in plcs {
             let (at, name) = (plc.name.span().start, plc.name.into_inner());
-            if let Some(model) = &plc.model {
-                self.model(model);
-            }
             if plc.program.trim().is_empty() {
                 self.report(at, format!("the program of the PLC `{name}` is empty"));
             }
-            self.settings(plc.init);
             if !serial::is_name(&name) {
                 let message = "the name of a PLC consists of letters and digits".to_string();
                 self.report(at, message);
-            } else if !self.others.insert(name.clone()) {
+            } else if others.iter().any(|other| other.name == name) {
                 self.report(at, format!("the PLC `{name}` stands twice in this case"));
             }
+            let model = plc.model.as_ref().map(|model| self.model(model));
+            others.push(OtherPlc {
+                name,
+                model: model.unwrap_or(usual),
+                program: plc.program,
+                init: self.settings(plc.init),
+            });
         }
-        for port in wire.iter().flatten() {
-            self.port(port);
+        for (i, other) in (1..).zip(&mut others) {
+            other.init.iter_mut().for_each(|setting| setting.plc = i);
         }
-        for port in serve.keys() {
-            self.port(port);
-        }
-        needs
+        others
     }
 
-    /// A name without that of another PLC before it, and whether it had one.
-    fn own<'n>(&self, name: &'n str) -> (&'n str, bool) {
-        match name.split_once(':') {
-            Some((plc, own)) if self.others.contains(plc) => (own, true),
-            _ => (name, false),
+    /// A name without that of another PLC before it, and the number of its PLC.
+    fn own<'n>(&self, name: &'n str) -> (&'n str, usize) {
+        let other = name.split_once(':').and_then(|(plc, own)| {
+            let number = self.others.iter().position(|other| other == plc)?;
+            Some((own, number + 1))
+        });
+        other.unwrap_or((name, 0))
+    }
+
+    /// The port of a name.
+    fn port(&mut self, port: &Spanned<String>) -> Option<Port> {
+        let (own, plc) = self.own(port.get_ref());
+        match PortId::parse(own) {
+            Ok(id) => Some(Port { plc, id }),
+            Err(message) => {
+                self.report(port.span().start, message.to_string());
+                None
+            }
         }
     }
 
-    /// Holds the name of a port to the format.
-    fn port(&mut self, port: &Spanned<String>) {
-        let (own, _) = self.own(port.get_ref());
-        if let Err(message) = serial::check_port(own) {
-            self.report(port.span().start, message.to_string());
-        }
-    }
-
-    /// Holds what goes over a port to the format.
-    fn line_text(&mut self, port: &Spanned<String>, way: Way, texts: &[String]) {
-        self.port(port);
+    /// Holds what goes over a port to the format; returns the port.
+    fn line_text(&mut self, port: &Spanned<String>, way: Way, texts: &[String]) -> Option<Port> {
         let (own, _) = self.own(port.get_ref());
         for text in texts {
             if let Err(message) = serial::check_text(own, way, text) {
                 self.report(port.span().start, message.to_string());
             }
         }
+        self.port(port)
     }
 
-    /// Where the RUN/STOP switch of the case's own PLC is put; a switch of another must belong to a PLC of the case.
-    fn mode(&mut self, mode: &Spanned<RawMode>) -> Option<bool> {
+    /// Where the RUN/STOP switches of PLCs are put.
+    fn mode(&mut self, mode: &Spanned<RawMode>) -> Vec<(usize, bool)> {
         match mode.get_ref() {
-            RawMode::All(switch) => Some(*switch == Switch::Run),
+            RawMode::All(switch) => {
+                let all = 0..=self.others.len();
+                all.map(|plc| (plc, *switch == Switch::Run)).collect()
+            }
             RawMode::Of(switches) => {
-                for name in switches.keys().filter(|name| !self.others.contains(*name)) {
-                    let message = format!("the case has no PLC `{name}`");
-                    self.problems
-                        .push(Problem::at(self.source, mode.span().start, message));
+                let mut running = Vec::new();
+                for (name, switch) in switches {
+                    match self.others.iter().position(|other| other == name) {
+                        Some(i) => running.push((i + 1, *switch == Switch::Run)),
+                        None => {
+                            let message = format!("the case has no PLC `{name}`");
+                            self.report(mode.span().start, message);
+                        }
+                    }
                 }
-                None
+                running
             }
         }
     }
@@ -469,7 +486,7 @@ impl Reader<'_> {
     fn settings(&mut self, raw: Map<Spanned<Scalar>>) -> Vec<Setting> {
         raw.into_iter()
             .filter_map(|(name, value)| {
-                let (own, of_other) = self.own(name.get_ref());
+                let (own, plc) = self.own(name.get_ref());
                 let target = match Target::parse(own) {
                     Ok(target) => target,
                     Err(message) => {
@@ -478,7 +495,7 @@ impl Reader<'_> {
                     }
                 };
                 match Value::of(target, value.get_ref()) {
-                    Ok(value) => (!of_other).then_some(Setting { target, value }),
+                    Ok(value) => Some(Setting { plc, target, value }),
                     Err(expected) => {
                         let message = format!("the value of `{}` is {expected}", name.get_ref());
                         self.report(value.span().start, message);

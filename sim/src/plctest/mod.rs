@@ -3,6 +3,7 @@
 //! [`load`] reads a file; [`Suite`] compiles the programs of many; [`run`] runs them on an [`Engine`](crate::engines::Engine).
 
 mod format;
+mod lines;
 mod program;
 mod report;
 mod runner;
@@ -13,6 +14,7 @@ mod wiring;
 pub use program::{CaseProgram, ProgramFile};
 pub use report::{Failure, Outcome, Report};
 pub use runner::run;
+pub use serial::{Item, Port, PortId};
 pub use suite::{Id, Suite};
 
 use crate::plant::Description;
@@ -59,8 +61,25 @@ pub struct Case {
     pub program: CaseProgram,
     /// The machine that its inputs and outputs are wired to.
     pub machine: Option<Arc<Description>>,
+    /// PLCs beside that of the case.
+    pub others: Vec<OtherPlc>,
+    /// Ports on one line each.
+    pub wires: Vec<Vec<Port>>,
     /// What is checked.
     pub check: Check,
+}
+
+/// A PLC beside that of a case.
+#[derive(Clone, Debug)]
+pub struct OtherPlc {
+    /// Its name.
+    pub name: String,
+    /// Its model.
+    pub model: ModelId,
+    /// Its program, an instruction list.
+    pub program: String,
+    /// Set once before the first scan.
+    pub init: Vec<Setting>,
 }
 
 /// What a case is based on.
@@ -105,8 +124,14 @@ pub struct Step {
     pub line: u32,
     /// Power off and on.
     pub power_cycle: bool,
-    /// The RUN/STOP switch.
-    pub running: Option<bool>,
+    /// The RUN/STOP switches of these PLCs.
+    pub running: Vec<(usize, bool)>,
+    /// What comes to ports.
+    pub rx: Vec<(Port, Vec<Item>)>,
+    /// What ports send during the step: any of these.
+    pub expect_tx: Vec<(Port, Vec<Vec<u8>>)>,
+    /// The ports that are off their lines from now on, if that changes.
+    pub cut: Option<Vec<Port>>,
     /// Sets the real-time clock.
     pub clock: Option<Clock>,
     /// Sets buffer memory: module, address, value.
@@ -143,6 +168,8 @@ pub enum Run {
 /// A device and its value.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Setting {
+    /// The PLC: 0 for that of the case, the others in their order.
+    pub plc: usize,
     /// What it names.
     pub target: Target,
     /// Its value.
@@ -189,7 +216,7 @@ fn parse_source(source: &Source) -> Result<TestFile, LoadError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Check, parse};
+    use super::{Check, Port, PortId, Value, parse};
 
     fn problems_of(text: &str) -> String {
         parse("t.plctest.toml", text).unwrap_err().to_string()
@@ -262,26 +289,41 @@ mode = { C = "stop" }
     }
 
     #[test]
-    fn a_case_with_ports_or_other_plcs_needs_what_engines_lack() {
+    fn what_a_case_says_of_other_plcs_carries_their_numbers() {
         let text = r#"model = "h2u"
 topic = "t"
 [[case]]
 name = "a"
 program = "END"
-wire = [["COM1", "B:COM1"]]
+wire = [["COM1", "B:COM2"]]
 [[case.plc]]
 name = "B"
+model = "h1u"
 program = "END"
 [[case.step]]
 set = { D0 = 1, "B:D0" = 2 }
 mode = { B = "stop" }
+expect_tx = { "B:COM2" = ["41 42", ""] }
+cut = ["B:COM2"]
 "#;
         let file = parse("t.plctest.toml", text).unwrap();
-        let Check::Steps { steps, .. } = &file.cases[0].check else {
+        let case = &file.cases[0];
+        let Check::Steps { steps, .. } = &case.check else {
             panic!("the case has steps");
         };
-        assert_eq!(steps[0].needs, ["more than one PLC", "serial ports"]);
-        assert_eq!((steps[0].set.len(), steps[0].running), (1, None));
+        let step = &steps[0];
+        let port = |plc, number| Port {
+            plc,
+            id: PortId::Serial(number),
+        };
+        assert_eq!(case.wires, [[port(0, 1), port(1, 2)]]);
+        let of: Vec<_> = step.set.iter().map(|s| (s.plc, s.value.clone())).collect();
+        assert_eq!(of, [(1, Value::Int(2)), (0, Value::Int(1))]);
+        assert_eq!(step.running, [(1, false)]);
+        let sent = vec![b"AB".to_vec(), Vec::new()];
+        assert_eq!(step.expect_tx, [(port(1, 2), sent)]);
+        assert_eq!(step.cut, Some(vec![port(1, 2)]));
+        assert!(step.needs.is_empty());
     }
 
     #[test]

@@ -1,14 +1,18 @@
 //! Runs the cases of a suite on an engine.
 
+use super::lines::Lines;
 use super::suite::Built;
 use super::wiring;
-use super::{Check, Failure, Outcome, Rejects, Report, Run, Setting, Step, Suite, Value};
+use super::{
+    Case, Check, Failure, Outcome, Port, Rejects, Report, Run, Setting, Step, Suite, Value,
+};
 use crate::engines::{Engine, EngineError};
 use crate::plant::{Description, Plant};
 use crate::protocol::{Answer, Request};
 use crate::target::Target;
 use crate::wire;
 use rungc_interp::rt_class;
+use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -35,12 +39,11 @@ pub fn run(
             (Check::Steps { .. }, Built::Refused(errors)) => Err(Failure::Refused(
                 errors.iter().map(|(_, l, m)| (*l, m.clone())).collect(),
             )),
-            (Check::Steps { init, steps }, Built::Module(module)) => {
+            (Check::Steps { init, steps }, Built::Modules(built)) => {
                 let machine = case.machine.as_deref();
                 wiring::check(machine, case.model, init, steps).and_then(|()| {
-                    let takes_events = suite.takes_events(*module);
-                    let plant = machine.map(Description::plant);
-                    run_case(engine, *module, takes_events, plant, init, steps)
+                    let plcs = built.iter().map(|&module| PlcInfo::of(module, suite));
+                    run_case(engine, case, plcs.collect(), init, steps)
                 })
             }
         };
@@ -89,27 +92,53 @@ fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
     Err(Failure::Accepted(message))
 }
 
+/// What the runner knows of a PLC.
+pub(super) struct PlcInfo {
+    /// Its program in the batch.
+    module: usize,
+    /// Whether the program takes notice of what happens outside its scan.
+    takes_events: bool,
+    /// Its serial ports.
+    pub(super) ports: Vec<u8>,
+}
+
+impl PlcInfo {
+    fn of(module: usize, suite: &Suite) -> Self {
+        let program = suite.modules().get(module);
+        PlcInfo {
+            module,
+            takes_events: program.is_some_and(Module::takes_events),
+            ports: program.map_or(Vec::new(), |program| program.ports.clone()),
+        }
+    }
+}
+
 /// A case while it runs.
 pub(super) struct Running<'e> {
     pub(super) engine: &'e mut dyn Engine,
     /// The step that runs, from 1.
     pub(super) step: usize,
     now_ms: u32,
-    /// State of the input terminals, which a power cycle does not change.
-    inputs: BTreeMap<u32, bool>,
-    /// Whether the program takes notice of what happens outside its scan.
-    takes_events: bool,
+    /// State of the input terminals of each PLC, which a power cycle does not change.
+    inputs: BTreeMap<(usize, u32), bool>,
+    /// The PLC of the case, and the others.
+    pub(super) plcs: Vec<PlcInfo>,
+    /// The PLC that the engine was asked last.
+    current: usize,
+    /// The names of the others.
+    names: Vec<String>,
     /// Whether a scan has run since power-on.
     scanned: bool,
     /// The machine around the PLC.
     pub(super) plant: Option<Plant>,
+    /// The serial lines.
+    pub(super) lines: Lines,
 }
 
 fn run_case(
     engine: &mut dyn Engine,
-    module: usize,
-    takes_events: bool,
-    plant: Option<Plant>,
+    case: &Case,
+    plcs: Vec<PlcInfo>,
     init: &[Setting],
     steps: &[Step],
 ) -> Result<(), Failure> {
@@ -124,12 +153,19 @@ fn run_case(
         step: 0,
         now_ms: 0,
         inputs: BTreeMap::new(),
-        takes_events,
+        plcs,
+        current: 0,
+        names: case.others.iter().map(|other| other.name.clone()).collect(),
         scanned: false,
-        plant,
+        plant: case.machine.as_deref().map(Description::plant),
+        lines: Lines::new(&case.wires),
     };
-    running.ask(Request::Case(module))?;
+    running.power_up()?;
     running.set_all(init)?;
+    for other in &case.others {
+        running.set_all(&other.init)?;
+    }
+    running.select(0)?;
     running.wire_up()?;
     for (i, step) in steps.iter().enumerate() {
         running.step = i + 1;
@@ -160,22 +196,73 @@ impl Running<'_> {
         }
     }
 
-    fn run_step(&mut self, step: &Step) -> Result<(), Failure> {
-        if step.power_cycle {
-            self.ask(Request::Power)?;
-            self.now_ms = 0;
-            self.scanned = false;
-            self.plant.iter_mut().for_each(Plant::power_cycle);
-            for (number, on) in self.inputs.clone() {
-                self.ask(Request::SetBit(Class::X, number, on))?;
-            }
+    /// All PLCs of the case as they come.
+    fn power_up(&mut self) -> Result<(), Failure> {
+        for i in 0..self.plcs.len() {
+            let module = self.plcs[i].module;
+            self.ask(if i == 0 {
+                Request::Case(module)
+            } else {
+                Request::Join(module)
+            })?;
         }
-        if let Some(running) = step.running {
+        Ok(())
+    }
+
+    /// What is asked from now on is for this PLC.
+    pub(super) fn select(&mut self, plc: usize) -> Result<(), Failure> {
+        if self.current != plc {
+            self.ask(Request::Plc(plc))?;
+            self.current = plc;
+        }
+        Ok(())
+    }
+
+    /// Time since power-on in microseconds, wrapping.
+    pub(super) fn now_us(&self) -> u32 {
+        self.now_ms.wrapping_mul(1000)
+    }
+
+    /// The name of a port with that of its PLC.
+    pub(super) fn port_name(&self, port: &Port) -> String {
+        match port.plc.checked_sub(1).and_then(|i| self.names.get(i)) {
+            Some(name) => format!("{name}:{}", port.id),
+            None => port.id.to_string(),
+        }
+    }
+
+    fn power_cycle(&mut self) -> Result<(), Failure> {
+        self.now_ms = 0;
+        self.scanned = false;
+        self.plant.iter_mut().for_each(Plant::power_cycle);
+        self.lines.power_cycle();
+        for plc in 0..self.plcs.len() {
+            self.select(plc)?;
+            self.ask(Request::Power)?;
+        }
+        for ((plc, number), on) in self.inputs.clone() {
+            self.select(plc)?;
+            self.ask(Request::SetBit(Class::X, number, on))?;
+        }
+        Ok(())
+    }
+
+    /// What a step says before its first scan.
+    fn begin_step(&mut self, step: &Step) -> Result<(), Failure> {
+        if step.power_cycle {
+            self.power_cycle()?;
+        }
+        for &(plc, running) in &step.running {
+            self.select(plc)?;
             self.ask(Request::Run(running))?;
         }
         if let Some(clock) = step.clock {
-            self.insist(Request::SetClock(clock))?;
+            for plc in 0..self.plcs.len() {
+                self.select(plc)?;
+                self.insist(Request::SetClock(clock))?;
+            }
         }
+        self.select(0)?;
         for &(unit, address, value) in &step.bfm {
             self.insist(Request::SetBfm(unit, address, value))?;
         }
@@ -183,6 +270,11 @@ impl Running<'_> {
             self.insist(Request::SetAnalog(channel, value))?;
         }
         self.set_all(&step.set)?;
+        self.begin_lines(step)
+    }
+
+    fn run_step(&mut self, step: &Step) -> Result<(), Failure> {
+        self.begin_step(step)?;
         let scans = match step.run {
             Run::Scans(scans) => scans,
             Run::Ms(ms) => ms.div_ceil(step.scan_ms),
@@ -196,37 +288,54 @@ impl Running<'_> {
         let mut changes = changes.iter().peekable();
         let begin_ms = self.now_ms;
         for _ in 0..scans {
-            self.ask(Request::Scan {
-                now_ms: self.now_ms,
-                scan_us: step.scan_ms.saturating_mul(1000),
-            })?;
+            for plc in 0..self.plcs.len() {
+                self.select(plc)?;
+                self.ask(Request::Scan {
+                    now_ms: self.now_ms,
+                    scan_us: step.scan_ms.saturating_mul(1000),
+                })?;
+            }
             self.scanned = true;
             for _ in 0..step.scan_ms {
                 self.now_ms = self.now_ms.wrapping_add(1);
+                self.select(0)?;
                 let now_us = u64::from(self.now_ms.wrapping_sub(begin_ms)) * 1000;
                 while let Some(change) = changes.next_if(|change| change.at_us < now_us) {
                     self.ask(Request::SetBit(Class::X, change.input, change.on))?;
                     self.input(change.input, change.on)?;
                     self.interrupts()?;
                 }
-                if self.takes_events {
-                    self.ask(Request::Tick(self.now_ms))?;
-                    self.interrupts()?;
-                }
+                self.tick()?;
+                self.select(0)?;
                 self.move_machine(self.now_ms)?;
             }
         }
         self.check(step)
     }
 
-    fn check(&mut self, step: &Step) -> Result<(), Failure> {
-        let mut values = Vec::new();
-        for Setting { target, value } in &step.expect {
-            let actual = self.get(*target, value)?;
-            if !agrees(*target, value, &actual) {
-                values.push((target.to_string(), value.clone(), actual));
+    /// A millisecond has passed.
+    fn tick(&mut self) -> Result<(), Failure> {
+        self.deliver()?;
+        for plc in 0..self.plcs.len() {
+            if self.plcs[plc].takes_events {
+                self.select(plc)?;
+                self.ask(Request::Tick(self.now_ms))?;
+                self.interrupts()?;
             }
         }
+        self.carry()
+    }
+
+    fn check(&mut self, step: &Step) -> Result<(), Failure> {
+        let mut values = self.end_lines(step)?;
+        for Setting { plc, target, value } in &step.expect {
+            self.select(*plc)?;
+            let actual = self.get(*target, value)?;
+            if !agrees(*target, value, &actual) {
+                values.push((self.name_of(*plc, *target), value.clone(), actual));
+            }
+        }
+        self.select(0)?;
         for &(unit, address, expected) in &step.expect_bfm {
             let request = Request::Bfm(unit, address);
             let Answer::Value(actual) = self.ask(request)? else {
@@ -248,11 +357,20 @@ impl Running<'_> {
         })
     }
 
+    /// The name of a device with that of its PLC.
+    fn name_of(&self, plc: usize, target: Target) -> String {
+        match plc.checked_sub(1).and_then(|i| self.names.get(i)) {
+            Some(name) => format!("{name}:{target}"),
+            None => target.to_string(),
+        }
+    }
+
     fn set_all(&mut self, settings: &[Setting]) -> Result<(), Failure> {
         settings.iter().try_for_each(|s| self.set(s))
     }
 
     fn set(&mut self, setting: &Setting) -> Result<(), Failure> {
+        self.select(setting.plc)?;
         for request in requests(setting) {
             if let Request::SetBit(Class::X, number, on) = request {
                 self.input(number, on)?;
@@ -264,11 +382,19 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// An input terminal is on or off from now.
+    /// Whether the PLC that is asked takes notice of what happens outside its scan.
+    fn takes_events(&self) -> bool {
+        self.plcs
+            .get(self.current)
+            .is_some_and(|plc| plc.takes_events)
+    }
+
+    /// An input terminal of the PLC that is asked is on or off from now.
     pub(super) fn input(&mut self, number: u32, on: bool) -> Result<(), Failure> {
-        let before = self.inputs.insert(number, on).unwrap_or(false);
+        let before = self.inputs.insert((self.current, number), on);
+        let before = before.unwrap_or(false);
         // What is on at power-on has not gone on.
-        if self.takes_events && self.scanned && on != before {
+        if self.takes_events() && self.scanned && on != before {
             self.ask(Request::Edge(number, on))?;
         }
         Ok(())
@@ -276,7 +402,7 @@ impl Running<'_> {
 
     /// Interrupts are taken between two scans.
     pub(super) fn interrupts(&mut self) -> Result<(), Failure> {
-        if self.takes_events {
+        if self.takes_events() {
             self.ask(Request::Interrupts)?;
         }
         Ok(())

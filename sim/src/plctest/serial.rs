@@ -1,13 +1,15 @@
-//! What test files say about communication. It is held to the rules of the format; no engine has ports yet, so a case that uses
-//! it needs what engines lack ([`Step::needs`](super::Step)).
+//! What test files say about communication. No engine has CAN and servers yet, so a case that uses them needs what engines lack
+//! ([`Step::needs`](super::Step)).
 
+use rungc_rt::comm::CharFault;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::fmt;
 
-/// Needed by a case that sends, receives or serves.
-pub(super) const PORTS: &str = "serial ports";
-/// Needed by a case that has several PLCs.
-pub(super) const OTHER_PLCS: &str = "more than one PLC";
+/// Needed by a case with CAN frames.
+const CAN: &str = "CAN";
+/// Needed by a case with a server over TCP.
+pub(super) const SERVERS: &str = "servers over TCP";
 
 /// What a port is expected to send: one text, or any of several.
 #[derive(Deserialize)]
@@ -67,21 +69,111 @@ pub(super) enum Way {
     FromPlc,
 }
 
-/// What is wrong with the name of a port (`COM1`, `CAN`, `TCP:502`, `TCP:502/b`).
-pub(super) fn check_port(port: &str) -> Result<(), &'static str> {
-    let fits = match port.split_once(':') {
-        None => {
-            let serial = port.strip_prefix("COM").unwrap_or("");
-            port == "CAN" || serial.len() == 1 && serial.parse::<u8>().is_ok()
+/// A port of a case.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Port {
+    /// Its PLC: 0 for that of the case, the others in their order.
+    pub plc: usize,
+    /// Which port.
+    pub id: PortId,
+}
+
+/// Which port of a PLC.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PortId {
+    /// `COM1`.
+    Serial(u8),
+    /// `CAN`.
+    Can,
+    /// A connection to a server: `TCP:502`, `TCP:502/b`.
+    Tcp(u16, String),
+}
+
+impl fmt::Display for PortId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PortId::Serial(number) => write!(f, "COM{number}"),
+            PortId::Can => write!(f, "CAN"),
+            PortId::Tcp(number, connection) if connection == FIRST => write!(f, "TCP:{number}"),
+            PortId::Tcp(number, connection) => write!(f, "TCP:{number}/{connection}"),
         }
-        Some(("TCP", server)) => {
-            let (number, connection) = server.split_once('/').unwrap_or((server, "a"));
-            number.parse::<u16>().is_ok() && is_name(connection)
+    }
+}
+
+/// Name of a connection that has none.
+const FIRST: &str = "a";
+
+impl PortId {
+    /// What the name of a port means: `COM1`, `CAN`, `TCP:502`, `TCP:502/b`.
+    pub(super) fn parse(port: &str) -> Result<PortId, &'static str> {
+        let id = match port.split_once(':') {
+            None if port == "CAN" => Some(PortId::Can),
+            None => {
+                let serial = port.strip_prefix("COM").unwrap_or("");
+                let number = serial.parse().ok().filter(|_| serial.len() == 1);
+                number.map(PortId::Serial)
+            }
+            Some(("TCP", server)) => {
+                let (number, connection) = server.split_once('/').unwrap_or((server, FIRST));
+                let number = number.parse().ok().filter(|_| is_name(connection));
+                number.map(|number| PortId::Tcp(number, connection.to_string()))
+            }
+            Some(_) => None,
+        };
+        id.ok_or("a port is named `COM1`, `CAN` or `TCP:502`")
+    }
+
+    /// What no engine has yet of this port.
+    pub(super) fn lacking(&self) -> Option<&'static str> {
+        match self {
+            PortId::Serial(_) => None,
+            PortId::Can => Some(CAN),
+            PortId::Tcp(..) => Some(SERVERS),
         }
-        Some(_) => false,
+    }
+}
+
+/// What comes to a port.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Item {
+    /// A byte.
+    Byte(u8, CharFault),
+    /// The line is idle for so many microseconds.
+    Pause(u64),
+}
+
+/// The bytes that a text stands for, and the pauses between them; what holds to the format has no other words.
+pub(super) fn items(text: &str) -> Vec<Item> {
+    let byte = |word: &str| u8::from_str_radix(word, 16).ok();
+    let item = |word: &str| match (word.strip_prefix('/'), word.split_once('!')) {
+        (Some(ms), _) => {
+            let ms: f64 = ms.parse().ok()?;
+            Some(Item::Pause((ms * 1000.0) as u64))
+        }
+        (None, Some((word, fault))) => Some(Item::Byte(byte(word)?, fault_of(fault)?)),
+        (None, None) => Some(Item::Byte(byte(word)?, CharFault::None)),
     };
-    fits.then_some(())
-        .ok_or("a port is named `COM1`, `CAN` or `TCP:502`")
+    text.split_whitespace().filter_map(item).collect()
+}
+
+/// The bytes alone.
+pub(super) fn bytes(items: Vec<Item>) -> Vec<u8> {
+    let bytes = items.into_iter().filter_map(|item| match item {
+        Item::Byte(byte, _) => Some(byte),
+        Item::Pause(_) => None,
+    });
+    bytes.collect()
+}
+
+/// What is wrong with a byte that has this letter.
+fn fault_of(letter: &str) -> Option<CharFault> {
+    match letter {
+        "p" => Some(CharFault::Parity),
+        "f" => Some(CharFault::Framing),
+        "o" => Some(CharFault::Overrun),
+        "b" => Some(CharFault::Break),
+        _ => None,
+    }
 }
 
 /// Whether this may name a PLC or a connection.
@@ -135,7 +227,7 @@ fn is_bad_byte(word: &str) -> bool {
     let Some((byte, fault)) = word.split_once('!') else {
         return false;
     };
-    is_byte(byte) && matches!(fault, "p" | "f" | "o" | "b")
+    is_byte(byte) && fault_of(fault).is_some()
 }
 
 fn is_frame(word: &str) -> bool {
@@ -151,12 +243,14 @@ fn is_frame(word: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Way, check_port, check_text};
+    use super::{Item, PortId, Way, check_text, items};
+    use rungc_rt::comm::CharFault;
 
     #[test]
     fn ports_are_named_as_the_format_says() {
         for port in ["COM0", "COM3", "CAN", "TCP:502", "TCP:5001/b"] {
-            assert_eq!(check_port(port), Ok(()), "{port}");
+            let id = PortId::parse(port).unwrap();
+            assert_eq!(id.to_string(), port);
         }
         for port in [
             "COM",
@@ -167,7 +261,7 @@ mod tests {
             "TCP:502/",
             "B:COM1",
         ] {
-            assert!(check_port(port).is_err(), "{port}");
+            assert!(PortId::parse(port).is_err(), "{port}");
         }
     }
 
@@ -195,5 +289,15 @@ mod tests {
         ] {
             assert!(check_text(port, way, text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn a_text_is_bytes_and_pauses() {
+        let of = items("41 /2.5 42!p");
+        let wrong = Item::Byte(0x42, CharFault::Parity);
+        assert_eq!(
+            of,
+            [Item::Byte(0x41, CharFault::None), Item::Pause(2500), wrong]
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! The programs of many test files, compiled.
 
-use super::{Case, CaseProgram, Check, TestFile};
+use super::{Case, CaseProgram, Check, OtherPlc, PortId, TestFile};
+use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
 use rungc_models::ModelId;
@@ -19,11 +20,14 @@ pub struct Id {
 /// What became of a case's program.
 #[derive(Debug)]
 pub(super) enum Built {
-    /// It is this module.
-    Module(usize),
-    /// It raised errors: the PLC's code, the line in the program, and the message of each.
-    Refused(Vec<(Option<u16>, u32, String)>),
+    /// They are these modules: the program of the case, and those of the other PLCs in their order.
+    Modules(Vec<usize>),
+    /// One of them raised errors.
+    Refused(Errors),
 }
+
+/// The PLC's code, the line in the program, and the message of each error.
+type Errors = Vec<(Option<u16>, u32, String)>;
 
 /// Test files and their compiled programs.
 #[derive(Debug)]
@@ -38,12 +42,18 @@ impl Suite {
     /// be eased are none.
     pub fn compile(files: Vec<TestFile>, warn: &[&'static str]) -> Self {
         let mut modules = Vec::new();
-        let mut build = |case: &Case| match compile_case(case, warn) {
-            Ok(module) => {
-                modules.push(module);
-                Built::Module(modules.len() - 1)
+        let mut build = |case: &Case| {
+            let others = (1..).zip(&case.others);
+            let others = others.map(|(plc, other)| compile_other(case, plc, other, warn));
+            let compiled = std::iter::once(compile_case(case, warn)).chain(others);
+            match compiled.collect::<Result<Vec<Module>, Errors>>() {
+                Ok(compiled) => {
+                    let first = modules.len();
+                    modules.extend(compiled);
+                    Built::Modules((first..modules.len()).collect())
+                }
+                Err(errors) => Built::Refused(errors),
             }
-            Err(errors) => Built::Refused(errors),
         };
         let built = files
             .iter()
@@ -84,26 +94,25 @@ impl Suite {
         self.len() == 0
     }
 
-    /// Whether a module takes notice of what happens outside its scan.
-    pub(super) fn takes_events(&self, module: usize) -> bool {
-        self.modules.get(module).is_some_and(Module::takes_events)
-    }
-
     pub(super) fn built(&self, id: Id) -> &Built {
         &self.built[id.file][id.case]
     }
 }
 
-/// Devices that a case looks at and its program may not use.
-fn observed(case: &Case) -> Vec<(DeviceClass, u32)> {
+/// Devices of a PLC that a case looks at and its program may not use.
+fn observed(case: &Case, plc: usize) -> Vec<(DeviceClass, u32)> {
     let Check::Steps { init, steps } = &case.check else {
         return Vec::new();
     };
     let of_steps = steps.iter().flat_map(|s| s.set.iter().chain(&s.expect));
-    let of_machine = case.machine.iter().flat_map(|machine| machine.terminals());
+    let of_machine = case.machine.iter().filter(|_| plc == 0);
+    let of_machine = of_machine.flat_map(|machine| machine.terminals());
+    let of_others = case.others.iter().flat_map(|other| &other.init);
     let devices: BTreeSet<_> = init
         .iter()
+        .chain(of_others)
         .chain(of_steps)
+        .filter(|setting| setting.plc == plc)
         .flat_map(|setting| {
             let text_len = match &setting.value {
                 super::Value::Text(text) => text.len(),
@@ -117,10 +126,26 @@ fn observed(case: &Case) -> Vec<(DeviceClass, u32)> {
     devices.into_iter().collect()
 }
 
-fn compile_case(
-    case: &Case,
-    warn: &[&'static str],
-) -> Result<Module, Vec<(Option<u16>, u32, String)>> {
+/// The serial ports of a PLC that a case uses.
+fn opened(case: &Case, plc: usize) -> Vec<u8> {
+    let Check::Steps { steps, .. } = &case.check else {
+        return Vec::new();
+    };
+    let rx = steps.iter().flat_map(|step| &step.rx).map(|(port, _)| port);
+    let tx = steps.iter().flat_map(|step| &step.expect_tx);
+    let ports = rx.chain(tx.map(|(port, _)| port));
+    let ports = ports.chain(case.wires.iter().flatten());
+    let ports: BTreeSet<u8> = ports
+        .filter(|port| port.plc == plc)
+        .filter_map(|port| match port.id {
+            PortId::Serial(number) => Some(number),
+            PortId::Can | PortId::Tcp(..) => None,
+        })
+        .collect();
+    ports.into_iter().collect()
+}
+
+fn compile_case(case: &Case, warn: &[&'static str]) -> Result<Module, Errors> {
     let of_list;
     let read = match &case.program {
         CaseProgram::List(list) => {
@@ -132,6 +157,30 @@ fn compile_case(
     let program = &read.program;
     let compiled = compile_on(case.model, case, program, warn);
     let compiled = for_boards(case, program, &compiled, warn).unwrap_or(compiled);
+    finish(read, compiled)
+}
+
+/// The program of another PLC.
+fn compile_other(
+    case: &Case,
+    plc: usize,
+    other: &OtherPlc,
+    warn: &[&'static str],
+) -> Result<Module, Errors> {
+    let name = format!("{}_{}", case.name, other.name);
+    let read = rungc_frontend::read_text(&format!("{name}.il"), &other.program);
+    let options = CompileOptions {
+        model: Some(other.model),
+        name: Some(name),
+        warn: warn.to_vec(),
+        ..options(case, plc)
+    };
+    let compiled = compile(&read.program, &options);
+    finish(&read, compiled)
+}
+
+/// The module, or all errors.
+fn finish(read: &Read, compiled: Compiled) -> Result<Module, Errors> {
     let source = &read.program.source;
     let mut found = read.diagnostics.clone();
     found.refine(&compiled.diagnostics);
@@ -154,13 +203,23 @@ fn compile_on(model: ModelId, case: &Case, program: &Program, warn: &[&'static s
     let options = CompileOptions {
         model: Some(model),
         name: Some(case.name.clone()),
-        observe: observed(case),
-        observe_all: false,
         bounds,
-        optimise: true,
         warn: warn.iter().chain(eased).copied().collect(),
+        ..options(case, 0)
     };
     compile(program, &options)
+}
+
+/// What a case asks of the program of a PLC. Partners on a line may ask for any device.
+fn options(case: &Case, plc: usize) -> CompileOptions {
+    let ports = opened(case, plc);
+    CompileOptions {
+        observe: observed(case, plc),
+        observe_all: !ports.is_empty(),
+        ports,
+        optimise: true,
+        ..CompileOptions::default()
+    }
 }
 
 /// A model stands for compatible boards too: a program that only they take, compiled for them.

@@ -1,0 +1,73 @@
+//! The serial ports that a program uses or sets up, or that a host opens.
+
+use super::Lowerer;
+use rungc_rt::Needs;
+use rungc_rt::comm::PortWiring;
+use rungc_syntax::{Device, DeviceClass, OperandKind};
+
+/// Relays of the errors of programming ports and of other ports, and registers of their codes.
+const ERRORS: [u32; 2] = [8062, 8063];
+
+impl Lowerer<'_> {
+    /// The ports that an instruction uses: that of RS, or the one that its last operand names; all if that is not a constant.
+    pub(super) fn use_ports(&mut self, needs: Needs) {
+        let ports = self.model.ports;
+        let named = self
+            .instr()
+            .operands
+            .last()
+            .and_then(|operand| match operand.kind {
+                OperandKind::Decimal(number, None) => i32::try_from(number).ok(),
+                OperandKind::Hex(number, None) => i32::try_from(number).ok(),
+                _ => None,
+            });
+        let all = ports.all().iter().map(|wiring| wiring.number);
+        match named {
+            _ if needs.port => self.module.ports.push(ports.of_rs()),
+            Some(named) => self.module.ports.extend(ports.named(named)),
+            None => self.module.ports.extend(all),
+        }
+    }
+
+    /// Adds the ports that a host opens and that the program sets up; their special devices are stored.
+    pub(super) fn find_ports(&mut self, opened: &[u8]) {
+        for wiring in self.model.ports.all() {
+            let used = self.module.ports.contains(&wiring.number);
+            if !used && (opened.contains(&wiring.number) || self.sets_up(wiring)) {
+                self.module.ports.push(wiring.number);
+            }
+        }
+        self.module.ports.sort_unstable();
+        self.module.ports.dedup();
+        if !self.module.has_ports() {
+            return;
+        }
+        let flags = &mut self.specials.flags;
+        for number in &self.module.ports {
+            let Some(wiring) = self.model.ports.get(*number) else {
+                continue;
+            };
+            flags.extend(wiring.registers().map(|n| (DeviceClass::D, n)));
+            flags.extend(wiring.relays().map(|n| (DeviceClass::M, n)));
+        }
+        flags.extend(ERRORS.map(|n| (DeviceClass::D, n)));
+        flags.extend(ERRORS.map(|n| (DeviceClass::M, n)));
+        let model = self.model;
+        flags.retain(|&(class, number)| model.has(class, number));
+    }
+
+    /// Whether the program names a device that chooses what the port speaks.
+    fn sets_up(&self, wiring: &PortWiring) -> bool {
+        let chooses = |device: Device| match device.class {
+            DeviceClass::D => wiring.setup_registers().any(|n| n == device.number),
+            DeviceClass::M => wiring.setup_relays().any(|n| n == device.number),
+            _ => false,
+        };
+        let operands = self.resolved.program.instrs.iter();
+        let mut operands = operands.flat_map(|instr| &instr.operands);
+        operands.any(|operand| match operand.kind {
+            OperandKind::Device(device, None) => chooses(device),
+            _ => false,
+        })
+    }
+}
