@@ -9,7 +9,8 @@ use rungc_syntax::{Device, DeviceClass, OperandKind};
 const ERRORS: [u32; 2] = [8062, 8063];
 
 impl Lowerer<'_> {
-    /// The ports that an instruction uses: that of RS, or the one that its last operand names; all if that is not a constant.
+    /// The ports that an instruction uses: that of RS, those that a register may name, or the one that its last operand names; all if that
+    /// is not a constant.
     pub(super) fn use_ports(&mut self, needs: Needs) {
         let ports = self.model.ports;
         let named = self
@@ -21,9 +22,12 @@ impl Lowerer<'_> {
                 OperandKind::Hex(number, None) => i32::try_from(number).ok(),
                 _ => None,
             });
+        let masters = ports.all().iter().filter(|wiring| wiring.sends != 0);
+        let masters = masters.map(|wiring| wiring.number);
         let all = ports.all().iter().map(|wiring| wiring.number);
         match named {
             _ if needs.port => self.module.ports.push(ports.of_rs()),
+            _ if needs.any_port => self.module.ports.extend(masters),
             Some(named) => self.module.ports.extend(ports.named(named)),
             None => self.module.ports.extend(all),
         }
