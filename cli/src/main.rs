@@ -17,7 +17,7 @@ fn main() -> ExitCode {
     let cli = Cli::parse();
     let cx = Context {
         color: color(cli.color),
-        taken: match &cli.command {
+        stdout_in_use: match &cli.command {
             Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
             Command::Convert(args) => args.output.is_none(),
             Command::Run(_) => true,
@@ -51,7 +51,7 @@ fn main() -> ExitCode {
         Err(Failure::Because(_)) if interruption::is_asked() => {
             ExitCode::from(interruption::EXIT_CODE)
         }
-        Ok(Outcome::Success) | Err(Failure::Unheard) => ExitCode::SUCCESS,
+        Ok(Outcome::Success) | Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
         Ok(Outcome::Failed) => ExitCode::from(1),
         Ok(Outcome::Interrupted) => ExitCode::from(interruption::EXIT_CODE),
         Ok(Outcome::Unusable) | Err(Failure::Reported) => ExitCode::from(2),

@@ -19,7 +19,7 @@ impl Terminals for Plc {
 
     fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, ()> {
         let value = |look: &Look| match look {
-            Look::Level(n) => i32::from(self.outputs.get(n).copied().unwrap_or(false)),
+            Look::Output(n) => i32::from(self.outputs.get(n).copied().unwrap_or(false)),
             Look::Pulses(n) => self.pulses.get(n).copied().unwrap_or(0),
         };
         Ok(at.iter().map(value).collect())

@@ -1,10 +1,10 @@
 //! `rungc build`.
 
 use super::setting::setting;
-use super::subject::{self, Places, Subject};
+use super::subject::{self, OutputPaths, Subject};
 use super::{
     Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, file_name, findings,
-    holder, interruption, plain, read, say, stem, tell, write_executable, write_file,
+    interruption, parent_dir, plain, read, say, stem, tell, write_executable, write_file,
 };
 use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
@@ -28,14 +28,14 @@ type OutFile = (String, Vec<u8>);
 /// Compiles programs. Nothing is written of one that has errors.
 pub fn run(args: &BuildArgs, cx: Context) -> Result {
     interruption::note_for_a_while();
-    let mut places = Places::default();
+    let mut outputs = OutputPaths::default();
     subject::each(&args.inputs, cx, |subject, reporter| {
         if reporter.many() && args.plan.name.is_some() {
             let why = "--name: several programs cannot have the same name";
             return Err(Failure::Because(why.to_string()));
         }
         let plan = defaults::plan(&args.plan, subject)?;
-        build(&plan, subject, reporter, &mut places, cx)
+        build(&plan, subject, reporter, &mut outputs, cx)
     })
 }
 
@@ -43,7 +43,7 @@ fn build(
     plan: &Plan,
     subject: &Subject,
     reporter: &mut Reporter,
-    places: &mut Places,
+    outputs: &mut OutputPaths,
     cx: Context,
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
@@ -75,7 +75,7 @@ fn build(
     let job = Job {
         cx,
         name: &name,
-        plan: &plan.at(&name, subject, reporter.many(), places)?,
+        plan: &plan.at(&name, subject, reporter.many(), outputs)?,
         module: &module,
         target,
         image: image.as_ref(),
@@ -109,26 +109,32 @@ fn build(
 }
 
 impl Plan {
-    /// The plan for one program: among several, what is made of it has a place of its own.
-    fn at(&self, name: &str, subject: &Subject, many: bool, places: &mut Places) -> Built<Plan> {
+    /// The plan for one program: among several, each has an output path of its own.
+    fn at(
+        &self,
+        name: &str,
+        subject: &Subject,
+        many: bool,
+        outputs: &mut OutputPaths,
+    ) -> Built<Plan> {
         let mut plan = self.clone();
         let Some(emit) = plan.emit.filter(|_| many) else {
             return Ok(plan);
         };
-        let place = match (&plan.output, emit) {
+        let path = match (&plan.output, emit) {
             (Some(folder), Emit::Elf) => folder.join(format!("{name}.elf")),
             (Some(folder), Emit::Ir) => folder.join(format!("{name}.ir")),
             (Some(folder), _) => folder.join(name),
             (None, Emit::Ir) => return Ok(plan),
-            (None, _) => PathBuf::from(usual_place(emit, name)),
+            (None, _) => PathBuf::from(default_output(emit, name)),
         };
-        plan.output = Some(places.take(place, subject)?);
+        plan.output = Some(outputs.claim(path, subject)?);
         Ok(plan)
     }
 }
 
-/// Where something is written if nothing else is asked for.
-fn usual_place(emit: Emit, name: &str) -> String {
+/// Where an output is written by default.
+fn default_output(emit: Emit, name: &str) -> String {
     match emit {
         Emit::C => format!("{name}-c"),
         Emit::Rust => format!("{name}-rust"),
@@ -288,7 +294,7 @@ impl Job<'_> {
     /// Where to write.
     fn output(&self, emit: Emit) -> PathBuf {
         let given = self.plan.output.clone();
-        given.unwrap_or_else(|| usual_place(emit, self.name).into())
+        given.unwrap_or_else(|| default_output(emit, self.name).into())
     }
 
     /// Writes what was asked for; returns where, or `None` for standard output.
@@ -433,12 +439,12 @@ fn at(path: &Path, error: std::io::Error) -> Failure {
 }
 
 /// Writes all files into a folder: a new one appears only when complete, in one that is there (not empty only with `force`) they
-/// take their places when all of them are written.
+/// take their outputs when all of them are written.
 fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::Result<(), Failure> {
     let there = free(folder, force)?;
     let beside = match there {
         true => folder,
-        false => holder(folder),
+        false => parent_dir(folder),
     };
     fs::create_dir_all(beside).map_err(|e| at(beside, e))?;
     let fresh = tempfile::Builder::new()
@@ -455,7 +461,7 @@ fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::R
     }
     for (path, _) in files {
         let to = folder.join(path);
-        fs::create_dir_all(holder(&to)).map_err(|e| at(&to, e))?;
+        fs::create_dir_all(parent_dir(&to)).map_err(|e| at(&to, e))?;
         fs::rename(inside.join(path), &to).map_err(|e| at(&to, e))?;
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! `rungc convert`.
 
-use super::subject::{self, Places, Subject};
+use super::subject::{self, OutputPaths, Subject};
 use super::{
     Context, Failure, Outcome, Result, conclude, counted, read, say, stem, tell, write_file,
 };
@@ -12,9 +12,9 @@ use std::io::{self, IsTerminal, Write};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
 pub fn run(args: &ConvertArgs, cx: Context) -> Result {
-    let mut places = Places::default();
+    let mut outputs = OutputPaths::default();
     subject::each(&args.inputs, cx, |subject, reporter| {
-        convert(args, subject, reporter, &mut places, cx)
+        convert(args, subject, reporter, &mut outputs, cx)
     })
 }
 
@@ -22,7 +22,7 @@ fn convert(
     args: &ConvertArgs,
     subject: &Subject,
     reporter: &mut Reporter,
-    places: &mut Places,
+    outputs: &mut OutputPaths,
     cx: Context,
 ) -> Result {
     let read = read(subject, reporter)?;
@@ -61,7 +61,7 @@ fn convert(
         Some(folder) if reporter.many() => {
             let name = format!("{}.{ending}", stem(subject, &read));
             write_file(
-                &places.take(folder.join(name), subject)?,
+                &outputs.claim(folder.join(name), subject)?,
                 &bytes,
                 args.force,
             )?;

@@ -1,6 +1,6 @@
 //! `rungc init`.
 
-use super::{Context, Failure, Outcome, Result, holder, write_file};
+use super::{Context, Failure, Outcome, Result, parent_dir, write_file};
 use crate::args::InitArgs;
 use rungc_models::ModelId;
 use rungc_project::{FILE, template};
@@ -12,7 +12,7 @@ pub fn run(args: &InitArgs, cx: Context) -> Result {
         Some(file) if file.is_dir() && !rungc_frontend::is_project(file) => {
             (file.clone(), only_program(file)?)
         }
-        Some(file) => (holder(file).to_path_buf(), Some(file.clone())),
+        Some(file) => (parent_dir(file).to_path_buf(), Some(file.clone())),
         None => (PathBuf::from("."), only_program(Path::new("."))?),
     };
     let mut model = None;

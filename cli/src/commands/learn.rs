@@ -1,7 +1,7 @@
 //! `rungc learn`.
 
 use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, counted, holder, say, write_file};
+use super::{Context, Failure, Outcome, Result, counted, parent_dir, say, write_file};
 use crate::args::{Input, LearnArgs, Reading, Reporting};
 use rungc_analysis::fitting::fits;
 use rungc_catalogue::{Basic, Lower};
@@ -119,14 +119,14 @@ fn home(file: &Path, kind: SourceKind) -> PathBuf {
     if file.is_dir() {
         return file.to_path_buf();
     }
-    let mut folder = holder(file);
+    let mut folder = parent_dir(file);
     if kind == SourceKind::GxDeveloper {
         for inner in ["Body", "POU", "Resource"] {
             if folder
                 .file_name()
                 .is_some_and(|name| name.eq_ignore_ascii_case(inner))
             {
-                folder = holder(folder);
+                folder = parent_dir(folder);
             }
         }
     }

@@ -48,7 +48,7 @@ pub enum Failure {
     /// The same, where the report already says it.
     Reported,
     /// Whoever reads the output, such as `head`, has heard enough: no failure at all.
-    Unheard,
+    BrokenPipe,
 }
 
 impl fmt::Display for Failure {
@@ -56,7 +56,7 @@ impl fmt::Display for Failure {
         match self {
             Failure::Because(reason) => f.write_str(reason),
             Failure::Reported => f.write_str("the input cannot be read"),
-            Failure::Unheard => f.write_str("nobody reads the output"),
+            Failure::BrokenPipe => f.write_str("nobody reads the output"),
         }
     }
 }
@@ -64,7 +64,7 @@ impl fmt::Display for Failure {
 impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         match error.kind() {
-            io::ErrorKind::BrokenPipe => Failure::Unheard,
+            io::ErrorKind::BrokenPipe => Failure::BrokenPipe,
             _ => Failure::Because(error.to_string()),
         }
     }
@@ -78,8 +78,8 @@ pub type Result = std::result::Result<Outcome, Failure>;
 pub struct Context {
     /// Whether to colour what goes to standard error.
     pub color: bool,
-    /// Whether standard output is taken by what the command makes, so that a report for tools goes to standard error.
-    pub taken: bool,
+    /// Whether standard output carries what the command makes, so that a report for tools goes to standard error.
+    pub stdout_in_use: bool,
     /// How much to say about what is done.
     pub verbosity: Verbosity,
 }
@@ -257,44 +257,45 @@ fn write_whole(
             path.display()
         )));
     }
-    let mut fresh = Fresh::with_mode(path, mode)?;
-    let written = fresh.file.write_all(contents);
-    written.map_err(|error| fresh.failed(error))?;
-    fresh.keep()
+    let mut file = AtomicFile::with_mode(path, mode)?;
+    let written = file.file.write_all(contents);
+    written.map_err(|error| file.failed(error))?;
+    file.persist()
 }
 
-/// A file in the making beside the place that it takes when it is whole. If it is dropped before, nothing has happened.
-pub struct Fresh {
+/// A file that appears whole or not at all: it is written under another name and renamed when complete. If it is dropped before, nothing
+/// has happened.
+pub struct AtomicFile {
     file: NamedTempFile,
     path: PathBuf,
 }
 
-impl Fresh {
-    /// Begins a file, which replaces the one that may be there.
-    pub fn begin(path: &Path) -> std::result::Result<Fresh, Failure> {
-        Fresh::with_mode(path, 0o666)
+impl AtomicFile {
+    /// Creates a file, which replaces an existing one.
+    pub fn create(path: &Path) -> std::result::Result<AtomicFile, Failure> {
+        AtomicFile::with_mode(path, 0o666)
     }
 
-    fn with_mode(path: &Path, mode: u32) -> std::result::Result<Fresh, Failure> {
+    fn with_mode(path: &Path, mode: u32) -> std::result::Result<AtomicFile, Failure> {
         let at = |error: io::Error| Failure::Because(format!("{}: {error}", path.display()));
         if path.exists() && !path.is_file() {
             let what = "is there already and is no file that can be replaced";
             return Err(Failure::Because(format!("{} {what}", path.display())));
         }
-        let folder = holder(path);
+        let folder = parent_dir(path);
         if folder.exists() && !folder.is_dir() {
             let (path, folder) = (path.display(), folder.display());
             return Err(Failure::Because(format!("{path}: {folder} is no folder")));
         }
         fs::create_dir_all(folder).map_err(at)?;
-        let mut fresh = tempfile::Builder::new();
+        let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
-        fresh.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
         #[cfg(not(unix))]
         let _ = mode;
         // The file in the making has a name that means nothing to anybody.
-        let file = fresh.tempfile_in(folder);
-        Ok(Fresh {
+        let file = builder.tempfile_in(folder);
+        Ok(AtomicFile {
             file: file.map_err(|error| at(plain(error)))?,
             path: path.to_path_buf(),
         })
@@ -311,11 +312,11 @@ impl Fresh {
         Failure::Because(format!("{}: {error}", self.path.display()))
     }
 
-    /// The file is whole and takes its place.
-    pub fn keep(self) -> std::result::Result<(), Failure> {
+    /// Gives the complete file its name.
+    pub fn persist(self) -> std::result::Result<(), Failure> {
         let path = self.path;
-        let kept = self.file.persist(&path).map(|_| ());
-        kept.map_err(|error| Failure::Because(format!("{}: {}", path.display(), error.error)))
+        let persisted = self.file.persist(&path).map(|_| ());
+        persisted.map_err(|error| Failure::Because(format!("{}: {}", path.display(), error.error)))
     }
 }
 
@@ -328,7 +329,7 @@ pub fn plain(error: io::Error) -> io::Error {
 }
 
 /// The folder that a path lies in.
-pub fn holder(path: &Path) -> &Path {
+pub fn parent_dir(path: &Path) -> &Path {
     path.parent()
         .filter(|p| !p.as_os_str().is_empty())
         .unwrap_or(Path::new("."))

@@ -10,7 +10,9 @@ mod wiring;
 
 use super::setting::{Setting, setting, target};
 use super::subject::{self, Subject};
-use super::{Context, Failure, Result, Verbosity, conclude, findings, holder, read, stem, tell};
+use super::{
+    Context, Failure, Result, Verbosity, conclude, findings, parent_dir, read, stem, tell,
+};
 use crate::args::RunArgs;
 use crate::report::Reporter;
 use rungc_analysis::check::devices::{self, Holds, Use};
@@ -154,9 +156,9 @@ fn free_inputs(machine: &Description, settings: &[Setting]) -> std::result::Resu
 
 /// What a run writes replaces what is there, but not what the run reads, nor what else it writes.
 fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Failure> {
-    let mut taken = vec![(place(&subject.file), "is the program")];
+    let mut used = vec![(real_path(&subject.file), "is the program")];
     if let Some(machine) = &args.machine {
-        taken.push((place(machine), "describes the machine"));
+        used.push((real_path(machine), "describes the machine"));
     }
     let writes = [
         ("--vcd", &args.vcd, "is written by --vcd"),
@@ -164,22 +166,22 @@ fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Fa
     ];
     for (option, path, part) in writes {
         let Some(path) = path else { continue };
-        let place = place(path);
-        if let Some((_, part)) = taken.iter().find(|(other, _)| *other == place) {
+        let real = real_path(path);
+        if let Some((_, part)) = used.iter().find(|(other, _)| *other == real) {
             let path = path.display();
             let message = format!("{option} {path}: this file {part}");
             return Err(Failure::Because(message));
         }
-        taken.push((place, part));
+        used.push((real, part));
     }
     Ok(())
 }
 
-/// The place of a file, which may not be there yet.
-fn place(path: &Path) -> PathBuf {
+/// The real path of a file, which may not exist yet.
+fn real_path(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| {
-        let folder = fs::canonicalize(holder(path));
-        let folder = folder.unwrap_or_else(|_| holder(path).to_path_buf());
+        let folder = fs::canonicalize(parent_dir(path));
+        let folder = folder.unwrap_or_else(|_| parent_dir(path).to_path_buf());
         folder.join(path.file_name().unwrap_or_default())
     })
 }

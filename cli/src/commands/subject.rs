@@ -298,23 +298,23 @@ pub fn source(
     rungc_frontend::read_with(&subject.file, &subject.options)
 }
 
-/// Where the programs of a command were written.
+/// Which path each program of a command is written to, with the file that it was read from.
 #[derive(Default)]
-pub struct Places(BTreeMap<PathBuf, PathBuf>);
+pub struct OutputPaths(BTreeMap<PathBuf, PathBuf>);
 
-impl Places {
-    /// Takes a place for a program; no other program of this command may have it.
-    pub fn take(
+impl OutputPaths {
+    /// Claims a path for a program; no other program of this command may have it.
+    pub fn claim(
         &mut self,
-        place: PathBuf,
+        path: PathBuf,
         subject: &Subject,
     ) -> std::result::Result<PathBuf, Failure> {
-        match self.0.insert(place.clone(), subject.file.clone()) {
-            None => Ok(place),
+        match self.0.insert(path.clone(), subject.file.clone()) {
+            None => Ok(path),
             Some(other) => Err(Failure::Because(format!(
                 "{}: {} is already made of {}; programs of the same name are built one at a time",
                 subject.file.display(),
-                place.display(),
+                path.display(),
                 other.display()
             ))),
         }

@@ -4,7 +4,7 @@ mod junit;
 mod report;
 
 use super::{
-    Context, Failure, Fresh, Outcome, Result, counted, defaults, interruption, say, subject,
+    AtomicFile, Context, Failure, Outcome, Result, counted, defaults, interruption, say, subject,
 };
 use crate::args::{EngineChoice, Shard, TestArgs, TestFormat};
 use crate::progress;
@@ -111,10 +111,10 @@ fn publish(args: &TestArgs, results: &Results, cx: Context) -> std::result::Resu
     let Some(path) = &args.output else {
         return say(&text).map_err(Failure::from);
     };
-    let file = Fresh::begin(path)?;
+    let file = AtomicFile::create(path)?;
     let written = file.writer()?.write_all(text.as_bytes());
     written.map_err(|error| file.failed(error))?;
-    file.keep()?;
+    file.persist()?;
     let (passed, failed) = (results.report.passed(), results.report.failures().count());
     let path = path.display();
     cx.note(&format!(

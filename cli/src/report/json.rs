@@ -1,7 +1,7 @@
 //! Diagnostics as one JSON object: of one program, or of several in its key `files`.
 
 use super::Findings;
-use super::place::Place;
+use super::location::Location;
 use rungc_firmware::report::Report as Takes;
 use rungc_syntax::{Diagnostic, Severity, codes};
 use serde::Serialize;
@@ -40,7 +40,7 @@ struct Item {
     severity: &'static str,
     message: String,
     #[serde(flatten)]
-    place: Option<Place>,
+    location: Option<Location>,
     #[serde(skip_serializing_if = "str::is_empty")]
     label: Cow<'static, str>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -61,7 +61,7 @@ struct Item {
 struct Related {
     message: String,
     #[serde(flatten)]
-    place: Option<Place>,
+    location: Option<Location>,
 }
 
 #[derive(Serialize)]
@@ -75,15 +75,15 @@ struct Proposal {
 #[derive(Serialize)]
 struct Replacement {
     #[serde(flatten)]
-    place: Option<Place>,
-    /// What stands at the place afterwards.
+    location: Option<Location>,
+    /// What stands there afterwards.
     text: String,
 }
 
 fn proposal(findings: &Findings, d: &Diagnostic) -> Option<Proposal> {
     let fix = findings.fix(d)?;
     let edits = fix.edits.iter().map(|edit| Replacement {
-        place: Place::of(findings, edit.span),
+        location: Location::of(findings, edit.span),
         text: edit.text.clone(),
     });
     Some(Proposal {
@@ -110,14 +110,14 @@ pub fn file(findings: &Findings) -> File {
                 name: codes::find(d.code).map_or("", |code| code.name),
                 severity: d.severity.name(),
                 message: d.message.clone(),
-                place: Place::of(findings, d.span),
+                location: Location::of(findings, d.span),
                 label: d.label.clone(),
                 related: d
                     .others
                     .iter()
                     .map(|o| Related {
                         message: o.text.to_string(),
-                        place: Place::of(findings, o.span),
+                        location: Location::of(findings, o.span),
                     })
                     .collect(),
                 devices: d.devices.iter().map(ToString::to_string).collect(),

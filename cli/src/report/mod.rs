@@ -2,7 +2,7 @@
 
 mod human;
 mod json;
-mod place;
+mod location;
 mod sarif;
 mod visible;
 mod window;
@@ -25,7 +25,7 @@ pub struct Findings<'a> {
     pub program: Option<&'a Program>,
     /// What was compiled or checked, if it came to that.
     pub size: Option<Size>,
-    /// The findings that count, ordered by place.
+    /// The findings that count, ordered by location.
     pub diagnostics: Vec<Diagnostic>,
     /// The step number of each instruction, if it came to counting them.
     pub step_numbers: Vec<u32>,
@@ -175,7 +175,7 @@ fn level(d: &Diagnostic, reporting: &Reporting) -> Option<Severity> {
 pub struct Reporter<'a> {
     reporting: &'a Reporting,
     color: bool,
-    taken: bool,
+    stdout_in_use: bool,
     /// Whether the command line can mean several programs, so that the document has room for them.
     many: bool,
     totals: Totals,
@@ -195,13 +195,13 @@ pub struct Totals {
 }
 
 impl<'a> Reporter<'a> {
-    /// Nothing reported yet. JSON and SARIF go to standard output, or to standard error if standard output is taken by what the
+    /// Nothing reported yet. JSON and SARIF go to standard output, or to standard error if standard output carries what the
     /// command makes.
     pub fn new(reporting: &'a Reporting, cx: Context, many: bool) -> Self {
         Reporter {
             reporting,
             color: cx.color,
-            taken: cx.taken,
+            stdout_in_use: cx.stdout_in_use,
             many,
             totals: Totals::default(),
             json: Vec::new(),
@@ -216,7 +216,7 @@ impl<'a> Reporter<'a> {
 
     /// Leaves standard output to what the command makes.
     pub fn leave_output(&mut self) {
-        self.taken = true;
+        self.stdout_in_use = true;
     }
 
     /// Whether the report is for people.
@@ -261,7 +261,7 @@ impl<'a> Reporter<'a> {
             Format::Sarif => self.sarif.render()?,
         };
         let document = visible_json(&document);
-        if self.taken {
+        if self.stdout_in_use {
             writeln!(io::stderr(), "{document}")
         } else {
             writeln!(io::stdout(), "{document}")

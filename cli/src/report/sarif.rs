@@ -1,7 +1,7 @@
 //! Diagnostics as SARIF 2.1.0, for code scanning services.
 
 use super::Findings;
-use super::place::Place;
+use super::location::Location;
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Diagnostic, Fix, Severity, Span};
 use serde_json::{Value, json};
@@ -119,7 +119,9 @@ fn item(findings: &Findings, d: &Diagnostic) -> Value {
 /// A fix as a change of the file.
 fn change(findings: &Findings, fix: &Fix) -> Value {
     let replacements = fix.edits.iter().filter_map(|edit| {
-        let region = Place::of(findings, edit.span).as_ref().and_then(region)?;
+        let region = Location::of(findings, edit.span)
+            .as_ref()
+            .and_then(region)?;
         Some(json!({
             "deletedRegion": region,
             "insertedContent": { "text": edit.text.as_str() },
@@ -139,13 +141,13 @@ fn artifact(path: &Path) -> Value {
 }
 
 fn location(findings: &Findings, span: Span, text: Option<&str>) -> Value {
-    let place = Place::of(findings, span);
+    let found = Location::of(findings, span);
     let mut physical = json!({ "artifactLocation": artifact(findings.path) });
-    if let Some(region) = place.as_ref().and_then(region) {
+    if let Some(region) = found.as_ref().and_then(region) {
         physical["region"] = region;
     }
     let mut location = json!({ "physicalLocation": physical });
-    if let Some(logical) = place.as_ref().and_then(logical) {
+    if let Some(logical) = found.as_ref().and_then(logical) {
         location["logicalLocations"] = json!([logical]);
     }
     if let Some(text) = text {
@@ -154,13 +156,13 @@ fn location(findings: &Findings, span: Span, text: Option<&str>) -> Value {
     location
 }
 
-/// The lines and columns of a place in a text.
-fn region(place: &Place) -> Option<Value> {
-    let mut region = json!({ "startLine": place.line? });
+/// The lines and columns of a location in a text.
+fn region(location: &Location) -> Option<Value> {
+    let mut region = json!({ "startLine": location.line? });
     let rest = [
-        ("startColumn", place.column),
-        ("endLine", place.end_line),
-        ("endColumn", place.end_column),
+        ("startColumn", location.column),
+        ("endLine", location.end_line),
+        ("endColumn", location.end_column),
     ];
     for (name, value) in rest {
         if let Some(value) = value {
@@ -170,10 +172,10 @@ fn region(place: &Place) -> Option<Value> {
     Some(region)
 }
 
-/// The step of a place in a project or an export, as its editor shows it.
-fn logical(place: &Place) -> Option<Value> {
-    let program = place.program.as_ref()?;
-    Some(match place.step {
+/// The step of a location in a project or an export, as its editor shows it.
+fn logical(location: &Location) -> Option<Value> {
+    let program = location.program.as_ref()?;
+    Some(match location.step {
         Some(step) => json!({
             "name": format!("step {step}"),
             "fullyQualifiedName": format!("{program}/step {step}"),

@@ -146,12 +146,12 @@ impl Axis {
                 output, direction, ..
             } => {
                 wanted.push(Look::Pulses(output));
-                wanted.extend(direction.map(|(output, _)| Look::Level(output)));
+                wanted.extend(direction.map(|(output, _)| Look::Output(output)));
             }
             Drive::Outputs { forward, back, .. } => {
-                wanted.push(Look::Level(forward));
+                wanted.push(Look::Output(forward));
                 if let Back::Output(output) = back {
-                    wanted.push(Look::Level(output));
+                    wanted.push(Look::Output(output));
                 }
             }
         }
@@ -207,7 +207,7 @@ impl Drive {
                 *followed = sent;
                 match *direction {
                     None => pulses,
-                    Some((output, forward)) if (see(Look::Level(output)) != 0) == forward => {
+                    Some((output, forward)) if (see(Look::Output(output)) != 0) == forward => {
                         pulses.abs()
                     }
                     Some(_) => -pulses.abs(),
@@ -219,7 +219,7 @@ impl Drive {
                 out_speed,
                 back_speed,
             } => {
-                let on = |output| see(Look::Level(output)) != 0;
+                let on = |output| see(Look::Output(output)) != 0;
                 let out = on(*forward);
                 let back = match *back {
                     Back::Nothing => false,

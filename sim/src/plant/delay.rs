@@ -31,7 +31,7 @@ impl Delay {
     }
 
     pub(super) fn looks_at(&self) -> Look {
-        Look::Level(self.output)
+        Look::Output(self.output)
     }
 
     pub(super) fn step(&mut self, see: &dyn Fn(Look) -> i32, moments: &mut Vec<Moment>) {

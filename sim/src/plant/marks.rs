@@ -2,8 +2,8 @@
 
 use super::Moment;
 
-/// Places where an input is on. Along the way they alternate with places where it is off; all of them are numbered, so that an axis
-/// that moves from one number to another passes those between.
+/// Sections of the way where an input is on. They alternate with sections where it is off; all are numbered in order, so an axis that moves
+/// from one number to another passes those between.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Marks {
     /// From here to there, both included.
@@ -13,7 +13,7 @@ pub(super) enum Marks {
 }
 
 impl Marks {
-    /// Number of the place that holds this position. It never goes down when the position goes up.
+    /// Number of the section that holds this position. It never goes down when the position goes up.
     fn index(self, at: f64) -> i64 {
         match self {
             Marks::Range { from, to } => i64::from(at >= from) + i64::from(at > to),
@@ -37,7 +37,7 @@ impl Marks {
         }
     }
 
-    /// Where a place begins.
+    /// Where a section begins.
     fn begin(self, index: i64) -> f64 {
         match self {
             Marks::Range { from, to } => {

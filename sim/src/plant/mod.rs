@@ -2,7 +2,7 @@
 //!
 //! A [`Description`] is read from a TOML file (`docs/src/machines.md`). The [`Plant`] that it describes moves on a millisecond at a time:
 //! it looks at the PLC's outputs through [`Terminals`] and changes its inputs. Within a millisecond an axis moves evenly, and each
-//! switch and each encoder line changes when the axis passes the place where it does.
+//! switch and each encoder line changes when the axis passes the position where it does.
 
 mod axis;
 mod delay;
@@ -19,7 +19,7 @@ use delay::Delay;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Look {
     /// Whether output terminal Y is on: 0 or 1.
-    Level(u32),
+    Output(u32),
     /// How many pulses output Y has sent since power-on, those in reverse counting down; wraps.
     Pulses(u32),
 }

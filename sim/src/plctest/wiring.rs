@@ -122,7 +122,7 @@ impl Terminals for Running<'_> {
         let requests: Vec<Request> = at
             .iter()
             .map(|look| match *look {
-                Look::Level(output) => Request::Output(output),
+                Look::Output(output) => Request::Output(output),
                 Look::Pulses(output) => Request::Pulses(output),
             })
             .collect();

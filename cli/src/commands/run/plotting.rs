@@ -1,6 +1,6 @@
 //! `rungc run --plot`: what is drawn, and the file.
 
-use super::super::{Failure, Fresh, file_name};
+use super::super::{AtomicFile, Failure, file_name};
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::Program;
@@ -52,7 +52,7 @@ fn number(machine: &Machine, target: Target) -> Option<f64> {
 pub struct Plotting {
     plot: Plot,
     curves: Vec<(CurveId, Subject)>,
-    file: Fresh,
+    file: AtomicFile,
 }
 
 impl Plotting {
@@ -105,7 +105,7 @@ impl Plotting {
         Ok(Plotting {
             plot,
             curves,
-            file: Fresh::begin(path)?,
+            file: AtomicFile::create(path)?,
         })
     }
 
@@ -136,6 +136,6 @@ impl Plotting {
         let mut out = self.file.writer()?;
         let written = out.write_all(drawn.as_bytes()).and_then(|()| out.flush());
         written.map_err(|error| self.file.failed(error))?;
-        self.file.keep()
+        self.file.persist()
     }
 }

@@ -1,6 +1,6 @@
 //! `rungc run --vcd`: which devices are recorded, and the file.
 
-use super::super::{Failure, Fresh};
+use super::super::{AtomicFile, Failure};
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_sim::Target;
@@ -17,7 +17,7 @@ pub struct Recording {
     /// What the first signals show; those of the machine's axes follow.
     targets: Vec<Target>,
     vcd: Vcd<BufWriter<File>>,
-    file: Fresh,
+    file: AtomicFile,
 }
 
 impl Recording {
@@ -43,7 +43,7 @@ impl Recording {
         let of_target = |&target| Some((Signal::of(target), Reading::of(machine, target)?));
         let signals = targets.iter().filter_map(of_target);
         let signals = signals.chain(axes.iter().map(of_axis)).collect();
-        let file = Fresh::begin(path)?;
+        let file = AtomicFile::create(path)?;
         let vcd = Vcd::begin(file.writer()?, &module.name, signals);
         Ok(Recording {
             targets,
@@ -94,7 +94,7 @@ impl Recording {
     pub fn keep(self, at_us: u64) -> std::result::Result<(), Failure> {
         let written = self.vcd.end(at_us);
         written.map_err(|error| self.file.failed(error))?;
-        self.file.keep()
+        self.file.persist()
     }
 }
 

@@ -286,7 +286,7 @@ impl Table {
             return Ok(());
         }
         match writeln!(io::stdout().lock(), "{}", visible(line)).map_err(Failure::from) {
-            Err(Failure::Unheard) if self.optional => {
+            Err(Failure::BrokenPipe) if self.optional => {
                 self.muted = true;
                 Ok(())
             }

@@ -22,7 +22,7 @@ impl Terminals for Wiring<'_, '_> {
 
     fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Failure> {
         let value = |look: &Look| match *look {
-            Look::Level(output) => i32::from(self.machine.output(output)),
+            Look::Output(output) => i32::from(self.machine.output(output)),
             Look::Pulses(output) => self.machine.pulses_sent(output),
         };
         Ok(at.iter().map(value).collect())

@@ -1,4 +1,4 @@
-//! Places of findings as their reader knows them: lines and columns of a text, steps of a project or an export.
+//! Locations of findings as their reader knows them: lines and columns of a text, steps of a project or an export.
 
 use super::Findings;
 use rungc_syntax::{Program, SourceKind, Span};
@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// Where a finding is.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
-pub struct Place {
+pub struct Location {
     /// First line, 1-based, where the source is a text: an instruction list, or a list export.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
@@ -26,7 +26,7 @@ pub struct Place {
     /// Step number of the instruction: as the source states it, or in a project as it is counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<u32>,
-    /// Step number of the last instruction before, where the place is not an instruction that could be read.
+    /// Step number of the last instruction before, where the location is not an instruction that could be read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub after_step: Option<u32>,
     /// The instruction, where the source is not an instruction list in which it can be looked up.
@@ -34,21 +34,21 @@ pub struct Place {
     pub instruction: Option<String>,
 }
 
-impl Place {
+impl Location {
     /// Where a span of a program is; `None` if nothing could be read.
-    pub fn of(findings: &Findings, span: Span) -> Option<Place> {
+    pub fn of(findings: &Findings, span: Span) -> Option<Location> {
         let program = findings.program?;
         let at = instr_at(program, span.start);
         if program.kind == SourceKind::Il {
             let (line, column) = program.source.line_col(span.start);
             let (end_line, end_column) = program.source.line_col(span.end);
-            return Some(Place {
+            return Some(Location {
                 line: Some(line),
                 column: Some(column),
                 end_line: Some(end_line),
                 end_column: Some(end_column),
                 step: at.and_then(|at| program.instrs[at].step),
-                ..Place::default()
+                ..Location::default()
             });
         }
         let step = |at: usize| {
@@ -60,18 +60,18 @@ impl Place {
             .partition_point(|instr| instr.span.end < span.start);
         let before = before.checked_sub(1).filter(|_| at.is_none());
         let row = |offset| (program.kind == SourceKind::Csv).then(|| program.source.line(offset));
-        Some(Place {
+        Some(Location {
             line: row(span.start),
             end_line: row(span.end),
             program: Some(name_within(program)),
             step: at.and_then(step),
             after_step: before.and_then(step),
             instruction: at.map(|at| program.instrs[at].to_string()),
-            ..Place::default()
+            ..Location::default()
         })
     }
 
-    /// The place as the head of a drawing: `motor.il:3:4`, `Packer.gxw · MAIN · step 37`.
+    /// The location as the head of a drawing: `motor.il:3:4`, `Packer.gxw · MAIN · step 37`.
     pub fn headed(&self, name: &str) -> String {
         if let (Some(line), Some(column)) = (self.line, self.column) {
             return format!("{name}:{line}:{column}");
