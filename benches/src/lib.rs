@@ -5,6 +5,7 @@ pub mod checks;
 pub mod clock;
 pub mod compile;
 pub mod embedded;
+pub mod figures;
 pub mod host;
 pub mod interp;
 pub mod ladder;

@@ -2,17 +2,12 @@
 //! compiler only as far as it does not treat code written by hand likewise. Without the tools a test says what is missing and that it did
 //! not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
 
-use rungc_benches::embedded::{self, Figures, Level, Measured};
+use rungc_benches::embedded;
+use rungc_benches::figures::{self, Figures, Program, Record, STEPS};
 use rungc_benches::ladder::{Kind, Ladder};
 use rungc_benches::problem::{Problem, Result};
-use rungc_benches::subject::Code;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-
-/// Length of the programs.
-const STEPS: u32 = 1000;
+use std::path::Path;
 
 /// How much worse than recorded a figure may be.
 const TOLERANCE: f64 = 1.02;
@@ -23,42 +18,14 @@ const RAM_BESIDES_DEVICES: u64 = 256;
 /// Flash that the image of a blinking lamp may take.
 const BLINK_FLASH: u64 = 4096;
 
-/// What one implementation takes.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Record {
-    flash: u64,
-    ram: u64,
-    instructions: u64,
-}
-
-/// What the implementations of one program take.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Program {
-    hand: Record,
-    c: Record,
-}
-
 /// Names of the figures of a [`Record`].
-const FIGURES: [&str; 3] = ["bytes of flash", "bytes of RAM", "instructions"];
+const NAMES: [&str; 3] = ["bytes of flash", "bytes of RAM", "instructions"];
 
-impl Record {
-    fn figures(&self) -> [u64; 3] {
-        [self.flash, self.ram, self.instructions]
-    }
+/// How to record new figures.
+const RECORD: &str = "`cargo xtask generate figures`";
 
-    fn of(figures: &Figures) -> Self {
-        Record {
-            flash: figures.flash,
-            ram: figures.ram,
-            instructions: figures.instructions.unwrap_or_default().round() as u64,
-        }
-    }
-}
-
-fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("figures.toml")
+fn values(record: &Record) -> [u64; 3] {
+    [record.flash, record.ram, record.instructions]
 }
 
 /// What can be measured here; nothing, and a message, where tools are missing and may be.
@@ -75,56 +42,35 @@ fn unless_missing<T>(result: Result<T>) -> Option<T> {
     }
 }
 
-fn measure(ladder: &Ladder) -> Result<Program> {
-    let codes = [Code::Hand, Code::C];
-    let all = embedded::measure(ladder, &codes, Level::Size, true)?;
-    let mut records = Vec::new();
-    for Measured { figures, .. } in all {
-        records.push(Record::of(&figures?));
-    }
-    Ok(Program {
-        hand: records[0],
-        c: records[1],
-    })
-}
-
 /// Adds a line for each figure that is worse than recorded, or enough better to be recorded.
 fn compare(worse: &mut String, name: &str, now: &Program, recorded: &Program) {
-    let (now_hand, hand) = (now.hand.figures(), recorded.hand.figures());
-    let (now_c, c) = (now.c.figures(), recorded.c.figures());
-    for (i, what) in FIGURES.iter().enumerate() {
+    let (now_hand, hand) = (values(&now.hand), values(&recorded.hand));
+    let (now_c, c) = (values(&now.c), values(&recorded.c));
+    for (i, what) in NAMES.iter().enumerate() {
         // Another compiler treats both alike.
         let expected = c[i] as f64 * now_hand[i] as f64 / hand[i].max(1) as f64;
         let is = now_c[i];
         if is as f64 > expected * TOLERANCE {
             let _ = writeln!(worse, "{name}: {is} {what}, recorded {expected:.0}");
         } else if (is as f64) * TOLERANCE < expected {
-            eprintln!(
-                "{name}: {is} {what}, better than {expected:.0}: UPDATE_FIGURES=1 records that"
-            );
+            eprintln!("{name}: {is} {what}, better than {expected:.0}: {RECORD} records that");
         }
     }
 }
 
 #[test]
 fn emitted_c_gets_no_worse() {
-    let mut measured = BTreeMap::new();
+    let Some(measured) = unless_missing(figures::measure()) else {
+        return;
+    };
     for kind in Kind::ALL {
-        let ladder = Ladder::new(kind, STEPS);
-        let Some(program) = unless_missing(measure(&ladder)) else {
-            return;
-        };
-        let ram = u64::from(ladder.device_bytes()) + RAM_BESIDES_DEVICES;
+        let program = &measured[kind.name()];
+        let ram = u64::from(Ladder::new(kind, STEPS).device_bytes()) + RAM_BESIDES_DEVICES;
         assert!(program.c.ram <= ram, "{}: {program:?}", kind.name());
-        measured.insert(kind.name().to_string(), program);
     }
-    if std::env::var_os("UPDATE_FIGURES").is_some() {
-        let text = toml::to_string(&measured).unwrap();
-        let head = "# Cortex-M4, -Os, programs of 1000 steps. Remade by UPDATE_FIGURES=1 cargo test -p rungc-benches --test figures\n\n";
-        std::fs::write(path(), format!("{head}{text}")).unwrap();
-    }
-    let text = std::fs::read_to_string(path()).unwrap();
-    let recorded: BTreeMap<String, Program> = toml::from_str(&text).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("figures.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let recorded: Figures = toml::from_str(&text).unwrap();
     let mut worse = String::new();
     for (name, program) in &measured {
         match recorded.get(name) {
@@ -134,7 +80,7 @@ fn emitted_c_gets_no_worse() {
     }
     assert!(
         worse.is_empty(),
-        "emitted C got worse:\n{worse}If it is worth that, UPDATE_FIGURES=1 cargo test -p rungc-benches --test figures"
+        "emitted C got worse:\n{worse}If it is worth that, {RECORD} records it"
     );
 }
 

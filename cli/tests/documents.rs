@@ -13,10 +13,6 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-fn updating() -> bool {
-    std::env::var_os("UPDATE_DOCS").is_some()
-}
-
 /// A fenced block of a page.
 struct Block {
     /// What follows the fence: a language, and the name of a file.
@@ -190,31 +186,10 @@ fn the_test_of_the_feeder_has_its_program() {
 }
 
 #[test]
-fn the_diagram_is_what_the_command_draws() {
+fn the_page_on_machines_shows_the_machine_of_the_drill() {
     let page = fs::read_to_string(root().join("docs/src/machines.md")).unwrap();
-    let examples = root().join(EXAMPLES);
-    let machine = fs::read_to_string(examples.join("drill.machine.toml")).unwrap();
+    let machine = fs::read_to_string(root().join(EXAMPLES).join("drill.machine.toml")).unwrap();
     assert!(blocks(&page).iter().any(|block| block.text == machine));
-    let folder = desk(&page);
-    let command = page
-        .lines()
-        .find_map(|line| {
-            line.strip_prefix("$ rungc ")
-                .filter(|line| line.contains("--plot"))
-        })
-        .unwrap();
-    let (printed, succeeded) = rungc(folder.path(), &command.split(' ').collect::<Vec<_>>());
-    assert!(succeeded, "{printed}");
-    let drawn = fs::read_to_string(folder.path().join("drill.svg")).unwrap();
-    let kept = root().join("docs/src/drill.svg");
-    if updating() {
-        fs::write(&kept, &drawn).unwrap();
-    }
-    let same = fs::read_to_string(&kept).is_ok_and(|kept| kept == drawn);
-    assert!(
-        same,
-        "docs/src/drill.svg is not what the command draws: UPDATE_DOCS=1 makes it anew"
-    );
 }
 
 /// The project of the page on embedding builds with CMake, where there is one.
@@ -243,40 +218,4 @@ fn the_cmake_project_builds() {
     assert!(built.status.success(), "{built:?}");
     let run = Command::new(folder.path().join("build/firmware")).status();
     assert!(run.unwrap().success());
-}
-
-/// `docs/src/commands.md` is what `--help` prints; `UPDATE_DOCS=1` makes it anew.
-#[test]
-fn the_page_on_commands_is_what_help_prints() {
-    let folder = tempfile::tempdir().unwrap();
-    let help = |args: &[&str]| {
-        let (printed, succeeded) = rungc(folder.path(), args);
-        assert!(succeeded, "{printed}");
-        let lines: Vec<_> = printed.lines().map(str::trim_end).collect();
-        lines.join("\n").trim_end().to_owned()
-    };
-    let all = help(&["--help"]);
-    let commands = all.lines().skip_while(|line| *line != "Commands:").skip(1);
-    let names: Vec<_> = commands
-        .take_while(|line| !line.is_empty())
-        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
-        .filter_map(|line| line.split_whitespace().next())
-        .filter(|name| *name != "help")
-        .collect();
-    let mut page = format!(
-        "# Commands\n\nWhat `rungc help` and `rungc help COMMAND` print.\n\n```text\n{all}\n```\n"
-    );
-    for name in names {
-        let text = help(&[name, "--help"]);
-        page += &format!("\n## {name}\n\n```text\n{text}\n```\n");
-    }
-    let kept = root().join("docs/src/commands.md");
-    if updating() {
-        fs::write(&kept, &page).unwrap();
-    }
-    let same = fs::read_to_string(&kept).is_ok_and(|kept| kept == page);
-    assert!(
-        same,
-        "docs/src/commands.md is not what --help prints: UPDATE_DOCS=1 cargo test -p rungc --test documents makes it anew"
-    );
 }

@@ -1,12 +1,11 @@
-//! `include/rungc_rt.h` is made with cbindgen from the runtime's C ABI. The prototypes of the instructions are not in it: a macro makes
+//! `codegen-c/include/rungc_rt.h` is made with cbindgen from the runtime's C ABI. The prototypes of the instructions are not in it: a macro makes
 //! those functions, which cbindgen does not see, so they are added from the registry when code is emitted.
-//! `UPDATE_HEADER=1 cargo test -p rungc-codegen-c` makes it anew.
 
+use crate::generate::Made;
+use crate::{Problem, root};
 use cbindgen::{
     Builder, Config, EnumConfig, ExportConfig, Language, ParseConfig, RenameRule, Style,
 };
-use rungc_rt::RtFn;
-use std::path::{Path, PathBuf};
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
 const NAMES: [(&str, &str); 18] = [
@@ -40,8 +39,9 @@ const TOP: &str = "/*
 /// Operands and sites, as emitted code writes them.
 const CONSTRUCTORS: &str = include_str!("constructors.h");
 
-fn header() -> String {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime-rt/src");
+/// The header.
+pub fn make() -> Result<Made, Problem> {
+    let source = root().join("runtime-rt/src");
     let mut names: std::collections::HashMap<String, String> = NAMES
         .iter()
         .map(|(rust, c)| (rust.to_string(), c.to_string()))
@@ -99,30 +99,7 @@ fn header() -> String {
             b.with_src(source.join(f))
         });
     let mut text = Vec::new();
-    builder
-        .generate()
-        .expect("the C ABI is plain")
-        .write(&mut text);
-    String::from_utf8(text).expect("cbindgen writes UTF-8")
-}
-
-#[test]
-fn header_is_up_to_date() {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("include/rungc_rt.h");
-    let made = header();
-    if std::env::var_os("UPDATE_HEADER").is_some() {
-        std::fs::write(&path, &made).expect("writing the header");
-    }
-    let there = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(
-        there == made,
-        "include/rungc_rt.h is stale: UPDATE_HEADER=1 cargo test -p rungc-codegen-c --test header"
-    );
-}
-
-#[test]
-fn functions_have_names_of_their_own() {
-    let mut names: Vec<&str> = RtFn::ALL.iter().map(|f| f.name()).collect();
-    names.sort_unstable();
-    assert!(names.windows(2).all(|pair| pair[0] != pair[1]));
+    builder.generate()?.write(&mut text);
+    let text = String::from_utf8(text)?;
+    Ok(Made::file("codegen-c/include/rungc_rt.h", text))
 }

@@ -1,0 +1,47 @@
+//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file.
+
+mod book;
+mod generate;
+mod header;
+mod rungc;
+mod tools;
+
+use clap::{Parser, Subcommand};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Chores of the repository.
+#[derive(Parser, Debug)]
+#[command(name = "cargo xtask")]
+struct Args {
+    #[command(subcommand)]
+    chore: Chore,
+}
+
+#[derive(Subcommand, Debug)]
+enum Chore {
+    /// Write the generated files, or check that they are up to date.
+    Generate(generate::Args),
+}
+
+/// What stopped a chore, as a message.
+type Problem = Box<dyn std::error::Error>;
+
+/// The repository's root.
+fn root() -> PathBuf {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    own.parent().unwrap_or(own).to_owned()
+}
+
+fn main() -> ExitCode {
+    let done = match Args::parse().chore {
+        Chore::Generate(args) => generate::run(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Calls of other programs, and what they make.
+
+use crate::{Problem, root};
+use rungc_benches::figures;
+use std::env;
+use std::process::Command;
+
+/// Cargo with these arguments, in the repository's root.
+pub fn cargo(args: &[&str]) -> Command {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.args(args).current_dir(root());
+    command
+}
+
+/// What a program prints on standard output. If it fails, the error shows what it printed on standard error.
+pub fn output(command: &mut Command) -> Result<String, Problem> {
+    let output = command.output()?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(format!("{command:?}: {}\n{said}", output.status).into());
+    }
+    Ok(String::from_utf8(output.stdout)?)
+}
+
+/// Runs a program that prints for itself.
+fn run(command: &mut Command) -> Result<(), Problem> {
+    let status = command.status()?;
+    match status.success() {
+        true => Ok(()),
+        false => Err(format!("{command:?}: {status}").into()),
+    }
+}
+
+/// What emitted C takes on a microcontroller, as recorded in `benches/figures.toml`.
+pub fn figures() -> Result<String, Problem> {
+    Ok(figures::record(&figures::measure()?)?)
+}
+
+/// Measures everything and puts the tables into the page on benchmarks.
+pub fn benchmarks() -> Result<(), Problem> {
+    let args = ["run", "--release", "--package", "rungc-benches", "--"];
+    run(cargo(&args).args(["--update", "docs/src/benchmarks.md"]))
+}
+
+/// Runs all tests and takes their snapshots as they come.
+pub fn snapshots() -> Result<(), Problem> {
+    let args = ["test", "--workspace", "--no-fail-fast"];
+    run(cargo(&args).envs([("INSTA_UPDATE", "always"), ("INSTA_FORCE_PASS", "1")]))
+}
