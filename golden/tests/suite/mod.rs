@@ -24,6 +24,8 @@ struct Expected {
 #[serde(deny_unknown_fields)]
 struct Reason {
     why: String,
+    /// The engines on which they do not pass; by default all.
+    engines: Option<Vec<String>>,
     /// Names of cases by file.
     cases: BTreeMap<String, Vec<String>>,
 }
@@ -50,14 +52,18 @@ fn load_all() -> Vec<TestFile> {
     paths.iter().map(load).collect()
 }
 
-fn expected_failures() -> BTreeMap<(String, String), String> {
+/// Which cases fail: why, and on which engines.
+type Failures = BTreeMap<(String, String), (String, Option<Vec<String>>)>;
+
+fn expected_failures() -> Failures {
     let text = std::fs::read_to_string(folder().join("EXPECTED_FAILURES.toml")).unwrap();
     let expected: Expected = toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
     let mut failures = BTreeMap::new();
     for reason in expected.reason {
         for (file, cases) in reason.cases {
             for case in cases {
-                let twice = failures.insert((file.clone(), case.clone()), reason.why.clone());
+                let reason = (reason.why.clone(), reason.engines.clone());
+                let twice = failures.insert((file.clone(), case.clone()), reason);
                 assert!(twice.is_none(), "{file}: {case} is listed twice");
             }
         }
@@ -73,7 +79,7 @@ fn key(suite: &Suite, outcome: &Outcome) -> (String, String) {
 /// All cases, and which of them do not pass.
 pub struct Conformance {
     suite: Suite,
-    expected: BTreeMap<(String, String), String>,
+    expected: Failures,
 }
 
 impl Conformance {
@@ -111,10 +117,15 @@ impl Conformance {
         );
         for outcome in &report.outcomes {
             let described = outcome.describe(&self.suite);
-            match (
-                &outcome.failure,
-                self.expected.get(&key(&self.suite, outcome)),
-            ) {
+            let listed = self.expected.get(&key(&self.suite, outcome));
+            let fails = |engines: &Vec<String>| {
+                let name = engine.name();
+                engines.iter().any(|engine| name.starts_with(engine))
+            };
+            let why = listed
+                .filter(|(_, engines)| engines.as_ref().is_none_or(fails))
+                .map(|(why, _)| why);
+            match (&outcome.failure, why) {
                 (Some(_), None) => wrong.push(described),
                 (None, Some(why)) => wrong.push(format!(
                     "{described}, but is listed as one that fails: {why}"
