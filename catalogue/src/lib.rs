@@ -2,7 +2,9 @@
 //! backends read the row; nothing about an instruction's operands or forms is written anywhere else.
 //!
 //! To add an instruction: a row in the file of its family, its runtime function (or IR operator), conformance cases.
-//! The private module `row` is the notation that the rows are written in.
+//!
+//! The catalogue must not know programs, file formats or the IR. Start reading at [`Inst`], then the rows of a family (`move_.rs`); the
+//! private module `row` is the notation that they are written in.
 
 mod arith;
 mod basic;

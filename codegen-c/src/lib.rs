@@ -6,6 +6,8 @@
 //!
 //! `rungc_emit` decides on the fields of the program's struct, on its functions and on where temporaries live. What is done here is to
 //! print that: `fields` the struct's fields, `writer` and `expr` statements and expressions; `unit` puts it all together.
+//!
+//! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`, then `unit`.
 
 mod board;
 mod devices;

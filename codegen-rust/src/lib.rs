@@ -6,6 +6,8 @@
 //!
 //! Layout takes about as long as everything else together; it is made function by function, so time is linear in the program's
 //! length.
+//!
+//! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`.
 
 mod analysis;
 mod coils;

@@ -1,7 +1,7 @@
 //! Readers and writers of instruction lists, list exports and vendor projects.
 //!
-//! Every reader gives a [`Program`] and what it found wrong with the source; it never gives up at the first mistake. No reader
-//! knows what an instruction computes.
+//! Every reader returns a [`Program`] and the diagnostics about its source; it never gives up at the first mistake. No reader knows
+//! what an instruction computes or which models have it. Start reading at [`read`], which detects the format by content.
 
 mod csv;
 mod encoding;

@@ -1,6 +1,8 @@
-//! Random programs for differential tests; conformance cases and examples stand beside this crate's sources.
+//! Tests that span the crates: conformance cases (`conformance/`), snapshots of what the examples become, random programs for differential
+//! tests, and the pages that are generated from the tables.
 //!
-//! Programs are made from the catalogue's rows; what they should do is not known here: the engines are held to each other.
+//! Random programs are made from the catalogue's rows. What they should do must not be known here: the engines are compared with one
+//! another. Start reading at `tests/conformance.rs`, then [`random`] and `tests/differential.rs`.
 
 pub mod book;
 pub mod operands;

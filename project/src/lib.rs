@@ -2,6 +2,8 @@
 //!
 //! The file is read strictly: a key that is not known, or a value that does not fit, is a diagnostic with its place. Whoever calls
 //! decides what a setting does; what the command line says wins over the file.
+//!
+//! This crate must not know output languages. Start reading at [`Project`].
 #![deny(missing_docs)]
 
 mod device;

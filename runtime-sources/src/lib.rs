@@ -2,6 +2,8 @@
 //!
 //! Emitted crates depend on them by path, emitted C links the static library built from them. They come with a lock file and build
 //! without a registry. [`library`] builds that static library once for each target and keeps it in the user's cache.
+//!
+//! The crate must not use the runtime that it carries, nor know what is emitted beside it. Start reading at [`files`].
 
 pub mod cache;
 pub mod library;

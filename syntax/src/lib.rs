@@ -1,7 +1,7 @@
 //! Source text, the program as its author wrote it, and diagnostics.
 //!
-//! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper share. It knows
-//! neither file formats nor what an instruction computes.
+//! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper share. It must not know file formats,
+//! the models, or what an instruction computes. Start reading at [`Program`], then [`Diagnostic`] and [`codes`].
 
 mod classes;
 pub mod codes;

@@ -1,4 +1,5 @@
-//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file.
+//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file. No crate may depend on this one.
+//! Start reading at `generate.rs`, the table of generated files.
 
 mod book;
 mod generate;
