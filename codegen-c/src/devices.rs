@@ -10,26 +10,6 @@ use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// The device that a statement writes, if it is known: its comment stands beside the statement.
-pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
-    match stmt {
-        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
-            Some((DeviceClass::T, *number))
-        }
-        Stmt::Counter16 { number, .. }
-        | Stmt::Counter32 { number, .. }
-        | Stmt::Count { number, .. } => Some((DeviceClass::C, *number)),
-        Stmt::WriteBit(place, _)
-        | Stmt::WriteWordBit(place, ..)
-        | Stmt::WriteWord(place, _)
-        | Stmt::WritePair(place, _)
-        | Stmt::WriteFloat(place, _)
-        | Stmt::WriteNibbles { place, .. }
-        | Stmt::Reset(place) => place.index.is_none().then_some((place.class, place.number)),
-        _ => None,
-    }
-}
-
 impl Writer<'_, '_> {
     /// Writes a statement that writes to devices; nothing for any other.
     pub fn device_stmt(&mut self, code: &mut String, stmt: &Stmt) {

@@ -11,6 +11,7 @@ use std::fmt::Write;
 /// The edges that mean something: function number, terminal, which.
 fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
     let functions = module.functions.iter().enumerate();
+    let functions = functions.filter(|(_, function)| !function.body.is_empty());
     functions.filter_map(|(at, function)| match function.kind {
         FunctionKind::InputEdge { input, kind } => Some((at, input, kind)),
         _ => None,

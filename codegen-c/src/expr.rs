@@ -3,6 +3,7 @@
 use crate::fields::PrintStorage;
 use crate::text;
 use crate::writer::Writer;
+use rungc_emit::logic;
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
 use rungc_models::runs::is_counter32;
 use rungc_rt::CmpOp;
@@ -241,18 +242,15 @@ impl Writer<'_, '_> {
     }
 
     fn not(&mut self, out: &mut String, a: ExprId, around: Around) {
-        match *self.module.expr(a) {
-            // Floats: not (a < b) is not a >= b for NaN.
-            Expr::Cmp(op, l, r) if self.module.ty(l) != Ty::F32 && !self.named.contains_key(&a) => {
-                self.compare(out, op.opposite(), l, r, around);
-            }
-            _ if self.numbers || self.is_number(a) => {
+        match self.opposite(a) {
+            Some((op, l, r)) => self.compare(out, op, l, r, around),
+            None if self.numbers || self.is_number(a) => {
                 self.in_parentheses(out, around != Around::Exact, |w, out| {
                     w.expr(out, a, Around::Operand("^"));
                     out.push_str(" ^ 1");
                 })
             }
-            _ => {
+            None => {
                 out.push('!');
                 self.expr(out, a, Around::Unary);
             }
@@ -261,15 +259,18 @@ impl Writer<'_, '_> {
 
     /// Whether a `Bit` is written as an integer: one from an array of columns, or made of such.
     fn is_number(&self, e: ExprId) -> bool {
-        if self.module.layout.grids.is_empty() || self.named.contains_key(&e) {
-            return false;
-        }
-        match *self.module.expr(e) {
-            Expr::ReadBit(place) => self.fields.is_level(place.class, place.number),
-            Expr::Not(a) => self.is_number(a),
-            Expr::And(a, b) | Expr::Or(a, b) => self.is_number(a) || self.is_number(b),
-            _ => false,
-        }
+        let known = |e: ExprId| match *self.module.expr(e) {
+            _ if self.named.contains_key(&e) => Some(false),
+            Expr::ReadBit(place) => Some(self.fields.is_level(place.class, place.number)),
+            _ => None,
+        };
+        !self.module.layout.grids.is_empty() && logic::is_number(self.module, e, &known)
+    }
+
+    /// The comparison that stands for the opposite of an expression, if one does.
+    fn opposite(&self, a: ExprId) -> Option<(CmpOp, ExprId, ExprId)> {
+        let is_named = self.named.contains_key(&a);
+        logic::opposite(self.module, a).filter(|_| !is_named)
     }
 
     /// Writes a value for an element of an array of columns.
@@ -289,25 +290,13 @@ impl Writer<'_, '_> {
     }
 
     fn compare(&mut self, out: &mut String, op: CmpOp, a: ExprId, b: ExprId, around: Around) {
-        // Constants stand on the right, wherever the list has them.
-        let (op, a, b) = if self.is_constant(a) && !self.is_constant(b) {
-            (op.mirrored(), b, a)
-        } else {
-            (op, a, b)
-        };
+        let (op, a, b) = logic::comparison(self.module, op, a, b);
         let op = op.symbol();
         self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
             w.expr(out, a, Around::Operand(op));
             let _ = write!(out, " {op} ");
             w.expr(out, b, Around::Operand(op));
         });
-    }
-
-    fn is_constant(&self, e: ExprId) -> bool {
-        matches!(
-            self.module.expr(e),
-            Expr::I16(_) | Expr::I32(_) | Expr::F32(_)
-        )
     }
 
     fn in_parentheses(

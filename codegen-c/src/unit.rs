@@ -46,9 +46,6 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     let mut groups = vec![String::new()];
     let mut weight = 0;
     for (index, function) in plan.functions.iter().enumerate() {
-        if function.suffix.is_empty() && is_empty(module, function.root) {
-            continue;
-        }
         weight += function.weight + 1;
         if weight > FILE_WEIGHT && !single {
             groups.push(String::new());
@@ -69,6 +66,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     let printer = Printer {
         module,
         fields: &fields,
+        plan: &plan,
     };
     if faults {
         printer.fault(&mut internal);
@@ -96,13 +94,6 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
         internal,
         groups,
     }
-}
-
-/// Whether a function of the scan cycle has nothing to do, and is left out.
-fn is_empty(module: &Module, root: usize) -> bool {
-    module.functions.get(root).is_none_or(|f| {
-        f.body.is_empty() && matches!(f.kind, FunctionKind::Begin | FunctionKind::End)
-    })
 }
 
 /// Whether a module calls the runtime.
@@ -135,17 +126,12 @@ fn states(out: &mut String, writer: &Writer, plan: &Plan) {
 fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
     let mut any = false;
     for function in &plan.functions {
-        let subroutine = function.suffix.is_empty()
-            && matches!(
-                writer.module.functions.get(function.root).map(|f| &f.kind),
-                Some(
-                    FunctionKind::Subroutine(_)
-                        | FunctionKind::Interrupt(_)
-                        | FunctionKind::TakeInterrupts
-                        | FunctionKind::Signals
-                        | FunctionKind::InputEdge { .. }
-                )
-            );
+        let kind = writer.module.functions.get(function.root).map(|f| &f.kind);
+        let in_cycle = matches!(
+            kind,
+            Some(FunctionKind::Begin | FunctionKind::Main | FunctionKind::End)
+        );
+        let subroutine = function.is_whole() && !in_cycle;
         if !single || subroutine {
             let storage = if single { "static " } else { "" };
             let _ = writeln!(out, "{storage}{};", writer.signature(function));
@@ -161,6 +147,7 @@ fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
 pub struct Printer<'a> {
     pub(crate) module: &'a Module,
     pub(crate) fields: &'a Storage<'a>,
+    pub(crate) plan: &'a Plan<'a>,
 }
 
 impl Printer<'_> {
@@ -431,7 +418,7 @@ impl Printer<'_> {
         let call = |index: usize, indent: &str| {
             let mut function = String::new();
             function_name(&mut function, module, index);
-            if is_empty(module, index) {
+            if self.plan.whole(index).is_none() {
                 String::new()
             } else {
                 format!("{indent}{function}(plc);\n")

@@ -1,9 +1,9 @@
 //! Statements and functions as C.
 
-use crate::devices::written;
 use crate::expr::Around;
 use crate::helpers::Helpers;
 use crate::text;
+use rungc_emit::comments;
 use rungc_emit::edges::{Asker, asker};
 use rungc_emit::parts::{self, Limits};
 use rungc_emit::plan::{Flow, Function, Node, Plan};
@@ -111,11 +111,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         self.names = 0;
         self.invariants_named.clear();
         let _ = write!(out, "{storage}{}\n{{\n", self.signature(function));
-        if function
-            .body
-            .iter()
-            .all(|node| matches!(node, Node::Stmt(Stmt::Network(_))))
-        {
+        if function.is_idle() {
             out.push_str("    (void)plc;\n");
         }
         if function.calls_runtime {
@@ -173,7 +169,8 @@ impl<'a, 'm> Writer<'a, 'm> {
                 }),
                 Some(next),
             ) = (node, nodes.get(i))
-                && let Some(Asker::Whole(asker)) = asker(self.module, self.plan, node, next)
+                && let Some(Asker::Whole(asker)) =
+                    asker(self.module, self.plan, self.fields, node, next)
             {
                 self.name_parts(out, &[*input], indent);
                 let mut call = String::new();
@@ -325,15 +322,13 @@ impl<'a, 'm> Writer<'a, 'm> {
             let pad = " ".repeat(indent);
             let _ = writeln!(
                 out,
-                "{pad}/* A jump back repeats it. */\n{pad}while ({name}(plc) == {first}) {{\n{pad}}}"
+                "{pad}/* {} */\n{pad}while ({name}(plc) == {first}) {{\n{pad}}}",
+                comments::ONE_PART
             );
             return;
         }
         let pad = " ".repeat(indent);
-        let _ = writeln!(
-            out,
-            "{pad}/* The jumps here do not nest, so the stretches between labels are functions: each answers which one is next. */"
-        );
+        let _ = writeln!(out, "{pad}/* {} */", comments::PARTS);
         let _ = writeln!(
             out,
             "{pad}for (int next = {first}; next != PLC_GO_ON;) {{\n{pad}    switch (next) {{"
@@ -509,8 +504,8 @@ impl<'a, 'm> Writer<'a, 'm> {
             _ => self.device_stmt(&mut code, stmt),
         }
         if !code.is_empty() {
-            let beside =
-                written(stmt).and_then(|(class, number)| self.fields.comment(class, number));
+            let beside = comments::written(stmt)
+                .and_then(|(class, number)| self.fields.comment(class, number));
             text::line(out, indent, &code, beside);
         }
     }
@@ -522,14 +517,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         if !out.ends_with("{\n") {
             out.push('\n');
         }
-        let step = network.step;
-        let said =
-            |text: &Option<String>| text.as_deref().map(text::comment).filter(|t| !t.is_empty());
-        let text = match (said(&network.statement), said(&network.note)) {
-            (Some(statement), Some(note)) => format!("step {step}: {statement} ({note})"),
-            (Some(text), None) | (None, Some(text)) => format!("step {step}: {text}"),
-            (None, None) => format!("step {step}"),
-        };
+        let text = comments::heading(network, text::comment);
         text::block(out, indent, &text);
     }
 }

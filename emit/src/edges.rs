@@ -2,6 +2,7 @@
 
 use crate::measure;
 use crate::plan::{Node, Plan};
+use crate::storage::Storage;
 use crate::temps::Home;
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Stmt, TempId};
@@ -16,7 +17,13 @@ pub enum Asker {
 }
 
 /// What of `next` asks for the edge that `node` finds, if nothing else does and `next` evaluates it exactly once.
-pub fn asker(module: &Module, plan: &Plan, node: &Node, next: &Node) -> Option<Asker> {
+pub fn asker(
+    module: &Module,
+    plan: &Plan,
+    storage: &Storage,
+    node: &Node,
+    next: &Node,
+) -> Option<Asker> {
     let Node::Stmt(Stmt::Edge { out, .. }) = node else {
         return None;
     };
@@ -29,7 +36,9 @@ pub fn asker(module: &Module, plan: &Plan, node: &Node, next: &Node) -> Option<A
         Node::If { cond: value, .. } => {
             whole(is_it, *value).or_else(|| operand(module, *value, *out))
         }
-        Node::Stmt(Stmt::WriteBit(place, value)) if place.index.is_none() => {
+        Node::Stmt(Stmt::WriteBit(place, value))
+            if place.index.is_none() && storage.find(place.class, place.number).is_some() =>
+        {
             whole(is_it, *value).or_else(|| operand(module, *value, *out))
         }
         Node::Stmt(

@@ -7,7 +7,9 @@
 //!
 //! Start reading at [`plan::Plan`] and [`storage::Storage`].
 
+pub mod comments;
 pub mod edges;
+pub mod logic;
 pub mod measure;
 pub mod parts;
 pub mod plan;

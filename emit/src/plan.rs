@@ -37,6 +37,28 @@ impl Function<'_> {
         self.suffix.is_empty()
     }
 
+    /// Whether nothing in it looks at the program's struct: it only jumps, if it does that.
+    pub fn is_idle(&self) -> bool {
+        let idle = |node: &Node| {
+            matches!(
+                node,
+                Node::Stmt(Stmt::Network(_) | Stmt::Goto(_) | Stmt::Return)
+            )
+        };
+        self.body.iter().all(idle)
+    }
+
+    /// The steps of its first and last network.
+    pub fn steps(&self, module: &Module) -> Option<(u32, u32)> {
+        let mut steps = Vec::new();
+        statements(&self.body, &mut |stmt| {
+            if let Stmt::Network(network) = stmt {
+                steps.extend(module.networks.get(*network as usize).map(|n| n.step));
+            }
+        });
+        Some((*steps.first()?, *steps.last()?))
+    }
+
     /// Whether it ends by a jump or a return of its own.
     pub fn ends_by_jump(&self) -> bool {
         let last = self.body.last();
@@ -209,6 +231,7 @@ impl<'m> Plan<'m> {
     /// Makes it.
     pub fn new(module: &'m Module) -> Self {
         let mut builder = Builder {
+            module,
             functions: Vec::new(),
             sizes: Sizes::new(module),
             states: HashMap::new(),
@@ -221,7 +244,7 @@ impl<'m> Plan<'m> {
             .functions
             .iter()
             .enumerate()
-            .filter(|&(root, _)| called[root])
+            .filter(|&(root, function)| called[root] && !function.body.is_empty())
         {
             let items = builder.body(&function.body, root, 0);
             let items = builder.bounded(items, root);
@@ -270,6 +293,12 @@ impl<'m> Plan<'m> {
     }
 }
 
+/// Whether a function of the module has no statements.
+fn is_empty(module: &Module, root: usize) -> bool {
+    let function = module.functions.get(root);
+    function.is_none_or(|function| function.body.is_empty())
+}
+
 /// Finds the functions that need the hardware because one that they call does.
 fn hand_hardware_on(functions: &mut [Function], whole: &[Option<usize>]) {
     let callees: Vec<Vec<usize>> = functions.iter().map(|f| callees(&f.body, whole)).collect();
@@ -305,6 +334,7 @@ fn callees(nodes: &[Node], whole: &[Option<usize>]) -> Vec<usize> {
 }
 
 struct Builder<'m> {
+    module: &'m Module,
     functions: Vec<Function<'m>>,
     sizes: Sizes,
     states: HashMap<(usize, LabelId), u32>,
@@ -330,9 +360,17 @@ impl<'m> Builder<'m> {
     }
 
     fn body(&mut self, body: &'m Body, root: usize, nesting: u32) -> Vec<Item<'m>> {
-        body.iter()
-            .map(|stmt| self.stmt(stmt, root, nesting))
-            .collect()
+        let module = self.module;
+        // Expressions have no effects, and a function without statements is not emitted.
+        let does_nothing = |item: &Item| match &item.node {
+            Node::If {
+                then, otherwise, ..
+            } => then.is_empty() && otherwise.is_empty(),
+            Node::Stmt(Stmt::CallSub(root)) => is_empty(module, *root as usize),
+            _ => false,
+        };
+        let items = body.iter().map(|stmt| self.stmt(stmt, root, nesting));
+        items.filter(|item| !does_nothing(item)).collect()
     }
 
     fn stmt(&mut self, stmt: &'m Stmt, root: usize, nesting: u32) -> Item<'m> {

@@ -1,0 +1,62 @@
+//! Comments on emitted code.
+
+use rungc_ir::node::{Network, Stmt};
+use rungc_syntax::DeviceClass;
+
+/// The heading of a network. `clean` makes a user's text safe in a comment.
+pub fn heading(network: &Network, clean: impl Fn(&str) -> String) -> String {
+    let step = network.step;
+    let said = |text: &Option<String>| text.as_deref().map(&clean).filter(|text| !text.is_empty());
+    match (said(&network.statement), said(&network.note)) {
+        (Some(statement), Some(note)) => format!("step {step}: {statement} ({note})"),
+        (Some(text), None) | (None, Some(text)) => format!("step {step}: {text}"),
+        (None, None) => format!("step {step}"),
+    }
+}
+
+/// What stands above the choice between parts.
+pub const PARTS: &str = "The jumps here do not nest, so the stretches between labels are functions: each answers which one is next.";
+
+/// What stands above a single part that jumps back to itself.
+pub const ONE_PART: &str = "A jump back repeats it.";
+
+/// The device that a statement writes, if it is known: its comment stands beside the statement.
+pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
+    match stmt {
+        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+            Some((DeviceClass::T, *number))
+        }
+        Stmt::Counter16 { number, .. }
+        | Stmt::Counter32 { number, .. }
+        | Stmt::Count { number, .. } => Some((DeviceClass::C, *number)),
+        Stmt::WriteBit(place, _)
+        | Stmt::WriteWordBit(place, ..)
+        | Stmt::WriteWord(place, _)
+        | Stmt::WritePair(place, _)
+        | Stmt::WriteFloat(place, _)
+        | Stmt::WriteNibbles { place, .. }
+        | Stmt::Reset(place) => place.index.is_none().then_some((place.class, place.number)),
+        Stmt::Network(_)
+        | Stmt::Let(..)
+        | Stmt::Edge { .. }
+        | Stmt::SetFlag(..)
+        | Stmt::SetCell(..)
+        | Stmt::SetEntry(..)
+        | Stmt::TimerAt { .. }
+        | Stmt::Counter16At { .. }
+        | Stmt::If { .. }
+        | Stmt::For { .. }
+        | Stmt::Repeat { .. }
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Call { .. }
+        | Stmt::Fetch { .. }
+        | Stmt::Send { .. }
+        | Stmt::Fault { .. }
+        | Stmt::Watch { .. }
+        | Stmt::Stop
+        | Stmt::Clear { .. } => None,
+    }
+}

@@ -1,0 +1,39 @@
+//! How conditions are turned for readers.
+
+use rungc_ir::Module;
+use rungc_ir::node::{Expr, ExprId, Ty};
+use rungc_rt::CmpOp;
+
+/// A comparison with a constant on the right, wherever the program has it.
+pub fn comparison(module: &Module, op: CmpOp, a: ExprId, b: ExprId) -> (CmpOp, ExprId, ExprId) {
+    let is_constant = |e: ExprId| {
+        let expr = module.expr(e);
+        matches!(expr, Expr::I16(_) | Expr::I32(_) | Expr::F32(_))
+    };
+    if is_constant(a) && !is_constant(b) {
+        (op.mirrored(), b, a)
+    } else {
+        (op, a, b)
+    }
+}
+
+/// The comparison that is the opposite of an expression, if that is a comparison of integers. With floats, not (a < b) is not a >= b, for
+/// NaN.
+pub fn opposite(module: &Module, e: ExprId) -> Option<(CmpOp, ExprId, ExprId)> {
+    match *module.expr(e) {
+        Expr::Cmp(op, a, b) if module.ty(a) != Ty::F32 => Some((op.opposite(), a, b)),
+        _ => None,
+    }
+}
+
+/// Whether a bit is made of bits that are numbers, 0 or 1, as those of grids are. `known` answers for what a backend has a name or a place
+/// for; it is asked first, of each operand.
+pub fn is_number(module: &Module, e: ExprId, known: &dyn Fn(ExprId) -> Option<bool>) -> bool {
+    known(e).unwrap_or_else(|| match *module.expr(e) {
+        Expr::Not(a) => is_number(module, a, known),
+        Expr::And(a, b) | Expr::Or(a, b) => {
+            is_number(module, a, known) || is_number(module, b, known)
+        }
+        _ => false,
+    })
+}
