@@ -1,6 +1,5 @@
 //! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events and where it is asked for.
 
-use crate::events;
 use crate::host::terminals;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
@@ -83,7 +82,7 @@ pub fn source(module: &Module, runtime: bool) -> String {
     } else {
         "(void)rungc_board_passes(board, now_us);"
     };
-    let interrupts = events::interrupts(module).is_some();
+    let interrupts = rungc_emit::events::interrupts(module).is_some();
     let interrupt = |indent: &str| match interrupts {
         true => format!("{indent}PROGRAM_take_interrupts(plc);\n"),
         false => String::new(),

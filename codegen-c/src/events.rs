@@ -1,67 +1,10 @@
 //! What happens outside the scan: the functions that a host calls for it, and the private fields that they use.
 
 use crate::writer::function_name;
+use rungc_emit::events::{clocks, edges, edges_only_note, follows_time, interrupts, set_outside};
 use rungc_ir::Module;
-use rungc_ir::node::{Cell, FunctionKind, Stmt};
-use rungc_ir::walk::statements;
 use rungc_rt::EdgeKind;
-use std::collections::BTreeSet;
 use std::fmt::Write;
-
-/// The edges that mean something: function number, terminal, which.
-fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
-    let functions = module.functions.iter().enumerate();
-    let functions = functions.filter(|(_, function)| !function.body.is_empty());
-    functions.filter_map(|(at, function)| match function.kind {
-        FunctionKind::InputEdge { input, kind } => Some((at, input, kind)),
-        _ => None,
-    })
-}
-
-/// The input terminals whose edges mean something, each once.
-pub fn inputs(module: &Module) -> BTreeSet<u32> {
-    edges(module).map(|(_, input, _)| input).collect()
-}
-
-/// The cells that follow the time.
-fn clocks(module: &Module) -> impl Iterator<Item = &Cell> {
-    module.cells.iter().filter(|cell| cell.follows_time)
-}
-
-/// Whether the time between scans means something.
-pub fn follows_time(module: &Module) -> bool {
-    module.sends_pulses() || module.periods().next().is_some() || clocks(module).next().is_some()
-}
-
-/// The flags that are set outside the scan, perhaps in an interrupt handler.
-fn set_outside(module: &Module) -> BTreeSet<usize> {
-    let mut found: BTreeSet<usize> = BTreeSet::new();
-    for (at, _, _) in edges(module) {
-        statements(&module.functions[at].body, &mut |stmt| {
-            if let Stmt::SetFlag(flag, _) = stmt {
-                found.insert(flag.0 as usize);
-            }
-        });
-    }
-    let flags = module.flags.iter().enumerate();
-    found.extend(
-        flags
-            .filter(|(_, flag)| flag.period_ms.is_some())
-            .map(|(i, _)| i),
-    );
-    found
-}
-
-/// Whether edges do no more than set flags, so that they may come at any time.
-fn edges_only_note(module: &Module) -> bool {
-    let mut only = true;
-    for (at, _, _) in edges(module) {
-        statements(&module.functions[at].body, &mut |stmt| {
-            only &= matches!(stmt, Stmt::SetFlag(..) | Stmt::If { .. });
-        });
-    }
-    only
-}
 
 /// The fields of flags, cells and tables: declaration, comment, size in bytes.
 pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
@@ -151,12 +94,6 @@ pub fn prototypes(module: &Module) -> String {
         );
     }
     out
-}
-
-/// The function that takes interrupts.
-pub fn interrupts(module: &Module) -> Option<usize> {
-    let mut functions = module.functions.iter();
-    functions.position(|f| f.kind == FunctionKind::TakeInterrupts)
 }
 
 /// The functions that a host calls.

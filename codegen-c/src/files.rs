@@ -1,7 +1,7 @@
 //! Puts units into files.
 
 use crate::unit::{self, Unit};
-use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, board, events, header, text};
+use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, board, header, text};
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::walk::has_many_timers;
@@ -272,7 +272,7 @@ fn batch_entry(i: usize, module: &Module, functions: &mut String, entries: &mut 
         (module.takes_events(), "EVENTS", "ENTRY_WITH_EVENTS"),
         (module.takes_time(), "TIME", "ENTRY_WITH_TIME"),
         (
-            events::interrupts(module).is_some(),
+            rungc_emit::events::interrupts(module).is_some(),
             "INTERRUPTS",
             "ENTRY_WITH_INTERRUPTS",
         ),

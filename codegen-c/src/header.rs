@@ -295,7 +295,7 @@ pub fn embedding(module: &Module, fields: &Storage) -> String {
             ),
         );
     }
-    let edges = events::inputs(module);
+    let edges = rungc_emit::events::inputs(module);
     match edges.len() {
         0..=MOST_EDGES => lines.extend(edges.iter().map(|number| {
             let code = format!("{name}_input_edge(&plc, {number}, on);");
@@ -306,7 +306,7 @@ pub fn embedding(module: &Module, fields: &Storage) -> String {
             "in the interrupt handlers of the pins of inputs",
         )),
     }
-    if events::follows_time(module) {
+    if rungc_emit::events::follows_time(module) {
         lines.push((
             format!("{name}_tick(&plc, millis());"),
             "in a handler that runs each millisecond",

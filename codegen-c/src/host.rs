@@ -1,7 +1,7 @@
 //! The host program for Linux: scans in real time.
 
 use crate::fields::PrintStorage;
-use crate::{events, text};
+use crate::text;
 use rungc_emit::storage::{Field, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
@@ -51,7 +51,7 @@ pub fn main_file(module: &Module) -> String {
     } else {
         "sleep_until(next);"
     };
-    let interrupts = if events::interrupts(module).is_some() {
+    let interrupts = if rungc_emit::events::interrupts(module).is_some() {
         "            PROGRAM_take_interrupts(plc);\n"
     } else {
         ""
@@ -82,7 +82,7 @@ fn inputs_of(module: &Module, fields: &Storage) -> BTreeMap<u32, String> {
     for (number, access) in terminals(fields, DeviceClass::X) {
         inputs.insert(number, format!("        {access} = on;\n"));
     }
-    for number in events::inputs(module) {
+    for number in rungc_emit::events::inputs(module) {
         let edge = format!("        {}_input_edge(plc, {number}, on);\n", module.name);
         inputs.entry(number).or_default().push_str(&edge);
     }

@@ -1,6 +1,5 @@
 //! Coils of timers and counters, and RST of them.
 
-use crate::expr::Code;
 use crate::generate::{Generator, kind_name};
 use crate::storage::{PrintField, PrintStorage};
 use proc_macro2::{Literal, TokenStream};
@@ -17,6 +16,9 @@ pub const OUT_TIMER: &str = "out_timer";
 /// What runs a 16-bit counter that an index leads to.
 pub const OUT_COUNTER: &str = "out_counter";
 
+/// Operations of a drive that fits on its coil's line.
+const SHORT_DRIVE: u64 = 5;
+
 impl Generator<'_> {
     /// OUT T and OUT C.
     pub fn coil(&mut self, stmt: &Stmt) -> TokenStream {
@@ -30,9 +32,8 @@ impl Generator<'_> {
                 let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::T, number) else {
                     return TokenStream::new();
                 };
-                let comment = self.end_comment(DeviceClass::T, number);
-                let coil = self.timer_coil(cell, kind, drive, preset);
-                quote!(#coil #comment)
+                let kind = self.coils.kind(number, kind);
+                self.timer_coil(cell, kind, drive, preset)
             }
             _ => self.counter_coil(stmt),
         }
@@ -57,7 +58,7 @@ impl Generator<'_> {
                 down,
                 preset,
             } => {
-                let drive = named_drive(self.expr(drive), &mut before);
+                let drive = self.drive(drive, &mut before);
                 let down = self.expr(down);
                 let preset = self.expr(preset);
                 (number, quote!(#drive, #down, #preset))
@@ -76,16 +77,25 @@ impl Generator<'_> {
         let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::C, number) else {
             return TokenStream::new();
         };
-        let comment = self.end_comment(DeviceClass::C, number);
-        quote!(#before #cell.#method(#arguments); #comment)
+        quote!(#before #cell.#method(#arguments);)
     }
 
     /// What stands in front of a coil, and the first two arguments of the function that runs it.
     fn drive_and_preset(&mut self, drive: ExprId, preset: ExprId) -> (TokenStream, TokenStream) {
         let mut before = TokenStream::new();
-        let drive = named_drive(self.expr(drive), &mut before);
+        let drive = self.drive(drive, &mut before);
         let preset = self.expr(preset);
         (before, quote!(#drive, #preset))
+    }
+
+    /// A drive that would make a coil's line long gets one of its own.
+    fn drive(&mut self, drive: ExprId, before: &mut TokenStream) -> TokenStream {
+        let code = self.expr(drive).tokens;
+        if self.plan.sizes.size(drive) <= SHORT_DRIVE {
+            return code;
+        }
+        before.extend(quote!(let drive = #code;));
+        quote!(drive)
     }
 
     /// A coil of a timer or counter that an index leads to.
@@ -114,6 +124,13 @@ impl Generator<'_> {
         preset: ExprId,
     ) -> TokenStream {
         if let (DeviceClass::T, Some(kind)) = (place.class, self.module.model.timer(place.number)) {
+            let by = match place.index.map(|index| self.module.expr(index)) {
+                Some(&Expr::Stride(_, by)) => by,
+                _ => 0,
+            };
+            let kind = self
+                .coils
+                .kind_of_rounds(place.number, by, self.rounds, kind);
             return self.timer_coil(cell, kind, drive, preset);
         }
         let (before, arguments) = self.drive_and_preset(drive, preset);
@@ -171,9 +188,8 @@ impl Generator<'_> {
             return quote!(plc.reset_at(#class, #number););
         }
         let cell = self.storage.cell(&quote!(plc), place.class, place.number);
-        let comment = self.end_comment(place.class, place.number);
         match cell {
-            Some(cell) => quote!(#cell.reset(); #comment),
+            Some(cell) => quote!(#cell.reset();),
             None => TokenStream::new(),
         }
     }
@@ -277,14 +293,4 @@ fn by_number(field: &Field) -> TokenStream {
             quote!(plc.#name[(number - #first) as usize])
         }
     }
-}
-
-/// A drive that would not fit on a coil's line gets one of its own.
-fn named_drive(drive: Code, before: &mut TokenStream) -> TokenStream {
-    const LONG: usize = 40;
-    if drive.tokens.to_string().len() <= LONG {
-        return drive.tokens;
-    }
-    before.extend(quote!(let drive = #drive;));
-    quote!(drive)
 }

@@ -1,10 +1,14 @@
 //! What happens outside the scan: flags that a host's interrupts set, and the methods that it calls for that.
 
-use crate::generate::{Generator, function_name};
+use crate::generate::Generator;
+use crate::temps::type_of;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{CellId, Flag, FlagId, FunctionKind, TableId};
+use rungc_emit::events;
+use rungc_emit::temps::Home;
+use rungc_ir::node::{CellId, Flag, FlagId, TableId};
 use rungc_rt::EdgeKind;
+use std::rc::Rc;
 
 /// A private field: name, type, value at power-on, meaning.
 pub type Hidden = (Ident, TokenStream, TokenStream, &'static str);
@@ -24,7 +28,7 @@ fn since_field(flag: &Flag) -> Ident {
 }
 
 /// The name of a method's hardware, which it may not use.
-fn hal_parameter(used: bool) -> Ident {
+pub fn hal_parameter(used: bool) -> Ident {
     format_ident!("{}", if used { "hal" } else { "_hal" })
 }
 
@@ -53,6 +57,19 @@ impl Generator<'_> {
             (since_field(flag), quote!(u32), quote!(0), meaning)
         });
         flags.chain(since).collect()
+    }
+
+    /// The fields of temporaries that several functions use.
+    pub fn temp_fields(&self) -> Vec<Hidden> {
+        let temps = self.plan.temps.iter().zip(&self.module.temps);
+        let fields = temps.filter(|(temp, _)| temp.home() == Home::Field);
+        fields
+            .map(|(temp, &ty)| {
+                let (ty, zero) = type_of(ty);
+                let meaning = "found in one function, used in another";
+                (format_ident!("{}", temp.to_string()), ty, zero, meaning)
+            })
+            .collect()
     }
 
     /// The fields of cells and tables.
@@ -88,12 +105,12 @@ impl Generator<'_> {
         let edge = self.input_edge();
         let tick = self.tick();
         let module = self.module;
-        let mut functions = module.functions.iter();
-        let Some(at) = functions.position(|f| f.kind == FunctionKind::TakeInterrupts) else {
+        let plan = Rc::clone(&self.plan);
+        let taker = events::interrupts(module).and_then(|root| plan.whole(root));
+        let Some(function) = taker else {
             return quote!(#edge #tick);
         };
-        let function = format_ident!("{}", function_name(&module.functions[at]));
-        let needs_hal = self.calls.needs_hal.get(at).copied().unwrap_or(false);
+        let (needs_hal, function) = (function.needs_hardware, self.planned_name(function));
         let parameter = hal_parameter(needs_hal);
         let argument = needs_hal.then(|| quote!(, hal));
         let hal = self.rt("Hal");
@@ -242,26 +259,19 @@ impl Generator<'_> {
     }
 
     fn input_edge(&mut self) -> TokenStream {
-        let module = self.module;
         let mut asks = false;
-        let edges: Vec<TokenStream> = module
-            .functions
-            .iter()
-            .enumerate()
-            .filter_map(|(n, function)| match function.kind {
-                FunctionKind::InputEdge { input, kind } => {
-                    let needs_hal = self.calls.needs_hal.get(n).copied().unwrap_or(false);
-                    asks |= needs_hal;
-                    let hal = needs_hal.then(|| quote!(, hal));
-                    let input = Literal::u32_unsuffixed(input);
-                    let level = match kind {
-                        EdgeKind::Rising => quote!(level),
-                        EdgeKind::Falling => quote!(!level),
-                    };
-                    let name = format_ident!("{}", function_name(function));
-                    Some(quote!(if number == #input && #level { program::#name(self #hal); }))
-                }
-                _ => None,
+        let edges: Vec<TokenStream> = events::edges(self.module)
+            .filter_map(|(root, input, kind)| {
+                let function = self.plan.whole(root)?;
+                asks |= function.needs_hardware;
+                let hal = function.needs_hardware.then(|| quote!(, hal));
+                let input = Literal::u32_unsuffixed(input);
+                let level = match kind {
+                    EdgeKind::Rising => quote!(level),
+                    EdgeKind::Falling => quote!(!level),
+                };
+                let name = self.planned_name(function);
+                Some(quote!(if number == #input && #level { program::#name(self #hal); }))
             })
             .collect();
         if edges.is_empty() {

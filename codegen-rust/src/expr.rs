@@ -4,10 +4,10 @@ use crate::generate::Generator;
 use crate::storage::{PrintField, PrintStorage, bit_of, word_of};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
-use rungc_emit::storage::Kind;
+use rungc_emit::logic;
+use rungc_emit::storage::{Kind, high_word};
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
 use rungc_rt::CmpOp;
-use rungc_syntax::DeviceClass;
 
 /// What kind of Rust expression it is, for parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -30,7 +30,7 @@ pub struct Code {
     /// Its kind.
     pub shape: Shape,
     /// The operands if it is binary: for `a |= b`.
-    pub operands: Option<(TokenStream, TokenStream)>,
+    pub operands: Option<Box<(Code, Code)>>,
 }
 
 impl Code {
@@ -66,11 +66,12 @@ impl Code {
             ">" => quote!(>),
             _ => quote!(>=),
         };
+        let operands = Some(Box::new((a.clone(), b.clone())));
         let (a, b) = (a.operand_of(op), b.operand_of(op));
         Code {
             tokens: quote!(#a #sign #b),
             shape: Shape::Binary(op),
-            operands: Some((a, b)),
+            operands,
         }
     }
 
@@ -152,8 +153,8 @@ impl Generator<'_> {
     }
 
     fn code(&mut self, id: ExprId, typed: bool) -> Code {
-        if let Some(name) = self.hoisted(id) {
-            return Code::atom(quote!(#name));
+        if let Some(name) = self.named.get(&id) {
+            return Code::atom(name.clone());
         }
         match *self.module.expr(id) {
             Expr::Bit(value) => Code::atom(quote!(#value)),
@@ -242,37 +243,23 @@ impl Generator<'_> {
 
     /// A comparison, with a constant on the right.
     fn compare(&mut self, op: CmpOp, a: ExprId, b: ExprId) -> Code {
-        let is_constant = |id: ExprId| {
-            let expr = self.module.expr(id);
-            matches!(expr, Expr::I16(_) | Expr::I32(_) | Expr::F32(_))
-        };
-        let (op, a, b) = if is_constant(a) && !is_constant(b) {
-            (op.mirrored(), b, a)
-        } else {
-            (op, a, b)
-        };
+        let (op, a, b) = logic::comparison(self.module, op, a, b);
         Code::binary(op.symbol(), self.typed(a), self.expr(b))
     }
 
     fn temp(&mut self, temp: TempId) -> Code {
-        match self.inlined.take_if(|(inlined, _)| *inlined == temp) {
-            Some((_, edge)) => Code::atom(edge),
-            None => {
-                let name = self.temp_name(temp).into_token_stream();
-                match self.levels.contains(&temp) {
-                    true => Self::is_on(name),
-                    false => Code::atom(name),
-                }
-            }
+        let place = self.temp_place(temp);
+        match self.levels.contains(&temp) {
+            true => Self::is_on(place),
+            false => Code::atom(place),
         }
     }
 
     /// `!a`; comparisons of integers are turned round instead.
     pub fn not(&mut self, a: ExprId) -> Code {
-        if let (None, &Expr::Cmp(op, x, y)) = (self.hoisted(a), self.module.expr(a))
-            && self.module.ty(x) != Ty::F32
-        {
-            return self.compare(op.opposite(), x, y);
+        let is_named = self.named.contains_key(&a);
+        if let Some((op, x, y)) = logic::opposite(self.module, a).filter(|_| !is_named) {
+            return self.compare(op, x, y);
         }
         let a = self.expr(a).operand_of("!");
         Code::shaped(quote!(!#a), Shape::Unary)
@@ -409,22 +396,13 @@ impl Generator<'_> {
     }
 
     fn pair_words(&mut self, place: Place) -> (Code, Code) {
-        let (class, number) = self.high_word(place);
+        let (class, number) = high_word(self.module.model, place);
         let high = Place {
             class,
             number,
             index: None,
         };
         (self.read_word(place), self.read_word(high))
-    }
-
-    /// Where the high word of a pair is.
-    pub fn high_word(&self, place: Place) -> (DeviceClass, u32) {
-        if place.class == DeviceClass::Z && self.module.model.z_pairs_with_v {
-            (DeviceClass::V, place.number)
-        } else {
-            (place.class, place.number + 1)
-        }
     }
 
     fn read_nibbles(&mut self, place: Place, digits: u8, wide: bool) -> Code {

@@ -1,22 +1,18 @@
 //! The generator of one module: what it knows, and what it has written so far.
 
-use crate::analysis::{self, Calls, Position, Temps};
 use crate::format::Comments;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
+use rungc_emit::plan::Plan;
+use rungc_emit::stations::Device;
 use rungc_emit::storage::Storage;
+use rungc_emit::timers::Coils;
 use rungc_ir::Module;
-use rungc_ir::node::{ExprId, Function, FunctionKind, LabelId, TempId, Ty};
-use rungc_ir::walk::operands;
+use rungc_ir::node::{ExprId, Function, FunctionKind, TempId};
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
-
-/// Expressions deeper than this are cut by a `let`: nobody reads them otherwise, and compilers recurse over them.
-const MAX_DEPTH: u32 = 24;
-
-/// An expression used this often in one statement and larger than this gets a `let`.
-const MAX_COPIES_SIZE: u32 = 6;
+use std::rc::Rc;
 
 /// A function of the emitted program.
 #[derive(Default)]
@@ -88,8 +84,10 @@ pub struct Generator<'m> {
     pub storage: Storage<'m>,
     /// Name of the struct.
     pub type_name: Ident,
-    /// Which functions call what.
-    pub calls: Calls,
+    /// Its functions and temporaries.
+    pub plan: Rc<Plan<'m>>,
+    /// What its timers have to remember.
+    pub coils: Coils,
     /// Whether to write comments.
     pub with_comments: bool,
     /// What the item being written needs.
@@ -98,56 +96,49 @@ pub struct Generator<'m> {
     pub comments: Comments,
     /// Functions written.
     pub items: Vec<Item>,
-    /// Temporaries of the function being written.
-    pub temps: Temps,
-    /// Temporaries to declare in front of statements.
-    pub declare: HashMap<Position, Vec<TempId>>,
-    /// Step of the network being written.
-    pub step: u32,
-    /// Loops over parts around the statement being written: the labels of the parts.
-    pub jumps: Vec<Vec<Option<LabelId>>>,
-    /// Temporaries assigned so far in the function being written.
-    pub assigned: HashSet<TempId>,
-    /// An edge that stands for its temporary in the next statement.
-    pub inlined: Option<(TempId, TokenStream)>,
+    /// Which function of the plan is being written.
+    pub function: usize,
+    /// Parts of expressions that have got a name in it.
+    pub names: u32,
+    /// What stands for expressions in the statement being written: names, and edges.
+    pub named: HashMap<ExprId, TokenStream>,
+    /// Whether a function says that one that calls it is to be left.
+    pub leaves: bool,
     /// Temporaries that are numbers, 0 or 1, since they are made of bits that are.
     pub levels: HashSet<TempId>,
-    /// Devices of which the loop over rungs around the statement being written has a number of its own.
-    pub constants: HashSet<(DeviceClass, u32)>,
+    /// Bits that the loop over stations around the statement being written has read before its first round.
+    pub invariants: BTreeSet<Device>,
     /// Whether the statement being written is in a loop over rungs.
     pub in_rounds: bool,
+    /// How many rounds that has.
+    pub rounds: u32,
     /// Kinds of timers that coils run, by the functions for them.
     pub timer_coils: BTreeMap<String, TimerKind>,
-    /// Names of functions already given.
-    names: HashSet<String>,
-    /// Expressions that have a `let` in the statement being written.
-    hoisted: HashMap<ExprId, Ident>,
 }
 
 impl<'m> Generator<'m> {
     /// A generator that has written nothing yet.
     pub fn new(module: &'m Module, with_comments: bool) -> Self {
+        let (storage, plan) = (Storage::new(module), Plan::new(module));
         Generator {
             module,
-            storage: Storage::new(module),
+            coils: Coils::of(module, &plan, &storage),
+            storage,
+            plan: Rc::new(plan),
             type_name: type_name(&module.name),
-            calls: Calls::of(module),
             with_comments,
             uses: Uses::default(),
             comments: Comments::default(),
             items: Vec::new(),
-            temps: Temps::default(),
-            declare: HashMap::new(),
-            step: 0,
-            jumps: Vec::new(),
-            assigned: HashSet::new(),
-            inlined: None,
+            function: 0,
+            names: 0,
+            named: HashMap::new(),
+            leaves: false,
             levels: HashSet::new(),
-            constants: HashSet::new(),
+            invariants: BTreeSet::new(),
             in_rounds: false,
+            rounds: 0,
             timer_coils: BTreeMap::new(),
-            names: HashSet::new(),
-            hoisted: HashMap::new(),
         }
     }
 
@@ -193,75 +184,6 @@ impl<'m> Generator<'m> {
         let ident = Ident::new(&name, Span::call_site());
         self.uses.timers.insert(name, kind);
         ident
-    }
-
-    /// Name of a temporary.
-    pub fn temp_name(&self, temp: TempId) -> Ident {
-        format_ident!("t{}", temp.0)
-    }
-
-    /// Type of a temporary.
-    pub fn temp_type(&self, temp: TempId) -> TokenStream {
-        match self.module.temps.get(temp.0 as usize) {
-            Some(Ty::I16) => quote!(i16),
-            Some(Ty::I32) => quote!(i32),
-            Some(Ty::F32) => quote!(f32),
-            Some(Ty::Bit) | None => quote!(bool),
-        }
-    }
-
-    /// A name for a function that no other has.
-    pub fn unique_name(&mut self, wanted: String) -> Ident {
-        let mut name = wanted.clone();
-        let mut n = 2;
-        while !self.names.insert(name.clone()) {
-            name = format!("{wanted}_{n}");
-            n += 1;
-        }
-        Ident::new(&name, Span::call_site())
-    }
-
-    /// The variable that holds an expression in this statement, if it has one.
-    pub fn hoisted(&self, id: ExprId) -> Option<Ident> {
-        self.hoisted.get(&id).cloned()
-    }
-
-    /// The `let`s to put in front of a statement that evaluates `roots`: for what is too deep to be read, and for what would be
-    /// written out several times.
-    pub fn hoist(&mut self, roots: &[ExprId]) -> Vec<TokenStream> {
-        self.hoisted.clear();
-        let ids = analysis::reachable(self.module, roots);
-        if ids.len() <= MAX_COPIES_SIZE as usize {
-            return Vec::new();
-        }
-        let mut uses: HashMap<ExprId, u32> = HashMap::new();
-        for id in &ids {
-            for operand in operands(self.module.expr(*id)) {
-                *uses.entry(operand).or_default() += 1;
-            }
-        }
-        // Depth and size of what is written where the expression stands; a hoisted one counts as a name.
-        let mut shape: HashMap<ExprId, (u32, u32)> = HashMap::new();
-        let mut lets = Vec::new();
-        for id in ids {
-            let mut depth = 0;
-            let mut size = 1;
-            for operand in operands(self.module.expr(id)) {
-                let (d, s) = shape.get(&operand).copied().unwrap_or_default();
-                depth = depth.max(d + 1);
-                size += s;
-            }
-            let copied = size > MAX_COPIES_SIZE && uses.get(&id).is_some_and(|&n| n > 1);
-            if (copied || depth >= MAX_DEPTH) && !roots.contains(&id) {
-                let name = format_ident!("e{}", id.0);
-                let value = self.typed(id);
-                lets.push(quote!(let #name = #value;));
-                self.hoisted.insert(id, name);
-                (depth, size) = (0, 1);
-            }
-            shape.insert(id, (depth, size));
-        }
-        lets
     }
 }
 

@@ -1,31 +1,27 @@
 //! Bits in arrays of columns are numbers, 0 or 1: with `bool` compilers make slower loops of them.
 
-use crate::analysis::{self, Declared};
 use crate::expr::Code;
 use crate::generate::Generator;
 use crate::storage::PrintStorage;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
-use rungc_emit::storage::Kind;
-use rungc_ir::node::{Expr, ExprId, Place, Stmt, TempId};
+use rungc_emit::logic;
+use rungc_emit::temps::Home;
+use rungc_ir::node::{Expr, ExprId, Place, TempId};
 use rungc_syntax::DeviceClass;
-use std::collections::HashSet;
 
 impl Generator<'_> {
     /// Whether a `Bit` is written as a number: one from an array of columns, or made of such.
     pub fn is_level(&self, id: ExprId) -> bool {
-        if self.module.layout.grids.is_empty() || self.hoisted(id).is_some() {
-            return false;
-        }
-        match *self.module.expr(id) {
+        let known = |e: ExprId| match *self.module.expr(e) {
+            _ if self.named.contains_key(&e) => Some(false),
             Expr::ReadBit(place) => {
-                self.storage.is_level(place.class, place.number) || self.is_constant(place)
+                Some(self.storage.is_level(place.class, place.number) || self.is_invariant(place))
             }
-            Expr::Temp(temp) => self.levels.contains(&temp),
-            Expr::Not(a) => self.is_level(a),
-            Expr::And(a, b) | Expr::Or(a, b) => self.is_level(a) || self.is_level(b),
-            _ => false,
-        }
+            Expr::Temp(temp) => Some(self.levels.contains(&temp)),
+            _ => None,
+        };
+        !self.module.layout.grids.is_empty() && logic::is_number(self.module, id, &known)
     }
 
     /// A `Bit` as a number.
@@ -35,9 +31,7 @@ impl Generator<'_> {
             Expr::And(a, b) if self.is_level(id) => Code::binary("&", self.level(a), self.level(b)),
             Expr::Or(a, b) if self.is_level(id) => Code::binary("|", self.level(a), self.level(b)),
             Expr::Not(a) if self.is_level(id) => Code::binary("^", self.level(a), literal(true)),
-            Expr::Temp(temp) if self.is_level(id) => {
-                Code::atom(self.temp_name(temp).into_token_stream())
-            }
+            Expr::Temp(temp) if self.is_level(id) => Code::atom(self.temp_place(temp)),
             Expr::ReadBit(place) if self.is_level(id) => {
                 Code::atom(self.level_cell(place).unwrap_or_default())
             }
@@ -48,49 +42,24 @@ impl Generator<'_> {
         }
     }
 
-    /// Numbers for the bits that a loop over rungs only reads, and that are the same in all of its rounds. They are read before it:
-    /// compilers would do so in each round if these bits stand behind an array in memory.
-    pub fn constants(&mut self, body: &[Stmt]) -> TokenStream {
-        let mut written = HashSet::new();
-        let mut roots = Vec::new();
-        rungc_ir::walk::statements(body, &mut |stmt| {
-            if let Stmt::WriteBit(place, _) = stmt {
-                written.insert((place.class, place.number));
-            }
-            roots.extend(analysis::expressions(stmt));
-        });
-        let mut devices: Vec<_> = analysis::reachable(self.module, &roots)
-            .into_iter()
-            .filter_map(|id| match *self.module.expr(id) {
-                Expr::ReadBit(place) if place.index.is_none() => Some((place.class, place.number)),
-                _ => None,
-            })
-            .filter(|device| !written.contains(device))
-            .filter(|&(class, number)| {
-                let field = self.storage.find(class, number);
-                field.is_some_and(|field| field.kind == Kind::Bit)
-            })
-            .collect();
-        devices.sort_unstable();
-        devices.dedup();
-        let lets = devices.iter().filter_map(|&(class, number)| {
+    /// Numbers for the bits that a loop over stations reads before its first round.
+    pub fn invariant_lets(&self) -> TokenStream {
+        let lets = self.invariants.iter().filter_map(|&(class, number)| {
             let cell = self.storage.bit(&quote!(plc), class, number)?;
-            let name = constant_name(class, number);
+            let name = invariant_name(class, number);
             Some(quote!(let #name = u8::from(#cell);))
         });
-        let lets = lets.collect();
-        self.constants.extend(devices);
-        lets
+        lets.collect()
     }
 
-    fn is_constant(&self, place: Place) -> bool {
-        place.index.is_none() && self.constants.contains(&(place.class, place.number))
+    fn is_invariant(&self, place: Place) -> bool {
+        place.index.is_none() && self.invariants.contains(&(place.class, place.number))
     }
 
     /// Where a bit is that is stored as a number.
     pub fn level_cell(&self, place: Place) -> Option<TokenStream> {
-        if self.is_constant(place) {
-            return Some(constant_name(place.class, place.number).into_token_stream());
+        if self.is_invariant(place) {
+            return Some(invariant_name(place.class, place.number).into_token_stream());
         }
         let cell = self.bit_cell(place)?;
         self.storage
@@ -105,8 +74,8 @@ impl Generator<'_> {
 
     /// Gives a temporary of a loop over rungs a number, if its value is one; false if not.
     pub fn assigns_level(&mut self, temp: TempId, value: ExprId) -> bool {
-        let once = Some(Declared::There { again: false });
-        let is = self.in_rounds && self.temps.declared(temp) == once && self.is_level(value);
+        let is_constant = self.plan.temp(temp).home() == Home::Constant;
+        let is = self.in_rounds && is_constant && self.is_level(value);
         if is {
             self.levels.insert(temp);
         }
@@ -114,7 +83,7 @@ impl Generator<'_> {
     }
 }
 
-fn constant_name(class: DeviceClass, number: u32) -> Ident {
+fn invariant_name(class: DeviceClass, number: u32) -> Ident {
     format_ident!("{}", class.number(number).to_string().to_lowercase())
 }
 

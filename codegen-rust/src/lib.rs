@@ -9,7 +9,7 @@
 //!
 //! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`.
 
-mod analysis;
+mod call;
 mod coils;
 mod events;
 mod expr;
@@ -22,7 +22,9 @@ mod machine;
 mod places;
 mod stmt;
 mod storage;
+mod temps;
 mod watchdog;
+mod write;
 
 pub use places::Places;
 use rungc_ir::Module;

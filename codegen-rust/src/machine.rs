@@ -1,10 +1,10 @@
 //! The struct that holds the devices, and what it implements: access by number, and the scan.
 
-use crate::events::Hidden;
+use crate::events::{Hidden, hal_parameter};
 use crate::expr::literal32;
 use crate::format;
 use crate::format::documented;
-use crate::generate::{Generator, Item, function_name};
+use crate::generate::{Generator, Item};
 use crate::storage;
 use crate::storage::{PrintField, PrintStorage, type_name};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -177,6 +177,7 @@ impl Generator<'_> {
         fields.extend(self.flag_fields());
         fields.extend(self.cell_fields());
         fields.extend(self.axis_fields());
+        fields.extend(self.temp_fields());
         if self.module.may_fail() {
             let error = self.rt("LastError");
             fields.push((
@@ -384,21 +385,17 @@ impl Generator<'_> {
         let name = self.type_name.clone();
         let (program, hal) = (self.rt("Program"), self.rt("Hal"));
         let call = |this: &Self, kind: FunctionKind| {
-            let functions = &this.module.functions;
-            let n = functions.iter().position(|f| f.kind == kind)?;
-            let function = functions.get(n).filter(|f| !f.body.is_empty())?;
-            let name = format_ident!("{}", function_name(function));
-            let hal = this.calls.needs_hal.get(n)?.then(|| quote!(, hal));
+            let mut functions = this.module.functions.iter();
+            let function = this.plan.whole(functions.position(|f| f.kind == kind)?)?;
+            let name = this.planned_name(function);
+            let hal = function.needs_hardware.then(|| quote!(, hal));
             Some(quote!(program::#name(self #hal);))
         };
         let begin = call(self, FunctionKind::Begin);
         let main = call(self, FunctionKind::Main);
         let end = call(self, FunctionKind::End);
-        let hal_name = if self.calls.needs_hal.iter().take(3).any(|&needs| needs) {
-            format_ident!("hal")
-        } else {
-            format_ident!("_hal")
-        };
+        let asks = |root: usize| self.plan.whole(root).is_some_and(|f| f.needs_hardware);
+        let hal_name = hal_parameter((0..3).any(asks));
         let in_run =
             (main.is_some() || end.is_some()).then(|| quote!(if self.sys.running { #main #end }));
         let plc = quote!(self);

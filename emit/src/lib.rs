@@ -9,6 +9,7 @@
 
 pub mod comments;
 pub mod edges;
+pub mod events;
 pub mod logic;
 pub mod measure;
 pub mod parts;

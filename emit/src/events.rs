@@ -1,0 +1,68 @@
+//! What happens outside the scan, and what of the program takes notice of it.
+
+use rungc_ir::Module;
+use rungc_ir::node::{Cell, FunctionKind, Stmt};
+use rungc_ir::walk::statements;
+use rungc_rt::EdgeKind;
+use std::collections::BTreeSet;
+
+/// The edges that mean something: function of the module, terminal X, which.
+pub fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
+    let functions = module.functions.iter().enumerate();
+    let functions = functions.filter(|(_, function)| !function.body.is_empty());
+    functions.filter_map(|(at, function)| match function.kind {
+        FunctionKind::InputEdge { input, kind } => Some((at, input, kind)),
+        _ => None,
+    })
+}
+
+/// The input terminals whose edges mean something, each once.
+pub fn inputs(module: &Module) -> BTreeSet<u32> {
+    edges(module).map(|(_, input, _)| input).collect()
+}
+
+/// The cells that follow the time.
+pub fn clocks(module: &Module) -> impl Iterator<Item = &Cell> {
+    module.cells.iter().filter(|cell| cell.follows_time)
+}
+
+/// Whether the time between scans means something.
+pub fn follows_time(module: &Module) -> bool {
+    module.sends_pulses() || module.periods().next().is_some() || clocks(module).next().is_some()
+}
+
+/// The flags that are set outside the scan, perhaps in an interrupt handler.
+pub fn set_outside(module: &Module) -> BTreeSet<usize> {
+    let mut found: BTreeSet<usize> = BTreeSet::new();
+    for (at, _, _) in edges(module) {
+        statements(&module.functions[at].body, &mut |stmt| {
+            if let Stmt::SetFlag(flag, _) = stmt {
+                found.insert(flag.0 as usize);
+            }
+        });
+    }
+    let flags = module.flags.iter().enumerate();
+    found.extend(
+        flags
+            .filter(|(_, flag)| flag.period_ms.is_some())
+            .map(|(i, _)| i),
+    );
+    found
+}
+
+/// Whether edges do no more than set flags, so that they may come at any time.
+pub fn edges_only_note(module: &Module) -> bool {
+    let mut only = true;
+    for (at, _, _) in edges(module) {
+        statements(&module.functions[at].body, &mut |stmt| {
+            only &= matches!(stmt, Stmt::SetFlag(..) | Stmt::If { .. });
+        });
+    }
+    only
+}
+
+/// The function of the module that takes interrupts.
+pub fn interrupts(module: &Module) -> Option<usize> {
+    let mut functions = module.functions.iter();
+    functions.position(|f| f.kind == FunctionKind::TakeInterrupts)
+}
