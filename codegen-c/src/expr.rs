@@ -15,6 +15,15 @@ use std::ops::Range;
 /// Operands of a chain; most are short.
 type Operands = SmallVec<[ExprId; 8]>;
 
+/// An operand of a chain that has been written.
+struct Operand {
+    e: ExprId,
+    /// Where it is in the text.
+    text: Range<usize>,
+    /// Whether it calls functions.
+    calls: bool,
+}
+
 /// What stands around an expression: decides on parentheses and casts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Around {
@@ -90,14 +99,6 @@ fn function(op: BinOp) -> &'static str {
     }
 }
 
-/// Whether an expression calls a function.
-fn calls_function(text: &str) -> bool {
-    let text = text.as_bytes();
-    let is_name = |byte: &u8| byte.is_ascii_alphanumeric() || *byte == b'_';
-    let mut opening = (1..text.len()).filter(|&i| text[i] == b'(');
-    opening.any(|i| is_name(&text[i - 1]))
-}
-
 /// A chain of which some operands call functions, or of which one operand is left.
 fn among_calls(texts: &[&str], op: &str, around: Around) -> String {
     // Of several calls only those are made that matter, and clang would suspect a slip.
@@ -131,8 +132,9 @@ pub fn float(out: &mut String, value: f32) {
 impl Writer<'_, '_> {
     /// Writes an expression.
     pub fn expr(&mut self, out: &mut String, id: ExprId, around: Around) {
-        if let Some(name) = self.named.get(&id) {
-            out.push_str(name);
+        if let Some(named) = self.named.get(&id) {
+            self.calls += u64::from(named.calls);
+            out.push_str(&named.text);
             return;
         }
         let module = self.module;
@@ -140,7 +142,10 @@ impl Writer<'_, '_> {
             Expr::Bit(on) => out.push_str(if *on { "true" } else { "false" }),
             Expr::I16(value) => integer(out, (*value).into()),
             Expr::I32(value) => integer(out, *value),
-            Expr::F32(value) => float(out, *value),
+            Expr::F32(value) => {
+                self.calls += u64::from(!value.is_finite());
+                float(out, *value);
+            }
             Expr::Temp(temp) => self.temp(out, *temp),
             Expr::ReadBit(_)
             | Expr::ReadWordBit(..)
@@ -167,8 +172,8 @@ impl Writer<'_, '_> {
             Expr::Sys(value) => out.push_str(match value {
                 SysValue::Running => "plc->sys.running",
                 SysValue::FirstScan => "plc->sys.first_scan",
-                SysValue::NowMs => "plc_int32(plc->sys.now_ms)",
-                SysValue::Scan100us => "plc_int32(plc->sys.scan_us / 100u)",
+                SysValue::NowMs => self.called("plc_int32(plc->sys.now_ms)"),
+                SysValue::Scan100us => self.called("plc_int32(plc->sys.scan_us / 100u)"),
             }),
             Expr::Not(a) => self.not(out, *a, around),
             Expr::And(..) => self.chain(out, id, "&", around),
@@ -180,7 +185,7 @@ impl Writer<'_, '_> {
                 self.call(out, &format!("plc_{function}"), *a);
             }
             Expr::Float(op, a, b) => {
-                let _ = write!(out, "plc_{}(", op.name());
+                let _ = write!(self.call_in(out), "plc_{}(", op.name());
                 self.expr(out, *a, Around::Exact);
                 out.push_str(", ");
                 self.expr(out, *b, Around::Exact);
@@ -198,7 +203,7 @@ impl Writer<'_, '_> {
                 } else {
                     "plc_sub32(0, "
                 };
-                out.push_str(function);
+                self.call_in(out).push_str(function);
                 self.expr(out, *a, Around::Exact);
                 out.push(')');
             }
@@ -219,8 +224,20 @@ impl Writer<'_, '_> {
         }
     }
 
+    /// Where a call of a function is written: it is counted.
+    fn call_in<'o>(&mut self, out: &'o mut String) -> &'o mut String {
+        self.calls += 1;
+        out
+    }
+
+    /// The text of a call.
+    fn called(&mut self, text: &'static str) -> &'static str {
+        self.calls += 1;
+        text
+    }
+
     fn call(&mut self, out: &mut String, function: &str, argument: ExprId) {
-        out.push_str(function);
+        self.call_in(out).push_str(function);
         out.push('(');
         self.expr(out, argument, Around::Exact);
         out.push(')');
@@ -340,35 +357,31 @@ impl Writer<'_, '_> {
         if enclose {
             out.push('(');
         }
-        let mut texts: SmallVec<[Range<usize>; 8]> = SmallVec::new();
-        let mut calls = 0;
-        for operand in operands {
-            let before = out.len();
-            if !texts.is_empty() {
+        let mut written: SmallVec<[Operand; 8]> = SmallVec::new();
+        for e in operands {
+            // The same question need not be asked twice.
+            let same = |other: &Operand| other.calls && logic::same(self.module, other.e, e);
+            if written.iter().any(same) {
+                continue;
+            }
+            if !written.is_empty() {
                 out.push_str(if op == "&" { " & " } else { " | " });
             }
-            let from = out.len();
-            self.expr(out, operand, Around::Operand(op));
+            let (from, calls) = (out.len(), self.calls);
+            self.expr(out, e, Around::Operand(op));
+            let calls = self.calls > calls;
             let text = from..out.len();
-            if calls_function(&out[text.clone()]) {
-                // The same question need not be asked twice.
-                if texts
-                    .iter()
-                    .any(|other| out[other.clone()] == out[text.clone()])
-                {
-                    out.truncate(before);
-                    continue;
-                }
-                calls += 1;
-            }
-            texts.push(text);
+            written.push(Operand { e, text, calls });
         }
         self.numbers = outside;
         if enclose {
             out.push(')');
         }
-        if calls > 1 || texts.len() == 1 {
-            let texts: Vec<&str> = texts.into_iter().map(|text| &out[text]).collect();
+        if written.iter().filter(|operand| operand.calls).count() > 1 || written.len() == 1 {
+            let texts: Vec<&str> = written
+                .into_iter()
+                .map(|operand| &out[operand.text])
+                .collect();
             let text = among_calls(&texts, op, around);
             out.truncate(start);
             out.push_str(&text);
@@ -424,7 +437,7 @@ impl Writer<'_, '_> {
     }
 
     fn arithmetic_call(&mut self, out: &mut String, op: BinOp, width: &str, a: ExprId, b: ExprId) {
-        out.push_str(function(op));
+        self.call_in(out).push_str(function(op));
         out.push_str(width);
         self.expr(out, a, Around::Exact);
         out.push_str(", ");
@@ -545,7 +558,7 @@ impl Writer<'_, '_> {
             let _ = write!(out, "{base} + ");
             self.expr(out, index, Around::Operand("+"));
         } else {
-            let _ = write!(out, "plc_add32({base}, ");
+            let _ = write!(self.call_in(out), "plc_add32({base}, ");
             self.expr(out, index, Around::Exact);
             out.push(')');
         }
@@ -561,7 +574,12 @@ impl Writer<'_, '_> {
             return;
         }
         self.helpers.has(place.class);
-        let _ = write!(out, "{}_has_{}(", self.module.name, place.class.prefix());
+        let _ = write!(
+            self.call_in(out),
+            "{}_has_{}(",
+            self.module.name,
+            place.class.prefix()
+        );
         self.number(out, place, 0);
         let _ = write!(out, ", {count})");
     }
@@ -571,14 +589,14 @@ impl Writer<'_, '_> {
         match *self.module.expr(id) {
             Expr::ReadBit(place) => self.read_bit(out, &place),
             Expr::ReadWordBit(place, bit) => {
-                out.push_str("plc_bit(");
+                self.call_in(out).push_str("plc_bit(");
                 self.word(out, &place, 0);
                 let _ = write!(out, ", {bit}u)");
             }
             Expr::ReadWord(place) => self.word(out, &place, 0),
             Expr::ReadPair(place) => self.pair(out, &place),
             Expr::ReadFloat(place) => {
-                out.push_str("plc_float(");
+                self.call_in(out).push_str("plc_float(");
                 self.pair(out, &place);
                 out.push(')');
             }
@@ -589,7 +607,7 @@ impl Writer<'_, '_> {
             } => {
                 let narrow = !wide && digits <= 4;
                 if narrow && (digits == 4 || around == Around::Exact) {
-                    out.push_str("plc_low(");
+                    self.call_in(out).push_str("plc_low(");
                     self.nibbles(out, &place, digits);
                     out.push(')');
                 } else {
@@ -663,7 +681,7 @@ impl Writer<'_, '_> {
             return self.word(out, place, 0);
         }
         let (high, plus) = self.high_word(place);
-        out.push_str("plc_join(");
+        self.call_in(out).push_str("plc_join(");
         self.word(out, &high, plus);
         out.push_str(", ");
         self.word(out, place, 0);
@@ -675,7 +693,7 @@ impl Writer<'_, '_> {
         if place.index.is_some() {
             self.helpers.bits(place.class);
             let _ = write!(
-                out,
+                self.call_in(out),
                 "{}_bits_{}(plc, ",
                 self.module.name,
                 place.class.prefix()
@@ -687,12 +705,12 @@ impl Writer<'_, '_> {
             .array(place.class, place.number, count)
             .is_some()
         {
-            out.push_str("plc_bits(&");
+            self.call_in(out).push_str("plc_bits(&");
             self.fields.access(out, place.class, place.number);
             let _ = write!(out, ", {count}u)");
         } else {
             // Relays that are no array: their states side by side.
-            out.push_str("plc_bits((const bool[]){");
+            self.call_in(out).push_str("plc_bits((const bool[]){");
             for bit in 0..count {
                 out.push_str(if bit > 0 { ", " } else { "" });
                 self.read_bit(
@@ -711,7 +729,7 @@ impl Writer<'_, '_> {
     fn indexed_call(&mut self, out: &mut String, what: &'static str, place: &Place, plus: i32) {
         self.helpers.get(what, place.class);
         let _ = write!(
-            out,
+            self.call_in(out),
             "{}_{what}_{}(plc, ",
             self.module.name,
             place.class.prefix()

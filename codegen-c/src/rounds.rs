@@ -1,7 +1,7 @@
 //! Loops over rungs that the program repeats.
 
 use crate::fields::PrintStorage;
-use crate::text;
+use crate::page::Page;
 use crate::writer::Writer;
 use rungc_emit::plan::Stations;
 use rungc_emit::stations::{self, Device};
@@ -10,40 +10,36 @@ use std::fmt::Write;
 
 impl<'m> Writer<'_, 'm> {
     /// Writes a loop.
-    pub fn rounds(&mut self, out: &mut String, stations: &Stations<'m>, indent: usize) {
+    pub fn rounds(&mut self, page: &mut Page, stations: &Stations<'m>) {
         let (variable, count) = (self.loop_variable(), stations.count);
-        if !out.ends_with("{\n") {
-            out.push('\n');
-        }
-        let comment = format!("/* {} */", stations::heading(stations));
-        text::line(out, indent, &comment, None);
+        page.set_off();
+        page.comment(&stations::heading(stations));
         let invariants = stations::invariants(self.module, self.fields, stations);
         // Names are declared once in a block.
         let enclosed = !invariants.is_disjoint(&self.invariants_named);
         self.invariants_named.extend(&invariants);
         if enclosed {
-            text::line(out, indent, "{", None);
+            page.open("{");
         }
-        let indent = if enclosed { indent + 4 } else { indent };
         for &device in &invariants {
             let mut line = String::from("const bool ");
             invariant_name(&mut line, device);
             line.push_str(" = ");
             self.fields.access(&mut line, device.0, device.1);
             line.push(';');
-            text::line(out, indent, &line, None);
+            page.line(&line);
         }
         let head = format!("for (unsigned {variable} = 0; {variable} < {count}; {variable}++) {{");
-        text::line(out, indent, &head, None);
+        page.open(&head);
         (self.round, self.rounds) = (variable, count);
         self.invariants = invariants;
         self.loops += 1;
-        self.nodes(out, &stations.body, indent + 4);
+        self.nodes(page, &stations.body);
         self.loops -= 1;
         self.invariants.clear();
-        text::line(out, indent, "}", None);
+        page.close();
         if enclosed {
-            text::line(out, indent - 4, "}", None);
+            page.close();
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::expr::Around;
 use crate::helpers::Helpers;
+use crate::page::Page;
 use crate::text;
 use rungc_emit::comments;
 use rungc_emit::edges::{Asker, asker};
@@ -26,7 +27,15 @@ const LIMITS: Limits = Limits {
 };
 
 /// The memory of an edge, and how far behind it that of a loop's present round is.
-type Memory = (EdgeId, Option<ExprId>);
+pub(crate) type Memory = (EdgeId, Option<ExprId>);
+
+/// What stands for an expression in the statement being written.
+pub(crate) struct Named {
+    /// Its text.
+    pub text: String,
+    /// Whether that calls a function.
+    pub calls: bool,
+}
 
 /// Writes the functions of one module.
 pub struct Writer<'a, 'm> {
@@ -40,7 +49,9 @@ pub struct Writer<'a, 'm> {
     /// Whether the program clears the general devices, or the latched ones.
     pub clears: [bool; 2],
     /// Names of parts of the current statement's expressions.
-    pub(crate) named: FxHashMap<ExprId, String>,
+    pub(crate) named: FxHashMap<ExprId, Named>,
+    /// How many calls of functions have been written: tells whether an operand makes any.
+    pub(crate) calls: u64,
     /// What timers have to remember.
     pub(crate) coils: Coils,
     /// The current function.
@@ -72,6 +83,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             faults: false,
             clears: [false; 2],
             named: FxHashMap::default(),
+            calls: 0,
             coils: Coils::of(module, plan, fields),
             function: 0,
             loops: 0,
@@ -111,35 +123,29 @@ impl<'a, 'm> Writer<'a, 'm> {
         self.names = 0;
         self.invariants_named.clear();
         let _ = write!(out, "{storage}{}\n{{\n", self.signature(function));
+        let mut page = Page::new(std::mem::take(out));
         if function.is_idle() {
-            out.push_str("    (void)plc;\n");
+            page.line("(void)plc;");
         }
         if function.calls_runtime {
-            let _ = writeln!(out, "    rungc_map map = {}_map(plc);", self.module.name);
+            page.line(&format!("rungc_map map = {}_map(plc);", self.module.name));
         }
-        for (temp, known) in plan
-            .temps
-            .iter()
-            .enumerate()
-            .filter(|(_, t)| t.home() == Home::Variable(index) && t.used > 0)
-        {
-            let mut code = String::from(c_type(self.module.temps[temp]));
-            code.push(' ');
-            let _ = write!(code, "{known}");
-            code.push_str(zero(self.module.temps[temp]));
-            text::line(out, 4, &code, None);
-        }
-        self.nodes(out, &function.body, 4);
-        let ends = function.ends_by_jump();
-        match function.flow {
-            Flow::Part { next: Some(next) } if !ends => {
-                let code = format!("return {};", self.state_name(function.root, next));
-                text::line(out, 4, &code, None);
+        let temps = plan.temps.iter().zip(&self.module.temps);
+        for (temp, &ty) in temps {
+            if temp.home() == Home::Variable(index) && temp.used > 0 {
+                page.line(&format!("{} {temp}{}", c_type(ty), zero(ty)));
             }
-            Flow::Void => {}
-            _ if ends => {}
-            _ => out.push_str("    return PLC_GO_ON;\n"),
         }
+        self.nodes(&mut page, &function.body);
+        match function.flow {
+            Flow::Void => {}
+            _ if function.ends_by_jump() => {}
+            Flow::Part { next: Some(next) } => {
+                page.line(&format!("return {};", self.state_name(function.root, next)));
+            }
+            Flow::Part { next: None } | Flow::Stretch => page.line("return PLC_GO_ON;"),
+        }
+        *out = page.finish();
         out.push_str("}\n\n");
     }
 
@@ -151,7 +157,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         name.to_ascii_uppercase()
     }
 
-    pub(crate) fn nodes(&mut self, out: &mut String, nodes: &[Node<'m>], indent: usize) {
+    pub(crate) fn nodes(&mut self, page: &mut Page, nodes: &[Node<'m>]) {
         let mut i = 0;
         while let Some(node) = nodes.get(i) {
             i += 1;
@@ -172,20 +178,24 @@ impl<'a, 'm> Writer<'a, 'm> {
                 && let Some(Asker::Whole(asker)) =
                     asker(self.module, self.plan, self.fields, node, next)
             {
-                self.name_parts(out, &[*input], indent);
-                let mut call = String::new();
-                self.edge_call(&mut call, ((*edge, *index), *kind, *input));
+                self.name_parts(page, &[*input]);
+                let mut text = String::new();
+                self.edge_call(&mut text, ((*edge, *index), *kind, *input));
                 self.named.clear();
-                self.named.insert(asker, call);
-                self.node_with_names(out, next, indent);
+                self.named.insert(asker, Named { text, calls: true });
+                self.node_with_names(page, next);
                 i += 1;
                 continue;
             }
-            self.node(out, node, indent);
+            self.node(page, node);
         }
     }
 
-    fn edge_call(&mut self, out: &mut String, (memory, kind, input): (Memory, EdgeKind, ExprId)) {
+    pub(crate) fn edge_call(
+        &mut self,
+        out: &mut String,
+        (memory, kind, input): (Memory, EdgeKind, ExprId),
+    ) {
         if kind == EdgeKind::Falling && *self.module.expr(input) == Expr::Bit(false) {
             out.push_str("plc_take(&");
             self.edge_memory(out, memory);
@@ -204,7 +214,7 @@ impl<'a, 'm> Writer<'a, 'm> {
     }
 
     /// Writes where the memory of an edge is: `plc->edge[3]`, `plc->edge[3 + 2 * i]`.
-    fn edge_memory(&self, out: &mut String, (edge, index): Memory) {
+    pub(crate) fn edge_memory(&self, out: &mut String, (edge, index): Memory) {
         let first = edge.0;
         let _ = match (index.map(|index| self.module.expr(index)), first) {
             (Some(Expr::Stride(_, 1)), 0) => write!(out, "plc->edge[{}]", self.round),
@@ -217,13 +227,13 @@ impl<'a, 'm> Writer<'a, 'm> {
         };
     }
 
-    fn node(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
-        self.name_parts(out, &node.roots(), indent);
-        self.node_with_names(out, node, indent);
+    fn node(&mut self, page: &mut Page, node: &Node<'m>) {
+        self.name_parts(page, &node.roots());
+        self.node_with_names(page, node);
     }
 
     /// Gives names to inner parts of expressions that nest deep, or that share parts so much that writing them out would explode.
-    fn name_parts(&mut self, out: &mut String, roots: &[ExprId], indent: usize) {
+    fn name_parts(&mut self, page: &mut Page, roots: &[ExprId]) {
         self.named.clear();
         for e in parts::named(self.module, &self.plan.sizes, roots, LIMITS) {
             self.names += 1;
@@ -231,72 +241,66 @@ impl<'a, 'm> Writer<'a, 'm> {
             let mut code = format!("const {} {name} = ", c_type(self.module.ty(e)));
             self.expr(&mut code, e, Around::Exact);
             code.push(';');
-            text::line(out, indent, &code, None);
-            self.named.insert(e, name);
+            page.line(&code);
+            self.named.insert(
+                e,
+                Named {
+                    text: name,
+                    calls: false,
+                },
+            );
         }
     }
 
-    fn node_with_names(&mut self, out: &mut String, node: &Node<'m>, indent: usize) {
+    fn node_with_names(&mut self, page: &mut Page, node: &Node<'m>) {
         match node {
-            Node::Stmt(Stmt::Network(network)) => self.network(out, *network, indent),
-            Node::Stmt(stmt) => self.stmt(out, stmt, indent),
+            Node::Stmt(Stmt::Network(network)) => self.network(page, *network),
+            Node::Stmt(stmt) => self.stmt(page, stmt),
             Node::If {
                 cond,
                 then,
                 otherwise,
-            } => self.branch(out, *cond, (then, otherwise), indent),
-            Node::For { count, body } => self.repeat(out, *count, body, indent),
-            Node::Repeat(stations) => self.rounds(out, stations, indent),
-            Node::Parts { parts, leaves } => self.parts(out, parts, *leaves, indent),
-            Node::Stretch(function) => self.stretch(out, *function, indent),
+            } => self.branch(page, *cond, then, otherwise),
+            Node::For { count, body } => self.repeat(page, *count, body),
+            Node::Repeat(stations) => self.rounds(page, stations),
+            Node::Parts { parts, leaves } => self.parts(page, parts, *leaves),
+            Node::Stretch(function) => self.stretch(page, *function),
         }
     }
 
-    fn branch(
-        &mut self,
-        out: &mut String,
-        cond: ExprId,
-        bodies: (&[Node<'m>], &[Node<'m>]),
-        indent: usize,
-    ) {
-        let (then, otherwise) = bodies;
+    fn branch(&mut self, page: &mut Page, cond: ExprId, then: &[Node<'m>], otherwise: &[Node<'m>]) {
         let mut code = String::from("if (");
-        let inverted = then.is_empty() && !otherwise.is_empty();
-        if inverted {
+        if then.is_empty() {
             code.push('!');
             self.expr(&mut code, cond, Around::Unary);
         } else {
             self.expr(&mut code, cond, Around::Loose);
         }
         code.push_str(") {");
-        text::line(out, indent, &code, None);
-        self.nodes(out, if inverted { otherwise } else { then }, indent + 4);
-        if !inverted && !otherwise.is_empty() {
-            text::line(out, indent, "} else {", None);
-            self.nodes(out, otherwise, indent + 4);
+        page.open(&code);
+        self.nodes(page, then);
+        if !then.is_empty() && !otherwise.is_empty() {
+            page.reopen("} else {");
         }
-        text::line(out, indent, "}", None);
+        self.nodes(page, otherwise);
+        page.close();
     }
 
-    fn repeat(&mut self, out: &mut String, count: ExprId, body: &[Node<'m>], indent: usize) {
-        let variable = self.loop_variable();
+    fn repeat(&mut self, page: &mut Page, count: ExprId, body: &[Node<'m>]) {
+        let i = self.loop_variable();
         let mut code = String::new();
         if let Expr::I16(times) = *self.module.expr(count) {
-            let _ = write!(
-                code,
-                "for (int {variable} = 0; {variable} < {}; {variable}++) {{",
-                times.max(1)
-            );
+            let _ = write!(code, "for (int {i} = 0; {i} < {}; {i}++) {{", times.max(1));
         } else {
-            let _ = write!(code, "for (int16_t {variable} = plc_times(");
+            let _ = write!(code, "for (int16_t {i} = plc_times(");
             self.expr(&mut code, count, Around::Exact);
-            let _ = write!(code, "); {variable} > 0; {variable}--) {{");
+            let _ = write!(code, "); {i} > 0; {i}--) {{");
         }
-        text::line(out, indent, &code, None);
+        page.open(&code);
         self.loops += 1;
-        self.nodes(out, body, indent + 4);
+        self.nodes(page, body);
         self.loops -= 1;
-        text::line(out, indent, "}", None);
+        page.close();
     }
 
     pub(crate) fn loop_variable(&self) -> String {
@@ -306,73 +310,80 @@ impl<'a, 'm> Writer<'a, 'm> {
         }
     }
 
-    fn is_void(&self) -> bool {
+    pub(crate) fn is_void(&self) -> bool {
         self.plan.functions[self.function].flow == Flow::Void
     }
 
-    fn parts(&mut self, out: &mut String, parts: &[(u32, usize)], leaves: bool, indent: usize) {
-        let root = self.plan.functions[self.function].root;
+    /// Which of the module's functions the one being written belongs to.
+    pub(crate) fn root(&self) -> usize {
+        self.plan.functions[self.function].root
+    }
+
+    /// A call of a function of the plan.
+    fn planned_call(&self, function: usize) -> String {
+        let mut code = String::new();
+        self.function_name(&mut code, &self.plan.functions[function]);
+        code.push_str("(plc)");
+        code
+    }
+
+    fn parts(&mut self, page: &mut Page, parts: &[(u32, usize)], leaves: bool) {
+        let root = self.root();
         let Some(&(first, _)) = parts.first() else {
             return;
         };
         let first = self.state_name(root, first);
         if let (&[(_, function)], false) = (parts, leaves) {
-            let mut name = String::new();
-            self.function_name(&mut name, &self.plan.functions[function]);
-            let pad = " ".repeat(indent);
-            let _ = writeln!(
-                out,
-                "{pad}/* {} */\n{pad}while ({name}(plc) == {first}) {{\n{pad}}}",
-                comments::ONE_PART
-            );
+            let call = self.planned_call(function);
+            page.comment(comments::ONE_PART);
+            page.open(&format!("while ({call} == {first}) {{"));
+            page.close();
             return;
         }
-        let pad = " ".repeat(indent);
-        let _ = writeln!(out, "{pad}/* {} */", comments::PARTS);
-        let _ = writeln!(
-            out,
-            "{pad}for (int next = {first}; next != PLC_GO_ON;) {{\n{pad}    switch (next) {{"
-        );
+        page.comment(comments::PARTS);
+        page.open(&format!("for (int next = {first}; next != PLC_GO_ON;) {{"));
+        page.open("switch (next) {");
+        page.back();
         for &(state, function) in parts {
-            let mut name = String::new();
-            self.function_name(&mut name, &self.plan.functions[function]);
-            let state = self.state_name(root, state);
-            let _ = writeln!(
-                out,
-                "{pad}    case {state}:\n{pad}        next = {name}(plc);\n{pad}        break;"
-            );
+            let (state, call) = (self.state_name(root, state), self.planned_call(function));
+            page.line(&format!("case {state}:"));
+            page.inner(&format!("next = {call};"));
+            page.inner("break;");
         }
-        let outside = match (leaves, self.is_void()) {
-            (true, true) => "return;",
-            (true, false) => "return next;",
-            (false, _) => "next = PLC_GO_ON;\n            break;",
-        };
-        let outside = outside
-            .replace('\n', &format!("\n{pad}"))
-            .replace("            break", "        break");
-        let _ = writeln!(
-            out,
-            "{pad}    default:\n{pad}        {outside}\n{pad}    }}\n{pad}}}"
-        );
+        page.line("default:");
+        match (leaves, self.is_void()) {
+            (true, true) => page.inner("return;"),
+            (true, false) => page.inner("return next;"),
+            (false, _) => {
+                page.inner("next = PLC_GO_ON;");
+                page.inner("break;");
+            }
+        }
+        page.line("}");
+        page.close();
     }
 
-    fn stretch(&mut self, out: &mut String, function: usize, indent: usize) {
-        let plan = self.plan;
-        let mut name = String::new();
-        self.function_name(&mut name, &plan.functions[function]);
-        let pad = " ".repeat(indent);
-        let _ = match (plan.functions[function].flow == Flow::Void, self.is_void()) {
-            (true, _) => writeln!(out, "{pad}{name}(plc);"),
-            (false, true) => writeln!(
-                out,
-                "{pad}if ({name}(plc) != PLC_GO_ON) {{\n{pad}    return;\n{pad}}}"
-            ),
-            (false, false) => writeln!(
-                out,
-                "{pad}{{\n{pad}    const int next = {name}(plc);\n{pad}    if (next != PLC_GO_ON) {{\n\
-                 {pad}        return next;\n{pad}    }}\n{pad}}}"
-            ),
-        };
+    fn stretch(&mut self, page: &mut Page, function: usize) {
+        let call = self.planned_call(function);
+        match (
+            self.plan.functions[function].flow == Flow::Void,
+            self.is_void(),
+        ) {
+            (true, _) => page.line(&format!("{call};")),
+            (false, true) => {
+                page.open(&format!("if ({call} != PLC_GO_ON) {{"));
+                page.line("return;");
+                page.close();
+            }
+            (false, false) => {
+                page.open("{");
+                page.line(&format!("const int next = {call};"));
+                page.open("if (next != PLC_GO_ON) {");
+                page.line("return next;");
+                page.close();
+                page.close();
+            }
+        }
     }
 
     /// Writes a temporary's name as it is used.
@@ -386,139 +397,11 @@ impl<'a, 'm> Writer<'a, 'm> {
         let _ = write!(out, "{plc}{known}");
     }
 
-    /// The left side of an assignment to a temporary.
-    fn assigned_temp(&self, temp: TempId) -> String {
-        let mut code = String::new();
-        if self.plan.temp(temp).home() == Home::Constant {
-            let _ = write!(
-                code,
-                "const {} ",
-                c_type(self.module.temps[temp.0 as usize])
-            );
+    fn network(&mut self, page: &mut Page, network: u32) {
+        if let Some(network) = self.module.networks.get(network as usize) {
+            page.set_off();
+            page.comment(&comments::heading(network, text::comment));
         }
-        self.temp(&mut code, temp);
-        code.push_str(" = ");
-        code
-    }
-
-    fn stmt(&mut self, out: &mut String, stmt: &Stmt, indent: usize) {
-        let mut code = String::with_capacity(text::WIDTH);
-        match stmt {
-            Stmt::Let(temp, value) => {
-                if self.plan.temp(*temp).used == 0 {
-                    return;
-                }
-                code = self.assigned_temp(*temp);
-                self.expr(&mut code, *value, Around::Exact);
-                code.push(';');
-            }
-            Stmt::Edge {
-                edge,
-                index,
-                kind,
-                input,
-                out: temp,
-            } => {
-                let memory = (*edge, *index);
-                if self.plan.temp(*temp).used == 0 {
-                    self.edge_memory(&mut code, memory);
-                    code.push_str(" = ");
-                    self.expr(&mut code, *input, Around::Exact);
-                } else {
-                    code = self.assigned_temp(*temp);
-                    self.edge_call(&mut code, (memory, *kind, *input));
-                }
-                code.push(';');
-            }
-            Stmt::SetCell(cell, value) => {
-                code = format!("plc->{} = ", self.module.cells[cell.0 as usize].name);
-                self.expr(&mut code, *value, Around::Exact);
-                code.push(';');
-            }
-            Stmt::SetEntry(table, index, value) => {
-                code = format!("plc->{}[", self.module.tables[table.0 as usize].name);
-                self.expr(&mut code, *index, Around::Exact);
-                code.push_str("] = ");
-                self.expr(&mut code, *value, Around::Exact);
-                code.push(';');
-            }
-            Stmt::SetFlag(flag, on) => {
-                let flag = &self.module.flags[flag.0 as usize].name;
-                code = format!("plc->{flag} = ");
-                self.expr(&mut code, *on, Around::Exact);
-                code.push(';');
-            }
-            Stmt::CallSub(function) => {
-                function_name(&mut code, self.module, *function as usize);
-                code.push_str("(plc);");
-            }
-            Stmt::Return => code.push_str(if self.is_void() {
-                "return;"
-            } else {
-                "return PLC_LEAVE;"
-            }),
-            Stmt::Watch { steps, at } => {
-                let leave = if self.is_void() {
-                    "return;"
-                } else {
-                    "return PLC_LEAVE;"
-                };
-                let condition = format!(
-                    "if ({}_out_of_time(plc, {steps}u, {}u)) {{",
-                    self.module.name, *at as u16
-                );
-                text::line(out, indent, &condition, None);
-                text::line(out, indent + 4, leave, None);
-                code.push('}');
-            }
-            Stmt::Goto(label) => {
-                let root = self.plan.functions[self.function].root;
-                if let Some(state) = self.plan.state(root, *label) {
-                    code = format!("return {};", self.state_name(root, state));
-                }
-            }
-            Stmt::Fetch { there, .. } => {
-                if self.plan.temp(*there).used > 0 {
-                    code = self.assigned_temp(*there);
-                }
-                self.transfer(&mut code, stmt);
-            }
-            Stmt::Send { .. } => self.transfer(&mut code, stmt),
-            Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
-            Stmt::Fault { code: fault, step } => {
-                self.faults = true;
-                code = format!(
-                    "{}_fault(plc, {fault}, {});",
-                    self.module.name, *step as u16
-                );
-            }
-            Stmt::Stop => {
-                text::line(out, indent, "plc->error.stop = PLC_STOP_M8037;", None);
-                code = format!("{}_set_running(plc, false);", self.module.name);
-            }
-            Stmt::Clear { latched } => {
-                self.clears[usize::from(*latched)] = true;
-                let what = if *latched { "latched" } else { "general" };
-                code = format!("{}_clear_{what}(plc);", self.module.name);
-            }
-            _ => self.device_stmt(&mut code, stmt),
-        }
-        if !code.is_empty() {
-            let beside = comments::written(stmt)
-                .and_then(|(class, number)| self.fields.comment(class, number));
-            text::line(out, indent, &code, beside);
-        }
-    }
-
-    fn network(&mut self, out: &mut String, network: u32, indent: usize) {
-        let Some(network) = self.module.networks.get(network as usize) else {
-            return;
-        };
-        if !out.ends_with("{\n") {
-            out.push('\n');
-        }
-        let text = comments::heading(network, text::comment);
-        text::block(out, indent, &text);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Ty};
+use rungc_ir::walk::{operands, operands_mut};
 use rungc_rt::CmpOp;
 
 /// A comparison with a constant on the right, wherever the program has it.
@@ -36,4 +37,19 @@ pub fn is_number(module: &Module, e: ExprId, known: &dyn Fn(ExprId) -> Option<bo
         }
         _ => false,
     })
+}
+
+/// Whether two expressions are alike, so that they have the same value where they stand side by side.
+pub fn same(module: &Module, a: ExprId, b: ExprId) -> bool {
+    let shell = |e: ExprId| {
+        let mut expr = *module.expr(e);
+        operands_mut(&mut expr).for_each(|operand| *operand = ExprId(0));
+        expr
+    };
+    let operands = |e: ExprId| operands(module.expr(e));
+    a == b
+        || shell(a) == shell(b)
+            && operands(a)
+                .zip(operands(b))
+                .all(|(a, b)| same(module, a, b))
 }

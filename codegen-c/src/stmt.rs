@@ -1,0 +1,136 @@
+//! Simple statements as C.
+
+use crate::expr::Around;
+use crate::page::Page;
+use crate::text;
+use crate::writer::{Writer, c_type, function_name};
+use rungc_emit::comments;
+use rungc_emit::temps::Home;
+use rungc_ir::node::{Stmt, TempId};
+use std::fmt::Write;
+
+impl Writer<'_, '_> {
+    /// The left side of an assignment to a temporary.
+    fn assigned_temp(&self, temp: TempId) -> String {
+        let mut code = String::new();
+        if self.plan.temp(temp).home() == Home::Constant {
+            let _ = write!(
+                code,
+                "const {} ",
+                c_type(self.module.temps[temp.0 as usize])
+            );
+        }
+        self.temp(&mut code, temp);
+        code.push_str(" = ");
+        code
+    }
+
+    pub(crate) fn stmt(&mut self, page: &mut Page, stmt: &Stmt) {
+        let mut code = String::with_capacity(text::WIDTH);
+        match stmt {
+            Stmt::Let(temp, value) => {
+                if self.plan.temp(*temp).used == 0 {
+                    return;
+                }
+                code = self.assigned_temp(*temp);
+                self.expr(&mut code, *value, Around::Exact);
+                code.push(';');
+            }
+            Stmt::Edge {
+                edge,
+                index,
+                kind,
+                input,
+                out: temp,
+            } => {
+                let memory = (*edge, *index);
+                if self.plan.temp(*temp).used == 0 {
+                    self.edge_memory(&mut code, memory);
+                    code.push_str(" = ");
+                    self.expr(&mut code, *input, Around::Exact);
+                } else {
+                    code = self.assigned_temp(*temp);
+                    self.edge_call(&mut code, (memory, *kind, *input));
+                }
+                code.push(';');
+            }
+            Stmt::SetCell(cell, value) => {
+                code = format!("plc->{} = ", self.module.cells[cell.0 as usize].name);
+                self.expr(&mut code, *value, Around::Exact);
+                code.push(';');
+            }
+            Stmt::SetEntry(table, index, value) => {
+                code = format!("plc->{}[", self.module.tables[table.0 as usize].name);
+                self.expr(&mut code, *index, Around::Exact);
+                code.push_str("] = ");
+                self.expr(&mut code, *value, Around::Exact);
+                code.push(';');
+            }
+            Stmt::SetFlag(flag, on) => {
+                let flag = &self.module.flags[flag.0 as usize].name;
+                code = format!("plc->{flag} = ");
+                self.expr(&mut code, *on, Around::Exact);
+                code.push(';');
+            }
+            Stmt::CallSub(function) => {
+                function_name(&mut code, self.module, *function as usize);
+                code.push_str("(plc);");
+            }
+            Stmt::Return => code.push_str(if self.is_void() {
+                "return;"
+            } else {
+                "return PLC_LEAVE;"
+            }),
+            Stmt::Watch { steps, at } => {
+                let leave = if self.is_void() {
+                    "return;"
+                } else {
+                    "return PLC_LEAVE;"
+                };
+                let condition = format!(
+                    "if ({}_out_of_time(plc, {steps}u, {}u)) {{",
+                    self.module.name, *at as u16
+                );
+                page.open(&condition);
+                page.line(leave);
+                page.close();
+            }
+            Stmt::Goto(label) => {
+                let root = self.root();
+                if let Some(state) = self.plan.state(root, *label) {
+                    code = format!("return {};", self.state_name(root, state));
+                }
+            }
+            Stmt::Fetch { there, .. } => {
+                if self.plan.temp(*there).used > 0 {
+                    code = self.assigned_temp(*there);
+                }
+                self.transfer(&mut code, stmt);
+            }
+            Stmt::Send { .. } => self.transfer(&mut code, stmt),
+            Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
+            Stmt::Fault { code: fault, step } => {
+                self.faults = true;
+                code = format!(
+                    "{}_fault(plc, {fault}, {});",
+                    self.module.name, *step as u16
+                );
+            }
+            Stmt::Stop => {
+                page.line("plc->error.stop = PLC_STOP_M8037;");
+                code = format!("{}_set_running(plc, false);", self.module.name);
+            }
+            Stmt::Clear { latched } => {
+                self.clears[usize::from(*latched)] = true;
+                let what = if *latched { "latched" } else { "general" };
+                code = format!("{}_clear_{what}(plc);", self.module.name);
+            }
+            _ => self.device_stmt(&mut code, stmt),
+        }
+        if !code.is_empty() {
+            let beside = comments::written(stmt)
+                .and_then(|(class, number)| self.fields.comment(class, number));
+            page.commented(&code, beside);
+        }
+    }
+}
