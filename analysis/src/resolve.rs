@@ -15,7 +15,7 @@ pub use operands::constant_value;
 
 use mnemonic::{Fit, Match};
 use rungc_catalogue::{Form, Found, Inst, Param};
-use rungc_models::{Model, ModelSet};
+use rungc_models::{ErrorNumbers, Model};
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program,
 };
@@ -148,13 +148,10 @@ fn label(instr: &Instr) -> Option<Device> {
 
 /// Takes the PLC's error numbers away where the model's manual does not have them.
 pub fn numbered(diagnostics: Diagnostics, model: &Model) -> Diagnostics {
-    /// Models whose manuals number the errors of a program.
-    const NUMBERED: ModelSet = ModelSet::INOVANCE.or(ModelSet::FX);
-    /// Models that reserve the numbers of contact logic (h1u-h2u-programming §8.7).
-    const LOGIC_RESERVED: ModelSet = ModelSet::INOVANCE;
-    let known = |code: u16| {
-        let logic = matches!(code, 6601..=6604 | 6609..=6617);
-        NUMBERED.has(model.id) && !(logic && LOGIC_RESERVED.has(model.id))
+    let known = |code: u16| match model.error_numbers {
+        ErrorNumbers::No => false,
+        ErrorNumbers::All => true,
+        ErrorNumbers::AllButLogic => !matches!(code, 6601..=6604 | 6609..=6617),
     };
     let mut kept = Diagnostics::new();
     kept.extend(diagnostics.iter().cloned().map(|diagnostic| Diagnostic {

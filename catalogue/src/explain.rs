@@ -298,7 +298,7 @@ fn devices(inst: &Inst, model: ModelId) -> String {
 
 fn special_of(name: &str, model: ModelId) -> Option<&'static special::Special> {
     let class = DeviceClass::from_prefix(name.get(..1)?)?;
-    special::find(model, class, name.get(1..)?.parse().ok()?)
+    Model::get(model).special(class, name.get(1..)?.parse().ok()?)
 }
 
 /// What the PLC's error codes that instructions raise mean (h1u-h2u-programming §8.2).
@@ -396,7 +396,7 @@ pub fn support_table() -> String {
 pub fn special_table(model: ModelId) -> String {
     let mut text =
         "| device | access | at power-on | meaning | |\n|---|---|--:|---|---|\n".to_owned();
-    let mut rows: Vec<_> = special::all(model).collect();
+    let mut rows: Vec<_> = Model::get(model).specials().collect();
     rows.sort_by_key(|row| (row.class, row.first));
     for row in rows {
         let first = row.class.number(row.first);

@@ -11,7 +11,7 @@ use super::{
     Classes, Drive, Extent, Forms, Inst, Limits, Lower, Param, Role, Rule, Shape, Spelling,
     Variant, When,
 };
-use rungc_models::{ModelId, ModelSet};
+use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
@@ -84,9 +84,7 @@ pub(super) const NOT_HM_FX1: ModelSet = NOT_HM.without(ModelSet::FX1);
 /// FX2N, FX3U and what descends from them: FX3S and FX3G lack what JY997D16601 §3 gives to FX3U alone.
 pub(super) const BIG: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S).without(ModelSet::FX3G);
 /// Those that special modules can be attached to: not HM, FX1S and FX3S.
-pub(super) const WITH_MODULES: ModelSet = NOT_HM
-    .without(ModelSet::of(&[ModelId::Fx1s]))
-    .without(ModelSet::FX3S);
+pub(super) const WITH_MODULES: ModelSet = NOT_HM.without(ModelSet::FX1S).without(ModelSet::FX3S);
 
 /// What a row says that does not say what implements it; a test finds none.
 pub(super) const UNSAID: &str = "nobody said what implements it";

@@ -109,7 +109,10 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
     if module.model.z_pairs_with_v {
         layout.push(".z_pairs_with_v = true".to_string());
     }
-    layout.push(format!(".error_relay = {}", module.model.error_relay));
+    layout.push(format!(
+        ".error_relay = {}",
+        module.model.error_relay.number()
+    ));
     layout.push(format!(".value_error = {}", module.model.value_error));
     // Writing to a String does not fail.
     let _ = write!(

@@ -9,8 +9,9 @@ use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, STEPS_PER_MS};
 use rungc_ir::walk::{calls_runtime, statements};
 use rungc_rt::special::{
-    D_ANY_ERROR, D_WATCHDOG, D_WATCHDOG_MS, M_ANY_ERROR, M_KEEP_IN_STOP, M_OPERATION_ERROR,
-    M_OUTPUTS_OFF, M_WATCHDOG, OPERATION_ERROR_BCD, WATCHDOG_BCD, WATCHDOG_CODE,
+    D_ANY_ERROR, D_ERROR_STEP, D_FIRST_ERROR_STEP, D_WATCHDOG, D_WATCHDOG_MS, M_ANY_ERROR,
+    M_FIRST_ERROR, M_KEEP_IN_STOP, M_OPERATION_ERROR, M_OUTPUTS_OFF, M_WATCHDOG,
+    OPERATION_ERROR_BCD, Register, Relay, WATCHDOG_BCD, WATCHDOG_CODE,
 };
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -162,9 +163,10 @@ impl Printer<'_> {
     }
 
     /// A special relay, if it is stored and means on the model what it means on most.
-    fn special_relay(&self, number: u32) -> Option<String> {
-        let works = self.module.model.special_relay_works(number);
-        self.stored(DeviceClass::M, number).filter(|_| works)
+    fn special_relay(&self, relay: Relay) -> Option<String> {
+        let works = self.module.model.scan_keeps(relay);
+        self.stored(DeviceClass::M, relay.number())
+            .filter(|_| works)
     }
 
     /// Reports an operation error (see the runtime's `report`), as far as the program looks at it.
@@ -173,14 +175,15 @@ impl Printer<'_> {
         let relay = self.module.model.error_relay;
         // On HM the other numbers are something else.
         let family = relay == M_OPERATION_ERROR;
+        let relay = relay.number();
         let stored = |class, n| {
             let kept = family || n == relay;
             kept.then(|| self.stored(class, n)).flatten()
         };
         let m = |n| stored(DeviceClass::M, n);
         let d = |n| stored(DeviceClass::D, n);
-        let latch = d(8068).map(|d| format!("{d} = plc_int16(step);"));
-        match (m(8068), latch) {
+        let latch = d(D_FIRST_ERROR_STEP.number()).map(|d| format!("{d} = plc_int16(step);"));
+        match (m(M_FIRST_ERROR.number()), latch) {
             (Some(m), latch) => {
                 let _ = writeln!(
                     lines,
@@ -207,9 +210,9 @@ impl Printer<'_> {
                     "plc_int16(step)"
                 },
             ),
-            (d(8069), "plc_int16(step)"),
-            (m(M_ANY_ERROR), "true"),
-            (d(D_ANY_ERROR), &shown),
+            (d(D_ERROR_STEP.number()), "plc_int16(step)"),
+            (m(M_ANY_ERROR.number()), "true"),
+            (d(D_ANY_ERROR.number()), &shown),
         ];
         for (device, value) in values {
             if let Some(device) = device {
@@ -226,7 +229,7 @@ impl Printer<'_> {
 
     /// A scan begins: the watchdog gives it its time.
     fn watchdog_begins(&self) -> String {
-        match self.stored(DeviceClass::D, D_WATCHDOG_MS) {
+        match self.stored(DeviceClass::D, D_WATCHDOG_MS.number()) {
             Some(ms) => format!(
                 "    plc->steps_left = (uint32_t)plc_times({ms}) * UINT32_C({STEPS_PER_MS});\n"
             ),
@@ -244,7 +247,7 @@ impl Printer<'_> {
             "        plc->sys.running = false;\n        plc->error.stop = PLC_STOP_WATCHDOG;\n        plc->error.stop_step = step;\n",
         );
         let relay = self.module.model.error_relay;
-        let (relays, registers): (&[u32], &[(u32, i16)]) = if relay == M_OPERATION_ERROR {
+        let (relays, registers): (&[Relay], &[(Register, i16)]) = if relay == M_OPERATION_ERROR {
             (
                 &[M_WATCHDOG, M_ANY_ERROR],
                 &[(D_WATCHDOG, WATCHDOG_CODE), (D_ANY_ERROR, WATCHDOG_BCD)],
@@ -253,12 +256,12 @@ impl Printer<'_> {
             (&[relay], &[])
         };
         for &relay in relays {
-            if let Some(relay) = self.stored(DeviceClass::M, relay) {
+            if let Some(relay) = self.stored(DeviceClass::M, relay.number()) {
                 let _ = writeln!(trip, "        {relay} = true;");
             }
         }
         for &(register, value) in registers {
-            if let Some(register) = self.stored(DeviceClass::D, register) {
+            if let Some(register) = self.stored(DeviceClass::D, register.number()) {
                 let _ = writeln!(trip, "        {register} = {value};");
             }
         }
@@ -511,6 +514,7 @@ impl Printer<'_> {
             return String::new();
         };
         let name = self.name();
+        let register = register.number();
         match self.stored(DeviceClass::D, register) {
             Some(device) => format!(
                 "    if ({device} != {key}) {{\n        {name}_clear_latched(plc);\n    }}\n"

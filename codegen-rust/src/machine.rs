@@ -11,7 +11,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::storage::{Field, Keep, Kind, Member, Run, Section};
 use rungc_ir::node::{FunctionKind, Stmt};
-use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF};
+use rungc_rt::special::{M_KEEP_IN_STOP, M_OPERATION_ERROR, M_OUTPUTS_OFF, Relay};
 use rungc_syntax::DeviceClass;
 
 /// One way of access by number.
@@ -399,10 +399,10 @@ impl Generator<'_> {
         let in_run =
             (main.is_some() || end.is_some()).then(|| quote!(if self.sys.running { #main #end }));
         let plc = quote!(self);
-        let special = |number| {
-            let works = self.module.model.special_relay_works(number);
+        let special = |relay: Relay| {
+            let works = self.module.model.scan_keeps(relay);
             self.storage
-                .bit(&plc, DeviceClass::M, number)
+                .bit(&plc, DeviceClass::M, relay.number())
                 .filter(|_| works)
         };
         let keep = special(M_KEEP_IN_STOP);
@@ -473,6 +473,7 @@ impl Generator<'_> {
     fn power_cycle(&mut self) -> TokenStream {
         let plc = quote!(self);
         let latched = self.module.model.latch_key.map(|(register, key)| {
+            let register = register.number();
             let literal = literal32(i32::from(key), false);
             match self.storage.word(&plc, DeviceClass::D, register) {
                 Some(cell) => quote!(if #cell != #literal { self.clear_latched(); }),
@@ -534,7 +535,8 @@ impl Generator<'_> {
             )
         });
         let relay = self.module.model.error_relay;
-        let errors = (relay != 8067).then(|| {
+        let errors = (relay != M_OPERATION_ERROR).then(|| {
+            let relay = relay.number();
             quote!(
                 fn error_relay(&self) -> u32 {
                     #relay

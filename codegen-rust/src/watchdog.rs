@@ -19,7 +19,7 @@ impl Generator<'_> {
     pub fn watchdog_begins(&self) -> TokenStream {
         let ms = self
             .storage
-            .word(&quote!(self), DeviceClass::D, D_WATCHDOG_MS);
+            .word(&quote!(self), DeviceClass::D, D_WATCHDOG_MS.number());
         match ms {
             Some(ms) => {
                 let steps = Literal::u32_unsuffixed(STEPS_PER_MS);

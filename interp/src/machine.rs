@@ -9,7 +9,7 @@ use crate::eval::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
-use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF};
+use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
 use rungc_rt::{
     Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
     Sys,
@@ -191,9 +191,9 @@ impl<'m> Machine<'m> {
         }
     }
 
-    fn special(&self, number: u32) -> bool {
-        self.module.model.special_relay_works(number)
-            && self.devices.bit(Class::M, number).unwrap_or(false)
+    fn special(&self, relay: Relay) -> bool {
+        self.module.model.scan_keeps(relay)
+            && self.devices.bit(Class::M, relay.number()).unwrap_or(false)
     }
 
     /// Runs a function, if there is one.
@@ -204,7 +204,7 @@ impl<'m> Machine<'m> {
     }
 
     fn restart_watchdog(&mut self) {
-        let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS);
+        let watchdog_ms = self.word(Class::D, D_WATCHDOG_MS.number());
         self.steps_left = Module::scan_steps(watchdog_ms.unwrap_or(self.module.watchdog_ms()));
     }
 
@@ -289,7 +289,7 @@ impl Program for Machine<'_> {
 
     fn power_cycle(&mut self) {
         let keeps_latched = match self.module.model.latch_key {
-            Some((register, key)) => self.word(Class::D, register) == Some(key),
+            Some((register, key)) => self.word(Class::D, register.number()) == Some(key),
             None => true,
         };
         self.devices.power_off(keeps_latched);
@@ -385,7 +385,7 @@ impl Plc for Machine<'_> {
     }
 
     fn error_relay(&self) -> u32 {
-        self.module.model.error_relay
+        self.module.model.error_relay.number()
     }
 
     fn value_error(&self) -> u16 {

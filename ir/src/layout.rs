@@ -8,6 +8,7 @@ use crate::reach::{Access, of_expr, of_stmt};
 use crate::walk::statements;
 use rungc_models::Model;
 use rungc_models::runs::is_special;
+use rungc_rt::special::{D_FIRST_ERROR_STEP, M_FIRST_ERROR};
 use rungc_syntax::DeviceClass;
 
 /// A run of stored devices.
@@ -128,9 +129,6 @@ impl Wanted {
 const STORED: u8 = 1;
 const IN_ARRAY: u8 = 2;
 
-/// Relay and register of the first operation error.
-const FIRST_ERROR: u32 = 8068;
-
 /// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the functions
 /// it calls use (`flags`). They may use devices of the `whole` classes by number.
 pub fn build(
@@ -161,9 +159,9 @@ pub fn build(
         }
     }
     // The register keeps the step of the first error as long as the relay is on.
-    let register = builder.marks[DeviceClass::D as usize].get(FIRST_ERROR as usize);
+    let register = builder.marks[DeviceClass::D as usize].get(D_FIRST_ERROR_STEP.number() as usize);
     if register.is_some_and(|mark| mark & STORED != 0) {
-        builder.mark(DeviceClass::M, FIRST_ERROR, 1, false);
+        builder.mark(DeviceClass::M, M_FIRST_ERROR.number(), 1, false);
     }
     module.layout = builder.finish();
 }

@@ -13,7 +13,8 @@
 use crate::layout::Layout;
 use crate::walk::{calls_runtime, statements};
 use rungc_models::{Model, Range};
-use rungc_rt::{CmpOp, EdgeKind, RtFn, TimerKind};
+use rungc_rt::special::D_WATCHDOG_MS;
+use rungc_rt::{CmpOp, EdgeKind, Register, Relay, RtFn, TimerKind};
 use rungc_syntax::{DeviceClass, Span};
 use std::borrow::Cow;
 
@@ -103,6 +104,26 @@ pub struct Place {
     /// [`Expr::Stride`] does. Which devices it may lead to says [`crate::reach`]; all of them are stored. An indexed
     /// access of a word of C200 and up reads the low word, and writes the sign-extended word.
     pub index: Option<ExprId>,
+}
+
+impl From<Relay> for Place {
+    fn from(relay: Relay) -> Self {
+        Place {
+            class: DeviceClass::M,
+            number: relay.number(),
+            index: None,
+        }
+    }
+}
+
+impl From<Register> for Place {
+    fn from(register: Register) -> Self {
+        Place {
+            class: DeviceClass::D,
+            number: register.number(),
+            index: None,
+        }
+    }
 }
 
 /// Two-operand integer operators. Both operands and the result have the same type, `I16` or `I32`, and wrap.
@@ -675,7 +696,7 @@ pub enum FunctionKind {
     /// Runs the interrupt routines that are requested. `Main` calls it at the begin of each network, and behind what sets or resets
     /// a relay that requests or forbids one where relays keep requests (HM); `End` at its begin, and a host may between two scans
     /// ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt routine is itself. What is
-    /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::precedence`] tells which comes
+    /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::Interrupts::precedence`] tells which comes
     /// first.
     TakeInterrupts,
     /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.
@@ -842,7 +863,7 @@ impl Module {
     /// The watchdog time D8000 at power-on, in milliseconds: that of a program that does not look at D8000.
     pub fn watchdog_ms(&self) -> i16 {
         let mut words = self.model.special_words();
-        let found = words.find(|&(number, _)| number == rungc_rt::special::D_WATCHDOG_MS);
+        let found = words.find(|&(number, _)| number == D_WATCHDOG_MS.number());
         found.map_or(WATCHDOG_MS, |(_, ms)| ms)
     }
 

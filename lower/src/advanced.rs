@@ -2,12 +2,10 @@
 
 use super::Lowerer;
 use super::interrupt::{Request, What};
-use super::operand::fixed;
 use super::parts::Item;
 use rungc_ir::node::{CellId, Expr, Stmt};
 use rungc_models::interrupts::{Advanced, Gate};
-use rungc_rt::CmpOp;
-use rungc_syntax::DeviceClass::M;
+use rungc_rt::{CmpOp, Relay};
 
 /// Places where routines go on are labels with numbers above this, which no pointer has.
 pub(super) const FIRST_PLACE: u32 = 0x1_0000;
@@ -71,7 +69,7 @@ impl Lowerer<'_> {
         if let Some(section) = sections.find(|section| section.function == function) {
             let active = section.interrupt.active;
             let off = self.bit_const(false);
-            self.write_device(M, active, off);
+            self.write_relay(active, off);
         }
         self.return_here();
     }
@@ -121,7 +119,7 @@ impl Lowerer<'_> {
             return;
         };
         let allowed = self.allowed(Gate::Forbids(interrupt.mask));
-        let relay = |this: &mut Self, relay| this.add(Expr::ReadBit(fixed(M, relay)));
+        let relay = |this: &mut Self, relay: Relay| this.add(Expr::ReadBit(relay.into()));
         let (request, active) = (interrupt.request, interrupt.active);
         let asked = relay(self, request);
         let is_active = relay(self, active);
@@ -130,9 +128,9 @@ impl Lowerer<'_> {
         let begins = self.and(begins, allowed);
         self.when(begins, |this| {
             let (off, on) = (this.bit_const(false), this.bit_const(true));
-            this.write_device(M, request, off);
-            this.write_device(M, interrupt.again, off);
-            this.write_device(M, active, on);
+            this.write_relay(request, off);
+            this.write_relay(interrupt.again, off);
+            this.write_relay(active, on);
             let begin = this.add(Expr::I32(0));
             this.emit(Stmt::SetCell(at, begin));
             this.emit(Stmt::CallSub(function));
@@ -142,7 +140,7 @@ impl Lowerer<'_> {
         let goes_on = self.and(goes_on, allowed);
         self.when(goes_on, |this| {
             let off = this.bit_const(false);
-            this.write_device(M, interrupt.again, off);
+            this.write_relay(interrupt.again, off);
             this.emit(Stmt::CallSub(function));
         });
     }

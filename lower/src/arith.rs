@@ -4,16 +4,12 @@ use super::Lowerer;
 use super::operand::{Guards, Target};
 use rungc_catalogue::{ArithOp, Lower};
 use rungc_ir::node::{BinOp, Expr, ExprId, Stmt};
-use rungc_models::special::{self, Special};
 use rungc_rt::CmpOp;
-use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
+use rungc_rt::special::{
+    D_RING_COUNTER, M_BORROW, M_CARRY, M_LARGE_QUOTIENT, M_ZERO, M_ZERO_PRODUCT, Relay,
+};
 use rungc_syntax::{DeviceClass, OperandKind};
 
-/// On if a product or a quotient is 0, if a quotient is too large (FX3G, FX3U).
-const ZERO_PRODUCT: u32 = 8304;
-const LARGE_QUOTIENT: u32 = 8306;
-/// The ring counter that is one word.
-const RING_COUNTER: u32 = 8099;
 /// Division by zero.
 const DIVISION: u16 = 6706;
 
@@ -96,7 +92,7 @@ impl Lowerer<'_> {
         let clear = matches!(clear, OperandKind::Decimal(1, _) | OperandKind::Hex(1, _));
         let mut guards = Guards::default();
         let from = OperandKind::Device(counter, None);
-        let is_word = counter.class == DeviceClass::D && counter.number == RING_COUNTER;
+        let is_word = counter.class == DeviceClass::D && counter.number == D_RING_COUNTER.number();
         let mut value = self.value(&from, !is_word, &mut guards);
         if is_word {
             value = self.add(Expr::Widen(value));
@@ -235,9 +231,7 @@ impl Lowerer<'_> {
     /// Whether something looks at the zero, borrow or carry flag.
     pub(super) fn looks_at_flags(&self) -> bool {
         let flags = [M_ZERO, M_BORROW, M_CARRY];
-        flags
-            .iter()
-            .any(|&flag| self.specials.has(DeviceClass::M, flag))
+        flags.iter().any(|&flag| self.specials.has(flag))
     }
 
     /// Whether the result is 0, too small, too large. A sum of two values of one sign (a difference of two of different signs)
@@ -266,26 +260,25 @@ impl Lowerer<'_> {
         [is_zero, borrow, carry]
     }
 
-    pub(super) fn set_flag(&mut self, flag: u32, value: ExprId) {
-        if self.specials.has(DeviceClass::M, flag) {
-            self.write_device(DeviceClass::M, flag, value);
+    pub(super) fn set_flag(&mut self, flag: Relay, value: ExprId) {
+        if self.specials.has(flag) {
+            self.write_relay(flag, value);
         }
     }
 
     /// Sets a flag of MUL and DIV, if the model has it and something looks at it, by `value`, and returns the value to go on with.
     fn flag_of(
         &mut self,
-        flag: u32,
+        flag: Relay,
         value: ExprId,
         on: impl FnOnce(&mut Self, ExprId) -> ExprId,
     ) -> ExprId {
-        let works = special::find(self.model.id, DeviceClass::M, flag).is_some_and(Special::works);
-        if !works || !self.specials.has(DeviceClass::M, flag) {
+        if !self.model.special_works(flag) || !self.specials.has(flag) {
             return value;
         }
         let value = self.settled(value);
         let on = on(self, value);
-        self.write_device(DeviceClass::M, flag, on);
+        self.write_relay(flag, on);
         value
     }
 
@@ -302,7 +295,7 @@ impl Lowerer<'_> {
         let (a, b) = (self.add(Expr::Widen(a)), self.add(Expr::Widen(b)));
         let product = self.add(Expr::Bin(BinOp::Mul, a, b));
         self.guarded(guards, |this| {
-            let product = this.flag_of(ZERO_PRODUCT, product, |this, product| {
+            let product = this.flag_of(M_ZERO_PRODUCT, product, |this, product| {
                 this.is_int(product, 0, true)
             });
             this.store(target, product);
@@ -317,7 +310,7 @@ impl Lowerer<'_> {
         if self.is_group(2) {
             let low = self.add(Expr::Bin(BinOp::Mul, a, b));
             return self.guarded(guards, |this| {
-                let low = this.flag_of(ZERO_PRODUCT, low, |this, low| this.is_int(low, 0, true));
+                let low = this.flag_of(M_ZERO_PRODUCT, low, |this, low| this.is_int(low, 0, true));
                 this.store(low_target, low);
             });
         }
@@ -327,7 +320,7 @@ impl Lowerer<'_> {
             let low = this.add(Expr::Bin(BinOp::Mul, a, b));
             let high = this.add(Expr::Bin(BinOp::MulHigh, a, b));
             // A product is 0 only if a factor is.
-            this.flag_of(ZERO_PRODUCT, low, |this, _| {
+            this.flag_of(M_ZERO_PRODUCT, low, |this, _| {
                 let zero = [a, b].map(|factor| this.is_int(factor, 0, true));
                 this.or(zero[0], zero[1])
             });
@@ -357,10 +350,10 @@ impl Lowerer<'_> {
             let cond = this.add(Expr::Cmp(CmpOp::Ne, b, zero));
             let then = this.body(|this| {
                 let quotient = this.add(Expr::Bin(BinOp::Div, a, b));
-                let quotient = this.flag_of(ZERO_PRODUCT, quotient, |this, quotient| {
+                let quotient = this.flag_of(M_ZERO_PRODUCT, quotient, |this, quotient| {
                     this.is_int(quotient, 0, wide)
                 });
-                this.flag_of(LARGE_QUOTIENT, quotient, |this, _| {
+                this.flag_of(M_LARGE_QUOTIENT, quotient, |this, _| {
                     let least = if wide { i32::MIN } else { i16::MIN.into() };
                     let (least, minus_one) =
                         (this.is_int(a, least, wide), this.is_int(b, -1, wide));

@@ -1,9 +1,8 @@
 //! Parameters of HM's axes: registers that instructions fill, and their values when RUN begins.
 
 use super::Lowerer;
-use super::operand::{Guards, Target, fixed};
+use super::operand::{Guards, Target};
 use rungc_ir::node::{Expr, Stmt, SysValue};
-use rungc_models::axes;
 use rungc_syntax::DeviceClass::D;
 use rungc_syntax::OperandKind;
 
@@ -23,22 +22,27 @@ impl Lowerer<'_> {
         for (i, &parameter) in (1..).zip(parameters) {
             if let Some(operand) = self.operand(i) {
                 let value = self.value(operand, false, &mut guards);
-                values.push((axes::register(axis, parameter), value));
+                values.extend(
+                    self.model
+                        .axis_register(axis, parameter)
+                        .map(|register| (register, value)),
+                );
             }
         }
         self.guarded(guards, |this| {
             for (register, value) in values {
-                this.store(Target::Word(fixed(D, register)), value);
+                this.store(Target::Word(register.into()), value);
             }
         });
     }
 
     /// When RUN begins, the parameters that something looks at have their values; the first scan may set others.
     pub(super) fn axis_defaults(&mut self) {
-        let mut defaults = axes::defaults(self.model.id);
-        defaults.retain(|&(register, _)| {
-            self.specials.flags.contains(&(D, register)) || self.looks_at(register)
+        let starts = self.model.axis_starts();
+        let looked_at = starts.filter(|&(register, _)| {
+            self.specials.flags.contains(&(D, register.number())) || self.looks_at(register)
         });
+        let defaults: Vec<_> = looked_at.collect();
         if defaults.is_empty() {
             return;
         }
@@ -46,7 +50,7 @@ impl Lowerer<'_> {
         self.when(first, |this| {
             for (register, value) in defaults {
                 let value = this.add(Expr::I16(value));
-                this.emit(Stmt::WriteWord(fixed(D, register), value));
+                this.emit(Stmt::WriteWord(register.into(), value));
             }
         });
     }

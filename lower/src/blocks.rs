@@ -71,7 +71,7 @@ impl Lowerer<'_> {
         if !is_inline(function, self.instr()) {
             return false;
         }
-        let looked_at = |flag| self.specials.has(DeviceClass::M, flag);
+        let looked_at = |flag| self.specials.has(flag);
         let expand: fn(&mut Self) = match function {
             RtFn::Bmov if looked_at(M_BMOV_REVERSE) => return false,
             RtFn::MeanSum if looked_at(M_MEAN_SUM) => return false,

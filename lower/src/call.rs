@@ -6,7 +6,7 @@ use rungc_catalogue::{Extent, Form, Inst, Lower, Param, Rule, Shape};
 use rungc_ir::node::{Arg, CellId, Expr, ExprId, Place, Stmt, SysValue};
 use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
-use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, RtFn, Wiring};
+use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, Register, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
 use std::borrow::Cow;
 
@@ -150,17 +150,19 @@ impl Lowerer<'_> {
                 continue;
             };
             let wiring = self.wiring_of(kind);
-            if wiring.is_some_and(|wiring| wiring.axis != 0) {
+            if wiring.is_some_and(|wiring| wiring.axis.is_some()) {
                 self.use_axes();
             } else if let Err(place) = self.module.pulse_outputs.binary_search(&number) {
                 self.module.pulse_outputs.insert(place, number);
             }
             let registers = wiring.into_iter().flat_map(|w| w.registers(looks));
-            let registers = registers.map(|register| (DeviceClass::D, register));
+            let registers = registers.map(|register| (DeviceClass::D, register.number()));
             self.specials.flags.extend(registers);
             if let Some(wiring) = wiring.filter(|_| looks.clears) {
-                self.use_clear_signal(&wiring.zrn_clear);
-                self.use_clear_signal(&wiring.home.clear);
+                let clears = [wiring.zrn_clear, wiring.home.and_then(|home| home.clear)];
+                for clear in clears.into_iter().flatten() {
+                    self.use_clear_signal(clear);
+                }
             }
         }
     }
@@ -180,15 +182,13 @@ impl Lowerer<'_> {
     }
 
     /// The output of a clear signal is stored: all outputs, if the program may choose another one.
-    fn use_clear_signal(&mut self, clear: &Clear) {
-        if clear.enable == 0 {
-            return;
-        }
-        if self.specials.has(DeviceClass::D, clear.register) {
+    fn use_clear_signal(&mut self, clear: Clear) {
+        let register = clear.register.map(Register::number);
+        if clear.register.is_some_and(|own| self.specials.has(own)) {
             self.specials.whole.push(DeviceClass::Y);
         }
         let mut words = self.model.special_words();
-        let chosen = words.find(|word| clear.chooses == 0 && word.0 == clear.register);
+        let chosen = words.find(|word| clear.chooses.is_none() && Some(word.0) == register);
         let output = chosen.map_or(clear.output, |word| word.1 as u32);
         self.specials.flags.push((DeviceClass::Y, output));
     }

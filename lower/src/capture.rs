@@ -2,17 +2,14 @@
 
 use super::Lowerer;
 use super::interrupt::Request;
-use super::operand::fixed;
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, Stmt, SysValue};
-use rungc_models::high_speed;
-use rungc_models::interrupts::{self, Capture, Source};
+use rungc_models::interrupts::{Capture, Source};
 use rungc_rt::{CmpOp, EdgeKind};
-use rungc_syntax::DeviceClass::D;
 
 impl Lowerer<'_> {
     /// Finds the registers of edges that the program names, and that its interrupts depend on.
     pub(super) fn find_captures(&mut self, requests: &[Request]) {
-        for capture in interrupts::captures(self.model.id) {
+        for capture in self.model.interrupts.captures {
             let captured = |request: &Request| matches!(request.source, Some(Source::Input { number, .. }) if capture.inputs.contains(&number));
             let named = self.names(capture.register);
             if named && requests.iter().any(captured) {
@@ -25,8 +22,7 @@ impl Lowerer<'_> {
 
     /// A counter is reset: a register of edges is read.
     pub(super) fn read_captures(&mut self, counter: u32) {
-        let table = high_speed::counters(self.model.id);
-        let Some(counter) = table.iter().find(|row| row.number == counter) else {
+        let Some(counter) = self.model.high_speed.counter(counter) else {
             return;
         };
         for i in 0..self.interrupts.captures.len() {
@@ -38,7 +34,7 @@ impl Lowerer<'_> {
     }
 
     fn read_capture(&mut self, capture: &Capture, cell: CellId) {
-        let edges = self.add(Expr::ReadWord(fixed(D, capture.register)));
+        let edges = self.add(Expr::ReadWord(capture.register.into()));
         let edges = self.add(Expr::Widen(edges));
         self.emit(Stmt::SetCell(cell, edges));
     }

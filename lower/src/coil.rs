@@ -6,11 +6,9 @@ use rungc_catalogue::Basic;
 use rungc_ir::node::{Expr, ExprId, Stmt};
 use rungc_models::high_speed;
 use rungc_models::runs::FIRST_COUNTER32;
-use rungc_rt::{CmpOp, EdgeKind, TimerKind};
+use rungc_rt::special::M_COUNTER_DIRECTION;
+use rungc_rt::{CmpOp, EdgeKind, Relay, TimerKind};
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind};
-
-/// Special relay that gives the direction of C200; the others follow.
-const FIRST_DIRECTION: u32 = 8200;
 
 impl Lowerer<'_> {
     pub(super) fn coil(&mut self) {
@@ -51,7 +49,7 @@ impl Lowerer<'_> {
         let drive = self.drive();
         let fast = self.model.fast_timers;
         let fast = fast.filter(|fast| fast.numbers.contains(&number));
-        let fast = fast.filter(|fast| self.specials.has(DeviceClass::M, fast.relay));
+        let fast = fast.filter(|fast| self.specials.has(fast.relay));
         self.with_preset(false, Guards::default(), |this, preset| {
             let Some(fast) = fast else {
                 return this.emit(Stmt::Timer {
@@ -68,7 +66,7 @@ impl Lowerer<'_> {
                 drive,
                 preset,
             };
-            let cond = this.add(Expr::ReadBit(fixed(DeviceClass::M, fast.relay)));
+            let cond = this.add(Expr::ReadBit(fast.relay.into()));
             this.emit(Stmt::If {
                 cond,
                 then: vec![timer(fast.unit_ms)],
@@ -92,9 +90,9 @@ impl Lowerer<'_> {
                 });
             });
         }
-        let direction = FIRST_DIRECTION + number - FIRST_COUNTER32;
-        let down = if self.specials.has(DeviceClass::M, direction) {
-            self.add(Expr::ReadBit(fixed(DeviceClass::M, direction)))
+        let direction = M_COUNTER_DIRECTION.after(number);
+        let down = if self.specials.has(direction) {
+            self.add(Expr::ReadBit(direction.into()))
         } else {
             self.bit_const(false)
         };
@@ -245,6 +243,11 @@ impl Lowerer<'_> {
             self.logic.bus = outer;
             self.logic.zones.pop();
         }
+    }
+
+    /// Switches a relay.
+    pub(super) fn write_relay(&mut self, relay: Relay, value: ExprId) {
+        self.write_device(DeviceClass::M, relay.number(), value);
     }
 
     /// The bit target of a device, for what lowering writes by itself.

@@ -1,14 +1,13 @@
 //! COMRD: comments of devices, which are known when the program is compiled.
 
 use super::Lowerer;
-use super::operand::{Guards, fixed};
+use super::operand::Guards;
 use rungc_ir::node::Expr;
-use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
+use rungc_rt::special::M_TEXT_OPEN;
+use rungc_syntax::{Device, OperandKind, codes};
 
 /// Characters of a comment on the PLC.
 const LENGTH: usize = 16;
-/// Relay that leaves out the zero behind the characters.
-const OPEN: u32 = 8091;
 
 /// Characters of a comment in emitted code at most. The editors allow 64 in a statement, 32 in a note and in a device comment; C99 promises no
 /// more than 4095 bytes in a string, and a reader wants far less on a line.
@@ -48,8 +47,8 @@ impl Lowerer<'_> {
                 let word = this.int(word.into(), false);
                 this.store(*target, word);
             }
-            let open = if this.specials.has(DeviceClass::M, OPEN) {
-                this.add(Expr::ReadBit(fixed(DeviceClass::M, OPEN)))
+            let open = if this.specials.has(M_TEXT_OPEN) {
+                this.add(Expr::ReadBit(M_TEXT_OPEN.into()))
             } else {
                 this.bit_const(false)
             };

@@ -7,16 +7,16 @@ use super::Lowerer;
 use super::interrupt::Request;
 use super::operand::fixed;
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue};
-use rungc_models::interrupts::{self, CountRows, Source};
-use rungc_rt::{CmpOp, EdgeKind};
-use rungc_syntax::DeviceClass::{C, D, M};
+use rungc_models::interrupts::{CountRows, Source};
+use rungc_rt::{CmpOp, EdgeKind, Register};
+use rungc_syntax::DeviceClass::{C, D};
 
 impl Lowerer<'_> {
     /// Finds the table, if the program has routines for its rows and something switches it on.
     pub(super) fn find_rows(&mut self, requests: &[Request]) {
         let of_row = |request: &Request| matches!(request.source, Some(Source::Row { .. }));
-        let table = interrupts::count_rows(self.model.id);
-        let table = table.filter(|table| self.specials.has(M, table.enable));
+        let table = self.model.interrupts.count_rows;
+        let table = table.filter(|table| self.specials.has(table.enable));
         if let Some(table) = table.filter(|_| requests.iter().any(of_row)) {
             let row = self.cell("row".to_string(), "the row of M8084's table that waits");
             self.interrupts.rows = Some((table, row));
@@ -28,7 +28,7 @@ impl Lowerer<'_> {
         let Some((table, row)) = self.interrupts.rows else {
             return;
         };
-        let works = self.add(Expr::ReadBit(fixed(M, table.enable)));
+        let works = self.add(Expr::ReadBit(table.enable.into()));
         let chosen = self.register(table.counter);
         let number = self.add(Expr::I32(counter as i32));
         let is_chosen = self.add(Expr::Cmp(CmpOp::Eq, chosen, number));
@@ -91,7 +91,7 @@ impl Lowerer<'_> {
         let Some((table, row)) = self.interrupts.rows else {
             return;
         };
-        let works = self.add(Expr::ReadBit(fixed(M, table.enable)));
+        let works = self.add(Expr::ReadBit(table.enable.into()));
         let edge = self.new_edge();
         let went_off = self.edge(edge, EdgeKind::Falling, works);
         let first = self.add(Expr::Sys(SysValue::FirstScan));
@@ -109,26 +109,26 @@ impl Lowerer<'_> {
     }
 
     fn show_waiting_row(&mut self, table: &CountRows, row: CellId) {
-        if self.specials.has(D, table.row) {
+        if self.specials.has(table.row) {
             let row = self.add(Expr::Cell(row));
             let row = self.add(Expr::Narrow(row));
-            self.emit(Stmt::WriteWord(fixed(D, table.row), row));
+            self.emit(Stmt::WriteWord(table.row.into(), row));
         }
     }
 
     fn show_rows_done(&mut self, table: &CountRows, on: bool) {
-        if self.specials.has(M, table.done) {
+        if self.specials.has(table.done) {
             let on = self.bit_const(on);
-            self.write_device(M, table.done, on);
+            self.write_relay(table.done, on);
         }
     }
 
     /// The value of a special register, 0 if nothing writes it.
-    fn register(&mut self, register: u32) -> ExprId {
-        if !self.specials.has(D, register) {
+    fn register(&mut self, register: Register) -> ExprId {
+        if !self.specials.has(register) {
             return self.add(Expr::I32(0));
         }
-        let value = self.add(Expr::ReadWord(fixed(D, register)));
+        let value = self.add(Expr::ReadWord(register.into()));
         self.add(Expr::Widen(value))
     }
 }

@@ -2,11 +2,11 @@
 
 use super::Lowerer;
 use super::high_speed::{Action, Compare, Counted};
-use super::operand::{BitTarget, Guards, fixed};
+use super::operand::{BitTarget, Guards};
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, Table, TableId, Ty};
 use rungc_models::high_speed::TableMode;
-use rungc_rt::CmpOp;
-use rungc_syntax::DeviceClass::{D, M, Y};
+use rungc_rt::{CmpOp, Register};
+use rungc_syntax::DeviceClass::Y;
 use rungc_syntax::OperandKind;
 
 /// Most rows of a table.
@@ -358,26 +358,27 @@ impl Lowerer<'_> {
 
     /// Whether the last row was reached.
     fn show_done(&mut self, table: &Rows, on: bool) {
-        if let Some(relay) = table.mode.done.filter(|&relay| self.specials.has(M, relay)) {
+        if let Some(relay) = table.mode.done.filter(|&relay| self.specials.has(relay)) {
             let on = self.bit_const(on);
-            self.write_device(M, relay, on);
+            self.write_relay(relay, on);
         }
     }
 
     fn show_number(&mut self, table: &Rows) {
-        if let Some(register) = table.mode.row.filter(|&row| self.specials.has(D, row)) {
+        if let Some(register) = table.mode.row.filter(|&row| self.specials.has(row)) {
             let row = self.add(Expr::Cell(table.row));
             let row = self.add(Expr::Narrow(row));
-            self.emit(Stmt::WriteWord(fixed(D, register), row));
+            self.emit(Stmt::WriteWord(register.into(), row));
         }
     }
 
-    fn show_pair(&mut self, register: u32, value: ExprId) {
-        if [register, register + 1]
+    fn show_pair(&mut self, register: Register, value: ExprId) {
+        if register
+            .run::<2>()
             .iter()
-            .any(|&word| self.specials.has(D, word))
+            .any(|&word| self.specials.has(word))
         {
-            self.emit(Stmt::WritePair(fixed(D, register), value));
+            self.emit(Stmt::WritePair(register.into(), value));
         }
     }
 

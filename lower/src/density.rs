@@ -2,11 +2,10 @@
 //! own window, to a millisecond; the instruction shows them in the scan.
 
 use super::Lowerer;
-use super::operand::{Guards, Target, fixed};
+use super::operand::{Guards, Target};
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Stmt, SysValue};
-use rungc_models::high_speed;
-use rungc_rt::{CmpOp, EdgeKind};
-use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rungc_rt::{CmpOp, EdgeKind, Relay};
+use rungc_syntax::{Device, OperandKind};
 
 /// What is shown of pulses a minute, in milliseconds: ten times their number.
 const TEN_MINUTES: i32 = 600_000;
@@ -136,8 +135,9 @@ impl Lowerer<'_> {
         };
         let operand = OperandKind::Device(first, index);
         let parts = [0, 1, 2].map(|i| self.target(&operand, i, wide, wide, guards));
-        let relay = high_speed::per_minute(self.model.id).map(|relay| relay + input.number);
-        let per_minute = relay.filter(|&relay| self.specials.has(DeviceClass::M, relay));
+        let relay = self.model.high_speed.per_minute;
+        let relay = relay.map(|relay| relay.after(input.number));
+        let per_minute = relay.filter(|&relay| self.specials.has(relay));
         let second = Device {
             number: first.number + 1,
             ..first
@@ -166,7 +166,7 @@ impl Lowerer<'_> {
         let Some((relay, target)) = shown.per_minute else {
             return windows(self);
         };
-        let cond = self.add(Expr::ReadBit(fixed(DeviceClass::M, relay)));
+        let cond = self.add(Expr::ReadBit(relay.into()));
         let then = self.body(|this| {
             let value = this.per_minute(window);
             this.store_number(target, value);
@@ -206,5 +206,5 @@ impl Lowerer<'_> {
 struct Shown {
     parts: [Target; 3],
     /// The relay that makes it show the pulses a minute, and where.
-    per_minute: Option<(u32, Target)>,
+    per_minute: Option<(Relay, Target)>,
 }

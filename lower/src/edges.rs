@@ -5,9 +5,8 @@ use super::operand::fixed;
 use rungc_ir::node::{
     BinOp, Body, Cell, CellId, Expr, ExprId, Flag, FlagId, Function, FunctionKind, Stmt, SysValue,
 };
-use rungc_models::high_speed;
 use rungc_rt::EdgeKind;
-use rungc_syntax::DeviceClass::{D, X};
+use rungc_syntax::DeviceClass::X;
 use std::collections::BTreeMap;
 
 /// Code of edges, and the levels that it asks for.
@@ -96,16 +95,15 @@ impl Lowerer<'_> {
 
     /// Registers count the rising edges of inputs, if something looks at them.
     pub(super) fn edge_counts(&mut self) {
-        let registers = high_speed::edge_counts(self.model.id).into_iter().flatten();
-        for (input, register) in (0..).zip(registers) {
-            if !self.keeps(D, register) {
+        for (input, &register) in (0..).zip(self.model.high_speed.edge_counts) {
+            if !self.keeps(register) {
                 continue;
             }
             self.on_edge(input, EdgeKind::Rising, |this| {
-                let count = this.add(Expr::ReadWord(fixed(D, register)));
+                let count = this.add(Expr::ReadWord(register.into()));
                 let one = this.int(1, false);
                 let count = this.add(Expr::Bin(BinOp::Add, count, one));
-                this.emit(Stmt::WriteWord(fixed(D, register), count));
+                this.emit(Stmt::WriteWord(register.into(), count));
             });
         }
     }

@@ -5,16 +5,12 @@ use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use rungc_catalogue::{Basic, Comparison, Inst, Lower};
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, SysValue};
-use rungc_models::high_speed::{
-    self, Axis, COMPARE_AT_RESET, CROSSING, Counter, EDGE_RESET, HELD_BY_RESET, Kind, NO_RESET,
-    RESET_RELAYS, ZONES,
-};
+use rungc_models::high_speed::{self, Axis, Counter, Kind};
 use rungc_models::interrupts::Source;
-use rungc_rt::{CmpOp, EdgeKind};
+use rungc_rt::special::{M_COMPARE_AT_RESET, M_COUNTER_DIRECTION};
+use rungc_rt::{CmpOp, EdgeKind, Register, Relay};
 use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
-
-/// Relay of a counter: its direction, or what shows it.
-const DIRECTION: u32 = 8000;
+use std::ops::RangeInclusive;
 
 /// More comparisons are driven than may be.
 const TOO_MANY_COMPARISONS: u16 = 6760;
@@ -106,7 +102,7 @@ impl Lowerer<'_> {
         let instrs = self.resolved.instrs.iter().filter_map(|instr| instr.inst);
         let compares = |inst: &&Inst| matches!(inst.lower, Lower::HighSpeed(_));
         let count = instrs.filter(compares).count();
-        let most = high_speed::most_comparisons(self.model.id);
+        let most = self.model.high_speed.most_comparisons;
         if let Some(most) = most.filter(|&most| count > most as usize) {
             let driven = self.cell("comparisons".to_string(), "how many are driven");
             self.high_speed.limit = Some((driven, most));
@@ -200,7 +196,7 @@ impl Lowerer<'_> {
         let counted = self.counted(values, &mut guards)?;
         let target = self.operand(values + 1)?.clone();
         let table = match (comparison, &target) {
-            (Comparison::Table, _) => Some(high_speed::pattern_table(self.model.id)),
+            (Comparison::Table, _) => Some(&self.model.high_speed.patterns),
             (Comparison::Zone, &OperandKind::Device(relay, None)) => high_speed::zone_table(relay),
             _ => None,
         };
@@ -211,8 +207,8 @@ impl Lowerer<'_> {
         let n = self.high_speed.compares.len() + 1;
         let meaning = "a comparison at the count is driven";
         let armed = self.flag(format!("compare{n}"), meaning, None);
-        let crossing = CROSSING.has(self.model.id);
-        let reached = (crossing && comparison != Comparison::Zone).then(|| {
+        let crossing = self.model.high_speed.crossing_zones.clone();
+        let reached = (crossing.is_some() && comparison != Comparison::Zone).then(|| {
             let meaning = "the count was not below the value";
             self.flag(format!("compare{n}_reached"), meaning, None)
         });
@@ -224,8 +220,8 @@ impl Lowerer<'_> {
             let meaning = "what the count is compared with";
             cells.push((self.cell(format!("compare{n}_{end}"), meaning), value));
         }
-        if crossing {
-            self.demand_zone(values + 2, &mut guards);
+        if let Some(zones) = crossing.clone() {
+            self.demand_zone(values + 2, zones, &mut guards);
         }
         let compare = Compare {
             counted,
@@ -241,7 +237,7 @@ impl Lowerer<'_> {
                     this.emit(Stmt::SetCell(cell, value));
                 }
                 this.arm(&compare);
-                if crossing {
+                if crossing.is_some() {
                     this.act(&compare);
                 }
             });
@@ -270,24 +266,22 @@ impl Lowerer<'_> {
         {
             return Some(Counted::Counter(device.number));
         }
-        CROSSING
-            .has(self.model.id)
-            .then(|| Counted::Value(self.value(operand, true, guards)))
+        let crossing = self.model.high_speed.crossing_zones.is_some();
+        crossing.then(|| Counted::Value(self.value(operand, true, guards)))
     }
 
     /// The high-speed counter of this number.
     fn counter_with_number(&self, number: u32) -> Option<&'static Counter> {
-        let mut table = high_speed::counters(self.model.id).iter();
-        table.find(|counter| counter.number == number)
+        self.model.high_speed.counter(number)
     }
 
     /// The zone in which a comparison runs is one of those that there are.
-    fn demand_zone(&mut self, operand: usize, guards: &mut Guards) {
+    fn demand_zone(&mut self, operand: usize, zones: RangeInclusive<i32>, guards: &mut Guards) {
         let zone = match self.operand(operand) {
             Some(zone @ OperandKind::Device(..)) => self.value(zone, true, guards),
             _ => return,
         };
-        for (op, end) in [(CmpOp::Ge, *ZONES.start()), (CmpOp::Le, *ZONES.end())] {
+        for (op, end) in [(CmpOp::Ge, *zones.start()), (CmpOp::Le, *zones.end())] {
             let end = self.add(Expr::I32(end));
             let holds = self.add(Expr::Cmp(op, zone, end));
             guards.demand(holds);
@@ -370,13 +364,13 @@ impl Lowerer<'_> {
 
     fn count_edges(&mut self, used: &Used, compares: &[&Compare]) {
         let number = used.counter.number;
-        let relay = |this: &mut Self, number| match this.specials.has(DeviceClass::M, number) {
-            true => this.add(Expr::ReadBit(fixed(DeviceClass::M, number))),
+        let relay = |this: &mut Self, relay: Relay| match this.specials.has(relay) {
+            true => this.add(Expr::ReadBit(relay.into())),
             false => this.bit_const(false),
         };
         match (used.counter.kind, used.counter.counts) {
             (Kind::One, &[input]) => self.on_edge(input, EdgeKind::Rising, |this| {
-                let down = relay(this, DIRECTION + number);
+                let down = relay(this, M_COUNTER_DIRECTION.after(number));
                 this.count(used, down, compares);
             }),
             (Kind::UpDown, &[up, down]) => {
@@ -394,14 +388,14 @@ impl Lowerer<'_> {
                 });
             }
             (Kind::Phases, &[a, b]) => {
-                let four_fold = high_speed::four_fold(self.model.id, number);
+                let four_fold = self.model.high_speed.four_fold(number);
                 for (input, other) in [(a, b), (b, a)] {
                     for kind in [EdgeKind::Rising, EdgeKind::Falling] {
                         self.on_edge(input, kind, |this| {
                             // Forward, A rises while B is off, B while A is on; falling is the other way round.
                             let rises = kind == EdgeKind::Rising;
                             let four_fold = four_fold
-                                .filter(|&number| this.specials.has(DeviceClass::M, number))
+                                .filter(|&number| this.specials.has(number))
                                 .map(|number| relay(this, number));
                             let level = this.level(other);
                             let (counts, down) = match four_fold {
@@ -451,9 +445,9 @@ impl Lowerer<'_> {
                 preset,
             });
             this.show_on_axis(used.counter);
-            let shown = DIRECTION + number;
-            if used.counter.kind != Kind::One && this.specials.has(DeviceClass::M, shown) {
-                this.write_device(DeviceClass::M, shown, down);
+            let shown = M_COUNTER_DIRECTION.after(number);
+            if used.counter.kind != Kind::One && this.specials.has(shown) {
+                this.write_relay(shown, down);
             }
             for compare in compares {
                 this.act(compare);
@@ -464,12 +458,14 @@ impl Lowerer<'_> {
 
     /// Whether its reset input holds a counter at 0; `None` if none does so.
     fn held(&mut self, counter: &Counter) -> Option<ExprId> {
-        let reset = counter.reset.filter(|_| HELD_BY_RESET.has(self.model.id))?;
+        let reset = counter
+            .reset
+            .filter(|_| self.model.high_speed.held_by_reset)?;
         let mut held = self.level(reset);
-        if RESET_RELAYS.has(self.model.id) {
-            for relay in [EDGE_RESET, NO_RESET] {
-                if self.specials.has(DeviceClass::M, relay) {
-                    let relay = self.add(Expr::ReadBit(fixed(DeviceClass::M, relay)));
+        if let Some(relays) = self.model.high_speed.reset_relays {
+            for relay in [relays.edge, relays.off] {
+                if self.specials.has(relay) {
+                    let relay = self.add(Expr::ReadBit(relay.into()));
                     let relay = self.not(relay);
                     held = self.and(held, relay);
                 }
@@ -485,7 +481,7 @@ impl Lowerer<'_> {
         };
         let count = self.add(Expr::ReadPair(counter_place(counter.number)));
         if self.looks_at_pair(axis.count) {
-            self.emit(Stmt::WritePair(fixed(DeviceClass::D, axis.count), count));
+            self.emit(Stmt::WritePair(axis.count.into(), count));
         }
         if self.looks_at_pair(axis.upper) {
             let zero = self.add(Expr::I32(0));
@@ -493,14 +489,14 @@ impl Lowerer<'_> {
             let negative = self.add(Expr::BitToInt(negative));
             let negative = self.add(Expr::Widen(negative));
             let upper = self.add(Expr::Neg(negative));
-            self.emit(Stmt::WritePair(fixed(DeviceClass::D, axis.upper), upper));
+            self.emit(Stmt::WritePair(axis.upper.into(), upper));
         }
     }
 
     /// The input axis of a counter's input.
     fn axis(&self, counter: &Counter) -> Option<&'static Axis> {
         let input = counter.counts.first();
-        let mut axes = high_speed::axes(self.model.id).iter();
+        let mut axes = self.model.high_speed.axes.iter();
         axes.find(|axis| Some(&axis.input) == input)
     }
 
@@ -514,7 +510,7 @@ impl Lowerer<'_> {
 
     /// An edge of an input interrupts: the registers of its axis show the count.
     pub(super) fn capture_count(&mut self, input: u32) {
-        let mut axes = high_speed::axes(self.model.id).iter();
+        let mut axes = self.model.high_speed.axes.iter();
         let Some(axis) = axes.find(|axis| axis.capture.contains(&input)) else {
             return;
         };
@@ -526,31 +522,31 @@ impl Lowerer<'_> {
             && self.looks_at_pair(axis.captured)
         {
             let count = self.add(Expr::ReadPair(counter_place(number)));
-            self.emit(Stmt::WritePair(fixed(DeviceClass::D, axis.captured), count));
+            self.emit(Stmt::WritePair(axis.captured.into(), count));
         }
     }
 
-    fn looks_at_pair(&self, register: u32) -> bool {
-        self.looks_at(register) || self.looks_at(register + 1)
+    fn looks_at_pair(&self, register: Register) -> bool {
+        self.looks_at(register) || self.looks_at(register.after(1))
     }
 
     fn reset_edge(&mut self, used: &Used, reset: u32, compares: &[&Compare]) {
-        let relay = |this: &mut Self, number| {
-            let known = this.specials.has(DeviceClass::M, number);
-            known.then(|| this.add(Expr::ReadBit(fixed(DeviceClass::M, number))))
+        let relay = |this: &mut Self, relay: Relay| {
+            let known = this.specials.has(relay);
+            known.then(|| this.add(Expr::ReadBit(relay.into())))
         };
         let place = counter_place(used.counter.number);
         self.on_edge(reset, EdgeKind::Rising, |this| {
             let mut resets = this.add(Expr::Flag(used.on));
-            if RESET_RELAYS.has(this.model.id)
-                && let Some(off) = relay(this, NO_RESET)
+            if let Some(relays) = this.model.high_speed.reset_relays
+                && let Some(off) = relay(this, relays.off)
             {
                 let acts = this.not(off);
                 resets = this.and(resets, acts);
             }
             this.when(resets, |this| {
                 this.emit(Stmt::Reset(place));
-                if let Some(compares_too) = relay(this, COMPARE_AT_RESET) {
+                if let Some(compares_too) = relay(this, M_COMPARE_AT_RESET) {
                     this.when(compares_too, |this| {
                         for compare in compares {
                             this.act(compare);

@@ -2,20 +2,15 @@
 
 use super::Lowerer;
 use super::advanced::Section;
-use super::operand::fixed;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
     BinOp, Body, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue, Ty,
 };
-use rungc_models::interrupts::{
-    self, Advanced, Capture, CountRows, Gate, Interrupt, PulseCatch, Source,
-};
-use rungc_rt::{CmpOp, EdgeKind};
-use rungc_syntax::DeviceClass::{D, M};
+use rungc_models::interrupts::{Advanced, Capture, CountRows, Gate, Interrupt, PulseCatch, Source};
+use rungc_rt::special::D_SCOPE_STATE;
+use rungc_rt::{CmpOp, EdgeKind, Relay};
+use rungc_syntax::DeviceClass::M;
 use rungc_syntax::{Device, codes};
-
-/// The register that starts the oscilloscope of HM.
-const SCOPE_STATE: u32 = 8038;
 
 /// Name of the flag that EI sets.
 const ENABLED: &str = "interrupts_enabled";
@@ -42,14 +37,14 @@ pub(super) enum What {
         at: CellId,
     },
     /// A relay catches the pulse.
-    Catch(u32),
+    Catch(Relay),
     /// The oscilloscope goes on, whether interrupts are enabled or not.
     Scope,
 }
 
 impl What {
     /// The relay that keeps a request.
-    fn relay(&self) -> Option<u32> {
+    fn relay(&self) -> Option<Relay> {
         match self {
             What::Routine { interrupt, .. } => interrupt.request,
             What::Process { interrupt, .. } => Some(interrupt.again),
@@ -58,7 +53,7 @@ impl What {
     }
 
     /// Whether a relay requests it or says whether it may be done, where relays keep requests.
-    fn heeds(&self, relay: u32) -> bool {
+    fn heeds(&self, relay: Relay) -> bool {
         match *self {
             What::Routine { interrupt, .. } => {
                 let (Gate::Forbids(gate) | Gate::Allows(gate)) = interrupt.gate;
@@ -113,11 +108,11 @@ impl Lowerer<'_> {
     pub(super) fn find_interrupts(&mut self) {
         let mut requests = Vec::new();
         for region in self.flow.interrupts() {
-            if let Some(interrupt) = interrupts::find_advanced(self.model.id, region.number) {
+            if let Some(interrupt) = self.model.interrupts.find_advanced(region.number) {
                 requests.push(self.section(region.number, region.function, interrupt));
                 continue;
             }
-            match interrupts::find(self.model.id, region.number) {
+            match self.model.interrupts.find(region.number) {
                 Some(interrupt) => requests.push(Request {
                     source: interrupt.source,
                     what: What::Routine {
@@ -135,10 +130,10 @@ impl Lowerer<'_> {
         }
         keep_last_of_relays(&mut requests);
         requests.sort_by_key(|request| request.what.pointer());
-        if let Some(catch) = interrupts::pulse_catch(self.model.id) {
+        if let Some(catch) = self.model.interrupts.pulse_catch {
             requests.extend(self.caught(catch));
         }
-        if self.keeps(D, SCOPE_STATE) {
+        if self.keeps(D_SCOPE_STATE) {
             self.clock();
             requests.push(Request {
                 source: Some(Source::Period { ms: 1 }),
@@ -194,7 +189,7 @@ impl Lowerer<'_> {
             }
             flags.push((source, flag));
         }
-        let precedence = interrupts::precedence(self.model.id);
+        let precedence = self.model.interrupts.precedence;
         // Those of one rank stay in the order of their pointers.
         flags.sort_by_key(|&(source, _)| precedence.rank(source));
         flags
@@ -208,7 +203,7 @@ impl Lowerer<'_> {
     ) -> Option<Stored> {
         let mut instructions = 0..self.resolved.instrs.len();
         let waits = instructions.any(|i| self.basic_at(i) == Some(Basic::Di));
-        let first_come = interrupts::precedence(self.model.id).first_come;
+        let first_come = self.model.interrupts.precedence.first_come;
         let routines = requests.iter().filter(|r| r.what.pointer().is_some());
         if !waits || !first_come || routines.count() < 2 {
             return None;
@@ -254,11 +249,11 @@ impl Lowerer<'_> {
     }
 
     /// The pulse catch relays that something looks at.
-    fn caught(&self, catch: &PulseCatch) -> Vec<Request> {
+    fn caught(&self, catch: PulseCatch) -> Vec<Request> {
         let enables = (0..self.resolved.instrs.len()).any(|i| self.basic_at(i) == Some(Basic::Ei));
-        let relays = (0..catch.inputs).map(|number| (number, catch.first + number));
+        let relays = (0..catch.inputs).map(|number| (number, catch.first.after(number)));
         relays
-            .filter(|&(_, relay)| enables && self.specials.has(M, relay))
+            .filter(|&(_, relay)| enables && self.specials.has(relay))
             .map(|(number, relay)| Request {
                 source: Some(Source::Input {
                     number,
@@ -285,7 +280,9 @@ impl Lowerer<'_> {
 
     /// An interrupt that a relay now requests, or no longer forbids, does not wait for the end of the network.
     pub(super) fn relay_changed(&mut self, device: Device) {
-        let heeded = |request: &Request| request.what.heeds(device.number);
+        let heeded = |request: &Request| {
+            u16::try_from(device.number).is_ok_and(|number| request.what.heeds(Relay(number)))
+        };
         if device.class == M && self.flow.in_main() && self.interrupts.requests.iter().any(heeded) {
             self.interruptible();
         }
@@ -391,7 +388,7 @@ impl Lowerer<'_> {
 
     /// Relays keep the requests of a source, whether interrupts are enabled or not.
     fn keep_requests(&mut self, requests: &[Request], source: Source, flag: FlagId) {
-        let relays: Vec<u32> = of(requests, source)
+        let relays: Vec<Relay> = of(requests, source)
             .filter_map(|request| request.what.relay())
             .collect();
         let scope = of(requests, source).any(|request| matches!(request.what, What::Scope));
@@ -403,7 +400,7 @@ impl Lowerer<'_> {
             this.set_flag_to(flag, false);
             for relay in relays {
                 let on = this.bit_const(true);
-                this.write_device(M, relay, on);
+                this.write_relay(relay, on);
             }
             if scope {
                 this.oscilloscope();
@@ -427,7 +424,7 @@ impl Lowerer<'_> {
                 match *what {
                     What::Catch(relay) => {
                         let on = this.bit_const(true);
-                        this.write_device(M, relay, on);
+                        this.write_relay(relay, on);
                     }
                     What::Routine {
                         function,
@@ -459,12 +456,12 @@ impl Lowerer<'_> {
         let Some(relay) = interrupt.request else {
             return;
         };
-        let asked = self.add(Expr::ReadBit(fixed(M, relay)));
+        let asked = self.add(Expr::ReadBit(relay.into()));
         let allowed = self.allowed(interrupt.gate);
         let runs = self.and(asked, allowed);
         self.when(runs, |this| {
             let off = this.bit_const(false);
-            this.write_device(M, relay, off);
+            this.write_relay(relay, off);
             this.emit(Stmt::CallSub(function));
         });
     }
@@ -472,10 +469,10 @@ impl Lowerer<'_> {
     /// Whether a routine may run; a relay that nothing looks at stays as it is at power-on.
     pub(super) fn allowed(&mut self, gate: Gate) -> ExprId {
         let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate;
-        let on = if self.specials.has(M, relay) {
-            self.add(Expr::ReadBit(fixed(M, relay)))
+        let on = if self.specials.has(relay) {
+            self.add(Expr::ReadBit(relay.into()))
         } else {
-            let on = self.model.special_bits().any(|bit| bit == relay);
+            let on = self.model.special_bits().any(|bit| bit == relay.number());
             self.bit_const(on)
         };
         match gate {

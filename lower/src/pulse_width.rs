@@ -1,11 +1,9 @@
 //! Widths and periods of pulses, as exactly as a host tells the time: to a millisecond.
 
 use super::Lowerer;
-use super::operand::fixed;
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Stmt};
-use rungc_models::high_speed::{self, Meter};
-use rungc_rt::EdgeKind;
-use rungc_syntax::DeviceClass::{D, M};
+use rungc_models::high_speed::Meter;
+use rungc_rt::{EdgeKind, Relay};
 
 /// Units of the ring counter and of widths in a millisecond.
 const RING: i32 = 6000;
@@ -25,9 +23,9 @@ struct Measured {
 impl Lowerer<'_> {
     /// Measures the pulses of inputs, if something looks at what comes out.
     pub(super) fn pulse_widths(&mut self) {
-        for meter in high_speed::meters(self.model.id) {
-            let mut registers = meter.registers..meter.registers + 6;
-            if !registers.any(|register| self.keeps(D, register)) {
+        for meter in self.model.high_speed.meters {
+            let mut registers = meter.registers.run::<6>().into_iter();
+            if !registers.any(|register| self.keeps(register)) {
                 continue;
             }
             let name = format!("x{:03o}", meter.input);
@@ -53,7 +51,7 @@ impl Lowerer<'_> {
     }
 
     /// Whether all of these relays are on.
-    fn all_on(&mut self, relays: &[u32]) -> ExprId {
+    fn all_on(&mut self, relays: &[Relay]) -> ExprId {
         let mut all = self.bit_const(true);
         for &relay in relays {
             let on = self.relay_or_off(relay);
@@ -63,9 +61,9 @@ impl Lowerer<'_> {
     }
 
     /// State of a relay, which is off if nothing looks at it.
-    fn relay_or_off(&mut self, relay: u32) -> ExprId {
-        if self.specials.has(M, relay) {
-            self.add(Expr::ReadBit(fixed(M, relay)))
+    fn relay_or_off(&mut self, relay: Relay) -> ExprId {
+        if self.specials.has(relay) {
+            self.add(Expr::ReadBit(relay.into()))
         } else {
             self.bit_const(false)
         }
@@ -77,8 +75,8 @@ impl Lowerer<'_> {
         let now = self.add(Expr::Cell(measured.clock));
         let units = self.add(Expr::I32(RING));
         let ring = self.add(Expr::Bin(BinOp::Mul, now, units));
-        let edge = meter.registers + if rises { 0 } else { 2 };
-        self.emit(Stmt::WritePair(fixed(D, edge), ring));
+        let edge = meter.registers.after(if rises { 0 } else { 2 });
+        self.emit(Stmt::WritePair(edge.into(), ring));
         let known = self.add(Expr::Flag(measured.known));
         let period = match meter.period {
             Some(relay) => self.relay_or_off(relay),
@@ -91,7 +89,7 @@ impl Lowerer<'_> {
             let passed = this.add(Expr::Bin(BinOp::Sub, now, rose));
             let units = this.add(Expr::I32(WIDTH));
             let length = this.add(Expr::Bin(BinOp::Mul, passed, units));
-            this.emit(Stmt::WritePair(fixed(D, meter.registers + 4), length));
+            this.emit(Stmt::WritePair(meter.registers.after(4).into(), length));
         });
         if rises {
             self.emit(Stmt::SetCell(measured.rose, now));

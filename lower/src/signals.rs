@@ -5,9 +5,9 @@ use super::call::output_of;
 use super::operand::fixed;
 use rungc_catalogue::{Inst, Lower, Role};
 use rungc_ir::node::{Arg, Expr, ExprId, Function, FunctionKind, Stmt};
-use rungc_models::axes;
-use rungc_rt::{CmpOp, EdgeKind, RtFn, StopInput, Wiring};
-use rungc_syntax::DeviceClass::{D, M, X, Y};
+use rungc_rt::axis_place::INPUTS;
+use rungc_rt::{CmpOp, EdgeKind, Relay, RtFn, StopInput, Wiring};
+use rungc_syntax::DeviceClass::{D, X, Y};
 use rungc_syntax::{Device, OperandKind};
 use std::collections::BTreeSet;
 
@@ -50,8 +50,8 @@ impl Lowerer<'_> {
                 _ if param.sends_pulses => {
                     if let Some(wiring) = self.wiring_of(kind) {
                         let mask = match wiring.axis {
-                            0 => u16::MAX,
-                            _ => self.mask_of_axis(kind),
+                            None => u16::MAX,
+                            Some(_) => self.mask_of_axis(kind),
                         };
                         let own = self.inputs_of_output(wiring, function);
                         inputs.extend(own.filter(|input| mask >> input & 1 == 1));
@@ -80,9 +80,9 @@ impl Lowerer<'_> {
         let Some(number) = output_of(axis) else {
             return u16::MAX;
         };
-        let mut registers = axes::INPUTS
-            .map(|place| axes::register(number, place))
-            .into_iter();
+        let mut registers = INPUTS
+            .into_iter()
+            .filter_map(|place| self.model.axis_register(number, place));
         if registers.any(|register| self.looks_at(register)) {
             return u16::MAX;
         }
@@ -100,7 +100,7 @@ impl Lowerer<'_> {
                 }
             });
         let said = said.flatten();
-        said.filter(|(place, _)| axes::INPUTS.contains(place))
+        said.filter(|(place, _)| INPUTS.contains(place))
             .fold(0, |mask, (_, operand)| mask | mask_of(&operand.kind))
     }
 
@@ -110,9 +110,9 @@ impl Lowerer<'_> {
         function: RtFn,
     ) -> impl Iterator<Item = u32> + use<> {
         let looks = function.needs().looks();
-        let chosen = self.specials.has(M, wiring.interrupt.chooses);
-        self.signals.relays |=
-            looks.interrupt && chosen && self.specials.has(M, wiring.interrupt.relay);
+        let has = |relay: Option<Relay>| relay.is_some_and(|relay| self.specials.has(relay));
+        let chosen = has(wiring.interrupt.chooses);
+        self.signals.relays |= looks.interrupt && chosen && has(wiring.interrupt.relay);
         wiring.inputs(looks, chosen)
     }
 
@@ -179,15 +179,15 @@ impl Lowerer<'_> {
         let sends = self.module.pulse_outputs.iter();
         let outputs: Option<Vec<(u32, StopInput)>> = sends
             .map(|&output| {
-                let stop = wiring.get(output as usize)?.stop_input;
-                (stop.enable != 0).then_some((output, stop))
+                let stop = wiring.get(output as usize)?.stop_input?;
+                Some((output, stop))
             })
             .collect();
         for (output, stop) in outputs.unwrap_or_default() {
-            if !self.specials.has(M, stop.enable) {
+            if !self.specials.has(stop.enable) {
                 continue;
             }
-            self.specials.flags.push((D, stop.register));
+            self.specials.flags.push((D, stop.register.number()));
             for input in STOP_INPUTS {
                 self.on_edge(input, EdgeKind::Rising, |this| {
                     let stops = this.is_stop_input(stop, input);
@@ -199,8 +199,8 @@ impl Lowerer<'_> {
 
     /// Whether this input stops pulses now.
     fn is_stop_input(&mut self, stop: StopInput, input: u32) -> ExprId {
-        let enabled = self.add(Expr::ReadBit(fixed(M, stop.enable)));
-        let chosen = self.add(Expr::ReadWord(fixed(D, stop.register)));
+        let enabled = self.add(Expr::ReadBit(stop.enable.into()));
+        let chosen = self.add(Expr::ReadWord(stop.register.into()));
         let number = self.int(input as i32, false);
         let chosen = self.add(Expr::Cmp(CmpOp::Eq, chosen, number));
         self.and(enabled, chosen)

@@ -6,6 +6,8 @@ use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Drive, Lower, Role};
 use rungc_ir::ranges::Reached;
 use rungc_models::runs::FIRST_SPECIAL;
+use rungc_models::special::SpecialDevice;
+use rungc_rt::Register;
 use rungc_syntax::{DeviceClass, OperandKind};
 
 /// More than any model has.
@@ -54,13 +56,14 @@ impl Specials {
     }
 
     /// Whether something looks at a special device.
-    pub(super) fn has(&self, class: DeviceClass, number: u32) -> bool {
-        let set = match class {
+    pub(super) fn has<D: SpecialDevice>(&self, device: D) -> bool {
+        let set = match D::CLASS {
             DeviceClass::M => &self.relays,
             DeviceClass::D => &self.registers,
             _ => return false,
         };
-        number
+        device
+            .number()
             .checked_sub(FIRST_SPECIAL)
             .and_then(|i| set.get(i as usize))
             .copied()
@@ -137,14 +140,15 @@ impl Specials {
 
 impl Lowerer<'_> {
     /// Whether an instruction names an ordinary register, among others or with an index, or something observes it.
-    pub(super) fn looks_at(&self, register: u32) -> bool {
-        self.observed.contains(&(DeviceClass::D, register)) || self.names(register)
+    pub(super) fn looks_at(&self, register: Register) -> bool {
+        let observed = (DeviceClass::D, register.number());
+        self.observed.contains(&observed) || self.names(register)
     }
 
     /// Whether an instruction names an ordinary register, among others or with an index.
-    pub(super) fn names(&self, register: u32) -> bool {
+    pub(super) fn names(&self, register: Register) -> bool {
         let named = self.named.get_or_init(|| self.named_registers());
-        named.get(register as usize).copied().unwrap_or(false)
+        named.get(usize::from(register.0)).copied().unwrap_or(false)
     }
 
     /// The ordinary registers that instructions name.

@@ -9,13 +9,11 @@ use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{EdgeId, Expr};
-use rungc_models::special;
 use rungc_rt::EdgeKind;
+use rungc_rt::special::M_TRANSFER_OFF;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Special relay that holds transitions back.
-const HOLD: u32 = 8040;
 /// Annunciators: S devices that are no states.
 pub(super) const ANNUNCIATORS: std::ops::RangeInclusive<u32> = 900..=999;
 
@@ -160,10 +158,8 @@ impl Lowerer<'_> {
     /// SET or OUT of a state in a block.
     pub(super) fn transition(&mut self, target: u32) {
         let mut drive = self.drive_of_form();
-        let works = special::find(self.model.id, DeviceClass::M, HOLD)
-            .is_some_and(|row| row.is_kept_by_scan());
-        if works && self.specials.has(DeviceClass::M, HOLD) {
-            let held = self.add(Expr::ReadBit(fixed(DeviceClass::M, HOLD)));
+        if self.keeps(M_TRANSFER_OFF) {
+            let held = self.add(Expr::ReadBit(M_TRANSFER_OFF.into()));
             let free = self.not(held);
             drive = self.and(drive, free);
         }

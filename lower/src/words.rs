@@ -96,7 +96,7 @@ impl Lowerer<'_> {
         matches!(function, RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv)
             && [M_BORROW, M_CARRY]
                 .iter()
-                .any(|&flag| self.specials.has(DeviceClass::M, flag))
+                .any(|&flag| self.specials.has(flag))
     }
 
     /// Where `cond` holds, what `make` emits; elsewhere the instruction faults with `code`.

@@ -1,8 +1,94 @@
-//! High-speed counters C235 to C255 as data: which inputs they count, and in which way.
+//! High-speed counters C235 to C255: which inputs they count, and in which way; what else looks at fast inputs.
 
-use crate::{ModelId, ModelSet};
-use rungc_rt::CmpOp;
+use rungc_rt::{CmpOp, Register, Relay};
 use rungc_syntax::{Device, DeviceClass};
+use std::ops::RangeInclusive;
+
+/// The first counter that counts pulses of inputs; those below are counted by the program.
+pub const FIRST: u32 = 235;
+
+/// High-speed counters of a model, and what its instructions for high-speed inputs do.
+#[derive(Clone, Debug)]
+pub struct HighSpeed {
+    /// Its counters.
+    pub counters: &'static [Counter],
+    /// Counters of two phases, each with the relay that makes it count all four edges of a cycle.
+    pub four_fold: &'static [(u32, Relay)],
+    /// Counters of one input may take turns.
+    pub counters_take_turns: bool,
+    /// A counter stays at 0 as long as its reset input is on. Else it is reset at the edge.
+    pub held_by_reset: bool,
+    /// Relays that change what reset inputs do.
+    pub reset_relays: Option<ResetRelays>,
+    /// How many comparisons at the count it makes at a time, tables among them; `None`: any number.
+    pub most_comparisons: Option<u32>,
+    /// A comparison acts when the count crosses the value in either direction, also where the program changes one of them, and not
+    /// only at a count that equals it: the zones in which such comparisons run.
+    pub crossing_zones: Option<RangeInclusive<i32>>,
+    /// The table of HSCT.
+    pub patterns: TableMode,
+    /// Input axes.
+    pub axes: &'static [Axis],
+    /// The relay of input X000, after which the others' follow, that makes SPD show pulses a minute.
+    pub per_minute: Option<Relay>,
+    /// What measures pulses.
+    pub meters: &'static [Meter],
+    /// Registers that count the rising edges of inputs from X000 on.
+    pub edge_counts: &'static [Register],
+}
+
+impl HighSpeed {
+    /// The counter of this number.
+    pub fn counter(&self, number: u32) -> Option<&'static Counter> {
+        let mut counters = self.counters.iter();
+        counters.find(|counter| counter.number == number)
+    }
+
+    /// The relay that makes a counter count four-fold.
+    pub fn four_fold(&self, number: u32) -> Option<Relay> {
+        let mut relays = self.four_fold.iter();
+        relays.find(|relay| relay.0 == number).map(|relay| relay.1)
+    }
+}
+
+/// Relays that change what reset inputs of counters do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ResetRelays {
+    /// Only the edge of a reset input resets.
+    pub edge: Relay,
+    /// Reset inputs do nothing.
+    pub off: Relay,
+}
+
+/// Units of hardware that fast inputs and outputs share.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct FastUnits {
+    /// How many there are.
+    pub total: u32,
+    /// Those of a pulse output.
+    pub output: u32,
+    /// Those of SPD.
+    pub density: u32,
+    /// Those of an interrupt or the catching of pulses.
+    pub edge: u32,
+    /// Those of a counter of one input.
+    pub one: u32,
+    /// Those of a counter of two inputs.
+    pub two: u32,
+    /// Those of a counter of two phases.
+    pub phases: u32,
+}
+
+impl FastUnits {
+    /// Units of a high-speed counter.
+    pub const fn counter(&self, kind: Kind) -> u32 {
+        match kind {
+            Kind::One => self.one,
+            Kind::UpDown | Kind::Direction => self.two,
+            Kind::Phases => self.phases,
+        }
+    }
+}
 
 /// How the inputs of a counter count.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -43,14 +129,7 @@ impl Counter {
     }
 }
 
-/// Relays that make counters of two phases count all four edges of a cycle.
-struct FourFold {
-    models: ModelSet,
-    /// Counter and relay.
-    relays: &'static [(u32, u32)],
-}
-
-const fn counter(
+pub(crate) const fn counter(
     number: u32,
     kind: Kind,
     counts: &'static [u32],
@@ -67,7 +146,7 @@ const fn counter(
 }
 
 /// The FX family's counters (h1u-h2u-programming §3.6).
-const FX: &[Counter] = &{
+const COUNTERS: &[Counter] = &{
     use Kind::{One, Phases, UpDown};
     [
         counter(235, One, &[0], None, None),
@@ -94,114 +173,50 @@ const FX: &[Counter] = &{
     ]
 };
 
-/// HM's counters (hm-motion-controller §5.1.5).
-const HM: &[Counter] = &{
-    use Kind::{Direction, One, Phases};
-    [
-        counter(235, One, &[0o0], None, None),
-        counter(237, One, &[0o2], None, None),
-        counter(239, One, &[0o0], Some(0o10), None),
-        counter(240, One, &[0o2], Some(0o11), None),
-        counter(241, One, &[0o0], Some(0o10), Some(0o12)),
-        counter(242, One, &[0o2], Some(0o11), Some(0o13)),
-        counter(244, Direction, &[0o0, 0o1], None, None),
-        counter(245, Direction, &[0o2, 0o3], None, None),
-        counter(246, Direction, &[0o0, 0o1], Some(0o10), None),
-        counter(247, Direction, &[0o2, 0o3], Some(0o11), None),
-        counter(248, Direction, &[0o0, 0o1], Some(0o10), Some(0o12)),
-        counter(249, Direction, &[0o2, 0o3], Some(0o11), Some(0o13)),
-        counter(250, Phases, &[0o0, 0o1], None, None),
-        counter(251, Phases, &[0o2, 0o3], None, None),
-        counter(252, Phases, &[0o0, 0o1], Some(0o10), None),
-        counter(253, Phases, &[0o2, 0o3], Some(0o11), None),
-        counter(254, Phases, &[0o0, 0o1], Some(0o10), Some(0o12)),
-        counter(255, Phases, &[0o2, 0o3], Some(0o11), Some(0o13)),
-    ]
+/// What the FX family's models have in common: comparisons act at a count that equals the value, and an edge of a reset input resets.
+pub(crate) const FX: HighSpeed = HighSpeed {
+    counters: COUNTERS,
+    four_fold: &[],
+    counters_take_turns: false,
+    held_by_reset: false,
+    reset_relays: None,
+    most_comparisons: Some(6),
+    crossing_zones: None,
+    patterns: PATTERNS,
+    axes: &[],
+    per_minute: None,
+    meters: &[],
+    edge_counts: &[],
 };
 
-/// Four-fold counting (h1u-h2u-programming §3.6; l01s-programming, table of special relays).
-const FOUR_FOLD: &[FourFold] = &[
-    FourFold {
-        models: INOVANCE,
-        relays: &[
-            (251, 8195),
-            (252, 8196),
-            (253, 8197),
-            (254, 8198),
-            (255, 8199),
-        ],
-    },
-    FourFold {
-        models: ModelSet::L01S.or(ModelSet::FX3),
-        relays: &[
-            (251, 8198),
-            (252, 8198),
-            (253, 8199),
-            (254, 8198),
-            (255, 8199),
-        ],
-    },
+/// Four-fold counting of L01S and FX3 (l01s-programming, table of special relays).
+pub(crate) const FOUR_FOLD: &[(u32, Relay)] = &[
+    (251, Relay(8198)),
+    (252, Relay(8198)),
+    (253, Relay(8199)),
+    (254, Relay(8198)),
+    (255, Relay(8199)),
 ];
-
-const INOVANCE: ModelSet = ModelSet::INOVANCE;
-/// Models on which a counter stays at 0 as long as its reset input is on (h1u-h2u-programming §3.6, l01s-programming §6.3). On the
-/// others it is reset at the edge.
-pub const HELD_BY_RESET: ModelSet = ModelSet::INOVANCE.or(ModelSet::L01S).or(ModelSet::HM);
-/// Models with [`EDGE_RESET`] and [`NO_RESET`].
-pub const RESET_RELAYS: ModelSet = INOVANCE;
-/// Only the edge of a reset input resets.
-pub const EDGE_RESET: u32 = 8166;
-/// Reset inputs do nothing.
-pub const NO_RESET: u32 = 8169;
-/// Comparisons act when a reset input resets the counter, too.
-pub const COMPARE_AT_RESET: u32 = 8025;
-
-/// The relay of input X000, behind which the others' follow, that makes SPD show pulses a minute (h1u-h2u-programming §4.3.6).
-pub fn per_minute(model: ModelId) -> Option<u32> {
-    INOVANCE.has(model).then_some(8100)
-}
-
-/// How many comparisons at the count a model makes at a time, tables among them (h1u-h2u-programming §4.3.6; FX1S/FX1N/FX2N programming
-/// manual II §5.6; FX3 programming manual §14.4); `None`: any number.
-pub fn most_comparisons(model: ModelId) -> Option<u32> {
-    match model {
-        ModelId::Fx1s | ModelId::Fx1n => Some(4),
-        ModelId::H1u
-        | ModelId::H2u
-        | ModelId::Fx2n
-        | ModelId::Fx2nCompatible
-        | ModelId::Fx3s
-        | ModelId::Fx3g => Some(6),
-        ModelId::Fx3u | ModelId::Fx3uCompatible => Some(32),
-        ModelId::L01s | ModelId::Hm => None,
-    }
-}
-
-/// Models on which a comparison acts when the count crosses the value in either direction, also where the program changes one of
-/// them, and not only at a count that equals it (hm-motion-controller §8.3.14).
-pub const CROSSING: ModelSet = ModelSet::HM;
-/// The zones in which comparisons of those models run.
-pub const ZONES: std::ops::RangeInclusive<i32> = 0..=5;
 
 /// How a table of rows that wait for counts works.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct TableMode {
     /// The relay that HSZ names instead of bits; `None`: HSCT.
-    pub relay: Option<u32>,
+    pub relay: Option<Relay>,
     /// Words of a row: the count, a pair, and what it says, a word or a pair.
     pub words: u32,
     /// Its rows are those that stand when the first scan that drives it ends.
     pub fixed: bool,
     /// A row is reached when this holds between the count and its own.
     pub reached: CmpOp,
-    /// Behind the last row comes the first.
+    /// After the last row comes the first.
     pub repeats: bool,
     /// A mask says which bits of a row's pattern are written.
     pub masked: bool,
     /// Register of the row that waits.
-    pub row: Option<u32>,
+    pub row: Option<Register>,
     /// Relay that is on when the last row was reached, …
-    pub done: Option<u32>,
+    pub done: Option<Relay>,
     /// … for a scan; else until the table begins again or is not driven.
     pub done_for_a_scan: bool,
     /// What the row that waits says, shown instead of done.
@@ -212,110 +227,67 @@ pub struct TableMode {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Shown {
     /// What it says.
-    pub word: u32,
+    pub word: Register,
     /// The count that it waits for.
-    pub count: u32,
+    pub count: Register,
 }
 
 /// HSZ with M8130: rows switch outputs (h1u-h2u-programming §4.3.6).
 const OUTPUTS: TableMode = TableMode {
-    relay: Some(8130),
+    relay: Some(Relay(8130)),
     words: 4,
     fixed: true,
     reached: CmpOp::Eq,
     repeats: true,
     masked: false,
-    row: Some(8130),
-    done: Some(8131),
+    row: Some(Register(8130)),
+    done: Some(Relay(8131)),
     done_for_a_scan: true,
     shows: None,
 };
 
 /// HSZ with M8132: rows give the frequency of PLSY (h1u-h2u-programming §4.3.6).
 const FREQUENCIES: TableMode = TableMode {
-    relay: Some(8132),
-    row: Some(8131),
-    done: Some(8133),
+    relay: Some(Relay(8132)),
+    row: Some(Register(8131)),
+    done: Some(Relay(8133)),
     done_for_a_scan: false,
     shows: Some(Shown {
-        word: 8132,
-        count: 8134,
+        word: Register(8132),
+        count: Register(8134),
     }),
     ..OUTPUTS
 };
 
 /// HSCT of the FX family.
-const PATTERNS: TableMode = TableMode {
+pub(crate) const PATTERNS: TableMode = TableMode {
     relay: None,
     words: 3,
-    row: Some(8138),
-    done: Some(8138),
+    row: Some(Register(8138)),
+    done: Some(Relay(8138)),
     ..OUTPUTS
-};
-
-/// DHSCT of HM (hm-motion-controller §8.3.17).
-const MASKED_PATTERNS: TableMode = TableMode {
-    fixed: false,
-    reached: CmpOp::Ge,
-    repeats: false,
-    masked: true,
-    row: None,
-    done: None,
-    ..PATTERNS
 };
 
 /// The table that HSZ works through if it names this relay.
 pub fn zone_table(relay: Device) -> Option<&'static TableMode> {
-    [&OUTPUTS, &FREQUENCIES]
-        .into_iter()
-        .find(|mode| relay.class == DeviceClass::M && mode.relay == Some(relay.number))
+    [&OUTPUTS, &FREQUENCIES].into_iter().find(|mode| {
+        relay.class == DeviceClass::M && mode.relay.is_some_and(|own| own.number() == relay.number)
+    })
 }
 
-/// The table of HSCT.
-pub fn pattern_table(model: ModelId) -> &'static TableMode {
-    if model == ModelId::Hm {
-        &MASKED_PATTERNS
-    } else {
-        &PATTERNS
-    }
-}
-
-/// Registers of an input axis of HM, which show a count (hm-motion-controller §8.2.2).
+/// Registers of an input axis, which show a count.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Axis {
     /// The input that counts.
     pub input: u32,
     /// Pair for the count.
-    pub count: u32,
+    pub count: Register,
     /// Pair for the upper half of the count as 64 bits.
-    pub upper: u32,
+    pub upper: Register,
     /// Pair for the count at the last interrupt of one of two inputs.
-    pub captured: u32,
+    pub captured: Register,
     /// These inputs.
     pub capture: [u32; 2],
-}
-
-/// HM's input axes.
-const AXES: &[Axis] = &[
-    Axis {
-        input: 0,
-        count: 200,
-        upper: 202,
-        captured: 206,
-        capture: [4, 5],
-    },
-    Axis {
-        input: 2,
-        count: 250,
-        upper: 252,
-        captured: 256,
-        capture: [6, 7],
-    },
-];
-
-/// The input axes of a model.
-pub fn axes(model: ModelId) -> &'static [Axis] {
-    if model == ModelId::Hm { AXES } else { &[] }
 }
 
 /// What measures the pulses of an input.
@@ -324,63 +296,9 @@ pub struct Meter {
     /// The input.
     pub input: u32,
     /// First of three pairs of registers: the ring counter at the rising edge, at the falling edge, the width or the period.
-    pub registers: u32,
+    pub registers: Register,
     /// Relays of which all must be on; none: it always measures.
-    pub measures: &'static [u32],
+    pub measures: &'static [Relay],
     /// While this relay is on it measures periods.
-    pub period: Option<u32>,
-}
-
-const fn meter(input: u32, registers: u32, measures: &'static [u32], period: Option<u32>) -> Meter {
-    Meter {
-        input,
-        registers,
-        measures,
-        period,
-    }
-}
-
-/// Those of FX3S and FX3G.
-const FX3G_METERS: &[Meter] = &[
-    meter(0, 8074, &[8075, 8076], Some(8080)),
-    meter(1, 8080, &[8075, 8077], Some(8081)),
-    meter(3, 8086, &[8075, 8078], Some(8082)),
-    meter(4, 8092, &[8075, 8079], Some(8083)),
-];
-
-/// L01S's, of which the manual tells the registers only (l01s-programming, table of special registers).
-const L01S_METERS: &[Meter] = &[
-    meter(0, 8074, &[], None),
-    meter(1, 8080, &[], None),
-    meter(3, 8086, &[], None),
-    meter(4, 8092, &[], None),
-];
-
-/// What measures pulses on a model.
-pub fn meters(model: ModelId) -> &'static [Meter] {
-    match model {
-        ModelId::Fx3s | ModelId::Fx3g => FX3G_METERS,
-        ModelId::L01s => L01S_METERS,
-        _ => &[],
-    }
-}
-
-/// Registers that count the rising edges of inputs from X000 on (hm-motion-controller §5.7).
-pub fn edge_counts(model: ModelId) -> Option<std::ops::RangeInclusive<u32>> {
-    (model == ModelId::Hm).then_some(8160..=8167)
-}
-
-/// The first counter that counts pulses of inputs; those below are counted by the program.
-pub const FIRST: u32 = 235;
-
-/// The high-speed counters of a model.
-pub fn counters(model: ModelId) -> &'static [Counter] {
-    if model == ModelId::Hm { HM } else { FX }
-}
-
-/// The relay that makes a counter count four-fold.
-pub fn four_fold(model: ModelId, number: u32) -> Option<u32> {
-    let row = FOUR_FOLD.iter().find(|row| row.models.has(model))?;
-    let found = row.relays.iter().find(|relay| relay.0 == number)?;
-    Some(found.1)
+    pub period: Option<Relay>,
 }

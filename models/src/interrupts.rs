@@ -1,7 +1,37 @@
-//! Interrupt pointers as data: what requests each, and what keeps it from running.
+//! Interrupt pointers: what requests each, and what keeps it from running.
 
-use crate::{ModelId, ModelSet};
-use rungc_rt::EdgeKind;
+use rungc_rt::{EdgeKind, Register, Relay};
+
+/// The interrupts of a model.
+#[derive(Clone, Debug)]
+pub struct Interrupts {
+    /// What a pointer I stands for; see [`Interrupts::find`].
+    pub pointers: fn(u32) -> Option<Interrupt>,
+    /// Interrupts whose routines may be left in the middle.
+    pub advanced: Option<AdvancedPointers>,
+    /// A register chooses the edge that interrupts, so that both routines of an input may stand in the program.
+    pub both_edges: bool,
+    /// Registers that say which edges of inputs interrupt.
+    pub captures: &'static [Capture],
+    /// Relays that catch pulses.
+    pub pulse_catch: Option<PulseCatch>,
+    /// A table of counts whose rows interrupt.
+    pub count_rows: Option<&'static CountRows>,
+    /// In which order interrupts run that are requested together.
+    pub precedence: Precedence,
+}
+
+impl Interrupts {
+    /// What pointer I`number` stands for; `None` if it is one that nothing here requests, or an advanced interrupt.
+    pub fn find(&self, number: u32) -> Option<Interrupt> {
+        (self.pointers)(number)
+    }
+
+    /// The advanced interrupt I`number`.
+    pub fn find_advanced(&self, number: u32) -> Option<Advanced> {
+        self.advanced?.find(number)
+    }
+}
 
 /// What requests an interrupt.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
@@ -39,9 +69,9 @@ pub enum Source {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Gate {
     /// It may not while this relay is on.
-    Forbids(u32),
+    Forbids(Relay),
     /// It may while this relay is on.
-    Allows(u32),
+    Allows(Relay),
 }
 
 /// An interrupt routine's own conditions.
@@ -50,24 +80,48 @@ pub struct Interrupt {
     /// What requests it; `None`: only its request relay.
     pub source: Option<Source>,
     /// The relay that keeps the request, and may be set by the program (HM); it goes off when the routine begins.
-    pub request: Option<u32>,
+    pub request: Option<Relay>,
     /// Whether it may run. A request that is not kept in a relay is lost if not.
     pub gate: Gate,
 }
 
-/// An advanced interrupt of HM: its routine may be left in the middle, and entered there again (hm-motion-controller §5.5.8).
+/// An interrupt whose routine may be left in the middle, and entered there again (hm-motion-controller §5.5.8).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Advanced {
     /// The relay that forbids it while on.
-    pub mask: u32,
+    pub mask: Relay,
     /// The relay that is on from the first entry to the end of the routine.
-    pub active: u32,
+    pub active: Relay,
     /// The relay that requests it; it goes off when the routine begins.
-    pub request: u32,
+    pub request: Relay,
     /// The relay that requests the next entry of a routine that is active; it goes off then.
-    pub again: u32,
+    pub again: Relay,
     /// What else requests the next entry.
     pub source: Option<Source>,
+}
+
+/// The advanced interrupts of a model. The devices of the first stand here; those of the others follow.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct AdvancedPointers {
+    /// Pointer of the first.
+    pub pointer: u32,
+    /// How many there are.
+    pub count: u32,
+    /// The first, which the system requests again each millisecond.
+    pub first: Advanced,
+}
+
+impl AdvancedPointers {
+    fn find(&self, number: u32) -> Option<Advanced> {
+        let n = number.checked_sub(self.pointer)?;
+        (n < self.count).then_some(Advanced {
+            mask: self.first.mask.after(n),
+            active: self.first.active.after(n),
+            request: self.first.request.after(n),
+            again: self.first.again.after(n),
+            source: self.first.source.filter(|_| n == 0),
+        })
+    }
 }
 
 /// What the edges of two inputs interrupt, as a register says (hm-motion-controller §5.5.6).
@@ -75,7 +129,7 @@ pub struct Advanced {
 pub struct Capture {
     /// The register. Its low digit is 0 if the first input's falling edge interrupts, its high digit 1 if the second one's falling
     /// edge does, 2 if its rising edge does.
-    pub register: u32,
+    pub register: Register,
     /// The inputs.
     pub inputs: [u32; 2],
     /// It is read at the end of the first scan, and when a counter that counts this input is reset.
@@ -94,90 +148,43 @@ impl Capture {
     }
 }
 
-/// HM's registers of edges.
-const CAPTURES: &[Capture] = &[
-    Capture {
-        register: 211,
-        inputs: [4, 5],
-        counted: 0,
-    },
-    Capture {
-        register: 261,
-        inputs: [6, 7],
-        counted: 2,
-    },
-];
-
-/// The registers that say which edges of inputs interrupt.
-pub fn captures(model: ModelId) -> &'static [Capture] {
-    if HM.has(model) { CAPTURES } else { &[] }
-}
-
-/// Pointer of the first advanced interrupt.
-const ADVANCED: u32 = 900;
-
-/// The advanced interrupt I`number` of a model.
-pub fn find_advanced(model: ModelId, number: u32) -> Option<Advanced> {
-    let n = number.checked_sub(ADVANCED)?;
-    (HM.has(model) && n < 8).then_some(Advanced {
-        mask: 8064 + n,
-        active: 8072 + n,
-        request: 8080 + n,
-        again: 8088 + n,
-        // The system requests it each millisecond.
-        source: (n == 0).then_some(Source::Period { ms: 1 }),
-    })
-}
-
 /// The relays that catch a rising edge of an input once EI was executed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct PulseCatch {
-    models: ModelSet,
     /// Relay of X000; those of the next inputs follow.
-    pub first: u32,
+    pub first: Relay,
     /// How many inputs.
     pub inputs: u32,
 }
 
-const HM: ModelSet = ModelSet::HM;
-const INOVANCE: ModelSet = ModelSet::INOVANCE;
-/// The relays that forbid interrupts on all models but HM.
-pub const MASKS: std::ops::RangeInclusive<u32> = 8050..=8059;
+/// Pulse catch of six inputs (h1u-h2u-programming §3.8).
+const PULSE_CATCH: PulseCatch = PulseCatch {
+    first: Relay(8170),
+    inputs: 6,
+};
 
-/// Pulse catch (h1u-h2u-programming §3.8).
-const PULSE_CATCH: &[PulseCatch] = &[
-    PulseCatch {
-        models: INOVANCE.or(ModelSet::FX).without(ModelSet::FX3U),
-        first: 8170,
-        inputs: 6,
-    },
-    PulseCatch {
-        models: ModelSet::L01S.or(ModelSet::FX3U),
-        first: 8170,
-        inputs: 8,
-    },
-];
-
-/// The pulse catch relays of a model.
-pub fn pulse_catch(model: ModelId) -> Option<&'static PulseCatch> {
-    PULSE_CATCH.iter().find(|row| row.models.has(model))
-}
+/// Pulse catch of L01S and FX3U.
+pub(crate) const PULSE_CATCH_OF_8: PulseCatch = PulseCatch {
+    inputs: 8,
+    ..PULSE_CATCH
+};
 
 /// A table of counts of one high-speed counter: rows wait for theirs one after the other, and request an interrupt each
 /// (h1u-h2u-programming §4.3.1, §8.7).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct CountRows {
     /// The relay while which is on the table is at work.
-    pub enable: u32,
-    /// Register: the counter's number.
-    pub counter: u32,
-    /// Register: how many rows there are, at most as many as pointers.
-    pub rows: u32,
-    /// Register: the number of the first register D of the rows, which are pairs.
-    pub first: u32,
-    /// Register that shows the row that waits, from 0.
-    pub row: u32,
-    /// Relay that goes on when the last row was reached, behind which the first one waits again.
-    pub done: u32,
+    pub enable: Relay,
+    /// The counter's number.
+    pub counter: Register,
+    /// How many rows there are, at most as many as pointers.
+    pub rows: Register,
+    /// The number of the first register D of the rows, which are pairs.
+    pub first: Register,
+    /// Shows the row that waits, from 0.
+    pub row: Register,
+    /// Goes on when the last row was reached, after which the first one waits again.
+    pub done: Relay,
     /// Pointer of the first row.
     pub pointer: u32,
     /// How many pointers there are.
@@ -189,40 +196,35 @@ impl CountRows {
     pub fn pointers(&self) -> std::ops::Range<u32> {
         self.pointer..self.pointer + self.most
     }
-}
 
-/// H1U's and H2U's.
-const COUNT_ROWS: &CountRows = &CountRows {
-    enable: 8084,
-    counter: 8084,
-    rows: 8085,
-    first: 8086,
-    row: 8131,
-    done: 8133,
-    pointer: 507,
-    most: 24,
-};
-
-/// The table of counts of a model.
-pub fn count_rows(model: ModelId) -> Option<&'static CountRows> {
-    INOVANCE.has(model).then_some(COUNT_ROWS)
+    /// What pointer I`number` stands for, if it is one of a row.
+    pub(crate) fn find(&self, number: u32) -> Option<Interrupt> {
+        self.pointers().contains(&number).then_some(Interrupt {
+            source: Some(Source::Row { pointer: number }),
+            request: None,
+            gate: Gate::Allows(self.enable),
+        })
+    }
 }
 
 /// What requests interrupts, to tell which comes first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Kind {
+pub enum Kind {
+    /// A count of a high-speed counter.
     Counter,
+    /// An edge of an input.
     Input,
+    /// A period of time.
     Timer,
+    /// The end of a train of pulses.
     Pulses,
 }
 
 /// In which order interrupts run that are requested together.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Precedence {
-    models: ModelSet,
     /// The first kind runs first. Without kinds, and within one, the lower pointer runs first.
-    kinds: &'static [Kind],
+    pub kinds: &'static [Kind],
     /// Requests that DI keeps waiting run in the order in which they came; only of those that came at once the kind tells. Else it
     /// does of all.
     pub first_come: bool,
@@ -242,123 +244,50 @@ impl Precedence {
     }
 }
 
-const PRECEDENCES: &[Precedence] = &[
-    // h1u-h2u-programming §4.3.1.
-    Precedence {
-        models: INOVANCE,
-        kinds: &[Kind::Counter, Kind::Input, Kind::Timer, Kind::Pulses],
+/// What the FX family's models have in common: of interrupts that are requested together the lower pointer runs first.
+pub(crate) const FX: Interrupts = Interrupts {
+    pointers: fx_pointer,
+    advanced: None,
+    both_edges: false,
+    captures: &[],
+    pulse_catch: Some(PULSE_CATCH),
+    count_rows: None,
+    precedence: Precedence {
+        kinds: &[],
         first_come: true,
     },
-    // l01s-programming §6.4, which names the kinds alone; of timers I6 comes first (§6.4.2).
-    Precedence {
-        models: ModelSet::L01S,
-        kinds: &[Kind::Input, Kind::Timer, Kind::Counter],
-        first_come: false,
-    },
-    // hm-motion-controller §5.5.4 speaks of priorities, but names none. Relays keep the requests, and not when they came.
-    Precedence {
-        models: HM,
-        kinds: &[],
-        first_come: false,
-    },
-];
-
-/// The FX family: the lower pointer runs first of those that come at once.
-const FX: Precedence = Precedence {
-    models: ModelSet::FX,
-    kinds: &[],
-    first_come: true,
 };
 
-/// In which order a model's interrupts run.
-pub fn precedence(model: ModelId) -> &'static Precedence {
-    let mut table = PRECEDENCES.iter();
-    table.find(|row| row.models.has(model)).unwrap_or(&FX)
-}
+/// The relay that forbids the interrupts of X000; those of X001 to X005, of the timers I6 to I8 and of counters follow.
+const MASK: Relay = Relay(8050);
 
-/// What pointer I`number` stands for on a model; `None` if it is one that nothing here requests, or an advanced interrupt.
-pub fn find(model: ModelId, number: u32) -> Option<Interrupt> {
-    if HM.has(model) {
-        return find_hm(number);
-    }
+/// Pointers of the FX family (h1u-h2u-programming §4.3.1): inputs, timers, comparisons of counters.
+pub(crate) fn fx_pointer(number: u32) -> Option<Interrupt> {
     let (group, rest) = (number / 100, number % 100);
-    let source = match (group, rest) {
-        (0..=5, 0 | 1) => Source::Input {
-            number: group,
-            kind: edge(rest),
-        },
-        (6..=8, 1..) => Source::Period { ms: rest },
-        (0, 10 | 20 | 30 | 40 | 50 | 60) => {
-            return Some(Interrupt {
-                source: Some(Source::Comparison { pointer: number }),
-                request: None,
-                gate: Gate::Forbids(*MASKS.end()),
-            });
+    let (source, mask) = match (group, rest) {
+        (0..=5, 0 | 1) => {
+            let kind = edge(rest);
+            (
+                Source::Input {
+                    number: group,
+                    kind,
+                },
+                MASK.after(group),
+            )
         }
-        // I502 to I506: Y000 to Y004 (h1u-h2u-programming §4.3.6).
-        (5, 2..=6) if INOVANCE.has(model) => {
-            let output = rest - 2;
-            return Some(Interrupt {
-                source: Some(Source::PulsesEnd { output }),
-                request: None,
-                gate: Gate::Allows(8090 + output),
-            });
-        }
-        _ => return row_interrupt(model, number),
+        (6..=8, 1..) => (Source::Period { ms: rest }, MASK.after(group)),
+        (0, 10 | 20 | 30 | 40 | 50 | 60) => (Source::Comparison { pointer: number }, MASK.after(9)),
+        _ => return None,
     };
     Some(Interrupt {
         source: Some(source),
         request: None,
-        gate: Gate::Forbids(MASKS.start() + group),
-    })
-}
-
-/// I507 to I530: the rows of a table of counts.
-fn row_interrupt(model: ModelId, number: u32) -> Option<Interrupt> {
-    let table = count_rows(model)?;
-    table.pointers().contains(&number).then_some(Interrupt {
-        source: Some(Source::Row { pointer: number }),
-        request: None,
-        gate: Gate::Allows(table.enable),
-    })
-}
-
-/// HM's pointers (hm-motion-controller §5.5.5 to §5.5.7).
-fn find_hm(number: u32) -> Option<Interrupt> {
-    let (group, rest) = (number / 100, number % 100);
-    let (source, request, mask) = match (group, rest) {
-        // X004 and X006 interrupt with one edge, X005 and X007 with both; I001 and I201 have only their relay.
-        (0..=3, 0 | 1) => {
-            let input = Source::Input {
-                number: 4 + group,
-                kind: edge(rest),
-            };
-            let has_input = rest == 0 || group % 2 == 1;
-            let n = 2 * group + rest;
-            (has_input.then_some(input), 8032 + n, 8048 + n)
-        }
-        (6..=8, _) => {
-            let ms = if rest == 0 { 100 } else { rest };
-            let n = group - 6;
-            (Some(Source::Period { ms }), 8040 + n, 8056 + n)
-        }
-        // I010 is requested by the system each millisecond, I020 to I050 by the program.
-        (0, 10 | 20 | 30 | 40 | 50) => {
-            let n = rest / 10 - 1;
-            let source = (n == 0).then_some(Source::Period { ms: 1 });
-            (source, 8043 + n, 8059 + n)
-        }
-        _ => return None,
-    };
-    Some(Interrupt {
-        source,
-        request: Some(request),
         gate: Gate::Forbids(mask),
     })
 }
 
 /// The last digit of an input's pointer.
-fn edge(digit: u32) -> EdgeKind {
+pub(crate) fn edge(digit: u32) -> EdgeKind {
     if digit == 1 {
         EdgeKind::Rising
     } else {
@@ -369,11 +298,16 @@ fn edge(digit: u32) -> EdgeKind {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Model, ModelId};
+
+    fn find(id: ModelId, number: u32) -> Option<Interrupt> {
+        Model::get(id).interrupts.find(number)
+    }
 
     #[test]
     fn registers_choose_edges() {
         use EdgeKind::{Falling, Rising};
-        let [first, _] = captures(ModelId::Hm) else {
+        let [first, _] = Model::get(ModelId::Hm).interrupts.captures else {
             panic!("HM has two");
         };
         let interrupts = |mode: i32| {
@@ -392,7 +326,7 @@ mod tests {
 
     #[test]
     fn pointers_name_inputs_and_periods() {
-        let gate = Gate::Forbids;
+        let gate = |relay| Gate::Forbids(Relay(relay));
         let h2u = |number| find(ModelId::H2u, number).map(|found| (found.source, found.gate));
         let input = |number, kind| Some(Source::Input { number, kind });
         let period = |ms| Some(Source::Period { ms });
@@ -402,17 +336,20 @@ mod tests {
         let counter = Some(Source::Comparison { pointer: 10 });
         assert_eq!(h2u(10), Some((counter, gate(8059))));
         let pulses = Some(Source::PulsesEnd { output: 1 });
-        assert_eq!(h2u(503), Some((pulses, Gate::Allows(8091))));
+        assert_eq!(h2u(503), Some((pulses, Gate::Allows(Relay(8091)))));
         let row = Some(Source::Row { pointer: 530 });
-        assert_eq!(h2u(530), Some((row, Gate::Allows(8084))));
+        assert_eq!(h2u(530), Some((row, Gate::Allows(Relay(8084)))));
         assert_eq!((h2u(600), h2u(531)), (None, None));
         assert_eq!(find(ModelId::L01s, 507), None);
         let hm = |number| find(ModelId::Hm, number).map(|found| (found.source, found.request));
-        assert_eq!(hm(1), Some((None, Some(8033))));
-        assert_eq!(hm(301), Some((input(7, EdgeKind::Rising), Some(8039))));
-        assert_eq!(hm(700), Some((period(100), Some(8041))));
-        assert_eq!(hm(10), Some((period(1), Some(8043))));
-        assert_eq!((hm(50), hm(900)), (Some((None, Some(8047))), None));
+        assert_eq!(hm(1), Some((None, Some(Relay(8033)))));
+        assert_eq!(
+            hm(301),
+            Some((input(7, EdgeKind::Rising), Some(Relay(8039))))
+        );
+        assert_eq!(hm(700), Some((period(100), Some(Relay(8041)))));
+        assert_eq!(hm(10), Some((period(1), Some(Relay(8043)))));
+        assert_eq!((hm(50), hm(900)), (Some((None, Some(Relay(8047)))), None));
     }
 
     #[test]
@@ -427,7 +364,8 @@ mod tests {
                     kind: EdgeKind::Rising,
                 },
             ];
-            sources.sort_by_key(|&source| precedence(model).rank(source));
+            let precedence = Model::get(model).interrupts.precedence;
+            sources.sort_by_key(|&source| precedence.rank(source));
             sources
         };
         let [counter, input, timer, pulses] = order(ModelId::H2u);

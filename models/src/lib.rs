@@ -2,9 +2,8 @@
 //! registers, what requests its interrupts, its high-speed counters and axes, and the error codes it reports.
 //!
 //! This crate knows neither instructions nor programs nor the IR. Start reading at [`Model`]; a file in `model/` describes each
-//! family of models.
+//! family of models, and is the only place that knows in what they differ.
 
-pub mod axes;
 pub mod high_speed;
 pub mod interrupts;
 mod model;

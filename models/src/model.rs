@@ -1,4 +1,7 @@
-//! The PLC models: which devices each has, which of them are latched, what its timers and counters are.
+//! The PLC models: which devices each has, which of them are latched, what its timers and counters are, and all else in which it
+//! differs from the others.
+//!
+//! A model is a file here, with the tables of its special devices, and a line in [`models!`].
 
 mod fx1;
 mod fx2n;
@@ -6,43 +9,69 @@ mod fx3;
 mod hm;
 mod inovance;
 mod l01s;
+mod mitsubishi;
 mod set;
+mod shared;
 
-use crate::special;
-use rungc_syntax::Classes;
+use crate::high_speed::{FastUnits, HighSpeed};
+use crate::interrupts::Interrupts;
+use crate::special::Special;
+use rungc_rt::{Ports, Pulses, Register, Relay, TimerKind};
+use rungc_syntax::{Classes, DeviceClass};
 pub use set::ModelSet;
+use std::ops::RangeInclusive;
 
-use rungc_rt::{Ports, Pulses, TimerKind};
-use rungc_syntax::DeviceClass;
+/// Makes [`ModelId`] and [`Model::get`] from a list of models, each with the constant that describes it.
+macro_rules! models {
+    ($($(#[$doc:meta])* $id:ident = $model:path,)*) => {
+        /// A PLC model.
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
+        #[repr(u8)]
+        pub enum ModelId {
+            $($(#[$doc])* $id,)*
+        }
 
-/// A PLC model.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
-#[repr(u8)]
-pub enum ModelId {
+        impl ModelId {
+            /// All models, in the order of the enum.
+            pub const ALL: [ModelId; [$(stringify!($id)),*].len()] = [$(ModelId::$id),*];
+        }
+
+        impl Model {
+            /// The data of a model.
+            pub const fn get(id: ModelId) -> &'static Model {
+                match id {
+                    $(ModelId::$id => &$model,)*
+                }
+            }
+        }
+    };
+}
+
+models! {
     /// Inovance H1U.
-    H1u,
+    H1u = inovance::H1U,
     /// Inovance H2U.
-    H2u,
+    H2u = inovance::H2U,
     /// Coolmay L01S.
-    L01s,
+    L01s = l01s::L01S,
     /// Kewei HM motion controller.
-    Hm,
+    Hm = hm::HM,
     /// Mitsubishi FX1S.
-    Fx1s,
+    Fx1s = fx1::FX1S,
     /// Mitsubishi FX1N/FX1NC.
-    Fx1n,
+    Fx1n = fx1::FX1N,
     /// Mitsubishi FX2N/FX2NC.
-    Fx2n,
+    Fx2n = fx2n::FX2N,
     /// Boards of other makers that take programs for FX2N.
-    Fx2nCompatible,
+    Fx2nCompatible = fx2n::FX2N_COMPATIBLE,
     /// Mitsubishi FX3S.
-    Fx3s,
+    Fx3s = fx3::FX3S,
     /// Mitsubishi FX3G/FX3GC/FX3GE.
-    Fx3g,
+    Fx3g = fx3::FX3G,
     /// Mitsubishi FX3U/FX3UC.
-    Fx3u,
+    Fx3u = fx3::FX3U,
     /// Boards of other makers that take programs for FX3U.
-    Fx3uCompatible,
+    Fx3uCompatible = fx3::FX3U_COMPATIBLE,
 }
 
 /// How well a model fits a CPU type.
@@ -55,25 +84,6 @@ pub enum Fit {
 }
 
 impl ModelId {
-    /// All models, in the order of the enum.
-    pub const ALL: [ModelId; 12] = {
-        use ModelId::*;
-        [
-            H1u,
-            H2u,
-            L01s,
-            Hm,
-            Fx1s,
-            Fx1n,
-            Fx2n,
-            Fx2nCompatible,
-            Fx3s,
-            Fx3g,
-            Fx3u,
-            Fx3uCompatible,
-        ]
-    };
-
     /// The model with this name on the command line, e.g. `h2u`, or with this CPU type, e.g. `fx3uc`. Case does not matter.
     pub fn from_name(name: &str) -> Option<Self> {
         let is = |known: &str| known.eq_ignore_ascii_case(name);
@@ -137,11 +147,22 @@ pub struct Timers {
 #[derive(Clone, Debug)]
 pub struct FastTimers {
     /// The special relay.
-    pub relay: u32,
+    pub relay: Relay,
     /// Their numbers.
-    pub numbers: std::ops::RangeInclusive<u32>,
+    pub numbers: RangeInclusive<u32>,
     /// Their unit while it is on, in milliseconds.
     pub unit_ms: u16,
+}
+
+/// Which errors of a program a model's manual numbers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ErrorNumbers {
+    /// None.
+    No,
+    /// All that FX numbers.
+    All,
+    /// The numbers of contact logic are reserved.
+    AllButLogic,
 }
 
 /// All that is known of a model.
@@ -149,6 +170,9 @@ pub struct FastTimers {
 pub struct Model {
     /// Which.
     pub id: ModelId,
+    /// The model whose instructions it has, with their forms and operands: itself, or the one whose programs it takes. Rows of the
+    /// catalogue that name this model hold for it, too.
+    pub instructions: ModelId,
     /// Name on the command line: `h2u`.
     pub name: &'static str,
     /// Boards of other makers that take its programs; they take some values that it does not.
@@ -170,7 +194,7 @@ pub struct Model {
     /// is the factory setting.
     pub latch_choices: &'static [(DeviceClass, u32, u32)],
     /// Latched devices are kept over power-off only while this special register holds this value (HM); `None`: always.
-    pub latch_key: Option<(u32, i16)>,
+    pub latch_key: Option<(Register, i16)>,
     /// Whether latched timers and counters keep their contacts over power-off, not only their values.
     pub keeps_contacts: bool,
     /// The pointer that is END: CJ to it ends the scan, and it is no label.
@@ -180,7 +204,7 @@ pub struct Model {
     /// Whether a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].
-    pub error_relay: u32,
+    pub error_relay: Relay,
     /// Whether that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than with RUN.
     pub errors_last_a_scan: bool,
     /// Whether M8046 shows active annunciators as well as states.
@@ -188,6 +212,8 @@ pub struct Model {
     /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes know only 6706, for
     /// devices and values.
     pub value_error: u16,
+    /// Which errors that are found before a run have a number.
+    pub error_numbers: ErrorNumbers,
     /// Notations of operands that it knows, of those that are neither devices nor integers: E, TEXT, WORD_BIT, BUFFER.
     pub notations: Classes,
     /// Whether its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.
@@ -207,58 +233,24 @@ pub struct Model {
     pub pulse_outputs: &'static [(DeviceClass, u32, u32)],
     /// Those of them that keep a position, for positioning.
     pub position_outputs: &'static [(DeviceClass, u32, u32)],
+    /// Parameters of axes that begin with a value other than 0 besides the output, which is at first an axis' own
+    /// ([`rungc_rt::axis_place`]).
+    pub axis_defaults: &'static [(u32, i16)],
     /// Special data registers that are other names of index registers: (number, class, index number), e.g. D8028 is Z0.
     pub index_aliases: &'static [(u32, DeviceClass, u32)],
+    /// Its special devices; see [`Model::special`]. Each table is sorted by class and number, and none holds what another holds.
+    pub special: &'static [&'static [Special]],
+    /// Relays that go off when it goes from RUN to STOP, by their numbers; see [`Model::cleared_in_stop`].
+    pub cleared_in_stop: &'static [&'static [RangeInclusive<u16>]],
+    /// Its high-speed counters, and what instructions for high-speed inputs do.
+    pub high_speed: HighSpeed,
+    /// The hardware that fast inputs and outputs share; `None`: there is enough for all.
+    pub fast_units: Option<FastUnits>,
+    /// Its interrupts.
+    pub interrupts: Interrupts,
 }
 
-/// Shows model and version.
-const D_TYPE: u32 = 8001;
-
 impl Model {
-    /// Code of model and version, which D8001 shows; 0 on a model that does not show any.
-    pub fn type_code(&self) -> u16 {
-        let shown = self.special_words().find(|word| word.0 == D_TYPE);
-        shown.map_or(0, |word| word.1 as u16)
-    }
-
-    /// The data of a model.
-    pub fn get(id: ModelId) -> &'static Model {
-        match id {
-            ModelId::H1u => &inovance::H1U,
-            ModelId::H2u => &inovance::H2U,
-            ModelId::L01s => &l01s::L01S,
-            ModelId::Hm => &hm::HM,
-            ModelId::Fx1s => &fx1::FX1S,
-            ModelId::Fx1n => &fx1::FX1N,
-            ModelId::Fx2n => &fx2n::FX2N,
-            ModelId::Fx2nCompatible => &fx2n::FX2N_COMPATIBLE,
-            ModelId::Fx3s => &fx3::FX3S,
-            ModelId::Fx3g => &fx3::FX3G,
-            ModelId::Fx3u => &fx3::FX3U,
-            ModelId::Fx3uCompatible => &fx3::FX3U_COMPATIBLE,
-        }
-    }
-
-    /// Special registers that start with a value other than 0: (number, value), e.g. D8000 = 200.
-    pub fn special_words(&self) -> impl Iterator<Item = (u32, i16)> + use<> {
-        special::all(self.id)
-            .filter(|row| row.class == DeviceClass::D && row.default != 0)
-            .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
-    }
-
-    /// Special relays that are on at power-on.
-    pub fn special_bits(&self) -> impl Iterator<Item = u32> + use<> {
-        special::all(self.id)
-            .filter(|row| row.class == DeviceClass::M && row.default != 0)
-            .flat_map(|row| row.first..=row.last)
-    }
-
-    /// Whether a special relay does on this model what its number does on most of them: M8034 is an interrupt request on HM.
-    pub fn special_relay_works(&self, number: u32) -> bool {
-        special::find(self.id, DeviceClass::M, number)
-            .is_some_and(special::Special::is_kept_by_scan)
-    }
-
     /// The range that holds a device.
     pub fn range(&self, class: DeviceClass, number: u32) -> Option<&'static Range> {
         self.ranges
@@ -297,6 +289,25 @@ impl Model {
         missing
     }
 
+    /// The register of an output axis' parameter ([`rungc_rt::axis_place`]); `None` if it has no such axis.
+    pub fn axis_register(&self, axis: u32, parameter: u32) -> Option<Register> {
+        let wiring = self.pulses.outputs().get(axis as usize)?;
+        Some(wiring.axis?.after(parameter))
+    }
+
+    /// Parameters of axes that begin with a value other than 0, with their values.
+    pub fn axis_starts(&self) -> impl Iterator<Item = (Register, i16)> + use<> {
+        let axes = self.pulses.outputs().iter().zip(0..);
+        let axes = axes.filter_map(|(wiring, number)| Some((wiring.axis?, number)));
+        let defaults = self.axis_defaults;
+        axes.flat_map(move |(first, number)| {
+            let output = std::iter::once((rungc_rt::axis_place::OUTPUT, number));
+            let values = output.chain(defaults.iter().copied());
+            values.map(move |(parameter, value)| (first.after(parameter), value))
+        })
+        .filter(|&(_, value)| value != 0)
+    }
+
     /// Kind of a timer.
     pub fn timer(&self, number: u32) -> Option<TimerKind> {
         self.timers
@@ -306,122 +317,10 @@ impl Model {
     }
 }
 
-/// Devices of which the parameters of FX2N, FX3U and H2U choose the latched ones: those marked with ※1 and ※2
-/// (h1u-h2u-programming §3.3 to §3.7), those of FX2N and FX3U likewise.
-const LATCH_CHOICES: &[(DeviceClass, u32, u32)] = &{
-    use DeviceClass::{C, D, M, S};
-    [(M, 0, 1023), (S, 0, 999), (C, 0, 255), (D, 0, 511)]
-};
-
-/// A run of devices that go back to 0 at power-off.
-const fn general(class: DeviceClass, first: u32, last: u32) -> Range {
-    Range {
-        class,
-        first,
-        last,
-        latched: false,
-    }
-}
-
-/// A run of devices that keep their values.
-const fn latched(class: DeviceClass, first: u32, last: u32) -> Range {
-    Range {
-        latched: true,
-        ..general(class, first, last)
-    }
-}
-
-/// A run of timers of this unit that start again whenever they are driven.
-const fn timers(first: u32, last: u32, unit_ms: u16) -> Timers {
-    Timers {
-        first,
-        last,
-        kind: TimerKind {
-            unit_ms,
-            accumulating: false,
-            free_running: false,
-            latches_preset: false,
-            overruns: false,
-            stepwise: false,
-            shared: false,
-        },
-    }
-}
-
-impl Timers {
-    const fn accumulating(self) -> Self {
-        self.with(TimerKind {
-            accumulating: true,
-            ..self.kind
-        })
-    }
-
-    const fn free_running(self) -> Self {
-        self.with(TimerKind {
-            free_running: true,
-            ..self.kind
-        })
-    }
-
-    const fn latching_preset(self) -> Self {
-        self.with(TimerKind {
-            latches_preset: true,
-            ..self.kind
-        })
-    }
-
-    const fn overrunning(self) -> Self {
-        self.with(TimerKind {
-            overruns: true,
-            ..self.kind
-        })
-    }
-
-    const fn stepwise(self) -> Self {
-        self.with(TimerKind {
-            stepwise: true,
-            ..self.kind
-        })
-    }
-
-    const fn with(self, kind: TimerKind) -> Self {
-        Timers { kind, ..self }
-    }
-}
-
-/// M8028 of FX1S and FX3S: T32 to T62 count 10 ms (FX1S/FX1N/FX2N programming manual II §4.7, FX3 programming manual §4.5).
-const M8028: &FastTimers = &FastTimers {
-    relay: 8028,
-    numbers: 32..=62,
-    unit_ms: 10,
-};
-
-/// D8028, D8029 and D8182–D8195: other names of Z0, V0, Z1, V1, … Z7, V7 (h1u-h2u-programming §3.8).
-const INDEX_ALIASES: &[(u32, DeviceClass, u32)] = &{
-    use DeviceClass::{V, Z};
-    [
-        (8028, Z, 0),
-        (8029, V, 0),
-        (8182, Z, 1),
-        (8183, V, 1),
-        (8184, Z, 2),
-        (8185, V, 2),
-        (8186, Z, 3),
-        (8187, V, 3),
-        (8188, Z, 4),
-        (8189, V, 4),
-        (8190, Z, 5),
-        (8191, V, 5),
-        (8192, Z, 6),
-        (8193, V, 6),
-        (8194, Z, 7),
-        (8195, V, 7),
-    ]
-};
-
 #[cfg(test)]
 mod tests {
     use super::{Fit, Model, ModelId, ModelSet};
+    use rungc_rt::Register;
     use rungc_syntax::DeviceClass;
 
     #[test]
@@ -489,6 +388,31 @@ mod tests {
                 assert_eq!(name, name.to_ascii_uppercase());
                 assert!(seen.insert(name.clone()), "{name} is {} too", model.name);
             }
+        }
+    }
+
+    #[test]
+    fn axes_begin_with_their_own_outputs() {
+        let starts = |id| Model::get(id).axis_starts().collect::<Vec<_>>();
+        let hm = starts(ModelId::Hm);
+        assert!(hm.contains(&(Register(550), 5)) && hm.contains(&(Register(302), 10)));
+        assert!(!hm.iter().any(|&(register, _)| register == Register(300)));
+        assert_eq!(starts(ModelId::H2u), []);
+    }
+
+    #[test]
+    fn sets_follow_what_models_descend_from() {
+        use ModelId::{Fx2n, Fx2nCompatible, Fx3u, Fx3uCompatible};
+        assert_eq!(ModelSet::FX3U, ModelSet::of(&[Fx3u, Fx3uCompatible]));
+        let boards = ModelSet::of(&[Fx2nCompatible, Fx3uCompatible]);
+        assert_eq!(ModelSet::COMPATIBLE, boards);
+        assert_eq!(
+            ModelSet::FX2N.without(ModelSet::COMPATIBLE),
+            ModelSet::of(&[Fx2n])
+        );
+        for id in ModelId::ALL {
+            let origin = Model::get(Model::get(id).instructions);
+            assert_eq!(origin.instructions, origin.id);
         }
     }
 

@@ -2,14 +2,36 @@
 //!
 //! A number that a table does not hold has no meaning on the model (the manual calls it reserved, or says nothing).
 
-mod hm;
-mod inovance;
-mod l01s;
-mod mitsubishi;
-
-use crate::ModelId;
+use crate::Model;
+use rungc_rt::special::D_TYPE;
+use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
 use std::ops::RangeInclusive;
+
+/// A relay M or register D that its type says.
+pub trait SpecialDevice: Copy {
+    /// M or D.
+    const CLASS: DeviceClass;
+
+    /// Its number.
+    fn number(self) -> u32;
+}
+
+impl SpecialDevice for Relay {
+    const CLASS: DeviceClass = DeviceClass::M;
+
+    fn number(self) -> u32 {
+        self.number()
+    }
+}
+
+impl SpecialDevice for Register {
+    const CLASS: DeviceClass = DeviceClass::D;
+
+    fn number(self) -> u32 {
+        self.number()
+    }
+}
 
 /// Whether a program may write it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -82,197 +104,127 @@ impl Special {
     }
 }
 
-/// What a special device means on a model.
-pub fn find(model: ModelId, class: DeviceClass, number: u32) -> Option<&'static Special> {
-    tables(model).iter().find_map(|table| {
-        let after = table.partition_point(|row| (row.class, row.first) <= (class, number));
-        let row = table.get(after.checked_sub(1)?)?;
-        (row.class == class && number <= row.last).then_some(row)
-    })
-}
+impl Model {
+    /// What a device means on the model.
+    pub fn special(&self, class: DeviceClass, number: u32) -> Option<&'static Special> {
+        self.special.iter().find_map(|table| {
+            let after = table.partition_point(|row| (row.class, row.first) <= (class, number));
+            let row = table.get(after.checked_sub(1)?)?;
+            (row.class == class && number <= row.last).then_some(row)
+        })
+    }
 
-/// All special devices of a model, table by table.
-pub fn all(model: ModelId) -> impl Iterator<Item = &'static Special> {
-    tables(model).iter().copied().flatten()
-}
+    /// All special devices of the model, table by table.
+    pub fn specials(&self) -> impl Iterator<Item = &'static Special> + use<> {
+        self.special.iter().copied().flatten()
+    }
 
-/// The tables of a model: each sorted by class and number, none holding what another holds.
-const fn tables(model: ModelId) -> &'static [&'static [Special]] {
-    match model {
-        ModelId::H1u => &[inovance::BOTH, inovance::H1U],
-        ModelId::H2u => &[inovance::BOTH, inovance::H2U],
-        ModelId::L01s => &[l01s::L01S],
-        ModelId::Hm => &[hm::HM],
-        ModelId::Fx1s => &[
-            mitsubishi::ALL,
-            mitsubishi::FAST_TIMERS,
-            mitsubishi::D8145,
-            mitsubishi::FX1,
-            mitsubishi::FX1S,
-        ],
-        ModelId::Fx1n => &[
-            mitsubishi::ALL,
-            mitsubishi::FROM_FX1N,
-            mitsubishi::D8145,
-            mitsubishi::FX1,
-            mitsubishi::FX1N,
-        ],
-        ModelId::Fx2n | ModelId::Fx2nCompatible => &[
-            mitsubishi::ALL,
-            mitsubishi::FROM_FX1N,
-            mitsubishi::FROM_FX2N,
-            mitsubishi::NOT_FX3S,
-            mitsubishi::D8145,
-            mitsubishi::FX2N,
-        ],
-        ModelId::Fx3s => &[
-            mitsubishi::ALL,
-            mitsubishi::FROM_FX1N,
-            mitsubishi::FROM_FX2N,
-            mitsubishi::FAST_TIMERS,
-            mitsubishi::FX3,
-            mitsubishi::FX3SG,
-            mitsubishi::FX3S,
-        ],
-        ModelId::Fx3g => &[
-            mitsubishi::ALL,
-            mitsubishi::FROM_FX1N,
-            mitsubishi::FROM_FX2N,
-            mitsubishi::NOT_FX3S,
-            mitsubishi::FX3,
-            mitsubishi::FX3GU,
-            mitsubishi::FX3SG,
-            mitsubishi::FX3G,
-        ],
-        ModelId::Fx3u | ModelId::Fx3uCompatible => &[
-            mitsubishi::ALL,
-            mitsubishi::FROM_FX1N,
-            mitsubishi::FROM_FX2N,
-            mitsubishi::NOT_FX3S,
-            mitsubishi::FX3,
-            mitsubishi::FX3GU,
-            mitsubishi::FX3U,
-        ],
+    /// Whether a special device does on this model what it means.
+    pub fn special_works<D: SpecialDevice>(&self, device: D) -> bool {
+        let row = self.special(D::CLASS, device.number());
+        row.is_some_and(Special::works)
+    }
+
+    /// Whether a special device is one that the scan keeps on this model: M8034, for one, switches outputs off on most models and is
+    /// an interrupt request on HM.
+    pub fn scan_keeps<D: SpecialDevice>(&self, device: D) -> bool {
+        let row = self.special(D::CLASS, device.number());
+        row.is_some_and(Special::is_kept_by_scan)
+    }
+
+    /// Special registers that start with a value other than 0, e.g. D8000 = 200.
+    pub fn special_words(&self) -> impl Iterator<Item = (u32, i16)> + use<> {
+        self.specials()
+            .filter(|row| row.class == DeviceClass::D && row.default != 0)
+            .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
+    }
+
+    /// Code of model and version, which D8001 shows; 0 on a model that does not show any.
+    pub fn type_code(&self) -> u16 {
+        let mut words = self.special_words();
+        let shown = words.find(|word| word.0 == D_TYPE.number());
+        shown.map_or(0, |word| word.1 as u16)
+    }
+
+    /// Special relays that are on at power-on.
+    pub fn special_bits(&self) -> impl Iterator<Item = u32> + use<> {
+        self.specials()
+            .filter(|row| row.class == DeviceClass::M && row.default != 0)
+            .flat_map(|row| row.first..=row.last)
+    }
+
+    /// Relays that go off when the model goes from RUN to STOP.
+    pub fn cleared_in_stop(&self) -> impl Iterator<Item = Relay> + use<> {
+        let relays = self.cleared_in_stop.iter().copied().flatten();
+        relays.cloned().flatten().map(Relay)
     }
 }
 
 /// Relays that forbid interrupts (l01s-programming §6.4).
-const MASKS: &[RangeInclusive<u32>] = &[8050..=8059];
-/// Relays with which a program steers DSZR and clear signals (h1u-h2u-programming §4.3.11).
-const HOME_H2U: &[RangeInclusive<u32>] = &[
-    8441..=8442,
-    8445..=8446,
-    8449..=8449,
-    8451..=8452,
-    8455..=8456,
-    8459..=8459,
-    8461..=8462,
-    8465..=8466,
-    8469..=8469,
-    8484..=8486,
-];
-
-/// Relays with which a program of FX3G and FX3U steers positioning.
-const HOME_FX3: &[RangeInclusive<u32>] = &[
-    8338..=8338,
-    8341..=8342,
-    8345..=8346,
-    8349..=8349,
-    8351..=8352,
-    8355..=8356,
-    8359..=8359,
-    8361..=8362,
-    8365..=8366,
-    8369..=8369,
-    8371..=8372,
-    8375..=8376,
-    8379..=8379,
-    8464..=8467,
-];
-
-/// Relays with which a program of FX3U steers DVIT.
-const DVIT: &[RangeInclusive<u32>] = &[
-    8336..=8336,
-    8347..=8347,
-    8357..=8357,
-    8367..=8367,
-    8377..=8377,
-    8460..=8463,
-];
-
-/// Relays that go off when the model goes from RUN to STOP.
-pub fn cleared_in_stop(model: ModelId) -> impl Iterator<Item = u32> {
-    let relays: &'static [&'static [RangeInclusive<u32>]] = match model {
-        ModelId::H1u | ModelId::H2u => &[HOME_H2U],
-        ModelId::L01s | ModelId::Fx1s | ModelId::Fx1n | ModelId::Fx2n | ModelId::Fx2nCompatible => {
-            &[MASKS]
-        }
-        ModelId::Fx3s | ModelId::Fx3g => &[MASKS, HOME_FX3],
-        ModelId::Fx3u | ModelId::Fx3uCompatible => &[MASKS, HOME_FX3, DVIT],
-        ModelId::Hm => &[],
-    };
-    relays.iter().copied().flatten().cloned().flatten()
-}
+pub(crate) const MASKS: &[RangeInclusive<u16>] = &[8050..=8059];
 
 const fn because(missed: Missed, text: &'static str) -> Reason {
     Reason { text, missed }
 }
 
 // Why a device is inert.
-const POWER: Reason = because(Missed::Never, "power supply and battery are not watched");
-const HARDWARE: Reason = because(
+pub(crate) const POWER: Reason = because(Missed::Never, "power supply and battery are not watched");
+pub(crate) const HARDWARE: Reason = because(
     Missed::Never,
     "there is no hardware here that could fail so",
 );
-const CHECKED: Reason = because(
+pub(crate) const CHECKED: Reason = because(
     Missed::Never,
     "errors of this kind are found before the program runs",
 );
-const HOST: Reason = because(
+pub(crate) const HOST: Reason = because(
     Missed::ByWriters,
     "the host decides when scans begin and whether the PLC is in RUN",
 );
-const FAST: Reason = because(
+pub(crate) const FAST: Reason = because(
     Missed::ByWriters,
     "this use of high-speed inputs is not implemented yet",
 );
-const UNCLEAR: Reason = because(
+pub(crate) const UNCLEAR: Reason = because(
     Missed::ByWriters,
     "the manual calls it a position in Hz, and that of Y0 reserved; positions are counted in D8140 and its like",
 );
-const LATER: Reason = because(
+pub(crate) const LATER: Reason = because(
     Missed::ByWriters,
     "the model does not do this yet, says its manual",
 );
-const SERIAL: Reason = because(Missed::ByAll, "serial communication is not implemented yet");
-const PORTS: Reason = because(Missed::Never, SERIAL.text);
-const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
-const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
-const AXES: Reason = because(Missed::Never, "input axes do not show this yet");
-const LINK: Reason = because(Missed::ByAll, "links between PLCs are not implemented yet");
-const TRACE: Reason = because(Missed::Never, "sampling traces are a matter of the editor");
-const INTERRUPTS: Reason = because(
+pub(crate) const SERIAL: Reason =
+    because(Missed::ByAll, "serial communication is not implemented yet");
+pub(crate) const PORTS: Reason = because(Missed::Never, SERIAL.text);
+pub(crate) const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
+pub(crate) const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
+pub(crate) const AXES: Reason = because(Missed::Never, "input axes do not show this yet");
+pub(crate) const LINK: Reason =
+    because(Missed::ByAll, "links between PLCs are not implemented yet");
+pub(crate) const TRACE: Reason =
+    because(Missed::Never, "sampling traces are a matter of the editor");
+pub(crate) const INTERRUPTS: Reason = because(
     Missed::Never,
     "interrupts of this kind are not implemented yet",
 );
-const NETWORK: Reason = because(Missed::ByAll, "network cards are not implemented");
-const RAW: Reason = because(
+pub(crate) const NETWORK: Reason = because(Missed::ByAll, "network cards are not implemented");
+pub(crate) const RAW: Reason = because(
     Missed::ByWriters,
     "analog channels show the raw values of the host, each scan",
 );
-const LATCHES: Reason = because(
+pub(crate) const LATCHES: Reason = because(
     Missed::ByWriters,
     "the latched ranges are the manual's and do not change",
 );
-const MODULES: Reason = because(
+pub(crate) const MODULES: Reason = because(
     Missed::Never,
     "which modules are there is the host's affair",
 );
-const MODES: Reason = because(
+pub(crate) const MODES: Reason = because(
     Missed::Never,
     "an output does what the program uses it for, whatever its mode",
 );
-const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
+pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
 /// Writes a table of special devices, a row a line:
 /// `class first[-last] access default status "meaning";` with the access `r` or `rw` and the status `scan`, `by("…")` or
@@ -297,26 +249,30 @@ macro_rules! specials {
     (@status by $instructions:expr) => { $crate::special::Status::Instructions($instructions) };
     (@status inert $why:expr) => { $crate::special::Status::Inert($why) };
 }
-use specials;
+pub(crate) use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, CAN, CARDS, MODULES, POWER, SERIAL, Status, all, find, tables};
+    use super::{Access, CAN, CARDS, MODULES, POWER, SERIAL, Special, Status};
     use crate::{Model, ModelId};
-    use rungc_syntax::DeviceClass::{D, M};
+    use rungc_syntax::DeviceClass::{self, D, M};
     use std::collections::BTreeSet;
+
+    fn find(id: ModelId, class: DeviceClass, number: u32) -> Option<&'static Special> {
+        Model::get(id).special(class, number)
+    }
 
     #[test]
     fn tables_are_sorted_and_say_each_number_once() {
         for id in ModelId::ALL {
             let mut seen = BTreeSet::new();
-            for table in tables(id) {
+            for table in Model::get(id).special {
                 for pair in table.windows(2) {
                     let (a, b) = (&pair[0], &pair[1]);
                     assert!((a.class, a.last) < (b.class, b.first), "{id:?} {a:?} {b:?}");
                 }
             }
-            for row in all(id) {
+            for row in Model::get(id).specials() {
                 for number in row.first..=row.last {
                     assert!(seen.insert((row.class, number)), "{id:?} {row:?}");
                 }
@@ -327,7 +283,7 @@ mod tests {
     #[test]
     fn every_special_device_exists_on_its_model() {
         for id in ModelId::ALL {
-            for row in all(id) {
+            for row in Model::get(id).specials() {
                 let model = Model::get(id);
                 // HM's axes and modules have registers among the general ones.
                 let placed = row.first >= 8000 || id == ModelId::Hm && row.class == D;

@@ -4,6 +4,7 @@ use crate::axis_place as place;
 use crate::hal::Hal;
 use crate::plc::{Class, Plc, Sys};
 use crate::pulse::Generator;
+use crate::special::{Register, Relay};
 use crate::wiring::Wiring;
 use crate::word::{pair, words};
 
@@ -124,29 +125,28 @@ impl Axis {
 }
 
 /// Value of a pair of registers D.
-pub(crate) fn long(plc: &dyn Plc, low: u32) -> i32 {
-    let [low, high] = [low, low + 1].map(|n| plc.word(Class::D, n).unwrap_or(0));
-    pair(low, high)
+pub(crate) fn long(plc: &dyn Plc, low: Register) -> i32 {
+    let word = |register: Register| plc.word(Class::D, register.number()).unwrap_or(0);
+    pair(word(low), word(low.after(1)))
 }
 
 /// Sets a pair of registers D, as far as the program looks at them.
-pub(crate) fn set_long(plc: &mut dyn Plc, low: u32, value: i32) {
-    for (n, word) in (low..).zip(words(value)) {
-        let _ = plc.set_word(Class::D, n, word);
+pub(crate) fn set_long(plc: &mut dyn Plc, low: Register, value: i32) {
+    for (register, word) in low.run::<2>().into_iter().zip(words(value)) {
+        let _ = plc.set_word(Class::D, register.number(), word);
     }
 }
 
 /// Whether one of these relays is on.
-pub(crate) fn is_on(plc: &dyn Plc, relays: &[u32]) -> bool {
-    relays
-        .iter()
-        .any(|&relay| relay != 0 && plc.bit(Class::M, relay) == Some(true))
+pub(crate) fn is_on(plc: &dyn Plc, relays: &[Option<Relay>]) -> bool {
+    let mut relays = relays.iter().flatten();
+    relays.any(|relay| plc.bit(Class::M, relay.number()) == Some(true))
 }
 
 /// Sets these relays, as far as the program looks at them.
-pub(crate) fn set_relays(plc: &mut dyn Plc, relays: &[u32], on: bool) {
-    for &relay in relays.iter().filter(|&&relay| relay != 0) {
-        let _ = plc.set_bit(Class::M, relay, on);
+pub(crate) fn set_relays(plc: &mut dyn Plc, relays: &[Option<Relay>], on: bool) {
+    for relay in relays.iter().flatten() {
+        let _ = plc.set_bit(Class::M, relay.number(), on);
     }
 }
 
@@ -183,34 +183,37 @@ pub(crate) fn count(plc: &mut dyn Plc, output: u32, wiring: &Wiring) {
         return;
     };
     let count = core::mem::take(&mut axis.uncounted);
-    if wiring.axis == 0 {
+    if wiring.axis.is_none() {
         axis.output = output as u16;
     }
-    let (target, counter) = (axis.output.into(), axis.counter.into());
+    let (target, counter) = (axis.output.into(), axis.counter);
     if let Some(target) = plc.axis(target).filter(|_| count != 0) {
         target.sent = target.sent.wrapping_add(count);
     }
-    if wiring.axis != 0 {
-        count_axis(plc, wiring.axis, target, count);
+    if let Some(first) = wiring.axis {
+        count_axis(plc, first, target, count);
     } else if counter != 0 {
-        add(plc, counter, count);
-        add(plc, wiring.sum, count);
+        add(plc, Register(counter), count);
+        if let Some(sum) = wiring.sum {
+            add(plc, sum, count);
+        }
     }
 }
 
-/// Adds to a pair of registers, if there is one.
-fn add(plc: &mut dyn Plc, low: u32, count: i32) {
-    if low != 0 && count != 0 {
+/// Adds to a pair of registers.
+fn add(plc: &mut dyn Plc, low: Register, count: i32) {
+    if count != 0 {
         let total = long(plc, low).wrapping_add(count);
         set_long(plc, low, total);
     }
 }
 
 /// Counts pulses of an axis whose registers begin with `first`, and of the output to which it is bound.
-fn count_axis(plc: &mut dyn Plc, first: u32, output: u32, count: i32) {
-    add(plc, first + place::POSITION, count);
-    add(plc, place::PULSES + 2 * output, count);
-    let _ = plc.set_word(Class::D, first + place::INCREMENT, count as i16);
+fn count_axis(plc: &mut dyn Plc, first: Register, output: u32, count: i32) {
+    add(plc, first.after(place::POSITION), count);
+    add(plc, place::PULSES.after(2 * output), count);
+    let increment = first.after(place::INCREMENT);
+    let _ = plc.set_word(Class::D, increment.number(), count as i16);
 }
 
 /// The frequency at which an output sends pulses, in millihertz: that of all axes that are bound to it.

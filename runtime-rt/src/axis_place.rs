@@ -1,5 +1,7 @@
 //! The fifty registers of an axis of HM (hm-motion-controller §8.2.3): their places among them.
 
+use crate::special::Register;
+
 /// Output to which it is bound.
 pub const OUTPUT: u32 = 0;
 /// 1: it has an output for the direction.
@@ -42,11 +44,13 @@ pub const INCREMENT: u32 = 22;
 pub const EMERGENCY: u32 = 23;
 /// Inputs of the interrupt, as bits.
 pub const INTERRUPT: u32 = 24;
+/// Those whose bits name inputs.
+pub const INPUTS: [u32; 6] = [DOG, ZERO, LEFT, RIGHT, EMERGENCY, INTERRUPT];
 /// Pair: position at the interrupt.
 pub const INTERRUPT_POSITION: u32 = 26;
 /// How many of them there are.
 pub const COUNT: u32 = 28;
 /// Pair: the pulses of Y000; those of the other outputs follow.
-pub const PULSES: u32 = 80;
+pub const PULSES: Register = Register(80);
 /// How many outputs are counted so.
 pub const OUTPUTS: u32 = 9;

@@ -6,6 +6,7 @@ use crate::hal::Hal;
 use crate::operand::{Operand, OperandKind};
 use crate::plc::{Class, Plc, Site, State};
 use crate::runs::{FIRST_COUNTER32, FIRST_SPECIAL};
+use crate::special::{Register, Relay};
 use crate::word;
 use core::cell::RefCell;
 
@@ -471,24 +472,24 @@ impl<'a> Cx<'a> {
                 && (a.kind != OperandKind::Buffer || a.digits == b.digits))
     }
 
-    /// State of special relay `number`.
-    pub fn special(&self, number: u32) -> bool {
-        self.plc.bit(Class::M, number).unwrap_or(false)
+    /// State of a special relay.
+    pub fn special(&self, relay: Relay) -> bool {
+        self.plc.bit(Class::M, relay.number()).unwrap_or(false)
     }
 
-    /// Sets special relay `number`, if the program looks at it.
-    pub fn set_special(&mut self, number: u32, value: bool) {
-        let _ = self.plc.set_bit(Class::M, number, value);
+    /// Sets a special relay, if the program looks at it.
+    pub fn set_special(&mut self, relay: Relay, value: bool) {
+        let _ = self.plc.set_bit(Class::M, relay.number(), value);
     }
 
-    /// Value of special register `number`.
-    pub fn special_word(&self, number: u32) -> i16 {
-        self.plc.word(Class::D, number).unwrap_or(0)
+    /// Value of a special register.
+    pub fn special_word(&self, register: Register) -> i16 {
+        self.plc.word(Class::D, register.number()).unwrap_or(0)
     }
 
-    /// Sets special register `number`, if the program looks at it.
-    pub fn set_special_word(&mut self, number: u32, value: i16) {
-        let _ = self.plc.set_word(Class::D, number, value);
+    /// Sets a special register, if the program looks at it.
+    pub fn set_special_word(&mut self, register: Register, value: i16) {
+        let _ = self.plc.set_word(Class::D, register.number(), value);
     }
 
     /// The serial port that operand `i` names; one that the program does not have is an error of communication.

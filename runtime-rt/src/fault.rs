@@ -1,7 +1,7 @@
 //! Operation errors: the instruction is skipped, the error is shown in the special devices, the scan goes on.
 
 use crate::plc::{Class, Plc};
-use crate::special;
+use crate::special::{self, Register, Relay};
 
 /// An operation error with the PLC's code for it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -59,13 +59,6 @@ impl LastError {
 /// What an instruction returns.
 pub type Done = Result<(), Fault>;
 
-/// The relay of operation errors, but on HM, and their code.
-const ERROR: u32 = special::M_OPERATION_ERROR;
-/// The first of them: latched relay, and its step.
-const FIRST_ERROR: u32 = 8068;
-/// Step of the last one.
-const ERROR_STEP: u32 = 8069;
-
 /// Shows a fault at `step` as h1u-h2u-programming §8.1 says: M8067 and D8067 (code), D8069 (step), the latches M8068 and D8068,
 /// and the summary M8004 with D8004. HM has only a relay and, under its number, a register for the step (hm-motion-controller §5.7).
 /// The program clears M8067 and M8004 when RUN begins, on FX and L01S in each scan; the latches stay.
@@ -79,34 +72,44 @@ pub fn report(plc: &mut dyn Plc, fault: Fault, step: u32) {
     let relay = plc.error_relay();
     // Special devices a program does not look at swallow the write, so a `None` here means nothing.
     let _ = plc.set_bit(Class::M, relay, true);
-    if relay != ERROR {
+    if relay != special::M_OPERATION_ERROR.number() {
         let _ = plc.set_word(Class::D, relay, step);
         return;
     }
-    if plc.bit(Class::M, FIRST_ERROR) != Some(true) {
-        let _ = plc.set_bit(Class::M, FIRST_ERROR, true);
-        let _ = plc.set_word(Class::D, FIRST_ERROR, step);
+    if plc.bit(Class::M, special::M_FIRST_ERROR.number()) != Some(true) {
+        set_relay(plc, special::M_FIRST_ERROR);
+        set_register(plc, special::D_FIRST_ERROR_STEP, step);
     }
-    let _ = plc.set_word(Class::D, ERROR, code as i16);
-    let _ = plc.set_word(Class::D, ERROR_STEP, step);
+    set_register(plc, special::D_OPERATION_ERROR, code as i16);
+    set_register(plc, special::D_ERROR_STEP, step);
     summarise(plc, special::OPERATION_ERROR_BCD);
+}
+
+/// Switches a relay on, if the program looks at it.
+fn set_relay(plc: &mut dyn Plc, relay: Relay) {
+    let _ = plc.set_bit(Class::M, relay.number(), true);
+}
+
+/// Writes a register, if the program looks at it.
+fn set_register(plc: &mut dyn Plc, register: Register, value: i16) {
+    let _ = plc.set_word(Class::D, register.number(), value);
 }
 
 /// M8004 and D8004: which error relay is on.
 fn summarise(plc: &mut dyn Plc, relay_bcd: i16) {
-    let _ = plc.set_bit(Class::M, special::M_ANY_ERROR, true);
-    let _ = plc.set_word(Class::D, special::D_ANY_ERROR, relay_bcd);
+    set_relay(plc, special::M_ANY_ERROR);
+    set_register(plc, special::D_ANY_ERROR, relay_bcd);
 }
 
 /// Shows that the watchdog has stopped the PLC: M8061, its code in D8061, and the summary; on HM its only error relay.
 pub fn trip_watchdog(plc: &mut dyn Plc) {
     let relay = plc.error_relay();
-    if relay != ERROR {
+    if relay != special::M_OPERATION_ERROR.number() {
         let _ = plc.set_bit(Class::M, relay, true);
         return;
     }
-    let _ = plc.set_bit(Class::M, special::M_WATCHDOG, true);
-    let _ = plc.set_word(Class::D, special::D_WATCHDOG, special::WATCHDOG_CODE);
+    set_relay(plc, special::M_WATCHDOG);
+    set_register(plc, special::D_WATCHDOG, special::WATCHDOG_CODE);
     summarise(plc, special::WATCHDOG_BCD);
 }
 

@@ -15,7 +15,7 @@ extern crate std;
 
 mod access;
 mod axis;
-mod axis_place;
+pub mod axis_place;
 pub mod board;
 #[cfg(feature = "capi")]
 #[allow(unsafe_code, reason = "C hands over pointers")]
@@ -67,6 +67,7 @@ pub use program::Program;
 pub use pulse_side::count_pulses;
 pub use registry::{Needs, RtFn};
 pub use runs::{FIRST_COUNTER32, FIRST_SPECIAL, Runs};
+pub use special::{Register, Relay};
 pub use timing::{Counter16, Counter32, Timer, TimerKind};
 pub use virtual_hal::VirtualHal;
 pub use virtual_line::VirtualLine;

@@ -3,21 +3,15 @@
 use super::pointers::Pointers;
 use super::{Code, fast_units};
 use rungc_catalogue::{Basic, Lower};
+use rungc_models::Model;
 use rungc_models::high_speed::{self, Kind};
-use rungc_models::interrupts::{self, Source};
-use rungc_models::{ModelId, ModelSet};
+use rungc_models::interrupts::Source;
 use rungc_rt::Wiring;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, OperandKind, codes};
 
-/// Models on which a register chooses the edge, so that both routines of an input may stand in the program (hm-programming §7.8).
-const BOTH_EDGES_ALLOWED: ModelSet = ModelSet::HM;
-
-/// Models on which counters of one input may take turns (hm-motion-controller §8.2.2).
-const COUNTERS_TAKE_TURNS: ModelSet = ModelSet::HM;
-
 /// Checks who uses the fast inputs.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) {
-    let interrupts = interrupts(code.model().id, pointers);
+    let interrupts = interrupts(code.model(), pointers);
     let counters = counters(code);
     without_input(code, out);
     one_pointer_per_source(code, &interrupts, out);
@@ -49,14 +43,14 @@ impl Interrupt {
 }
 
 /// The interrupt routines in the order of the program.
-fn interrupts(model: ModelId, pointers: &Pointers) -> Vec<Interrupt> {
+fn interrupts(model: &Model, pointers: &Pointers) -> Vec<Interrupt> {
     let mut found: Vec<_> = pointers
         .iter()
         .filter(|(device, _)| device.class == DeviceClass::I)
         .filter_map(|(device, pointer)| {
             let number = device.number;
             let label = *pointer.labels.first()?;
-            let input = match interrupts::find(model, number).and_then(|known| known.source) {
+            let input = match model.interrupts.find(number).and_then(|known| known.source) {
                 Some(Source::Input { number, .. }) => Some(number),
                 _ => None,
             };
@@ -72,7 +66,7 @@ fn interrupts(model: ModelId, pointers: &Pointers) -> Vec<Interrupt> {
 }
 
 fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
-    if BOTH_EDGES_ALLOWED.has(code.model().id) {
+    if code.model().interrupts.both_edges {
         return;
     }
     for (n, second) in interrupts.iter().enumerate() {
@@ -105,7 +99,6 @@ pub(super) struct Counter {
 
 /// The high-speed counters that the program drives, each once.
 fn counters(code: &Code) -> Vec<Counter> {
-    let table = high_speed::counters(code.model().id);
     let mut found: Vec<Counter> = Vec::new();
     for i in 0..code.len {
         if code.basic(i) != Some(Basic::Out) {
@@ -119,7 +112,7 @@ fn counters(code: &Code) -> Vec<Counter> {
         if device.class != DeviceClass::C || known() {
             continue;
         }
-        if let Some(counter) = table.iter().find(|counter| counter.number == number) {
+        if let Some(counter) = code.model().high_speed.counter(number) {
             found.push(Counter {
                 number,
                 kind: counter.kind,
@@ -133,7 +126,7 @@ fn counters(code: &Code) -> Vec<Counter> {
 
 /// Coils of counters that no input of the model drives.
 fn without_input(code: &Code, out: &mut Diagnostics) {
-    let table = high_speed::counters(code.model().id);
+    let counters = &code.model().high_speed;
     for i in (0..code.len).filter(|&i| code.basic(i) == Some(Basic::Out)) {
         let Some(device) = code.device(i, 0) else {
             continue;
@@ -141,7 +134,7 @@ fn without_input(code: &Code, out: &mut Diagnostics) {
         let fast = device.class == DeviceClass::C && device.number >= high_speed::FIRST;
         // That it does not exist at all is told elsewhere.
         let fast = fast && code.model().has(device.class, device.number);
-        if fast && !table.iter().any(|counter| counter.number == device.number) {
+        if fast && counters.counter(device.number).is_none() {
             let message = format!("`{device}` counts no input of {}", code.model().name);
             let span = code
                 .instr(i)
@@ -179,7 +172,7 @@ fn others(code: &Code, interrupts: &[Interrupt]) -> Vec<Other> {
 /// The relays of pulse catch that the program looks at, each once.
 fn caught(code: &Code) -> Vec<Other> {
     let enables = (0..code.len).any(|i| code.basic(i) == Some(Basic::Ei));
-    let Some(catch) = interrupts::pulse_catch(code.model().id).filter(|_| enables) else {
+    let Some(catch) = code.model().interrupts.pulse_catch.filter(|_| enables) else {
         return Vec::new();
     };
     let mut found: Vec<Other> = Vec::new();
@@ -187,7 +180,8 @@ fn caught(code: &Code) -> Vec<Other> {
         let relay = code
             .device(i, 0)
             .filter(|device| device.class == DeviceClass::M);
-        let Some(input) = relay.and_then(|relay| relay.number.checked_sub(catch.first)) else {
+        let Some(input) = relay.and_then(|relay| relay.number.checked_sub(catch.first.number()))
+        else {
             continue;
         };
         if input < catch.inputs && found.iter().all(|other| other.input != input) {
@@ -292,7 +286,7 @@ pub(super) fn measured(code: &Code) -> impl Iterator<Item = (usize, Device)> {
 }
 
 fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {
-    if COUNTERS_TAKE_TURNS.has(code.model().id) {
+    if code.model().high_speed.counters_take_turns {
         return;
     }
     for (n, second) in counters.iter().enumerate() {

@@ -5,7 +5,7 @@ use super::accesses::Access;
 use crate::resolve::constant_value;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
-use rungc_models::special::{self, Missed, Reason, Special, Status};
+use rungc_models::special::{Missed, Reason, Special, Status};
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
 use std::collections::BTreeMap;
 
@@ -44,7 +44,7 @@ impl Inert {
             if !is_special(device.class, number) {
                 continue;
             }
-            let Some(row) = special::find(code.model().id, device.class, number) else {
+            let Some(row) = code.model().special(device.class, number) else {
                 continue;
             };
             let Status::Inert(reason) = row.status else {

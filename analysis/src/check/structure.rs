@@ -3,7 +3,6 @@
 use super::Code;
 use super::pointers::Pointers;
 use rungc_catalogue::Basic;
-use rungc_models::interrupts;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 
 /// No instruction.
@@ -252,11 +251,11 @@ impl Walk<'_, '_> {
 
     /// PROC, PEND and PRET stand in advanced interrupts; a PRET in no routine at all is reported as such.
     fn in_advanced_interrupt(&mut self, i: usize) {
-        let model = self.code.model().id;
+        let interrupts = &self.code.model().interrupts;
         let advanced = match self.routine {
             Routine::Interrupt(begin) => {
                 let pointer = self.code.label(begin as usize);
-                pointer.is_some_and(|i| interrupts::find_advanced(model, i.number).is_some())
+                pointer.is_some_and(|i| interrupts.find_advanced(i.number).is_some())
             }
             Routine::Main | Routine::Sub(_) => false,
             Routine::Nothing => true,

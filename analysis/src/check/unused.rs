@@ -3,7 +3,6 @@
 use super::Code;
 use super::accesses::Access;
 use rungc_catalogue::Basic;
-use rungc_models::interrupts;
 use rungc_models::runs::is_special;
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
@@ -122,8 +121,8 @@ impl<'a, 'p> Unused<'a, 'p> {
 
     /// The table of counts looks at any counter.
     fn note_special(&mut self, access: &Access) {
-        let table = interrupts::count_rows(self.code.model().id);
-        if table.is_some_and(|table| access.first.number == table.enable) {
+        let table = self.code.model().interrupts.count_rows;
+        if table.is_some_and(|table| access.first.number == table.enable.number()) {
             let counters = CLASSES.iter().zip(&mut self.classes);
             counters
                 .filter(|(class, _)| **class == DeviceClass::C)

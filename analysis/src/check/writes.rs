@@ -14,7 +14,7 @@ pub(super) fn check(code: &Code, i: usize, access: &Access, out: &mut Diagnostic
     if access.role != Role::Write || access.count.is_none() || !special {
         return;
     }
-    let Some(special) = special::find(code.model().id, device.class, device.number) else {
+    let Some(special) = code.model().special(device.class, device.number) else {
         return;
     };
     if special.access == special::Access::Read {

@@ -2,7 +2,7 @@
 
 use super::{Failure, Outcome, Result, say};
 use crate::args::ExplainArgs;
-use rungc_models::{ModelId, plc_errors, special};
+use rungc_models::{Model, ModelId, plc_errors, special};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{DeviceClass, diag};
 use std::fmt::Write;
@@ -92,7 +92,7 @@ fn special_page(topic: &str, model: ModelId) -> Option<String> {
         _ => return None,
     };
     let number: u32 = digits.parse().ok()?;
-    let special = special::find(model, class, number)?;
+    let special = Model::get(model).special(class, number)?;
     let title = rungc_models::Model::get(model).title;
     Some(format!("{topic} on {title}: {}", describe(special)))
 }

@@ -1,19 +1,23 @@
 //! Mitsubishi FX2N and FX2NC, and compatible boards (FX1S, FX1N, FX2N, FX2NC programming manual II, JY992D88101, §8). Latched ranges
 //! are the factory settings.
 
-use super::{
-    INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
+use super::shared::{
+    COUNTERS_FROM_100, FX_TIMERS, I_INPUTS_AND_COUNTERS, I_TIMERS, INDEX_ALIASES, INDEXES,
+    LATCH_CHOICES, NESTS, TERMINALS, TIMERS_256, general, joined, latched,
 };
-use rungc_rt::{Ports, Pulses};
+use super::{ErrorNumbers, Model, ModelId, Range, mitsubishi};
+use crate::{high_speed, interrupts, special};
+use rungc_rt::{Ports, Pulses, special::M_OPERATION_ERROR};
 use rungc_syntax::Classes;
-use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
+use rungc_syntax::DeviceClass::{D, M, P, S, Y};
 
 const FX2: &str =
     "it has fewer devices and instructions than fx2n, and what does not exist there is not refused";
 
-/// Mitsubishi FX2N.
+/// Mitsubishi FX2N. What it shares with the others of the FX family, they take from it.
 pub(super) const FX2N: Model = Model {
     id: ModelId::Fx2n,
+    instructions: ModelId::Fx2n,
     name: "fx2n",
     boards: Some(ModelId::Fx2nCompatible),
     title: "Mitsubishi FX2N",
@@ -26,7 +30,7 @@ pub(super) const FX2N: Model = Model {
         ("FXU", FX2),
     ],
     ranges: RANGES,
-    timers: TIMERS,
+    timers: FX_TIMERS,
     fast_timers: None,
     latch_choices: LATCH_CHOICES,
     latch_key: None,
@@ -34,10 +38,11 @@ pub(super) const FX2N: Model = Model {
     end_pointer: Some(63),
     max_steps: 16000,
     z_pairs_with_v: true,
-    error_relay: 8067,
+    error_relay: M_OPERATION_ERROR,
     errors_last_a_scan: true,
     annunciators_are_states: false,
     value_error: 6706,
+    error_numbers: ErrorNumbers::All,
     pulses: Pulses::Fx2n,
     ports: Ports::Fx,
     pulse_outputs: &[(Y, 0, 1)],
@@ -47,7 +52,20 @@ pub(super) const FX2N: Model = Model {
     steps_per_operand: None,
     max_for: 5,
     max_call: 5,
+    axis_defaults: &[],
     index_aliases: INDEX_ALIASES,
+    special: &[
+        mitsubishi::ALL,
+        mitsubishi::FROM_FX1N,
+        mitsubishi::FROM_FX2N,
+        mitsubishi::NOT_FX3S,
+        mitsubishi::D8145,
+        mitsubishi::FX2N,
+    ],
+    cleared_in_stop: &[special::MASKS],
+    high_speed: high_speed::FX,
+    fast_units: None,
+    interrupts: interrupts::FX,
 };
 
 /// Boards that take programs for FX2N. No manual of theirs is public: makers advertise up to eight outputs that send pulses, and which
@@ -66,49 +84,21 @@ pub(super) const FX2N_COMPATIBLE: Model = Model {
 };
 
 /// Devices of FX2N.
-const RANGES: &[Range] = &[
-    general(X, 0o0, 0o377),
-    general(Y, 0o0, 0o377),
-    general(M, 0, 499),
-    latched(M, 500, 3071),
-    general(M, 8000, 8255),
-    general(S, 0, 499),
-    latched(S, 500, 999),
-    general(T, 0, 245),
-    latched(T, 246, 255),
-    general(C, 0, 99),
-    latched(C, 100, 199),
-    general(C, 200, 219),
-    latched(C, 220, 255),
-    general(D, 0, 199),
-    latched(D, 200, 7999),
-    general(D, 8000, 8255),
-    general(V, 0, 7),
-    general(Z, 0, 7),
-    general(P, 0, 127),
-    general(I, 0, 1),
-    general(I, 10, 10),
-    general(I, 20, 20),
-    general(I, 30, 30),
-    general(I, 40, 40),
-    general(I, 50, 50),
-    general(I, 60, 60),
-    general(I, 100, 101),
-    general(I, 200, 201),
-    general(I, 300, 301),
-    general(I, 400, 401),
-    general(I, 500, 501),
-    general(I, 610, 699),
-    general(I, 710, 799),
-    general(I, 810, 899),
-    general(N, 0, 7),
-];
-
-/// Timers of FX2N.
-const TIMERS: &[Timers] = &[
-    timers(0, 191, 100),
-    timers(192, 199, 100).free_running(),
-    timers(200, 245, 10),
-    timers(246, 249, 1).accumulating(),
-    timers(250, 255, 100).accumulating(),
-];
+const RANGES: &[Range] = joined! {Range:
+    TERMINALS,
+    &[
+        general(M, 0, 499),
+        latched(M, 500, 3071),
+        general(M, 8000, 8255),
+        general(S, 0, 499),
+        latched(S, 500, 999),
+    ],
+    TIMERS_256,
+    COUNTERS_FROM_100,
+    &[general(D, 0, 199), latched(D, 200, 7999), general(D, 8000, 8255)],
+    INDEXES,
+    &[general(P, 0, 127)],
+    I_INPUTS_AND_COUNTERS,
+    I_TIMERS,
+    NESTS,
+};

@@ -1,48 +1,42 @@
 //! Inovance H1U and H2U (h1u-h2u-programming §3).
 
-use super::{
-    INDEX_ALIASES, LATCH_CHOICES, Model, ModelId, Range, Timers, general, latched, timers,
+mod special;
+
+use super::fx2n::FX2N;
+use super::shared::{
+    COUNTERS_FROM_16, COUNTERS_FROM_100, I_INPUTS_AND_COUNTERS, INDEXES, LATCH_CHOICES, NESTS,
+    TERMINALS, TIMERS_256, general, joined, latched, timers,
 };
-use rungc_rt::{Ports, Pulses};
+use super::{ErrorNumbers, Model, ModelId, Range, Timers};
+use crate::high_speed::{self, FastUnits, HighSpeed, ResetRelays};
+use crate::interrupts::{
+    self, CountRows, Gate, Interrupt, Interrupts, Kind, Precedence, Source, fx_pointer,
+};
+use rungc_rt::{Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
-use rungc_syntax::DeviceClass::{C, D, I, M, N, P, S, T, V, X, Y, Z};
+use rungc_syntax::DeviceClass::{D, I, M, P, S, Y};
+use std::ops::RangeInclusive;
 
 /// Inovance H1U.
 pub(super) const H1U: Model = Model {
     id: ModelId::H1u,
+    instructions: ModelId::H1u,
     name: "h1u",
-    boards: None,
     title: "Inovance H1U",
     cpus: &["H1U"],
-    nearest: &[],
     ranges: H1U_RANGES,
-    timers: TIMERS,
-    fast_timers: None,
     latch_choices: &[],
-    latch_key: None,
-    keeps_contacts: true,
-    end_pointer: Some(63),
     max_steps: 8000,
-    z_pairs_with_v: true,
-    error_relay: 8067,
-    errors_last_a_scan: false,
-    annunciators_are_states: true,
-    value_error: 6707,
-    pulses: Pulses::Inovance,
-    ports: Ports::Inovance,
     pulse_outputs: &[(Y, 0, 2)],
     position_outputs: &[(Y, 0, 2)],
-    notations: Classes::E.or(Classes::TEXT),
-    bare_names: false,
-    steps_per_operand: None,
-    max_for: 6,
-    max_call: 5,
-    index_aliases: INDEX_ALIASES,
+    special: &[special::BOTH, special::H1U],
+    ..H2U
 };
 
 /// Inovance H2U.
 pub(super) const H2U: Model = Model {
     id: ModelId::H2u,
+    instructions: ModelId::H2u,
     name: "h2u",
     boards: None,
     title: "Inovance H2U",
@@ -50,111 +44,161 @@ pub(super) const H2U: Model = Model {
     nearest: &[],
     ranges: H2U_RANGES,
     timers: TIMERS,
-    fast_timers: None,
     latch_choices: LATCH_CHOICES,
-    latch_key: None,
-    keeps_contacts: true,
-    end_pointer: Some(63),
     max_steps: 24000,
-    z_pairs_with_v: true,
-    error_relay: 8067,
     errors_last_a_scan: false,
     annunciators_are_states: true,
     value_error: 6707,
+    // Those of contact logic are reserved (h1u-h2u-programming §8.7).
+    error_numbers: ErrorNumbers::AllButLogic,
     pulses: Pulses::Inovance,
     ports: Ports::Inovance,
     pulse_outputs: &[(Y, 0, 7)],
     position_outputs: &[(Y, 0, 7)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: false,
-    steps_per_operand: None,
     max_for: 6,
-    max_call: 5,
-    index_aliases: INDEX_ALIASES,
+    special: &[special::BOTH, special::H2U],
+    cleared_in_stop: &[HOME],
+    high_speed: HighSpeed {
+        four_fold: &[
+            (251, Relay(8195)),
+            (252, Relay(8196)),
+            (253, Relay(8197)),
+            (254, Relay(8198)),
+            (255, Relay(8199)),
+        ],
+        // h1u-h2u-programming §3.6.
+        held_by_reset: true,
+        reset_relays: Some(ResetRelays {
+            edge: Relay(8166),
+            off: Relay(8169),
+        }),
+        // h1u-h2u-programming §4.3.6.
+        per_minute: Some(Relay(8100)),
+        ..high_speed::FX
+    },
+    // h1u-h2u-programming §3.10.
+    fast_units: Some(FastUnits {
+        total: 56,
+        output: 7,
+        density: 4,
+        edge: 1,
+        one: 6,
+        two: 13,
+        phases: 17,
+    }),
+    interrupts: Interrupts {
+        pointers,
+        count_rows: Some(&COUNT_ROWS),
+        // h1u-h2u-programming §4.3.1.
+        precedence: Precedence {
+            kinds: &[Kind::Counter, Kind::Input, Kind::Timer, Kind::Pulses],
+            first_come: true,
+        },
+        ..interrupts::FX
+    },
+    ..FX2N
 };
 
-/// Devices of H1U. Its latched ranges are fixed.
-const H1U_RANGES: &[Range] = &[
-    general(X, 0o0, 0o377),
-    general(Y, 0o0, 0o377),
-    general(M, 0, 383),
-    latched(M, 384, 3071),
-    general(M, 8000, 8511),
-    latched(S, 0, 999),
-    general(T, 0, 245),
-    latched(T, 246, 255),
-    general(C, 0, 15),
-    latched(C, 16, 199),
-    general(C, 200, 219),
-    latched(C, 220, 255),
-    general(D, 0, 127),
-    latched(D, 128, 7999),
-    general(D, 8000, 8489),
-    latched(D, 8490, 8511),
-    general(V, 0, 7),
-    general(Z, 0, 7),
-    general(P, 0, 131),
-    general(I, 0, 1),
-    general(I, 10, 10),
-    general(I, 20, 20),
-    general(I, 30, 30),
-    general(I, 40, 40),
-    general(I, 50, 50),
-    general(I, 60, 60),
-    general(I, 100, 101),
-    general(I, 200, 201),
-    general(I, 300, 301),
-    general(I, 400, 401),
-    general(I, 500, 501),
-    // Its three outputs' (h1u-h2u-programming §4.3.1).
-    general(I, 502, 504),
-    general(I, 507, 530),
-    general(I, 601, 699),
-    general(I, 701, 799),
-    general(I, 801, 899),
-    general(N, 0, 7),
+/// Relays with which a program steers DSZR and clear signals (h1u-h2u-programming §4.3.11).
+const HOME: &[RangeInclusive<u16>] = &[
+    8441..=8442,
+    8445..=8446,
+    8449..=8449,
+    8451..=8452,
+    8455..=8456,
+    8459..=8459,
+    8461..=8462,
+    8465..=8466,
+    8469..=8469,
+    8484..=8486,
 ];
 
+/// A table of counts and the interrupts of its rows, I507 to I530 (h1u-h2u-programming §4.3.1, §8.7).
+const COUNT_ROWS: CountRows = CountRows {
+    enable: Relay(8084),
+    counter: Register(8084),
+    rows: Register(8085),
+    first: Register(8086),
+    row: Register(8131),
+    done: Relay(8133),
+    pointer: 507,
+    most: 24,
+};
+
+/// Besides the pointers of FX, those of the ends of pulse trains, I502 to I506 for Y000 to Y004 (h1u-h2u-programming §4.3.6), and of
+/// the rows of a table of counts.
+fn pointers(number: u32) -> Option<Interrupt> {
+    let (502..=506) = number else {
+        return fx_pointer(number).or_else(|| COUNT_ROWS.find(number));
+    };
+    let output = number - 502;
+    Some(Interrupt {
+        source: Some(Source::PulsesEnd { output }),
+        request: None,
+        gate: Gate::Allows(Relay(8090).after(output)),
+    })
+}
+
+/// Devices of H1U. Its latched ranges are fixed.
+const H1U_RANGES: &[Range] = joined! {Range:
+    TERMINALS,
+    &[
+        general(M, 0, 383),
+        latched(M, 384, 3071),
+        general(M, 8000, 8511),
+        latched(S, 0, 999),
+    ],
+    TIMERS_256,
+    COUNTERS_FROM_16,
+    &[
+        general(D, 0, 127),
+        latched(D, 128, 7999),
+        general(D, 8000, 8489),
+        latched(D, 8490, 8511),
+    ],
+    INDEXES,
+    &[general(P, 0, 131)],
+    I_INPUTS_AND_COUNTERS,
+    // Its three outputs' (h1u-h2u-programming §4.3.1).
+    &[general(I, 502, 504)],
+    I_ROWS_AND_TIMERS,
+    NESTS,
+};
+
 /// Devices of H2U. Which are latched are the factory settings.
-const H2U_RANGES: &[Range] = &[
-    general(X, 0o0, 0o377),
-    general(Y, 0o0, 0o377),
-    general(M, 0, 499),
-    latched(M, 500, 3071),
-    general(M, 8000, 8511),
-    general(S, 0, 499),
-    latched(S, 500, 999),
-    general(T, 0, 245),
-    latched(T, 246, 255),
-    general(C, 0, 99),
-    latched(C, 100, 199),
-    general(C, 200, 219),
-    latched(C, 220, 255),
-    general(D, 0, 199),
-    latched(D, 200, 7999),
-    general(D, 8000, 8489),
-    latched(D, 8490, 8511),
-    general(V, 0, 7),
-    general(Z, 0, 7),
-    general(P, 0, 131),
-    general(I, 0, 1),
-    general(I, 10, 10),
-    general(I, 20, 20),
-    general(I, 30, 30),
-    general(I, 40, 40),
-    general(I, 50, 50),
-    general(I, 60, 60),
-    general(I, 100, 101),
-    general(I, 200, 201),
-    general(I, 300, 301),
-    general(I, 400, 401),
-    general(I, 500, 501),
-    general(I, 502, 506),
+const H2U_RANGES: &[Range] = joined! {Range:
+    TERMINALS,
+    &[
+        general(M, 0, 499),
+        latched(M, 500, 3071),
+        general(M, 8000, 8511),
+        general(S, 0, 499),
+        latched(S, 500, 999),
+    ],
+    TIMERS_256,
+    COUNTERS_FROM_100,
+    &[
+        general(D, 0, 199),
+        latched(D, 200, 7999),
+        general(D, 8000, 8489),
+        latched(D, 8490, 8511),
+    ],
+    INDEXES,
+    &[general(P, 0, 131)],
+    I_INPUTS_AND_COUNTERS,
+    &[general(I, 502, 506)],
+    I_ROWS_AND_TIMERS,
+    NESTS,
+};
+
+/// Interrupts of both: rows of a table of counts, timers.
+const I_ROWS_AND_TIMERS: &[Range] = &[
     general(I, 507, 530),
     general(I, 601, 699),
     general(I, 701, 799),
     general(I, 801, 899),
-    general(N, 0, 7),
 ];
 
 /// Timers of both. They take the preset over when timing starts.

@@ -1,13 +1,23 @@
 //! Coolmay L01S (l01s-programming §3).
 
-use super::{INDEX_ALIASES, Model, ModelId, Range, Timers, general, latched, timers};
-use rungc_rt::{Ports, Pulses};
+mod special;
+
+use super::fx2n::FX2N;
+use super::shared::{
+    COUNTERS_FROM_16, I_INPUTS_AND_COUNTERS, INDEXES, NESTS, TERMINALS, TIMERS_256, general,
+    joined, latched, timers,
+};
+use super::{ErrorNumbers, Model, ModelId, Range, Timers};
+use crate::high_speed::{self, FOUR_FOLD, HighSpeed, Meter};
+use crate::interrupts::{self, Interrupts, Kind, PULSE_CATCH_OF_8, Precedence};
+use rungc_rt::{Ports, Pulses, Register};
 use rungc_syntax::Classes;
-use rungc_syntax::DeviceClass::{C, D, I, M, N, P, R, S, T, V, X, Y, Z};
+use rungc_syntax::DeviceClass::{D, I, M, P, R, S, T, Y};
 
 /// Coolmay L01S.
 pub(super) const L01S: Model = Model {
     id: ModelId::L01s,
+    instructions: ModelId::L01s,
     name: "l01s",
     boards: None,
     title: "Coolmay L01S",
@@ -15,68 +25,80 @@ pub(super) const L01S: Model = Model {
     nearest: &[],
     ranges: RANGES,
     timers: TIMERS,
-    fast_timers: None,
     latch_choices: &[],
-    latch_key: None,
-    keeps_contacts: true,
-    end_pointer: Some(63),
     max_steps: 30000,
-    z_pairs_with_v: true,
-    error_relay: 8067,
-    errors_last_a_scan: true,
-    annunciators_are_states: false,
-    value_error: 6706,
+    error_numbers: ErrorNumbers::No,
     pulses: Pulses::L01s,
     ports: Ports::L01s,
     pulse_outputs: &[(Y, 0, 3)],
     position_outputs: &[(Y, 0, 3)],
     notations: Classes::E.or(Classes::TEXT),
-    bare_names: true,
-    steps_per_operand: None,
-    max_for: 5,
-    max_call: 5,
-    index_aliases: INDEX_ALIASES,
+    special: &[special::L01S],
+    high_speed: HighSpeed {
+        four_fold: FOUR_FOLD,
+        // l01s-programming §6.3.
+        held_by_reset: true,
+        most_comparisons: None,
+        meters: METERS,
+        ..high_speed::FX
+    },
+    interrupts: Interrupts {
+        pulse_catch: Some(PULSE_CATCH_OF_8),
+        // l01s-programming §6.4, which names the kinds alone; of timers I6 comes first (§6.4.2).
+        precedence: Precedence {
+            kinds: &[Kind::Input, Kind::Timer, Kind::Counter],
+            first_come: false,
+        },
+        ..interrupts::FX
+    },
+    ..FX2N
 };
 
-/// Devices. X and Y reach as far as expansion modules can number them; R is what the Modbus map gives.
-const RANGES: &[Range] = &[
-    general(X, 0o0, 0o377),
-    general(Y, 0o0, 0o377),
-    general(M, 0, 383),
-    latched(M, 384, 7679),
-    general(M, 8000, 8511),
-    latched(S, 0, 4095),
-    general(T, 0, 245),
-    latched(T, 246, 255),
-    general(T, 256, 319),
-    general(C, 0, 15),
-    latched(C, 16, 199),
-    general(C, 200, 219),
-    latched(C, 220, 255),
-    general(D, 0, 127),
-    latched(D, 128, 7999),
-    general(D, 8000, 8511),
-    general(R, 0, 23999),
-    general(V, 0, 7),
-    general(Z, 0, 7),
-    general(P, 0, 1280),
-    general(I, 0, 1),
-    general(I, 10, 10),
-    general(I, 20, 20),
-    general(I, 30, 30),
-    general(I, 40, 40),
-    general(I, 50, 50),
-    general(I, 60, 60),
-    general(I, 100, 101),
-    general(I, 200, 201),
-    general(I, 300, 301),
-    general(I, 400, 401),
-    general(I, 500, 501),
-    general(I, 602, 699),
-    general(I, 702, 799),
-    general(I, 805, 899),
-    general(N, 0, 7),
+/// What measures pulses, of which the manual names the registers only (l01s-programming, table of special registers).
+const METERS: &[Meter] = &[
+    meter(0, 8074),
+    meter(1, 8080),
+    meter(3, 8086),
+    meter(4, 8092),
 ];
+
+const fn meter(input: u32, registers: u16) -> Meter {
+    Meter {
+        input,
+        registers: Register(registers),
+        measures: &[],
+        period: None,
+    }
+}
+
+/// Devices. X and Y reach as far as expansion modules can number them; R is what the Modbus map gives.
+const RANGES: &[Range] = joined! {Range:
+    TERMINALS,
+    &[
+        general(M, 0, 383),
+        latched(M, 384, 7679),
+        general(M, 8000, 8511),
+        latched(S, 0, 4095),
+    ],
+    TIMERS_256,
+    &[general(T, 256, 319)],
+    COUNTERS_FROM_16,
+    &[
+        general(D, 0, 127),
+        latched(D, 128, 7999),
+        general(D, 8000, 8511),
+        general(R, 0, 23999),
+    ],
+    INDEXES,
+    &[general(P, 0, 1280)],
+    I_INPUTS_AND_COUNTERS,
+    &[
+        general(I, 602, 699),
+        general(I, 702, 799),
+        general(I, 805, 899),
+    ],
+    NESTS,
+};
 
 /// Timers.
 const TIMERS: &[Timers] = &[

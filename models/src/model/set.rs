@@ -1,6 +1,6 @@
 //! Sets of models, and those that catalogue and tables name often.
 
-use super::ModelId;
+use super::{Model, ModelId};
 
 /// A set of models.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -13,32 +13,61 @@ impl ModelSet {
     pub const NONE: ModelSet = ModelSet(0);
     /// Every model.
     pub const ALL: ModelSet = Self::of(&ModelId::ALL);
-    /// Only H1U.
-    pub const H1U: ModelSet = Self::of(&[ModelId::H1u]);
-    /// Only H2U.
-    pub const H2U: ModelSet = Self::of(&[ModelId::H2u]);
+    /// H1U.
+    pub const H1U: ModelSet = Self::like(ModelId::H1u);
+    /// H2U.
+    pub const H2U: ModelSet = Self::like(ModelId::H2u);
     /// H1U and H2U.
     pub const INOVANCE: ModelSet = Self::H1U.or(Self::H2U);
-    /// Only L01S.
-    pub const L01S: ModelSet = Self::of(&[ModelId::L01s]);
-    /// Only HM.
-    pub const HM: ModelSet = Self::of(&[ModelId::Hm]);
+    /// L01S.
+    pub const L01S: ModelSet = Self::like(ModelId::L01s);
+    /// HM.
+    pub const HM: ModelSet = Self::like(ModelId::Hm);
+    /// FX1S.
+    pub const FX1S: ModelSet = Self::like(ModelId::Fx1s);
     /// FX1S and FX1N, which share a set of instructions but for FROM, TO, RD3A and WR3A.
-    pub const FX1: ModelSet = Self::of(&[ModelId::Fx1s, ModelId::Fx1n]);
+    pub const FX1: ModelSet = Self::FX1S.or(Self::like(ModelId::Fx1n));
     /// FX2N and boards that are compatible with it.
-    pub const FX2N: ModelSet = Self::of(&[ModelId::Fx2n, ModelId::Fx2nCompatible]);
-    /// Only FX3S.
-    pub const FX3S: ModelSet = Self::of(&[ModelId::Fx3s]);
-    /// Only FX3G.
-    pub const FX3G: ModelSet = Self::of(&[ModelId::Fx3g]);
+    pub const FX2N: ModelSet = Self::like(ModelId::Fx2n);
+    /// FX3S.
+    pub const FX3S: ModelSet = Self::like(ModelId::Fx3s);
+    /// FX3G.
+    pub const FX3G: ModelSet = Self::like(ModelId::Fx3g);
     /// FX3U and boards that are compatible with it.
-    pub const FX3U: ModelSet = Self::of(&[ModelId::Fx3u, ModelId::Fx3uCompatible]);
+    pub const FX3U: ModelSet = Self::like(ModelId::Fx3u);
     /// FX3S, FX3G and FX3U.
     pub const FX3: ModelSet = Self::FX3S.or(Self::FX3G).or(Self::FX3U);
     /// The Mitsubishi models and compatible boards.
     pub const FX: ModelSet = Self::FX1.or(Self::FX2N).or(Self::FX3);
     /// Boards of other makers that take programs for a Mitsubishi model.
-    pub const COMPATIBLE: ModelSet = Self::of(&[ModelId::Fx2nCompatible, ModelId::Fx3uCompatible]);
+    pub const COMPATIBLE: ModelSet = Self::boards();
+
+    /// The models whose instructions are those of `origin`.
+    const fn like(origin: ModelId) -> Self {
+        let mut set = Self::NONE;
+        let mut i = 0;
+        while i < ModelId::ALL.len() {
+            let id = ModelId::ALL[i];
+            if Model::get(id).instructions as u8 == origin as u8 {
+                set = set.or(Self::of(&[id]));
+            }
+            i += 1;
+        }
+        set
+    }
+
+    /// The models that another one names as its boards.
+    const fn boards() -> Self {
+        let mut set = Self::NONE;
+        let mut i = 0;
+        while i < ModelId::ALL.len() {
+            if let Some(boards) = Model::get(ModelId::ALL[i]).boards {
+                set = set.or(Self::of(&[boards]));
+            }
+            i += 1;
+        }
+        set
+    }
 
     /// These models.
     pub const fn of(models: &[ModelId]) -> Self {

@@ -14,6 +14,7 @@ mod tests;
 
 use super::{Cut, Frame, LineFault, Map, Memory, hex_digits};
 use crate::plc::Class;
+use crate::special;
 use monitor::MonitorList;
 pub use space::Space;
 use space::{Area, Place};
@@ -38,15 +39,15 @@ const MOST_EXTENDED: u32 = 0xfe;
 pub const LONGEST: usize = 1 + 9 + 2 * MOST_EXTENDED as usize + 3;
 
 /// Type and version of the PLC.
-const D_TYPE: u32 = 8001;
+const D_TYPE: u32 = special::D_TYPE.number();
 /// The same on FX, where D8101 shows the memory's version.
-const D_TYPE_AGAIN: u32 = 8101;
+const D_TYPE_AGAIN: u32 = special::D_TYPE_AGAIN.number();
 /// Enables forced RUN.
-const M_FORCE_ENABLE: u32 = 8035;
+const M_FORCE_ENABLE: u32 = special::M_FORCE_ENABLE.number();
 /// Forced RUN, with M8035.
-const M_FORCE_RUN: u32 = 8036;
+const M_FORCE_RUN: u32 = special::M_FORCED_RUN.number();
 /// Forced STOP.
-const M_FORCE_STOP: u32 = 8037;
+const M_FORCE_STOP: u32 = special::M_FORCED_STOP.number();
 
 /// What a model makes of the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,6 +14,7 @@ use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
 use crate::plc::Class;
 use crate::pulse::Train;
+use crate::special::Register;
 
 /// Words of the memory.
 pub(super) const PENDING: usize = 2;
@@ -30,21 +31,23 @@ pub fn axis_gear(cx: &mut Cx) -> Done {
 fn count_of_master(cx: &Cx) -> Result<i32, Fault> {
     if let Some(position) = position_of_increment(cx) {
         let word = |n| cx.plc.word(Class::D, n).ok_or(Fault::DEVICE);
-        return Ok(crate::word::pair(word(position)?, word(position + 1)?));
+        let [low, high] = position.run().map(Register::number);
+        return Ok(crate::word::pair(word(low)?, word(high)?));
     }
     cx.dword(1, 0)
 }
 
 /// The position to which an increment belongs, if the master is one of an output axis.
-fn position_of_increment(cx: &Cx) -> Option<u32> {
+fn position_of_increment(cx: &Cx) -> Option<Register> {
     let operand = cx.ops.get(1)?;
     if operand.kind != OperandKind::Device || operand.class != Class::D {
         return None;
     }
     let named = u32::try_from(operand.value).ok()?;
-    let mut axes = cx.plc.pulses().outputs().iter();
-    axes.find(|wiring| wiring.axis + at::INCREMENT == named)
-        .map(|wiring| wiring.axis + at::POSITION)
+    let outputs = cx.plc.pulses().outputs().iter();
+    let mut axes = outputs.filter_map(|wiring| wiring.axis);
+    axes.find(|axis| axis.after(at::INCREMENT).number() == named)
+        .map(|axis| axis.after(at::POSITION))
 }
 
 fn begin_gear(cx: &mut Cx, axis: Registers) -> Done {

@@ -9,6 +9,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
 use crate::pulse::{Generator, Train};
+use crate::special::{M_MOTION_INPUTS, Register};
 
 /// States of an axis in its register.
 pub(super) mod state {
@@ -49,8 +50,6 @@ pub(super) mod event {
     pub const EITHER: u8 = 15;
 }
 
-/// The relays that stand for inputs.
-const RELAYS: u32 = 8096;
 /// Outputs that send pulses, and all that an axis may be bound to: three more are only counted.
 const PULSE_OUTPUTS: i16 = 6;
 const OUTPUTS: i16 = 9;
@@ -102,7 +101,7 @@ pub(super) fn motion(
 #[derive(Clone, Copy)]
 pub(super) struct Registers {
     axis: u32,
-    first: u32,
+    first: Register,
 }
 
 impl Registers {
@@ -110,21 +109,19 @@ impl Registers {
     pub fn of(cx: &Cx, i: usize) -> Result<Registers, Fault> {
         let axis = u32::try_from(cx.read(i)?).map_err(|_| Fault::DEVICE)?;
         let wiring = cx.plc.pulses().outputs().get(axis as usize);
-        let wiring = wiring.ok_or(Fault::DEVICE)?;
-        Ok(Registers {
-            axis,
-            first: wiring.axis,
-        })
+        let first = wiring.and_then(|wiring| wiring.axis);
+        let first = first.ok_or(Fault::DEVICE)?;
+        Ok(Registers { axis, first })
     }
 
     /// Number of the register at a place.
-    pub fn register(self, offset: u32) -> u32 {
-        self.first + offset
+    pub fn register(self, offset: u32) -> Register {
+        self.first.after(offset)
     }
 
     /// Its value.
     pub fn word(self, cx: &Cx, offset: u32) -> i16 {
-        cx.special_word(self.first + offset)
+        cx.special_word(self.register(offset))
     }
 
     /// Its position, with the pulses that are sent and not counted in the register yet.
@@ -136,7 +133,7 @@ impl Registers {
 
     /// Sets it.
     pub fn set(self, cx: &mut Cx, offset: u32, value: i16) {
-        cx.set_special_word(self.first + offset, value);
+        cx.set_special_word(self.register(offset), value);
     }
 
     /// What the axis sends.
@@ -205,7 +202,7 @@ impl Registers {
     pub fn is_on(self, cx: &Cx, mask: u16, inverted: bool) -> bool {
         let (class, first) = match self.has(cx, event::INPUTS) {
             true => (Class::X, 0),
-            false => (Class::M, RELAYS),
+            false => (Class::M, M_MOTION_INPUTS.number()),
         };
         on_of(cx, class, first, mask, inverted)
     }
@@ -352,8 +349,9 @@ fn on_of(cx: &Cx, class: Class, first: u32, mask: u16, inverted: bool) -> bool {
 
 /// How many outputs axes are bound to, of those that send pulses; at least 1.
 fn outputs_in_use(cx: &Cx) -> u64 {
-    let axes = cx.plc.pulses().outputs().iter();
-    let bound = axes.map(|wiring| cx.special_word(wiring.axis + at::OUTPUT));
+    let outputs = cx.plc.pulses().outputs().iter();
+    let axes = outputs.filter_map(|wiring| wiring.axis);
+    let bound = axes.map(|axis| cx.special_word(axis.after(at::OUTPUT)));
     let mask = bound
         .filter(|output| (0..PULSE_OUTPUTS).contains(output))
         .fold(0u32, |mask, output| mask | 1 << output);

@@ -2,12 +2,9 @@
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
+use crate::plc::Class;
+use crate::special::{D_RANDOM, M_BLOCK_COMPARE};
 use core::cmp::Ordering;
-
-/// On when every comparison of a block comparison held.
-const M_BLOCK_COMPARE: u32 = 8090;
-/// Seed of RND, low word; the high word follows.
-const D_RANDOM: u32 = 8310;
 
 /// D[i] = S1[i] op S2[i] for n elements; S2 may be a constant. Wraps, touches no flag.
 fn elementwise(cx: &mut Cx, op: fn(i32, i32) -> i32) -> Done {
@@ -160,12 +157,12 @@ pub fn dis(cx: &mut Cx) -> Done {
 /// RND D (FNC 184): a pseudo-random number 0 to 32767. The seed is in D8310/D8311, so that a program can set it.
 pub fn rnd(cx: &mut Cx) -> Done {
     let low = cx.special_word(D_RANDOM) as u16;
-    let high = cx.special_word(D_RANDOM + 1) as u16;
+    let high = cx.special_word(D_RANDOM.after(1)) as u16;
     let seed = u32::from(high) << 16 | u32::from(low);
     let seed = seed.wrapping_mul(1_103_515_245).wrapping_add(12345);
     cx.set_word(0, 0, (seed >> 16 & 0x7fff) as i16)?;
     cx.set_special_word(D_RANDOM, seed as i16);
-    cx.set_special_word(D_RANDOM + 1, (seed >> 16) as i16);
+    cx.set_special_word(D_RANDOM.after(1), (seed >> 16) as i16);
     Ok(())
 }
 
@@ -266,7 +263,7 @@ pub fn duty(cx: &mut Cx) -> Done {
         cx.set_bit(2, 0, scans < on)?;
         scans += 1;
         let register = cx.ops.get(2).map_or(0, |op| op.value as u32);
-        cx.set_special_word(register, scans as i16);
+        let _ = cx.plc.set_word(Class::D, register, scans as i16);
     }
     let state = cx.state();
     state.0[0] = i32::from(drive);

@@ -8,7 +8,7 @@ use crate::fault::{Done, Fault};
 use crate::hal::Clock;
 use crate::special::{
     D_SECOND, D_WEEKDAY, M_BORROW, M_CARRY, M_CLOCK_ADJUST, M_CLOCK_ERROR, M_CLOCK_HOLD,
-    M_CLOCK_STOP, M_ZERO,
+    M_CLOCK_STOP, M_ZERO, Register,
 };
 
 /// Seconds of a day.
@@ -18,12 +18,12 @@ const DAY: i32 = 86_400;
 const YEARS: core::ops::RangeInclusive<i16> = 2000..=2099;
 
 /// D8018…D8013 and D8019, in TRD's order.
-const REGISTERS: [u32; 7] = [
-    D_SECOND + 5,
-    D_SECOND + 4,
-    D_SECOND + 3,
-    D_SECOND + 2,
-    D_SECOND + 1,
+const REGISTERS: [Register; 7] = [
+    D_SECOND.after(5),
+    D_SECOND.after(4),
+    D_SECOND.after(3),
+    D_SECOND.after(2),
+    D_SECOND.after(1),
     D_SECOND,
     D_WEEKDAY,
 ];
@@ -261,8 +261,10 @@ fn refresh(cx: &mut Cx, short: bool) -> Done {
         } else {
             now.year
         };
-        let fields = [now.second, now.minute, now.hour, now.day, now.month].map(i16::from);
-        for (register, value) in (D_SECOND..).zip(fields.into_iter().chain([year as i16])) {
+        let [second, minute, hour, day, month] =
+            [now.second, now.minute, now.hour, now.day, now.month].map(i16::from);
+        let fields = [second, minute, hour, day, month, year as i16];
+        for (register, value) in D_SECOND.run::<6>().into_iter().zip(fields) {
             cx.set_special_word(register, value);
         }
         cx.set_special_word(D_WEEKDAY, now.weekday.into());

@@ -4,8 +4,8 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
 use crate::special::{
-    M_COMPLETE, M_NO_OUTPUT_RESET, M_RAMP_HOLD, M_START_PULSE, M_STL_MONITOR, M_TRANSFER_OFF,
-    M_TRANSFER_START,
+    M_COMPLETE, M_DESCENDING, M_NO_OUTPUT_RESET, M_RAMP_HOLD, M_START_PULSE, M_STL_MONITOR,
+    M_TRANSFER_OFF, M_TRANSFER_START,
 };
 
 /// SER S1 S2 D n (FNC 61): searches n elements from S1 on for S2; D… take how many are equal, the first and the last of them, the smallest
@@ -235,9 +235,6 @@ pub fn rotc(cx: &mut Cx) -> Done {
     };
     (3..8).try_for_each(|bit| cx.set_bit(3, bit, bit == way))
 }
-
-/// SORT2 sorts in descending order.
-const M_DESCENDING: u32 = 8165;
 
 /// Where a cell stands in a table.
 type Place = fn(row: i32, column: i32, rows: i32, columns: i32) -> i32;

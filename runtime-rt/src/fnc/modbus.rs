@@ -202,7 +202,7 @@ pub fn adprw(cx: &mut Cx) -> Done {
     })?;
     let over = matches!(turn, Turn::Over(_));
     if over || cx.drive() {
-        let _ = cx.plc.set_bit(Class::M, M_COMPLETE, over);
+        cx.set_special(M_COMPLETE, over);
     }
     Ok(())
 }

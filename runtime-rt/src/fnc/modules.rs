@@ -3,7 +3,9 @@
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
-use crate::special::{D_INPUT_FILTER, D_OUTPUT_USE, D_TRANSFER_COUNT, M_TRANSFER_COUNT};
+use crate::special::{
+    D_ANALOG_OUTPUTS, D_INPUT_FILTER, D_OUTPUT_USE, D_TRANSFER_COUNT, M_COMPLETE, M_TRANSFER_COUNT,
+};
 
 /// The run of terminals that operand 0 and the count in operand 1 name.
 fn terminals(cx: &Cx) -> Result<(Class, core::ops::Range<u16>), Fault> {
@@ -44,7 +46,7 @@ pub fn refresh_terminals(cx: &mut Cx) -> Done {
 /// REF of HM: outputs that an axis uses (D8180 … not 0) are left out.
 pub fn refresh_terminals_hm(cx: &mut Cx) -> Done {
     refresh(cx, |cx, number| {
-        number >= 16 || cx.special_word(D_OUTPUT_USE + u32::from(number)) == 0
+        number >= 16 || cx.special_word(D_OUTPUT_USE.after(number.into())) == 0
     })
 }
 
@@ -147,8 +149,7 @@ pub fn to(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// Values of the built-in analog outputs of L01S.
-const ANALOG_OUTPUTS: u32 = 8050;
+/// How many built-in analog outputs L01S has.
 const ANALOG_OUTPUT_CHANNELS: i32 = 8;
 
 /// TO of L01S: where there is no module 0, that number means the host, whose first words are its analog outputs (D8050 …).
@@ -162,9 +163,10 @@ pub fn to_host(cx: &mut Cx) -> Done {
     if i32::from(address) + n > ANALOG_OUTPUT_CHANNELS {
         return Err(Fault::MODULE);
     }
-    for (k, register) in (0..n).zip(ANALOG_OUTPUTS + u32::from(address)..) {
+    for k in 0..n {
         let value = cx.word(2, k)?;
-        cx.set_special_word(register, value);
+        let channel = u32::from(address) + k as u32;
+        cx.set_special_word(D_ANALOG_OUTPUTS.after(channel), value);
     }
     Ok(())
 }
@@ -283,7 +285,7 @@ fn portion(cx: &mut Cx) -> Result<Option<(i32, i32, i32)>, Fault> {
 /// Tells whether a divided transfer is over.
 fn finish_portion(cx: &mut Cx, end: i32, n: i32) {
     cx.state().0[0] = end;
-    cx.set_special(crate::special::M_COMPLETE, end >= n);
+    cx.set_special(M_COMPLETE, end >= n);
 }
 
 /// RBFM m1 m2 D n1 n2 (FNC 278): FROM of n1 words, n2 a scan; M8029 tells the end.

@@ -10,7 +10,7 @@ use crate::fault::{Done, Fault};
 use crate::plc::Class;
 use crate::pulse::Train;
 use crate::pulse_side;
-use crate::special::M_COMPLETE;
+use crate::special::{M_COMPLETE, Register, Relay};
 use crate::wiring::{Clear, Ramps, Wiring};
 
 /// How far an instruction is.
@@ -153,8 +153,14 @@ impl Output {
     }
 
     /// Whether the model has a special relay, and it is on.
-    pub fn has_on(self, cx: &Cx, relay: u32) -> bool {
-        is_on(cx.plc, &[relay])
+    pub fn has_on(self, cx: &Cx, relay: impl Into<Option<Relay>>) -> bool {
+        is_on(cx.plc, &[relay.into()])
+    }
+
+    /// Its position; 0 if it keeps none.
+    pub fn position(self, cx: &Cx) -> i32 {
+        let position = self.wiring.position;
+        position.map_or(0, |position| long(cx.plc, position))
     }
 
     /// A speed in the model's range, in millihertz; 0 remains 0.
@@ -241,7 +247,7 @@ impl Output {
     }
 
     /// The instruction sends a train, whose pulses are counted in the pair of registers `counter`, unless a limit switch forbids it.
-    pub fn start(self, cx: &mut Cx, train: Train, counter: u32) -> Done {
+    pub fn start(self, cx: &mut Cx, train: Train, counter: Option<Register>) -> Done {
         if self.is_at_limit(cx, train.reverse) {
             return self.fail(cx);
         }
@@ -249,13 +255,13 @@ impl Output {
     }
 
     /// The same without regard to limit switches.
-    pub fn run(self, cx: &mut Cx, train: Train, counter: u32) -> Done {
+    pub fn run(self, cx: &mut Cx, train: Train, counter: Option<Register>) -> Done {
         let slot = cx.site.slot;
         self.enter(cx, Phase::Sends);
         let axis = self.axis(cx)?;
         axis.generator.start(train);
         axis.owner = slot;
-        axis.counter = counter as u16;
+        axis.counter = counter.map_or(0, |register| register.0);
         axis.ended = false;
         axis.show();
         Ok(())
@@ -307,10 +313,9 @@ impl Output {
 
     /// Ramps of positioning: those of this output alone while the relay for that is on.
     pub fn ramp(self, cx: &Cx) -> Ramp {
-        if self.has_own(cx) {
-            self.ramp_of(cx, self.wiring.own)
-        } else {
-            self.ramp_for_all(cx)
+        match self.own(cx) {
+            Some(own) => self.ramp_of(cx, Some(own)),
+            None => self.ramp_for_all(cx),
         }
     }
 
@@ -319,33 +324,39 @@ impl Output {
         self.ramp_of(cx, self.wiring.ramps)
     }
 
-    fn has_own(self, cx: &Cx) -> bool {
-        self.wiring.own.down != 0 && self.has_on(cx, self.wiring.changes)
+    fn own(self, cx: &Cx) -> Option<Ramps> {
+        self.wiring
+            .own
+            .filter(|_| self.has_on(cx, self.wiring.changes))
     }
 
     /// Time of the way down of this output alone, while the relay for that is on.
     pub fn own_down_ms(self, cx: &Cx) -> Option<i32> {
-        self.has_own(cx)
-            .then(|| ramp_ms(cx, self.wiring.own.down) as i32)
+        self.own(cx).map(|own| ramp_ms(cx, own.down) as i32)
     }
 
-    fn ramp_of(self, cx: &Cx, ramps: Ramps) -> Ramp {
+    /// Without registers a ramp is as if they held 0.
+    fn ramp_of(self, cx: &Cx, ramps: Option<Ramps>) -> Ramp {
         let most = cx.plc.pulses().highest_hz();
-        let highest = u32::try_from(long(cx.plc, ramps.highest)).unwrap_or(0);
-        let highest = highest.clamp(LOWEST_HZ, most);
-        let base = u32::try_from(cx.special_word(ramps.base)).unwrap_or(0);
+        let highest = ramps.map_or(0, |ramps| long(cx.plc, ramps.highest));
+        let highest = u32::try_from(highest).unwrap_or(0).clamp(LOWEST_HZ, most);
+        let base = ramps.map_or(0, |ramps| cx.special_word(ramps.base));
+        let base = u32::try_from(base).unwrap_or(0);
+        let ms = |time: fn(Ramps) -> Register| {
+            ramps.map_or(RAMP_MS.0 as u32, |ramps| ramp_ms(cx, time(ramps)))
+        };
         Ramp {
             base: base.min(highest / 10),
             highest,
-            up_ms: ramp_ms(cx, ramps.up),
-            down_ms: ramp_ms(cx, ramps.down),
+            up_ms: ms(|ramps| ramps.up),
+            down_ms: ms(|ramps| ramps.down),
             raises_speeds: cx.plc.pulses().raises_speeds(),
         }
     }
 
     /// Speeds of DSZR. Those that contradict each other are an error, others are held in their limits (h1u-h2u-programming §4.3.11).
     pub fn home_speeds(self, cx: &Cx) -> Result<HomeSpeeds, Fault> {
-        let home = self.wiring.home;
+        let home = self.wiring.home.ok_or(Fault::DEVICE)?;
         let most = cx.plc.pulses().highest_hz() as i32;
         let highest = long(cx.plc, home.ramps.highest);
         let base = i32::from(cx.special_word(home.ramps.base));
@@ -376,9 +387,9 @@ impl Output {
     /// Unit of PWM.
     pub fn pwm_unit_us(self, cx: &Cx) -> u32 {
         match self.wiring.unit {
-            0 if self.has_on(cx, self.wiring.micro) => 1,
-            0 => 1000,
-            unit => match cx.special_word(unit) {
+            None if self.has_on(cx, self.wiring.micro) => 1,
+            None => 1000,
+            Some(unit) => match cx.special_word(unit) {
                 0 | 1 => 10,
                 3 => 10_000,
                 _ => 1000,
@@ -404,10 +415,11 @@ impl Output {
             let on = cx.plc.bit(Class::X, number).unwrap_or(false);
             on != self.has_on(cx, interrupt.inverted)
         };
-        if !self.has_on(cx, interrupt.chooses) {
+        let chooses = self.has_on(cx, interrupt.chooses);
+        let Some(register) = interrupt.register.filter(|_| chooses) else {
             return Ok(input(interrupt.input));
-        }
-        let digits = cx.special_word(interrupt.register) as u16;
+        };
+        let digits = cx.special_word(register) as u16;
         match u32::from(digits >> (4 * self.number) & 15) {
             number @ 0..=7 => Ok(input(number)),
             8 => Ok(self.has_on(cx, interrupt.relay)),
@@ -416,15 +428,16 @@ impl Output {
     }
 
     /// Gives a clear signal, if the relay for that is on.
-    pub fn begin_clear_signal(self, cx: &mut Cx, clear: Clear) {
-        if !self.has_on(cx, clear.enable) {
+    pub fn begin_clear_signal(self, cx: &mut Cx, clear: Option<Clear>) {
+        let Some(clear) = clear.filter(|clear| self.has_on(cx, clear.enable)) else {
             return;
-        }
-        let chosen = clear.register != 0 && (clear.chooses == 0 || self.has_on(cx, clear.chooses));
-        let output = match (chosen, cx.special_word(clear.register) as u16) {
-            (false, _) => Some(clear.output),
-            (true, number) if clear.octal => from_octal_digits(number),
-            (true, number) => Some(number.into()),
+        };
+        let chosen = clear.chooses.is_none() || self.has_on(cx, clear.chooses);
+        let number = clear.register.filter(|_| chosen);
+        let output = match number.map(|register| cx.special_word(register) as u16) {
+            None => Some(clear.output),
+            Some(number) if clear.octal => from_octal_digits(number),
+            Some(number) => Some(number.into()),
         };
         if let Some(output) = output
             && cx.plc.set_bit(Class::Y, output, true).is_some()
@@ -442,12 +455,13 @@ impl Output {
     }
 
     /// Ends it when its time is over.
-    pub fn end_clear_signal(self, cx: &mut Cx, clear: Clear) {
+    pub fn end_clear_signal(self, cx: &mut Cx, clear: Option<Clear>) {
+        let ms = clear.map_or(0, |clear| clear.ms);
         let now_ms = cx.plc.sys().now_ms;
         let [.., output, since] = cx.state().0;
         if output < 0 && !cx.site.signal {
             self.keep_clear_signal(cx, -output, true);
-        } else if output > 0 && now_ms.wrapping_sub(since as u32) > clear.ms {
+        } else if output > 0 && now_ms.wrapping_sub(since as u32) > ms {
             cx.state().0[6] = 0;
             let _ = cx.plc.set_bit(Class::Y, output as u32 - 1, false);
         }
@@ -455,7 +469,7 @@ impl Output {
 }
 
 /// The time of a ramp in a register.
-fn ramp_ms(cx: &Cx, register: u32) -> u32 {
+fn ramp_ms(cx: &Cx, register: Register) -> u32 {
     i32::from(cx.special_word(register)).clamp(RAMP_MS.0, RAMP_MS.1) as u32
 }
 

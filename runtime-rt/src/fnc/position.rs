@@ -2,10 +2,11 @@
 //! of the output; forward counts up.
 
 use super::output::{Output, Turn, held, unsigned};
-use crate::axis::{long, set_long};
+use crate::axis::set_long;
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::pulse::Train;
+use crate::special::Relay;
 
 /// Word of the memory with the position in which a move began.
 const BEGAN: usize = 4;
@@ -20,7 +21,7 @@ pub fn drvi(cx: &mut Cx) -> Done {
 pub fn drva(cx: &mut Cx) -> Done {
     held(cx, |cx| {
         move_by(cx, |cx, output, began| {
-            let from = began.unwrap_or_else(|| long(cx.plc, output.wiring.position));
+            let from = began.unwrap_or_else(|| output.position(cx));
             Ok(cx.read(0)?.saturating_sub(from))
         })
     })
@@ -36,7 +37,7 @@ fn move_by(
         Turn::Start => {
             let distance = distance(cx, output, None)?;
             let hz = u32::try_from(cx.read(1)?).map_err(|_| Fault::VALUE)?;
-            cx.state().0[BEGAN] = long(cx.plc, output.wiring.position);
+            cx.state().0[BEGAN] = output.position(cx);
             cx.set_bit(3, 0, distance >= 0)?;
             if distance == 0 {
                 output.finish(cx);
@@ -198,7 +199,9 @@ fn do_zrn(cx: &mut Cx) -> Done {
 fn home(cx: &mut Cx, output: Output) -> Done {
     output.axis(cx)?.generator.halt();
     output.count(cx);
-    set_long(cx.plc, output.wiring.position, 0);
+    if let Some(position) = output.wiring.position {
+        set_long(cx.plc, position, 0);
+    }
     output.finish(cx);
     Ok(())
 }
@@ -235,7 +238,7 @@ pub fn dszr(cx: &mut Cx) -> Done {
 
 fn do_dszr(cx: &mut Cx) -> Done {
     let output = Output::of(cx, 2)?;
-    output.end_clear_signal(cx, output.wiring.home.clear);
+    output.end_clear_signal(cx, output.wiring.home.and_then(|home| home.clear));
     match output.turn_resting(cx)? {
         Turn::Start => {
             let home = output.home_speeds(cx)?;
@@ -273,12 +276,12 @@ struct Signals {
 
 impl Signals {
     fn read(cx: &Cx, output: Output) -> Result<Signals, Fault> {
-        let home = output.wiring.home;
-        let on = |relay: u32| output.has_on(cx, relay);
+        let home = output.wiring.home.ok_or(Fault::DEVICE)?;
+        let on = |relay: Relay| output.has_on(cx, relay);
         let same = matches!(cx.ops, [dog, zero, ..] if dog == zero);
         let forward = on(home.forward);
         let [ahead, behind] = [on(home.limits[0]), on(home.limits[1])];
-        let dog = cx.bit(0, 0)? != on(home.dog_inverted);
+        let dog = cx.bit(0, 0)? != output.has_on(cx, home.dog_inverted);
         Ok(Signals {
             dog,
             zero: if same {
@@ -353,6 +356,6 @@ fn return_home(cx: &mut Cx, output: Output) -> Done {
 
 fn origin(cx: &mut Cx, output: Output) -> Done {
     home(cx, output)?;
-    output.begin_clear_signal(cx, output.wiring.home.clear);
+    output.begin_clear_signal(cx, output.wiring.home.and_then(|home| home.clear));
     Ok(())
 }

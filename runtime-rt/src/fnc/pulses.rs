@@ -91,7 +91,7 @@ fn do_pwm(cx: &mut Cx) -> Done {
                 return Err(Fault::VALUE);
             }
             if turn == Turn::Start {
-                output.start(cx, Train::steady(0, 0), 0)?;
+                output.start(cx, Train::steady(0, 0), None)?;
             }
             let unit_us = output.pwm_unit_us(cx);
             let generator = &mut output.axis(cx)?.generator;

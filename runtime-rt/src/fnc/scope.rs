@@ -2,28 +2,16 @@
 
 use crate::cx::Cx;
 use crate::fault::Done;
-
-/// 0: a hand starts it, 1 and 2: a register that reaches the threshold from below, from above.
-const MODE: u32 = 8030;
-/// What starts it: not 0, or the number of a register.
-const TRIGGER: u32 = 8031;
-const THRESHOLD: u32 = 8032;
-const PERIOD: u32 = 8033;
-const SAMPLES: u32 = 8034;
-/// First register of the record, and the area in which it must lie.
-const FIRST: u32 = 8035;
-const AREA_FIRST: u32 = 8036;
-const AREA_LAST: u32 = 8037;
-const STATE: u32 = 8038;
-/// Samples so far.
-const TAKEN: u32 = 8039;
-/// Words and first register of two channels.
-const CHANNELS: [[u32; 2]; 2] = [[8040, 8041], [8042, 8043]];
+use crate::special::{
+    D_SCOPE_AREA_FIRST, D_SCOPE_AREA_LAST, D_SCOPE_CHANNELS, D_SCOPE_FIRST, D_SCOPE_MODE,
+    D_SCOPE_PERIOD, D_SCOPE_SAMPLES, D_SCOPE_STATE, D_SCOPE_TAKEN, D_SCOPE_THRESHOLD,
+    D_SCOPE_TRIGGER, Register,
+};
 
 /// The last register of a record.
-const LAST_REGISTER: u32 = 7999;
+const LAST_REGISTER: u16 = 7999;
 
-/// What [`STATE`] shows, and what starts the oscilloscope there.
+/// What [`D_SCOPE_STATE`] shows, and what starts the oscilloscope there.
 const WAITING: i16 = 0;
 const SAMPLING: i16 = 1;
 const WRONG: i16 = 2;
@@ -51,13 +39,13 @@ pub fn oscilloscope(cx: &mut Cx) -> Done {
     let now = cx.read(0)?;
     let passed = now.wrapping_sub(cx.state().0[0]);
     cx.state().0[0] = now;
-    if cx.special_word(STATE) == START {
+    if cx.special_word(D_SCOPE_STATE) == START {
         start(cx);
-    } else if cx.special_word(STATE) == SAMPLING {
+    } else if cx.special_word(D_SCOPE_STATE) == SAMPLING {
         sample(cx, passed.clamp(0, i32::MAX / 10) * 10);
     }
-    if cx.special_word(STATE) == WAITING && triggered(cx) {
-        cx.set_special_word(STATE, SAMPLING);
+    if cx.special_word(D_SCOPE_STATE) == WAITING && triggered(cx) {
+        cx.set_special_word(D_SCOPE_STATE, SAMPLING);
     }
     Ok(())
 }
@@ -65,39 +53,40 @@ pub fn oscilloscope(cx: &mut Cx) -> Done {
 /// Takes the parameters over, if they make sense.
 fn start(cx: &mut Cx) {
     let number = |register| i32::from(cx.special_word(register));
+    let [a, b, c, d] = D_SCOPE_CHANNELS.run().map(number);
     let recording = Recording {
-        period: match number(PERIOD) {
+        period: match number(D_SCOPE_PERIOD) {
             ..=0 => 1,
             1 => 5,
             2 => 10,
             n => 10 * (n + 1),
         },
-        samples: number(SAMPLES),
-        next: number(FIRST),
-        channels: CHANNELS.map(|channel| channel.map(number)),
+        samples: number(D_SCOPE_SAMPLES),
+        next: number(D_SCOPE_FIRST),
+        channels: [[a, b], [c, d]],
     };
-    let mode = number(MODE);
+    let mode = number(D_SCOPE_MODE);
     let by_register = mode != 0;
     let words: i32 = recording.channels.iter().map(|[words, _]| words).sum();
     let last = i64::from(recording.samples) * i64::from(words) + i64::from(recording.next) - 1;
-    let fits = (number(AREA_FIRST)..=number(AREA_LAST)).contains(&recording.next)
-        && last <= i64::from(number(AREA_LAST));
+    let fits = (number(D_SCOPE_AREA_FIRST)..=number(D_SCOPE_AREA_LAST)).contains(&recording.next)
+        && last <= i64::from(number(D_SCOPE_AREA_LAST));
     let right = (0..=2).contains(&mode)
-        && (!by_register || TRIGGERS.contains(&cx.special_word(TRIGGER)))
+        && (!by_register || TRIGGERS.contains(&cx.special_word(D_SCOPE_TRIGGER)))
         && recording.samples > 0
         && recording.channels.iter().all(|&[words, _]| words >= 0)
         && fits;
-    cx.set_special_word(TAKEN, 0);
-    cx.set_special_word(STATE, if right { WAITING } else { WRONG });
+    cx.set_special_word(D_SCOPE_TAKEN, 0);
+    cx.set_special_word(D_SCOPE_STATE, if right { WAITING } else { WRONG });
     recording.keep(cx);
 }
 
 /// Whether sampling begins.
 fn triggered(cx: &Cx) -> bool {
-    let trigger = cx.special_word(TRIGGER);
-    let value = || cx.special_word(u32::try_from(trigger).unwrap_or(u32::MAX));
-    let threshold = cx.special_word(THRESHOLD);
-    match cx.special_word(MODE) {
+    let trigger = cx.special_word(D_SCOPE_TRIGGER);
+    let value = || u16::try_from(trigger).map_or(0, |n| cx.special_word(Register(n)));
+    let threshold = cx.special_word(D_SCOPE_THRESHOLD);
+    match cx.special_word(D_SCOPE_MODE) {
         0 => trigger != 0,
         1 => value() >= threshold,
         2 => value() <= threshold,
@@ -109,16 +98,16 @@ fn triggered(cx: &Cx) -> bool {
 fn sample(cx: &mut Cx, passed: i32) {
     let mut recording = Recording::kept(cx);
     let mut since = cx.state().0[1].saturating_add(passed);
-    let mut taken = i32::from(cx.special_word(TAKEN));
+    let mut taken = i32::from(cx.special_word(D_SCOPE_TAKEN));
     while since >= recording.period && taken < recording.samples {
         since -= recording.period;
         taken += 1;
         for [words, first] in recording.channels {
             for register in (first..).take(words as usize) {
-                let value = u32::try_from(register).map_or(0, |register| cx.special_word(register));
+                let value = u16::try_from(register).map_or(0, |n| cx.special_word(Register(n)));
                 // What lies behind the registers of the user is not overwritten.
-                if let Ok(next @ ..=LAST_REGISTER) = u32::try_from(recording.next) {
-                    cx.set_special_word(next, value);
+                if let Ok(next @ ..=LAST_REGISTER) = u16::try_from(recording.next) {
+                    cx.set_special_word(Register(next), value);
                 }
                 recording.next += 1;
             }
@@ -126,9 +115,9 @@ fn sample(cx: &mut Cx, passed: i32) {
     }
     recording.keep(cx);
     cx.state().0[1] = since;
-    cx.set_special_word(TAKEN, taken as i16);
+    cx.set_special_word(D_SCOPE_TAKEN, taken as i16);
     if taken >= recording.samples {
-        cx.set_special_word(STATE, DONE);
+        cx.set_special_word(D_SCOPE_STATE, DONE);
     }
 }
 
@@ -179,7 +168,7 @@ mod tests {
         let mut plc = Double::new();
         let start = i32::from(START);
         plc.set_d(
-            MODE,
+            D_SCOPE_MODE.number(),
             &[0, 1, 0, 2, 10, 2000, 2000, 2999, start, 0, 1, 100, 2, 200],
         );
         plc.set_d(100, &[7]);
@@ -191,28 +180,28 @@ mod tests {
     fn samples_are_words_of_both_channels_in_turn() {
         let mut plc = ready();
         run(&mut plc, 0..=5);
-        assert_eq!(plc.d(STATE, 2), [SAMPLING, 5]);
+        assert_eq!(plc.d(D_SCOPE_STATE.number(), 2), [SAMPLING, 5]);
         run(&mut plc, 6..=20);
-        assert_eq!(plc.d(STATE, 2), [DONE, 10]);
+        assert_eq!(plc.d(D_SCOPE_STATE.number(), 2), [DONE, 10]);
         assert_eq!(plc.d(2027, 4), [7, 8, 9, 0]);
     }
 
     #[test]
     fn a_record_that_does_not_fit_is_refused() {
         let mut plc = ready();
-        plc.set_d(AREA_LAST, &[2028]);
+        plc.set_d(D_SCOPE_AREA_LAST.number(), &[2028]);
         run(&mut plc, 0..=1);
-        assert_eq!(plc.d(STATE, 1), [WRONG]);
-        plc.set_d(AREA_LAST, &[2029, i32::from(START)]);
+        assert_eq!(plc.d(D_SCOPE_STATE.number(), 1), [WRONG]);
+        plc.set_d(D_SCOPE_AREA_LAST.number(), &[2029, i32::from(START)]);
         run(&mut plc, 2..=2);
-        assert_eq!(plc.d(STATE, 1), [SAMPLING]);
+        assert_eq!(plc.d(D_SCOPE_STATE.number(), 1), [SAMPLING]);
     }
 
     #[test]
     fn ten_samples_a_millisecond() {
         let mut plc = ready();
-        plc.set_d(PERIOD, &[-1]);
+        plc.set_d(D_SCOPE_PERIOD.number(), &[-1]);
         run(&mut plc, 0..=1);
-        assert_eq!(plc.d(STATE, 2), [DONE, 10]);
+        assert_eq!(plc.d(D_SCOPE_STATE.number(), 2), [DONE, 10]);
     }
 }

@@ -3,19 +3,14 @@
 
 use crate::cx::Cx;
 use crate::fault::Done;
+use crate::special::{
+    D_ANALOG_ENABLE, D_ANALOG_INPUTS, D_ERROR_STEP, D_LOGGED_CODES, D_LOGGED_HOURS,
+    D_OPERATION_ERROR, D_RUN_TIME, D_SLOW_RING_COUNTER,
+};
 use crate::word::{pair, words};
 
-/// Hours of the logged errors, and their codes, the oldest first.
-const HOURS: u32 = 8490;
-const CODES: u32 = 8500;
 /// How many errors the log holds.
 const ENTRIES: u32 = 10;
-/// Code and step of the last operation error.
-const ERROR_CODE: u32 = 8067;
-const ERROR_STEP: u32 = 8069;
-
-/// Seconds for which the PLC has run, low word.
-const RUN_TIME: u32 = 8510;
 
 /// The running time and the error log, once a scan after the program. A new code of an operation error is added, the oldest of ten making
 /// place; one that is there only takes the new time. Memory: code and step logged last; milliseconds of the second.
@@ -23,45 +18,45 @@ pub fn error_log(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
     let ms = cx.state().0[2].saturating_add(dt);
     cx.state().0[2] = ms % 1000;
-    let [low, high] = [0, 1].map(|n| cx.special_word(RUN_TIME + n));
+    let [low, high] = D_RUN_TIME.run().map(|register| cx.special_word(register));
     let seconds = pair(low, high).wrapping_add(ms / 1000);
-    for (register, word) in (RUN_TIME..).zip(words(seconds)) {
+    for (register, word) in D_RUN_TIME.run::<2>().into_iter().zip(words(seconds)) {
         cx.set_special_word(register, word);
     }
-    let (code, step) = (cx.special_word(ERROR_CODE), cx.special_word(ERROR_STEP));
+    let (code, step) = (
+        cx.special_word(D_OPERATION_ERROR),
+        cx.special_word(D_ERROR_STEP),
+    );
     let logged = [i32::from(code), i32::from(step)];
     let state = cx.state();
     if code == 0 || state.0[..2] == logged {
         return Ok(());
     }
     [state.0[0], state.0[1]] = logged;
-    let place = (0..ENTRIES).find(|&n| [0, code].contains(&cx.special_word(CODES + n)));
+    let place =
+        (0..ENTRIES).find(|&n| [0, code].contains(&cx.special_word(D_LOGGED_CODES.after(n))));
     if place.is_none() {
         for n in 0..ENTRIES - 1 {
-            for table in [HOURS, CODES] {
-                let next = cx.special_word(table + n + 1);
-                cx.set_special_word(table + n, next);
+            for table in [D_LOGGED_HOURS, D_LOGGED_CODES] {
+                let next = cx.special_word(table.after(n + 1));
+                cx.set_special_word(table.after(n), next);
             }
         }
     }
     let place = place.unwrap_or(ENTRIES - 1);
-    cx.set_special_word(HOURS + place, (seconds / 3600) as i16);
-    cx.set_special_word(CODES + place, code);
+    cx.set_special_word(D_LOGGED_HOURS.after(place), (seconds / 3600) as i16);
+    cx.set_special_word(D_LOGGED_CODES.after(place), code);
     Ok(())
 }
 
-/// Values of the analog inputs, and the bits that switch them on: eight of them.
-const ANALOG_VALUES: u32 = 8030;
-const ANALOG_ENABLE: u32 = 8114;
-
 /// D8030 … from the analog inputs that D8114 switches on, once a scan before the program.
 pub fn analog_inputs(cx: &mut Cx) -> Done {
-    let enabled = cx.special_word(ANALOG_ENABLE);
+    let enabled = cx.special_word(D_ANALOG_ENABLE);
     for channel in 0..8u8 {
         if enabled >> channel & 1 == 1
             && let Some(value) = cx.hal().analog(channel)
         {
-            cx.set_special_word(ANALOG_VALUES + u32::from(channel), value);
+            cx.set_special_word(D_ANALOG_INPUTS.after(channel.into()), value);
         }
     }
     Ok(())
@@ -71,23 +66,21 @@ pub fn analog_inputs(cx: &mut Cx) -> Done {
 pub fn potentiometers(cx: &mut Cx) -> Done {
     for channel in 0..2u8 {
         if let Some(value) = cx.hal().analog(channel) {
-            cx.set_special_word(ANALOG_VALUES + u32::from(channel), value.clamp(0, 255));
+            cx.set_special_word(D_ANALOG_INPUTS.after(channel.into()), value.clamp(0, 255));
         }
     }
     Ok(())
 }
 
-/// The ring counter of milliseconds.
-const RING_COUNTER: u32 = 8398;
-
 /// D8398 and D8399 count the milliseconds, once a scan before the program, up to 2147483647 and from 0 again.
 pub fn ring_counter(cx: &mut Cx) -> Done {
-    let low = cx.special_word(RING_COUNTER) as u16;
-    let high = cx.special_word(RING_COUNTER + 1) as u16;
+    let [low, high] = D_SLOW_RING_COUNTER
+        .run()
+        .map(|register| cx.special_word(register) as u16);
     let count = u32::from(high) << 16 | u32::from(low);
     let count = count.wrapping_add(cx.dt_ms() as u32) & 0x7fff_ffff;
-    cx.set_special_word(RING_COUNTER, count as i16);
-    cx.set_special_word(RING_COUNTER + 1, (count >> 16) as i16);
+    cx.set_special_word(D_SLOW_RING_COUNTER, count as i16);
+    cx.set_special_word(D_SLOW_RING_COUNTER.after(1), (count >> 16) as i16);
     Ok(())
 }
 

@@ -5,10 +5,9 @@
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
+use crate::special::M_TEXT_OPEN;
 use core::fmt::{self, Write};
 
-/// BINDA leaves what follows its digits as it is.
-const M_BINDA_OPEN: u32 = 8091;
 /// Longest string.
 const MAX_LENGTH: i32 = 32767;
 
@@ -355,7 +354,7 @@ pub fn binda(cx: &mut Cx) -> Done {
         value.unsigned_abs(),
         width = digits as usize
     );
-    let open = cx.special(M_BINDA_OPEN);
+    let open = cx.special(M_TEXT_OPEN);
     if open && cx.wide() {
         text.push(b' ')?;
     }

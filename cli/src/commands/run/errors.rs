@@ -49,7 +49,7 @@ impl<'a> Errors<'a> {
             tell(&format!("rungc: {}, {times}", self.describe(error)));
         }
         if let Some(error) = errors.first() {
-            let (code, relay) = (error.code, self.model.error_relay);
+            let (code, relay) = (error.code, self.model.error_relay.number());
             tell(&format!(
                 "rungc: a PLC shows these errors in M{relay} and D{relay}; `rungc explain {code}` tells more"
             ));

@@ -1,6 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers mean something else than on the other models.
 
-use super::{AXES, HOST, MAKER, MODES, MODULES, POWER, SERIAL, Special, specials};
+use crate::special::{AXES, HOST, MAKER, MODES, MODULES, POWER, SERIAL, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {

@@ -1,6 +1,6 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
-use super::{
+use crate::special::{
     CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, PORTS, RAW, SERIAL,
     Special, TRACE, specials,
 };

@@ -1,6 +1,6 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
-use super::{
+use crate::special::{
     CAN, CARDS, CHECKED, HARDWARE, HOST, LATCHES, LINK, NETWORK, PORTS, POWER, SERIAL, Special,
     TRACE, UNCLEAR, specials,
 };

@@ -1,6 +1,6 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
-use super::{
+use crate::special::{
     CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, PORTS, POWER, SERIAL, Special, TRACE, specials,
 };
 
