@@ -294,7 +294,7 @@ fn an_index_register_may_reach_any_relay() {
 fn inert_devices() {
     let text = "\
 LD M8002
-MOV H4089 D8120
+MOV H4089 D8400
 MOV K200 D8000
 SET M8039
 MOV K50 D8039

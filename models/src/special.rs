@@ -193,9 +193,14 @@ pub(crate) const LATER: Reason = because(
     Missed::ByWriters,
     "the model does not do this yet, says its manual",
 );
-pub(crate) const SERIAL: Reason =
-    because(Missed::ByAll, "serial communication is not implemented yet");
-pub(crate) const PORTS: Reason = because(Missed::Never, SERIAL.text);
+pub(crate) const SERIAL: Reason = because(
+    Missed::ByAll,
+    "this part of serial communication is not implemented yet",
+);
+pub(crate) const SUMMED: Reason = because(
+    Missed::Never,
+    "frames of links between PLCs always have a sum",
+);
 pub(crate) const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
 pub(crate) const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
 pub(crate) const AXES: Reason = because(Missed::Never, "input axes do not show this yet");
@@ -253,7 +258,7 @@ pub(crate) use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, CAN, CARDS, MODULES, POWER, SERIAL, Special, Status};
+    use super::{Access, CAN, CARDS, MODULES, POWER, Special, Status};
     use crate::{Model, ModelId};
     use rungc_syntax::DeviceClass::{self, D, M};
     use std::collections::BTreeSet;
@@ -320,7 +325,8 @@ mod tests {
             of(ModelId::H2u, M, 8486),
             Some(Status::Instructions("DSZR"))
         );
-        assert_eq!(of(ModelId::H1u, M, 8128), Some(Status::Inert(SERIAL)));
+        let ports = Some(Status::Instructions("serial ports"));
+        assert_eq!(of(ModelId::H1u, M, 8128), ports);
         for number in [8282, 8307, 8308] {
             assert_eq!(of(ModelId::H2u, D, number), Some(Status::Inert(CAN)));
         }

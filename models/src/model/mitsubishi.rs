@@ -1,7 +1,7 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use crate::special::{
-    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, PORTS, POWER, SERIAL, Special, TRACE, specials,
+    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, POWER, SERIAL, Special, TRACE, specials,
 };
 
 /// What all have.
@@ -44,18 +44,18 @@ pub(super) const ALL: &[Special] = specials! {
     M 8047 rw 0 scan "D8040–D8047 and M8046 show the steps";
     M 8050-8055 rw 0 scan "forbids the interrupts of X000–X005";
     M 8061 r 0 scan "hardware error, here of the watchdog, code in D8061";
-    M 8062-8063 r 0 inert(PORTS) "communication error, code in D8062 and D8063";
+    M 8062-8063 r 0 by("serial ports") "communication error, code in D8062 and D8063";
     M 8064 r 0 inert(CHECKED) "parameter error, code in D8064";
     M 8065 r 0 inert(CHECKED) "syntax error, code in D8065";
     M 8066 r 0 inert(CHECKED) "circuit error, code in D8066";
     M 8067 r 0 scan "operation error, code in D8067";
     M 8068 rw 0 scan "operation error, kept; its step in D8068";
     M 8070-8073 rw 0 inert(LINK) "parallel link";
-    M 8121 r 0 inert(SERIAL) "RS waits to send";
-    M 8122 rw 0 inert(SERIAL) "RS sends";
-    M 8123 rw 0 inert(SERIAL) "RS has received";
-    M 8124 r 0 inert(SERIAL) "RS receives";
-    M 8126-8129 r 0 inert(SERIAL) "computer link, time-out of RS";
+    M 8121 r 0 by("serial ports") "RS waits to send";
+    M 8122 rw 0 by("serial ports") "RS sends";
+    M 8123 rw 0 by("serial ports") "RS has received";
+    M 8124 r 0 by("serial ports") "RS receives";
+    M 8126-8129 r 0 by("serial ports") "computer link, time-out of RS";
     M 8145-8146 rw 0 by("pulse outputs") "stop the pulses of Y000, of Y001";
     M 8147-8148 r 0 by("pulse outputs") "pulses are sent at Y000, at Y001";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
@@ -78,7 +78,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8039 rw 0 inert(HOST) "constant time of a scan in ms (with M8039)";
     D 8040-8047 r 0 scan "the lowest eight steps that are on (with M8047)";
     D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
-    D 8062-8063 r 0 inert(PORTS) "code of the communication error";
+    D 8062-8063 r 0 by("serial ports") "code of the communication error";
     D 8064 r 0 inert(CHECKED) "code of the parameter error";
     D 8065 r 0 inert(CHECKED) "code of the syntax error";
     D 8066 r 0 inert(CHECKED) "code of the circuit error";
@@ -86,7 +86,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8068 rw 0 scan "step of the operation error, kept";
     D 8069 r 0 scan "step of the error of M8065–M8067";
     D 8070 rw 500 inert(LINK) "error time of the parallel link in ms";
-    D 8120-8129 rw 0 inert(SERIAL) "communication format, counts and characters of RS";
+    D 8120-8129 rw 0 by("serial ports") "communication format, counts and characters of RS";
     D 8136-8137 rw 0 by("pulse outputs") "pulses sent at Y000 and Y001";
     D 8140-8143 rw 0 by("pulse outputs") "pulses sent at Y000, at Y001";
     D 8173-8180 rw 0 inert(LINK) "N:N link: settings";

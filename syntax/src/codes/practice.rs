@@ -172,8 +172,8 @@ super::codes! {
 
     INERT_DEVICE = "W0301" "inert-device" Warning None,
     "special device that does nothing in a compiled program",
-    "On the PLC this special relay or register sets something up or reports it: a serial port, a link between PLCs, a constant scan time. Compiled programs do not have what it belongs to, so it is an ordinary relay or register there: a program that sets up a Modbus slave with it answers no master. The help page of each model (`docs/src/special-devices`) and `rungc explain D8120` say which devices work. Devices that only report faults which cannot happen here (a low battery, a failed supply) are not meant.",
-    wrong: "LD M8002\nMOV H4089 D8120\nEND\n",
+    "On the PLC this special relay or register sets something up or reports it: a CAN network, an extension card, a constant scan time. Compiled programs do not have what it belongs to, so it is an ordinary relay or register there: a program that asks for a constant scan time with it runs as its host decides. The help page of each model (`docs/src/special-devices`) and `rungc explain D8039` say which devices work. Devices that only report faults which cannot happen here (a low battery, a failed supply) are not meant.",
+    wrong: "LD M8002\nMOV K50 D8039\nEND\n",
     right: "LD M8002\nMOV K500 D8000\nEND\n";
 
     STEPS_DIFFER = "W0501" "steps-differ" Warning None,

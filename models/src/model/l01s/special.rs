@@ -1,8 +1,8 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use crate::special::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, PORTS, RAW, SERIAL,
-    Special, TRACE, specials,
+    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, RAW, SERIAL, Special,
+    TRACE, specials,
 };
 
 /// Its special devices.
@@ -37,7 +37,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8059 rw 0 scan "on: all high-speed-counter interrupts disabled (I010-I060)";
     M 8060 r 0 inert(HARDWARE) "I/O configuration error";
     M 8061 r 0 scan "PLC error, here of the watchdog";
-    M 8062-8063 r 0 inert(PORTS) "serial communication error 0–1";
+    M 8062-8063 r 0 by("serial ports") "serial communication error 0–1";
     M 8064 r 0 inert(CHECKED) "parameter error";
     M 8065 r 0 inert(CHECKED) "syntax error";
     M 8066 r 0 inert(CHECKED) "circuit (ladder) error";
@@ -50,19 +50,19 @@ pub(super) const L01S: &[Special] = specials! {
     M 8078 r 0 inert(TRACE) "sampling trace finished";
     M 8079 r 0 inert(TRACE) "sampling trace system area";
     M 8120 rw 0 inert(SERIAL) "must not be used";
-    M 8121 r 0 inert(SERIAL) "port 2: RS/RS2 waiting to send";
-    M 8122 rw 0 inert(SERIAL) "port 2: RS send request; program sets it on, PLC resets it automatically when sending ends";
-    M 8123 rw 0 inert(SERIAL) "port 2: RS reception complete; must be reset by program";
-    M 8124 r 0 inert(SERIAL) "port 2: RS data being received";
-    M 8125 rw 0 inert(SERIAL) "port 2 protocol select together with M8196=1";
-    M 8128 r 0 inert(SERIAL) "port 2: RD3A/WR3A received correctly (resets itself)";
-    M 8129 r 0 inert(SERIAL) "port 2: RD3A/WR3A communication timeout (resets itself)";
+    M 8121 r 0 by("serial ports") "port 2: RS/RS2 waiting to send";
+    M 8122 rw 0 by("serial ports") "port 2: RS send request; program sets it on, PLC resets it automatically when sending ends";
+    M 8123 rw 0 by("serial ports") "port 2: RS reception complete; must be reset by program";
+    M 8124 r 0 by("serial ports") "port 2: RS data being received";
+    M 8125 rw 0 by("serial ports") "port 2 protocol select together with M8196=1";
+    M 8128 r 0 by("serial ports") "port 2: RD3A/WR3A received correctly (resets itself)";
+    M 8129 r 0 by("serial ports") "port 2: RD3A/WR3A communication timeout (resets itself)";
     M 8151-8154 r 0 inert(LATER) "busy monitor of pulse axis 5–8";
     M 8160 rw 0 by("XCH") "XCH works as byte swap when on";
     M 8161 rw 0 by("ASCI, HEX, CCD") "8-bit mode for RS/RS2 (and ASCI, HEX, CCD, CRC ...): only the low byte of each register is used";
     M 8170-8177 rw 0 scan "pulse catch of input X000–007: set on its rising edge";
-    M 8192 rw 0 inert(SERIAL) "port 3 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port";
-    M 8196 rw 0 inert(SERIAL) "port 2 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port/BD/Modbus";
+    M 8192 rw 0 by("serial ports") "port 3 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port";
+    M 8196 rw 0 by("serial ports") "port 2 protocol switch: 0 = Mitsubishi programming-port protocol, 1 = free port/BD/Modbus";
     M 8198 rw 0 by("OUT C") "4-fold counting for C251, C252, C254 (off = 1-fold)";
     M 8199 rw 0 by("OUT C") "4-fold counting for C253, C255 (off = 1-fold)";
     M 8200-8227 rw 0 by("OUT C") "count direction of C200–227: on = down, off = up";
@@ -113,13 +113,13 @@ pub(super) const L01S: &[Special] = specials! {
     M 8378 r 0 by("pulse outputs") "Y003: positioning instruction being driven";
     M 8379 rw 0 by("pulse outputs") "Y003: pulse stop command: on stops pulse output";
     M 8396 rw 0 inert(FAST) "phase of the inputs assigned to C254";
-    M 8401 r 0 inert(SERIAL) "port 3: RS2 waiting to send";
-    M 8402 rw 0 inert(SERIAL) "port 3: RS2 send request: program sets it on";
-    M 8403 rw 0 inert(SERIAL) "port 3: RS2 reception complete; must be reset by program";
-    M 8404 r 0 inert(SERIAL) "port 3: data being received";
+    M 8401 r 0 by("serial ports") "port 3: RS2 waiting to send";
+    M 8402 rw 0 by("serial ports") "port 3: RS2 send request: program sets it on";
+    M 8403 rw 0 by("serial ports") "port 3: RS2 reception complete; must be reset by program";
+    M 8404 r 0 by("serial ports") "port 3: data being received";
     M 8405 r 0 inert(SERIAL) "port 3: RS2 data-set ready (DSR) flag";
-    M 8408 r 0 inert(SERIAL) "port 3: RD3A/WR3A receive complete/correct (resets itself)";
-    M 8409 r 0 inert(SERIAL) "port 3: RD3A/WR3A timeout (resets itself)";
+    M 8408 r 0 by("serial ports") "port 3: RD3A/WR3A receive complete/correct (resets itself)";
+    M 8409 r 0 by("serial ports") "port 3: RD3A/WR3A timeout (resets itself)";
     M 8421 rw 0 inert(SERIAL) "RS2 waiting to send";
     M 8422 rw 0 inert(SERIAL) "RS2 send request";
     M 8423 rw 0 inert(SERIAL) "RS2 reception complete";
@@ -185,16 +185,16 @@ pub(super) const L01S: &[Special] = specials! {
     D 8108 r 0 inert(MODULES) "number of connected special/extension modules";
     D 8109 r 0 inert(HARDWARE) "number of the Y at which an output refresh error occurred";
     D 8114 rw 0 scan "analog input channel enable: bit n = 1 starts AD n (n=0..7)";
-    D 8120 rw 0 inert(SERIAL) "port 2 communication parameters: b0 data length 0=7,1=8";
-    D 8121 rw 0 inert(SERIAL) "port 2 own station number; as Modbus master must be 255";
-    D 8122 r 0 inert(SERIAL) "port 2: remaining bytes to send (RS)";
-    D 8123 r 0 inert(SERIAL) "port 2: number of bytes received (RS)";
-    D 8124 rw 2 inert(SERIAL) "port 2: RS header";
-    D 8125 rw 3 inert(SERIAL) "port 2: RS terminator";
-    D 8126 rw 10 inert(SERIAL) "port 2: gap in scans between RD3A/WR3A telegrams; with ADPRW it must be 0";
+    D 8120 rw 0 by("serial ports") "port 2 communication parameters: b0 data length 0=7,1=8";
+    D 8121 rw 0 by("serial ports") "port 2 own station number; as Modbus master must be 255";
+    D 8122 r 0 by("serial ports") "port 2: remaining bytes to send (RS)";
+    D 8123 r 0 by("serial ports") "port 2: number of bytes received (RS)";
+    D 8124 rw 2 by("serial ports") "port 2: RS header";
+    D 8125 rw 3 by("serial ports") "port 2: RS terminator";
+    D 8126 rw 10 by("serial ports") "port 2: gap in scans between RD3A/WR3A telegrams; with ADPRW it must be 0";
     D 8127 rw 0 inert(SERIAL) "start number for slave-side communication request";
     D 8128 rw 0 inert(SERIAL) "data count for slave-side communication request";
-    D 8129 rw 0 inert(SERIAL) "port 2 timeout [ms] for RD3A/WR3A; recommended 10..20 at >= 9600 baud, 20..50 below";
+    D 8129 rw 0 by("serial ports") "port 2 timeout [ms] for RD3A/WR3A; recommended 10..20 at >= 9600 baud, 20..50 below";
     D 8140 r 0 inert(LATER) "axis 5 position, low/high (pair)";
     D 8141 rw 0 inert(LATER) "axis 6 position";
     D 8142 r 0 inert(LATER) "axis 7 position (pair)";
@@ -263,18 +263,18 @@ pub(super) const L01S: &[Special] = specials! {
     D 8378 rw 100 by("ZRN, DRVI, DRVA, DSZR") "Y003: acceleration time in ms, range 50..5000";
     D 8379 rw 100 by("ZRN, DRVI, DRVA, DSZR") "Y003: deceleration time in ms, range 50..5000";
     D 8395 rw 0 inert(SERIAL) "network function flag";
-    D 8397 rw 0 inert(SERIAL) "serial port of ADPRW: 0 = port 2, 1 = port 3";
+    D 8397 rw 0 by("serial ports") "serial port of ADPRW: 0 = port 2, 1 = port 3";
     D 8398 rw 0 scan "32-bit ring counter 0..2147483647, 1 ms steps, low word";
     D 8399 rw 0 scan "32-bit ring counter 1 ms, high word";
-    D 8400 rw 0 inert(SERIAL) "port 3 communication parameters: b0 data length, b1-b2 parity";
-    D 8401 rw 0 inert(SERIAL) "port 3 mode: H0 RS2 free; H11 Modbus RTU slave";
-    D 8406 rw 12 inert(SERIAL) "port 3 gap in scans between RD3A/WR3A telegrams";
-    D 8409 rw 0 inert(SERIAL) "port 3 timeout [ms] of RD3A/WR3A; same recommendation as D8129";
+    D 8400 rw 0 by("serial ports") "port 3 communication parameters: b0 data length, b1-b2 parity";
+    D 8401 rw 0 by("serial ports") "port 3 mode: H0 RS2 free; H11 Modbus RTU slave";
+    D 8406 rw 12 by("serial ports") "port 3 gap in scans between RD3A/WR3A telegrams";
+    D 8409 rw 0 by("serial ports") "port 3 timeout [ms] of RD3A/WR3A; same recommendation as D8129";
     D 8410 rw 2 inert(SERIAL) "port 3 RS2 headers 1, 2";
     D 8411 rw 0 inert(SERIAL) "port 3 RS2 headers 3, 4";
     D 8412 rw 3 inert(SERIAL) "port 3 RS2 terminators 1, 2";
     D 8413 rw 0 inert(SERIAL) "port 3 RS2 terminators 3, 4";
-    D 8414 rw 0 inert(SERIAL) "port 3 own station number; as master must be 255";
+    D 8414 rw 0 by("serial ports") "port 3 own station number; as master must be 255";
     D 8415 r 0 inert(SERIAL) "port 3 RS2: computed receive checksum";
     D 8416 r 0 inert(SERIAL) "port 3 RS2: sent checksum";
     D 8420 rw 0 inert(SERIAL) "communication parameters";
