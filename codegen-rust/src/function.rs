@@ -1,5 +1,6 @@
 //! The functions of the plan as Rust.
 
+use crate::format::{self, Body};
 use crate::generate::{Generator, Item, function_name};
 use crate::temps::type_of;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -38,7 +39,11 @@ impl Generator<'_> {
             Some((last, body)) if function.ends_by_jump() => (body, self.last_jump(function, last)),
             _ => (function.body.as_slice(), self.end(function)),
         };
-        let body = self.nodes(body);
+        let inner = self.nodes(body);
+        let mut body = Body::default();
+        body.code(variables);
+        body.append(inner);
+        body.code(tail);
         let plc_type = self.type_name.clone();
         let plc = match function.is_idle() {
             true => quote!(_: &mut #plc_type),
@@ -51,10 +56,17 @@ impl Generator<'_> {
         let returns = (function.flow != Flow::Void).then(|| quote!(-> Option<u32>));
         let doc = self.function_doc(function);
         let (doc, name) = (self.doc(&doc), self.planned_name(function));
-        self.item_of(quote! {
-            #doc
-            fn #name(#plc #hal) #returns { #variables #body #tail }
-        })
+        let head = quote!(#doc fn #name(#plc #hal) #returns);
+        Item {
+            text: match self.with_comments {
+                true => format::function(&head, &body),
+                false => {
+                    let body = body.tokens();
+                    quote!(#head { #body }).to_string()
+                }
+            },
+            uses: std::mem::take(&mut self.uses),
+        }
     }
 
     /// The name of a function of the plan.

@@ -1,6 +1,5 @@
 //! The generator of one module: what it knows, and what it has written so far.
 
-use crate::format::Comments;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::plan::Plan;
@@ -92,8 +91,6 @@ pub struct Generator<'m> {
     pub with_comments: bool,
     /// What the item being written needs.
     pub uses: Uses,
-    /// Texts of its comments.
-    pub comments: Comments,
     /// Functions written.
     pub items: Vec<Item>,
     /// Which function of the plan is being written.
@@ -128,7 +125,6 @@ impl<'m> Generator<'m> {
             type_name: type_name(&module.name),
             with_comments,
             uses: Uses::default(),
-            comments: Comments::default(),
             items: Vec::new(),
             function: 0,
             names: 0,

@@ -2,7 +2,7 @@
 //!
 //! [`emit`] makes a crate of one program; [`batch`] one of many, for tests. How a program becomes Rust: `storage` names the fields,
 //! `analysis` finds where temporaries live, `function` splits what is long, `stmt`, `coils`, `expr` and `levels` write statements and
-//! expressions, `machine` the struct and its implementations, `format` lays out and places comments, `files` puts it together.
+//! expressions, `machine` the struct and its implementations, `format` lays out and prints comments between statements, `files` puts it together.
 //!
 //! Layout takes about as long as everything else together; it is made function by function, so time is linear in the program's
 //! length.

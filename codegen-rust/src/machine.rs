@@ -781,10 +781,9 @@ impl Generator<'_> {
 
     /// The text of some items, and what they use.
     pub fn item_of(&mut self, tokens: TokenStream) -> Item {
-        let comments = std::mem::take(&mut self.comments);
         Item {
             text: if self.with_comments {
-                format::format(tokens, &comments)
+                format::items(tokens)
             } else {
                 tokens.to_string()
             },

@@ -2,6 +2,7 @@
 
 use crate::coils::{OUT_COUNTER, OUT_TIMER};
 use crate::expr::literal32;
+use crate::format::Body;
 use crate::generate::Generator;
 use crate::storage::PrintStorage;
 use proc_macro2::{Literal, TokenStream};
@@ -18,9 +19,9 @@ use std::rc::Rc;
 
 impl Generator<'_> {
     /// The nodes of a body.
-    pub fn nodes(&mut self, nodes: &[Node]) -> TokenStream {
+    pub fn nodes(&mut self, nodes: &[Node]) -> Body {
         let plan = Rc::clone(&self.plan);
-        let mut out = TokenStream::new();
+        let mut body = Body::default();
         let mut nodes = nodes.iter().peekable();
         while let Some(node) = nodes.next() {
             let next = nodes.peek().copied();
@@ -28,10 +29,10 @@ impl Generator<'_> {
                 continue;
             }
             self.named.clear();
-            out.extend(self.name_parts(&node.roots()));
+            body.code(self.name_parts(&node.roots()));
             let asker = next.and_then(|next| asker(self.module, &plan, &self.storage, node, next));
             let Some(Asker::Whole(asker) | Asker::Operand(asker)) = asker else {
-                out.extend(self.node(node));
+                self.node(&mut body, node);
                 continue;
             };
             // The edge stands in what asks for it: `if plc.edges[0].rising(plc.x2) { … }`.
@@ -39,30 +40,36 @@ impl Generator<'_> {
             self.named.clear();
             self.named.insert(asker, edge);
             if let Some(next) = nodes.next() {
-                out.extend(self.name_parts(&next.roots()));
-                out.extend(self.node(next));
+                body.code(self.name_parts(&next.roots()));
+                self.node(&mut body, next);
             }
         }
-        out
+        body
     }
 
-    fn node(&mut self, node: &Node) -> TokenStream {
+    fn node(&mut self, body: &mut Body, node: &Node) {
         match node {
-            Node::Stmt(stmt) => {
-                let mut tokens = self.statement(stmt);
-                if let Some((class, number)) =
-                    comments::written(stmt).filter(|_| !tokens.is_empty())
-                {
-                    tokens.extend(self.end_comment(class, number));
+            Node::Stmt(Stmt::Network(n)) => {
+                if let Some(network) = self.module.networks.get(*n as usize) {
+                    body.comment(&comments::heading(network, |text| {
+                        one_line(text).trim().to_string()
+                    }));
                 }
-                tokens
+            }
+            Node::Stmt(stmt) => {
+                let tokens = self.statement(stmt);
+                let beside = comments::written(stmt).filter(|_| !tokens.is_empty());
+                body.code(tokens);
+                if let Some(text) = beside.and_then(|(class, n)| self.device_comment(class, n)) {
+                    body.beside(text);
+                }
             }
             Node::If {
                 cond,
                 then,
                 otherwise,
-            } => self.branches(*cond, then, otherwise),
-            Node::For { count, body } => {
+            } => self.branches(body, *cond, then, otherwise),
+            Node::For { count, body: inner } => {
                 let count = match *self.module.expr(*count) {
                     Expr::I16(n) => literal32(i32::from(n.max(1)), false).tokens,
                     _ => {
@@ -70,18 +77,17 @@ impl Generator<'_> {
                         quote!(#count.max(1))
                     }
                 };
-                let body = self.nodes(body);
-                quote!(for _ in 0..#count { #body })
+                let inner = self.nodes(inner);
+                body.block(quote!(for _ in 0..#count), inner);
             }
-            Node::Repeat(stations) => self.stations(stations),
-            Node::Parts { parts, leaves } => self.parts(parts, *leaves),
-            Node::Stretch(function) => self.stretch(*function),
+            Node::Repeat(stations) => self.stations(body, stations),
+            Node::Parts { parts, leaves } => self.parts(body, parts, *leaves),
+            Node::Stretch(function) => body.code(self.stretch(*function)),
         }
     }
 
     fn statement(&mut self, stmt: &Stmt) -> TokenStream {
         match stmt {
-            Stmt::Network(n) => self.network(*n),
             Stmt::Let(temp, value) => self.assign_temp(*temp, *value),
             Stmt::Edge { out, .. } => {
                 let edge = self.edge(&Node::Stmt(stmt));
@@ -174,10 +180,12 @@ impl Generator<'_> {
             }
             Stmt::Clear { latched: false } => quote!(plc.clear_general();),
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
-            // The plan has nodes for them.
-            Stmt::If { .. } | Stmt::For { .. } | Stmt::Repeat { .. } | Stmt::Parts(_) => {
-                TokenStream::new()
-            }
+            // Written as nodes.
+            Stmt::Network(_)
+            | Stmt::If { .. }
+            | Stmt::For { .. }
+            | Stmt::Repeat { .. }
+            | Stmt::Parts(_) => TokenStream::new(),
         }
     }
 
@@ -216,42 +224,19 @@ impl Generator<'_> {
     }
 
     /// A loop over rungs that the program repeats.
-    fn stations(&mut self, stations: &Stations) -> TokenStream {
-        let comment = self.line_comment(&stations::heading(stations));
+    fn stations(&mut self, body: &mut Body, stations: &Stations) {
+        body.comment(&stations::heading(stations));
         let rounds = Literal::u32_unsuffixed(stations.count);
         self.invariants = stations::invariants(self.module, &self.storage, stations);
-        let invariants = self.invariant_lets();
+        body.code(self.invariant_lets());
         (self.in_rounds, self.rounds) = (true, stations.count);
-        let body = self.nodes(&stations.body);
+        let inner = self.nodes(&stations.body);
         self.in_rounds = false;
         self.invariants.clear();
-        quote!(#comment #invariants for i in 0..#rounds { #body })
+        body.block(quote!(for i in 0..#rounds), inner);
     }
 
-    fn network(&mut self, n: u32) -> TokenStream {
-        let network = self.module.networks.get(n as usize);
-        let heading = network
-            .map(|network| comments::heading(network, |text| one_line(text).trim().to_string()));
-        heading.map_or(TokenStream::new(), |text| self.line_comment(&text))
-    }
-
-    /// A comment on lines of its own.
-    fn line_comment(&mut self, text: &str) -> TokenStream {
-        match self.with_comments {
-            true => self.comments.line(text),
-            false => TokenStream::new(),
-        }
-    }
-
-    /// The comment of a device, after the statement that writes it.
-    fn end_comment(&mut self, class: DeviceClass, number: u32) -> TokenStream {
-        match self.device_comment(class, number) {
-            Some(text) if self.with_comments => self.comments.end(text),
-            _ => TokenStream::new(),
-        }
-    }
-
-    fn branches(&mut self, cond: ExprId, then: &[Node], otherwise: &[Node]) -> TokenStream {
+    fn branches(&mut self, body: &mut Body, cond: ExprId, then: &[Node], otherwise: &[Node]) {
         // `if a {} else { b }` is `if !a { b }`.
         let (code, first, second) = if then.is_empty() {
             let code = match *self.module.expr(cond) {
@@ -264,10 +249,7 @@ impl Generator<'_> {
         };
         let first = self.nodes(first);
         let second = self.nodes(second);
-        match second.is_empty() {
-            true => quote!(if #code { #first }),
-            false => quote!(if #code { #first } else { #second }),
-        }
+        body.branches(code.tokens, first, second);
     }
 
     fn call_sub(&mut self, root: usize) -> TokenStream {
@@ -277,14 +259,15 @@ impl Generator<'_> {
     }
 
     /// Parts between which jumps go back and forth: a loop over the part to run next.
-    fn parts(&mut self, parts: &[(u32, usize)], leaves: bool) -> TokenStream {
+    fn parts(&mut self, body: &mut Body, parts: &[(u32, usize)], leaves: bool) {
         let plan = Rc::clone(&self.plan);
         let root = plan.functions[self.function].root;
         let call = |this: &Self, function: usize| this.planned_call(&plan.functions[function]);
         if let (&[(state, function)], false) = (parts, leaves) {
             let (state, call) = (self.state_name(root, state), call(self, function));
-            let comment = self.line_comment(comments::ONE_PART);
-            return quote!(#comment while #call == Some(#state) {});
+            body.comment(comments::ONE_PART);
+            body.code(quote!(while #call == Some(#state) {}));
+            return;
         }
         let first = parts
             .first()
@@ -299,14 +282,13 @@ impl Generator<'_> {
             (true, false) => quote!(return next),
             (false, _) => quote!(None),
         };
-        let comment = self.line_comment(comments::PARTS);
-        quote! {
-            #comment
+        body.comment(comments::PARTS);
+        body.code(quote! {
             let mut next = Some(#first);
             while let Some(part) = next {
                 next = match part { #arms _ => #outside };
             }
-        }
+        });
     }
 
     /// A call of a stretch that is a function of its own.
