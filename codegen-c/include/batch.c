@@ -8,11 +8,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Memory of the program that runs. */
+/* PLCs that a case may have. */
+enum { PLCS = 4 };
+
+/* Memory of the programs that run. */
 static union {
     char empty;
     /* MEMORY */
-} memory;
+} memories[PLCS];
+
+/* The PLC that is meant. */
+static size_t current;
+
+#define memory (memories[current])
 
 static rungc_hal hardware;
 
@@ -121,6 +129,17 @@ static void value(bool ok, long number)
     fflush(stdout);
 }
 
+/* Answers a request for a value of more than 32 bits. */
+static void long_value(bool ok, int64_t number)
+{
+    if (ok) {
+        printf("%lld\n", (long long)number);
+    } else {
+        puts("none");
+    }
+    fflush(stdout);
+}
+
 /* Sets or reads a device; false if the request is another one. */
 static bool device_request(const program *program, const char *verb, const char *class_name, uint32_t number, long set)
 {
@@ -205,6 +224,69 @@ static bool machine_request(const program *program, const char *verb, const long
     return true;
 }
 
+/* Brings characters to serial ports and takes what they send; false if the request is another one. */
+static bool line_request(const char *verb, const long *number)
+{
+    int64_t packed = 0;
+    if (strcmp(verb, "receive") == 0) {
+        done(rungc_virtual_receive((uint8_t)number[0], (uint32_t)number[1], (uint8_t)number[2], (uint8_t)number[3]));
+    } else if (strcmp(verb, "sent") == 0) {
+        const bool found = rungc_virtual_sent((uint8_t)number[0], (uint32_t)number[1], &packed);
+        long_value(found, packed);
+    } else if (strcmp(verb, "line") == 0) {
+        const bool found = rungc_virtual_line((uint8_t)number[0], &packed);
+        long_value(found, packed);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* The programs of a case, one for each PLC. */
+static const program *running[PLCS];
+static size_t running_count;
+
+/* Starts program `number` in the next PLC of the case. */
+static bool start(long number)
+{
+    const size_t count = sizeof programs / sizeof programs[0] - 1;
+    if (number < 0 || (size_t)number >= count || running_count == PLCS) {
+        return false;
+    }
+    const size_t before = current;
+    current = running_count;
+    rungc_virtual_select((uint32_t)current);
+    rungc_virtual_reset();
+    running[current] = &programs[number];
+    running[current]->init();
+    running_count++;
+    current = before;
+    rungc_virtual_select((uint32_t)current);
+    return true;
+}
+
+/* Chooses the programs of a case, and which of them is meant; false if the request is another one. */
+static bool case_request(const char *verb, const long *number)
+{
+    if (strcmp(verb, "case") == 0) {
+        current = 0;
+        running_count = 0;
+        done(start(number[0]));
+    } else if (strcmp(verb, "join") == 0) {
+        done(start(number[0]));
+    } else if (strcmp(verb, "plc") == 0) {
+        const bool found = number[0] >= 0 && (size_t)number[0] < running_count;
+        if (found) {
+            current = (size_t)number[0];
+            rungc_virtual_select((uint32_t)current);
+        }
+        done(found);
+    } else {
+        return false;
+    }
+    return true;
+}
+
 /* The words of a request; those that are missing are empty. */
 enum { WORDS = 7 };
 
@@ -224,8 +306,6 @@ static void split(char *line, char *words[WORDS])
 int main(void)
 {
     static char line[256];
-    const size_t count = sizeof programs / sizeof programs[0] - 1;
-    const program *program = NULL;
 
     hardware = rungc_virtual_hal();
     while (fgets(line, sizeof line, stdin) != NULL) {
@@ -238,21 +318,16 @@ int main(void)
         if (strcmp(words[0], "exit") == 0) {
             break;
         }
-        if (strcmp(words[0], "case") == 0) {
-            program = (number[0] >= 0 && (size_t)number[0] < count) ? &programs[number[0]] : NULL;
-            rungc_virtual_reset();
-            if (program != NULL) {
-                program->init();
-            }
-            done(program != NULL);
+        if (case_request(words[0], number)) {
             continue;
         }
-        if (program == NULL) {
+        if (running_count == 0) {
             done(false);
             continue;
         }
+        const program *program = running[current];
         if (!device_request(program, words[0], words[1], (uint32_t)number[1], number[2]) &&
-            !machine_request(program, words[0], number)) {
+            !machine_request(program, words[0], number) && !line_request(words[0], number)) {
             value(false, 0);
         }
     }

@@ -9,6 +9,7 @@
 #define RUNGC_RT_H
 
 #include "rungc.h"
+/* PORT */
 
 /**
  * Inputs X whose edges an instruction takes notice of at once if it names them; others are looked at once a scan.
@@ -167,6 +168,113 @@ typedef uint8_t rungc_pulses;
 #endif // __cplusplus
 
 /**
+ * The serial ports that a family of models has. The numbers are part of the C ABI.
+ */
+enum rungc_ports
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * None.
+     */
+    RUNGC_PORTS_WITHOUT = 0,
+    /**
+     * H1U, H2U: COM0 to COM3.
+     */
+    RUNGC_PORTS_INOVANCE = 1,
+    /**
+     * L01S: ports 1 to 3.
+     */
+    RUNGC_PORTS_L01S = 2,
+    /**
+     * HM: COM0 and COM1.
+     */
+    RUNGC_PORTS_HM = 3,
+    /**
+     * FX: the programming port, and the communication board.
+     */
+    RUNGC_PORTS_FX = 4,
+    /**
+     * Boards that are compatible with FX2N and FX3U.
+     */
+    RUNGC_PORTS_BOARD = 5,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_ports rungc_ports;
+#else
+typedef uint8_t rungc_ports;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The bit that makes a character odd or even.
+ */
+enum rungc_parity
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * There is none.
+     */
+    RUNGC_PARITY_NONE = 0,
+    /**
+     * The ones of a character are odd.
+     */
+    RUNGC_PARITY_ODD = 1,
+    /**
+     * The ones of a character are even.
+     */
+    RUNGC_PARITY_EVEN = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_parity rungc_parity;
+#else
+typedef uint8_t rungc_parity;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What is wrong with a character.
+ */
+enum rungc_char_fault
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Nothing.
+     */
+    RUNGC_CHAR_FAULT_NONE = 0,
+    /**
+     * Its parity.
+     */
+    RUNGC_CHAR_FAULT_PARITY = 1,
+    /**
+     * It has no stop bit.
+     */
+    RUNGC_CHAR_FAULT_FRAMING = 2,
+    /**
+     * A character before it was lost in the receiver.
+     */
+    RUNGC_CHAR_FAULT_OVERRUN = 3,
+    /**
+     * The line was held at 0 for longer than a character.
+     */
+    RUNGC_CHAR_FAULT_BREAK = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_char_fault rungc_char_fault;
+#else
+typedef uint8_t rungc_char_fault;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
  * How to read an [`Operand`]. The numbers are part of the C ABI.
  */
 enum rungc_operand_kind
@@ -208,6 +316,35 @@ enum rungc_operand_kind
 typedef enum rungc_operand_kind rungc_operand_kind;
 #else
 typedef uint8_t rungc_operand_kind;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What a partner on a line has asked of the RUN/STOP switch.
+ */
+enum rungc_request
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Nothing.
+     */
+    RUNGC_REQUEST_NONE = 0,
+    /**
+     * RUN.
+     */
+    RUNGC_REQUEST_RUN = 1,
+    /**
+     * STOP.
+     */
+    RUNGC_REQUEST_STOP = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_request rungc_request;
+#else
+typedef uint8_t rungc_request;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -376,6 +513,26 @@ typedef struct rungc_layout {
      * The pulse outputs that the model has.
      */
     rungc_pulses pulses;
+    /**
+     * Where the struct holds its serial ports.
+     */
+    size_t ports;
+    /**
+     * Their numbers, in order.
+     */
+    const uint8_t *port_numbers;
+    /**
+     * How many.
+     */
+    size_t port_count;
+    /**
+     * The serial ports that the model has.
+     */
+    rungc_ports port_family;
+    /**
+     * Code of model and version, for partners on a line.
+     */
+    uint16_t type_code;
 } rungc_layout;
 
 /**
@@ -411,6 +568,50 @@ typedef struct rungc_clock {
      */
     uint8_t weekday;
 } rungc_clock;
+
+/**
+ * How characters stand on a line.
+ */
+typedef struct rungc_line_format {
+    /**
+     * Bits per second; 0 before the port has been set up.
+     */
+    uint32_t bits_per_second;
+    /**
+     * 7 or 8.
+     */
+    uint8_t data_bits;
+    /**
+     * The bit after them.
+     */
+    rungc_parity parity;
+    /**
+     * 1 or 2.
+     */
+    uint8_t stop_bits;
+    /**
+     * Sends and receives by turns, on one pair of wires (RS-485): the driver is on while it sends, and what comes then is not received.
+     */
+    bool half_duplex;
+} rungc_line_format;
+
+/**
+ * A character that came in.
+ */
+typedef struct rungc_received {
+    /**
+     * When its last bit was in: microseconds since power-on, wrapping.
+     */
+    uint32_t at_us;
+    /**
+     * Its value.
+     */
+    uint8_t byte;
+    /**
+     * What is wrong with it.
+     */
+    rungc_char_fault fault;
+} rungc_received;
 
 /**
  * The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
@@ -452,6 +653,22 @@ typedef struct rungc_hal {
      * Keeps the interrupt from coming that calls the program's `pulse_timer`, or lets it come again.
      */
     void (*hold_pulses)(void *context, bool hold);
+    /**
+     * Sets how characters stand on the line of a serial port, before anything else and when it changes.
+     */
+    void (*set_line)(void *context, uint8_t port, const struct rungc_line_format *format);
+    /**
+     * Takes the oldest character that was in by `now_us`, microseconds since power-on, wrapping; false if there is none.
+     */
+    bool (*receive)(void *context, uint8_t port, uint32_t now_us, struct rungc_received *received);
+    /**
+     * Takes a character to be sent after those before it; false if there is no room for it now.
+     */
+    bool (*send)(void *context, uint8_t port, uint8_t byte, uint32_t now_us);
+    /**
+     * How many characters of those are not out by `now_us`, to the end of their stop bits.
+     */
+    uint16_t (*unsent)(void *context, uint8_t port, uint32_t now_us);
 } rungc_hal;
 
 /**
@@ -683,6 +900,11 @@ bool rungc_get_long(struct rungc_map *map, rungc_class class_, uint32_t number, 
 void rungc_advance_pulses(struct rungc_map *map, uint32_t now_us);
 
 /**
+ * Brings the serial ports to `now_us`, microseconds since power-on, wrapping.
+ */
+rungc_request rungc_advance_ports(struct rungc_map *map, uint32_t now_us);
+
+/**
  * Drives the pins of all pulse outputs at `now_us`; returns after how many microseconds the next one changes, `UINT32_MAX` if none does.
  */
 uint32_t rungc_pulse_timer(struct rungc_map *map,
@@ -712,6 +934,26 @@ struct rungc_hal rungc_virtual_hal(void);
  * Virtual hardware as new: without modules, at virtual time 0.
  */
 void rungc_virtual_reset(void);
+
+/**
+ * What follows is for the hardware of this PLC, 0 for the first; false if there are not so many.
+ */
+bool rungc_virtual_select(uint32_t plc);
+
+/**
+ * A character comes to a serial port; `fault` is a number of rungc_char_fault. False if too many are on their way.
+ */
+bool rungc_virtual_receive(uint8_t port, uint32_t at_us, uint8_t byte, uint8_t fault);
+
+/**
+ * Takes the oldest character that a serial port has sent by `now_us`: its time, shifted left by 8, plus the character.
+ */
+bool rungc_virtual_sent(uint8_t port, uint32_t now_us, int64_t *sent);
+
+/**
+ * How characters stand on the line of a serial port.
+ */
+bool rungc_virtual_line(uint8_t port, int64_t *format);
 
 /**
  * Virtual time begins at 0 again, as after power off and on.

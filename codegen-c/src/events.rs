@@ -146,6 +146,20 @@ pub fn count_pulses(module: &Module) -> String {
     out
 }
 
+/// The function that brings serial ports up to date.
+pub fn advance_ports(module: &Module) -> String {
+    if !module.has_ports() {
+        return String::new();
+    }
+    let name = &module.name;
+    format!(
+        "/* Brings the serial ports up to date, and changes over to RUN or STOP if a partner has asked for it. */\n\
+         static void {name}_advance_ports({name}_plc *plc, uint32_t now_us)\n{{\n    rungc_map map = {name}_map(plc);\n    \
+         const rungc_request request = rungc_advance_ports(&map, now_us);\n\n    \
+         if (request != RUNGC_REQUEST_NONE) {{\n        {name}_set_running(plc, request == RUNGC_REQUEST_RUN);\n    }}\n}}\n\n"
+    )
+}
+
 fn tick(module: &Module) -> String {
     let name = &module.name;
     let mut out = format!("void {name}_tick({name}_plc *plc, uint32_t now_ms)\n{{\n");
@@ -161,6 +175,9 @@ fn tick(module: &Module) -> String {
     }
     if module.sends_pulses() {
         let _ = writeln!(out, "    {name}_count_pulses(plc, now_ms * 1000u);");
+    }
+    if module.has_ports() {
+        let _ = writeln!(out, "    {name}_advance_ports(plc, now_ms * 1000u);");
     }
     if !follows_time(module) {
         out.push_str("    (void)plc;\n    (void)now_ms;\n");

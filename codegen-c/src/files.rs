@@ -162,8 +162,13 @@ fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
     files
 }
 
-/// The header of the runtime library with the prototypes of all instructions.
+/// The header of the runtime library with serial ports and the prototypes of all instructions.
 fn runtime_header() -> String {
+    let port = format!(
+        "/* A serial port in a program's memory, for the runtime alone. All zero is one that has not been set up. */\n\
+         typedef struct rungc_port {{\n    uint32_t words[{}];\n}} rungc_port;\n",
+        size_of::<rungc_rt::Port>() / size_of::<u32>()
+    );
     let mut prototypes = String::from(
         "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n\
          /* The instructions. An operation error is shown in the program's special devices. */\n",
@@ -180,7 +185,8 @@ fn runtime_header() -> String {
         prototypes.push_str(");\n");
     }
     prototypes.push_str("\n#ifdef __cplusplus\n}\n#endif\n");
-    RUNGC_RT_H.replace("/* INSTRUCTIONS */\n", &prototypes)
+    let header = RUNGC_RT_H.replace("/* PORT */\n", &port);
+    header.replace("/* INSTRUCTIONS */\n", &prototypes)
 }
 
 /// Where the runtime library is; `make` wants to know it before the first rule that needs it.

@@ -8,7 +8,7 @@ use rungc_emit::plan::Plan;
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_emit::temps::Home;
 use rungc_ir::Module;
-use rungc_rt::Axis;
+use rungc_rt::{Axis, Port};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -131,6 +131,11 @@ fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
         let line = format!("    rungc_axis axis[{outputs}];");
         push_with_comment(out, &line, "what the pulse outputs send");
         size.add((size_of::<Axis>() * outputs) as u32, 8);
+    }
+    if module.has_ports() {
+        let line = format!("    rungc_port port[{}];", module.ports.len());
+        push_with_comment(out, &line, "the serial ports");
+        size.add((size_of::<Port>() * module.ports.len()) as u32, 4);
     }
     if module.states > 0 {
         let _ = writeln!(

@@ -106,6 +106,20 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
         let family = format!("{:?}", module.model.pulses).to_ascii_uppercase();
         layout.push(format!(".pulses = RUNGC_PULSES_{family}"));
     }
+    if module.has_ports() {
+        let numbers: Vec<String> = module.ports.iter().map(u8::to_string).collect();
+        let _ = writeln!(
+            out,
+            "/* Serial ports, in the order of `port`. */\nstatic const uint8_t {name}_port_numbers[] = {{{}}};\n",
+            numbers.join(", ")
+        );
+        layout.push(format!(".ports = offsetof({name}_plc, port)"));
+        layout.push(format!(".port_numbers = {name}_port_numbers"));
+        layout.push(format!(".port_count = {}", numbers.len()));
+        let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
+        layout.push(format!(".port_family = RUNGC_PORTS_{family}"));
+        layout.push(format!(".type_code = {}", module.model.type_code()));
+    }
     if module.model.z_pairs_with_v {
         layout.push(".z_pairs_with_v = true".to_string());
     }

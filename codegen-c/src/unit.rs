@@ -99,7 +99,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
 
 /// Whether a module calls the runtime.
 pub fn uses_runtime(module: &Module) -> bool {
-    let mut uses = false;
+    let mut uses = module.has_ports();
     for function in &module.functions {
         statements(&function.body, &mut |stmt| uses |= calls_runtime(stmt));
     }
@@ -377,6 +377,7 @@ impl Printer<'_> {
         }
         let forget = self.forget(out);
         out.push_str(&events::count_pulses(module));
+        out.push_str(&events::advance_ports(module));
         let states = if module.states > 0 {
             "    memset(plc->state, 0, sizeof plc->state);\n"
         } else {
@@ -385,6 +386,10 @@ impl Printer<'_> {
         let states = match module.sends_pulses() {
             true => format!("{states}    memset(plc->axis, 0, sizeof plc->axis);\n"),
             false => states.to_string(),
+        };
+        let states = match module.has_ports() {
+            true => format!("{states}    memset(plc->port, 0, sizeof plc->port);\n"),
+            false => states,
         };
         let cells = events::clear_cells(module);
         // An interrupt may come before the first scan.
@@ -431,12 +436,16 @@ impl Printer<'_> {
             true => format!("    {name}_count_pulses(plc, now_ms * 1000u);\n"),
             false => String::new(),
         };
+        let ports = match module.has_ports() {
+            true => format!("    {name}_advance_ports(plc, now_ms * 1000u);\n"),
+            false => String::new(),
+        };
         let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
         let _ = write!(
             out,
             "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n    \
-             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{steps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
-             plc->sys.first_scan = false;\n}}\n\n"
+             plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{ports}{steps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
+             plc->sys.first_scan = false;\n{ports}}}\n\n"
         );
         self.output(out);
         self.error(out);

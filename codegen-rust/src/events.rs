@@ -18,6 +18,10 @@ fn flag_field(flag: &Flag) -> Ident {
 }
 
 /// The field of a pulse output.
+fn port_field(number: u8) -> Ident {
+    format_ident!("port_{}", number)
+}
+
 fn axis_field(output: u32) -> Ident {
     format_ident!("y{:03o}_pulses", output)
 }
@@ -154,12 +158,77 @@ impl Generator<'_> {
             .module
             .sends_pulses()
             .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
-        let says_nothing = periods.is_empty() && clocks.is_empty() && pulses.is_none();
-        let (parameter, hal) = (hal_parameter(pulses.is_some()), self.rt("Hal"));
+        let ports = self.ports_advance();
+        let asks = pulses.is_some() || ports.is_some();
+        let says_nothing = periods.is_empty() && clocks.is_empty() && !asks;
+        let (parameter, hal) = (hal_parameter(asks), self.rt("Hal"));
         (!says_nothing).then(|| {
             quote! {
-                fn tick(&mut self, #parameter: &mut dyn #hal, now_ms: u32) { #(#periods)* #(#clocks)* #pulses }
+                fn tick(&mut self, #parameter: &mut dyn #hal, now_ms: u32) { #(#periods)* #(#clocks)* #pulses #ports }
             }
+        })
+    }
+
+    /// Where serial ports are brought up to date.
+    pub fn ports_advance(&self) -> Option<TokenStream> {
+        let has_ports = self.module.has_ports();
+        has_ports.then(|| quote!(self.advance_ports(hal, now_ms.wrapping_mul(1000));))
+    }
+
+    /// The fields of serial ports.
+    pub fn port_fields(&mut self) -> Vec<Hidden> {
+        let ports = self.module.ports.iter();
+        ports
+            .map(|&number| {
+                let port = self.rt("Port");
+                let meaning = "What this serial port is doing.";
+                (
+                    port_field(number),
+                    quote!(#port),
+                    quote!(#port::new()),
+                    meaning,
+                )
+            })
+            .collect()
+    }
+
+    /// The method that brings serial ports up to date.
+    pub fn advance_ports(&mut self) -> Option<TokenStream> {
+        if !self.module.has_ports() {
+            return None;
+        }
+        let (advance, hal, program) =
+            (self.rt("advance_ports"), self.rt("Hal"), self.rt("Program"));
+        let doc = self.doc("Brings the serial ports up to date, and changes over to RUN or STOP if a partner has asked for it.");
+        Some(quote! {
+            #doc
+            fn advance_ports(&mut self, hal: &mut dyn #hal, now_us: u32) {
+                if let Some(running) = #advance(self, hal, now_us) {
+                    #program::set_running(self, running);
+                }
+            }
+        })
+    }
+
+    /// The methods by which instructions and partners find serial ports.
+    pub fn port_methods(&mut self) -> Option<TokenStream> {
+        if !self.module.has_ports() {
+            return None;
+        }
+        let (port, ports) = (self.rt("Port"), self.rt("Ports"));
+        let arms = self.module.ports.iter().map(|&number| {
+            let field = port_field(number);
+            let number = Literal::u8_unsuffixed(number);
+            quote!(#number => Some(&mut self.#field),)
+        });
+        let family = format_ident!("{}", format!("{:?}", self.module.model.ports));
+        let type_code = Literal::u16_unsuffixed(self.module.model.type_code());
+        Some(quote! {
+            fn port(&mut self, number: u8) -> Option<&mut #port> {
+                match number { #(#arms)* _ => None }
+            }
+            fn ports(&self) -> #ports { #ports::#family }
+            fn type_code(&self) -> u16 { #type_code }
         })
     }
 

@@ -202,7 +202,7 @@ pub fn function_name(function: &Function) -> String {
 /// Name of the struct: `box_filler` is `BoxFiller`.
 pub(crate) fn type_name(module: &str) -> Ident {
     /// What the emitted files import.
-    const TAKEN: [&str; 23] = [
+    const TAKEN: [&str; 25] = [
         "Access",
         "Axis",
         "Class",
@@ -216,6 +216,8 @@ pub(crate) fn type_name(module: &str) -> Ident {
         "Operand",
         "Option",
         "Plc",
+        "Port",
+        "Ports",
         "Program",
         "Pulses",
         "Runs",

@@ -178,6 +178,7 @@ impl Generator<'_> {
         fields.extend(self.cell_fields());
         fields.extend(self.axis_fields());
         fields.extend(self.temp_fields());
+        fields.extend(self.port_fields());
         if self.module.may_fail() {
             let error = self.rt("LastError");
             fields.push((
@@ -235,6 +236,7 @@ impl Generator<'_> {
         let forget = self.forget();
         let watchdog = self.module.has_watchdog().then(|| self.watchdog());
         let count_pulses = self.count_pulses();
+        let advance_ports = self.advance_ports();
         let pulse_outputs = self.pulse_outputs();
         self.item_of(quote! {
             impl #name {
@@ -245,6 +247,7 @@ impl Generator<'_> {
                 #clear_latched
                 #forget
                 #count_pulses
+                #advance_ports
                 #watchdog
             }
             impl Default for #name {
@@ -395,7 +398,7 @@ impl Generator<'_> {
         let main = call(self, FunctionKind::Main);
         let end = call(self, FunctionKind::End);
         let asks = |root: usize| self.plan.whole(root).is_some_and(|f| f.needs_hardware);
-        let hal_name = hal_parameter((0..3).any(asks));
+        let hal_name = hal_parameter(self.module.has_ports() || (0..3).any(asks));
         let in_run =
             (main.is_some() || end.is_some()).then(|| quote!(if self.sys.running { #main #end }));
         let plc = quote!(self);
@@ -434,6 +437,7 @@ impl Generator<'_> {
             .module
             .sends_pulses()
             .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
+        let ports = self.ports_advance();
         let watchdog = self.module.has_watchdog().then(|| self.watchdog_begins());
         let last_error = self.last_error();
         let pulse_timer = self.pulse_timer();
@@ -449,10 +453,12 @@ impl Generator<'_> {
                 fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
                     self.sys.begin_scan(now_ms, scan_us);
                     #count_pulses
+                    #ports
                     #watchdog
                     #begin
                     #in_run
                     self.sys.end_scan();
+                    #ports
                 }
                 #events
                 fn set_running(&mut self, running: bool) {
@@ -519,6 +525,7 @@ impl Generator<'_> {
         let (plc, state, sys) = (self.rt("Plc"), self.rt("State"), self.rt("Sys"));
         let methods = self.access_methods();
         let axes = self.axis_methods();
+        let ports = self.port_methods();
         let last = usize::from(self.module.states);
         let (slot, cell) = if last == 0 {
             (quote!(_slot), quote!(0))
@@ -558,6 +565,7 @@ impl Generator<'_> {
                 fn state(&mut self, #slot: u16) -> &mut #state { &mut self.states[#cell] }
                 fn sys(&self) -> &#sys { &self.sys }
                 #axes
+                #ports
                 #text
                 #pairs
                 #errors

@@ -28,7 +28,10 @@ pub fn clocks(module: &Module) -> impl Iterator<Item = &Cell> {
 
 /// Whether the time between scans means something.
 pub fn follows_time(module: &Module) -> bool {
-    module.sends_pulses() || module.periods().next().is_some() || clocks(module).next().is_some()
+    module.sends_pulses()
+        || module.has_ports()
+        || module.periods().next().is_some()
+        || clocks(module).next().is_some()
 }
 
 /// The flags that are set outside the scan, perhaps in an interrupt handler.

@@ -13,9 +13,10 @@
 //! The Makefile beside emitted C that needs it does the same with the sources that are emitted along.
 
 use crate::axis::{Axis, advance, millihertz, pulse_timer};
+use crate::comm::{LineFormat, Port, Ports, Received, advance as advance_ports};
 use crate::cx::{Cx, fetch, send};
 use crate::fault::{Done, report};
-use crate::hal::{Clock, Hal};
+use crate::hal::{Clock, Hal, SerialPort};
 use crate::operand::Operand;
 use crate::plc::{Class, Plc, Site, State, Sys};
 use crate::runs::FIRST_COUNTER32;
@@ -136,6 +137,16 @@ pub struct Layout {
     pub output_count: usize,
     /// The pulse outputs that the model has.
     pub pulses: Pulses,
+    /// Where the struct holds its serial ports.
+    pub ports: usize,
+    /// Their numbers, in order.
+    pub port_numbers: *const u8,
+    /// How many.
+    pub port_count: usize,
+    /// The serial ports that the model has.
+    pub port_family: Ports,
+    /// Code of model and version, for partners on a line.
+    pub type_code: u16,
 }
 
 /// The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
@@ -163,6 +174,16 @@ pub struct HalTable {
     pub set_output: Option<extern "C" fn(context: *mut c_void, number: u16, on: bool)>,
     /// Keeps the interrupt from coming that calls the program's `pulse_timer`, or lets it come again.
     pub hold_pulses: Option<extern "C" fn(context: *mut c_void, hold: bool)>,
+    /// Sets how characters stand on the line of a serial port, before anything else and when it changes.
+    pub set_line: Option<extern "C" fn(context: *mut c_void, port: u8, format: *const LineFormat)>,
+    /// Takes the oldest character that was in by `now_us`, microseconds since power-on, wrapping; false if there is none.
+    pub receive: Option<
+        extern "C" fn(context: *mut c_void, port: u8, now_us: u32, received: *mut Received) -> bool,
+    >,
+    /// Takes a character to be sent after those before it; false if there is no room for it now.
+    pub send: Option<extern "C" fn(context: *mut c_void, port: u8, byte: u8, now_us: u32) -> bool>,
+    /// How many characters of those are not out by `now_us`, to the end of their stop bits.
+    pub unsent: Option<extern "C" fn(context: *mut c_void, port: u8, now_us: u32) -> u16>,
 }
 
 /// A program's devices: its struct, what it looks like, and the hardware.
@@ -247,7 +268,7 @@ impl Map {
 
     /// Does something with one device as an instruction would.
     fn with_operand<R>(&mut self, class: Class, number: u32, what: impl FnOnce(&mut Cx) -> R) -> R {
-        let mut hal = Board { table: self.hal };
+        let mut hal = Board::new(self.hal);
         let ops = [Operand::device(
             class,
             i32::try_from(number).unwrap_or(i32::MAX),
@@ -257,7 +278,7 @@ impl Map {
 
     /// Runs an instruction and reports its fault.
     fn call(&mut self, function: fn(&mut Cx) -> Done, site: Site, ops: &[Operand]) {
-        let mut hal = Board { table: self.hal };
+        let mut hal = Board::new(self.hal);
         let done = function(&mut Cx::new(self, &mut hal, ops, site));
         if let Err(fault) = done {
             report(self, fault, site.step);
@@ -369,6 +390,23 @@ impl Plc for Map {
         Some(unsafe { &mut *self.plc.cast::<u8>().add(offset).cast::<Axis>() })
     }
 
+    fn port(&mut self, number: u8) -> Option<&mut Port> {
+        let layout = *self.layout();
+        let numbers = elements(layout.port_numbers, layout.port_count);
+        let i = numbers.iter().position(|&n| n == number)?;
+        let offset = layout.ports + i * size_of::<Port>();
+        // SAFETY: the struct holds `port_count` ports there, aligned as words, and nothing else uses it during a call.
+        Some(unsafe { &mut *self.plc.cast::<u8>().add(offset).cast::<Port>() })
+    }
+
+    fn ports(&self) -> Ports {
+        self.layout().port_family
+    }
+
+    fn type_code(&self) -> u16 {
+        self.layout().type_code
+    }
+
     fn pulses(&self) -> Pulses {
         self.layout().pulses
     }
@@ -433,9 +471,56 @@ fn is_word(class: Class, number: u32) -> bool {
 /// The host's hardware.
 struct Board {
     table: *const HalTable,
+    line: Line,
+}
+
+/// One of its serial ports.
+struct Line {
+    table: *const HalTable,
+    number: u8,
+}
+
+impl Line {
+    fn table(&self) -> Option<&HalTable> {
+        // SAFETY: NULL, or the host's table, which outlives the call.
+        unsafe { self.table.as_ref() }
+    }
+}
+
+impl SerialPort for Line {
+    fn set_format(&mut self, format: LineFormat) {
+        if let Some((table, set)) = self.table().and_then(|t| t.set_line.map(|f| (t, f))) {
+            set(table.context, self.number, &format);
+        }
+    }
+
+    fn receive(&mut self, now_us: u32) -> Option<Received> {
+        let table = self.table()?;
+        let mut received = Received::new();
+        (table.receive?)(table.context, self.number, now_us, &mut received).then_some(received)
+    }
+
+    fn send(&mut self, byte: u8, now_us: u32) -> bool {
+        let table = self.table().and_then(|t| t.send.map(|f| (t, f)));
+        table.is_some_and(|(table, send)| send(table.context, self.number, byte, now_us))
+    }
+
+    fn unsent(&mut self, now_us: u32) -> u16 {
+        let table = self.table().and_then(|t| t.unsent.map(|f| (t, f)));
+        table.map_or(0, |(table, unsent)| {
+            unsent(table.context, self.number, now_us)
+        })
+    }
 }
 
 impl Board {
+    fn new(table: *const HalTable) -> Self {
+        Board {
+            table,
+            line: Line { table, number: 0 },
+        }
+    }
+
     fn table(&self) -> Option<&HalTable> {
         // SAFETY: NULL, or the host's table, which outlives the call.
         unsafe { self.table.as_ref() }
@@ -483,6 +568,12 @@ impl Hal for Board {
         }
     }
 
+    fn serial_port(&mut self, number: u8) -> Option<&mut dyn SerialPort> {
+        self.table()?.set_line?;
+        self.line.number = number;
+        Some(&mut self.line)
+    }
+
     fn hold_pulses(&mut self, hold: bool) {
         if let Some((table, hold_pulses)) = self.table().and_then(|t| t.hold_pulses.map(|f| (t, f)))
         {
@@ -517,7 +608,7 @@ pub(crate) use export;
 /// The value of an operand, of the width of the form; false after a fault, which is shown in the program's special devices.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_fetch(map: &mut Map, site: Site, from: Operand, value: &mut i32) -> bool {
-    let mut hal = Board { table: map.hal };
+    let mut hal = Board::new(map.hal);
     let fetched = fetch(site, from, map, &mut hal);
     fetched.map(|fetched| *value = fetched).is_some()
 }
@@ -525,7 +616,7 @@ pub extern "C" fn rungc_fetch(map: &mut Map, site: Site, from: Operand, value: &
 /// Writes a value of the width of the form to an operand, as an instruction does.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_send(map: &mut Map, site: Site, to: Operand, value: i32) {
-    let mut hal = Board { table: map.hal };
+    let mut hal = Board::new(map.hal);
     send(site, to, value, map, &mut hal);
 }
 
@@ -568,16 +659,42 @@ pub extern "C" fn rungc_get_long(
 /// Counts the pulses that have been sent by `now_us`, in microseconds since power-on, wrapping.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_advance_pulses(map: &mut Map, now_us: u32) {
-    let mut hal = Board { table: map.hal };
+    let mut hal = Board::new(map.hal);
     hal.hold_pulses(true);
     advance(map, now_us);
     hal.hold_pulses(false);
 }
 
+/// What a partner on a line has asked of the RUN/STOP switch.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum Request {
+    /// Nothing.
+    None = 0,
+    /// RUN.
+    Run = 1,
+    /// STOP.
+    Stop = 2,
+}
+
+/// Brings the serial ports to `now_us`, microseconds since power-on, wrapping.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_advance_ports(map: &mut Map, now_us: u32) -> Request {
+    let mut hal = Board::new(map.hal);
+    match advance_ports(map, &mut hal, now_us) {
+        None => Request::None,
+        Some(true) => Request::Run,
+        Some(false) => Request::Stop,
+    }
+}
+
+/// A program holds ports as words of 32 bits.
+const _: () = assert!(align_of::<Port>() <= 4 && size_of::<Port>().is_multiple_of(4));
+
 /// Drives the pins of all pulse outputs at `now_us`; returns after how many microseconds the next one changes, `UINT32_MAX` if none does.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_pulse_timer(map: &mut Map, now_us: u32) -> u32 {
-    let mut hal = Board { table: map.hal };
+    let mut hal = Board::new(map.hal);
     pulse_timer(map, &mut hal, now_us).unwrap_or(u32::MAX)
 }
 

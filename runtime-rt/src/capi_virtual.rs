@@ -1,24 +1,38 @@
-//! The virtual hardware for C hosts that test: one for the whole process, which must use it from one thread.
+//! The virtual hardware for C hosts that test: for a few PLCs of the process, which must use it from one thread.
 
 use crate::capi::HalTable;
-use crate::hal::{Clock, Hal};
+use crate::comm::{CharFault, LineFormat, Received};
+use crate::hal::{Clock, Hal, SerialPort};
 use crate::virtual_hal::VirtualHal;
 use core::cell::UnsafeCell;
 use core::ffi::c_void;
 use core::ptr::null_mut;
 
+/// PLCs that a case may have.
+const PLCS: usize = 4;
+
+/// The hardware of all PLCs, and which of them is meant.
+struct Hardware {
+    plcs: [VirtualHal; PLCS],
+    current: usize,
+}
+
 /// The hardware of a process with one thread.
-struct OneThread(UnsafeCell<VirtualHal>);
+struct OneThread(UnsafeCell<Hardware>);
 
 // SAFETY: the header says that these functions may be called from one thread only.
 unsafe impl Sync for OneThread {}
 
-static HARDWARE: OneThread = OneThread(UnsafeCell::new(VirtualHal::new()));
+static HARDWARE: OneThread = OneThread(UnsafeCell::new(Hardware {
+    plcs: [const { VirtualHal::new() }; PLCS],
+    current: 0,
+}));
 
 /// Does something with the hardware.
 fn with<R>(what: impl FnOnce(&mut VirtualHal) -> R) -> R {
     // SAFETY: there is one thread, and `what` never calls back into this file.
-    what(unsafe { &mut *HARDWARE.0.get() })
+    let hardware = unsafe { &mut *HARDWARE.0.get() };
+    what(&mut hardware.plcs[hardware.current])
 }
 
 /// Stores what was found where C asked for it.
@@ -57,6 +71,25 @@ extern "C" fn analog(_: *mut c_void, channel: u8, value: *mut i16) -> bool {
     give(with(|hal| hal.analog(channel)), value)
 }
 
+extern "C" fn set_line(_: *mut c_void, port: u8, format: *const LineFormat) {
+    // SAFETY: the runtime gives a pointer to a format.
+    if let Some(&format) = unsafe { format.as_ref() } {
+        with(|hal| hal.line(port).map(|line| line.set_format(format)));
+    }
+}
+
+extern "C" fn receive(_: *mut c_void, port: u8, now_us: u32, received: *mut Received) -> bool {
+    give(with(|hal| hal.line(port)?.receive(now_us)), received)
+}
+
+extern "C" fn send(_: *mut c_void, port: u8, byte: u8, now_us: u32) -> bool {
+    with(|hal| hal.line(port).is_some_and(|line| line.send(byte, now_us)))
+}
+
+extern "C" fn unsent(_: *mut c_void, port: u8, now_us: u32) -> u16 {
+    with(|hal| hal.line(port).map_or(0, |line| line.unsent(now_us)))
+}
+
 /// The virtual hardware as instructions see it, for `Map::hal`.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_hal() -> HalTable {
@@ -70,6 +103,10 @@ pub extern "C" fn rungc_virtual_hal() -> HalTable {
         input: None,
         set_output: None,
         hold_pulses: None,
+        set_line: Some(set_line),
+        receive: Some(receive),
+        send: Some(send),
+        unsent: Some(unsent),
     }
 }
 
@@ -77,6 +114,43 @@ pub extern "C" fn rungc_virtual_hal() -> HalTable {
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_reset() {
     with(|hal| *hal = VirtualHal::new());
+}
+
+/// What follows is for the hardware of this PLC, 0 for the first; false if there are not so many.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_select(plc: u32) -> bool {
+    let plc = usize::try_from(plc).unwrap_or(PLCS);
+    if plc < PLCS {
+        // SAFETY: there is one thread, and nothing refers to the hardware.
+        unsafe { (*HARDWARE.0.get()).current = plc };
+    }
+    plc < PLCS
+}
+
+/// A character comes to a serial port; `fault` is a number of rungc_char_fault. False if too many are on their way.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_receive(port: u8, at_us: u32, byte: u8, fault: u8) -> bool {
+    let character = Received {
+        at_us,
+        byte,
+        fault: CharFault::of(fault),
+    };
+    with(|hal| hal.line(port)?.feed(character)).is_some()
+}
+
+/// Takes the oldest character that a serial port has sent by `now_us`: its time, shifted left by 8, plus the character.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_sent(port: u8, now_us: u32, sent: *mut i64) -> bool {
+    give(with(|hal| hal.line(port)?.take_packed(now_us)), sent)
+}
+
+/// How characters stand on the line of a serial port.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_line(port: u8, format: *mut i64) -> bool {
+    give(
+        with(|hal| hal.line(port).map(|line| line.format().packed())),
+        format,
+    )
 }
 
 /// Virtual time begins at 0 again, as after power off and on.

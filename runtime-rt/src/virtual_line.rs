@@ -4,7 +4,7 @@ use crate::comm::{LineFormat, Received};
 use crate::hal::SerialPort;
 
 /// Characters that wait on their way to the PLC, and on their way from it.
-const WAITING: usize = 1024;
+const WAITING: usize = 640;
 
 /// Characters in the order of their times.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 18] = [
+const NAMES: [(&str, &str); 24] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -27,6 +27,12 @@ const NAMES: [(&str, &str); 18] = [
     ("Generator", "rungc_generator"),
     ("Axis", "rungc_axis"),
     ("Pulses", "rungc_pulses"),
+    ("Ports", "rungc_ports"),
+    ("Parity", "rungc_parity"),
+    ("LineFormat", "rungc_line_format"),
+    ("CharFault", "rungc_char_fault"),
+    ("Received", "rungc_received"),
+    ("Request", "rungc_request"),
 ];
 
 const TOP: &str = "/*
@@ -57,6 +63,7 @@ pub fn make() -> Result<Made, Problem> {
         include_guard: Some("RUNGC_RT_H".to_string()),
         no_includes: true,
         includes: vec!["rungc.h".to_string()],
+        after_includes: Some("/* PORT */".to_string()),
         trailer: Some(format!("{CONSTRUCTORS}\n/* INSTRUCTIONS */")),
         line_length: 120,
         tab_width: 4,
@@ -90,6 +97,8 @@ pub fn make() -> Result<Made, Problem> {
         "pulse.rs",
         "axis.rs",
         "wiring.rs",
+        "comm/line.rs",
+        "comm/wiring.rs",
         "capi.rs",
         "capi_virtual.rs",
     ];

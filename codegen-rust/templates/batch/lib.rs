@@ -12,38 +12,82 @@ mod port;
 use core::fmt;
 use core::str::{FromStr, SplitAsciiWhitespace};
 use port::Port;
+use rungc_rt::comm::{CharFault, Received};
 use rungc_rt::{Class, Clock, FIRST_COUNTER32, Program, VirtualHal, word};
 
 /// Answers requests until they end. `read` waits for bytes and says how many came, 0 at the end; `write` takes all bytes.
 pub fn serve(read: &mut dyn FnMut(&mut [u8]) -> usize, write: &mut dyn FnMut(&[u8])) {
     let mut port = Port::new(read, write);
-    let mut next = session(&mut port, None);
-    while let Some(number) = next {
-        let found = cases::run(number, &mut |program| {
-            port.answer(&Answer::Done);
-            next = session(&mut port, Some(program));
-        });
-        if found.is_none() {
-            port.answer(&"none");
-            next = session(&mut port, None);
-        }
+    let mut next = session(&mut port, &mut []);
+    while let Some(Next::Case(number)) = next {
+        next = run(&mut port, &mut [], number);
     }
     port.flush();
 }
 
-/// Answers requests to a program, or without one; returns the number of the program that is asked for next, `None` at the end.
-fn session(port: &mut Port, mut program: Option<&mut dyn Program>) -> Option<usize> {
-    let mut hal = VirtualHal::new();
+/// A PLC of a case: its program and its hardware.
+type Plc<'a> = (&'a mut dyn Program, VirtualHal);
+
+/// PLCs that a case may have.
+const PLCS: usize = 4;
+
+/// What comes after a session.
+enum Next {
+    /// A case of this program.
+    Case(usize),
+    /// Another PLC with this program.
+    Join(usize),
+}
+
+/// Runs a program in a PLC beside those of the case; returns the case that is asked for next, `None` at the end.
+fn run(port: &mut Port, plcs: &mut [Option<Plc>], number: usize) -> Option<Next> {
+    let mut next = None;
+    let found = cases::run(number, &mut |program| {
+        port.answer(&Answer::Done);
+        let mut all: [Option<Plc>; PLCS] = [None, None, None, None];
+        let mut count = 0;
+        for plc in plcs.iter_mut() {
+            if let Some((program, hal)) = plc.take() {
+                all[count] = Some((program, hal));
+                count += 1;
+            }
+        }
+        if let Some(place) = all.get_mut(count) {
+            *place = Some((program, VirtualHal::new()));
+        }
+        next = session(port, &mut all);
+        while let Some(Next::Join(number)) = next {
+            next = run(port, &mut all, number);
+        }
+    });
+    if found.is_none() {
+        port.answer(&"none");
+        next = session(port, plcs);
+    }
+    next
+}
+
+/// Answers requests to the programs of a case, or without any; returns what is asked for next, `None` at the end.
+fn session(port: &mut Port, plcs: &mut [Option<Plc>]) -> Option<Next> {
+    let mut current = 0;
     loop {
         let reply = {
             let line = port.line()?;
             let mut words = line.split_ascii_whitespace();
             match words.next() {
                 Some("exit") => return None,
-                Some("case") => return Some(next(&mut words).unwrap_or(usize::MAX)),
-                Some(request) => program
-                    .as_deref_mut()
-                    .and_then(|program| answer(program, &mut hal, request, words)),
+                Some("case") => return Some(Next::Case(next(&mut words).unwrap_or(usize::MAX))),
+                Some("join") => return Some(Next::Join(next(&mut words).unwrap_or(usize::MAX))),
+                Some("plc") => next(&mut words)
+                    .filter(|&plc| matches!(plcs.get(plc), Some(Some(_))))
+                    .map(|plc| {
+                        current = plc;
+                        Answer::Done
+                    }),
+                Some(request) => plcs
+                    .get_mut(current)
+                    .and_then(Option::as_mut)
+                    .and_then(|(program, hal)| answer(&mut **program, hal, request, words)),
                 None => None,
             }
         };
@@ -113,6 +157,16 @@ fn answer(
         "out" => return value(program.output(next(words)?)),
         "pulses" => return value(program.pulses_sent(next(words)?)),
         "frequency" => return value(program.pulse_millihertz(next(words)?)),
+        "receive" => {
+            let line = hal.line(next(words)?)?;
+            line.feed(Received {
+                at_us: next(words)?,
+                byte: next(words)?,
+                fault: CharFault::of(next(words)?),
+            })?;
+        }
+        "sent" => return value(hal.line(next(words)?)?.take_packed(next(words)?)?),
+        "line" => return value(hal.line(next(words)?)?.format().packed()),
         "run" => program.set_running(next::<i64>(words)? != 0),
         "power" => {
             program.power_cycle();

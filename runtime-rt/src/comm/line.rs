@@ -184,6 +184,19 @@ pub enum CharFault {
     Break = 4,
 }
 
+impl CharFault {
+    /// The fault of a number; of another number none.
+    pub const fn of(number: u8) -> Self {
+        match number {
+            1 => CharFault::Parity,
+            2 => CharFault::Framing,
+            3 => CharFault::Overrun,
+            4 => CharFault::Break,
+            _ => CharFault::None,
+        }
+    }
+}
+
 /// A character that came in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]

@@ -139,6 +139,8 @@ fn asks_for_value(request: Request) -> bool {
             | Request::Pulses(_)
             | Request::Frequency(_)
             | Request::Bfm(..)
+            | Request::Sent(..)
+            | Request::Line(_)
     )
 }
 
