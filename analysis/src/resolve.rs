@@ -14,7 +14,7 @@ mod wrong;
 pub use operands::constant_value;
 
 use mnemonic::{Fit, Match};
-use rungc_catalogue::{Form, Found, Inst, Param};
+use rungc_catalogue::{Basic, Form, Found, Inst, Lower, Param};
 use rungc_models::{ErrorNumbers, Model};
 use rungc_syntax::{
     Device, DeviceClass, Diagnostic, Diagnostics, Instr, Operand, OperandKind, Program,
@@ -29,6 +29,8 @@ pub struct Resolution {
     /// Whether `inst` is only what was probably meant, by which the structure of the program is judged; what is wrong with the
     /// instruction was reported.
     pub meant: bool,
+    /// What implements it on the model; `None` if there is no row.
+    pub lower: Option<Lower>,
     /// Its form.
     pub form: Form,
     /// What its operands are; none if there is no row.
@@ -40,11 +42,17 @@ pub struct Resolution {
 }
 
 impl Resolution {
+    /// Which basic instruction it is.
+    pub fn basic(&self) -> Option<Basic> {
+        self.inst?.basic()
+    }
+
     /// Of an instruction of which nothing is known.
     fn unknown(step: u32) -> Self {
         Resolution {
             inst: None,
             meant: false,
+            lower: None,
             form: Form::default(),
             params: &[],
             step,
@@ -110,6 +118,7 @@ pub fn resolve<'p>(program: &'p Program, model: &'static Model) -> (Resolved<'p>
         instrs.push(Resolution {
             inst: Some(inst),
             meant,
+            lower: Some(inst.lower_on_model(model.id)),
             form,
             params,
             step: steps.next(instr, known.then_some(length)),

@@ -5,8 +5,6 @@ use super::{Inst, Lower, Param};
 use rungc_models::ModelSet;
 use rungc_rt::RtFn;
 
-/// Models whose clock shows the last two digits of the year.
-const TWO_DIGIT_YEARS: ModelSet = FX.or(L01S);
 const TIME: Param = src("S", REGISTERS).len(3);
 
 const fn clock(name: &'static str, fnc: u16, title: &'static str) -> Inst {
@@ -81,14 +79,14 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[dst("D", REGISTERS).len(7)])
         .flags(&["D8013", "D8014", "D8015", "D8016", "D8017", "D8018", "D8019"])
         .call(RtFn::Trd)
-        .lower_on(&[(TWO_DIGIT_YEARS, Lower::Call(RtFn::TrdShort))])
+        .lower_on(&[(ModelSet::TWO_DIGIT_YEARS, Lower::Call(RtFn::TrdShort))])
         .text("Writes year (on L01S and FX its last two digits), month, day, hour, minute, second and weekday (0 is Sunday) to D and on."),
     clock("TWR", 167, "Set the clock")
         .steps(3, 3)
         .takes(&[src("S", REGISTERS).len(7)])
         .flags(&["D8013", "D8014", "D8015", "D8016", "D8017", "D8018", "D8019"])
         .call(RtFn::Twr)
-        .lower_on(&[(TWO_DIGIT_YEARS, Lower::Call(RtFn::TwrShort))])
+        .lower_on(&[(ModelSet::TWO_DIGIT_YEARS, Lower::Call(RtFn::TwrShort))])
         .text("Sets the clock from seven words as TRD writes them. If one of them cannot be, nothing happens."),
     clock("HOUR", 169, "Hour meter")
         .forms(W16_W32)

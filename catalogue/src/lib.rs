@@ -487,13 +487,21 @@ pub struct Inst {
     pub models: ModelSet,
     /// A class whose devices with the numbers of the first operand it works on too: the runtime takes them as one more operand.
     pub twin: Option<DeviceClass>,
-    /// What implements it.
-    pub lower: Lower,
+    /// What implements it; see [`Inst::lower_on_model`].
+    lower: Lower,
     /// Models on which something else implements it.
-    pub lower_on: &'static [(ModelSet, Lower)],
+    lower_on: &'static [(ModelSet, Lower)],
 }
 
 impl Inst {
+    /// Which basic instruction it is, on all models.
+    pub const fn basic(&self) -> Option<Basic> {
+        match self.lower {
+            Lower::Basic(basic) => Some(basic),
+            _ => None,
+        }
+    }
+
     /// What implements it on a model.
     pub fn lower_on_model(&self, model: ModelId) -> Lower {
         self.lower_on
@@ -538,7 +546,7 @@ impl Inst {
         let stated = self.stated(&written, model, |variant| variant.steps);
         let (narrow, wide) = match (stated, model.steps_per_operand) {
             (Some(steps), _) => steps,
-            (None, Some((narrow, wide))) if !matches!(self.lower, Lower::Basic(_)) => {
+            (None, Some((narrow, wide))) if self.basic().is_none() => {
                 let count = params.len() as u8;
                 (1 + narrow * count, 1 + wide * count)
             }

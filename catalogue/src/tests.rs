@@ -174,3 +174,17 @@ fn every_runtime_function_has_a_row() {
         assert!(reached || without_row.contains(function), "{function:?}");
     }
 }
+
+#[test]
+fn basic_instructions_are_the_same_on_all_models() {
+    for inst in all() {
+        let overrides = inst.lower_on.iter().map(|(_, lower)| lower);
+        let basic = overrides.filter(|lower| matches!(lower, Lower::Basic(_)));
+        assert_eq!(basic.count(), 0, "{}", inst.name);
+        assert!(
+            inst.basic().is_none() || inst.lower_on.is_empty(),
+            "{}",
+            inst.name
+        );
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_catalogue::{ArithOp, Lower};
+use rungc_catalogue::ArithOp;
 use rungc_ir::node::{BinOp, Expr, ExprId, Stmt};
 use rungc_rt::CmpOp;
 use rungc_rt::special::{
@@ -14,29 +14,13 @@ use rungc_syntax::{DeviceClass, OperandKind};
 const DIVISION: u16 = 6706;
 
 impl Lowerer<'_> {
-    /// Emits what a row does that is no call of the runtime and no basic instruction; the drive is on.
-    pub(super) fn inline(&mut self, lower: Lower) {
-        if self.instr().operands.len() < self.resolution().params.len() {
-            return;
-        }
-        match lower {
-            Lower::Move => self.move_value(false),
-            Lower::MoveNot => self.move_value(true),
-            Lower::MoveCount => self.move_count(),
-            Lower::Axis(parameters) => self.axis_parameters(parameters),
-            Lower::Comment => self.device_comment(),
-            Lower::Cmp => self.compare(),
-            Lower::Zcp => self.compare_zone(),
-            Lower::Arith(op) => self.arith(op, false),
-            Lower::ArithSaturating(op) => self.arith(op, true),
-            Lower::Basic(_)
-            | Lower::Compare(..)
-            | Lower::HighSpeed(_)
-            | Lower::Density
-            | Lower::Call(_)
-            | Lower::Exclusive(_)
-            | Lower::Todo(_) => {}
-        }
+    /// Emits inline code where the drive is on; nothing if operands are missing.
+    pub(super) fn inline(&mut self, make: impl FnOnce(&mut Self)) {
+        self.driven(|this| {
+            if this.instr().operands.len() >= this.resolution().params.len() {
+                make(this);
+            }
+        });
     }
 
     pub(super) fn wide(&self) -> bool {
@@ -72,7 +56,7 @@ impl Lowerer<'_> {
         }
     }
 
-    fn move_value(&mut self, complement: bool) {
+    pub(super) fn move_value(&mut self, complement: bool) {
         let mut guards = Guards::default();
         let mut value = self.source(0, &mut guards);
         if complement {
@@ -83,7 +67,7 @@ impl Lowerer<'_> {
     }
 
     /// HCMOV. The ring counter of tenths of milliseconds is one word.
-    fn move_count(&mut self) {
+    pub(super) fn move_count(&mut self) {
         let (Some(&OperandKind::Device(counter, None)), Some(clear)) =
             (self.operand(0), self.operand(2))
         else {
@@ -108,7 +92,7 @@ impl Lowerer<'_> {
         });
     }
 
-    fn compare(&mut self) {
+    pub(super) fn compare(&mut self) {
         let mut guards = Guards::default();
         let a = self.source(0, &mut guards);
         let b = self.source(1, &mut guards);
@@ -118,7 +102,7 @@ impl Lowerer<'_> {
         });
     }
 
-    fn compare_zone(&mut self) {
+    pub(super) fn compare_zone(&mut self) {
         let mut guards = Guards::default();
         let low = self.source(0, &mut guards);
         let high = self.source(1, &mut guards);
@@ -157,7 +141,7 @@ impl Lowerer<'_> {
         });
     }
 
-    fn arith(&mut self, op: ArithOp, saturate: bool) {
+    pub(super) fn arith(&mut self, op: ArithOp, saturate: bool) {
         match op {
             ArithOp::Add | ArithOp::Sub if saturate => {
                 self.two_values(if op == ArithOp::Add {

@@ -2,9 +2,9 @@
 
 use super::Lowerer;
 use super::operand::fixed;
-use rungc_catalogue::{Extent, Form, Inst, Lower, Param, Rule, Shape};
+use rungc_analysis::resolve::Resolution;
+use rungc_catalogue::{Extent, Form, Lower, Param, Rule, Shape};
 use rungc_ir::node::{Arg, CellId, Expr, ExprId, Place, Stmt, SysValue};
-use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, Register, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
@@ -22,7 +22,7 @@ const ANYWHERE: [DeviceClass; 7] = [
 ];
 
 impl Lowerer<'_> {
-    pub(super) fn call(&mut self, inst: &Inst, function: RtFn) {
+    pub(super) fn call(&mut self, function: RtFn) {
         if self.inline_words(function) || self.inline_block(function) {
             return;
         }
@@ -31,7 +31,7 @@ impl Lowerer<'_> {
         let step = self.step();
         let slot = self.slot(needs.state);
         if needs.pulses {
-            self.use_outputs(inst, needs.looks());
+            self.use_outputs(needs.looks());
         }
         if needs.anywhere {
             self.specials.whole.extend(ANYWHERE);
@@ -40,7 +40,7 @@ impl Lowerer<'_> {
             self.use_ports(needs);
         }
         if needs.signals {
-            self.find_signals(inst, function, slot);
+            self.find_signals(function, slot);
         }
         let drive = self.drive();
         let drive = if form.pulse {
@@ -50,9 +50,9 @@ impl Lowerer<'_> {
             drive
         };
         let call = |this: &mut Self, drive| {
-            let guards = this.bounds_hold(inst, form);
+            let guards = this.bounds_hold();
             this.guarded_while(guards, drive, |this| {
-                let args = this.args(inst, form);
+                let args = this.args();
                 this.emit(Stmt::Call {
                     function,
                     wide: form.wide,
@@ -73,8 +73,8 @@ impl Lowerer<'_> {
 
     /// If a program has several instructions of which one runs at a time, a cell says which.
     pub(super) fn find_exclusive(&mut self) {
-        let instrs = self.resolved.instrs.iter().filter_map(|instr| instr.inst);
-        let exclusive = instrs.filter(|inst| matches!(inst.lower, Lower::Exclusive(_)));
+        let instrs = self.resolved.instrs.iter();
+        let exclusive = instrs.filter(|instr| matches!(instr.lower, Some(Lower::Exclusive(_))));
         if exclusive.count() > 1 {
             let meaning = "which of the instructions runs that run one at a time";
             let runs = self.cell("runs_alone".to_string(), meaning);
@@ -92,7 +92,7 @@ impl Lowerer<'_> {
     }
 
     /// Calls a function that does nothing while another of its kind is driven.
-    pub(super) fn exclusive_call(&mut self, inst: &Inst, function: RtFn) {
+    pub(super) fn exclusive_call(&mut self, function: RtFn) {
         let slot = self.slot(function.needs().state);
         let mut drive = self.drive();
         if let Some((runs, before)) = &mut self.exclusive {
@@ -100,14 +100,14 @@ impl Lowerer<'_> {
             let (runs, own) = (*runs, *before);
             drive = self.alone(drive, runs, own);
         }
-        let form = self.resolution().form;
-        let guards = self.bounds_hold(inst, form);
+        let wide = self.wide();
+        let guards = self.bounds_hold();
         self.guarded_while(guards, Some(drive), |this| {
-            let args = this.args(inst, form);
+            let args = this.args();
             let step = this.step();
             this.emit(Stmt::Call {
                 function,
-                wide: form.wide,
+                wide,
                 args,
                 drive: Some(drive),
                 signal: false,
@@ -142,9 +142,9 @@ impl Lowerer<'_> {
     }
 
     /// The program sends pulses at the outputs that the instruction names; what it looks at besides is stored.
-    fn use_outputs(&mut self, inst: &Inst, looks: Looks) {
+    fn use_outputs(&mut self, looks: Looks) {
         let operands = &self.instr().operands;
-        for (operand, param) in operands.iter().zip(inst.params_of(operands, self.model)) {
+        for (operand, param) in operands.iter().zip(self.resolution().params) {
             let kind = &operand.kind;
             let Some(number) = output_of(kind).filter(|_| param.sends_pulses) else {
                 continue;
@@ -209,15 +209,18 @@ impl Lowerer<'_> {
         self.module.states
     }
 
-    pub(super) fn args(&mut self, inst: &Inst, form: Form) -> Vec<Arg> {
-        let operands = in_words(inst, &self.instr().operands, self.model);
-        let extents = extents(inst, form, &operands, self.model);
+    pub(super) fn args(&mut self) -> Vec<Arg> {
+        let resolution = self.resolution();
+        let wide = resolution.form.wide;
+        let operands = in_words(resolution.params, &self.instr().operands);
+        let extents = extents(resolution, &operands);
         let mut args: Vec<Arg> = operands
             .iter()
             .zip(extents)
-            .map(|(operand, extent)| self.arg(operand, extent, form.wide))
+            .map(|(operand, extent)| self.arg(operand, extent, wide))
             .collect();
-        if let (Some(class), Some(&Arg::Device { place, extent })) = (inst.twin, args.first()) {
+        let twin = resolution.inst.and_then(|inst| inst.twin);
+        if let (Some(class), Some(&Arg::Device { place, extent })) = (twin, args.first()) {
             let place = Place { class, ..place };
             args.push(Arg::Device { place, extent });
         }
@@ -306,10 +309,10 @@ pub(super) fn output_of(kind: &OperandKind) -> Option<u32> {
 }
 
 /// The operands, with groups that [`Rule::WordsWith`] makes words.
-fn in_words<'o>(inst: &Inst, operands: &'o [Operand], model: &Model) -> Cow<'o, [Operand]> {
+fn in_words<'o>(params: &[Param], operands: &'o [Operand]) -> Cow<'o, [Operand]> {
     let mut words = Cow::Borrowed(operands);
     let kind = |i: usize| operands.get(i).map(|operand| &operand.kind);
-    for (i, param) in inst.params_of(operands, model).iter().enumerate() {
+    for (i, param) in params.iter().enumerate() {
         let word = |other: usize| !matches!(kind(other), Some(OperandKind::Nibbles(..)));
         let widens = |rule: &Rule| matches!(*rule, Rule::WordsWith(other) if word(other));
         if let Some(OperandKind::Nibbles(digits @ ..4, device, index)) = kind(i)
@@ -324,12 +327,10 @@ fn in_words<'o>(inst: &Inst, operands: &'o [Operand], model: &Model) -> Cow<'o, 
 
 /// How many devices (bits of a group) each operand occupies from the named one on; `None`: to the end of its class.
 pub(super) fn extents<'o>(
-    inst: &Inst,
-    form: Form,
+    resolution: &Resolution,
     operands: &'o [Operand],
-    model: &Model,
 ) -> impl Iterator<Item = Option<u32>> + use<'o> {
-    let params = inst.params_of(operands, model);
+    let (params, form) = (resolution.params, resolution.form);
     let constants: Vec<Option<i64>> = operands.iter().map(|o| constant(&o.kind)).collect();
     operands.iter().enumerate().map(move |(i, operand)| {
         let param = params.get(i)?;

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::count_table::Rows;
 use super::operand::{Guards, fixed};
-use rungc_catalogue::{Basic, Comparison, Inst, Lower};
+use rungc_catalogue::{Basic, Comparison, Lower};
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, SysValue};
 use rungc_models::high_speed::{self, Axis, Counter, Kind};
 use rungc_models::interrupts::Source;
@@ -99,9 +99,9 @@ impl Lowerer<'_> {
 
     /// Counts the comparisons that are driven, if the program has more than may be.
     pub(super) fn limit_comparisons(&mut self) {
-        let instrs = self.resolved.instrs.iter().filter_map(|instr| instr.inst);
-        let compares = |inst: &&Inst| matches!(inst.lower, Lower::HighSpeed(_));
-        let count = instrs.filter(compares).count();
+        let instrs = self.resolved.instrs.iter();
+        let compares = instrs.filter(|instr| matches!(instr.lower, Some(Lower::HighSpeed(_))));
+        let count = compares.count();
         let most = self.model.high_speed.most_comparisons;
         if let Some(most) = most.filter(|&most| count > most as usize) {
             let driven = self.cell("comparisons".to_string(), "how many are driven");

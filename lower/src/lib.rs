@@ -277,7 +277,9 @@ impl<'a> Lowerer<'a> {
         if let Some(statement) = instr.statement() {
             self.heading = Some(statement.to_string());
         }
-        let lower = inst.lower_on_model(self.model.id);
+        let Some(lower) = self.resolution().lower else {
+            return;
+        };
         let is_label = matches!(lower, Lower::Basic(Basic::Label));
         if is_label {
             // What is said of a label is said of what follows it.
@@ -297,12 +299,20 @@ impl<'a> Lowerer<'a> {
         match lower {
             Lower::Basic(basic) => self.basic(basic),
             Lower::Compare(join, op) => self.compare_contact(join, op),
-            Lower::Call(function) => self.call(inst, function),
-            Lower::Exclusive(function) => self.exclusive_call(inst, function),
+            Lower::Call(function) => self.call(function),
+            Lower::Exclusive(function) => self.exclusive_call(function),
             Lower::HighSpeed(comparison) => self.high_speed_compare(comparison),
             Lower::Density => self.density(),
+            Lower::Move => self.inline(|this| this.move_value(false)),
+            Lower::MoveNot => self.inline(|this| this.move_value(true)),
+            Lower::MoveCount => self.inline(Self::move_count),
+            Lower::Axis(parameters) => self.inline(|this| this.axis_parameters(parameters)),
+            Lower::Comment => self.inline(Self::device_comment),
+            Lower::Cmp => self.inline(Self::compare),
+            Lower::Zcp => self.inline(Self::compare_zone),
+            Lower::Arith(op) => self.inline(|this| this.arith(op, false)),
+            Lower::ArithSaturating(op) => self.inline(|this| this.arith(op, true)),
             Lower::Todo(what) => self.report(refusal(inst, what, instr.mnemonic_span)),
-            _ => self.driven(|this| this.inline(lower)),
         }
         if inst.drive == Drive::Alone {
             self.logic.stack.clear();
@@ -387,8 +397,5 @@ impl<'a> Lowerer<'a> {
 
 /// Which basic instruction stands at `i` of a program.
 fn basic_of(resolved: &Resolved, i: usize) -> Option<Basic> {
-    match resolved.instrs.get(i)?.inst?.lower {
-        Lower::Basic(basic) => Some(basic),
-        _ => None,
-    }
+    resolved.instrs.get(i)?.basic()
 }

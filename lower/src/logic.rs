@@ -49,13 +49,15 @@ fn starts_of_rungs(resolved: &Resolved) -> Vec<bool> {
         let Some(inst) = resolution.inst else {
             continue;
         };
-        match inst.lower {
-            Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
-            | Lower::Compare(Join::Ld, _) => {
+        match resolution.lower {
+            Some(
+                Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
+                | Lower::Compare(Join::Ld, _),
+            ) => {
                 starts[i] = true;
                 blocks.push(i);
             }
-            Lower::Basic(Basic::Anb | Basic::Orb) if blocks.len() > 1 => {
+            Some(Lower::Basic(Basic::Anb | Basic::Orb)) if blocks.len() > 1 => {
                 if let Some(joined) = blocks.pop() {
                     starts[joined] = false;
                 }
@@ -77,8 +79,8 @@ impl Lowerer<'_> {
         let Some(inst) = self.resolved.instrs.get(i).and_then(|r| r.inst) else {
             return true;
         };
-        match inst.lower {
-            Lower::Basic(Basic::Mrd | Basic::Mpp) => true,
+        match inst.basic() {
+            Some(Basic::Mrd | Basic::Mpp) => true,
             _ => inst.drive == Drive::Alone || self.logic.starts_rung[i],
         }
     }

@@ -2,7 +2,6 @@
 
 use super::Lowerer;
 use super::call::extents;
-use rungc_catalogue::{Form, Inst};
 use rungc_ir::node::{Arg, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue, Ty};
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::CmpOp;
@@ -195,13 +194,13 @@ impl Lowerer<'_> {
     }
 
     /// The conditions that operands of a call lie within their bounds. The runtime checks the others.
-    pub(super) fn bounds_hold(&mut self, inst: &Inst, form: Form) -> Guards {
+    pub(super) fn bounds_hold(&mut self) -> Guards {
         let mut guards = Guards::default();
         if self.bounds.is_empty() {
             return guards;
         }
         let operands = &self.instr().operands;
-        let extents: Vec<_> = extents(inst, form, operands, self.model).collect();
+        let extents: Vec<_> = extents(self.resolution(), operands).collect();
         for (operand, extent) in operands.iter().zip(extents) {
             let (device, written, extent) = match operand.kind {
                 OperandKind::Device(device, Some(index))
@@ -214,7 +213,7 @@ impl Lowerer<'_> {
             };
             let (place, count) = (fixed(device.class, device.number), extent.unwrap_or(1));
             if let Some(bound) = self.bound(place, written, count) {
-                let index = self.index(written, form.wide);
+                let index = self.index(written, self.wide());
                 self.demand_device(place, index, count, Some(bound), &mut guards);
             }
         }

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::call::output_of;
 use super::operand::fixed;
-use rungc_catalogue::{Inst, Lower, Role};
+use rungc_catalogue::{Lower, Role};
 use rungc_ir::node::{Arg, Expr, ExprId, Function, FunctionKind, Stmt};
 use rungc_rt::axis_place::INPUTS;
 use rungc_rt::{CmpOp, EdgeKind, Relay, RtFn, StopInput, Wiring};
@@ -36,10 +36,10 @@ const STOP_INPUTS: std::ops::Range<u32> = 0..6;
 
 impl Lowerer<'_> {
     /// The instruction at hand looks at inputs. One that needs the buffer memory of a module does so in the scan alone, which has it.
-    pub(super) fn find_signals(&mut self, inst: &Inst, function: RtFn, slot: u16) {
+    pub(super) fn find_signals(&mut self, function: RtFn, slot: u16) {
         let operands = &self.instr().operands;
         let mut inputs = Vec::new();
-        for (operand, param) in operands.iter().zip(inst.params_of(operands, self.model)) {
+        for (operand, param) in operands.iter().zip(self.resolution().params) {
             let kind = &operand.kind;
             match *kind {
                 OperandKind::Device(Device { class: X, number }, None)
@@ -90,9 +90,8 @@ impl Lowerer<'_> {
         let said = instrs
             .zip(&self.resolved.instrs)
             .filter_map(|(instr, resolution)| {
-                let lower = resolution.inst?.lower_on_model(self.model.id);
                 let (axis, operands) = instr.operands.split_first()?;
-                match lower {
+                match resolution.lower? {
                     Lower::Axis(places) if output_of(&axis.kind) == Some(number) => {
                         Some(places.iter().zip(operands))
                     }
@@ -146,17 +145,13 @@ impl Lowerer<'_> {
 
     fn call_at_signal(&mut self, looker: &Looker) {
         self.at = looker.at;
-        let resolution = self.resolution();
-        let Some(inst) = resolution.inst else {
-            return;
-        };
-        let form = resolution.form;
-        let guards = self.bounds_hold(inst, form);
+        let wide = self.resolution().form.wide;
+        let guards = self.bounds_hold();
         self.guarded(guards, |this| {
-            let (args, step) = (this.args(inst, form), this.step());
+            let (args, step) = (this.args(), this.step());
             this.emit(Stmt::Call {
                 function: looker.function,
-                wide: form.wide,
+                wide,
                 args,
                 drive: None,
                 signal: true,

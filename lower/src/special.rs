@@ -90,10 +90,9 @@ impl Specials {
     fn mark_instr(&mut self, resolved: &Resolved, i: usize) {
         let instr = &resolved.program.instrs[i];
         let resolution = &resolved.instrs[i];
-        let Some(inst) = resolution.inst else {
+        let (Some(inst), Some(lower)) = (resolution.inst, resolution.lower) else {
             return;
         };
-        let lower = inst.lower_on_model(resolved.model.id);
         if matches!(lower, Lower::Call(function) if !words::is_inline(function, instr) && !blocks::is_inline(function, instr))
         {
             for (class, number) in flags_of(inst.flags) {
@@ -111,8 +110,7 @@ impl Specials {
         if !instr.operands.iter().any(|operand| special(&operand.kind)) {
             return;
         }
-        let extents: Vec<_> =
-            extents(inst, resolution.form, &instr.operands, resolved.model).collect();
+        let extents: Vec<_> = extents(resolution, &instr.operands).collect();
         let params = resolution.params;
         for (i, operand) in instr.operands.iter().enumerate() {
             let extent = extents[i];
@@ -161,10 +159,10 @@ impl Lowerer<'_> {
             .iter()
             .zip(&self.resolved.instrs)
         {
-            let Some(inst) = resolution.inst else {
+            if resolution.inst.is_none() {
                 continue;
-            };
-            let extents = extents(inst, resolution.form, &instr.operands, self.model);
+            }
+            let extents = extents(resolution, &instr.operands);
             for (operand, extent) in instr.operands.iter().zip(extents) {
                 let (device, index) = match operand.kind {
                     OperandKind::Device(device, index) => (device, index),
@@ -198,7 +196,7 @@ fn run_flag_contact(resolved: &Resolved, i: usize) -> Option<usize> {
     match resolved.program.instrs[i].operands.first()?.kind {
         OperandKind::Device(device, None)
             if inst.drive == Drive::Logic
-                && matches!(inst.lower, Lower::Basic(_))
+                && inst.basic().is_some()
                 && device.class == DeviceClass::M
                 && RUN_FLAGS.contains(&device.number) =>
         {

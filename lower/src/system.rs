@@ -4,7 +4,6 @@
 use super::Lowerer;
 use super::operand::fixed;
 use super::stl::ANNUNCIATORS;
-use rungc_catalogue::Lower;
 use rungc_ir::node::{Arg, BinOp, Body, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use rungc_models::special::SpecialDevice;
 use rungc_rt::special::*;
@@ -378,11 +377,11 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The year has as many digits as TRD reads.
+    /// The year has as many digits as the clock's registers show.
     fn clock_function(&self) -> RtFn {
-        match rungc_catalogue::find("TRD").map(|found| found.inst.lower_on_model(self.model.id)) {
-            Some(Lower::Call(RtFn::TrdShort)) => RtFn::ClockRefreshShort,
-            _ => RtFn::ClockRefresh,
+        match self.model.two_digit_years {
+            true => RtFn::ClockRefreshShort,
+            false => RtFn::ClockRefresh,
         }
     }
 

@@ -221,6 +221,8 @@ pub struct Model {
     /// Steps of an applied instruction: 1 and so many for each operand of the 16-bit and of the 32-bit form; `None`: as the
     /// catalogue's rows say.
     pub steps_per_operand: Option<(u8, u8)>,
+    /// Whether its clock shows years of two digits, and takes such.
+    pub two_digit_years: bool,
     /// How deep FOR may nest.
     pub max_for: u32,
     /// How deep CALL may nest.

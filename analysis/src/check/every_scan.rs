@@ -134,7 +134,7 @@ fn changed<'a>(code: &Code<'a>, i: usize) -> Option<&'a Operand> {
             .any(|source| source.kind == own.kind)
             .then_some(own)
     };
-    match inst.lower_on_model(code.model().id) {
+    match code.lower(i)? {
         Lower::Arith(op) | Lower::ArithSaturating(op) => match op {
             ArithOp::Inc | ArithOp::Dec | ArithOp::Neg => operands.first(),
             ArithOp::Add | ArithOp::Sub | ArithOp::Mul | ArithOp::Div | ArithOp::Xor => own(2),

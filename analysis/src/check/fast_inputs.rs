@@ -253,10 +253,7 @@ fn looked_at(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diag
 fn positioned(code: &Code) -> Vec<(usize, u32)> {
     let mut found = Vec::new();
     for i in 0..code.len {
-        let Some(inst) = code.inst(i) else {
-            continue;
-        };
-        let Lower::Call(function) = inst.lower_on_model(code.model().id) else {
+        let Some(Lower::Call(function)) = code.lower(i) else {
             continue;
         };
         if !function.needs().signals {
@@ -280,7 +277,7 @@ fn positioned(code: &Code) -> Vec<(usize, u32)> {
 /// The instructions SPD and their inputs.
 pub(super) fn measured(code: &Code) -> impl Iterator<Item = (usize, Device)> {
     (0..code.len).filter_map(|i| {
-        let measures = matches!(code.inst(i)?.lower, Lower::Density);
+        let measures = matches!(code.lower(i)?, Lower::Density);
         Some((i, measures.then(|| code.device(i, 0))??))
     })
 }

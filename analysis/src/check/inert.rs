@@ -101,9 +101,9 @@ fn leaves_default(code: &Code, i: usize, row: &Special) -> bool {
         return false;
     };
     let source = || constant_value(&code.instr(i).operands.first()?.kind);
-    match inst.lower {
-        Lower::Basic(Basic::Rst) => row.default == 0,
-        Lower::Move => source() == Some(row.default.into()),
+    match code.lower(i) {
+        Some(Lower::Basic(Basic::Rst)) => row.default == 0,
+        Some(Lower::Move) => source() == Some(row.default.into()),
         _ => inst.name == "ZRST" && row.default == 0,
     }
 }

@@ -125,7 +125,7 @@ impl<'a> Code<'a> {
         let end = resolved
             .instrs
             .iter()
-            .position(|instr| matches!(lower(instr.inst), Some(Lower::Basic(Basic::End))));
+            .position(|instr| instr.basic() == Some(Basic::End));
         let len = end.map_or(resolved.instrs.len(), |end| end + 1);
         Code { resolved, len }
     }
@@ -157,10 +157,12 @@ impl<'a> Code<'a> {
 
     /// The basic instruction that this is, if it is one.
     fn basic(&self, i: usize) -> Option<Basic> {
-        match lower(self.inst(i)) {
-            Some(Lower::Basic(basic)) => Some(basic),
-            _ => None,
-        }
+        self.resolved.instrs[i].basic()
+    }
+
+    /// What implements it on the model.
+    fn lower(&self, i: usize) -> Option<Lower> {
+        self.resolved.instrs[i].lower
     }
 
     /// The pointer that an instruction defines.
@@ -227,18 +229,22 @@ impl<'a> Code<'a> {
         let Some(inst) = self.inst(i).filter(|_| !self.is_meant(i)) else {
             return Part::Unknown;
         };
-        match (inst.lower, inst.drive) {
-            (Lower::Basic(Basic::Nop), _) => Part::Nothing,
-            (Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf), _)
-            | (Lower::Compare(Join::Ld, _), _) => Part::Start,
-            (Lower::Basic(Basic::Anb), _) => Part::JoinSeries,
-            (Lower::Basic(Basic::Orb), _) => Part::JoinParallel,
-            (Lower::Basic(Basic::Mps), _) => Part::Push,
-            (Lower::Basic(Basic::Mrd), _) => Part::Read,
-            (Lower::Basic(Basic::Mpp), _) => Part::Pop,
-            (_, Drive::Logic) => Part::Continue,
-            (_, Drive::Contact) => Part::Output,
-            (_, Drive::Alone) => Part::Alone,
+        match self.lower(i) {
+            Some(Lower::Basic(Basic::Nop)) => Part::Nothing,
+            Some(
+                Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
+                | Lower::Compare(Join::Ld, _),
+            ) => Part::Start,
+            Some(Lower::Basic(Basic::Anb)) => Part::JoinSeries,
+            Some(Lower::Basic(Basic::Orb)) => Part::JoinParallel,
+            Some(Lower::Basic(Basic::Mps)) => Part::Push,
+            Some(Lower::Basic(Basic::Mrd)) => Part::Read,
+            Some(Lower::Basic(Basic::Mpp)) => Part::Pop,
+            _ => match inst.drive {
+                Drive::Logic => Part::Continue,
+                Drive::Contact => Part::Output,
+                Drive::Alone => Part::Alone,
+            },
         }
     }
 
@@ -317,8 +323,4 @@ enum Part {
     Alone,
     /// Could not be resolved, which was reported.
     Unknown,
-}
-
-fn lower(inst: Option<&'static Inst>) -> Option<Lower> {
-    inst.map(|inst| inst.lower)
 }

@@ -10,9 +10,9 @@ pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
     let Some(inst) = code.inst(i) else {
         return;
     };
-    match inst.lower_on_model(code.model().id) {
-        Lower::Arith(ArithOp::Div) => by_zero(code, i, true, out),
-        Lower::ArithSaturating(ArithOp::Div) => by_zero(code, i, false, out),
+    match code.lower(i) {
+        Some(Lower::Arith(ArithOp::Div)) => by_zero(code, i, true, out),
+        Some(Lower::ArithSaturating(ArithOp::Div)) => by_zero(code, i, false, out),
         _ => match inst.name {
             "EDIV" => by_zero(code, i, true, out),
             "ZRST" => reversed(code, i, out),

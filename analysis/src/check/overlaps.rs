@@ -125,10 +125,7 @@ impl Overlaps {
 
 /// Whether the result of an instruction has twice as many words as its operands.
 fn divides_or_multiplies(code: &Code, i: usize) -> bool {
-    let lower = code
-        .inst(i)
-        .map(|inst| inst.lower_on_model(code.model().id));
-    let op = match lower {
+    let op = match code.lower(i) {
         Some(Lower::Arith(op) | Lower::ArithSaturating(op)) => op,
         _ => return false,
     };
@@ -144,9 +141,9 @@ fn clears(code: &Code, i: usize) -> bool {
         let source = code.instr(i).operands.first();
         source.and_then(|source| constant_value(&source.kind)) == Some(0)
     };
-    match inst.lower {
-        Lower::Basic(Basic::Rst) => true,
-        Lower::Move => zero(),
+    match code.lower(i) {
+        Some(Lower::Basic(Basic::Rst)) => true,
+        Some(Lower::Move) => zero(),
         _ => inst.name == "ZRST" || inst.name == "FMOV" && zero(),
     }
 }

@@ -6,12 +6,11 @@ use rungc_syntax::{Diagnostic, Diagnostics, Span, codes};
 
 /// Reports every instruction without an implementation on the model.
 pub(super) fn check(code: &Code, out: &mut Diagnostics) {
-    let model = code.model().id;
     for i in 0..code.len {
         let Some(inst) = code.inst(i).filter(|_| !code.is_meant(i)) else {
             continue;
         };
-        if let Lower::Todo(what) = inst.lower_on_model(model) {
+        if let Some(Lower::Todo(what)) = code.lower(i) {
             out.push(refusal(inst, what, code.instr(i).mnemonic_span));
         }
     }

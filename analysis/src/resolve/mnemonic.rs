@@ -2,7 +2,7 @@
 
 use super::suggest::{self, Open};
 use rungc_catalogue::Form;
-use rungc_catalogue::{Basic, Drive, Forms, Found, Inst, Lower};
+use rungc_catalogue::{Basic, Drive, Forms, Found, Inst};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Instr, codes};
 
@@ -192,9 +192,6 @@ fn without_affixes(mnemonic: &str) -> Option<Found> {
 
 /// Whether an instruction begins, ends or names a part of the program, so that others are judged by it.
 fn is_structural(inst: &Inst) -> bool {
-    let named = matches!(
-        inst.lower,
-        Lower::Basic(Basic::Mc | Basic::Cj | Basic::Call)
-    );
+    let named = matches!(inst.basic(), Some(Basic::Mc | Basic::Cj | Basic::Call));
     inst.drive == Drive::Alone || named
 }

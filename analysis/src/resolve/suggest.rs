@@ -4,7 +4,7 @@
 //! never turns a contact into its opposite.
 
 use super::operands::{constant_value, takes};
-use rungc_catalogue::{Basic, Found, Inst, Lower};
+use rungc_catalogue::{Basic, Found, Inst};
 use rungc_models::{Model, ModelSet};
 use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind};
 use std::sync::OnceLock;
@@ -36,7 +36,7 @@ pub(super) struct Open {
 impl Open {
     /// Goes past an instruction.
     pub(super) fn pass(&mut self, inst: &Inst, label: Option<Device>) {
-        let Lower::Basic(basic) = inst.lower else {
+        let Some(basic) = inst.basic() else {
             return;
         };
         match basic {
@@ -62,7 +62,7 @@ impl Open {
 
     /// Whether something that waits to be ended is ended by an instruction; `None` for one that ends nothing.
     fn is_ended_by(self, inst: &Inst, last: bool) -> Option<bool> {
-        let Lower::Basic(basic) = inst.lower else {
+        let Some(basic) = inst.basic() else {
             return None;
         };
         match basic {
@@ -355,7 +355,7 @@ fn misfit(
     model: &Model,
 ) -> Option<i32> {
     let name = instr.mnemonic.as_str();
-    if matches!(found.inst.lower, Lower::Basic(Basic::Label)) {
+    if found.inst.basic() == Some(Basic::Label) {
         return None;
     }
     let distance = strsim::osa_distance(name, near) as i32;

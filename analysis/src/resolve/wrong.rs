@@ -1,7 +1,7 @@
 //! What is said of operands that do not fit.
 
 use super::operands::{Place, is_unreadable};
-use rungc_catalogue::{Basic, Form, Inst, Lower, Param, Role};
+use rungc_catalogue::{Basic, Form, Inst, Param, Role};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{
     Classes, Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Source, Span, codes,
@@ -162,7 +162,7 @@ fn instead(operand: &Operand, place: &Place, classes: Classes) -> Option<String>
             "`{device}` is one bit; a group of bits is written `{grouped}` ({bits} of them)"
         ));
     }
-    let coil = matches!(place.found.inst.lower, Lower::Basic(Basic::Out));
+    let coil = place.found.inst.basic() == Some(Basic::Out);
     if coil && matches!(device.class, D | R | V | Z) {
         return Some(format!(
             "a coil is Y, M, S, T, C or a bit of a word (`D0.F`); a value goes to `{device}` with `MOV`"
@@ -270,8 +270,11 @@ pub(super) fn wide_constant(
 
 /// The timer or counter whose preset an instruction states.
 fn preset_of(place: &Place) -> Option<Device> {
-    match (place.found.inst.lower, &place.instr.operands.first()?.kind) {
-        (Lower::Basic(Basic::Out), &OperandKind::Device(device, _)) => Some(device),
+    match (
+        place.found.inst.basic(),
+        &place.instr.operands.first()?.kind,
+    ) {
+        (Some(Basic::Out), &OperandKind::Device(device, _)) => Some(device),
         _ => None,
     }
 }

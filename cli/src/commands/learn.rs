@@ -4,7 +4,7 @@ use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, counted, parent_dir, say, write_file};
 use crate::args::{Input, LearnArgs, Reading, Reporting};
 use rungc_analysis::fitting::fits;
-use rungc_catalogue::{Basic, Lower};
+use rungc_catalogue::Basic;
 use rungc_frontend::{Lesson, Read, ReadOptions, Reading as Taken, learn};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_models::Model;
@@ -83,7 +83,7 @@ fn same(a: &str, b: &str) -> bool {
     a == b
         || match (rungc_catalogue::find(a), rungc_catalogue::find(b)) {
             (Some(a), Some(b)) => {
-                let label = matches!(a.inst.lower, Lower::Basic(Basic::Label));
+                let label = a.inst.basic() == Some(Basic::Label);
                 std::ptr::eq(a.inst, b.inst) && a.form == b.form && !label
             }
             _ => false,

@@ -50,6 +50,7 @@ pub(super) const FX2N: Model = Model {
     notations: Classes::TEXT,
     bare_names: true,
     steps_per_operand: None,
+    two_digit_years: true,
     max_for: 5,
     max_call: 5,
     axis_defaults: &[],

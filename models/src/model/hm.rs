@@ -43,6 +43,7 @@ pub(super) const HM: Model = Model {
     notations: Classes::NONE,
     bare_names: true,
     steps_per_operand: Some((2, 3)),
+    two_digit_years: false,
     max_for: 5,
     max_call: 8,
     // hm-motion-controller §8.2.3.

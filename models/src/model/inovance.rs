@@ -57,6 +57,7 @@ pub(super) const H2U: Model = Model {
     position_outputs: &[(Y, 0, 7)],
     notations: Classes::E.or(Classes::TEXT),
     bare_names: false,
+    two_digit_years: false,
     max_for: 6,
     special: &[special::BOTH, special::H2U],
     cleared_in_stop: &[HOME],

@@ -8,6 +8,22 @@ pub struct ModelSet(u32);
 
 const _: () = assert!(ModelId::ALL.len() <= u32::BITS as usize);
 
+/// The models for which a condition holds.
+macro_rules! models_where {
+    (|$model:ident| $holds:expr) => {{
+        let mut set = ModelSet::NONE;
+        let mut i = 0;
+        while i < ModelId::ALL.len() {
+            let $model = Model::get(ModelId::ALL[i]);
+            if $holds {
+                set = set.or(ModelSet::of(&[ModelId::ALL[i]]));
+            }
+            i += 1;
+        }
+        set
+    }};
+}
+
 impl ModelSet {
     /// No model.
     pub const NONE: ModelSet = ModelSet(0);
@@ -40,24 +56,7 @@ impl ModelSet {
     /// The Mitsubishi models and compatible boards.
     pub const FX: ModelSet = Self::FX1.or(Self::FX2N).or(Self::FX3);
     /// Boards of other makers that take programs for a Mitsubishi model.
-    pub const COMPATIBLE: ModelSet = Self::boards();
-
-    /// The models whose instructions are those of `origin`.
-    const fn like(origin: ModelId) -> Self {
-        let mut set = Self::NONE;
-        let mut i = 0;
-        while i < ModelId::ALL.len() {
-            let id = ModelId::ALL[i];
-            if Model::get(id).instructions as u8 == origin as u8 {
-                set = set.or(Self::of(&[id]));
-            }
-            i += 1;
-        }
-        set
-    }
-
-    /// The models that another one names as its boards.
-    const fn boards() -> Self {
+    pub const COMPATIBLE: ModelSet = {
         let mut set = Self::NONE;
         let mut i = 0;
         while i < ModelId::ALL.len() {
@@ -67,6 +66,14 @@ impl ModelSet {
             i += 1;
         }
         set
+    };
+
+    /// Models whose clock shows years of two digits, and takes such.
+    pub const TWO_DIGIT_YEARS: ModelSet = models_where!(|model| model.two_digit_years);
+
+    /// The models whose instructions are those of `origin`.
+    const fn like(origin: ModelId) -> Self {
+        models_where!(|model| model.instructions as u8 == origin as u8)
     }
 
     /// These models.
