@@ -55,11 +55,11 @@ impl Work {
         Ok(match self {
             Work::C => {
                 let files = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
-                files.iter().map(|file| file.text.len()).sum()
+                files.iter().map(|file| file.contents.len()).sum()
             }
             _ => {
                 let files = rungc_codegen_rust::emit(&module, &Default::default());
-                files.iter().map(|file| file.text.len()).sum()
+                files.iter().map(|file| file.contents.len()).sum()
             }
         })
     }
@@ -188,7 +188,7 @@ fn native(ladder: &Ladder) -> Result<(Duration, Duration, bool)> {
         },
     );
     for file in &files {
-        tools::write(&folder.path().join(&file.path), &file.text)?;
+        tools::write(&folder.path().join(&file.path), &file.contents)?;
     }
     let emitting = clock.taken();
     let (start, before) = (Instant::now(), clock::of_others());

@@ -308,7 +308,7 @@ pub fn blink() -> Result<(u64, u64)> {
     let module = subject::module_of(BLINK, "blink")?;
     let emitted = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
     for file in &emitted {
-        tools::write(&folder.join(&file.path), &file.text)?;
+        tools::write(&folder.join(&file.path), &file.contents)?;
     }
     tools::write(&folder.join("main.c"), BLINK_C)?;
     let sources = emitted

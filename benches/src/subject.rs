@@ -204,7 +204,7 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
     let module = module(ladder, prefix)?;
     let mut program = Vec::new();
     for file in rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default()) {
-        tools::write(&folder.join(&file.path), &file.text)?;
+        tools::write(&folder.join(&file.path), &file.contents)?;
         if file.path.ends_with(".c") {
             program.push(file.path);
         }
@@ -300,8 +300,8 @@ impl RustSubject {
         };
         for file in rungc_codegen_rust::emit(&module, &options) {
             let text = match file.path.as_str() {
-                "Cargo.toml" => file.text.replace("[workspace]\n", ""),
-                _ => file.text,
+                "Cargo.toml" => file.contents.replace("[workspace]\n", ""),
+                _ => file.contents,
             };
             tools::write(&folder.join("program").join(&file.path), &text)?;
         }

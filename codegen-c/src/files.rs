@@ -19,18 +19,14 @@ fn banner(module: &Module, file: &str) -> String {
     )
 }
 
-fn file(path: impl Into<String>, text: String) -> OutFile {
-    OutFile {
-        path: path.into(),
-        text,
-    }
-}
-
 /// The files of one program.
 pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     let unit = unit::unit(module, false);
     let name = &module.name;
-    let mut files = vec![file(format!("{name}.h"), header_file(module, &unit))];
+    let mut files = vec![OutFile::new(
+        format!("{name}.h"),
+        header_file(module, &unit),
+    )];
     let mut sources = Vec::new();
     let several = unit.groups.len() > 1;
     if several {
@@ -40,7 +36,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
             "/* {banner} */\n#ifndef {guard}\n#define {guard}\n\n#include \"{name}.h\"\n\n{}#endif\n",
             unit.internal
         );
-        files.push(file(format!("{name}_internal.h"), text));
+        files.push(OutFile::new(format!("{name}_internal.h"), text));
     }
     // Each group gives its memory back before the next one is copied.
     for (i, group) in unit.groups.into_iter().enumerate() {
@@ -60,13 +56,13 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         text.push_str(group);
         text.push('\n');
         sources.push(path.clone());
-        files.push(file(path, text));
+        files.push(OutFile::new(path, text));
     }
     let wired = options.board || module.takes_events();
     if wired {
         let named = |path: &str, text: String| {
             let banner = banner(module, path);
-            file(path, format!("/* {banner} */\n{text}"))
+            OutFile::new(path, format!("/* {banner} */\n{text}"))
         };
         let path = format!("{name}_board.c");
         files.push(named(&format!("{name}_board.h"), board::header(module)));
@@ -75,7 +71,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     }
     files.extend(shared(unit.runtime, wired));
     if options.main {
-        files.push(file("main.c", crate::host::main_file(module)));
+        files.push(OutFile::new("main.c", crate::host::main_file(module)));
         sources.push("main.c".to_string());
     }
     let mut headers = format!("{name}.h rungc.h");
@@ -88,7 +84,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     if several {
         let _ = write!(headers, " {name}_internal.h");
     }
-    files.push(file(
+    files.push(OutFile::new(
         "Makefile",
         makefile(name, &sources, &headers, options.main, unit.runtime),
     ));
@@ -147,17 +143,17 @@ fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
 /// What all programs share: rungc.h, the header of boards for those that take events, and if the runtime library is needed its sources.
 /// Its header has the types that describe a board, too.
 fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
-    let mut files = vec![file("rungc.h", stamped(RUNGC_H, "RUNGC_H"))];
+    let mut files = vec![OutFile::new("rungc.h", stamped(RUNGC_H, "RUNGC_H"))];
     if runtime || board {
         let header = runtime_header();
-        files.push(file("rungc_rt.h", stamped(&header, "RUNGC_RT_H")));
+        files.push(OutFile::new("rungc_rt.h", stamped(&header, "RUNGC_RT_H")));
     }
     if board {
-        files.push(file("rungc_board.h", RUNGC_BOARD_H.to_string()));
+        files.push(OutFile::new("rungc_board.h", RUNGC_BOARD_H.to_string()));
     }
     if runtime {
         let sources = rungc_runtime_sources::library::sources().into_iter();
-        files.extend(sources.map(|(path, text)| file(format!("rungc-rt/{path}"), text)));
+        files.extend(sources.map(|(path, text)| OutFile::new(format!("rungc-rt/{path}"), text)));
     }
     files
 }
@@ -265,8 +261,8 @@ impl Part {
         );
         let source = format!("#include \"{header}\"\n\n{}", self.source);
         [
-            file(header, text),
-            file(format!("cases_{number}.c"), source),
+            OutFile::new(header, text),
+            OutFile::new(format!("cases_{number}.c"), source),
         ]
     }
 }
@@ -337,11 +333,11 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         .replace("    /* MEMORY */\n", &memory)
         .replace("/* CASES */\n", &functions)
         .replace("    /* ENTRIES */\n", &entries);
-    files.push(file("main.c", main));
+    files.push(OutFile::new("main.c", main));
     files.extend(shared(true, false));
     let headers = format!("{} rungc.h rungc_rt.h", headers.join(" "));
     let makefile = makefile("batch", &sources, &headers, true, true);
-    files.push(file("Makefile", makefile + MAIN_RULE));
+    files.push(OutFile::new("Makefile", makefile + MAIN_RULE));
     files
 }
 

@@ -29,6 +29,7 @@ mod unit;
 mod writer;
 
 pub use places::Places;
+pub use rungc_emit::OutFile;
 use rungc_emit::storage::{Field, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
@@ -40,15 +41,6 @@ pub struct Options {
     pub main: bool,
     /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that does always has it.
     pub board: bool,
-}
-
-/// A file of the output.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct OutFile {
-    /// Path relative to the output folder.
-    pub path: String,
-    /// What stands in it.
-    pub text: String,
 }
 
 /// The header that all programs share.

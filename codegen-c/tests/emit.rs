@@ -49,7 +49,7 @@ fn motor_reads_well() {
         .iter()
         .filter(|f| f.path.starts_with("motor") || f.path == "Makefile")
     {
-        insta::assert_snapshot!(file.path.replace('.', "_"), file.text);
+        insta::assert_snapshot!(file.path.replace('.', "_"), file.contents);
     }
 }
 
@@ -130,7 +130,7 @@ fn a_header_of_another_version_is_refused() {
         for file in rungc_codegen_c::emit(&motor(), &Default::default()) {
             let text = match file.path.as_str() {
                 "rungc.h" => header.to_string(),
-                _ => file.text,
+                _ => file.contents,
             };
             std::fs::write(folder.path().join(&file.path), text).unwrap();
         }
@@ -146,9 +146,9 @@ fn a_header_of_another_version_is_refused() {
     };
     let files = rungc_codegen_c::emit(&motor(), &Default::default());
     let header = files.iter().find(|file| file.path == "rungc.h").unwrap();
-    assert!(compile(&header.text).0);
-    let stamp = header.text.find("RUNGC_H_STAMP 0x").unwrap() + "RUNGC_H_STAMP 0x".len();
-    let mut other = header.text.clone();
+    assert!(compile(&header.contents).0);
+    let stamp = header.contents.find("RUNGC_H_STAMP 0x").unwrap() + "RUNGC_H_STAMP 0x".len();
+    let mut other = header.contents.clone();
     other.replace_range(stamp..stamp + 8, "00000001");
     let (compiled, said) = compile(&other);
     assert!(

@@ -92,7 +92,7 @@ fn instructions_of_the_runtime() {
             "Makefile"
         ]
     );
-    let makefile = &files.last().expect("a Makefile").text;
+    let makefile = &files.last().expect("a Makefile").contents;
     insta::assert_snapshot!(makefile);
 }
 
@@ -128,7 +128,7 @@ fn long_programs_are_divided() {
     let longest = files
         .iter()
         .filter(|f| f.path.ends_with(".c"))
-        .flat_map(|f| f.text.split("\n}\n"))
+        .flat_map(|f| f.contents.split("\n}\n"))
         .map(|f| f.lines().count())
         .max();
     assert!(longest < Some(700), "{longest:?}");

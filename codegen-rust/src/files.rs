@@ -24,20 +24,13 @@ const CASES_PER_FILE: usize = 25;
 /// Folder of the runtime inside an emitted crate.
 const RUNTIME_FOLDER: &str = "rungc-rt";
 
-fn file(path: impl Into<String>, text: impl Into<String>) -> OutFile {
-    OutFile {
-        path: path.into(),
-        text: text.into(),
-    }
-}
-
 /// The runtime's sources, for a path dependency, and the lock file of a crate that depends on nothing else.
 fn runtime(crate_name: &str) -> Vec<OutFile> {
     let lock = rungc_runtime_sources::lock_file(&[(crate_name, &["rungc-rt"])]);
     rungc_runtime_sources::files()
         .into_iter()
-        .map(|(path, text)| file(format!("{RUNTIME_FOLDER}/{path}"), text))
-        .chain([file("Cargo.lock", lock)])
+        .map(|(path, text)| OutFile::new(format!("{RUNTIME_FOLDER}/{path}"), text))
+        .chain([OutFile::new("Cargo.lock", lock)])
         .collect()
 }
 
@@ -65,16 +58,16 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     };
     let description = format!("PLC program {}", module.source_name);
     let mut files = vec![
-        file(
+        OutFile::new(
             "Cargo.toml",
             manifest(&crate_name, &description, runtime_path, ""),
         ),
-        file("src/lib.rs", library(&mut generator, &functions)),
-        file("src/devices.rs", devices(&mut generator)),
+        OutFile::new("src/lib.rs", library(&mut generator, &functions)),
+        OutFile::new("src/devices.rs", devices(&mut generator)),
     ];
     files.extend(program_files(&generator, functions));
     if options.main {
-        files.push(file("src/main.rs", host(&generator, &crate_name)));
+        files.push(OutFile::new("src/main.rs", host(&generator, &crate_name)));
     }
     files.extend(runtime);
     files
@@ -310,7 +303,7 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
             out.push('\n');
             out.push_str(&exported(&item.text, "pub(crate) "));
         }
-        return vec![file("src/program.rs", out)];
+        return vec![OutFile::new("src/program.rs", out)];
     }
     let mut parts: Vec<Vec<Item>> = vec![Vec::new()];
     let mut filled = 0;
@@ -337,7 +330,7 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
         root.push_str("use rungc_rt::TimerKind;\n");
     }
     root.push_str(&timer_constants(&uses.timers, ""));
-    let mut files = vec![file("src/program/mod.rs", root)];
+    let mut files = vec![OutFile::new("src/program/mod.rs", root)];
     for (i, part) in parts.iter().enumerate() {
         let mut uses = joined(part);
         uses.imports.remove("TimerKind");
@@ -355,7 +348,7 @@ fn program_files(generator: &Generator, functions: Vec<Item>) -> Vec<OutFile> {
             out.push('\n');
             out.push_str(&exported(&item.text, "pub(crate) "));
         }
-        files.push(file(format!("src/program/part{i}.rs"), out));
+        files.push(OutFile::new(format!("src/program/part{i}.rs"), out));
     }
     files
 }
@@ -440,14 +433,14 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
                    [profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\ncodegen-units = 16\n\n\
                    [profile.dev.package.rungc-rt]\nopt-level = 2\n";
     let mut files = vec![
-        file(
+        OutFile::new(
             "Cargo.toml",
             manifest("batch", "PLC programs for tests", RUNTIME_FOLDER, profile),
         ),
-        file("src/main.rs", include_str!("../templates/batch/main.rs")),
-        file("src/lib.rs", include_str!("../templates/batch/lib.rs")),
-        file("src/port.rs", include_str!("../templates/batch/port.rs")),
-        file("src/bare.rs", include_str!("../templates/batch/bare.rs")),
+        OutFile::new("src/main.rs", include_str!("../templates/batch/main.rs")),
+        OutFile::new("src/lib.rs", include_str!("../templates/batch/lib.rs")),
+        OutFile::new("src/port.rs", include_str!("../templates/batch/port.rs")),
+        OutFile::new("src/bare.rs", include_str!("../templates/batch/bare.rs")),
     ];
     let mut models: BTreeMap<&str, &Module> = BTreeMap::new();
     let mut cases = String::from(
@@ -466,7 +459,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
             );
         }
         let _ = writeln!(cases, "mod cases{n};");
-        files.push(file(format!("src/cases/cases{n}.rs"), out));
+        files.push(OutFile::new(format!("src/cases/cases{n}.rs"), out));
     }
     let _ = write!(
         cases,
@@ -478,7 +471,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
          #[inline(never)]\n\
          fn power_on<T: Program>(new: fn() -> T, what: &mut dyn FnMut(&mut dyn Program)) {{\n    what(&mut new())\n}}\n"
     );
-    files.push(file("src/cases/mod.rs", cases));
+    files.push(OutFile::new("src/cases/mod.rs", cases));
     let mut tables = String::from(
         "//! The models' devices.\n#![allow(dead_code, reason = \"one for each model of the batch\")]\n\nuse rungc_rt::{Class, Runs};\n",
     );
@@ -488,7 +481,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         tables.push('\n');
         tables.push_str(&table.replace("const DEVICES", &format!("const {}", table_name(name))));
     }
-    files.push(file("src/models.rs", tables));
+    files.push(OutFile::new("src/models.rs", tables));
     files.extend(runtime("batch"));
     files
 }

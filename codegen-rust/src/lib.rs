@@ -27,6 +27,7 @@ mod watchdog;
 mod write;
 
 pub use places::Places;
+pub use rungc_emit::OutFile;
 use rungc_ir::Module;
 
 /// What to emit.
@@ -46,15 +47,6 @@ pub enum Runtime {
     Included,
     /// At this path, relative to the crate or absolute.
     At(String),
-}
-
-/// A file of the output.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct OutFile {
-    /// Path relative to the output folder.
-    pub path: String,
-    /// What stands in it.
-    pub text: String,
 }
 
 /// Emits a program as a crate that `cargo build` builds. The same module gives the same bytes.

@@ -43,7 +43,7 @@ fn manifests_hold_any_name() {
     for name in NAMES {
         let files = emit(&module(name), &options());
         let manifest = files.iter().find(|file| file.path == "Cargo.toml").unwrap();
-        let manifest: toml::Table = manifest.text.parse().unwrap();
+        let manifest: toml::Table = manifest.contents.parse().unwrap();
         let description = manifest["package"]["description"].as_str().unwrap();
         let shown = name.replace(acts, " ");
         assert_eq!(description, format!("PLC program {shown}"));
@@ -55,8 +55,8 @@ fn manifests_hold_any_name() {
 fn nothing_that_acts_reaches_emitted_text() {
     for name in NAMES {
         for file in emit(&module(name), &options()) {
-            let found = file.text.find(|c| acts(c) && c != '\n');
-            assert_eq!(found, None, "{}:\n{}", file.path, file.text);
+            let found = file.contents.find(|c| acts(c) && c != '\n');
+            assert_eq!(found, None, "{}:\n{}", file.path, file.contents);
         }
     }
 }

@@ -11,7 +11,7 @@ fn emitted(path: &str) -> String {
     };
     let files = emit(&common::motor(), &options);
     let file = files.into_iter().find(|file| file.path == path);
-    file.map(|file| file.text).unwrap_or_default()
+    file.map(|file| file.contents).unwrap_or_default()
 }
 
 #[test]

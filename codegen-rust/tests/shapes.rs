@@ -60,8 +60,8 @@ fn program(shape: Shape) -> String {
         .find(|file| file.path == "src/program.rs")
         .unwrap();
     // What stands before the imports is the same in all.
-    let code = file.text.find("use crate").unwrap_or_default();
-    file.text[code..].to_string()
+    let code = file.contents.find("use crate").unwrap_or_default();
+    file.contents[code..].to_string()
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn shapes_build_without_warnings() {
         let mut files = emit(&module(shape), &options());
         for file in &mut files {
             // Here they are members of one workspace, to build the runtime once.
-            file.text = file.text.replace("[workspace]\n", "");
+            file.contents = file.contents.replace("[workspace]\n", "");
         }
         common::write(&folder.path().join(shape.0), &files);
     }
@@ -137,7 +137,7 @@ fn long_programs_are_split() {
         .collect();
     assert!(parts.len() > 3, "{} files", parts.len());
     for file in files {
-        let lines = file.text.lines().count();
+        let lines = file.contents.lines().count();
         let limit = if file.path.starts_with("src/program/") {
             900
         } else {
@@ -155,7 +155,7 @@ fn very_many_timer_coils_share_the_code_of_timers() {
         let text = (0..coils).map(coil).collect::<String>() + "END\n";
         let files = emit(&module(("many", &text)), &options());
         let mut texts = files.iter().filter(|f| f.path.starts_with("src/program"));
-        texts.any(|f| f.text.contains("#[inline(never)]"))
+        texts.any(|f| f.contents.contains("#[inline(never)]"))
     };
     assert!(!shared(1000));
     assert!(shared(1001));

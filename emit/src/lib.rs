@@ -10,6 +10,7 @@
 pub mod comments;
 pub mod edges;
 pub mod events;
+mod file;
 pub mod logic;
 pub mod measure;
 pub mod parts;
@@ -18,3 +19,5 @@ pub mod stations;
 pub mod storage;
 pub mod temps;
 pub mod timers;
+
+pub use file::OutFile;

@@ -1,7 +1,7 @@
 //! Calls of the compilers for another machine, and what to say where one is missing.
 
-use crate::image::OutFile;
 use crate::target::Target;
+use rungc_emit::OutFile;
 use rungc_ir::Module;
 use rungc_ir::node::{Function, FunctionKind};
 use rungc_runtime_sources::cache;
@@ -215,17 +215,17 @@ impl Tools {
         &self,
         files: &[OutFile],
         name: &str,
-    ) -> Result<Vec<(String, Vec<u8>)>, BuildError> {
+    ) -> Result<Vec<OutFile<Vec<u8>>>, BuildError> {
         let built = self.build_c(files)?;
         let is_header = |path: &str| path.ends_with(".h") && path != format!("{name}_internal.h");
-        let mut library: Vec<(String, Vec<u8>)> = files
-            .iter()
-            .filter(|(path, _)| is_header(path))
-            .map(|(path, text)| (path.clone(), text.clone().into_bytes()))
-            .collect();
+        let headers = files.iter().filter(|file| is_header(&file.path));
+        let mut library: Vec<_> = headers.cloned().map(OutFile::from).collect();
         for path in built.libraries(name) {
-            let file = path.file_name().unwrap_or_default().to_string_lossy();
-            library.push((file.into_owned(), read(&path)?));
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            library.push(OutFile {
+                path: name.into_owned(),
+                contents: read(&path)?,
+            });
         }
         Ok(library)
     }
@@ -326,7 +326,7 @@ fn probe(module: &Module) -> String {
 
 /// Whether the runtime's sources are among the files.
 fn calls_runtime(files: &[OutFile]) -> bool {
-    files.iter().any(|(path, _)| path.contains("rungc-rt/"))
+    files.iter().any(|file| file.path.contains("rungc-rt/"))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, BuildError> {
@@ -346,11 +346,11 @@ fn succeeded(what: &str, output: Output) -> Result<(), BuildError> {
 /// Writes files into a new temporary folder.
 fn write(files: &[OutFile]) -> Result<tempfile::TempDir, BuildError> {
     let folder = tempfile::tempdir().map_err(io(Path::new("temporary folder")))?;
-    for (path, text) in files {
-        let path = folder.path().join(path);
+    for file in files {
+        let path = folder.path().join(&file.path);
         let parent = path.parent().unwrap_or(folder.path());
         fs::create_dir_all(parent).map_err(io(&path))?;
-        fs::write(&path, text).map_err(io(&path))?;
+        fs::write(&path, &file.contents).map_err(io(&path))?;
     }
     Ok(folder)
 }

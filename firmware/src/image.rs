@@ -13,9 +13,6 @@ use std::fmt::Write;
 pub use c::project as c_project;
 pub use rust::project as rust_project;
 
-/// A file to write, its path relative to the output folder.
-pub type OutFile = (String, String);
-
 /// What an image does by itself, for a simulator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Script {

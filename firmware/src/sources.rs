@@ -1,7 +1,7 @@
 //! Emitted sources that build for a target as they are.
 
-use crate::image::OutFile;
 use crate::target::Target;
+use rungc_emit::OutFile;
 use rungc_ir::Module;
 use rungc_runtime_sources::library::Optimise;
 
@@ -14,8 +14,10 @@ pub fn c(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
     let files = rungc_codegen_c::emit(module, &options).into_iter();
     files
         .map(|f| match (f.path.as_str(), target.rustc_name()) {
-            ("Makefile", Some(triple)) => (f.path, makefile(&f.text, target, triple)),
-            _ => (f.path, f.text),
+            ("Makefile", Some(triple)) => {
+                OutFile::new(f.path, makefile(&f.contents, target, triple))
+            }
+            _ => f,
         })
         .collect()
 }
@@ -54,7 +56,7 @@ pub fn rust(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
     let files = rungc_codegen_rust::emit(module, &options).into_iter();
     let config = target.rustc_name().map(|triple| {
         let text = format!("[build]\ntarget = \"{triple}\"\n");
-        (".cargo/config.toml".to_string(), text)
+        OutFile::new(".cargo/config.toml", text)
     });
-    files.map(|f| (f.path, f.text)).chain(config).collect()
+    files.chain(config).collect()
 }

@@ -159,7 +159,7 @@ fn write(module: &Module, path: &Path) {
     for file in emit(module, &Options::default()) {
         let path = path.join(&file.path);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writing");
-        std::fs::write(path, file.text).expect("writing");
+        std::fs::write(path, file.contents).expect("writing");
     }
 }
 
@@ -262,7 +262,7 @@ fn emitted_rust_runs_on_the_same_board() {
     };
     let options = rungc_codegen_rust::Options::default();
     for file in rungc_codegen_rust::emit(&module, &options) {
-        put(&format!("plc/{}", file.path), &file.text);
+        put(&format!("plc/{}", file.path), &file.contents);
     }
     put("Cargo.toml", MANIFEST);
     put("src/main.rs", MAIN);

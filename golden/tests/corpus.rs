@@ -169,7 +169,7 @@ fn build_c(folder: &str, modules: &[&Module]) {
         for file in rungc_codegen_c::emit(module, &options) {
             let path = folder.join(&module.name).join(&file.path);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(&path, &file.text).unwrap();
+            std::fs::write(&path, &file.contents).unwrap();
             if path.extension().is_some_and(|e| e == "c") {
                 sources.push(path);
             }
@@ -227,7 +227,11 @@ fn emit_and_run(folder: &str, samples: &[Sample]) {
             run(&sample.name, module);
             let options = rungc_codegen_rust::Options::default();
             let files = rungc_codegen_rust::emit(module, &options);
-            assert!(files.iter().all(|f| !f.text.is_empty()), "{}", sample.name);
+            assert!(
+                files.iter().all(|f| !f.contents.is_empty()),
+                "{}",
+                sample.name
+            );
         }
     }
     let modules: Vec<_> = samples.iter().filter_map(|s| s.module.as_ref()).collect();

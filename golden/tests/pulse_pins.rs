@@ -118,7 +118,7 @@ fn compiled(module: &Module) -> String {
     for file in emit(module, &Options::default()) {
         let path = path.join(&file.path);
         std::fs::create_dir_all(path.parent().expect("a folder")).expect("writing");
-        std::fs::write(path, file.text).expect("writing");
+        std::fs::write(path, file.contents).expect("writing");
     }
     std::fs::write(path.join("firmware.c"), FIRMWARE).expect("writing");
     let build = "make -s CFLAGS='-std=c99 -O1 -Wall -Wextra -Wconversion -Werror' && \

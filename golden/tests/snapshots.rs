@@ -35,11 +35,11 @@ fn check(name: &str, model: ModelId) {
     let module = module(name, model);
     insta::assert_snapshot!(format!("{name}_ir"), dump::dump(&module));
     let c = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
-    let c = c.into_iter().map(|f| (f.path, f.text));
+    let c = c.into_iter().map(|f| (f.path, f.contents));
     let own = |path: &str| path.ends_with(".c") || path == format!("{name}.h");
     insta::assert_snapshot!(format!("{name}_c"), joined(c.filter(|(path, _)| own(path))));
     let rust = rungc_codegen_rust::emit(&module, &rungc_codegen_rust::Options::default());
-    let rust = rust.into_iter().map(|f| (f.path, f.text));
+    let rust = rust.into_iter().map(|f| (f.path, f.contents));
     let sources = rust.filter(|(path, _)| path.starts_with("src/"));
     insta::assert_snapshot!(format!("{name}_rust"), joined(sources));
 }

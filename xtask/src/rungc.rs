@@ -62,11 +62,11 @@ pub fn diagram() -> Result<Made, Problem> {
 fn build() -> Result<PathBuf, Problem> {
     let mut cargo = tools::cargo(&["build", "--quiet", "--package", "rungc"]);
     let printed = tools::output(cargo.arg("--message-format=json-render-diagnostics"))?;
-    let messages = printed.lines().filter_map(|line| {
+    let mut messages = printed.lines().filter_map(|line| {
         let message: serde_json::Value = serde_json::from_str(line).ok()?;
         Some(PathBuf::from(message["executable"].as_str()?))
     });
-    let executable = messages.last();
+    let executable = messages.next_back();
     executable.ok_or_else(|| "cargo has built no executable of rungc".into())
 }
 

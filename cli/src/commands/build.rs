@@ -9,6 +9,7 @@ use super::{
 use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
 use crate::report::Reporter;
+use rungc_emit::OutFile;
 use rungc_firmware::board::{self, Board};
 use rungc_firmware::build::Tools;
 use rungc_firmware::image::{self, Image, Script};
@@ -21,9 +22,6 @@ use rungc_sim::Target as Device;
 use rungc_syntax::{DeviceClass, text};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// A file to write, its path relative to the output folder.
-type OutFile = (String, Vec<u8>);
 
 /// Compiles programs. Nothing is written of one that has errors.
 pub fn run(args: &BuildArgs, cx: Context) -> Result {
@@ -228,7 +226,7 @@ impl ForImage {
         &self,
         module: &Module,
         backend: Backend,
-    ) -> std::result::Result<Vec<(String, String)>, Failure> {
+    ) -> std::result::Result<Vec<OutFile>, Failure> {
         let image = self.image(module);
         let board = &self.board;
         let own = !board.functions.is_empty() || !board.interrupts.is_empty();
@@ -307,14 +305,14 @@ impl Job<'_> {
                     Some(image) => image.sources(module, Backend::C)?,
                     None => sources::c(module, self.target, main),
                 };
-                self.folder(what, || Ok(texts(files)))?
+                self.folder(what, || Ok(bytes(files)))?
             }
             Emit::Rust => {
                 let files = match self.image {
                     Some(image) => image.sources(module, Backend::Rust)?,
                     None => sources::rust(module, self.target, main),
                 };
-                self.folder(what, || Ok(texts(files)))?
+                self.folder(what, || Ok(bytes(files)))?
             }
             Emit::Lib => self.folder(what, || self.library())?,
             Emit::Bin => self.program(what, || {
@@ -337,7 +335,11 @@ impl Job<'_> {
     }
 
     /// Writes a folder with what `make` makes; whether it may be written is known before.
-    fn folder(&self, emit: Emit, make: impl FnOnce() -> Built<Vec<OutFile>>) -> Built<PathBuf> {
+    fn folder(
+        &self,
+        emit: Emit,
+        make: impl FnOnce() -> Built<Vec<OutFile<Vec<u8>>>>,
+    ) -> Built<PathBuf> {
         let path = self.output(emit);
         free(&path, self.plan.force)?;
         write_folder(&path, &make()?, self.plan.force)?;
@@ -352,7 +354,7 @@ impl Job<'_> {
         Ok(path)
     }
 
-    fn library(&self) -> Built<Vec<OutFile>> {
+    fn library(&self) -> Built<Vec<OutFile<Vec<u8>>>> {
         let files = sources::c(self.module, self.target, false);
         let name = &self.module.name;
         progress::spin("building", || self.tools().c_library(&files, name)).map_err(because)
@@ -390,20 +392,16 @@ impl Job<'_> {
         }
         let own = format!("lib{}.a", module.name);
         let library = self.library()?;
-        let (_, data) = library
+        let built = library
             .iter()
-            .find(|(path, _)| *path == own)
+            .find(|file| file.path == own)
             .ok_or_else(|| because("no library was built"))?;
-        firmware::of_library(module, target, data).map_err(because)
+        firmware::of_library(module, target, &built.contents).map_err(because)
     }
 }
 
-/// Files as they are written.
-fn texts(files: Vec<(String, String)>) -> Vec<OutFile> {
-    let files = files.into_iter();
-    files
-        .map(|(path, text)| (path, text.into_bytes()))
-        .collect()
+fn bytes(files: Vec<OutFile>) -> Vec<OutFile<Vec<u8>>> {
+    files.into_iter().map(OutFile::from).collect()
 }
 
 /// Refuses a file that is there before a long build, unless it may be replaced.
@@ -440,7 +438,11 @@ fn at(path: &Path, error: std::io::Error) -> Failure {
 
 /// Writes all files into a folder: a new one appears only when complete, in one that is there (not empty only with `force`) they
 /// take their outputs when all of them are written.
-fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::Result<(), Failure> {
+fn write_folder(
+    folder: &Path,
+    files: &[OutFile<Vec<u8>>],
+    force: bool,
+) -> std::result::Result<(), Failure> {
     let there = free(folder, force)?;
     let beside = match there {
         true => folder,
@@ -453,16 +455,16 @@ fn write_folder(folder: &Path, files: &[OutFile], force: bool) -> std::result::R
         .map_err(|e| at(folder, plain(e)))?;
     let inside = fresh.path().join("out");
     fs::create_dir(&inside).map_err(|e| at(&inside, e))?;
-    for (path, contents) in files {
-        write_file(&inside.join(path), contents, false)?;
+    for file in files {
+        write_file(&inside.join(&file.path), &file.contents, false)?;
     }
     if !there {
         return fs::rename(&inside, folder).map_err(|e| at(folder, e));
     }
-    for (path, _) in files {
-        let to = folder.join(path);
+    for file in files {
+        let to = folder.join(&file.path);
         fs::create_dir_all(parent_dir(&to)).map_err(|e| at(&to, e))?;
-        fs::rename(inside.join(path), &to).map_err(|e| at(&to, e))?;
+        fs::rename(inside.join(&file.path), &to).map_err(|e| at(&to, e))?;
     }
     Ok(())
 }

@@ -199,7 +199,7 @@ pub fn run_c(module: &Module, statements: &str) -> String {
     let folder = tempfile::tempdir().expect("a folder for the C files");
     let mut sources = Vec::new();
     for file in emit(module, &Options::default()) {
-        std::fs::write(folder.path().join(&file.path), &file.text).expect("writing C");
+        std::fs::write(folder.path().join(&file.path), &file.contents).expect("writing C");
         if file.path.ends_with(".c") {
             sources.push(file.path);
         }
@@ -267,7 +267,7 @@ pub fn run_batch(modules: &[Module], requests: &str) -> String {
         let path = folder.path().join(&file.path);
         std::fs::create_dir_all(path.parent().expect("a file stands in a folder"))
             .expect("making a folder");
-        std::fs::write(path, &file.text).expect("writing C");
+        std::fs::write(path, &file.contents).expect("writing C");
     }
     let strict = format!("CFLAGS={} -O1", STRICT.join(" "));
     let made = Command::new("make")
@@ -303,7 +303,7 @@ pub fn program_text(module: &Module) -> String {
         .iter()
         .find(|f| f.path == path)
         .expect("a source file")
-        .text;
+        .contents;
     let end = source
         .find("/* Clears all devices")
         .or_else(|| source.find(&format!("void {}_init(", module.name)));
@@ -320,7 +320,7 @@ pub fn run_host(module: &Module, commands: &str) -> String {
             ..Options::default()
         },
     ) {
-        std::fs::write(folder.path().join(&file.path), &file.text).expect("writing C");
+        std::fs::write(folder.path().join(&file.path), &file.contents).expect("writing C");
     }
     for cc in compilers() {
         let flags = format!("CFLAGS={} -O2", STRICT.join(" "));

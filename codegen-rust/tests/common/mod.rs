@@ -207,7 +207,7 @@ pub fn write(folder: &Path, files: &[OutFile]) {
     for file in files {
         let path = folder.join(&file.path);
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, &file.text).unwrap();
+        std::fs::write(path, &file.contents).unwrap();
     }
 }
 

@@ -1,7 +1,8 @@
 //! An image in C.
 
-use super::{Image, OutFile, comment, linker_script, terminals};
+use super::{Image, comment, linker_script, terminals};
 use crate::board::{FUNCTIONS, OutputPin};
+use rungc_emit::OutFile;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -54,16 +55,13 @@ pub fn project(image: &Image) -> std::io::Result<Vec<OutFile>> {
     };
     let emitted = rungc_codegen_c::emit(image.module, &options);
     let runtime = emitted.iter().any(|f| f.path.starts_with("rungc-rt/"));
-    let mut files: Vec<OutFile> = emitted
-        .into_iter()
-        .map(|f| (format!("plc/{}", f.path), f.text))
-        .collect();
-    files.push(("main.c".to_string(), main(image)));
-    files.push(("startup.c".to_string(), startup(image)));
-    files.push(("image.ld".to_string(), linker_script(image.board)));
-    files.push(("Makefile".to_string(), makefile(image, runtime)));
+    let mut files: Vec<OutFile> = emitted.into_iter().map(|file| file.inside("plc")).collect();
+    files.push(OutFile::new("main.c", main(image)));
+    files.push(OutFile::new("startup.c", startup(image)));
+    files.push(OutFile::new("image.ld", linker_script(image.board)));
+    files.push(OutFile::new("Makefile", makefile(image, runtime)));
     for (name, path) in &image.board.sources {
-        files.push((name.clone(), std::fs::read_to_string(path)?));
+        files.push(OutFile::new(name, std::fs::read_to_string(path)?));
     }
     Ok(files)
 }

@@ -1,7 +1,8 @@
 //! An image in Rust. Pins are those of the board's description; functions in C are for images in C.
 
-use super::{Image, OutFile, comment, linker_script, terminals};
+use super::{Image, comment, linker_script, terminals};
 use crate::board::OutputPin;
+use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -63,10 +64,7 @@ const NEXT_EDGE: &str = "
 /// All sources of an image, a package that `cargo build --release` builds. The program is in `plc/`.
 pub fn project(image: &Image) -> Vec<OutFile> {
     let emitted = rungc_codegen_rust::emit(image.module, &Default::default());
-    let mut files: Vec<OutFile> = emitted
-        .into_iter()
-        .map(|f| (format!("plc/{}", f.path), f.text))
-        .collect();
+    let mut files: Vec<OutFile> = emitted.into_iter().map(|file| file.inside("plc")).collect();
     let (package, _) = rungc_codegen_rust::names(image.module);
     let lock = lock_file(&package);
     let triple = image.board.target.triple;
@@ -83,7 +81,7 @@ pub fn project(image: &Image) -> Vec<OutFile> {
         ("src/startup.s", STARTUP.replace("/* FPU */", fpu)),
         ("src/main.rs", main(image)),
     ];
-    files.extend(own.map(|(path, text)| (path.to_string(), text)));
+    files.extend(own.map(|(path, text)| OutFile::new(path, text)));
     files
 }
 

@@ -109,7 +109,7 @@ pub(super) fn run(command: &mut Command) -> Result<(), BuildError> {
 /// Writes the crate of a batch.
 pub(super) fn write_rust(modules: &[Module], folder: &Path) -> Result<(), BuildError> {
     let mut files = rungc_codegen_rust::batch(modules).into_iter();
-    files.try_for_each(|file| write(&folder.join(&file.path), &file.text))
+    files.try_for_each(|file| write(&folder.join(&file.path), &file.contents))
 }
 
 fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> {
@@ -134,7 +134,7 @@ pub(super) fn make_batch(
     folder: &Path,
 ) -> Result<PathBuf, BuildError> {
     for file in rungc_codegen_c::batch(modules) {
-        write(&folder.join(&file.path), &file.text)?;
+        write(&folder.join(&file.path), &file.contents)?;
     }
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     run(make
