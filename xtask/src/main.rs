@@ -1,9 +1,11 @@
-//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file. No crate may depend on this one.
+//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask package` the packages
+//! that are published. No crate may depend on this one.
 //! Start reading at `generate.rs`, the table of generated files.
 
 mod book;
 mod generate;
 mod header;
+mod package;
 mod rungc;
 mod tools;
 
@@ -23,6 +25,8 @@ struct Args {
 enum Chore {
     /// Write the generated files, or check that they are up to date.
     Generate(generate::Args),
+    /// Check that every published crate builds from its package alone, or publish them.
+    Package(package::Args),
 }
 
 /// What stopped a chore, as a message.
@@ -37,6 +41,7 @@ fn root() -> PathBuf {
 fn main() -> ExitCode {
     let done = match Args::parse().chore {
         Chore::Generate(args) => generate::run(&args),
+        Chore::Package(args) => package::run(&args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -24,7 +24,7 @@ pub fn output(command: &mut Command) -> Result<String, Problem> {
 }
 
 /// Runs a program that prints for itself.
-fn run(command: &mut Command) -> Result<(), Problem> {
+pub fn run(command: &mut Command) -> Result<(), Problem> {
     let status = command.status()?;
     match status.success() {
         true => Ok(()),
@@ -47,4 +47,22 @@ pub fn benchmarks() -> Result<(), Problem> {
 pub fn snapshots() -> Result<(), Problem> {
     let args = ["test", "--workspace", "--no-fail-fast"];
     run(cargo(&args).envs([("INSTA_UPDATE", "always"), ("INSTA_FORCE_PASS", "1")]))
+}
+
+/// The crates of the workspace that are not published.
+pub fn private_packages() -> Result<Vec<String>, Problem> {
+    let metadata = output(&mut cargo(&[
+        "metadata",
+        "--no-deps",
+        "--format-version",
+        "1",
+    ]))?;
+    let metadata: serde_json::Value = serde_json::from_str(&metadata)?;
+    let packages = metadata["packages"].as_array().into_iter().flatten();
+    // `publish = false` is an empty list of registries.
+    let private =
+        packages.filter(|package| package["publish"].as_array().is_some_and(Vec::is_empty));
+    Ok(private
+        .filter_map(|package| package["name"].as_str().map(String::from))
+        .collect())
 }

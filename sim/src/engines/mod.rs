@@ -1,6 +1,7 @@
 //! The ways to execute compiled programs, behind one interface.
 
 mod build;
+#[cfg(feature = "cortex-m")]
 pub mod cortex_m;
 mod interpreter;
 mod process;
