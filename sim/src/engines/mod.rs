@@ -50,6 +50,9 @@ pub enum EngineError {
     /// The executable said something else.
     #[error("`{0}` was answered `{1}`")]
     Garbled(Request, String),
+    /// A client connects to what the case does not serve.
+    #[error("{0}")]
+    Unserved(String),
     /// A device, module or channel to be set does not exist.
     #[error("`{0}`: there is no such device")]
     Missing(Request),

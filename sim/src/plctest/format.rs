@@ -258,13 +258,19 @@ impl Reader<'_> {
         let wires = raw.wire.iter();
         let wires = wires.map(|line| line.iter().filter_map(|port| self.port(port)).collect());
         let wires = wires.collect();
-        let served = raw.serve.keys().filter_map(|port| self.port(port));
-        let needs: Vec<_> = served.map(|_| serial::SERVERS).collect();
-        let init = self.settings(raw.init);
-        let mut steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
-        if let Some(first) = steps.first_mut() {
-            first.needs.extend(needs);
+        let mut serve = Vec::new();
+        for (port, protocol) in raw.serve {
+            match self.port(&port).map(|port| port.id) {
+                Some(PortId::Tcp(number, _)) => serve.push((number, protocol)),
+                Some(PortId::Serial(_) | PortId::Can) => {
+                    let message = "a server is named `TCP:502`".to_string();
+                    self.report(port.span().start, message);
+                }
+                None => {}
+            }
         }
+        let init = self.settings(raw.init);
+        let steps: Vec<Step> = raw.step.into_iter().map(|step| self.step(step)).collect();
         let check = match raw.rejects {
             Some(rejects) => {
                 if !steps.is_empty() {
@@ -293,6 +299,7 @@ impl Reader<'_> {
             machine: self.machine(raw.machine.as_ref()),
             others,
             wires,
+            serve,
             check,
         }
     }
@@ -325,7 +332,7 @@ impl Reader<'_> {
         for (port, sent) in raw.expect_tx.into_iter().flatten() {
             let port = self.line_text(&port, Way::FromPlc, sent.texts());
             let texts = sent.texts().iter();
-            let sent = texts.map(|text| serial::bytes(serial::items(text)));
+            let sent = texts.map(|text| serial::sent(text));
             expect_tx.extend(port.map(|port| (port, sent.collect())));
         }
         let cut = raw

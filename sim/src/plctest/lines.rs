@@ -1,7 +1,7 @@
 //! The serial lines of a case: what comes to its ports and what they send, with exact times.
 
 use super::runner::Running;
-use super::serial::{Item, Port, PortId};
+use super::serial::{Item, Port, PortId, Sent};
 use super::{Failure, Step, Value};
 use crate::protocol::{Answer, Request};
 use rungc_rt::comm::{CharFault, LineFormat, Parity, Received};
@@ -20,7 +20,7 @@ pub(super) struct Lines {
     /// What is on its way to ports, in the order of its times.
     pending: Vec<(SerialPort, Received)>,
     /// What ports have sent in this step.
-    sent: BTreeMap<SerialPort, Vec<u8>>,
+    sent: BTreeMap<SerialPort, Sent>,
 }
 
 fn serial(port: &Port) -> Option<SerialPort> {
@@ -95,6 +95,7 @@ impl Running<'_> {
                         continue;
                     }
                     Item::Byte(byte, fault) => (byte, fault),
+                    Item::Close => continue,
                 };
                 at_ns += format.nanoseconds(2);
                 let character = Received {
@@ -140,11 +141,8 @@ impl Running<'_> {
                 byte: sent as u8,
                 fault: CharFault::None,
             };
-            self.lines
-                .sent
-                .entry(port)
-                .or_default()
-                .push(character.byte);
+            let sent = self.lines.sent.entry(port).or_default();
+            sent.bytes.push(character.byte);
             if !self.lines.is_wired(port) {
                 continue;
             }
@@ -195,23 +193,17 @@ impl Running<'_> {
         let ports = plcs.flat_map(|(plc, info)| info.ports.iter().map(move |&n| (plc, n)));
         let ports: Vec<_> = ports.collect();
         ports.into_iter().try_for_each(|port| self.listen(port))?;
+        let nothing = Sent::default();
         let mut wrong = Vec::new();
         for (port, texts) in &step.expect_tx {
-            let sent = serial(port).and_then(|port| self.lines.sent.get(&port));
-            let sent = sent.map_or(&[][..], Vec::as_slice);
-            if texts.iter().any(|text| text == sent) {
+            let Some(number) = serial(port) else {
                 continue;
+            };
+            let sent = self.lines.sent.get(&number).unwrap_or(&nothing);
+            if !texts.contains(sent) {
+                wrong.push(self.unlike(port, texts, sent));
             }
-            let expected: Vec<_> = texts.iter().map(|text| hex(text)).collect();
-            let expected = Value::Text(expected.join(" | "));
-            let name = format!("what {} sent", self.port_name(port));
-            wrong.push((name, expected, Value::Text(hex(sent))));
         }
         Ok(wrong)
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    let bytes: Vec<_> = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
-    bytes.join(" ")
 }

@@ -8,13 +8,14 @@ mod program;
 mod report;
 mod runner;
 mod serial;
+mod servers;
 mod suite;
 mod wiring;
 
 pub use program::{CaseProgram, ProgramFile};
 pub use report::{Failure, Outcome, Report};
 pub use runner::run;
-pub use serial::{Item, Port, PortId};
+pub use serial::{Item, Port, PortId, Protocol, Sent};
 pub use suite::{Id, Suite};
 
 use crate::plant::Description;
@@ -65,6 +66,8 @@ pub struct Case {
     pub others: Vec<OtherPlc>,
     /// Ports on one line each.
     pub wires: Vec<Vec<Port>>,
+    /// Servers over TCP: port number, and what they speak.
+    pub serve: Vec<(u16, Protocol)>,
     /// What is checked.
     pub check: Check,
 }
@@ -129,7 +132,7 @@ pub struct Step {
     /// What comes to ports.
     pub rx: Vec<(Port, Vec<Item>)>,
     /// What ports send during the step: any of these.
-    pub expect_tx: Vec<(Port, Vec<Vec<u8>>)>,
+    pub expect_tx: Vec<(Port, Vec<Sent>)>,
     /// The ports that are off their lines from now on, if that changes.
     pub cut: Option<Vec<Port>>,
     /// Sets the real-time clock.
@@ -216,7 +219,7 @@ fn parse_source(source: &Source) -> Result<TestFile, LoadError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Check, Port, PortId, Value, parse};
+    use super::{Check, Port, PortId, Sent, Value, parse};
 
     fn problems_of(text: &str) -> String {
         parse("t.plctest.toml", text).unwrap_err().to_string()
@@ -320,8 +323,11 @@ cut = ["B:COM2"]
         let of: Vec<_> = step.set.iter().map(|s| (s.plc, s.value.clone())).collect();
         assert_eq!(of, [(1, Value::Int(2)), (0, Value::Int(1))]);
         assert_eq!(step.running, [(1, false)]);
-        let sent = vec![b"AB".to_vec(), Vec::new()];
-        assert_eq!(step.expect_tx, [(port(1, 2), sent)]);
+        let sent = [&b"AB"[..], b""].map(|bytes| Sent {
+            bytes: bytes.to_vec(),
+            closed: false,
+        });
+        assert_eq!(step.expect_tx, [(port(1, 2), sent.to_vec())]);
         assert_eq!(step.cut, Some(vec![port(1, 2)]));
         assert!(step.needs.is_empty());
     }

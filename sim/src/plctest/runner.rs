@@ -1,6 +1,7 @@
 //! Runs the cases of a suite on an engine.
 
 use super::lines::Lines;
+use super::servers::Servers;
 use super::suite::Built;
 use super::wiring;
 use super::{
@@ -15,7 +16,7 @@ use rungc_interp::rt_class;
 use rungc_ir::Module;
 use rungc_rt::{Class, FIRST_COUNTER32};
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -43,7 +44,8 @@ pub fn run(
                 let machine = case.machine.as_deref();
                 wiring::check(machine, case.model, init, steps).and_then(|()| {
                     let plcs = built.iter().map(|&module| PlcInfo::of(module, suite));
-                    run_case(engine, case, plcs.collect(), init, steps)
+                    let servers = Servers::new(&case.serve, &suite.modules()[built[0]]);
+                    run_case(engine, case, (plcs.collect(), servers), init, steps)
                 })
             }
         };
@@ -133,12 +135,16 @@ pub(super) struct Running<'e> {
     pub(super) plant: Option<Plant>,
     /// The serial lines.
     pub(super) lines: Lines,
+    /// The servers over TCP.
+    pub(super) servers: Servers,
+    /// The PLCs that were put in STOP.
+    stopped: BTreeSet<usize>,
 }
 
 fn run_case(
     engine: &mut dyn Engine,
     case: &Case,
-    plcs: Vec<PlcInfo>,
+    (plcs, servers): (Vec<PlcInfo>, Servers),
     init: &[Setting],
     steps: &[Step],
 ) -> Result<(), Failure> {
@@ -159,6 +165,8 @@ fn run_case(
         scanned: false,
         plant: case.machine.as_deref().map(Description::plant),
         lines: Lines::new(&case.wires),
+        servers,
+        stopped: BTreeSet::new(),
     };
     running.power_up()?;
     running.set_all(init)?;
@@ -218,6 +226,22 @@ impl Running<'_> {
         Ok(())
     }
 
+    /// Puts the RUN/STOP switch of a PLC.
+    pub(super) fn switch(&mut self, plc: usize, running: bool) -> Result<(), Failure> {
+        if running {
+            self.stopped.remove(&plc);
+        } else {
+            self.stopped.insert(plc);
+        }
+        self.select(plc)?;
+        self.ask(Request::Run(running)).map(drop)
+    }
+
+    /// Where that switch is.
+    pub(super) fn is_running(&self, plc: usize) -> bool {
+        !self.stopped.contains(&plc)
+    }
+
     /// Time since power-on in microseconds, wrapping.
     pub(super) fn now_us(&self) -> u32 {
         self.now_ms.wrapping_mul(1000)
@@ -236,6 +260,7 @@ impl Running<'_> {
         self.scanned = false;
         self.plant.iter_mut().for_each(Plant::power_cycle);
         self.lines.power_cycle();
+        self.stopped.clear();
         for plc in 0..self.plcs.len() {
             self.select(plc)?;
             self.ask(Request::Power)?;
@@ -253,8 +278,7 @@ impl Running<'_> {
             self.power_cycle()?;
         }
         for &(plc, running) in &step.running {
-            self.select(plc)?;
-            self.ask(Request::Run(running))?;
+            self.switch(plc, running)?;
         }
         if let Some(clock) = step.clock {
             for plc in 0..self.plcs.len() {
@@ -270,6 +294,7 @@ impl Running<'_> {
             self.insist(Request::SetAnalog(channel, value))?;
         }
         self.set_all(&step.set)?;
+        self.begin_servers(step)?;
         self.begin_lines(step)
     }
 
@@ -323,11 +348,14 @@ impl Running<'_> {
                 self.interrupts()?;
             }
         }
+        self.select(0)?;
+        self.serve()?;
         self.carry()
     }
 
     fn check(&mut self, step: &Step) -> Result<(), Failure> {
         let mut values = self.end_lines(step)?;
+        values.extend(self.end_servers(step));
         for Setting { plc, target, value } in &step.expect {
             self.select(*plc)?;
             let actual = self.get(*target, value)?;

@@ -1,4 +1,4 @@
-//! What test files say about communication. No engine has CAN and servers yet, so a case that uses them needs what engines lack
+//! What test files say about communication. No engine has CAN yet, so a case that uses it needs what engines lack
 //! ([`Step::needs`](super::Step)).
 
 use rungc_rt::comm::CharFault;
@@ -8,8 +8,6 @@ use std::fmt;
 
 /// Needed by a case with CAN frames.
 const CAN: &str = "CAN";
-/// Needed by a case with a server over TCP.
-pub(super) const SERVERS: &str = "servers over TCP";
 
 /// What a port is expected to send: one text, or any of several.
 #[derive(Deserialize)]
@@ -52,11 +50,14 @@ pub(super) enum Switch {
 }
 
 /// What a server over TCP speaks.
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Protocol {
+pub enum Protocol {
+    /// Modbus TCP.
     Modbus,
+    /// MC protocol, frames 1E and 3E in binary.
     Mc,
+    /// The programming port's protocol.
     Fx,
 }
 
@@ -126,9 +127,8 @@ impl PortId {
     /// What no engine has yet of this port.
     pub(super) fn lacking(&self) -> Option<&'static str> {
         match self {
-            PortId::Serial(_) => None,
+            PortId::Serial(_) | PortId::Tcp(..) => None,
             PortId::Can => Some(CAN),
-            PortId::Tcp(..) => Some(SERVERS),
         }
     }
 }
@@ -140,7 +140,31 @@ pub enum Item {
     Byte(u8, CharFault),
     /// The line is idle for so many microseconds.
     Pause(u64),
+    /// The client closes the connection.
+    Close,
 }
+
+/// What a port has sent in a step.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sent {
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+    /// The PLC has closed the connection.
+    pub closed: bool,
+}
+
+/// As a test file says it.
+pub(super) fn hex(sent: &Sent) -> String {
+    let bytes = sent.bytes.iter().map(|byte| format!("{byte:02X}"));
+    let words: Vec<_> = bytes
+        .chain(sent.closed.then(|| CLOSED.to_string()))
+        .collect();
+    words.join(" ")
+}
+
+/// The last words of what a client sends and of what it gets, when the connection ends.
+const CLOSE: &str = "close";
+const CLOSED: &str = "closed";
 
 /// The bytes that a text stands for, and the pauses between them; what holds to the format has no other words.
 pub(super) fn items(text: &str) -> Vec<Item> {
@@ -151,18 +175,22 @@ pub(super) fn items(text: &str) -> Vec<Item> {
             Some(Item::Pause((ms * 1000.0) as u64))
         }
         (None, Some((word, fault))) => Some(Item::Byte(byte(word)?, fault_of(fault)?)),
+        (None, None) if word == CLOSE => Some(Item::Close),
         (None, None) => Some(Item::Byte(byte(word)?, CharFault::None)),
     };
     text.split_whitespace().filter_map(item).collect()
 }
 
-/// The bytes alone.
-pub(super) fn bytes(items: Vec<Item>) -> Vec<u8> {
-    let bytes = items.into_iter().filter_map(|item| match item {
+/// What a text says that a port sends.
+pub(super) fn sent(text: &str) -> Sent {
+    let bytes = items(text).into_iter().filter_map(|item| match item {
         Item::Byte(byte, _) => Some(byte),
-        Item::Pause(_) => None,
+        Item::Pause(_) | Item::Close => None,
     });
-    bytes.collect()
+    Sent {
+        bytes: bytes.collect(),
+        closed: text.split_whitespace().last() == Some(CLOSED),
+    }
 }
 
 /// What is wrong with a byte that has this letter.
@@ -192,8 +220,8 @@ pub(super) fn check_text(port: &str, way: Way, text: &str) -> Result<(), &'stati
             .ok_or("a CAN frame is written `200#1234`: its identifier and up to 8 bytes in hexadecimal digits");
     }
     let end = match way {
-        Way::ToPlc => "close",
-        Way::FromPlc => "closed",
+        Way::ToPlc => CLOSE,
+        Way::FromPlc => CLOSED,
     };
     if port.starts_with("TCP:") && words.last() == Some(&end) {
         words.pop();

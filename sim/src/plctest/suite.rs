@@ -215,7 +215,7 @@ fn options(case: &Case, plc: usize) -> CompileOptions {
     let ports = opened(case, plc);
     CompileOptions {
         observe: observed(case, plc),
-        observe_all: !ports.is_empty(),
+        observe_all: !ports.is_empty() || !case.serve.is_empty(),
         ports,
         optimise: true,
         ..CompileOptions::default()
