@@ -2,13 +2,13 @@
 
 use super::Code;
 use super::skips::Skips;
-use super::structure::{NONE, Places};
+use super::structure::{NONE, Nesting};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
 /// Warns of coils that the last of several places decides.
-pub(super) fn check(code: &Code, skips: &Skips, places: &Places, out: &mut Diagnostics) {
+pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Diagnostics) {
     let mut driven: FxHashMap<Device, Vec<usize>> = FxHashMap::default();
     for i in 0..code.len {
         if let Some(device) = driven_coil(code, i) {
@@ -19,7 +19,7 @@ pub(super) fn check(code: &Code, skips: &Skips, places: &Places, out: &mut Diagn
     for (device, mut coils) in driven {
         // Within a state, or outside of all, under the same jumps: these write in the same scan.
         let condition = |&i: &usize| {
-            let state = match places.of(i).state {
+            let state = match nesting.of(i).state {
                 NONE => None,
                 stl => code.device(stl as usize, 0),
             };

@@ -4,7 +4,7 @@ use super::Code;
 use super::accesses::{self, Access};
 use super::drives::{Drive, Drives, Lasts};
 use super::skips::Skips;
-use super::structure::{NONE, Places, Routine};
+use super::structure::{NONE, Nesting, Routine};
 use rungc_catalogue::{ArithOp, Form, Forms, Lower};
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
 use std::collections::BTreeMap;
@@ -37,13 +37,13 @@ impl EveryScan {
         code: &Code,
         i: usize,
         drive: Drive,
-        places: &Places,
+        nesting: &Nesting,
         skips: &Skips,
     ) {
-        let place = places.of(i);
+        let enclosing = nesting.of(i);
         // What a loop, a routine, a state or a jump runs now and then may well be meant.
-        let each_scan = place.routine == Routine::Main
-            && (place.inner_loop, place.state) == (NONE, NONE)
+        let each_scan = enclosing.routine == Routine::Main
+            && (enclosing.inner_loop, enclosing.state) == (NONE, NONE)
             && skips.mark(i) == 0;
         if drive.lasts != Lasts::Long || !each_scan || pulse_form(code, i).is_none() {
             return;

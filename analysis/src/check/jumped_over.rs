@@ -2,7 +2,7 @@
 
 use super::drives::{Drive, Lasts};
 use super::pointers::{Pointer, Pointers};
-use super::structure::{Places, Routine};
+use super::structure::{Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Diagnostics, codes};
@@ -21,11 +21,11 @@ impl JumpedOver {
         code: &Code,
         i: usize,
         drive: Drive,
-        (pointers, places): (&Pointers, &Places),
+        (pointers, nesting): (&Pointers, &Nesting),
         out: &mut Diagnostics,
     ) {
         let jump = code.basic(i) == Some(Basic::Cj) && !code.resolved.instrs[i].form.pulse;
-        let runs = i >= self.until && places.of(i).routine != Routine::Nothing;
+        let runs = i >= self.until && nesting.of(i).routine != Routine::Nothing;
         let Some(device) = code
             .device(i, 0)
             .filter(|_| jump && runs && drive.lasts == Lasts::Always)

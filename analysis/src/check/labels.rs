@@ -1,13 +1,13 @@
 //! Jumps and calls: their labels exist once, and lead where they may.
 
 use super::pointers::{Pointer, Pointers};
-use super::structure::{NONE, Places, Routine};
+use super::structure::{NONE, Nesting, Routine};
 use super::{Basic, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Operand, OperandKind, Span, codes};
 use rustc_hash::FxHashMap;
 
 /// Checks all pointers of a program.
-pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut Diagnostics) {
+pub(super) fn check(code: &Code, pointers: &Pointers, nesting: &Nesting, out: &mut Diagnostics) {
     for (device, pointer) in pointers.iter() {
         defined_once(code, device, pointer, out);
         if device.class != DeviceClass::P {
@@ -27,7 +27,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
             Some(_) if pointer.is_ambiguous() => {}
             Some(&label) => {
                 for &jump in &pointer.jumps {
-                    destination(code, places, jump, label, out);
+                    destination(code, nesting, jump, label, out);
                 }
                 if !pointers.any_may_be_meant() {
                     unused(code, device, pointer, label, out);
@@ -35,7 +35,7 @@ pub(super) fn check(code: &Code, pointers: &Pointers, places: &Places, out: &mut
             }
         }
     }
-    Calls::new(pointers, places).check(code, out);
+    Calls::new(pointers, nesting).check(code, out);
 }
 
 fn defined_once(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics) {
@@ -148,8 +148,8 @@ fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mu
 }
 
 /// Whether a jump stays in its routine and does not enter a loop.
-fn destination(code: &Code, places: &Places, jump: usize, label: usize, out: &mut Diagnostics) {
-    let (from, to) = (places.of(jump), places.of(label));
+fn destination(code: &Code, nesting: &Nesting, jump: usize, label: usize, out: &mut Diagnostics) {
+    let (from, to) = (nesting.of(jump), nesting.of(label));
     if from.routine != to.routine {
         let diagnostic = codes::BETWEEN_ROUTINES
             .at(code.span(jump), "this jump leads into another routine")
@@ -161,7 +161,7 @@ fn destination(code: &Code, places: &Places, jump: usize, label: usize, out: &mu
     }
     let mut around = from.inner_loop;
     while around != to.inner_loop && around != NONE {
-        around = places.outer_loop(around);
+        around = nesting.outer_loop(around);
     }
     if around != to.inner_loop {
         let diagnostic = codes::INTO_LOOP
@@ -194,7 +194,7 @@ struct Calls {
 }
 
 impl Calls {
-    fn new(pointers: &Pointers, places: &Places) -> Self {
+    fn new(pointers: &Pointers, nesting: &Nesting) -> Self {
         let mut calls: FxHashMap<Routine, Vec<_>> = FxHashMap::default();
         for (_, pointer) in pointers
             .iter()
@@ -204,7 +204,7 @@ impl Calls {
                 continue;
             };
             for &call in &pointer.calls {
-                let (from, to) = (places.of(call).routine, places.of(label).routine);
+                let (from, to) = (nesting.of(call).routine, nesting.of(label).routine);
                 calls.entry(from).or_default().push((call, to));
             }
         }

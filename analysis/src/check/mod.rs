@@ -48,18 +48,18 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     code.end(&mut out);
     blocks::check(&code, &mut out);
     let pointers = pointers::Pointers::new(&code);
-    let places = structure::check(&code, &pointers, &mut out);
-    labels::check(&code, &pointers, &places, &mut out);
+    let nesting = structure::check(&code, &pointers, &mut out);
+    labels::check(&code, &pointers, &nesting, &mut out);
     fast_inputs::check(&code, &pointers, &mut out);
     once::check(&code, &mut out);
     unimplemented::check(&code, &mut out);
-    unreachable::check(&code, &places, &mut out);
+    unreachable::check(&code, &nesting, &mut out);
     let skips = skips::Skips::new(&code, &pointers);
-    coils::check(&code, &skips, &places, &mut out);
-    set_and_out::check(&code, &places, &skips, &mut out);
-    timers::check(&code, &places, &mut out);
-    states::check(&code, &places, &mut out);
-    driven(&code, &pointers, &places, &skips, &mut out);
+    coils::check(&code, &skips, &nesting, &mut out);
+    set_and_out::check(&code, &nesting, &skips, &mut out);
+    timers::check(&code, &nesting, &mut out);
+    states::check(&code, &nesting, &mut out);
+    driven(&code, &pointers, &nesting, &skips, &mut out);
     accessed(&code, &mut out);
     numbered(out, resolved.model)
 }
@@ -68,7 +68,7 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
 fn driven(
     code: &Code,
     pointers: &pointers::Pointers,
-    places: &structure::Places,
+    nesting: &structure::Nesting,
     skips: &skips::Skips,
     out: &mut Diagnostics,
 ) {
@@ -78,9 +78,9 @@ fn driven(
     let mut jumped_over = jumped_over::JumpedOver::default();
     for i in 0..code.len {
         if let Some(drive) = drives.next(code, i) {
-            every_scan.note(code, i, drive, places, skips);
-            outputs.note(code, i, drive, places, skips);
-            jumped_over.note(code, i, drive, (pointers, places), out);
+            every_scan.note(code, i, drive, nesting, skips);
+            outputs.note(code, i, drive, nesting, skips);
+            jumped_over.note(code, i, drive, (pointers, nesting), out);
         }
     }
     every_scan.report(code, out);

@@ -3,30 +3,30 @@
 use super::Code;
 use super::drives::{Drive, Lasts};
 use super::skips::Skips;
-use super::structure::{Places, Routine};
+use super::structure::{Nesting, Routine};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
-/// The routine, the state and the jumps that decide whether an instruction runs.
-type Place = (Routine, u32, u64);
+/// What decides whether an instruction runs: its routine, its state and the jumps over it.
+type Conditions = (Routine, u32, u64);
 
 /// The instructions that send pulses through one output.
 #[derive(Default)]
 struct Senders {
     /// The first under each drive.
-    driven: FxHashMap<(Place, u64), usize>,
-    /// The first in each place, and the first there that is always driven.
-    placed: FxHashMap<Place, (usize, Option<usize>)>,
+    driven: FxHashMap<(Conditions, u64), usize>,
+    /// The first under each of these conditions, and the first there that is always driven.
+    first_under: FxHashMap<Conditions, (usize, Option<usize>)>,
     /// Two that are driven together.
     together: Option<(usize, usize)>,
 }
 
 impl Senders {
     /// Takes instruction `i`.
-    fn add(&mut self, i: usize, drive: Drive, place: Place) {
+    fn add(&mut self, i: usize, drive: Drive, conditions: Conditions) {
         let always = drive.lasts == Lasts::Always;
-        let same = self.driven.get(&(place, drive.signature)).copied();
-        let other = match self.placed.get(&place) {
+        let same = self.driven.get(&(conditions, drive.signature)).copied();
+        let other = match self.first_under.get(&conditions) {
             Some(&(first, _)) if always => Some(first),
             Some(&(_, on)) => on,
             None => None,
@@ -34,8 +34,10 @@ impl Senders {
         if self.together.is_none() {
             self.together = same.or(other).map(|other| (other, i));
         }
-        self.driven.entry((place, drive.signature)).or_insert(i);
-        let (_, on) = self.placed.entry(place).or_insert((i, None));
+        self.driven
+            .entry((conditions, drive.signature))
+            .or_insert(i);
+        let (_, on) = self.first_under.entry(conditions).or_insert((i, None));
         if always {
             on.get_or_insert(i);
         }
@@ -53,7 +55,7 @@ impl Outputs {
         code: &Code,
         i: usize,
         drive: Drive,
-        places: &Places,
+        nesting: &Nesting,
         skips: &Skips,
     ) {
         let operand = code.params(i).iter().position(|param| param.sends_pulses);
@@ -61,9 +63,9 @@ impl Outputs {
         let Some(output) = output.filter(|output| output.class == DeviceClass::Y) else {
             return;
         };
-        let place = places.of(i);
-        let place = (place.routine, place.state, skips.mark(i));
-        self.0.entry(output).or_default().add(i, drive, place);
+        let enclosing = nesting.of(i);
+        let conditions = (enclosing.routine, enclosing.state, skips.mark(i));
+        self.0.entry(output).or_default().add(i, drive, conditions);
     }
 
     /// Warns of outputs that two instructions drive under the same condition, or one under any.

@@ -1,7 +1,7 @@
 //! Coils that OUT and SET or RST both write.
 
 use super::skips::Skips;
-use super::structure::{NONE, Places, Routine};
+use super::structure::{NONE, Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
@@ -20,7 +20,7 @@ struct Uses {
 type Condition = (Routine, Option<Device>, u64);
 
 /// Warns of coils that SET or RST write in vain, since an OUT writes them in every scan.
-pub(super) fn check(code: &Code, places: &Places, skips: &Skips, out: &mut Diagnostics) {
+pub(super) fn check(code: &Code, nesting: &Nesting, skips: &Skips, out: &mut Diagnostics) {
     let mut coils: FxHashMap<Device, Uses> = FxHashMap::default();
     for i in 0..code.len {
         let Some(device) = code
@@ -48,7 +48,7 @@ pub(super) fn check(code: &Code, places: &Places, skips: &Skips, out: &mut Diagn
         return;
     }
     let rungs = begins_of_rungs(code);
-    let condition = |i: usize| condition(code, places, skips, i);
+    let condition = |i: usize| condition(code, nesting, skips, i);
     let mut found: Vec<_> = coils
         .iter()
         .filter_map(|(&device, uses)| in_vain(code, device, uses, &rungs, condition))
@@ -57,13 +57,13 @@ pub(super) fn check(code: &Code, places: &Places, skips: &Skips, out: &mut Diagn
     out.extend(found);
 }
 
-fn condition(code: &Code, places: &Places, skips: &Skips, i: usize) -> Condition {
-    let place = places.of(i);
-    let state = match place.state {
+fn condition(code: &Code, nesting: &Nesting, skips: &Skips, i: usize) -> Condition {
+    let enclosing = nesting.of(i);
+    let state = match enclosing.state {
         NONE => None,
         stl => code.device(stl as usize, 0),
     };
-    (place.routine, state, skips.mark(i))
+    (enclosing.routine, state, skips.mark(i))
 }
 
 fn in_vain(

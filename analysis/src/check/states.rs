@@ -1,6 +1,6 @@
 //! States of step ladders: each stands once, and does not lead to more others than the PLC follows.
 
-use super::structure::{NONE, Places};
+use super::structure::{NONE, Nesting};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
@@ -15,9 +15,9 @@ const MAX_BRANCHES: usize = 16;
 const LAST_INITIAL: u32 = 9;
 
 /// Checks the states of a program.
-pub(super) fn check(code: &Code, places: &Places, out: &mut Diagnostics) {
+pub(super) fn check(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     stands_twice(code, out);
-    branches(code, places, out);
+    branches(code, nesting, out);
 }
 
 /// States that have two sections which do something. STL in a row, and a section that holds transitions alone, join branches: so the
@@ -61,10 +61,10 @@ fn acts(code: &Code, stl: usize) -> bool {
 }
 
 /// The states to which SET leads from each state, with the first transition; OUT only jumps to a state that others lead to.
-fn branches(code: &Code, places: &Places, out: &mut Diagnostics) {
+fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     let mut leads: BTreeMap<Device, BTreeMap<Device, usize>> = BTreeMap::new();
     for i in 0..code.len {
-        let from = match places.of(i).state {
+        let from = match nesting.of(i).state {
             NONE => continue,
             stl => code.device(stl as usize, 0),
         };

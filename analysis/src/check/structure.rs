@@ -8,9 +8,9 @@ use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 /// No instruction.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Where an instruction stands. Structures are named by the instruction that begins them, [`NONE`] for none.
+/// What encloses an instruction. Structures are named by the instruction that begins them, [`NONE`] for none.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Place {
+pub(super) struct Enclosing {
     /// What runs it.
     pub(super) routine: Routine,
     /// The innermost loop around it.
@@ -32,17 +32,17 @@ pub(super) enum Routine {
     Nothing,
 }
 
-/// Where all instructions stand.
-pub(super) struct Places {
-    places: Vec<Place>,
+/// What encloses each instruction.
+pub(super) struct Nesting {
+    enclosing: Vec<Enclosing>,
     /// For each FOR the loop around it.
     outer: Vec<(u32, u32)>,
 }
 
-impl Places {
-    /// Where an instruction stands.
-    pub(super) fn of(&self, i: usize) -> Place {
-        self.places[i]
+impl Nesting {
+    /// What encloses an instruction.
+    pub(super) fn of(&self, i: usize) -> Enclosing {
+        self.enclosing[i]
     }
 
     /// The loop around the loop that this FOR begins.
@@ -161,11 +161,11 @@ struct Walk<'a, 'p> {
     loops: Vec<u32>,
     outer: Vec<(u32, u32)>,
     /// Where the instructions before this one stand.
-    places: Vec<Place>,
+    enclosing: Vec<Enclosing>,
 }
 
 /// Checks the structure of a program and finds where its instructions stand.
-pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> Places {
+pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> Nesting {
     let mut found = Diagnostics::new();
     let mut walk = Walk {
         code,
@@ -181,24 +181,24 @@ pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> 
         state: NONE,
         loops: Vec::new(),
         outer: Vec::new(),
-        places: Vec::with_capacity(code.len),
+        enclosing: Vec::with_capacity(code.len),
     };
     for i in 0..code.len {
         walk.begin(i);
-        walk.places.push(walk.place());
+        walk.enclosing.push(walk.around());
         walk.end(i);
     }
     walk.finish();
-    let (places, outer) = (walk.places, walk.outer);
+    let (enclosing, outer) = (walk.enclosing, walk.outer);
     if !code.may_lack_structure() {
         out.extend(found.iter().cloned());
     }
-    Places { places, outer }
+    Nesting { enclosing, outer }
 }
 
 impl Walk<'_, '_> {
-    fn place(&self) -> Place {
-        Place {
+    fn around(&self) -> Enclosing {
+        Enclosing {
             routine: self.routine,
             inner_loop: self.loops.last().copied().unwrap_or(NONE),
             state: self.state,
@@ -399,8 +399,11 @@ impl Walk<'_, '_> {
             self.routine = Routine::Sub(i as u32);
             return;
         };
-        let before = pointer.jumps.iter().find_map(|&jump| self.places.get(jump));
-        self.routine = before.map_or(Routine::Main, |place| place.routine);
+        let before = pointer
+            .jumps
+            .iter()
+            .find_map(|&jump| self.enclosing.get(jump));
+        self.routine = before.map_or(Routine::Main, |around| around.routine);
         match self.routine {
             Routine::Sub(_) => self.push(Kind::Sub, i),
             Routine::Interrupt(_) => self.push(Kind::Interrupt, i),

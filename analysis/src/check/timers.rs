@@ -1,7 +1,7 @@
 //! Timers where they do not measure well: in neighbouring states, and in routines.
 
 use super::Code;
-use super::structure::{NONE, Places, Routine};
+use super::structure::{NONE, Nesting, Routine};
 use rungc_catalogue::Basic;
 use rungc_models::{Model, Timers};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
@@ -9,9 +9,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 
 /// Checks the places of timers.
-pub(super) fn check(code: &Code, places: &Places, out: &mut Diagnostics) {
-    in_routines(code, places, out);
-    in_next_states(code, places, out);
+pub(super) fn check(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
+    in_routines(code, nesting, out);
+    in_next_states(code, nesting, out);
 }
 
 /// The timer that an instruction drives.
@@ -21,13 +21,13 @@ fn timer(code: &Code, i: usize) -> Option<Device> {
 }
 
 /// Ordinary timers in subroutines and interrupt routines (h1u-h2u-programming §3.5, §4.3.1).
-fn in_routines(code: &Code, places: &Places, out: &mut Diagnostics) {
+fn in_routines(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     let model = code.model();
     if !model.timers.iter().any(|timers| timers.kind.free_running) {
         return;
     }
     for i in 0..code.len {
-        let subroutine = match places.of(i).routine {
+        let subroutine = match nesting.of(i).routine {
             Routine::Sub(_) => true,
             Routine::Interrupt(_) => false,
             Routine::Main | Routine::Nothing => continue,
@@ -84,8 +84,8 @@ fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
 }
 
 /// Timers that are driven in a state and in one that it leads to.
-fn in_next_states(code: &Code, places: &Places, out: &mut Diagnostics) {
-    let state_of = |i: usize| match places.of(i).state {
+fn in_next_states(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
+    let state_of = |i: usize| match nesting.of(i).state {
         NONE => None,
         stl => code.device(stl as usize, 0),
     };

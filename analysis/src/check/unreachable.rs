@@ -1,15 +1,15 @@
 //! Instructions that never run.
 
-use super::structure::{Places, Routine};
+use super::structure::{Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Diagnostics, codes};
 
 /// Warns of runs of instructions behind FEND, SRET and IRET that no label leads to.
-pub(super) fn check(code: &Code, places: &Places, out: &mut Diagnostics) {
+pub(super) fn check(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     let mut in_run = false;
     for i in 0..code.len {
-        let dead = places.of(i).routine == Routine::Nothing && code.part(i) != Part::Nothing;
+        let dead = nesting.of(i).routine == Routine::Nothing && code.part(i) != Part::Nothing;
         let frame = matches!(
             code.basic(i),
             Some(Basic::End | Basic::Fend | Basic::Sret | Basic::Iret | Basic::Pret)

@@ -19,8 +19,8 @@ pub(super) struct Checker {
     missing: Classes,
 }
 
-/// An instruction whose operands are looked at.
-pub(super) struct Place<'a> {
+/// An instruction whose operands are checked, and the row that it matches.
+pub(super) struct Matched<'a> {
     pub(super) instr: &'a Instr,
     pub(super) found: Found,
 }
@@ -60,24 +60,32 @@ impl Checker {
         params: &[Param],
         out: &mut Diagnostics,
     ) {
-        let place = Place { instr, found };
+        let matched = Matched { instr, found };
         self.count(instr, params, out);
         for (at, param) in params.iter().enumerate().take(instr.operands.len()) {
             let wide = found.form.wide;
             let wrong = self
-                .operand(&place, at, param)
-                .map(|diagnostic| self.compatible_boards(diagnostic, &place, at));
+                .operand(&matched, at, param)
+                .map(|diagnostic| self.compatible_boards(diagnostic, &matched, at));
             out.extend(wrong.or_else(|| rules::broken(&instr.operands, at, param, wide)));
         }
     }
 
     /// Says that boards which take programs for the model take operand `at`, if only its value is what the model does not take.
-    fn compatible_boards(&self, diagnostic: Diagnostic, place: &Place, at: usize) -> Diagnostic {
+    fn compatible_boards(
+        &self,
+        diagnostic: Diagnostic,
+        matched: &Matched,
+        at: usize,
+    ) -> Diagnostic {
         let of_value = [codes::LIMITS.id, codes::NOT_THIS_NUMBER.id].contains(&diagnostic.code);
         let boards = self.model.boards.map(Model::get).filter(|_| of_value);
         let taken = boards.filter(|boards| {
-            let params = place.found.inst.params_of(&place.instr.operands, boards);
-            let wrong = |param| Checker::new(boards).operand(place, at, param);
+            let params = matched
+                .found
+                .inst
+                .params_of(&matched.instr.operands, boards);
+            let wrong = |param| Checker::new(boards).operand(matched, at, param);
             params.get(at).is_some_and(|param| wrong(param).is_none())
         });
         let Some(boards) = taken else {
@@ -106,8 +114,8 @@ impl Checker {
     }
 
     /// What is wrong with one operand, if anything.
-    fn operand(&self, place: &Place, at: usize, param: &Param) -> Option<Diagnostic> {
-        let operand = &place.instr.operands[at];
+    fn operand(&self, matched: &Matched, at: usize, param: &Param) -> Option<Diagnostic> {
+        let operand = &matched.instr.operands[at];
         let span = operand.span;
         let kind = &operand.kind;
         if is_unreadable(operand) {
@@ -115,37 +123,47 @@ impl Checker {
         }
         let classes = param.classes_without(self.missing, self.model.id);
         if !classes.meets(Classes::of(kind)) {
-            return Some(wrong_class(place, at, param, classes, self.model));
+            return Some(wrong_class(matched, at, param, classes, self.model));
         }
         if let Some(index) = index_of(kind)
             && let Some(diagnostic) =
-                indexes_itself(span, kind).or_else(|| self.index(place, operand, index, param))
+                indexes_itself(span, kind).or_else(|| self.index(matched, operand, index, param))
         {
             return Some(diagnostic);
         }
         match kind {
             OperandKind::Device(device, index) => self
                 .existing(span, *device)
-                .or_else(|| self.counter(place, span, *device, param))
-                .or_else(|| self.upper_half(place, span, *device, param))
+                .or_else(|| self.counter(matched, span, *device, param))
+                .or_else(|| self.upper_half(matched, span, *device, param))
                 .or_else(|| numbers(span, *device, param, self.model))
-                .or_else(|| self.reach(place, span, *device, 1, index.is_some(), param)),
+                .or_else(|| self.reach(matched, span, *device, 1, index.is_some(), param)),
             OperandKind::WordBit(device, bit, index) => bit_of_register(span, *device, *index)
                 .or_else(|| self.existing(span, *device))
-                .or_else(|| self.bits_of_words(place, span, (*device, *bit), *index, param)),
-            OperandKind::Nibbles(digits, device, index) => digits_fit(place, span, *digits, param)
-                .or_else(|| self.existing(span, *device))
-                .or_else(|| numbers(span, *device, param, self.model))
-                .or_else(|| {
-                    let bits = 4 * u32::from(*digits);
-                    self.reach(place, span, *device, bits, index.is_some(), param)
-                }),
-            OperandKind::Decimal(value, index) => {
-                constant(place, operand, *value, index.is_some(), (param, self.model))
+                .or_else(|| self.bits_of_words(matched, span, (*device, *bit), *index, param)),
+            OperandKind::Nibbles(digits, device, index) => {
+                digits_fit(matched, span, *digits, param)
+                    .or_else(|| self.existing(span, *device))
+                    .or_else(|| numbers(span, *device, param, self.model))
+                    .or_else(|| {
+                        let bits = 4 * u32::from(*digits);
+                        self.reach(matched, span, *device, bits, index.is_some(), param)
+                    })
             }
-            OperandKind::Hex(value, index) => {
-                hex_constant(place, operand, *value, index.is_some(), (param, self.model))
-            }
+            OperandKind::Decimal(value, index) => constant(
+                matched,
+                operand,
+                *value,
+                index.is_some(),
+                (param, self.model),
+            ),
+            OperandKind::Hex(value, index) => hex_constant(
+                matched,
+                operand,
+                *value,
+                index.is_some(),
+                (param, self.model),
+            ),
             OperandKind::Buffer {
                 module, address, ..
             } => no_buffer(span, *module, *address),
@@ -156,7 +174,7 @@ impl Checker {
     /// What is wrong with an index register, if anything.
     fn index(
         &self,
-        place: &Place,
+        matched: &Matched,
         operand: &Operand,
         index: Index,
         param: &Param,
@@ -177,7 +195,7 @@ impl Checker {
             let with = direct.map_or_else(String::new, |device| format!(" with `{device}`"));
             let message = format!(
                 "operand {} of `{}` cannot take an index register{with} on {}",
-                param.name, place.instr.mnemonic, self.model.name
+                param.name, matched.instr.mnemonic, self.model.name
             );
             return Some(
                 codes::NOT_INDEXABLE
@@ -186,11 +204,11 @@ impl Checker {
                     .help("name the device directly, or copy the indexed one first: `MOV`, `BMOV`"),
             );
         }
-        let pair = place.found.form.wide && self.model.z_pairs_with_v;
+        let pair = matched.found.form.wide && self.model.z_pairs_with_v;
         if pair && index.class == DeviceClass::V {
             let message = format!(
                 "`{index}` cannot be the index in the 32-bit instruction `{}`",
-                place.instr.mnemonic
+                matched.instr.mnemonic
             );
             return Some(
                 codes::INDEX_WIDTH
@@ -251,7 +269,7 @@ impl Checker {
     /// A 32-bit counter as a 16-bit value.
     fn counter(
         &self,
-        place: &Place,
+        matched: &Matched,
         span: Span,
         device: Device,
         param: &Param,
@@ -260,7 +278,7 @@ impl Checker {
             return None;
         }
         let narrow = match param.shape {
-            Shape::Value => !place.found.form.wide,
+            Shape::Value => !matched.found.form.wide,
             Shape::Word => true,
             Shape::Bit
             | Shape::Pair
@@ -270,19 +288,19 @@ impl Checker {
             | Shape::Mixed => false,
         };
         narrow.then(|| {
-            let mnemonic = &place.instr.mnemonic;
+            let mnemonic = &matched.instr.mnemonic;
             let message = format!("`{device}` is a 32-bit counter, `{mnemonic}` takes 16 bits");
             let diagnostic = codes::COUNTER_WIDTH
                 .at(span, message)
                 .label("C200 to C255 hold 32 bits");
             let wide = rungc_catalogue::Form {
                 wide: true,
-                ..place.found.form
+                ..matched.found.form
             };
-            match place.found.inst.spelling_of(wide) {
+            match matched.found.inst.spelling_of(wide) {
                 Some(name) => {
                     let fix = Fix::suggested(format!("write `{name}`"))
-                        .replace(place.instr.mnemonic_span, name.as_str());
+                        .replace(matched.instr.mnemonic_span, name.as_str());
                     let help = format!("use the 32-bit form `{name}`");
                     diagnostic.help(help).fix(fix)
                 }
@@ -294,14 +312,14 @@ impl Checker {
     /// V as a 32-bit value: the pair of V and Z is named by its Z.
     fn upper_half(
         &self,
-        place: &Place,
+        matched: &Matched,
         span: Span,
         device: Device,
         param: &Param,
     ) -> Option<Diagnostic> {
         let half = device.class == DeviceClass::V && self.model.z_pairs_with_v;
-        (half && words(place.found, param) == 2).then(|| {
-            let mnemonic = &place.instr.mnemonic;
+        (half && words(matched.found, param) == 2).then(|| {
+            let mnemonic = &matched.instr.mnemonic;
             let message = format!("`{device}` is only the upper half of what `{mnemonic}` takes");
             codes::INDEX_WIDTH
                 .at(span, message)
@@ -317,7 +335,7 @@ impl Checker {
     /// An operand that reaches past the end of its range; `each` is how many devices one value of it takes.
     fn reach(
         &self,
-        place: &Place,
+        matched: &Matched,
         span: Span,
         device: Device,
         each: u32,
@@ -328,12 +346,12 @@ impl Checker {
             return None;
         }
         let class = device.class;
-        let values = extent(&place.instr.operands, param);
+        let values = extent(&matched.instr.operands, param);
         let each = match class {
             _ if each > 1 => each,
             DeviceClass::V | DeviceClass::Z if self.model.z_pairs_with_v => 1,
             class if is_counter32(class, device.number) => 1,
-            _ => words(place.found, param),
+            _ => words(matched.found, param),
         };
         let count = values.saturating_mul(each);
         let end = self.end_of_run(class, device.number)?;
@@ -342,7 +360,7 @@ impl Checker {
             let message = format!(
                 "operand {} of `{}` takes {count} devices from `{device}` on, but the last is `{}`",
                 param.name,
-                place.instr.mnemonic,
+                matched.instr.mnemonic,
                 class.number(end)
             );
             let highest = (end + 1)
@@ -363,13 +381,13 @@ impl Checker {
     /// As [`Self::reach`], of a bit of a word: the bits after it go on in the next words.
     fn bits_of_words(
         &self,
-        place: &Place,
+        matched: &Matched,
         span: Span,
         (device, bit): (Device, u8),
         index: Option<Index>,
         param: &Param,
     ) -> Option<Diagnostic> {
-        let bits = extent(&place.instr.operands, param);
+        let bits = extent(&matched.instr.operands, param);
         let words = words_of_bits(bit & 15, bits);
         let end = self.end_of_run(device.class, device.number)?;
         let last = device.number.saturating_add(words - 1);
@@ -377,7 +395,7 @@ impl Checker {
             let message = format!(
                 "operand {} of `{}` takes {bits} bits from `{device}.{bit:X}` on, but the last word is `{}`",
                 param.name,
-                place.instr.mnemonic,
+                matched.instr.mnemonic,
                 device.class.number(end)
             );
             codes::PAST_THE_END
@@ -523,12 +541,12 @@ fn bit_of_register(span: Span, device: Device, index: Option<Index>) -> Option<D
 }
 
 /// Whether a group has a digit count that the operand can take; a result of two words may go to eight digits.
-fn digits_fit(place: &Place, span: Span, digits: u8, param: &Param) -> Option<Diagnostic> {
+fn digits_fit(matched: &Matched, span: Span, digits: u8, param: &Param) -> Option<Diagnostic> {
     let values = match param.extent {
         Extent::Count(count) => count,
         _ => 1,
     };
-    let bits = bits(place.found, param).saturating_mul(values).min(32);
+    let bits = bits(matched.found, param).saturating_mul(values).min(32);
     let most = bits / 4;
     (!(1..=most).contains(&u32::from(digits))).then(|| {
         let message = format!("K{digits} is no digit count for a {bits}-bit value");
@@ -539,46 +557,46 @@ fn digits_fit(place: &Place, span: Span, digits: u8, param: &Param) -> Option<Di
 }
 
 fn constant(
-    place: &Place,
+    matched: &Matched,
     operand: &Operand,
     value: i64,
     indexed: bool,
     (param, model): (&Param, &Model),
 ) -> Option<Diagnostic> {
-    let bits = bits(place.found, param);
+    let bits = bits(matched.found, param);
     let half = 1i64 << (bits - 1);
     if !(-half..half).contains(&value) {
-        return Some(wide_constant(place, operand, bits, model));
+        return Some(wide_constant(matched, operand, bits, model));
     }
-    outside_limits(place, operand, &[value], indexed, param)
+    outside_limits(matched, operand, &[value], indexed, param)
 }
 
 fn hex_constant(
-    place: &Place,
+    matched: &Matched,
     operand: &Operand,
     value: u64,
     indexed: bool,
     (param, model): (&Param, &Model),
 ) -> Option<Diagnostic> {
-    let bits = bits(place.found, param);
+    let bits = bits(matched.found, param);
     if value >> bits != 0 {
-        return Some(wide_constant(place, operand, bits, model));
+        return Some(wide_constant(matched, operand, bits, model));
     }
     // Fits in 32 bits, so both readings fit in i64.
     let unsigned = value as i64;
     let signed = unsigned - ((unsigned >> (bits - 1)) << bits);
-    outside_limits(place, operand, &[unsigned, signed], indexed, param)
+    outside_limits(matched, operand, &[unsigned, signed], indexed, param)
 }
 
 /// A constant none of whose readings lies in the operand's limits.
 fn outside_limits(
-    place: &Place,
+    matched: &Matched,
     operand: &Operand,
     readings: &[i64],
     indexed: bool,
     param: &Param,
 ) -> Option<Diagnostic> {
-    let limits = rules::limits(param, place.found.form.wide);
+    let limits = rules::limits(param, matched.found.form.wide);
     let fits = readings.iter().any(|&value| limits.allow(value));
     (!fits && !indexed).then(|| {
         let message = format!(

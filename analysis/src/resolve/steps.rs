@@ -14,8 +14,8 @@ pub(super) struct Counter {
     lost: bool,
     /// The first place where the source's numbers leave the count: span, number stated, number counted.
     first: Option<(Span, u32, u32)>,
-    /// How many such places there are.
-    places: u32,
+    /// How many such mismatches there are.
+    mismatches: u32,
 }
 
 impl Counter {
@@ -27,7 +27,7 @@ impl Counter {
         {
             if !self.lost {
                 self.first.get_or_insert((instr.span, stated, expected));
-                self.places += 1;
+                self.mismatches += 1;
             }
             self.ahead = i64::from(stated) - i64::from(self.counted);
         }
@@ -54,7 +54,7 @@ impl Counter {
         // Of a project, the length that each code states was held to the instruction already.
         let listed = matches!(program.kind, SourceKind::Il | SourceKind::Csv);
         if let Some((span, stated, expected)) = self.first.filter(|_| listed) {
-            let more = match self.places {
+            let more = match self.mismatches {
                 1 => String::new(),
                 n => format!(" (and {} more such places behind it)", n - 1),
             };

@@ -62,9 +62,7 @@ impl Open {
 
     /// Whether something that waits to be ended is ended by an instruction; `None` for one that ends nothing.
     fn is_ended_by(self, inst: &Inst, last: bool) -> Option<bool> {
-        let Some(basic) = inst.basic() else {
-            return None;
-        };
+        let basic = inst.basic()?;
         match basic {
             Basic::Mrd | Basic::Mpp => Some(self.branches > 0),
             Basic::Next => Some(self.loops > 0),

@@ -1,6 +1,6 @@
 //! What is said of operands that do not fit.
 
-use super::operands::{Place, is_unreadable};
+use super::operands::{Matched, is_unreadable};
 use rungc_catalogue::{Basic, Form, Inst, Param, Role};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::{
@@ -99,13 +99,13 @@ fn signature(name: &str, params: &[Param]) -> String {
 
 /// An operand of a class that the parameter does not take; `at` is its place.
 pub(super) fn wrong_class(
-    place: &Place,
+    matched: &Matched,
     at: usize,
     param: &Param,
     classes: Classes,
     model: &Model,
 ) -> Diagnostic {
-    let (instr, inst) = (place.instr, place.found.inst);
+    let (instr, inst) = (matched.instr, matched.found.inst);
     let operand = &instr.operands[at];
     if let Some(device) = missing_class(&operand.kind, model) {
         return no_such_class(operand.span, device, model);
@@ -122,32 +122,32 @@ pub(super) fn wrong_class(
         _ => "not accepted here",
     };
     let error = codes::OPERAND_CLASS.at(operand.span, message).label(label);
-    let error = match whole_group(operand, place, classes) {
+    let error = match whole_group(operand, matched, classes) {
         Some(group) => error.fix(
             Fix::suggested(format!("write `{group}`")).replace(operand.span, group.to_string()),
         ),
         None => error,
     };
-    error.help(instead(operand, place, classes).unwrap_or_else(|| {
+    error.help(instead(operand, matched, classes).unwrap_or_else(|| {
         let all = of_all_variants(inst, at, model).or(classes);
         format!("accepted: {}", all.names().collect::<Vec<_>>().join(", "))
     }))
 }
 
 /// The group of bits that begins with a bit where a value is wanted.
-fn whole_group(operand: &Operand, place: &Place, classes: Classes) -> Option<OperandKind> {
+fn whole_group(operand: &Operand, matched: &Matched, classes: Classes) -> Option<OperandKind> {
     use DeviceClass::{M, S, X, Y};
     let OperandKind::Device(device, _) = operand.kind else {
         return None;
     };
-    let digits = if place.found.form.wide { 8 } else { 4 };
+    let digits = if matched.found.form.wide { 8 } else { 4 };
     let group = OperandKind::Nibbles(digits, device, None);
     let bits = matches!(device.class, X | Y | M | S);
     (bits && classes.meets(Classes::of(&group))).then_some(group)
 }
 
 /// What to write instead of an operand of the wrong class, where that is known.
-fn instead(operand: &Operand, place: &Place, classes: Classes) -> Option<String> {
+fn instead(operand: &Operand, matched: &Matched, classes: Classes) -> Option<String> {
     let OperandKind::Device(device, _) = operand.kind else {
         return None;
     };
@@ -156,13 +156,13 @@ fn instead(operand: &Operand, place: &Place, classes: Classes) -> Option<String>
         .or(Classes::KNY)
         .or(Classes::KNM)
         .or(Classes::KNS);
-    if let Some(grouped) = whole_group(operand, place, classes) {
-        let bits = if place.found.form.wide { 32 } else { 16 };
+    if let Some(grouped) = whole_group(operand, matched, classes) {
+        let bits = if matched.found.form.wide { 32 } else { 16 };
         return Some(format!(
             "`{device}` is one bit; a group of bits is written `{grouped}` ({bits} of them)"
         ));
     }
-    let coil = place.found.inst.basic() == Some(Basic::Out);
+    let coil = matched.found.inst.basic() == Some(Basic::Out);
     if coil && matches!(device.class, D | R | V | Z) {
         return Some(format!(
             "a coil is Y, M, S, T, C or a bit of a word (`D0.F`); a value goes to `{device}` with `MOV`"
@@ -236,13 +236,13 @@ pub(super) fn not_this_number(
 
 /// A constant that is wider than its operand.
 pub(super) fn wide_constant(
-    place: &Place,
+    matched: &Matched,
     operand: &Operand,
     bits: u32,
     model: &Model,
 ) -> Diagnostic {
     let message = format!("`{}` does not fit in {bits} bits", operand.kind);
-    let preset = preset_of(place);
+    let preset = preset_of(matched);
     let range = match (bits, matches!(operand.kind, OperandKind::Hex(..))) {
         (16, false) if preset.is_some() => "K0 to K32767 here",
         (16, true) => "H0 to HFFFF here",
@@ -256,12 +256,12 @@ pub(super) fn wide_constant(
     }
     let wide = Form {
         wide: true,
-        ..place.found.form
+        ..matched.found.form
     };
-    match place.found.inst.spelling_of(wide) {
+    match matched.found.inst.spelling_of(wide) {
         Some(name) if bits == 16 => {
             let fix = Fix::suggested(format!("write `{name}`"))
-                .replace(place.instr.mnemonic_span, name.as_str());
+                .replace(matched.instr.mnemonic_span, name.as_str());
             diagnostic.help(format!("`{name}` takes 32 bits")).fix(fix)
         }
         _ => diagnostic,
@@ -269,10 +269,10 @@ pub(super) fn wide_constant(
 }
 
 /// The timer or counter whose preset an instruction states.
-fn preset_of(place: &Place) -> Option<Device> {
+fn preset_of(matched: &Matched) -> Option<Device> {
     match (
-        place.found.inst.basic(),
-        &place.instr.operands.first()?.kind,
+        matched.found.inst.basic(),
+        &matched.instr.operands.first()?.kind,
     ) {
         (Some(Basic::Out), &OperandKind::Device(device, _)) => Some(device),
         _ => None,
