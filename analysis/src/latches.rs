@@ -125,10 +125,10 @@ pub fn check(program: &Program, model: &Model) -> Diagnostics {
                 format!(
                     "the parameters latch {range}, but the latched devices of {name} are fixed"
                 ),
-                "those of the model are taken".to_owned(),
+                "the model's own are used".to_owned(),
             ),
             false => warn(
-                format!("the parameters latch {range}, which {name} cannot do for all of them"),
+                format!("the parameters latch {range}, but {name} cannot latch all of them"),
                 format!(
                     "the others are latched; `{}` is the first that is not",
                     device(wrong)
@@ -142,7 +142,7 @@ pub fn check(program: &Program, model: &Model) -> Diagnostics {
             "the parameters set a memory of {steps} steps, but {} has {}",
             model.name, model.max_steps
         );
-        warn(message, format!("{} steps are taken", model.max_steps));
+        warn(message, format!("{} steps are used", model.max_steps));
     }
     out
 }

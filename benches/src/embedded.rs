@@ -186,7 +186,7 @@ fn build_rust(
     Ok((vec![library], format!("{prefix}_one_scan")))
 }
 
-/// What the C compiler has to be told of the processor.
+/// Options that select the processor for the C compiler.
 fn machine() -> impl Iterator<Item = &'static str> {
     CORTEX_M4F.flags.split_whitespace()
 }
@@ -240,7 +240,7 @@ struct Counted {
     instructions: f64,
 }
 
-/// Counts in an image of its own, so that none uses what another one brings: Rust's `memset` is not newlib's.
+/// Counts in a separate image, so that none uses what another one brings: Rust's `memset` is not newlib's.
 fn count_instructions(objects: &[PathBuf], prefix: &str, folder: &Path) -> Result<Counted> {
     tools::need(&[CORTEX_M4F.cc, tools::QEMU])?;
     subject::write_list(folder, &[prefix])?;
@@ -278,7 +278,7 @@ fn read_counts(printed: &str) -> Result<Counted> {
     }
 }
 
-/// A lamp that goes on and off each half second.
+/// A lamp that turns on and off each half second.
 const BLINK: &str = "LDI T1\nOUT T0 K5\nLD T0\nOUT T1 K5\nOUT Y000\nEND\n";
 
 /// Its `main`.

@@ -59,7 +59,7 @@ impl<'m> Run<'m> {
     }
 }
 
-/// The checksum over so many scans that all other implementations have.
+/// The checksum over this many scans that all other implementations have.
 pub fn checksum(ladder: &Ladder, scans: u32) -> Result<u32> {
     let module = subject::module(ladder, "interpreted")?;
     let mut run = Run::new(&module);

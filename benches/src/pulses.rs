@@ -33,7 +33,7 @@ impl Hal for Pins {
     }
 }
 
-/// One row: how long so many seconds of the machine's time take.
+/// One row: how long this many seconds of machine time take.
 fn measure(what: &str, seconds: u32, mut scan: impl FnMut(&mut Machine, u32)) -> Result<Vec<Cell>> {
     let read = rungc_frontend::read_text("pulses.il", PROGRAM);
     let options = CompileOptions {
@@ -61,7 +61,7 @@ fn measure(what: &str, seconds: u32, mut scan: impl FnMut(&mut Machine, u32)) ->
     ])
 }
 
-/// The table, of so many seconds of the machine's time.
+/// The table, for this many seconds of machine time.
 pub fn table(seconds: u32) -> Result<Table> {
     let mut table = Table::new(
         "Four pulse outputs at 100 kHz, simulated, scans of 10 ms",

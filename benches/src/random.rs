@@ -102,7 +102,7 @@ fn scramble(word: u32) -> u32 {
     word ^ word >> 30
 }
 
-/// The place behind `i`; behind the last one, where the last word becomes the first, it is 1.
+/// The place after `i`; after the last one, where the last word becomes the first, it is 1.
 fn following(state: &mut [u32; SIZE], i: usize) -> usize {
     if i + 1 < SIZE {
         return i + 1;

@@ -261,7 +261,7 @@ impl CSubject {
         match code {
             Code::Hand => hand(ladder, prefix, folder),
             Code::C => emitted_c(ladder, prefix, folder),
-            Code::Rust => Err(Problem::Wrong("Rust is no C".to_string())),
+            Code::Rust => Err(Problem::Wrong("Rust is not C".to_string())),
         }
     }
 

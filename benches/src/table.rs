@@ -1,4 +1,4 @@
-//! Results: printed as tables for people, written as JSON for tools.
+//! Results: printed as tables, written as JSON for tools.
 
 use serde::Serialize;
 use std::fmt;
@@ -9,7 +9,7 @@ use std::fmt;
 pub enum Cell {
     /// A name, or why there is no number.
     Text(String),
-    /// A number, printed with so many digits behind the point.
+    /// A number, printed with this many digits after the point.
     Number {
         /// The number.
         value: f64,
@@ -20,7 +20,7 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// A number that is printed with so many digits behind the point.
+    /// A number that is printed with this many digits after the point.
     pub fn number(value: impl Into<f64>, digits: usize) -> Cell {
         Cell::Number {
             value: value.into(),
@@ -63,8 +63,8 @@ fn grouped(number: &str) -> String {
     let whole = number.find('.').unwrap_or(number.len());
     let mut out = String::with_capacity(number.len() + 4);
     for (i, c) in number.char_indices() {
-        let behind = whole.saturating_sub(i);
-        if i > 0 && i < whole && behind % 3 == 0 && !out.ends_with('-') {
+        let left = whole.saturating_sub(i);
+        if i > 0 && i < whole && left % 3 == 0 && !out.ends_with('-') {
             out.push(' ');
         }
         out.push(c);

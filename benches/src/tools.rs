@@ -45,7 +45,7 @@ pub fn table() -> Table {
     table
 }
 
-/// Name of the processor, where Linux tells it.
+/// Name of the processor, where Linux reports it.
 fn processor() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let mut fields = text.lines().filter_map(|line| line.split_once(':'));

@@ -12,7 +12,7 @@ use std::path::Path;
 /// How much worse than recorded a figure may be.
 const TOLERANCE: f64 = 1.02;
 
-/// RAM that a program may need besides its devices (those of Cortex-M4 have 32 bits).
+/// RAM that a program may need in addition to its devices (those of Cortex-M4 have 32 bits).
 const RAM_BESIDES_DEVICES: u64 = 256;
 
 /// Flash that the image of a blinking lamp may take.

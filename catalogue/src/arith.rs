@@ -58,7 +58,7 @@ pub(super) const ROWS: &[Inst] = &[
         .errors(&[6706])
         .lower_on(&[(HM, Lower::ArithSaturating(ArithOp::Div))])
         .text(
-            "Divides S1 by S2, signed, truncating: D is the quotient, the word (32-bit: the pair) behind it the remainder with the \
+            "Divides S1 by S2, signed, truncating: D is the quotient, the word (32-bit: the pair) after it the remainder with the \
              sign of S1. A group of bits takes only the quotient. Division by 0 is an error; on HM it gives the end of the range.",
         ),
     one_value("INC", 24, "Increment", ArithOp::Inc)
@@ -78,5 +78,5 @@ pub(super) const ROWS: &[Inst] = &[
         .text("D = S1 XOR S2, bit by bit. The 32-bit form is written DXOR."),
     one_value("NEG", 29, "Negation", ArithOp::Neg)
         .on(NOT_FX1)
-        .text("D = -D, two's complement, at each execution; the smallest value stays as it is."),
+        .text("D = -D, two's complement, at each execution; the smallest value is unchanged."),
 ];

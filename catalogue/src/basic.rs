@@ -15,7 +15,7 @@ const BIT_OF_WORD: Classes = Classes::WORD_BIT;
 /// The models that count steps as FX2N does.
 const LIKE_FX2N: ModelSet = INOVANCE.or(ModelSet::FX1).or(ModelSet::FX2N);
 
-/// Beyond the last of a class: what does not exist is told as such, and its other operands are taken for what they are meant to be.
+/// Beyond the last of a class: what does not exist is reported as such, and its other operands are taken for what they are meant to be.
 const ANY: u32 = u32::MAX;
 
 /// What the basic instructions of FX3U take no index register with: states, special relays, 32-bit counters, bits of words and words

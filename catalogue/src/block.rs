@@ -22,7 +22,7 @@ const THREE: &[Param] = &[
     src("S3", VALUES),
     dst("D", RESULT_GROUPS.or(REGISTERS)),
 ];
-/// The number of points stands in the table itself.
+/// The number of points is in the table itself.
 const SCALE: &[Param] = &[
     src("S1", VALUES),
     src("S2", DATA).open_ended(),
@@ -81,7 +81,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(7, 7)
         .takes(TABLE)
         .call(RtFn::Fdel)
-        .text("Takes entry n out of the table at D, whose first word is its length, into S; the ones behind move up."),
+        .text("Removes entry n from the table at D, whose first word is its length, and writes it to S; the entries after it move up."),
     block("FINS", 211, "Insert into a table")
         .forms(W16_P)
         .steps(7, 7)
@@ -91,7 +91,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)),
         ])
         .call(RtFn::Fins)
-        .text("Puts S into the table at D, whose first word is its length, as entry n; the ones behind move down."),
+        .text("Inserts S into the table at D, whose first word is its length, as entry n; the entries after it move down."),
     block("LIMIT", 256, "Limit")
         .takes(THREE)
         .call(RtFn::Limit)

@@ -94,7 +94,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[src("S", VALUES), dst("D1", DATA).changed().len(2), coil("D2", RESULT_BITS)])
         .call(RtFn::Hour)
         .text(
-            "Adds up how long it is driven: D1 full hours (32-bit: a pair), behind it the seconds of the running hour. D2 is on from S \
+            "Adds up how long it is driven: D1 full hours (32-bit: a pair), followed by the seconds of the current hour. D2 is on from S \
              hours on.",
         ),
 ];

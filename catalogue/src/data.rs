@@ -12,7 +12,7 @@ const WITH_ANNUNCIATORS: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S);
 const RESETTABLE: Classes = COILS.or(REGISTERS);
 const VALUE_OR_BITS: Classes = BITS.or(REGISTERS).or(INDEX);
 
-/// Counters of 16 and of 32 bits do not stand in one range.
+/// A range cannot contain both 16-bit and 32-bit counters.
 const COUNTERS_ALIKE: Rule = Rule::Holds(
     |operands| {
         let mut wide = operands.iter().filter_map(|operand| match operand.kind {
@@ -34,7 +34,7 @@ const MEAN: &[Param] = &[
     dst("D", RESULTS),
     src("n", CONSTANTS).word().also_on(LIKE_FX3, DATA),
 ];
-/// With M8490 on the sum stands behind the mean.
+/// With M8490 on, the sum follows the mean.
 const MEAN_INOVANCE: &[Param] = &[
     src("S", WORDS).per(2),
     dst("D", RESULTS).len(3),

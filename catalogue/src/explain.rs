@@ -59,7 +59,7 @@ fn special_page(name: &str) -> Option<String> {
     Some(page)
 }
 
-/// The cells of a table's row that tell of a special device.
+/// The cells of a table's row that describe a special device.
 fn special_cells(row: &special::Special) -> String {
     let access = match row.access {
         Access::Read => "read",
@@ -68,7 +68,7 @@ fn special_cells(row: &special::Special) -> String {
     let status = match row.status {
         Status::Scan => "works".to_owned(),
         Status::Instructions(names) => format!("works with {names}"),
-        Status::Inert(reason) => format!("inert: {}", reason.text),
+        Status::Inert(reason) => format!("not simulated: {}", reason.text),
     };
     let (default, meaning) = (row.default, row.meaning);
     format!("{access} | {default} | {meaning} | {status} |")
@@ -89,7 +89,7 @@ fn operands(params: &[Param], models: &[&Model]) -> String {
     if params.is_empty() {
         return "\nNone.\n".to_owned();
     }
-    let mut text = "\n| name | accepts | means |\n|---|---|---|\n".to_owned();
+    let mut text = "\n| name | accepts | meaning |\n|---|---|---|\n".to_owned();
     let mut differ = Classes::NONE;
     for param in params {
         let of = |model: &&Model| param.classes_on(model);
@@ -118,35 +118,39 @@ fn operands(params: &[Param], models: &[&Model]) -> String {
 fn meaning(param: &Param, params: &[Param]) -> String {
     let thing = match param.shape {
         Shape::Bit => "bit",
-        Shape::Value => "value of the form's width",
-        Shape::Word => "16-bit value",
-        Shape::Pair => "32-bit value",
+        Shape::Value => "16 or 32 bits",
+        Shape::Word => "16 bits",
+        Shape::Pair => "32 bits",
         Shape::Float => "float",
         Shape::Text => "text",
         Shape::Pointer => "pointer",
         Shape::Mixed => "bit or word",
     };
     let role = match param.role {
-        Role::Read => "is read",
-        Role::Write => "is written",
-        Role::ReadWrite => "is read and written",
+        Role::Read => "source",
+        Role::Write => "destination",
+        Role::ReadWrite => "source and destination",
     };
     let name = |i: usize| params.get(i).map_or("", |param| param.name);
     let mut text = format!("{thing}, {role}");
     match param.extent {
         Extent::One => {}
-        Extent::Count(count) => text += &format!("; {count} from it on"),
-        Extent::Operand { i, extra: 0 } => text += &format!("; {} from it on", name(i)),
-        Extent::Operand { i, extra } => text += &format!("; {} + {extra} from it on", name(i)),
+        Extent::Count(count) => text += &format!("; {count} devices starting with it"),
+        Extent::Operand { i, extra: 0 } => {
+            text += &format!("; {} devices starting with it", name(i))
+        }
+        Extent::Operand { i, extra } => {
+            text += &format!("; {} + {extra} devices starting with it", name(i))
+        }
         Extent::Through(i) => text += &format!("; up to {}", name(i)),
-        Extent::Of(_) => text += "; more from it on, as the operands say",
+        Extent::Of(_) => text += "; more devices starting with it, depending on the operands",
     }
     if param.limits != Limits::None {
         text += &format!("; {}", param.limits.in_words(""));
     }
     for rule in param.rules {
         text += &match *rule {
-            Rule::WideLimits(min, max) => format!("; in the 32-bit form {min} to {max}"),
+            Rule::WideLimits(min, max) => format!("; in the 32-bit form, {min} to {max}"),
             Rule::Not(min, max) => format!("; not {min} to {max}"),
             Rule::MultipleOf(of) => format!("; a multiple of {of}"),
             Rule::AtMost(i) => format!("; at most {}", name(i)),
@@ -159,13 +163,13 @@ fn meaning(param: &Param, params: &[Param]) -> String {
                 format!("; in the 32-bit form a group begins at a multiple of {of}")
             }
             Rule::SameDigits(i) => format!("; a group has as many digits as {}", name(i)),
-            Rule::GroupLike(i) => format!("; a group exactly if {} is one", name(i)),
+            Rule::GroupLike(i) => format!("; a group if and only if {} is one", name(i)),
             Rule::WordsWith(i) => format!("; a group has K4 unless {} is one", name(i)),
             Rule::GroupAtMost(i, max) => format!("; at most {max} if {} is a group", name(i)),
             Rule::NotBefore(i) => format!("; not before {}", name(i)),
             Rule::ClassLike(i) => format!("; of the same class as {}", name(i)),
             Rule::Holds(_, demand) => format!("; {demand}"),
-            Rule::WideCounter => "; in the 32-bit form from C200 on".to_owned(),
+            Rule::WideCounter => "; in the 32-bit form, C200 and up".to_owned(),
         };
     }
     if param.sends_pulses {
@@ -213,7 +217,7 @@ fn forms(inst: &Inst, model: ModelId) -> String {
             Form {
                 wide: false,
                 pulse: true,
-            } => "16 bits, once per rise of the drive",
+            } => "16 bits, once per rising edge",
             Form {
                 wide: true,
                 pulse: false,
@@ -221,18 +225,18 @@ fn forms(inst: &Inst, model: ModelId) -> String {
             Form {
                 wide: true,
                 pulse: true,
-            } => "32 bits, once per rise of the drive",
+            } => "32 bits, once per rising edge",
         };
         let steps = inst.steps_of(form, &[], Model::get(model));
         let _ = writeln!(text, "| `{spelling}` | {width} | {steps} |");
     }
     text.push_str(match inst.drive {
-        Drive::Logic => "\nIt is part of the contact logic.\n",
-        Drive::Contact => "\nIt needs a contact before it.\n",
-        Drive::Alone => "\nIt stands without a contact.\n",
+        Drive::Logic => "\nPart of the contact logic.\n",
+        Drive::Contact => "\nMust be driven by a contact.\n",
+        Drive::Alone => "\nMust not be driven by a contact.\n",
     });
     if let Some(uses) = inst.max_uses {
-        let _ = writeln!(text, "A program may have it {uses} times at most.");
+        let _ = writeln!(text, "A program may use it at most {uses} times.");
     }
     text
 }
@@ -253,7 +257,11 @@ fn by_first(inst: &Inst, model: ModelId) -> String {
         if last < u32::MAX {
             let _ = write!(numbers, " up to {last}");
         }
-        let _ = writeln!(text, "\nIf the first is {}{numbers}:", names.join(" "));
+        let _ = writeln!(
+            text,
+            "\nIf the first operand is {}{numbers}:",
+            names.join(" ")
+        );
         text.push_str(&operands(params, &[Model::get(model)]));
     }
     text
@@ -310,12 +318,12 @@ fn error_title(code: u16) -> &'static str {
         6608 | 6623 | 6624 => "MC and MCR do not pair",
         6701 => "the target of a jump or call is missing",
         6702 => "calls are nested too deep",
-        6705 => "an operand is no device that fits",
+        6705 => "an operand is not a suitable device",
         6706 => "an operand lies outside the device range, or a value is outside what is allowed",
         6707 => "a value is outside what is allowed",
         6709 => "the module cannot be reached",
         6730..=6739 => "a PID parameter is wrong; the control stops",
-        6740..=6749 => "a PID parameter is wrong; the control goes on",
+        6740..=6749 => "a PID parameter is wrong; the control continues",
         6760 => "too many comparisons of high-speed counters",
         6770 | 6771 => "the pulse output is in use or wrong",
         _ => "see the manual",

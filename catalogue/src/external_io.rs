@@ -22,7 +22,7 @@ fn display_outputs(constants: &[Option<i64>]) -> Option<u32> {
     Some(if constant(constants, 2)? < 4 { 8 } else { 12 })
 }
 
-/// And so many words to show.
+/// And this many words to show.
 fn display_words(constants: &[Option<i64>]) -> Option<u32> {
     Some(if constant(constants, 2)? < 4 { 1 } else { 2 })
 }
@@ -33,7 +33,7 @@ const ADDRESS: Param = count("m2", 0, 32767);
 const NUMBER: Param = count("n", 1, 32767);
 const FROM: &[Param] = &[MODULE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
 const TO: &[Param] = &[MODULE, ADDRESS, src("S", WRITTEN).per(3), NUMBER];
-/// What H1U and H2U write to a module: constants stand in the worked examples, groups of inputs nowhere.
+/// What H1U and H2U write to a module: constants appear in the worked examples, groups of inputs nowhere.
 const WRITTEN: Classes = VALUES.without(Classes::KNX);
 /// H1U has only remote modules.
 const REMOTE: Param = count("m1", 100, 162);
@@ -52,7 +52,7 @@ const TO_FX: &[Param] = &[
     src("S", VALUES.without(Classes::BUFFER)).per(3),
     NUMBER.also(DATA),
 ];
-/// Modbus access under the name of an analog module's instruction: the port stands before D, the data behind it.
+/// Modbus access under the name of an analog module's instruction: the port precedes D, the data follow it.
 const READ_MODBUS: &[Param] = &[
     src("m1", VALUES).limits(1, 247),
     src("m2", VALUES),

@@ -114,7 +114,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("D = S1 / S2. Flags as EADD. A divisor of 0 is an error; on HM it gives the largest float with the sign of S1."),
     function("EXP", 124, "Power of e", RtFn::Exp)
         .on(WITHOUT_SMALL_FX_HM)
-        .text("D = e^S. A result that is no float is an error."),
+        .text("D = e^S. A result outside the float range is an error."),
     function("LOGE", 125, "Natural logarithm", RtFn::Loge)
         .on(WITHOUT_SMALL_FX_HM)
         .text("D = ln S. S of 0 or below is an error."),
@@ -126,7 +126,7 @@ pub(super) const ROWS: &[Inst] = &[
         .takes(&[real("S", NUMBERS), real_out("D", DATA)])
         .flags(&["M8020"])
         .lower_on(&[(HM, Lower::Call(RtFn::EsqrClamped))])
-        .text("D = the square root of S. M8020 is on if it is 0 (not on HM). A negative S is an error; on HM what is no finite number gives 0."),
+        .text("D = the square root of S. M8020 is on if it is 0 (not on HM). A negative S is an error; on HM, a value that is not a finite number gives 0."),
     float("ENEG", 128, "Negate a float", RtFn::Eneg)
         .steps(5, 5)
         .on(FX3U_L01S)

@@ -37,7 +37,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(INDEXED_LABEL)])
         .errors(&[6701, 6702])
         .example("LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET")
-        .text("Runs the subroutine at the label up to SRET while driven, then goes on behind the CALL."),
+        .text("Runs the subroutine at the label up to SRET while driven, then continues after the CALL."),
     flow("SRET", 2, "Subroutine return", Basic::Sret)
         .drive(Drive::Alone)
         .example("LD X000\nCALL P0\nFEND\nP0\nLD X001\nOUT Y000\nSRET")
@@ -84,5 +84,5 @@ pub(super) const ROWS: &[Inst] = &[
         .drive(Drive::Alone)
         .lower(Lower::Basic(Basic::Label))
         .example("EI\nLD X001\nOUT Y001\nFEND\nI001\nLD M8000\nINC D0\nIRET")
-        .text("Where an interrupt routine begins, written as the pointer itself: I001. It ends with IRET."),
+        .text("The start of an interrupt routine, written as the pointer itself: I001. It ends with IRET."),
 ];

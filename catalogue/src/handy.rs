@@ -110,7 +110,7 @@ pub(super) const ROWS: &[Inst] = &[
         .call(RtFn::Stmr)
         .text(
             "Four delays of m × 100 ms by timer S: D goes off that long after the drive, D+1 is on that long after it, D+2 is on that \
-             long from its beginning, D+3 goes on and off that long after it.",
+             long from its beginning, D+3 turns on and off that long after it.",
         ),
     handy("ALT", 66, "Alternate")
         .forms(W16_P)
@@ -160,7 +160,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8029"])
         .call(RtFn::Sort)
         .text(
-            "Sorts the m1 rows of the table at S, which has m2 columns one behind the other, by column n and writes it to D. It takes \
+            "Sorts the m1 rows of the table at S, which has m2 columns stored one after the other, by column n and writes it to D. It takes \
              m1 scans; M8029 is on at the end.",
         ),
     handy("SORT2", 149, "Sort a table by rows")
@@ -177,7 +177,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8029", "M8165"])
         .call(RtFn::Sort2)
         .text(
-            "Sorts the m1 rows of the table at S, which stand one behind the other with m2 columns each, by column n and writes it to D; \
+            "Sorts the m1 rows of the table at S, which are stored one after the other with m2 columns each, by column n and writes it to D; \
              descending with M8165 on. It takes m1 scans; M8029 is on at the end.",
         ),
     handy("ZPUSH", 102, "Save the index registers")

@@ -210,7 +210,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(REFRESH_HM)])
         .call(RtFn::Ref)
         .lower_on(&[(HM, Lower::Call(RtFn::RefHm))])
-        .text("Reads n inputs from D on, or writes n outputs, at once instead of at the scan's beginning or end."),
+        .text("Reads n inputs starting at D, or writes n outputs, immediately instead of at the start or end of the scan."),
     fast("REFF", 51, "Refresh with input filter")
         .forms(W16_P)
         .steps(3, 3)

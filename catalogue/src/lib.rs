@@ -80,7 +80,7 @@ pub enum Extent {
     One,
     /// This many.
     Count(u32),
-    /// As many as operand `i` says, plus `extra`. If that operand is no constant, up to the end of the class.
+    /// As many as operand `i` says, plus `extra`. If that operand is not a constant, up to the end of the class.
     Operand {
         /// Position of the operand that holds the count.
         i: usize,
@@ -120,7 +120,7 @@ pub enum Rule {
     SameDigits(usize),
     /// It is a group exactly if operand `i` is one.
     GroupLike(usize),
-    /// A group of fewer digits means one of four if operand `i` is no group. Nothing is refused.
+    /// A group of fewer digits means one of four if operand `i` is not a group. Nothing is rejected.
     WordsWith(usize),
     /// If operand `.0` is a group, a constant is at most `.1`.
     GroupAtMost(usize, i64),
@@ -128,7 +128,7 @@ pub enum Rule {
     WideCounter,
     /// A device of the same class as operand `i`.
     ClassLike(usize),
-    /// A device that does not stand before operand `i`, both of them or none a special one.
+    /// A device not before operand `i`; either both or neither are special.
     NotBefore(usize),
     /// What this function finds in all operands; the text says what is demanded.
     Holds(fn(&[Operand]) -> bool, &'static str),
@@ -222,24 +222,24 @@ impl Forms {
 /// How an instruction is written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Spelling {
-    /// `D` in front of the 32-bit form, `P` behind the pulse form: `DADDP`.
+    /// `D` in front of the 32-bit form, `P` after the pulse form: `DADDP`.
     Prefix,
     /// A contact comparison: `LD` + `D` + operator: `LDD>=`.
     Compare,
     /// Its only form is 32 bits wide but is written without D (PSOUT).
     Plain,
-    /// The 32-bit form has a name of its own, e.g. `WAND` / `DAND`.
+    /// The 32-bit form has a separate name, for example `WAND` / `DAND`.
     Wide(&'static str),
 }
 
-/// Whether it stands behind contacts.
+/// Whether contacts drive it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Drive {
     /// It begins or continues the contact logic (LD, AND, ANB, MPS, INV, …).
     Logic,
     /// It needs a contact before it (or an STL sub-bus).
     Contact,
-    /// It stands alone, no contact before it.
+    /// It has no contact before it.
     Alone,
 }
 
@@ -465,7 +465,7 @@ pub struct Inst {
     pub text: &'static str,
     /// A small program that shows it, where one that is made from its operands would not do; see [`Inst::example_on`].
     pub example: Option<&'static str>,
-    /// Where the manual tells it: `h1u-h2u-programming §4.3.2`.
+    /// Where the manual describes it: `h1u-h2u-programming §4.3.2`.
     pub source: &'static str,
     /// Its forms.
     pub forms: Forms,
@@ -475,11 +475,11 @@ pub struct Inst {
     pub params: &'static [Param],
     /// What is otherwise on some models or with some operands.
     pub variants: &'static [Variant],
-    /// Whether contacts stand before it.
+    /// Whether contacts drive it.
     pub drive: Drive,
     /// Special relays and registers that it reads or writes.
     pub flags: &'static [&'static str],
-    /// How often it may stand in a program; `None`: as often as one likes.
+    /// How often a program may use it; `None`: any number of times.
     pub max_uses: Option<u32>,
     /// The PLC's error codes that it can raise in a run.
     pub errors: &'static [u16],

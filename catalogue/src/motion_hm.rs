@@ -61,7 +61,7 @@ pub(super) const ROWS: &[Inst] = &[
         .text("Where the next request of an advanced interrupt enters it while the PEND that follows is not driven."),
     process("PEND", "End of a process section", Basic::Pend)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
-        .text("Ends this run of an advanced interrupt. Driven, the next request goes on behind it."),
+        .text("Ends this run of an advanced interrupt. While driven, the next request continues after it."),
     process("PRET", "End of an advanced interrupt", Basic::Pret)
         .drive(Drive::Alone)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")

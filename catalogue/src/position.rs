@@ -14,7 +14,7 @@ const DIRECTION: Param = coil("D2", COILS);
 const DISTANCE: Param = src("S1", VALUES);
 const SPEED: Param = src("S2", VALUES);
 const MOVE: &[Param] = &[DISTANCE, SPEED, POSITION_OUTPUT, DIRECTION];
-/// A speed of at least 10 Hz that may be told in 32 bits up to the model's highest.
+/// A speed of at least 10 Hz; in 32 bits, up to the model's highest.
 const fn speed(name: &'static str, wide: &'static [Rule]) -> Param {
     src(name, VALUES).limits(10, 32767).rules(wide)
 }

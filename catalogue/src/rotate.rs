@@ -172,7 +172,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8022"])
         .lower_on(&[(HM, Lower::Call(RtFn::SfwrHm))])
         .text(
-            "D counts the entries of the queue D+1 … D+n-1; S is appended. If it is full nothing happens and M8022 goes on. HM \
+            "D counts the entries of the queue D+1 … D+n-1; S is appended. If it is full, nothing happens and M8022 turns on. HM \
              enters at the front.",
         ),
     queue("SFRD", 39, "Take from a queue", RtFn::Sfrd)
@@ -180,7 +180,7 @@ pub(super) const ROWS: &[Inst] = &[
         .variants(&[on(HM).takes(DEQUEUE_HM), on(LIKE_FX).takes(DEQUEUE_FX)])
         .flags(&["M8020"])
         .lower_on(&[(HM, Lower::Call(RtFn::SfrdHm))])
-        .text("Copies S+1, the oldest entry of the queue that S counts, to D and moves the others down. If it is empty M8020 goes on."),
+        .text("Copies S+1, the oldest entry of the queue that S counts, to D and moves the others down. If it is empty, M8020 turns on."),
     queue("POP", 212, "Take the newest entry", RtFn::Pop)
         .on(FX3U_L01S)
         .takes(DEQUEUE_FX)

@@ -42,7 +42,7 @@ pub(super) const CONSTANTS: Classes = Classes::K.or(Classes::H);
 pub(super) const INDEX: Classes = Classes::V.or(Classes::Z);
 /// Everything that has an integer value: `K, H, KnX … Z`.
 pub(super) const VALUES: Classes = CONSTANTS.or(WORDS);
-/// Everything of it that is no constant: `KnX … Z`; buffer memory counts on the models that have it.
+/// All its classes that are not constants: `KnX … Z`; buffer memory counts on the models that have it.
 pub(super) const WORDS: Classes = GROUPS.or(REGISTERS).or(INDEX).or(Classes::BUFFER);
 /// Everything that a result can go to: `KnY … Z`.
 pub(super) const RESULTS: Classes = RESULT_GROUPS.or(REGISTERS).or(INDEX).or(Classes::BUFFER);
@@ -87,7 +87,7 @@ pub(super) const BIG: ModelSet = NOT_HM_FX1.without(ModelSet::FX3S).without(Mode
 pub(super) const WITH_MODULES: ModelSet = NOT_HM.without(ModelSet::FX1S).without(ModelSet::FX3S);
 
 /// What a row says that does not say what implements it; a test finds none.
-pub(super) const UNSAID: &str = "nobody said what implements it";
+pub(super) const UNSAID: &str = "the row does not say what implements it";
 
 /// A row: 16-bit form of one step, no operands, driven by a contact, on all models.
 pub(super) const fn row(name: &'static str, title: &'static str, source: &'static str) -> Inst {

@@ -63,7 +63,7 @@ const RECEIVE_LENGTH: Param = number("n", 256);
 /// RS as Modbus master, D8126 = 20h or 30h (h1u-h2u-programming §5.7): what the other models take for lengths and receive registers is the
 /// address, the number, and the data.
 const RS_MODBUS: &[Param] = &[any("S"), any("m"), any("D"), both("n", DATA).per(2)];
-/// Either form, where a register comes first: the number as a constant tells that it is a Modbus request.
+/// Either form, where a register comes first: the number as a constant shows that it is a Modbus request.
 const RS_INOVANCE: &[Param] = &[
     src("S", DATA).len_of(|constants| match constant(constants, 2) {
         Some(_) => Some(1),
@@ -132,7 +132,7 @@ const PID: &[Param] = &[
     both("S3", DATA).len(25),
     both("D", DATA),
 ];
-/// 16-bit alarms and limits behind the 25 words of the others; L01S has a table of its own.
+/// 16-bit alarms and limits after the 25 words of the others; L01S has a separate table.
 const PID_FX: &[Param] = &[
     src("S1", DATA),
     src("S2", DATA),
@@ -266,7 +266,7 @@ pub(super) const ROWS: &[Inst] = &[
             (L01S, Lower::Call(RtFn::PidThermal)),
         ])
         .text(
-            "Controls the value S2 to the target S1 by output D. S3 and the words behind it hold the sampling time, direction, gain, \
+            "Controls the value S2 to the target S1 by output D. S3 and the words after it contain the sampling time, direction, gain, \
              integral and derivative times, limits and alarms, and the controller's memory.",
         ),
     serial("MODBUS", 89, "Modbus master")

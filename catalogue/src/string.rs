@@ -54,7 +54,7 @@ pub(super) const ROWS: &[Inst] = &[
             text_out("D", TEXT_RESULTS).open_ended(),
         ])
         .call(RtFn::StrAdd)
-        .text("Writes the text S1 and behind it the text S2 to D. A zero byte ends a text."),
+        .text("Writes the text S1 followed by the text S2 to D. A zero byte ends a text."),
     string("LEN", 203, "Length of a text")
         .steps(5, 5)
         .takes(&[text("S", GROUPS.or(REGISTERS)).open_ended(), dst("D", TEXT_RESULTS)])
@@ -91,7 +91,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("S2", GROUPS.or(REGISTERS)).len(2),
         ])
         .call(RtFn::Midw)
-        .text("Overwrites S2+1 characters of the text at D from character S2 on, counted from 1, by the beginning of the text at S1."),
+        .text("Overwrites S2+1 characters of the text at D from character S2 on, counted from 1, with the start of the text at S1."),
     string("INSTR", 208, "Search in a text")
         .steps(9, 9)
         .takes(&[
@@ -101,7 +101,7 @@ pub(super) const ROWS: &[Inst] = &[
             src("n", CONSTANTS.or(DATA)),
         ])
         .call(RtFn::Instr)
-        .text("D = where the text S1 stands in the text at S2 from character n on, counted from 1; 0 if nowhere."),
+        .text("D = the position of the text S1 in the text at S2, searched from character n, counted from 1; 0 if not found."),
     string("$MOV", 209, "Move a text")
         .steps(5, 5)
         .takes(&[text("S", TEXTS).open_ended(), text_out("D", TEXT_RESULTS).open_ended()])

@@ -48,7 +48,7 @@ fn main() -> ExitCode {
         }
     };
     match result {
-        // What an interruption broke is no failure of its own.
+        // An error caused by an interruption is not reported separately.
         Err(Failure::Because(_)) if interruption::is_asked() => {
             ExitCode::from(interruption::EXIT_CODE)
         }

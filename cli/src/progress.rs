@@ -9,7 +9,7 @@ use std::time::Duration;
 /// How long work may last before its progress is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Does `work`; a spinner tells what is going on if it lasts over a second.
+/// Does `work`; a spinner shows progress if it takes over a second.
 pub fn spin<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
     if !std::io::stderr().is_terminal() {
         return work();
@@ -31,7 +31,7 @@ pub fn spin<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
     })
 }
 
-/// A bar over `total` pieces of work, invisible for the first second and when standard error is no terminal.
+/// A bar over `total` pieces of work, invisible for the first second and when standard error is not a terminal.
 pub fn bar(total: u64) -> ProgressBar {
     let target = if std::io::stderr().is_terminal() {
         ProgressDrawTarget::stderr()

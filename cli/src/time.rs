@@ -12,11 +12,15 @@ pub fn parse(text: &str) -> Result<u64, String> {
         "s" => 1000.0,
         "min" | "m" => 60_000.0,
         "h" => 3_600_000.0,
-        other => return Err(format!("`{other}` is no unit of time: use ms, s, min or h")),
+        other => {
+            return Err(format!(
+                "`{other}` is not a unit of time: use ms, s, min or h"
+            ));
+        }
     };
     let value: f64 = number
         .parse()
-        .map_err(|_| format!("`{text}` is no time: write for example 200ms or 5s"))?;
+        .map_err(|_| format!("`{text}` is not a time: write for example 200ms or 5s"))?;
     let ms = value * factor;
     // A year is far beyond what a scan-by-scan run can do.
     if ms > 31_536_000_000.0 {

@@ -151,7 +151,7 @@ fn what_an_export_cannot_hold_is_told() {
     let list = format!(";! X000 = start button\n{MOTOR}");
     let folder = folder(&[("motor.il", list.as_bytes())]);
     let said = |to| text(&rungc(folder.path(), &["convert", "motor.il", "--to", to]).stderr);
-    assert!(said("csv").contains("1 device comment left out"));
+    assert!(said("csv").contains("1 device comment omitted"));
     assert!(said("il").is_empty());
 }
 

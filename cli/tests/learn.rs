@@ -116,7 +116,7 @@ fn derived_codes_can_turn_out_to_be_others() {
     let output = rungc(folder.path(), &LEARN);
     assert_eq!(output.status.code(), Some(0));
     let said = text(&output.stdout);
-    assert!(said.contains("61 01 00 was taken for WDT."), "{said}");
+    assert!(said.contains("61 01 00 was read as WDT before."), "{said}");
 }
 
 /// What is said about a list that teaches nothing; nothing is written.

@@ -69,5 +69,5 @@ fn a_missing_compiler_is_named() {
         .unwrap();
     let said = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("there is no no-such-compiler"), "{said}");
+    assert!(said.contains("no-such-compiler not found"), "{said}");
 }

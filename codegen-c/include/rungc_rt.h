@@ -369,7 +369,7 @@ typedef struct rungc_area {
      */
     uint32_t count;
     /**
-     * How many numbers it is from a device to the next one in memory: 1, or more in an array of so many columns, each as long as the
+     * How many numbers it is from a device to the next one in memory: 1, or more in an array of this many columns, each as long as the
      * longest has to be.
      */
     uint32_t columns;
@@ -570,7 +570,7 @@ typedef struct rungc_clock {
 } rungc_clock;
 
 /**
- * How characters stand on a line.
+ * The format of characters on a line.
  */
 typedef struct rungc_line_format {
     /**
@@ -701,7 +701,7 @@ typedef struct rungc_map {
 } rungc_map;
 
 /**
- * Where a call stands in the program.
+ * The position of a call in the program.
  */
 typedef struct rungc_site {
     /**
@@ -823,7 +823,7 @@ typedef struct rungc_axis {
      */
     uint16_t owner;
     /**
-     * A train was sent to its end, and nobody has asked yet.
+     * A train was sent to its end, and no instruction has asked yet.
      */
     bool ended;
     /**

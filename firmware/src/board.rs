@@ -17,13 +17,13 @@ pub struct Board {
     pub flash: Region,
     /// Where data and the stack are.
     pub ram: Region,
-    /// At least so many bytes of RAM are left for the stack.
+    /// The minimum number of bytes of RAM left for the stack.
     pub stack: u32,
     /// The clock that SysTick counts, in Hz.
     pub clock_hz: u32,
-    /// From one tick to the next, in microseconds: the steps in which time goes on.
+    /// From one tick to the next, in microseconds: the resolution of time.
     pub tick_us: u32,
-    /// From the begin of a scan to the begin of the next one, in microseconds; 0: one at each tick.
+    /// Scan period, start to start, in microseconds; 0: a scan at each tick.
     pub scan_us: u32,
     /// Whether outputs that change are printed for a debugger or a simulator.
     pub console: bool,
@@ -61,7 +61,7 @@ pub struct Setup {
     /// Bits that go off.
     #[serde(default)]
     pub clear: u32,
-    /// Bits that go on.
+    /// Bits to set.
     #[serde(default)]
     pub set: u32,
 }
@@ -219,7 +219,7 @@ fn bytes<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<u32, D::Error> {
         Size::Number(number) => Ok(number),
         Size::Text(text) => read(&text).ok_or_else(|| {
             serde::de::Error::custom(format!(
-                "`{text}` is no size: write for example 131072, \"128K\" or \"1M\""
+                "`{text}` is not a size: write for example 131072, \"128K\" or \"1M\""
             ))
         }),
     }
@@ -349,7 +349,7 @@ impl Reader<'_> {
             Some(target) if target.is_bare() => Ok(target),
             _ => Err(self.at(
                 name,
-                format!("no such target; there are {}", known.join(", ")),
+                format!("unknown target; available: {}", known.join(", ")),
             )),
         }
     }
@@ -381,7 +381,7 @@ impl Reader<'_> {
         for (name, pin) in pins {
             let number = self.terminal(&name, class)?;
             if known.insert(number, read(&name, pin)?).is_some() {
-                let what = format!("{} stands here twice", class.number(number));
+                let what = format!("{} is listed twice", class.number(number));
                 return Err(self.at(&name, what));
             }
         }
@@ -395,7 +395,7 @@ impl Reader<'_> {
             .and_then(|digits| u32::from_str_radix(digits, 8).ok())
             .ok_or_else(|| {
                 let what = format!(
-                    "`{}` is no terminal: write {}",
+                    "`{}` is not a terminal: write {}",
                     name.get_ref(),
                     class.number(8)
                 );
@@ -429,7 +429,7 @@ impl Reader<'_> {
             }),
             _ => Err(self.at(
                 pin,
-                "an output has either `at` and `bit` (0 to 31, perhaps `inverted`), or `at`, `on` and `off` (perhaps `off_at`)"
+                "an output has either `at` and `bit` (0 to 31, optionally `inverted`), or `at`, `on` and `off` (optionally `off_at`)"
                     .to_string(),
             )),
         }
@@ -444,7 +444,7 @@ impl Reader<'_> {
             let name = field.get_ref().clone();
             if !FUNCTIONS.iter().any(|(known, _)| *known == name) {
                 let all: Vec<_> = FUNCTIONS.iter().map(|(name, _)| *name).collect();
-                let what = format!("no such function; there are {}", all.join(", "));
+                let what = format!("unknown function; available: {}", all.join(", "));
                 return Err(self.at(&field, what));
             }
             known.insert(name, self.identifier(function)?);
@@ -476,7 +476,7 @@ impl Reader<'_> {
         let good = text.chars().all(word) && !text.starts_with(|c: char| c.is_ascii_digit());
         match good && !text.is_empty() {
             true => Ok(name.into_inner()),
-            false => Err(self.at(&name, format!("`{text}` is no name of a C function"))),
+            false => Err(self.at(&name, format!("`{text}` is not the name of a C function"))),
         }
     }
 
@@ -497,7 +497,7 @@ impl Reader<'_> {
                 return Err(self.at(source, what));
             };
             if !path.is_file() {
-                return Err(self.at(source, format!("there is no file {}", path.display())));
+                return Err(self.at(source, format!("file {} not found", path.display())));
             }
             if !file.chars().all(is_plain) {
                 let what = format!(
@@ -506,7 +506,7 @@ impl Reader<'_> {
                 return Err(self.at(source, what));
             }
             if IMAGE_FILES.contains(&file) {
-                let what = format!("`{name}`: the image has a file `{file}` of its own");
+                let what = format!("`{name}`: the image already has a file `{file}`");
                 return Err(self.at(source, what));
             }
             if known.iter().any(|(other, _)| other == file) {
@@ -527,7 +527,7 @@ impl Reader<'_> {
         for (function, pins, table) in both {
             if pins && board.functions.contains_key(function) {
                 let what = format!(
-                    "both {table} and the function `{function}`: pins have one or the other"
+                    "both {table} and the function `{function}` are given: use only one of them for pins"
                 );
                 return Err(self.wrong(0, what));
             }
@@ -535,12 +535,12 @@ impl Reader<'_> {
         let code = board.sources.iter().any(|(name, _)| name.ends_with(".c"));
         let named = !board.functions.is_empty() || !board.interrupts.is_empty();
         if named && !code {
-            let what = "functions are named, but no `sources` that have them";
+            let what = "functions are named, but `sources` is missing";
             return Err(self.wrong(0, what.to_string()));
         }
         for (region, name) in [(board.flash, "flash"), (board.ram, "ram")] {
             if region.origin.checked_add(region.length).is_none() || region.length == 0 {
-                let what = format!("`{name}` has no bytes, or more than addresses reach");
+                let what = format!("`{name}` is empty or extends past the address range");
                 return Err(self.wrong(0, what));
             }
         }

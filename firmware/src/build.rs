@@ -60,7 +60,7 @@ fn io(path: &Path) -> impl FnOnce(std::io::Error) -> BuildError + '_ {
 }
 
 impl Tools {
-    /// The compilers for a target; cargo is called with `cargo_args` besides what it needs.
+    /// The compilers for a target; cargo is called with the additional arguments `cargo_args`.
     pub fn new(target: &'static Target, cargo_args: &[String]) -> Self {
         let named = |tool: &str, name: &str| {
             let of_target = format!("{tool}_{}", target.variable());
@@ -96,8 +96,8 @@ impl Tools {
         let found = Command::new(&self.cc).arg("--version").output();
         if found.is_err() {
             return Err(BuildError::Missing(format!(
-                "there is no {}, which compiles C for {triple}: Debian and Ubuntu have it in `apt install {packages}`; \
-                 {} names another compiler",
+                "{} not found (the C compiler for {triple}): on Debian and Ubuntu, `apt install {packages}`; \
+                 {} selects another compiler",
                 self.cc.display(),
                 self.target.compiler_variable()
             )));
@@ -108,14 +108,14 @@ impl Tools {
         let read = Command::new(&self.cc).arg("-E").arg(&probe).output();
         if !read.is_ok_and(|output| output.status.success()) {
             return Err(BuildError::Missing(format!(
-                "{} has no C library for {triple} (string.h): Debian and Ubuntu have it in `apt install {packages}`",
+                "{} has no C library for {triple} (string.h): on Debian and Ubuntu, `apt install {packages}`",
                 self.cc.display()
             )));
         }
         Ok(())
     }
 
-    /// Looks whether Rust can be built. A cargo that is told to build the standard library itself needs none.
+    /// Checks that Rust can be built. A cargo that builds the standard library itself needs no library for the target.
     pub fn check_rust(&self) -> Result<(), BuildError> {
         if library::builds_std(&self.cargo_args) {
             return Ok(());
@@ -128,7 +128,7 @@ impl Tools {
         let triple = self.target.triple;
         let Ok(output) = ask.output() else {
             return Err(BuildError::Missing(format!(
-                "there is no {}: the runtime that the program calls is built with Rust (https://rustup.rs)",
+                "{} not found: the program calls the runtime, which is built with Rust (https://rustup.rs)",
                 self.rustc.display()
             )));
         };
@@ -137,7 +137,7 @@ impl Tools {
             return Ok(());
         }
         Err(BuildError::Missing(format!(
-            "the Rust toolchain has no library for {triple}: `rustup target add {triple}` gets it"
+            "the Rust toolchain has no library for {triple}: run `rustup target add {triple}`"
         )))
     }
 
@@ -192,7 +192,7 @@ impl Tools {
         succeeded("make", output)
     }
 
-    /// Looks for the compilers that sources in C need, and runs `make` on them in a folder of their own.
+    /// Looks for the compilers that sources in C need, and runs `make` on them in a separate folder.
     fn build_c(&self, files: &[OutFile]) -> Result<Built, BuildError> {
         self.check_c()?;
         let folder = write(files)?;

@@ -52,7 +52,7 @@ impl Image<'_> {
         watched
     }
 
-    /// Outputs that are printed: number, name, and what stands behind the state, a comment. Those that send pulses would be printed all
+    /// Outputs that are printed: number, name, and the text after the state, a comment. Those that send pulses would be printed all
     /// the time.
     fn printed(&self) -> Vec<(u32, String, String)> {
         let module = self.module;
@@ -98,7 +98,7 @@ fn linker_script(board: &Board) -> String {
     text
 }
 
-/// A text that may stand in a comment of C, Rust, `make` or a linker script.
+/// A text that is safe in a comment of C, Rust, `make` or a linker script.
 fn comment(text: &str) -> String {
     one_line(text)
         .replace("*/", "* /")

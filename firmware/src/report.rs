@@ -182,10 +182,12 @@ fn report(module: &Module, target: &'static Target, size: Size, plc: Option<u64>
 /// How a bound was found.
 fn how(functions: &Functions) -> String {
     let mut text = String::from(
-        "the longest way through the calls in the machine code, each function with all that it pushes; nothing is recursive",
+        "the longest call path in the machine code, each function with everything it pushes; nothing is recursive",
     );
     if functions.has_indirect_calls() {
-        text.push_str(", and a call through a pointer leads to functions whose addresses are stored, to each once");
+        text.push_str(
+            ", and a call through a pointer may reach each function whose address is stored, once",
+        );
     }
     text
 }
@@ -271,14 +273,14 @@ impl fmt::Display for Scan {
             let cost = line(open.steps, open.operations);
             writeln!(
                 f,
-                "  and each  {cost}: further round of the loop at step {}, whose count is not known",
+                "  and each  {cost}: further iteration of the loop at step {}, whose count is unknown",
                 open.step
             )?;
         }
         for step in &self.jumps_back {
             writeln!(
                 f,
-                "  jumps back at step {step} are not counted; the watchdog ends a scan that repeats more than {} steps per ms of D8000",
+                "  backward jumps at step {step} are not counted; the watchdog ends a scan that repeats more than {} steps per ms of D8000",
                 rungc_ir::node::STEPS_PER_MS
             )?;
         }

@@ -22,7 +22,7 @@ pub fn c(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
         .collect()
 }
 
-/// A Makefile that builds for a target unless it is told otherwise. Its first line tells what it builds.
+/// A Makefile that builds for a target by default. Its first line says what it builds.
 fn makefile(text: &str, target: &Target, triple: &str) -> String {
     let (first, rest) = text.split_once('\n').unwrap_or((text, ""));
     let Target {

@@ -7,7 +7,7 @@ use rungc_runtime_sources::library::Optimise;
 pub struct Target {
     /// The name by which rustc knows it; `host` for this machine.
     pub triple: &'static str,
-    /// What it is, for people.
+    /// Its description, for messages.
     pub title: &'static str,
     /// Its C compiler.
     pub cc: &'static str,
@@ -15,7 +15,7 @@ pub struct Target {
     pub ar: &'static str,
     /// Debian's packages with these tools and a C library.
     pub packages: &'static str,
-    /// What the C compiler has to be told of the processor.
+    /// Options that select the processor for the C compiler.
     pub flags: &'static str,
     /// What runs below a program.
     pub system: System,
@@ -102,7 +102,7 @@ pub fn find(triple: &str) -> Option<&'static Target> {
 }
 
 impl Target {
-    /// The name as it stands in names of variables: `thumbv7em_none_eabihf`.
+    /// The name as it appears in names of variables: `thumbv7em_none_eabihf`.
     pub fn variable(&self) -> String {
         self.triple.replace('-', "_")
     }
@@ -115,7 +115,7 @@ impl Target {
         }
     }
 
-    /// What `--target` tells rustc and cargo; `None` for this machine.
+    /// The argument of `--target` for rustc and cargo; `None` for this machine.
     pub fn rustc_name(&self) -> Option<&'static str> {
         (*self != HOST).then_some(self.triple)
     }
@@ -133,7 +133,7 @@ impl Target {
         }
     }
 
-    /// Whether code is built for it with a floating point unit, which is off behind reset.
+    /// Whether code is built for it with a floating point unit, which is off after reset.
     pub fn has_fpu(&self) -> bool {
         self.is_bare() && self.triple.ends_with("hf")
     }

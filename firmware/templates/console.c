@@ -3,7 +3,7 @@ static void print(const char *text)
     semihosting(0x04, (uint32_t)text); /* SYS_WRITE0 */
 }
 
-/* Output terminals: number, name and what is printed behind the state: a comment. The last entry ends the table. */
+/* Output terminals: number, name and what is printed after the state: a comment. The last entry ends the table. */
 static const struct {
     unsigned number;
     const char *name;
@@ -12,7 +12,7 @@ static const struct {
 /* OUTPUTS */    {0, NULL, NULL},
 };
 
-/* Prints the time, as seconds with three digits behind the point. */
+/* Prints the time, as seconds with three digits after the point. */
 static void print_time(uint32_t ms)
 {
     static char text[] = "      0.000 s  ";

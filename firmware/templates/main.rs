@@ -11,7 +11,7 @@ use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt/* EDGE TYPE */, PulseO
 /// The clock that SysTick counts, in Hz.
 const CLOCK_HZ: u32 = /* HZ */;
 
-/// The steps in which time goes on, in microseconds.
+/// The resolution of time, in microseconds.
 const TICK_US: u32 = /* TICK */;
 
 /// Inputs and outputs of the program, and from scan to scan.

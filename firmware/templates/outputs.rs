@@ -2,7 +2,7 @@ fn print(text: &core::ffi::CStr) {
     semihosting(0x04, text.as_ptr() as usize); // SYS_WRITE0
 }
 
-/// Prints the time, as seconds with three digits behind the point.
+/// Prints the time, as seconds with three digits after the point.
 fn print_time(mut ms: u32) {
     let mut text = *b"      0.000 s  \0";
     let mut at = 10;
@@ -19,7 +19,7 @@ fn print_time(mut ms: u32) {
     semihosting(0x04, text.as_ptr() as usize);
 }
 
-/// Output terminals: number, name and what is printed behind the state: a comment.
+/// Output terminals: number, name and what is printed after the state: a comment.
 const OUTPUTS: [(u32, &core::ffi::CStr, &core::ffi::CStr); /* COUNT */] = [
 /* TABLE */];
 

@@ -73,12 +73,12 @@ fn mistakes_are_named() {
     for (added, said) in [
         (
             "[inputs]\nX8 = { at = 4, bit = 0 }",
-            "board.toml:12:1: `X8` is no terminal",
+            "board.toml:12:1: `X8` is not a terminal",
         ),
         ("[inputs]\nX0 = { at = 4, bit = 32 }", "bits 0 to 31"),
         (
             "[inputs]\nX0 = { at = 4, bit = 0 }\nX000 = { at = 4, bit = 1 }",
-            "X000 stands here twice",
+            "X000 is listed twice",
         ),
         ("[outputs]\nY0 = { at = 4, on = 1 }", "an output has either"),
         (
@@ -87,7 +87,7 @@ fn mistakes_are_named() {
         ),
         (
             "[functions]\ninput = \"2f\"",
-            "`2f` is no name of a C function",
+            "`2f` is not the name of a C function",
         ),
         ("[functions]\ninput = \"f\"", "no `sources` that have them"),
         ("[interrupts]\nTIM2 = \"f\"", "a number from 0 to 479"),
@@ -103,10 +103,10 @@ fn mistakes_are_named() {
             .unwrap_err()
             .contains("sources are files *.c and *.h")
     );
-    assert!(sources("a.c").unwrap_err().contains("there is no file"));
+    assert!(sources("a.c").unwrap_err().contains("not found"));
 }
 
-/// `make` would run what stands in the name of a source.
+/// `make` would run commands in the name of a source.
 #[test]
 fn names_of_sources_mean_nothing_to_make() {
     let folder = tempfile::tempdir().unwrap();
@@ -135,7 +135,7 @@ fn names_of_sources_mean_nothing_to_make() {
         assert!(error.contains("`make` cannot build"), "{file}: {error}");
     }
     let error = sources(&["main.c"]).unwrap_err();
-    assert!(error.contains("of its own"), "{error}");
+    assert!(error.contains("already has a file"), "{error}");
     let error = sources(&["panel.c", "more/panel.c"]).unwrap_err();
     assert!(error.contains("another source `panel.c`"), "{error}");
     assert!(sources(&["panel.c", "panel.h"]).is_ok());

@@ -239,10 +239,10 @@ impl Reader {
             Current::Last => self.operand(operand),
             Current::Unread => _ = self.listing.word(operand),
             Current::None => {
-                self.misplaced(operand, "no instruction stands in this row or above");
+                self.misplaced(operand, "there is no instruction in or above this row");
                 self.unread();
             }
-            Current::Label => self.misplaced(operand, "a label takes no operands"),
+            Current::Label => self.misplaced(operand, "a label has no operands"),
         }
     }
 
@@ -252,10 +252,10 @@ impl Reader {
             codes::BAD_ROW
                 .at(
                     span,
-                    format!("operand `{operand}` belongs to no instruction"),
+                    format!("operand `{operand}` does not belong to an instruction"),
                 )
                 .label(why)
-                .help("the instruction that it belongs to is missing: export the list again"),
+                .help("its instruction is missing: export the list again"),
         );
     }
 
@@ -272,10 +272,10 @@ impl Reader {
                 codes::BAD_ROW
                     .at(
                         span,
-                        format!("`{}` is no step number", self.listing.slice(span)),
+                        format!("`{}` is not a step number", self.listing.slice(span)),
                     )
                     .label("a step number is a decimal number")
-                    .help("the column of step numbers may be empty"),
+                    .help("the step number column may be empty"),
             );
         }
         step

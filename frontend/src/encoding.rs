@@ -131,7 +131,7 @@ fn is_plausible(text: &str) -> bool {
     text.contains(|c| c >= '\u{800}') || !text.contains(odd)
 }
 
-/// The runs of bytes above 7Fh, each with whether an ASCII letter stands at one of its ends.
+/// The runs of bytes above 7Fh, each with whether an ASCII letter is at one of its ends.
 fn runs(bytes: &[u8]) -> impl Iterator<Item = (&[u8], bool)> {
     let letter = |at: Option<usize>| {
         at.and_then(|at| bytes.get(at))

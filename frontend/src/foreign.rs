@@ -1,10 +1,10 @@
-//! Texts in other languages of PLCs, which are told once instead of line by line.
+//! Texts in other PLC languages, which are reported once instead of line by line.
 
 use rungc_syntax::{Diagnostic, Program, Source, SourceKind, Span, codes};
 
 /// How many lines of code decide.
 const LINES: usize = 200;
-/// Lines that are longer are no code.
+/// Longer lines are not code.
 const MAX_LINE: usize = 1_000;
 
 /// A language that is not an FX list.
@@ -39,7 +39,7 @@ pub(crate) fn detect(name: &str, text: &str) -> Option<(Program, Diagnostic)> {
     };
     let diagnostic = codes::FOREIGN_LANGUAGE
         .at(span, format!("this is {what}, not an FX instruction list"))
-        .label("this shows it")
+        .label("this shows the language")
         .help(help);
     let program = Program {
         source: Source::new(name, text),
@@ -123,7 +123,7 @@ fn first_code_line_end(text: &str) -> usize {
     at
 }
 
-/// What shows on a line that it is no line of an FX list: the language, and from where to where.
+/// The part of a line that shows it is not from an FX list: the language and the range.
 fn sign(line: &str) -> Option<(Language, usize, usize)> {
     /// What declarations begin with.
     const DECLARATIONS: [&str; 14] = [

@@ -19,7 +19,7 @@ pub struct Lesson {
     pub mnemonic: SmolStr,
     /// What the code was taken for before.
     pub reading: Reading,
-    /// Where it stands in the list, in order: at least one.
+    /// Its positions in the list, in order: at least one.
     pub uses: Vec<Instr>,
 }
 
@@ -45,7 +45,7 @@ pub enum Mismatch {
     #[error("the second file is not a list: export it from the editor as CSV")]
     NotAList,
     /// Not all of a file can be read.
-    #[error("the {file} cannot be read whole: {why}")]
+    #[error("the {file} cannot be read completely: {why}")]
     Unreadable {
         /// `project` or `export`.
         file: &'static str,
@@ -54,7 +54,7 @@ pub enum Mismatch {
     },
     /// An instruction of the project is another one in the list.
     #[error(
-        "at {place} the project has `{project}`, the export `{export}`: it is of another state of the program; export it again"
+        "at {place} the project has `{project}`, the export `{export}`: it is from another state of the program; export it again"
     )]
     Different {
         /// Step or number of the instruction.
@@ -82,7 +82,7 @@ pub enum Mismatch {
     },
     /// One of them ends before the other.
     #[error(
-        "the {shorter} ends before {place}, where the other has `{next}`: the export is of another state of the program; export it again"
+        "the {shorter} ends before {place}, where the other has `{next}`: the export is from another state of the program; export it again"
     )]
     Shorter {
         /// `project` or `export`.

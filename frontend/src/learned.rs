@@ -13,7 +13,7 @@ pub struct LearnedCodes(BTreeMap<Vec<u8>, SmolStr>);
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum LearnError {
     /// It is not the code of an instruction.
-    #[error("`{0}` is not the code of an instruction, which begins with a byte below 80")]
+    #[error("`{0}` is not the code of an instruction, which starts with a byte below 80")]
     NotACode(String),
     /// It is known to be another instruction.
     #[error("the code {code} is known to be `{known}`, not `{mnemonic}`")]
@@ -66,7 +66,7 @@ pub struct Unproven {
     pub at: usize,
     /// Its step number, as far as that is known.
     pub step: Option<u32>,
-    /// Where its token stands in the file or stream, in bytes.
+    /// The offset of its token in the file or stream, in bytes.
     pub offset: usize,
     /// Its operands, as far as they can be read.
     pub operands: Operands,
@@ -105,7 +105,7 @@ impl Unproven {
     pub(crate) fn error(&self) -> Diagnostic {
         let code = self.shown();
         let what = match &self.reading {
-            Reading::Guess(name) => format!("instruction code {code}, perhaps `{name}`,"),
+            Reading::Guess(name) => format!("instruction code {code}, possibly `{name}`,"),
             _ => format!("unknown instruction code {code}"),
         };
         let step = self.step.map(|step| format!("step {step}, "));

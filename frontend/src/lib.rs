@@ -38,10 +38,10 @@ pub struct Read {
     pub unproven: Vec<Unproven>,
 }
 
-/// What a reader is told besides the file.
+/// Options of a reader.
 #[derive(Clone, Debug, Default)]
 pub struct ReadOptions {
-    /// Codes of instructions that are known here, besides those that everybody knows.
+    /// Codes of instructions that are known here, in addition to the built-in ones.
     pub learned: LearnedCodes,
     /// The encoding of all texts that are not UTF-16 by their format; `None`: the one that the project states or that the texts
     /// seem to have.
@@ -79,7 +79,9 @@ pub enum ReadError {
         name: String,
     },
     /// A folder that holds no program.
-    #[error("`{path}` holds no program: no `.il`, list export, GX Developer or GX Works2 project")]
+    #[error(
+        "no program found in `{path}` (looked for `.il`, list exports, GX Developer and GX Works2 projects)"
+    )]
     NoProject {
         /// Its path.
         path: String,
@@ -226,7 +228,10 @@ fn undecoded(program: &Program) -> Diagnostic {
     let at = program.source.text.find(char::REPLACEMENT_CHARACTER);
     let span = at.map_or(Span::default(), |at| Span::new(at as u32, at as u32 + 3));
     codes::UNREADABLE_TEXT
-        .at(span, "this text holds bytes that no known encoding reads")
+        .at(
+            span,
+            "this text has bytes that no known encoding can represent",
+        )
         .label("the first of them")
         .help("save the file as UTF-8, or name its encoding with `--encoding`")
 }

@@ -56,7 +56,7 @@ impl Listing {
         number
     }
 
-    /// Writes a mnemonic or an operand behind what is there.
+    /// Appends a mnemonic or an operand.
     pub fn word(&mut self, text: &str) -> Span {
         if !self.text.ends_with([' ', '\n']) && !self.text.is_empty() {
             self.text.push(' ');
@@ -64,7 +64,7 @@ impl Listing {
         self.raw(text)
     }
 
-    /// Writes a comment behind what is there.
+    /// Appends a comment.
     pub fn comment(&mut self, text: &str) {
         if self.text.len() > self.line_start {
             self.text.push_str("   ");

@@ -68,7 +68,7 @@ pub fn broken_text(program: &Program) -> Option<&Operand> {
 }
 
 /// The program as a list export, as the editors write it: UTF-16LE with BOM, tabs, every field quoted, English headers.
-/// Device comments go to a file of their own: [`comments_to_csv`].
+/// Device comments go to a separate file: [`comments_to_csv`].
 pub fn to_csv(program: &Program) -> Vec<u8> {
     let mut rows: Vec<Vec<String>> = vec![
         vec![program.title.clone().unwrap_or_default()],

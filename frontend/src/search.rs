@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use walkdir::{DirEntry, WalkDir};
 
-/// How much of a table shows whether it is a list export, in bytes: its headers stand in the first rows.
+/// How much of a table shows whether it is a list export, in bytes: its headers are in the first rows.
 const HEAD: u64 = 64 << 10;
 
 /// Whether a folder is itself a program: that of a GX Developer project, or of a list export.

@@ -16,7 +16,7 @@ pub(crate) fn clean(text: &str) -> Option<SmolStr> {
     }
 }
 
-/// Puts another line behind the lines that are there.
+/// Appends another line.
 pub(crate) fn append(lines: &mut Option<SmolStr>, more: SmolStr) {
     *lines = Some(match lines.take() {
         None => more,

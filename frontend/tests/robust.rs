@@ -145,7 +145,7 @@ fn random_bytes() {
         survive(String::from_utf8_lossy(&bytes).as_bytes());
     }
     for _ in 0..32 {
-        // The same behind the marks that tell the formats apart.
+        // The same after the marks that distinguish the formats.
         let noise = random.bytes(8 << 10);
         survive(&[&wpg(0x0208, &[])[..0x44], &noise].concat());
         survive(&[&gxw(&[])[..512], &noise].concat());
@@ -248,7 +248,7 @@ fn mutations_of_the_list_of_parts() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// Whatever a part of a project holds behind a head that can be read, it is read or told.
+    /// Whatever a part of a project holds after a readable head, it is read or reported.
     #[test]
     fn any_parts(which in 0..7_usize, keep in 0..120_usize, noise in proptest::collection::vec(any::<u8>(), 0..400)) {
         let mut parts = simple("FX3U/FX3UC", TOKENS);

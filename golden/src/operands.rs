@@ -74,7 +74,7 @@ impl Candidate {
     }
 }
 
-/// Whether an instruction behind a contact compiles.
+/// Whether an instruction after a contact compiles.
 pub fn accepted(instruction: &str, model: ModelId) -> bool {
     let program = format!("LD M0\n{instruction}\nEND\n");
     let read = rungc_frontend::read_text("draw.il", &program);
@@ -136,7 +136,7 @@ fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<St
     Some(text)
 }
 
-/// A special register that is another name of an index register, or stands before such.
+/// A special register that is another name of an index register, or precedes one.
 pub fn special_register(rng: &mut Rng, model: &Model) -> u32 {
     let aliases = model.index_aliases;
     let first = aliases[rng.below(aliases.len() as u32) as usize].0;

@@ -14,7 +14,7 @@ struct Writer<'c> {
     lines: Vec<String>,
     /// Next pointer to be given away.
     next_label: u32,
-    /// Subroutines to be written behind FEND.
+    /// Subroutines to be written after FEND.
     subroutines: Vec<u32>,
     /// How often instructions with a limit were used.
     uses: BTreeMap<&'static str, u32>,
@@ -127,7 +127,7 @@ impl Writer<'_> {
 
     fn label(&mut self) -> u32 {
         self.next_label += 1;
-        // P63 means END and is no label.
+        // P63 means END and is not a label.
         if self.next_label == 63 {
             self.next_label = 64;
         }

@@ -5,7 +5,7 @@
 pub struct Rng(u64);
 
 impl Rng {
-    /// A sequence of its own for each seed.
+    /// A separate sequence for each seed.
     pub fn new(seed: u64) -> Self {
         Rng(seed)
     }
@@ -24,7 +24,7 @@ impl Rng {
         (self.bits() >> 32).checked_rem(n.into()).unwrap_or(0) as u32
     }
 
-    /// True so many times of a hundred.
+    /// True this many times in a hundred.
     pub fn percent(&mut self, percent: u32) -> bool {
         self.below(100) < percent
     }
@@ -34,7 +34,7 @@ impl Rng {
         from.get(self.below(from.len() as u32) as usize).copied()
     }
 
-    /// A value of so many bits, signed, that instructions find interesting: small, at a border, or any.
+    /// A value of this many bits, signed, that instructions find interesting: small, at a border, or any.
     pub fn value(&mut self, bits: u32) -> i64 {
         let max = (1i64 << (bits - 1)) - 1;
         match self.below(10) {

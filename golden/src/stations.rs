@@ -21,7 +21,7 @@ struct Rung(Vec<(&'static str, Named)>);
 enum Named {
     /// An input or output, and how far that of the next station is.
     Terminal(char, u32, u32),
-    /// A relay of its own, of the one before or of the next one.
+    /// A relay of this station, of the one before or of the next one.
     Own(u32),
     /// A relay of all.
     Shared(u32),

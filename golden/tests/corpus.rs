@@ -1,6 +1,6 @@
 //! Programs that people made with the vendor's editors: each is read, checked, emitted in both languages and run.
 //!
-//! They lie beside this repository and are no part of it; without them there is nothing to test.
+//! They are beside this repository, not part of it; without them there is nothing to test.
 
 use rungc_frontend::Read;
 use rungc_interp::Machine;
@@ -18,7 +18,7 @@ const SCANS: u32 = 100;
 
 /// Projects that are wrong in themselves, and the code that says how.
 const WRONG: [(&str, &str); 3] = [
-    // DHSCS on C0, which is no high-speed counter.
+    // DHSCS on C0, which is not a high-speed counter.
     ("/DHSCS/", "E0110"),
     // A subroutine that runs into END without SRET.
     ("/FEND/", "E0424"),

@@ -1,4 +1,4 @@
-//! High-speed counters, held to models of their own: random ways of an encoder, random tables.
+//! High-speed counters, checked against separate models: random paths of an encoder, random tables.
 
 use rungc_golden::module;
 use rungc_golden::rng::Rng;

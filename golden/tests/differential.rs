@@ -134,7 +134,7 @@ fn requests(class: DeviceClass, number: u32) -> Vec<Request> {
     }
 }
 
-/// All stored devices, of each area at most so many, and what pulse outputs send.
+/// All stored devices, of each area at most this many, and what pulse outputs send.
 fn stored(module: &Module, most: u32) -> Vec<Request> {
     let areas = module.layout.areas.iter();
     let devices = areas.flat_map(|area| {

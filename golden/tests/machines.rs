@@ -57,7 +57,7 @@ encoder = { a = "X003", b = "X004" }
     file
 }
 
-/// Programs that look for their origin, and one that goes on from an interrupt input: model, name, program.
+/// Programs that look for their origin, and one that continues from an interrupt input: model, name, program.
 const SEARCHES: [(&str, &str, &str); 4] = [
     ("fx3u", "zrn", "LD M8000\nDZRN K20000 K500 X005 Y000\nEND\n"),
     (

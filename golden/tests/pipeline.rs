@@ -314,7 +314,7 @@ fn whole_way(text: &str, model: ModelId, seed: u64) -> bool {
         }
         let rest = without(&text, &faulty);
         if faulty.is_empty() || rest == text {
-            // What is wrong is no line's fault: that END is missing, for example.
+            // The error is not on a line: END is missing, for example.
             text = rest + "END\n";
         } else {
             text = rest;

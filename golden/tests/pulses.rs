@@ -21,7 +21,7 @@ impl Bench<'_> {
         }
     }
 
-    /// A scan, and so many milliseconds with ticks.
+    /// A scan, and this many milliseconds with ticks.
     fn run(&mut self, ms: u32) {
         self.machine.scan(&mut NoHal, self.now_ms, 1000 * ms);
         for _ in 0..ms {
@@ -162,7 +162,7 @@ fn changes_of_speed_and_number_in_flight_keep_the_number() {
             }
             let sent = bench.machine.pulses_sent(0);
             let running = sent < number;
-            // At most so many are sent before the instruction sees the change.
+            // At most this many are sent before the instruction sees the change.
             if running && rng.percent(10) {
                 number = sent + 2 + rng.below(3000) as i32;
                 bench.set_long(2, number);

@@ -40,7 +40,7 @@ impl<'m> Machine<'m> {
         Flow::Next
     }
 
-    /// Executes a statement. What takes more than a line is in a method of its own.
+    /// Executes a statement. Anything longer than a line is in a separate method.
     fn step(&mut self, stmt: &'m Stmt, hal: &mut dyn Hal) -> Flow {
         match stmt {
             Stmt::Network(_) => {}

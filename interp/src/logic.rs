@@ -62,7 +62,7 @@ pub(crate) struct Strided {
 pub(crate) struct Logic {
     items: Vec<Item>,
     pub(crate) strided: Vec<Strided>,
-    /// Where the list of each expression is, by handle; of none if it is no logic that a statement looks at.
+    /// Where the list of each expression is, by handle; none if it is not logic that a statement uses.
     lists: Vec<List>,
 }
 

@@ -1,6 +1,6 @@
 //! Which devices a compiled program stores, and how: decided once for both backends.
 //!
-//! A device that is only ever named directly becomes a field of its own; devices that are indexed, moved in blocks or handed to a
+//! A device that is only ever named directly becomes a separate field; devices that are indexed, moved in blocks or handed to a
 //! runtime function as a run become arrays. Special devices that the program never looks at are not stored.
 
 use crate::node::{Module, Place};
@@ -20,7 +20,7 @@ pub struct Area {
     pub first: u32,
     /// How many.
     pub count: u32,
-    /// An array (even of one) rather than a field of its own.
+    /// An array (even of one) rather than a separate field.
     pub array: bool,
     /// Kept over RUN/STOP and power-off. An area never mixes both.
     pub latched: bool,
@@ -105,14 +105,14 @@ impl Layout {
     }
 }
 
-/// Devices that a host looks at, or writes, besides those that the program names.
+/// Devices that a host reads or writes, in addition to those that the program names.
 #[derive(Clone, Debug, Default)]
 pub struct Wanted {
-    /// Devices that tests or a monitor look at, to be stored besides those that the program uses.
+    /// Devices that tests or a monitor read, stored in addition to those that the program uses.
     pub observe: Vec<(DeviceClass, u32)>,
     /// Store every device of the model.
     pub observe_all: bool,
-    /// Serial ports that the host opens, besides those that the program uses.
+    /// Serial ports that the host opens, in addition to those that the program uses.
     pub ports: Vec<u8>,
 }
 
@@ -218,7 +218,7 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// All devices of a class that are no special ones.
+    /// All devices of a class that are not special.
     fn mark_run(&mut self, class: DeviceClass) {
         if let Some(&(first, last)) = self.module.model.runs(class).first() {
             self.mark(class, first, last - first + 1, true);

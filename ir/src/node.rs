@@ -4,9 +4,9 @@
 //! statement evaluates all of its expressions when it is executed, before it writes anything. Statements are executed in order, so
 //! a write between two reads is never reordered. An expression that several statements use is a temporary ([`Stmt::Let`]).
 //!
-//! A scan that does not end is cut short by the watchdog: [`Stmt::Watch`] stands in all loops but those that are known to be short, and at
+//! A scan that does not end is cut short by the watchdog: [`Stmt::Watch`] is in all loops except those that are known to be short, and at
 //! all jumps back, and counts the steps of the program that they repeat. After the last one the function is left, and so is each that
-//! called it, up to `Main`; `End` does nothing. An interrupt routine that is cut short leaves the scan to go on to its end.
+//! called it, up to `Main`; `End` does nothing. If an interrupt routine is cut short, the scan continues to its end.
 //!
 //! Integers are two's complement and wrap. `I16` values are signed 16-bit, `I32` signed 32-bit, `F32` IEEE single, `Bit` true or false.
 
@@ -55,7 +55,7 @@ pub struct Flag {
     pub name: String,
     /// What it means, for a comment.
     pub meaning: &'static str,
-    /// Set each time that so many milliseconds of RUN have passed since the last time, or since RUN began
+    /// Set each time that this many milliseconds of RUN have passed since the last time, or since RUN began
     /// ([`rungc_rt::Program::tick`]); `None`: by the program only.
     pub period_ms: Option<u32>,
     /// Set when a train of pulses of this output Y has been sent to its end ([`rungc_rt::Axis::take_end`], asked whenever pulses are counted).
@@ -73,7 +73,7 @@ pub struct Cell {
     pub name: String,
     /// What it means, for a comment.
     pub meaning: &'static str,
-    /// Set to the time, as for [`SysValue::NowMs`], each time that a host tells it ([`rungc_rt::Program::tick`]).
+    /// Set to the time, as for [`SysValue::NowMs`], each time that a host reports it ([`rungc_rt::Program::tick`]).
     pub follows_time: bool,
 }
 
@@ -327,7 +327,7 @@ pub enum Expr {
     Cell(CellId),
     /// `I32`: entry of a table. The index, an `I32`, must be known to be at least 0 and less than the table's length.
     Entry(TableId, ExprId),
-    /// `I32`: the number of an iteration of the [`Stmt::Repeat`] around, times so much (at least 1). Stands as an index only.
+    /// `I32`: the number of an iteration of the enclosing [`Stmt::Repeat`], times this factor (at least 1). Occurs only as an index.
     Stride(TempId, u32),
     /// Not, of a `Bit`.
     Not(ExprId),
@@ -410,7 +410,7 @@ pub enum Arg {
         place: Place,
         /// Bit 0 to 15.
         bit: u8,
-        /// How many bits may be accessed; they go on in the next words.
+        /// How many bits may be accessed; they continue in the next words.
         extent: Option<u32>,
     },
     /// Text number in [`Module::texts`].
@@ -437,7 +437,7 @@ pub enum Stmt {
     Edge {
         /// Memory.
         edge: EdgeId,
-        /// How many memories behind it this one's is: an [`Expr::Stride`], in the body of a [`Stmt::Repeat`].
+        /// The distance in memories to this one's: an [`Expr::Stride`], in the body of a [`Stmt::Repeat`].
         index: Option<ExprId>,
         /// Which change.
         kind: EdgeKind,
@@ -450,7 +450,7 @@ pub enum Stmt {
     SetFlag(FlagId, ExprId),
     /// Writes a cell (`I32`).
     SetCell(CellId, ExprId),
-    /// Writes the entry of a table that the index (`I32`, as for [`Expr::Entry`]) tells (`I32`).
+    /// Writes the entry of a table at the index (`I32`, as for [`Expr::Entry`]) (`I32`).
     SetEntry(TableId, ExprId, ExprId),
     /// Writes a bit device (Y, M, S, or X by force and at its own edge).
     WriteBit(Place, ExprId),
@@ -492,7 +492,7 @@ pub enum Stmt {
         /// `I16`.
         preset: ExprId,
     },
-    /// END processing of a timer that goes on in scans that jump over its coil: [`rungc_rt::Timer::go_on`].
+    /// END processing of a timer that continues in scans that jump over its coil: [`rungc_rt::Timer::go_on`].
     TimerGoesOn {
         /// Number.
         number: u32,
@@ -573,9 +573,9 @@ pub enum Stmt {
     /// Leaves the function (SRET reached by a jump, CJ to P63 in a subroutine, …).
     Return,
     /// Runs `parts` from part 0 on: at the end of a part the next one follows; [`Stmt::Goto`] inside a part (however deep in
-    /// `If` and `For`, not across calls) goes on with the part that has that label. Made only where jumps do not nest.
+    /// `If` and `For`, not across calls) continues with the part that has that label. Made only where jumps do not nest.
     Parts(Vec<Part>),
-    /// Ends the current part and goes on with the part labelled so, in the innermost enclosing [`Stmt::Parts`] that has it.
+    /// Ends the current part and continues with the part of this label, in the innermost enclosing [`Stmt::Parts`] that has it.
     Goto(LabelId),
     /// Calls the runtime. A fault is reported with `step` ([`rungc_rt::report`]).
     Call {
@@ -625,7 +625,7 @@ pub enum Stmt {
         /// Step number.
         step: u32,
     },
-    /// Takes so many steps of those that the scan may still execute ([`Module::scan_steps`]). If there are not so many left, the PLC stops as by
+    /// Takes this many steps of those that the scan may still execute ([`Module::scan_steps`]). If fewer are left, the PLC stops as by
     /// its watchdog ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
     Watch {
         /// How many PLC steps of the program come now: an iteration of a loop, or what a jump back repeats, with the subroutines that are called
@@ -693,8 +693,8 @@ pub enum FunctionKind {
     Subroutine(u32),
     /// An interrupt routine, by its pointer number.
     Interrupt(u32),
-    /// Runs the interrupt routines that are requested. `Main` calls it at the begin of each network, and behind what sets or resets
-    /// a relay that requests or forbids one where relays keep requests (HM); `End` at its begin, and a host may between two scans
+    /// Runs the interrupt routines that are requested. `Main` calls it at the start of each network, and after code that sets or resets
+    /// a relay that requests or forbids one where relays keep requests (HM); `End` calls it first, and a host may between two scans
     /// ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt routine is itself. What is
     /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::Interrupts::precedence`] tells which comes
     /// first.
@@ -755,11 +755,11 @@ pub struct Module {
     /// are any of these, `Signals` if there are any, and one for each edge that means something.
     pub functions: Vec<Function>,
     /// Outputs Y at which instructions send pulses, in order, each once. Their [`rungc_rt::Axis`] is idle at power-on. Pulses are counted
-    /// ([`rungc_rt::advance_pulses`]) at the begin of each scan before `Begin`, and each time that a host tells the time
+    /// ([`rungc_rt::advance_pulses`]) at the start of each scan before `Begin`, and each time that a host reports the time
     /// ([`rungc_rt::Program::tick`]).
     pub pulse_outputs: Vec<u32>,
     /// Serial ports, in order: those that instructions use, that the program sets up, and that a host opens. They are brought up to date
-    /// ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time that a host tells the time.
+    /// ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time that a host reports the time.
     pub ports: Vec<u8>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
@@ -813,12 +813,12 @@ impl Module {
         self.ranges.iter().filter(move |r| r.class == class)
     }
 
-    /// The expression behind a handle.
+    /// The expression of a handle.
     pub fn expr(&self, id: ExprId) -> &Expr {
         &self.exprs[id.0 as usize]
     }
 
-    /// Whether a host has to tell it of edges of inputs and of time.
+    /// Whether a host has to report input edges and time.
     pub fn takes_events(&self) -> bool {
         let by_host = |f: &Function| {
             matches!(
@@ -845,7 +845,7 @@ impl Module {
         flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
     }
 
-    /// Whether a host has to tell it how time goes on between scans.
+    /// Whether a host has to report the time between scans.
     pub fn takes_time(&self) -> bool {
         let taken = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
         self.sends_pulses()

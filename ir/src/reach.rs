@@ -1,9 +1,9 @@
 //! Which devices an access may meet: the one rule that the layout, the validator and the passes share.
 //!
-//! A place without an index names one device, and what is accessed goes on from there. **An index leads to any device of the class that the
-//! model has**, general or special, whichever the program writes it behind ([`Expr::InRange`]); where it leads to none, the operand does not
+//! A place without an index names one device, and the access starts there. **An index leads to any device of the class that the
+//! model has**, general or special, regardless of the number it is added to ([`Expr::InRange`]); where it leads to none, the operand does not
 //! exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices together lie in one run ([`Model::runs`]): none
-//! goes on from the general devices in the special ones. How far an index may lead is known from [`Expr::Within`].
+//! continues from the general devices into the special ones. The range of an index is known from [`Expr::Within`].
 
 use crate::node::{Arg, Expr, Module, Place, Stmt};
 use crate::walk::statements;
@@ -100,7 +100,7 @@ pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Access)) {
     }
 }
 
-/// What a statement itself accesses besides what its expressions read. The runtime may write what it is handed.
+/// What a statement itself accesses, in addition to what its expressions read. The runtime may write what it is handed.
 pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Access)) {
     let fixed = |class, number| Place {
         class,

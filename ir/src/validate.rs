@@ -220,7 +220,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Both branches of a condition: what both assign, or the one that goes on, is assigned.
+    /// Both branches of a condition: what both assign, or the one that continues, is assigned.
     fn branches(&mut self, then: &Body, otherwise: &Body) -> Result<bool, String> {
         let begin = self.log.len();
         let first = self.body(then)?;

@@ -153,7 +153,7 @@ for_exprs! {
     for_exprs_mut, index_of_mut, iter_mut, mut
 }
 
-/// Calls `f` with the places that a statement itself names besides those in its expressions, to replace them.
+/// Calls `f` with the places that a statement itself names, in addition to those in its expressions, to replace them.
 pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
     let of_arg = |arg: &mut Arg, f: &mut dyn FnMut(&mut Place)| match arg {
         Arg::Device { place, .. } | Arg::Nibbles { place, .. } | Arg::WordBit { place, .. } => {
@@ -236,7 +236,7 @@ pub fn statements<'a>(body: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
 /// How many coils of timers are very many: more than any machine needs. Each takes a hundred bytes of code where compilers inline it.
 const MANY_TIMERS: usize = 1000;
 
-/// Whether a program has so many timer coils that what they do should not stand at each of them.
+/// Whether a program has too many timer coils to expand each inline.
 pub fn has_many_timers(module: &Module) -> bool {
     let mut coils = 0;
     for function in &module.functions {

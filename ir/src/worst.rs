@@ -42,7 +42,7 @@ impl Cost {
 /// A loop that runs as often as a device says.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct OpenLoop {
-    /// Step where the network begins that it stands in.
+    /// Step where its network starts.
     pub step: u32,
     /// What each further iteration does; one is counted.
     pub iteration: Cost,
@@ -230,8 +230,8 @@ impl<'m> Finder<'m> {
         let mut longest = vec![Cost::default(); parts.len() + 1];
         for i in (0..parts.len()).rev() {
             let on = targets[i].iter().map(|&target| longest[target]);
-            let behind = on.fold(longest[i + 1], Cost::max);
-            longest[i] = own[i].plus(behind);
+            let after = on.fold(longest[i + 1], Cost::max);
+            longest[i] = own[i].plus(after);
         }
         longest.first().copied().unwrap_or_default()
     }
@@ -256,7 +256,7 @@ impl<'m> Finder<'m> {
     }
 }
 
-/// What an expression does besides its operands: a constant or a temporary that is there already does nothing.
+/// What an expression does in addition to its operands: a constant or an existing temporary does nothing.
 fn own(expr: &Expr) -> u64 {
     match expr {
         Expr::Bit(_) | Expr::I16(_) | Expr::I32(_) | Expr::F32(_) | Expr::Temp(_) => 0,
@@ -264,7 +264,7 @@ fn own(expr: &Expr) -> u64 {
     }
 }
 
-/// The lengths of all networks: each goes on to where the next one begins.
+/// The lengths of all networks: each ends where the next one starts.
 pub fn lengths(module: &Module) -> Vec<u64> {
     let mut begins: Vec<u32> = module.networks.iter().map(|network| network.step).collect();
     begins.push(module.steps);

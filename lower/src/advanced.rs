@@ -1,4 +1,4 @@
-//! Advanced interrupts of HM: routines that are left in the middle and go on there.
+//! Advanced interrupts of HM: routines that are left in the middle and continue there.
 
 use super::Lowerer;
 use super::interrupt::{Request, What};
@@ -7,7 +7,7 @@ use rungc_ir::node::{CellId, Expr, Stmt};
 use rungc_models::interrupts::{Advanced, Gate};
 use rungc_rt::{CmpOp, Relay};
 
-/// Places where routines go on are labels with numbers above this, which no pointer has.
+/// Places where routines continue are labels with numbers above this, which no pointer has.
 pub(super) const FIRST_PLACE: u32 = 0x1_0000;
 
 /// A routine that may be left in the middle.
@@ -15,7 +15,7 @@ pub(super) struct Section {
     /// Its function.
     function: u32,
     interrupt: Advanced,
-    /// Where it goes on: 0 is its begin.
+    /// Where it continues: 0 is its start.
     at: CellId,
     /// How many other places there are.
     places: u32,
@@ -42,7 +42,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// PROC: the next entry goes on here.
+    /// PROC: the next entry continues here.
     pub(super) fn process_begins(&mut self) {
         if let Some((place, at)) = self.new_place() {
             self.emit_place(at, place);
@@ -50,7 +50,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// PEND: the routine is left; driven, the next entry goes on behind it.
+    /// PEND: the routine is left; while driven, the next entry continues after it.
     pub(super) fn process_ends(&mut self) {
         let drive = self.drive();
         let Some((place, at)) = self.new_place() else {
@@ -74,7 +74,7 @@ impl Lowerer<'_> {
         self.return_here();
     }
 
-    /// One more place at which the routine at hand goes on, and where that is kept. The checks have seen that it stands in no loop.
+    /// One more place at which the current routine continues, and where that is stored. The checks ensure that it is not in a loop.
     fn new_place(&mut self) -> Option<(u32, CellId)> {
         let function = self.flow.function();
         let mut sections = self.interrupts.sections.iter_mut();
@@ -88,7 +88,7 @@ impl Lowerer<'_> {
         self.emit(Stmt::SetCell(at, place));
     }
 
-    /// The routine at hand begins with jumps to the places where it goes on, the last one first, so that they nest.
+    /// The current routine starts with jumps to the places where it continues, the last one first, so that they nest.
     pub(super) fn enter_places(&mut self) {
         let function = self.flow.function();
         let mut sections = self.interrupts.sections.iter();
@@ -96,17 +96,17 @@ impl Lowerer<'_> {
             return;
         };
         let (at, places) = (section.at, section.places);
-        let behind = std::mem::take(&mut self.out);
+        let body = std::mem::take(&mut self.out);
         for n in (1..=places).rev() {
             let at = self.add(Expr::Cell(at));
             let place = self.add(Expr::I32(n as i32));
             let cond = self.add(Expr::Cmp(CmpOp::Eq, at, place));
             self.push_jump(cond, FIRST_PLACE + n);
         }
-        self.out.extend(behind);
+        self.out.extend(body);
     }
 
-    /// Runs an advanced interrupt's routine from its begin, or goes on with it. A request for that from before is forgotten at its
+    /// Runs an advanced interrupt's routine from its start, or continues it. An earlier request for that is forgotten at its
     /// begin.
     pub(super) fn serve_process(&mut self, what: &What) {
         let What::Process {

@@ -250,7 +250,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Sets a flag of MUL and DIV, if the model has it and something looks at it, by `value`, and returns the value to go on with.
+    /// Sets a flag of MUL and DIV, if the model has it and something looks at it, by `value`, and returns the value to continue with.
     fn flag_of(
         &mut self,
         flag: Relay,

@@ -7,7 +7,7 @@ use rungc_syntax::DeviceClass::D;
 use rungc_syntax::OperandKind;
 
 impl Lowerer<'_> {
-    /// AXPO and its like: the operands behind the axis are these parameters of it.
+    /// AXPO and similar instructions: the operands after the axis are these parameters of it.
     pub(super) fn axis_parameters(&mut self, parameters: &[u32]) {
         let axis = match self.operand(0) {
             Some(&OperandKind::Decimal(axis, _)) => u32::try_from(axis).ok(),

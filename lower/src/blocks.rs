@@ -1,4 +1,4 @@
-//! Instructions on a few devices one behind the other, which are inline code: each device by name. The runtime is called for longer blocks,
+//! Instructions on a few consecutive devices, which are inline code: each device by name. The runtime is called for longer blocks,
 //! and for those that an index leads to.
 
 use super::Lowerer;
@@ -14,7 +14,7 @@ const WORDS: u32 = 8;
 /// Bits and resets that are written one by one at most.
 const BITS: u32 = 16;
 
-/// Whether an instruction on a block that a runtime function implements is inline code, as far as its operands tell.
+/// Whether an instruction on a block that a runtime function implements is inline code, judging by its operands.
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
     let count = |i, most| {

@@ -141,7 +141,7 @@ impl Lowerer<'_> {
         driven
     }
 
-    /// The program sends pulses at the outputs that the instruction names; what it looks at besides is stored.
+    /// The program sends pulses at the outputs that the instruction names; what it also reads is stored.
     fn use_outputs(&mut self, looks: Looks) {
         let operands = &self.instr().operands;
         for (operand, param) in operands.iter().zip(self.resolution().params) {

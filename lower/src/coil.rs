@@ -140,7 +140,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Any of the timers that go on in scans that do not execute their coils may be driven.
+    /// Any of the timers that continue in scans that do not execute their coils may be driven.
     fn keep_free_running(&mut self) {
         for timers in self.model.timers.iter().filter(|t| t.kind.free_running) {
             let numbers = timers.first..=timers.last;

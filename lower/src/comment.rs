@@ -22,7 +22,7 @@ pub(super) fn shortened(text: &str) -> String {
 }
 
 impl Lowerer<'_> {
-    /// COMRD S D: the characters of S's comment, two a word, filled up with spaces, and a zero behind them unless M8091 is on.
+    /// COMRD S D: the characters of S's comment, two a word, padded with spaces, with a zero after them unless M8091 is on.
     pub(super) fn device_comment(&mut self) {
         let (device, span) = match (self.operand(0), self.instr().operands.first()) {
             (Some(&OperandKind::Device(device, None)), Some(operand)) => (device, operand.span),

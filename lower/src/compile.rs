@@ -17,11 +17,11 @@ pub struct CompileOptions {
     pub model: Option<ModelId>,
     /// Name of the module; else it is made from the name of the source.
     pub name: Option<String>,
-    /// Devices that tests or a monitor look at, to be stored besides those that the program uses.
+    /// Devices that tests or a monitor read, stored in addition to those that the program uses.
     pub observe: Vec<(DeviceClass, u32)>,
     /// Store every device of the model.
     pub observe_all: bool,
-    /// Serial ports that the host opens, besides those that the program uses; numbers that the model does not have mean nothing.
+    /// Serial ports that the host opens, in addition to those that the program uses; numbers that the model does not have mean nothing.
     pub ports: Vec<u8>,
     /// What operands with an index can reach.
     pub bounds: Vec<Bound>,

@@ -328,7 +328,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The next row waits, behind the last one the first.
+    /// The next row waits; after the last one, the first.
     fn next_row(&mut self, table: &Rows, row: ExprId, rows: ExprId) {
         let one = self.add(Expr::I32(1));
         let next = self.add(Expr::Bin(BinOp::Add, row, one));
@@ -382,7 +382,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The low word names an output, with its octal digits as hexadecimal ones, the high word is not 0 if it goes on.
+    /// The low word names an output, with its octal digits as hexadecimal ones, the high word is not 0 if it turns on.
     fn write_output(&mut self, word: ExprId) {
         let mask = self.add(Expr::I32(0x7));
         let mut number = self.add(Expr::Bin(BinOp::And, word, mask));

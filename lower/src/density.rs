@@ -98,7 +98,7 @@ impl Lowerer<'_> {
         self.guarded_or(guards, run, |this| this.set_flag_to(window.on, false));
     }
 
-    /// If the window is over, another begins, perhaps behind some without pulses.
+    /// If the window is over, another starts, perhaps after some without pulses.
     fn end_window(&mut self, window: Window, now: ExprId) {
         let began = self.add(Expr::Cell(window.began));
         let length = self.add(Expr::Cell(window.length));

@@ -58,7 +58,7 @@ impl Lowerer<'_> {
         clock
     }
 
-    /// The time outside the scan is not behind that of the scan.
+    /// The time outside the scan does not lag that of the scan.
     pub(super) fn begin_clock(&mut self) {
         if let Some(clock) = self.edges.clock {
             let now = self.add(Expr::Sys(SysValue::NowMs));
@@ -86,7 +86,7 @@ impl Lowerer<'_> {
         self.add(Expr::Flag(flag))
     }
 
-    /// What `make` emits is done at an edge, behind what was said of it before.
+    /// What `make` emits is done at an edge, after what was added for it before.
     pub(super) fn on_edge(&mut self, input: u32, kind: EdgeKind, make: impl FnOnce(&mut Self)) {
         let body = self.body(make);
         let key = (input, kind == EdgeKind::Rising);

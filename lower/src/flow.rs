@@ -23,7 +23,7 @@ pub(super) struct Region {
     pub(super) function: u32,
     start: usize,
     end: usize,
-    /// The subroutine that it runs on into, for want of a return.
+    /// The subroutine that it falls through into, if a return is missing.
     runs_into: Option<u32>,
 }
 
@@ -49,11 +49,11 @@ pub(super) struct Flow {
     open_calls: Option<CellId>,
     /// Pointers that a jump goes to.
     jumped_to: FxHashSet<u32>,
-    /// The pointers that stand in the function at hand.
+    /// The pointers in the current function.
     labels: Vec<u32>,
     /// The region at hand.
     current: usize,
-    /// Assignments at the begin of the function at hand.
+    /// Assignments at the start of the current function.
     prologue: Vec<(TempId, ExprId)>,
     /// Whether the instruction at hand cannot be reached.
     dead: bool,
@@ -93,7 +93,7 @@ impl Flow {
                 .map(|label| label.number)
         };
         let (mut called, mut jumped_to) = (pointers(Basic::Call), pointers(Basic::Cj));
-        // An index may lead to any label; those that are called stand behind FEND.
+        // An index may lead to any label; those that are called come after FEND.
         if indexed(Basic::Call) {
             let fend = (0..count).find(|&i| basic_of(resolved, i) == Some(Basic::Fend));
             let subroutines = labels_from(fend.unwrap_or(count));
@@ -413,7 +413,7 @@ impl Lowerer<'_> {
         self.report(
             codes::BETWEEN_ROUTINES
                 .at(span, format!("`{label}` cannot be reached from here"))
-                .label("the label stands in a loop, a state or a routine that this jump is not in"),
+                .label("the label is in a loop, a state or a routine that this jump is not in"),
         );
     }
 
@@ -427,7 +427,7 @@ impl Lowerer<'_> {
             }
             Some(Open::State { cond, outer }) => {
                 let mut items = std::mem::replace(&mut self.out, outer);
-                // A label at the end of a state stands in front of what follows.
+                // A label at the end of a state precedes what follows.
                 let tail = items
                     .iter()
                     .rposition(|item| !matches!(item, Item::Label(_)));

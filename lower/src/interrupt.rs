@@ -29,7 +29,7 @@ pub(super) enum What {
         function: u32,
         interrupt: Interrupt,
     },
-    /// A routine runs, or goes on where it was left.
+    /// A routine runs, or continues where it was left.
     Process {
         pointer: u32,
         function: u32,
@@ -38,7 +38,7 @@ pub(super) enum What {
     },
     /// A relay catches the pulse.
     Catch(Relay),
-    /// The oscilloscope goes on, whether interrupts are enabled or not.
+    /// The oscilloscope continues, whether interrupts are enabled or not.
     Scope,
 }
 

@@ -58,7 +58,7 @@ use special::Specials;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-/// What to know besides the program.
+/// Options in addition to the program.
 #[derive(Clone, Debug, Default)]
 pub struct LowerOptions {
     /// Name of the module; else it is made from the name of the source.
@@ -144,7 +144,7 @@ struct Lowerer<'a> {
     logic: logic::Logic,
     steps: stl::Steps,
     interrupts: interrupt::Interrupts,
-    /// Timers that go on in scans that do not execute their coils.
+    /// Timers that continue in scans that do not execute their coils.
     free_running: BTreeMap<u32, TimerKind>,
     high_speed: high_speed::HighSpeed,
     edges: edges::Edges,
@@ -352,7 +352,7 @@ impl<'a> Lowerer<'a> {
         self.basic_at(self.at) == Some(basic)
     }
 
-    /// Which basic instruction stands at `i`.
+    /// Which basic instruction is at `i`.
     fn basic_at(&self, i: usize) -> Option<Basic> {
         basic_of(self.resolved, i)
     }
@@ -395,7 +395,7 @@ impl<'a> Lowerer<'a> {
     }
 }
 
-/// Which basic instruction stands at `i` of a program.
+/// Which basic instruction is at `i` of a program.
 fn basic_of(resolved: &Resolved, i: usize) -> Option<Basic> {
     resolved.instrs.get(i)?.basic()
 }

@@ -17,7 +17,7 @@ pub(super) struct Logic {
     pub(super) bus: Option<ExprId>,
     /// The zones of master control that are open: level and the bus around each.
     pub(super) zones: Vec<(u32, Option<ExprId>)>,
-    /// Whether an LD begins a rung, rather than a block that ANB or ORB joins to what stands before it.
+    /// Whether an LD begins a rung, rather than a block that ANB or ORB joins to the code before it.
     pub(super) starts_rung: Vec<bool>,
 }
 
@@ -32,7 +32,7 @@ impl Logic {
         }
     }
 
-    /// Forgets everything, at the begin of a function.
+    /// Forgets everything, at the start of a function.
     pub(super) fn clear(&mut self) {
         self.stack.clear();
         self.branches.clear();

@@ -28,7 +28,7 @@ pub fn module_name(source: &str) -> String {
     if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
         name.insert_str(0, "plc");
     }
-    // Some files stand beside the module's.
+    // Some files accompany the module's.
     if TAKEN.contains(&name.as_str()) {
         name.insert_str(0, "plc_");
     }
@@ -67,7 +67,7 @@ fn short_hash(name: &str) -> u16 {
 }
 
 /// Names that emitted files must not have, without their endings, in order: headers of C99 and POSIX, which other sources
-/// would find instead of the system's, and the files that stand beside a program's own.
+/// would find instead of the system's, and the files beside a program's own.
 const TAKEN: [&str; 71] = [
     "aio",
     "assert",

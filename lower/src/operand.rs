@@ -82,7 +82,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// As [`Lowerer::guarded`]; `instead` emits what else is done besides the fault.
+    /// As [`Lowerer::guarded`]; `instead` emits what else is done on a fault.
     pub(super) fn guarded_or(
         &mut self,
         guards: Guards,
@@ -136,7 +136,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// An index where it leads to a device, or where it is asked whether it does. What it can be besides this is found out when all is
+    /// An index where it leads to a device, or where it is asked whether it does. What else it can be is determined when all is
     /// lowered.
     pub(super) fn within(&mut self, value: ExprId, bound: Option<(i32, i32)>) -> ExprId {
         let (low, high) = bound.unwrap_or((i32::MIN, i32::MAX));
@@ -164,7 +164,7 @@ impl Lowerer<'_> {
     }
 
     /// The operand of the instruction at hand to which a place with this index belongs: its device, and where it stands. A result of several
-    /// words goes on after its operand.
+    /// words continues after its operand.
     pub(super) fn indexed_operand(&self, place: Place, written: Index) -> Option<(Device, Span)> {
         let operands = self.instr().operands.iter();
         let found = operands.filter_map(|operand| match indexed(&operand.kind)? {
@@ -220,7 +220,7 @@ impl Lowerer<'_> {
         guards
     }
 
-    /// Value of an index register behind a constant, of the constant's width.
+    /// Value of an index register after a constant, of the constant's width.
     pub(super) fn constant_index(&mut self, index: Index, wide: bool) -> ExprId {
         let place = fixed(index.class, index.number);
         if !wide {
@@ -437,7 +437,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// A word device as a target of 16 or 32 bits; `wide_index` tells the index's width.
+    /// A word device as a target of 16 or 32 bits; `wide_index` gives the index's width.
     fn word_target(
         &mut self,
         device: Device,

@@ -61,7 +61,7 @@ struct Group {
 struct Leap {
     from: usize,
     to: usize,
-    /// Whether the jump stands in a nested body.
+    /// Whether the jump is in a nested body.
     nested: bool,
 }
 
@@ -75,7 +75,7 @@ impl Leap {
     }
 }
 
-/// Makes a body of items, and tells which jumps leave it.
+/// Makes a body of items, and returns which jumps leave it.
 pub(super) fn structure(items: Vec<Item>) -> (Body, Vec<Jump>) {
     let mut labels = FxHashMap::default();
     for (i, item) in items.iter().enumerate() {

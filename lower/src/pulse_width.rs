@@ -1,4 +1,4 @@
-//! Widths and periods of pulses, as exactly as a host tells the time: to a millisecond.
+//! Widths and periods of pulses, as exactly as a host reports the time: to a millisecond.
 
 use super::Lowerer;
 use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Stmt};

@@ -14,7 +14,7 @@ use rungc_rt::special::M_TRANSFER_OFF;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Annunciators: S devices that are no states.
+/// Annunciators: S devices that are not states.
 pub(super) const ANNUNCIATORS: std::ops::RangeInclusive<u32> = 900..=999;
 
 /// The step ladder of a program.
@@ -78,7 +78,7 @@ impl Steps {
 }
 
 impl Lowerer<'_> {
-    /// STL, with the STLs of its row behind it.
+    /// STL, with the STLs that follow it directly.
     pub(super) fn begin_state(&mut self) {
         if self.steps.continues_row[self.at] {
             return;

@@ -184,7 +184,7 @@ impl Lowerer<'_> {
         self.when(when, forget);
     }
 
-    /// M8011 to M8014: the time since power-on, without its sign bit, tells where in its period each is.
+    /// M8011 to M8014: the time since power-on, without its sign bit, gives the position in its period of each.
     fn clocks(&mut self) {
         for (relay, period) in M_CLOCK_10_MS.run::<4>().into_iter().zip(CLOCK_PERIODS) {
             if !self.keeps(relay) {

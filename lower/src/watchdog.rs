@@ -85,7 +85,7 @@ impl Watcher<'_> {
         known
     }
 
-    /// The body with its watches, and how many steps it executes at most besides those that they count.
+    /// The body with its watches, and how many steps it executes at most, in addition to those that they count.
     fn body(&mut self, body: Body) -> (Body, u64) {
         let mut out = Vec::with_capacity(body.len());
         let mut steps = 0u64;
@@ -126,7 +126,7 @@ impl Watcher<'_> {
                         }
                         known.steps
                     } else {
-                        // Interrupts come seldom, and one that is cut short leaves the scan to go on.
+                        // Interrupts are rare, and if one is cut short, the scan continues.
                         0
                     }
                 }

@@ -8,10 +8,10 @@ use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{DeviceClass, Instr, OperandKind};
 
-/// A value is no float, or outside a function's domain.
+/// A value is not a float, or outside a function's domain.
 const DOMAIN: u16 = rungc_rt::Fault::DOMAIN.0;
 
-/// Whether an instruction that a runtime function implements is inline code, as far as its operands tell. Such an instruction stores no
+/// Whether an instruction that a runtime function implements is inline code, judging by its operands. Such an instruction stores no
 /// flags that nothing looks at.
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
@@ -481,7 +481,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// EADD, ESUB, EMUL, EDIV: M8020 is on if the result is 0. Dividing by 0 is an error of its own.
+    /// EADD, ESUB, EMUL, EDIV: M8020 is on if the result is 0. Dividing by 0 is a separate error.
     fn float_op(&mut self, op: FloatOp) {
         let mut guards = Guards::default();
         let values = [0, 1].map(|i| self.float_source(i, &mut guards));

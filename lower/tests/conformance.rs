@@ -96,7 +96,7 @@ fn errors_on(model: &'static Model, case: &Case) -> Vec<(u32, Diagnostic)> {
         .sorted()
         .into_iter()
         .filter(|diagnostic| diagnostic.severity == Severity::Error)
-        // That the compiler lacks something is no verdict on the program.
+        // A missing feature of the compiler says nothing about the program.
         .filter(|diagnostic| diagnostic.code != codes::NOT_IMPLEMENTED.id)
         .map(|diagnostic| {
             (

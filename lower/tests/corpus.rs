@@ -74,7 +74,7 @@ fn real_projects_have_no_errors() {
             let refused = |(end, code, _): &(&str, &str, &str)| {
                 path.ends_with(end) && diagnostic.code == *code
             };
-            // That the compiler lacks something is no fault of the project.
+            // A missing feature of the compiler is not the project's fault.
             let lacking = diagnostic.code == codes::NOT_IMPLEMENTED.id;
             if diagnostic.severity == Severity::Error && !lacking && !REFUSED.iter().any(refused) {
                 let line = read.program.source.line_col(diagnostic.span.start).0;

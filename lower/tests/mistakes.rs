@@ -143,7 +143,7 @@ fn logic_that_does_not_close() {
     insta::assert_snapshot!(pages(ModelId::Fx3u, LOGIC));
 }
 
-/// Programs in other languages are told once, not line by line.
+/// Programs in other languages are reported once, not line by line.
 const LANGUAGES: &[&str] = &[
     "LD %IX0.0\nANDN %IX0.1\nST %QX0.0\n",
     "PROGRAM Motor\nVAR\n  Run : BOOL;\nEND_VAR\nLD Run\nST Lamp\nEND_PROGRAM\n",
@@ -158,7 +158,7 @@ fn another_language_is_one_error() {
     insta::assert_snapshot!(pages(ModelId::Fx3u, LANGUAGES));
 }
 
-/// An unknown code of a project may be the NEXT that seems to be missing; a line of a list that is no instruction is not.
+/// An unknown code of a project may be the NEXT that seems to be missing; a line of a list that is not an instruction is not.
 #[test]
 fn an_unknown_code_may_be_any_instruction() {
     let list = "FOR K3\nLD X0\nOUT Y0\n= Y1\nLD X1\nOUT Y1\nEND\n";

@@ -218,10 +218,10 @@ fn functions_do_not_recurse() {
     assert!(with(|_| Stmt::CallSub(9)).is_err_and(|e| e.contains("does not exist")));
 }
 
-/// A row of stations, five rungs each, and what stands behind it.
-fn stations(count: u32, rungs: impl Fn(u32) -> String, behind: &str) -> String {
+/// A row of stations, five rungs each, and what follows it.
+fn stations(count: u32, rungs: impl Fn(u32) -> String, after: &str) -> String {
     let row: String = (0..count).map(rungs).collect();
-    main_of(&format!("{row}{behind}END\n"))
+    main_of(&format!("{row}{after}END\n"))
 }
 
 /// Rungs of one station.
@@ -313,11 +313,11 @@ fn a_round_that_differs_ends_the_loop() {
 
 #[test]
 fn devices_needed_in_a_row_are_no_loop() {
-    for behind in [
+    for after in [
         "LD X0\nMOV D9 Z0\nMOV K1M0Z0 D0\n",
         "LD X0\nBMOV K1M100 K1M200 K2\n",
     ] {
-        let main = stations(12, station, behind);
+        let main = stations(12, station, after);
         assert!(!main.contains("repeat"), "{main}");
     }
     // Only the first stations are needed so.

@@ -112,7 +112,7 @@ fn loops_bound_an_index() {
     let nested =
         "LD M8000\nMOV K0 Z0\nFOR K10\nFOR K5\nLD M8000\nMOV D100Z0 D1\nINC Z0\nNEXT\nNEXT\nEND\n";
     stores(nested, "D100-D149");
-    // It goes on from where the last scan left it.
+    // It continues where the last scan left it.
     let text = "FOR K8\nLD M8000\nMOV D100Z0 D1\nINC Z0\nNEXT\nEND\n";
     stores(
         text,

@@ -64,7 +64,7 @@ fn parts_of_results() {
             "LD X0 / MUL D0 D1 D10 / MOV D11 D20",
             "LD X0 / DMOV D0 D108 / BMOV D200 D100 K10",
             "LD X0 / DMOV D0 D2 / MOV D5 D4 / MOV D6 D1",
-            // A pair that another pair overlaps has a warning of its own.
+            // A pair that another pair overlaps has a separate warning.
             "LD X0 / DMOV K1 D0 / DMOV K2 D1",
             "LD X0 / DMOV K1 D0 / MOV K5 D1Z0",
         ],

@@ -45,7 +45,7 @@ fn calls_count_what_is_called() {
     let one = with("LD X000\nCALL P0\n");
     let two = with("LD X000\nCALL P0\nCALL P0\n");
     assert!(one.operations > none.operations);
-    // CALL, P0, LD, MOV, SRET; the first one stands behind LD X000.
+    // CALL, P0, LD, MOV, SRET; the first one follows LD X000.
     assert_eq!(two.steps - one.steps, 3 + 1 + 1 + 5 + 1);
     assert_eq!(one.steps - none.steps, 1 + 3 + 1 + 1 + 5 + 1);
 }

@@ -9,7 +9,7 @@ pub struct Interrupts {
     pub pointers: fn(u32) -> Option<Interrupt>,
     /// Interrupts whose routines may be left in the middle.
     pub advanced: Option<AdvancedPointers>,
-    /// A register chooses the edge that interrupts, so that both routines of an input may stand in the program.
+    /// A register chooses the edge that interrupts, so that a program may have both routines of an input.
     pub both_edges: bool,
     /// Registers that say which edges of inputs interrupt.
     pub captures: &'static [Capture],
@@ -207,7 +207,7 @@ impl CountRows {
     }
 }
 
-/// What requests interrupts, to tell which comes first.
+/// What requests interrupts, to decide which comes first.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
     /// A count of a high-speed counter.
@@ -225,7 +225,7 @@ pub enum Kind {
 pub struct Precedence {
     /// The first kind runs first. Without kinds, and within one, the lower pointer runs first.
     pub kinds: &'static [Kind],
-    /// Requests that DI keeps waiting run in the order in which they came; only of those that came at once the kind tells. Else it
+    /// Requests that DI keeps waiting run in the order in which they came; only among simultaneous ones does the kind decide. Otherwise it
     /// does of all.
     pub first_come: bool,
 }
@@ -375,7 +375,7 @@ mod tests {
             (Source::Period { ms: 5 }, Source::PulsesEnd { output: 0 })
         );
         assert_eq!(order(ModelId::L01s), [input, timer, counter, pulses]);
-        // Pointers alone tell.
+        // Only pointers decide.
         assert_eq!(order(ModelId::Fx3u), [pulses, timer, counter, input]);
     }
 }

@@ -77,7 +77,7 @@ models! {
 /// How well a model fits a CPU type.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fit {
-    /// It is this model, or one that a program cannot tell from it.
+    /// It is this model, or one that a program cannot distinguish from it.
     Same,
     /// None of the models is this CPU type, and this one resembles it most; the text says what is different there.
     Nearest(&'static str),
@@ -177,9 +177,9 @@ pub struct Model {
     pub name: &'static str,
     /// Boards of other makers that take its programs; they take some values that it does not.
     pub boards: Option<ModelId>,
-    /// Name for people: `Inovance H2U`.
+    /// Full name: `Inovance H2U`.
     pub title: &'static str,
-    /// CPU types of projects that are for it, in upper case: `FX3U`, `FX3UC`. A program cannot tell one from the other.
+    /// CPU types of projects that are for it, in upper case: `FX3U`, `FX3UC`. A program cannot distinguish them.
     pub cpus: &'static [&'static str],
     /// CPU types that are not among the models, in upper case, and resemble this one most ([`Fit::Nearest`]), each with what is different
     /// there.
@@ -197,7 +197,7 @@ pub struct Model {
     pub latch_key: Option<(Register, i16)>,
     /// Whether latched timers and counters keep their contacts over power-off, not only their values.
     pub keeps_contacts: bool,
-    /// The pointer that is END: CJ to it ends the scan, and it is no label.
+    /// The pointer that is END: CJ to it ends the scan, and it is not a label.
     pub end_pointer: Option<u32>,
     /// Program capacity in steps.
     pub max_steps: u32,
@@ -218,7 +218,7 @@ pub struct Model {
     pub notations: Classes,
     /// Whether its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.
     pub bare_names: bool,
-    /// Steps of an applied instruction: 1 and so many for each operand of the 16-bit and of the 32-bit form; `None`: as the
+    /// Steps of an applied instruction: 1 plus this many for each operand of the 16-bit and of the 32-bit form; `None`: as the
     /// catalogue's rows say.
     pub steps_per_operand: Option<(u8, u8)>,
     /// Whether its clock shows years of two digits, and takes such.

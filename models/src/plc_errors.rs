@@ -33,11 +33,11 @@ const fn row(
 pub const WATCHDOG: u16 = rungc_rt::special::WATCHDOG_CODE as u16;
 
 /// What most operation errors do.
-const SKIPPED: &str = "The instruction is skipped and the scan goes on.";
+const SKIPPED: &str = "The instruction is skipped and the scan continues.";
 /// What PID does after an error in its parameters.
-const PID_STOPS: &str = "PID stops until its contact goes off and on again.";
+const PID_STOPS: &str = "PID stops until its contact turns off and on again.";
 /// What PID does after an overflow.
-const PID_GOES_ON: &str = "PID goes on with the limit of the range.";
+const PID_GOES_ON: &str = "PID continues with the limit of the range.";
 /// What to do about an overflow of PID.
 const PID_RANGE: &str =
     "Scale the measured value and the set value down, or choose a smaller gain.";
@@ -49,35 +49,35 @@ pub const PLC_ERRORS: &[PlcError] = &[
         "a scan does not end (watchdog)",
         "The scan took longer than the watchdog time in D8000, 200 ms unless the program changes it. The PLC goes to STOP with all outputs off and \
          shows M8061 and D8061. Compiled programs and `rungc run` count instead of measuring: a scan may repeat 10,000 steps for each millisecond \
-         of D8000 in its loops and jumps back.",
-        "Look at the loop or the jump that is named: does its condition ever end it, is its count what you expect? Spread long work over several \
+         of D8000 in its loops and backward jumps.",
+        "Check the named loop or jump: does its condition ever end it, is its count what you expect? Spread long work over several \
          scans, or write a longer time to D8000.",
     ),
     row(
         6701,
-        "a jump or a call leads to no label",
-        "An index register leads CJ or CALL to a pointer P that the program does not have. The scan goes on behind the instruction.",
-        "Limit the index register to the labels that are there.",
+        "a jump or call to a missing label",
+        "An index register directs CJ or CALL to a pointer P that the program does not have. The scan continues after the instruction.",
+        "Limit the index register to labels that exist.",
     ),
     row(
         6702,
         "calls are nested too deep",
         "A subroutine calls itself, directly or through others, or CALL is nested deeper than the PLC allows. The call is skipped.",
-        "Replace the recursion by a loop, or call the subroutines one after the other.",
+        "Replace the recursion with a loop, or call the subroutines one after the other.",
     ),
     row(
         6706,
         "a device does not exist, or a value does not fit the instruction",
-        "An index register or a count leads beyond the last device of a class, a divisor is 0, or, on FX and L01S, an operand has a value that the \
-         instruction does not take. The instruction is skipped and the scan goes on.",
+        "An index register or a count goes past the last device of a class, a divisor is 0, or, on FX and L01S, an operand has a value that the \
+         instruction does not accept. The instruction is skipped and the scan continues.",
         "Check the index register and the count before the instruction; compare a divisor with 0 first.",
     ),
     row(
         6707,
         "a value does not fit the instruction",
-        "On H1U and H2U: an operand has a value that the instruction does not take, for example no BCD number or a negative count. The instruction \
-         is skipped and the scan goes on.",
-        "`rungc explain` and the name of the instruction tell which values it takes; check them before it.",
+        "On H1U and H2U: an operand has a value that the instruction does not accept, for example an invalid BCD number or a negative count. The instruction \
+         is skipped and the scan continues.",
+        "`rungc explain` with the name of the instruction lists the accepted values; check them first.",
     ),
     row(
         6730,
@@ -118,7 +118,7 @@ pub const PLC_ERRORS: &[PlcError] = &[
     row(
         6740,
         "PID: the sampling time is not longer than a scan",
-        "PID goes on with the time of a scan as its sampling time.",
+        "PID continues with the scan time as its sampling time.",
         "Choose a longer sampling time, or make the scan shorter.",
     ),
     row(
@@ -159,39 +159,39 @@ pub const PLC_ERRORS: &[PlcError] = &[
     ),
     row(
         6750,
-        "a module is not there, or auto tuning failed",
+        "a module is missing, or auto tuning failed",
         "FROM, TO or a buffer memory operand names a module that is not fitted, or an address that it does not have; the instruction is skipped. \
          PID: the measured and the set value differ too little at the start of auto tuning, or too much at its end; auto tuning ends.",
-        "Check the module number and what is fitted. For auto tuning, begin with a difference of more than 150.",
+        "Check the module number and what is fitted. For auto tuning, start with a difference of more than 150.",
     ),
     row(
         6751,
         "PID: the measured value moves the wrong way in auto tuning",
-        "Auto tuning goes on.",
+        "Auto tuning continues.",
         "Check the direction of action, bit 0 of the second parameter.",
     ),
     row(
         6760,
         "too many high-speed comparisons at once",
-        "More high-speed comparison instructions are driven at the same time than the PLC has units for. Those beyond the limit do nothing.",
+        "More high-speed comparison instructions are driven at the same time than the PLC has units for. Those beyond the limit have no effect.",
         "Drive them one after the other.",
     ),
     row(
         6763,
         "an input has no interrupt for the instruction",
         SKIPPED,
-        "Use an input that the instruction can watch.",
+        "Use an input that the instruction can monitor.",
     ),
     row(
         6764,
         "a pulse output is already in use",
-        "On FX: two instructions send pulses at one output at the same time. The later one is skipped and the scan goes on.",
+        "On FX: two instructions send pulses at one output at the same time. The later one is skipped and the scan continues.",
         "Drive them one after the other: wait for M8029 or for the output to be free.",
     ),
     row(
         6770,
         "a pulse output is already in use",
-        "On H1U and H2U: two instructions send pulses at one output at the same time. The later one is skipped and the scan goes on.",
+        "On H1U and H2U: two instructions send pulses at one output at the same time. The later one is skipped and the scan continues.",
         "Drive them one after the other: wait for M8029 or for the output to be free.",
     ),
 ];
@@ -217,7 +217,7 @@ mod tests {
         assert!(PLC_ERRORS.is_sorted_by(|a, b| a.code < b.code));
     }
 
-    /// The numbers 6700 to 6799 that stand in the sources of folders of this workspace.
+    /// The numbers 6700 to 6799 in the sources of folders of this workspace.
     fn codes_in(folder: &Path, found: &mut Vec<u16>) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();

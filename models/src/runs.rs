@@ -4,8 +4,8 @@ use crate::Model;
 pub use rungc_rt::{FIRST_COUNTER32, FIRST_SPECIAL};
 use rungc_syntax::DeviceClass;
 
-/// Whether a run ends before device `number` of `class` although the model goes on: the special devices and the 32-bit counters
-/// are apart from what stands before them.
+/// Whether a run ends before device `number` of `class` although the model has more: the special devices and the 32-bit counters
+/// are separate from the devices before them.
 pub fn is_border(class: DeviceClass, number: u32) -> bool {
     match class {
         DeviceClass::M | DeviceClass::D => number == FIRST_SPECIAL,

@@ -179,7 +179,7 @@ pub(crate) const CHECKED: Reason = because(
 );
 pub(crate) const HOST: Reason = because(
     Missed::ByWriters,
-    "the host decides when scans begin and whether the PLC is in RUN",
+    "the host decides when scans start and whether the PLC is in RUN",
 );
 pub(crate) const FAST: Reason = because(
     Missed::ByWriters,
@@ -187,11 +187,11 @@ pub(crate) const FAST: Reason = because(
 );
 pub(crate) const UNCLEAR: Reason = because(
     Missed::ByWriters,
-    "the manual calls it a position in Hz, and that of Y0 reserved; positions are counted in D8140 and its like",
+    "the manual describes it as a position in Hz, and that of Y0 as reserved; positions are counted in D8140 and similar registers",
 );
 pub(crate) const LATER: Reason = because(
     Missed::ByWriters,
-    "the model does not do this yet, says its manual",
+    "according to its manual, the model does not support this yet",
 );
 pub(crate) const SERIAL: Reason = because(
     Missed::ByAll,
@@ -227,7 +227,7 @@ pub(crate) const MODULES: Reason = because(
 );
 pub(crate) const MODES: Reason = because(
     Missed::Never,
-    "an output does what the program uses it for, whatever its mode",
+    "an output does what the program uses it for, regardless of its mode",
 );
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 

@@ -139,7 +139,7 @@ pub enum Error {
         error: io::Error,
     },
     /// What it says is wrong.
-    #[error("`{}` has mistakes", path.display())]
+    #[error("`{}` has errors", path.display())]
     Mistakes {
         /// The file.
         path: PathBuf,

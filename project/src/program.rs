@@ -62,11 +62,8 @@ impl Project {
             .map(|&(_, first, last)| format!("{} to {}", device(first), device(last)))
             .collect();
         let help = match choices.is_empty() {
-            true => format!(
-                "there is no choice among the {} of this model",
-                run.class.prefix()
-            ),
-            false => format!("there is a choice among {}", choices.join(", ")),
+            true => format!("the {} of this model cannot be chosen", run.class.prefix()),
+            false => format!("choose among {}", choices.join(", ")),
         };
         let why = codes::PROJECT_VALUE.at(run.span, message);
         Err(self.mistake(why.help(help)))

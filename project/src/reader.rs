@@ -46,7 +46,7 @@ pub fn read(text: &str) -> (Project, Diagnostics) {
             .push(codes::PROJECT_SYNTAX.at(span(range), message));
     }
     let mut project = Project::default();
-    // What follows a line that is not TOML may stand in another table than it seems.
+    // What follows a line that is not TOML may belong to another table than it seems.
     if !reader.found.has_errors() {
         reader.document(document.get_ref(), &mut project);
     }
@@ -72,7 +72,7 @@ fn hint(word: &str, names: &[&str]) -> String {
     let near = diag::did_you_mean(word, names.iter().copied());
     match near.filter(|near| near.len() > 1) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there are {}", listed(names)),
+        None => format!("valid names: {}", listed(names)),
     }
 }
 
@@ -91,8 +91,8 @@ impl Reader {
                 } else {
                     "key"
                 };
-                let message = format!("there is no {what} `{name}`");
-                let unknown = codes::PROJECT_KEY.at(at, message).label("not known");
+                let message = format!("unknown {what} `{name}`");
+                let unknown = codes::PROJECT_KEY.at(at, message).label("unknown");
                 let home = TABLES.iter().find(|(_, keys)| keys.contains(&name));
                 let help = home.map(|(table, _)| format!("it belongs in `[{table}]`"));
                 let help = help.unwrap_or_else(|| hint(name, &tables));
@@ -104,7 +104,7 @@ impl Reader {
                 self.wrong(
                     at,
                     message,
-                    &format!("write `[{name}]` on a line of its own, and its keys below"),
+                    &format!("write `[{name}]` on its own line, and its keys below"),
                 );
                 continue;
             };
@@ -133,12 +133,13 @@ impl Reader {
         let output = place("build", "output");
         for (key, at) in [("name", place("project", "name")), ("output", output)] {
             if let (Some(at), None) = (at, &project.program) {
-                let message = format!("`{key}` is for the project's program, and there is none");
+                let message =
+                    format!("`{key}` applies to the project's program, but there is none");
                 self.wrong(at, message, "add `program = \"…\"` to `[project]`");
             }
         }
         if let (Some(at), None) = (output, &project.build.emit) {
-            let message = "`output` is where `emit` goes, and there is no `emit`";
+            let message = "`output` requires `emit`";
             self.wrong(at, message, "add `emit = \"…\"`");
         }
     }
@@ -159,28 +160,28 @@ impl Reader {
                 let message = format!("`[{name}]` has no key `{word}`");
                 let unknown = codes::PROJECT_KEY.at(span(key.span()), message);
                 self.found
-                    .push(unknown.label("not known").help(hint(word, keys)));
+                    .push(unknown.label("unknown").help(hint(word, keys)));
             }
         }
     }
 
     /// A text.
     fn text(&mut self, key: &str, value: &Value<'_>) -> Option<Named> {
-        self.string(value, format!("`{key}` is a text"))
+        self.string(value, format!("`{key}` must be a string"))
     }
 
     /// A text; what is wrong otherwise.
     fn string(&mut self, value: &Value<'_>, wrong: String) -> Option<Named> {
         let at = span(value.span());
         match value.get_ref().as_str() {
-            Some("") => self.wrong(at, "this text is empty", ""),
+            Some("") => self.wrong(at, "this string is empty", ""),
             Some(text) => {
                 return Some(Named {
                     text: text.to_string(),
                     span: at,
                 });
             }
-            None => self.wrong(at, wrong, "write it in quotes"),
+            None => self.wrong(at, wrong, "put it in quotes"),
         }
         None
     }
@@ -201,10 +202,10 @@ impl Reader {
         };
         let Some(values) = value.get_ref().as_array() else {
             let help = format!("write `{key} = [\"…\"]`");
-            self.wrong(span(value.span()), format!("`{key}` is a list"), &help);
+            self.wrong(span(value.span()), format!("`{key}` must be a list"), &help);
             return Vec::new();
         };
-        let wrong = |value| (value, format!("`{key}` is a list of texts"));
+        let wrong = |value| (value, format!("`{key}` must be a list of strings"));
         let values = values.iter().map(wrong);
         values
             .filter_map(|(value, wrong)| self.string(value, wrong))
@@ -218,7 +219,7 @@ impl Reader {
         project.encoding = self.get(table, "encoding").and_then(|name| {
             let encoding = Encoding::for_label(name.text.as_bytes());
             if encoding.is_none() {
-                let message = format!("there is no encoding `{}`", name.text);
+                let message = format!("unknown encoding `{}`", name.text);
                 let help =
                     "for example `gbk`, `shift_jis`, `windows-1252`, `windows-1251` or `utf-8`";
                 self.wrong(name.span, message, help);
@@ -231,7 +232,7 @@ impl Reader {
         let model = ModelId::from_name(&name.text);
         if model.is_none() {
             let names: Vec<_> = ModelId::ALL.iter().map(|&id| Model::get(id).name).collect();
-            let message = format!("there is no model `{}`", name.text);
+            let message = format!("unknown model `{}`", name.text);
             self.wrong(name.span, message, &hint(&name.text.to_lowercase(), &names));
         }
         model
@@ -245,7 +246,7 @@ impl Reader {
                     continue;
                 };
                 if let Some((_, other)) = seen.iter().find(|(id, _)| *id == code.id) {
-                    let message = format!("`{}` stands in `{other}` already", name.text);
+                    let message = format!("`{}` is already in `{other}`", name.text);
                     self.wrong(name.span, message, "");
                     continue;
                 }
@@ -274,7 +275,7 @@ impl Reader {
                 .collect();
             let near = diag::did_you_mean(&name.text.to_lowercase(), names);
             let help = near.map_or(String::new(), |near| format!("did you mean `{near}`?"));
-            let message = format!("there is no {what} `{}`", name.text);
+            let message = format!("unknown {what} `{}`", name.text);
             self.wrong(name.span, message, &help);
             return None;
         };
@@ -291,7 +292,7 @@ impl Reader {
         if key == "warn"
             && let Err(why) = code.can_be_eased()
         {
-            let message = format!("`{}` stays an error", name.text);
+            let message = format!("`{}` must remain an error", name.text);
             self.wrong(name.span, message, why);
             return None;
         }
@@ -331,7 +332,7 @@ impl Reader {
                 let message = format!("no model has the instruction `{}`", name.text);
                 self.wrong(name.span, message, &help);
             } else if project.learned.get(&body).is_some() {
-                self.wrong(span(key.span()), "these bytes stand here twice", "");
+                self.wrong(span(key.span()), "these bytes are listed twice", "");
             } else if let Err(error) = project.learned.insert(&body, &mnemonic) {
                 self.wrong(name.span, error.to_string(), "remove this line");
             }
@@ -357,7 +358,7 @@ impl Reader {
                 (bound.class, bound.number, bound.index) == (base.class, base.number, index)
             };
             if project.index.iter().any(twice) {
-                self.wrong(span(key.span()), format!("`{word}` stands here twice"), "");
+                self.wrong(span(key.span()), format!("`{word}` is listed twice"), "");
                 continue;
             }
             project.index.push(Bound {

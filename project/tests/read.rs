@@ -11,7 +11,7 @@ fn parse(text: &str) -> Result<Project, Error> {
     Project::parse(Path::new("plant/rungc.toml"), text)
 }
 
-/// The mistakes of a file: code, place, message, what stands there, help.
+/// The mistakes of a file: code, place, message, quoted text, help.
 fn mistakes(text: &str) -> String {
     let Err(Error::Mistakes {
         text, diagnostics, ..

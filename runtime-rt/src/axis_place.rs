@@ -28,9 +28,9 @@ pub const RETURN: u32 = 12;
 pub const CREEP: u32 = 13;
 /// Which signals are looked at, and how, as bits.
 pub const EVENTS: u32 = 14;
-/// Pulses behind the DOG.
+/// Pulses after the DOG.
 pub const BEHIND: u32 = 15;
-/// Zero signals behind it.
+/// Zero signals after it.
 pub const ZEROS: u32 = 16;
 /// Pair: position.
 pub const POSITION: u32 = 18;

@@ -46,7 +46,7 @@
 //! # Interrupts
 //!
 //! Edges of inputs and pulses are worth an interrupt. Each has one object in a `static` of the firmware: an [`EdgeQueue`], which needs no
-//! lock, and [`SharedAxes`], which stand behind the lock that keeps the timer's interrupt out.
+//! lock, and [`SharedAxes`], protected by the lock that keeps the timer's interrupt out.
 //!
 //! ```
 //! use rungc_rt::board::{EdgeQueue, InputEdge, SharedAxes, send_pulses};
@@ -90,7 +90,7 @@ pub use crate::pulse_side::{SharedAxes, send_pulses};
 
 /// What time it is.
 pub trait Timebase {
-    /// Microseconds since the board began, wrapping. The steps in which they go on are those in which pulses and scans are on time.
+    /// Microseconds since the board began, wrapping. Their resolution is that of pulses and scans.
     fn now_us(&mut self) -> u32;
 }
 
@@ -99,7 +99,7 @@ pub trait Timebase {
 pub struct InputEdge {
     /// The input X.
     pub input: u32,
-    /// Whether it went on.
+    /// Whether it turned on.
     pub level: bool,
 }
 
@@ -144,7 +144,7 @@ pub enum Counted {
 /// Inputs that a hardware counter counts, for rates at which an interrupt for each edge is too slow. The program gets them as that many
 /// edges, so its comparisons act at the count; but only as soon as the main loop asks.
 pub trait CounterInput {
-    /// What this counter has counted since last asked, which may be nothing. Counters are numbered from 0; `None` behind the last one.
+    /// What this counter has counted since last asked, which may be nothing. Counters are numbered from 0; `None` after the last one.
     fn counted(&mut self, counter: u32) -> Option<Counted> {
         let _ = counter;
         None
@@ -162,7 +162,7 @@ pub trait CounterInput {
 /// A board that has [`Hal::with_pulses`] sends them in the timer's interrupt, by [`send_pulses`], while scans run. Else [`Hal::set_output`]
 /// sets the pins, in [`Driver::on_timer`].
 pub trait PulseOutput: Hal {
-    /// Arms the timer, in so many microseconds: 0 is as soon as it can, `None` not at all. A board without one leaves it as it is: its
+    /// Arms the timer to fire in this many microseconds: 0 is as soon as it can, `None` not at all. A board without one leaves it as it is: its
     /// pulses are as exact as [`Driver::poll`] is called often.
     fn wake_in(&mut self, us: Option<u32>) {
         let _ = us;
@@ -181,7 +181,7 @@ pub struct Setup {
     pub inputs: u16,
     /// Outputs Y from 0 on that a scan sets with [`Hal::set_output`].
     pub outputs: u16,
-    /// From the begin of a scan to the begin of the next one, in microseconds, below 2^31; 0: one at each [`Driver::poll`].
+    /// Scan period, start to start, in microseconds, below 2^31; 0: a scan at each [`Driver::poll`].
     pub scan_us: u32,
 }
 
@@ -263,7 +263,7 @@ impl<P: Program, B: Board> Driver<P, B> {
     }
 
     /// Drives the pins of pulse outputs whose time has come, and arms the timer for the next ones, on a board without
-    /// [`Hal::with_pulses`]: call it when the time has come that [`PulseOutput::wake_in`] was told. [`Driver::poll`] does the same at
+    /// [`Hal::with_pulses`]: call it at the time that [`PulseOutput::wake_in`] was given. [`Driver::poll`] does the same at
     /// its end. It waits for a running scan; one that comes late neither loses a pulse nor sends one too many.
     pub fn on_timer(&mut self) {
         let now_us = self.board.now_us();
@@ -271,7 +271,7 @@ impl<P: Program, B: Board> Driver<P, B> {
         self.board.wake_in(wait);
     }
 
-    /// Time goes on; whether it is another millisecond.
+    /// Advances time; returns whether another millisecond has passed.
     fn pass(&mut self, now_us: u32) -> bool {
         let began = self.millisecond.unwrap_or(now_us);
         let passed = now_us.wrapping_sub(began) / 1000;
@@ -381,7 +381,7 @@ fn has_come(moment: u32, now_us: u32) -> bool {
     now_us.wrapping_sub(moment) <= u32::MAX / 2
 }
 
-/// The moment a period behind another one; those that were missed are left out.
+/// The moment one period after another; missed ones are skipped.
 fn following(moment: u32, period: u32, now_us: u32) -> u32 {
     if now_us.wrapping_sub(moment) < period {
         moment.wrapping_add(period)

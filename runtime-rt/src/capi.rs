@@ -52,7 +52,7 @@ pub struct Area {
     pub first: u32,
     /// How many.
     pub count: u32,
-    /// How many numbers it is from a device to the next one in memory: 1, or more in an array of so many columns, each as long as the
+    /// How many numbers it is from a device to the next one in memory: 1, or more in an array of this many columns, each as long as the
     /// longest has to be.
     pub columns: u32,
     /// How many of the columns are stored: the first ones.
@@ -228,8 +228,8 @@ impl Map {
     fn find(&self, class: Class, number: u32) -> Found {
         let layout = self.layout();
         let areas = elements(layout.areas, layout.area_count);
-        let behind = areas.partition_point(|a| (a.class, a.first) <= (class, number));
-        let area = behind.checked_sub(1).and_then(|i| areas.get(i));
+        let after = areas.partition_point(|a| (a.class, a.first) <= (class, number));
+        let area = after.checked_sub(1).and_then(|i| areas.get(i));
         let holds = |a: &&Area| {
             let n = number - a.first;
             a.class == class && n < a.count && n % a.columns.max(1) < a.kept
@@ -258,8 +258,8 @@ impl Map {
             }
         }
         let ranges = elements(layout.ranges, layout.range_count);
-        let behind = ranges.partition_point(|r| (r.class, r.first) <= (class, number));
-        let range = behind.checked_sub(1).and_then(|i| ranges.get(i));
+        let after = ranges.partition_point(|r| (r.class, r.first) <= (class, number));
+        let range = after.checked_sub(1).and_then(|i| ranges.get(i));
         match range.filter(|r| r.class == class && number <= r.last) {
             Some(_) => Found::Elsewhere,
             None => Found::Nowhere,

@@ -206,11 +206,11 @@ impl<'a> Cx<'a> {
         match op.kind {
             OperandKind::Nibbles => self.set_group(op, offset, 8, value),
             OperandKind::Buffer => {
-                let behind = offset.saturating_add(1);
-                self.buffer(op, behind)?;
+                let next = offset.saturating_add(1);
+                self.buffer(op, next)?;
                 let [low, high] = word::words(value);
                 self.set_buffer(op, offset, low)?;
-                self.set_buffer(op, behind, high)
+                self.set_buffer(op, next, high)
             }
             OperandKind::Device => {
                 let n = at(op, offset)?;
@@ -309,7 +309,7 @@ impl<'a> Cx<'a> {
         self.set_dword(i, offset, value.to_bits() as i32)
     }
 
-    /// Word and mask of bit number `offset` from the bit of a word that `op` names; goes on into the next words.
+    /// Word and mask of bit number `offset` from the bit of a word that `op` names; continues into the next words.
     fn word_bit(op: Operand, offset: i32) -> Result<(u32, u16), Fault> {
         let bit = offset
             .checked_add(i32::from(op.digits))
@@ -465,7 +465,7 @@ impl<'a> Cx<'a> {
         matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a == b)
     }
 
-    /// Whether operand `b` begins behind operand `a` in the same class, so that a block copied from `a` to `b` must be copied from its end.
+    /// Whether operand `b` starts after operand `a` in the same class, so that a block copied from `a` to `b` must be copied from its end.
     pub fn begins_behind(&self, a: usize, b: usize) -> bool {
         matches!((self.op(a), self.op(b)), (Ok(a), Ok(b))
             if (a.kind, a.class) == (b.kind, b.class) && b.value > a.value
@@ -514,7 +514,7 @@ impl<'a> Cx<'a> {
         }
     }
 
-    /// Module and address of word number `offset` behind the one that `op` names.
+    /// Module and address of word number `offset` after the one that `op` names.
     fn buffer_place(op: Operand, offset: i32) -> Result<(u16, u16), Fault> {
         let address = op.value.checked_add(offset);
         let address = address.and_then(|address| u16::try_from(address).ok());

@@ -17,7 +17,7 @@ use core::sync::atomic::{AtomicU16, AtomicUsize, Ordering};
 /// ```
 #[derive(Debug)]
 pub struct EdgeQueue<const N: usize> {
-    /// An input's number, and in the lowest bit whether it went on.
+    /// An input's number, and in the lowest bit whether it turned on.
     slots: [AtomicU16; N],
     /// Where the oldest edge stands; the main loop's.
     first: AtomicUsize,

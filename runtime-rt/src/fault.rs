@@ -1,4 +1,4 @@
-//! Operation errors: the instruction is skipped, the error is shown in the special devices, the scan goes on.
+//! Operation errors: the instruction is skipped, the error is shown in the special devices, the scan continues.
 
 use crate::plc::{Class, Plc};
 use crate::special::{self, Register, Relay};
@@ -11,7 +11,7 @@ pub struct Fault(pub u16);
 impl Fault {
     /// A device lies outside the model's range (an index or a count led there).
     pub const DEVICE: Fault = Fault(6706);
-    /// An argument lies outside a floating-point function's domain, or its value is no float; the manuals give the code of [`Fault::DEVICE`].
+    /// An argument lies outside a floating-point function's domain, or its value is not a float; the manuals give the code of [`Fault::DEVICE`].
     pub const DOMAIN: Fault = Fault(6706);
     /// A value lies outside what the instruction takes; models show it as [`Plc::value_error`].
     pub const VALUE: Fault = Fault(6707);

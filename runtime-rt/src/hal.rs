@@ -95,7 +95,7 @@ impl Clock {
         days_before_year(year) + before + leap_day + u64::from(self.day.max(1)) - 1
     }
 
-    /// This moment, `ms` milliseconds later; the weekday goes on from this one's. Fractions of a second are dropped.
+    /// This moment, `ms` milliseconds later; the weekday continues from this one's. Fractions of a second are dropped.
     #[must_use]
     pub fn after(&self, ms: u64) -> Clock {
         let of_day =
@@ -131,7 +131,7 @@ impl Clock {
 ///
 /// An implementation buffers both ways: what comes in by interrupts waits until the program takes it, between two scans.
 pub trait SerialPort {
-    /// How characters stand on the line from now on. It is called before anything else, and again when the format changes.
+    /// The format of characters on the line from now on. It is called before anything else, and again when the format changes.
     fn set_format(&mut self, format: LineFormat);
     /// Takes the oldest character that was in by `now_us`.
     fn receive(&mut self, now_us: u32) -> Option<Received>;
@@ -187,7 +187,7 @@ pub trait Hal {
     fn hold_pulses(&mut self, hold: bool) {
         let _ = hold;
     }
-    /// Does `work` while the interrupt stays out that sends pulses with outputs of its own ([`crate::board::send_pulses`]), on these: they
+    /// Does `work` while the interrupt that sends pulses with separate outputs ([`crate::board::send_pulses`]) is held off, on these: they
     /// are copied, from and to the program's. A host without such an interrupt has none.
     fn with_pulses(&mut self, work: &mut dyn FnMut(&mut [Option<Axis>])) {
         work(&mut []);

@@ -44,7 +44,7 @@ impl State {
     }
 }
 
-/// What the scan driver tells instructions about time and mode.
+/// Time and mode, from the scan driver for instructions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Sys {
@@ -103,7 +103,7 @@ impl Sys {
     }
 }
 
-/// Where a call stands in the program.
+/// The position of a call in the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct Site {

@@ -11,13 +11,13 @@ pub trait Program: Plc {
     /// special relays that run from power-on (the clocks) are brought up to date.
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
 
-    /// Input terminal X `number` goes on or off. Only programs take notice of it that have interrupts, pulse catch, high-speed counters, or
+    /// Input terminal X `number` turns on or off. Only programs react to it that have interrupts, pulse catch, high-speed counters, or
     /// positioning that looks at inputs; others see their inputs as X shows them to a scan. Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
     fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
         let _ = (hal, number, level);
     }
 
-    /// Time goes on: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as those of inputs.
+    /// Advances time: `now_ms` as for a scan, at least once a millisecond for timer interrupts to be exact. They run as those of inputs.
     /// Pulses that have ended by then are counted.
     fn tick(&mut self, hal: &mut dyn Hal, now_ms: u32) {
         let _ = (hal, now_ms);

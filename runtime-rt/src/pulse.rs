@@ -121,7 +121,7 @@ impl Generator {
         self.rate = self.square.isqrt() as u32;
     }
 
-    /// Sends pulses of a width and a period without end; a signal that is sent already goes on with them. Both are in units of `unit_us`.
+    /// Sends pulses of a width and a period without end; a signal that is already sent continues with them. Both are in units of `unit_us`.
     pub fn modulate(&mut self, width: u32, period: u32, unit_us: u32) {
         if !self.modulates {
             *self = Generator {
@@ -203,7 +203,7 @@ impl Generator {
         }
     }
 
-    /// Ends a train without end after so many pulses more.
+    /// Ends an endless train after this many more pulses.
     pub fn end_in(&mut self, pulses: u32) {
         if self.busy && self.total == 0 {
             self.total = self.sent.saturating_add(pulses.max(1));
@@ -223,11 +223,11 @@ impl Generator {
         let mut count: u32 = 0;
         while self.busy && self.rate > 0 {
             let gain = left.saturating_mul(self.rate.into());
-            let Some(behind) = gain.checked_sub(self.full - self.phase) else {
+            let Some(past) = gain.checked_sub(self.full - self.phase) else {
                 self.phase += gain;
                 break;
             };
-            let pulses = (1 + behind / self.full).min(self.alike().into());
+            let pulses = (1 + past / self.full).min(self.alike().into());
             let needed = pulses * self.full - self.phase;
             let used = needed.div_ceil(self.rate.into());
             self.phase = used * u64::from(self.rate) - needed;
@@ -317,8 +317,8 @@ impl Generator {
         if self.total == 0 || self.down == 0 {
             return;
         }
-        let behind = u64::from(self.total - self.sent).saturating_sub(1);
-        let most = self.lowest.saturating_add(self.down.saturating_mul(behind));
+        let left = u64::from(self.total - self.sent).saturating_sub(1);
+        let most = self.lowest.saturating_add(self.down.saturating_mul(left));
         self.square = self.square.min(most);
     }
 

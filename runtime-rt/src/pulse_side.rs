@@ -10,7 +10,7 @@ use crate::hal::Hal;
 use crate::plc::Plc;
 
 /// What an interrupt shares with the program: the pulse outputs from Y000 on, as many as emitted programs say with `PULSE_OUTPUTS`. All
-/// are `None` at power-on. It stands in a `static` behind a lock, see [`crate::board`].
+/// are `None` at power-on. It is in a `static` protected by a lock, see [`crate::board`].
 pub type SharedAxes<const N: usize> = [Option<Axis>; N];
 
 /// How soon the interrupt comes again while the program has its outputs, in microseconds.
@@ -50,7 +50,7 @@ pub(crate) fn take(plc: &mut dyn Plc, hal: &mut dyn Hal) {
     });
 }
 
-/// The interrupt goes on with what the program wants to be sent.
+/// The interrupt continues with what the program wants to send.
 pub(crate) fn give(plc: &mut dyn Plc, hal: &mut dyn Hal) {
     hal.with_pulses(&mut |shared| {
         for (output, slot) in (0..).zip(shared) {

@@ -36,7 +36,7 @@ pub struct Needs {
     pub names_port: bool,
     /// It works on a serial port that a register names: all of the model are there.
     pub any_port: bool,
-    /// Registers tell it devices by number, of any class that a scan may write.
+    /// Registers give it devices by number, of any class that a scan may write.
     pub anywhere: bool,
 }
 
@@ -72,12 +72,12 @@ macro_rules! registry {
             /// All of them.
             pub const ALL: &'static [RtFn] = &[$(RtFn::$variant),*];
 
-            /// Name of the function in [`crate::fnc`] and, behind `rungc_`, in the C ABI.
+            /// Name of the function in [`crate::fnc`] and, after `rungc_`, in the C ABI.
             pub const fn name(self) -> &'static str {
                 match self { $(RtFn::$variant => stringify!($function),)* }
             }
 
-            /// The module of [`crate::fnc`] it stands in.
+            /// The module of [`crate::fnc`] that contains it.
             pub const fn module(self) -> &'static str {
                 match self { $(RtFn::$variant => stringify!($module),)* }
             }
@@ -130,13 +130,13 @@ registry! {
     Smov = move_::smov(s, m1, m2, d, n);
     /// BMOV (FNC 15): copies a block; M8024 turns the direction.
     Bmov = move_::bmov(s, d, n);
-    /// BMOV of HM: M8024 has no say.
+    /// BMOV of HM: M8024 is ignored.
     BmovForward = move_::bmov_forward(s, d, n);
     /// FMOV (FNC 16): fills a block.
     Fmov = move_::fmov(s, d, n);
     /// XCH (FNC 17): exchanges; M8160 exchanges bytes.
     Xch = move_::xch(d1, d2);
-    /// XCH of HM: M8160 has no say.
+    /// XCH of HM: M8160 is ignored.
     XchWords = move_::xch_words(d1, d2);
     /// SWAP (FNC 147): exchanges the bytes of each word.
     Swap = move_::swap(s);
@@ -226,7 +226,7 @@ registry! {
     EsubPlain = float::esub_plain(s1, s2, d);
     /// EMUL of HM: no flags.
     EmulPlain = float::emul_plain(s1, s2, d);
-    /// EDIV of HM: a divisor of 0 is no error.
+    /// EDIV of HM: a divisor of 0 is not an error.
     EdivClamped = float::ediv_clamped(s1, s2, d);
     /// EXP (FNC 124): power of e.
     Exp = float::exp(s, d);
@@ -236,7 +236,7 @@ registry! {
     Log10 = float::log10(s, d);
     /// ESQR (FNC 127): square root of a float.
     Esqr = float::esqr(s, d);
-    /// ESQR of HM: 0 for what is no finite number, no flag.
+    /// ESQR of HM: 0 for a value that is not finite, no flag.
     EsqrClamped = float::esqr_clamped(s, d);
     /// ENEG (FNC 128): turns a float's sign.
     Eneg = float::eneg(d);

@@ -171,7 +171,7 @@ pub const D_RANDOM: Register = Register(8310);
 
 /// Stops the real-time clock; its fall sets the clock from D8013–D8019.
 pub const M_CLOCK_STOP: Relay = Relay(8015);
-/// Holds D8013–D8019 while the clock goes on.
+/// Freezes D8013–D8019 while the clock continues.
 pub const M_CLOCK_HOLD: Relay = Relay(8016);
 /// Its rise rounds the clock to a minute.
 pub const M_CLOCK_ADJUST: Relay = Relay(8017);

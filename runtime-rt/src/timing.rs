@@ -31,7 +31,7 @@ pub struct Timer {
     pub value: i16,
     /// Preset taken over at the start of timing or, for a free-running timer, the last one.
     pub preset: i16,
-    /// 0 if its coil was off at the last execution; else the scan ([`Sys::scan`]) in which it was executed or went on, for a shared or
+    /// 0 if its coil was off at the last execution; else the scan ([`Sys::scan`]) in which it was executed or continued, for a shared or
     /// free-running timer, and 1 for others.
     pub coil: u16,
     /// Time since the last whole unit, in milliseconds.
@@ -112,7 +112,7 @@ impl Timer {
         self.done
     }
 
-    /// What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it.
+    /// What END does for a free-running timer: with its coil on, it continues timing in a scan that did not execute it.
     pub fn go_on(&mut self, kind: TimerKind, sys: &Sys) {
         if self.coil != 0 {
             self.run(kind, true, self.preset, sys);

@@ -23,7 +23,7 @@ struct BfmWord {
 /// Virtual hardware without allocation.
 ///
 /// A module exists as soon as one of its words has been set ([`VirtualHal::set_bfm`]); its other words are then 0. The clock starts
-/// at 2000-01-01 (a Saturday) and follows the virtual time that [`VirtualHal::advance_to`] tells. Input and output terminals are
+/// at 2000-01-01 (a Saturday) and follows the virtual time that [`VirtualHal::advance_to`] sets. Input and output terminals are
 /// the images of the program, so immediate refreshes change nothing.
 #[derive(Clone, Debug)]
 pub struct VirtualHal {
@@ -81,7 +81,7 @@ impl VirtualHal {
         self.now_ms = now_ms;
     }
 
-    /// Virtual time begins at 0 again, as after power off and on; the clock goes on where it is.
+    /// Virtual time restarts at 0, as after power off and on; the clock continues where it is.
     pub fn restart(&mut self) {
         self.now_ms = 0;
         self.lines = [const { VirtualLine::new() }; LINES];

@@ -30,7 +30,7 @@ pub struct Clear {
     pub chooses: Option<Relay>,
     /// The hexadecimal digits of the register are those of the output's octal number.
     pub octal: bool,
-    /// How long it is on, in milliseconds, besides the scan in which it begins.
+    /// How long it is on, in milliseconds, in addition to the scan in which it starts.
     pub ms: u32,
 }
 
@@ -542,7 +542,7 @@ impl Pulses {
     }
 }
 
-/// Which registers an instruction looks at besides its operands, and those in which pulses are counted.
+/// Which registers an instruction reads in addition to its operands, and those in which pulses are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Looks {
     /// The position, and speeds and times of ramps.
@@ -576,7 +576,7 @@ impl Wiring {
     /// Inputs X whose edges an instruction takes notice of at once if it names them; others are looked at once a scan.
     pub const FAST_INPUTS: u32 = 8;
 
-    /// The inputs X, besides those that it names, at which an instruction looks, `chosen` telling whether a register may choose the
+    /// The inputs X, in addition to those that it names, that an instruction reads, `chosen` telling whether a register may choose the
     /// interrupt input.
     pub fn inputs(&self, looks: Looks, chosen: bool) -> Range<u32> {
         match (self.axis, looks.interrupt, chosen) {

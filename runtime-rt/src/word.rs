@@ -136,7 +136,7 @@ pub const fn is_finite(value: f32) -> bool {
     value.is_finite()
 }
 
-/// The other sign, also of what is no number (ENEG).
+/// The other sign, also of a value that is not a number (ENEG).
 pub const fn negate(value: f32) -> f32 {
     f32::from_bits(value.to_bits() ^ 0x8000_0000)
 }

@@ -14,7 +14,7 @@ pub const VARIABLE: &str = "RUNGC_CACHE_DIR";
 const SLOTS: usize = 64;
 
 /// The cache: what [`VARIABLE`] names, else `rungc` in the user's cache folder (`~/.cache` on Linux, `~/Library/Caches` on macOS,
-/// `%LOCALAPPDATA%` on Windows). What is in it belongs to these sources: others have a folder of their own.
+/// `%LOCALAPPDATA%` on Windows). What is in it belongs to these sources: others have separate folders.
 ///
 /// # Errors
 /// There is no such folder, or it cannot be written.
@@ -40,7 +40,7 @@ fn of_sources() -> &'static str {
     })
 }
 
-/// A number that tells values apart, the same in each run.
+/// A number that distinguishes values, the same in each run.
 pub(crate) fn hash(value: &impl Hash) -> u64 {
     let mut hasher = DefaultHasher::new();
     value.hash(&mut hasher);
@@ -55,7 +55,7 @@ pub struct Slot {
 }
 
 impl Slot {
-    /// The first folder of a kind that nobody uses.
+    /// The first unused folder of a kind.
     ///
     /// # Errors
     /// The cache cannot be written, or all folders are in use.
@@ -73,7 +73,7 @@ impl Slot {
         Err(io::Error::other("all of its folders are in use"))
     }
 
-    /// This very folder, as soon as nobody else uses it.
+    /// This folder, once it is no longer in use.
     ///
     /// # Errors
     /// The cache cannot be written.

@@ -109,7 +109,10 @@ mod tests {
         assert!(has("Cargo.toml") && has("src/lib.rs") && has("src/fnc/data.rs"));
         assert!(has("libm/Cargo.toml") && has("libm/src/math/sqrt.rs") && has("libm/LICENSE.txt"));
         for (path, text) in files.iter().filter(|(path, _)| path.ends_with(".toml")) {
-            assert!(!text.contains("workspace"), "{path} stands alone");
+            assert!(
+                !text.contains("workspace"),
+                "{path} must not name a workspace"
+            );
         }
         assert!(files[0].1.contains("path = \"libm\""));
     }

@@ -15,7 +15,7 @@ pub const FILE: &str = "librungc_rt.a";
 pub struct Recipe<'a> {
     /// The cargo to call.
     pub cargo: &'a OsStr,
-    /// What it tells the toolchain apart by.
+    /// What identifies the toolchain.
     pub rustc: &'a OsStr,
     /// rustc's name of the target; `None` is this machine.
     pub target: Option<&'a str>,
@@ -71,14 +71,14 @@ pub enum Error {
     },
 }
 
-/// Whether cargo is told to build the standard library, too, by its arguments or the environment. The crates that this needs may come
+/// Whether arguments or the environment make cargo build the standard library, too. The crates that this needs may come
 /// from the registry.
 pub fn builds_std(cargo_args: &[String]) -> bool {
     env::var_os("CARGO_UNSTABLE_BUILD_STD").is_some()
         || cargo_args.iter().any(|arg| arg.contains("build-std"))
 }
 
-/// What cargo is told besides: to use what is there and nothing else.
+/// Additional arguments of cargo: use only what is there.
 pub fn strictly(cargo_args: &[String]) -> impl Iterator<Item = &'static str> {
     let offline = !builds_std(cargo_args);
     ["--locked"]
@@ -86,7 +86,7 @@ pub fn strictly(cargo_args: &[String]) -> impl Iterator<Item = &'static str> {
         .chain(offline.then_some("--offline"))
 }
 
-/// The manifest of the sources as a workspace of their own, wherever their folder lies.
+/// The manifest of the sources as a separate workspace, wherever their folder lies.
 pub fn manifest(manifest: &str) -> String {
     format!("{manifest}\n[workspace]\n\n[profile.release]\npanic = \"abort\"\nopt-level = \"s\"\n")
 }

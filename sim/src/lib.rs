@@ -1,4 +1,4 @@
-//! Running compiled programs: test files, the engines that execute them, the machine around a PLC, and what a run leaves behind.
+//! Running compiled programs: test files, the engines that execute them, the machine around a PLC, and the results of a run.
 //!
 //! [`plctest`] reads test files and runs them on any [`engines::Engine`]: the [interpreter](rungc_interp), or the executables that the
 //! emitted C and Rust of a batch of programs are built to. [`plant`] simulates the machine that a PLC is wired to, and [`record`]

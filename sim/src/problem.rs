@@ -81,7 +81,7 @@ fn plain(message: &str) -> String {
         ("expected i32", "expected a whole number"),
         (
             "invalid type: map, expected a sequence",
-            "tables of this name are written in double brackets",
+            "write tables of this name in double brackets",
         ),
         ("invalid type: map", "invalid type: table"),
         ("expected a sequence", "expected a list in brackets"),

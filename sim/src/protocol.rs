@@ -12,7 +12,7 @@ use std::fmt;
 pub enum Request {
     /// Program number `.0` of the batch, freshly powered on, with hardware that has nothing set.
     Case(usize),
-    /// Program number `.0` of the batch in another PLC of the case, freshly powered on, with hardware of its own. The first PLC is that of
+    /// Program number `.0` of the batch in another PLC of the case, freshly powered on, with separate hardware. The first PLC is that of
     /// [`Request::Case`].
     Join(usize),
     /// What follows is for this PLC of the case, 0 for the first.
@@ -36,7 +36,7 @@ pub enum Request {
         /// Duration of the scan before, in microseconds.
         scan_us: u32,
     },
-    /// An input terminal goes on or off.
+    /// An input terminal turns on or off.
     Edge(u32, bool),
     /// So many milliseconds have passed since power-on.
     Tick(u32),
@@ -53,7 +53,7 @@ pub enum Request {
     /// Takes the oldest character that a serial port has sent by a time, in microseconds since power-on: the time at which it was out,
     /// shifted left by 8, plus the character. There is none: [`Answer::Missing`].
     Sent(u8, u32),
-    /// Asks how characters stand on the line of a serial port: bits per second, 8 bits of data bits, 4 of parity (none, odd, even), 4 of stop
+    /// Asks for the format of characters on the line of a serial port: bits per second, 8 bits of data bits, 4 of parity (none, odd, even), 4 of stop
     /// bits.
     Line(u8),
     /// The RUN/STOP switch.

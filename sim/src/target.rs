@@ -56,7 +56,7 @@ impl Target {
             return match (view, BITS.contains(&class), digits) {
                 (None, true, 1..=8) => Ok(Target::Nibbles(digits, class, number)),
                 (None, true, _) => Err(format!("`{name}`: a group has 1 to 8 digits")),
-                (None, false, _) => Err(format!("`{name}`: a group begins at an X, Y, M or S")),
+                (None, false, _) => Err(format!("`{name}`: a group starts at an X, Y, M or S")),
                 (Some(_), ..) => Err(format!("`{name}`: nothing may follow a group")),
             };
         }
@@ -75,13 +75,13 @@ impl Target {
             Some("hz") if class == DeviceClass::Y => Ok(Target::Frequency(number)),
             Some(view) => {
                 let letters = class.prefix();
-                let wrong = format!("`{name}`: `.{view}` does not go with {letters}");
+                let wrong = format!("`{name}`: `.{view}` does not apply to {letters}");
                 Err(match views(class) {
                     "" => wrong,
-                    views => format!("{wrong}, which takes {views}"),
+                    views => format!("{wrong}, which accepts {views}"),
                 })
             }
-            None => Err(format!("`{name}` holds no value")),
+            None => Err(format!("`{name}` has no value")),
         }
     }
 
@@ -99,7 +99,7 @@ impl Target {
     }
 }
 
-/// The views of a class, for people.
+/// The views of a class, for messages.
 fn views(class: DeviceClass) -> &'static str {
     match class {
         DeviceClass::Y => "`.pulses` and `.hz`",
@@ -116,7 +116,7 @@ fn view_after_colon(name: &str, device: &str, view: &str) -> String {
         Some('s' | 't' | 'c') => "str",
         _ => "i32",
     };
-    format!("`{name}`: write `{device}.{meant}`; a dot stands before what a device is seen as")
+    format!("`{name}`: write `{device}.{meant}`; put a dot before the type")
 }
 
 /// Splits `K4M0` into 4 and `M0`.
@@ -137,15 +137,16 @@ fn device_of(device: &str, name: &str) -> Result<(DeviceClass, u32), String> {
         return Err(view_after_colon(name, device, view));
     }
     let (letters, number) = device.split_at(at);
-    let class = DeviceClass::from_prefix(letters)
-        .ok_or_else(|| format!("`{name}` is no device name, e.g. `M0`, `X010`, `D0.i32`"))?;
+    let class = DeviceClass::from_prefix(letters).ok_or_else(|| {
+        format!("`{name}` is not a device name; examples: `M0`, `X010`, `D0.i32`")
+    })?;
     let radix = if class.is_octal() { 8 } else { 10 };
     let number = u32::from_str_radix(number, radix).map_err(|_| {
         let kind = if radix == 8 { "an octal" } else { "a decimal" };
         format!("`{name}`: `{letters}` is followed by {kind} number")
     })?;
     if number > LAST {
-        return Err(format!("`{name}`: no model has so many devices"));
+        return Err(format!("`{name}`: no model has that many devices"));
     }
     Ok((class, number))
 }
@@ -189,11 +190,11 @@ mod tests {
     #[test]
     fn views_are_suggested() {
         let why = |name| Target::parse(name).unwrap_err();
-        insta::assert_snapshot!(why("D0:f"), @"`D0:f`: write `D0.f32`; a dot stands before what a device is seen as");
-        insta::assert_snapshot!(why("D0:I"), @"`D0:I`: write `D0.i32`; a dot stands before what a device is seen as");
-        insta::assert_snapshot!(why("D0.f"), @"`D0.f`: `.f` does not go with D, which takes `.i32`, `.f32` and `.str`");
-        insta::assert_snapshot!(why("Y0.f32"), @"`Y0.f32`: `.f32` does not go with Y, which takes `.pulses` and `.hz`");
-        insta::assert_snapshot!(why("M0.i32"), @"`M0.i32`: `.i32` does not go with M");
+        insta::assert_snapshot!(why("D0:f"), @"`D0:f`: write `D0.f32`; put a dot before the type");
+        insta::assert_snapshot!(why("D0:I"), @"`D0:I`: write `D0.i32`; put a dot before the type");
+        insta::assert_snapshot!(why("D0.f"), @"`D0.f`: `.f` does not apply to D, which accepts `.i32`, `.f32` and `.str`");
+        insta::assert_snapshot!(why("Y0.f32"), @"`Y0.f32`: `.f32` does not apply to Y, which accepts `.pulses` and `.hz`");
+        insta::assert_snapshot!(why("M0.i32"), @"`M0.i32`: `.i32` does not apply to M");
     }
 
     #[test]

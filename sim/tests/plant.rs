@@ -110,7 +110,7 @@ fn an_axis_passes_its_switches_at_their_places() {
     let collision = rig.plant.collision().unwrap().to_string();
     assert_eq!(
         collision,
-        "at 111 ms: the axis Y000 runs into the end of its travel, at -1000 pulses"
+        "at 111 ms: the axis Y000 hits its end stop at -1000 pulses"
     );
 }
 

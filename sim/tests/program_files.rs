@@ -1,4 +1,4 @@
-//! Test files whose programs are files of their own.
+//! Test files whose programs are separate files.
 
 use rungc_models::ModelId;
 use rungc_sim::engines::{EngineKind, build};
@@ -129,7 +129,7 @@ fn mistakes_have_their_place() {
         .to_string();
     assert!(why.contains("t.plctest.toml:3:11: "), "{why}");
     assert!(
-        why.ends_with("rungc.toml:2:9: there is no model `h9u`"),
+        why.ends_with("rungc.toml:2:9: unknown model `h9u`"),
         "{why}"
     );
     // What is wrong with the program is a matter of the case.

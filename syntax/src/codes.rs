@@ -6,12 +6,12 @@
 //! | E01xx | devices and operands |
 //! | E03xx | operand counts |
 //! | E04xx | contact logic, structure and flow |
-//! | W02xx | legal, but it hurts in practice |
-//! | W03xx | what compiled programs do otherwise than the PLC |
+//! | W02xx | legal, but causes trouble in practice |
+//! | W03xx | where compiled programs differ from the PLC |
 //! | W05xx | what the source says of itself does not fit |
 //! | N00xx | worth knowing: how the source was read |
 //!
-//! A code never changes its meaning and is never given away again.
+//! A code never changes its meaning and is never reused.
 
 use crate::Span;
 use crate::diag::{Diagnostic, Severity};
@@ -39,7 +39,7 @@ pub use vendor::*;
 pub struct Code {
     /// Stable identifier, e.g. `E0106`.
     pub id: &'static str,
-    /// Name for people and options, e.g. `double-coil`.
+    /// Name for messages and options, e.g. `double-coil`.
     pub name: &'static str,
     /// How bad it is.
     pub severity: Severity,
@@ -79,7 +79,7 @@ static EASED: [&Code; 5] = [
 static NOT_EASED: [(&Code, &str); 6] = [
     (
         &NOT_ON_MODEL,
-        "what its operands are is known for the models that have it; choose one with --model",
+        "its operands are known only for the models that have it; choose one with --model",
     ),
     (&NO_SUCH_FORM, "what this form would do is not defined"),
     (
@@ -96,7 +96,7 @@ static NOT_EASED: [(&Code, &str); 6] = [
     ),
     (
         &TOO_OFTEN,
-        "what more of these instructions do at once is not known",
+        "the effect of using more of these instructions is not known",
     ),
 ];
 

@@ -59,7 +59,7 @@ pub struct Fix {
 pub struct Edit {
     /// What is replaced; an empty span is a place to insert at.
     pub span: Span,
-    /// What stands there afterwards.
+    /// The new text.
     pub text: String,
 }
 

@@ -22,7 +22,7 @@ pub struct Program {
     /// The instructions in order. One of which an operand could not be read is among them, with [`OperandKind::Unreadable`] in its
     /// place; lines that do not even name an instruction are not here. The reader reported both.
     pub instrs: Vec<Instr>,
-    /// For each line that does not name an instruction, how many of `instrs` stand before it; ascending.
+    /// For each line that does not name an instruction, how many of `instrs` precede it; ascending.
     pub unread: Vec<u32>,
     /// Comments on devices, where the source has them.
     pub comments: BTreeMap<Device, String>,
@@ -109,7 +109,7 @@ pub struct Instr {
 pub struct Remarks {
     /// Line statement (heading) that stands above the instruction.
     pub statement: Option<SmolStr>,
-    /// Comment or note that stands beside the instruction.
+    /// Comment or note beside the instruction.
     pub note: Option<SmolStr>,
 }
 
@@ -126,7 +126,7 @@ impl Instr {
         self.remarks.as_ref()?.statement.as_deref()
     }
 
-    /// Comment or note that stands beside the instruction.
+    /// Comment or note beside the instruction.
     pub fn note(&self) -> Option<&str> {
         self.remarks.as_ref()?.note.as_deref()
     }
@@ -137,7 +137,7 @@ impl Instr {
     }
 }
 
-/// The operands of an instruction. Most have one, which needs no memory of its own.
+/// The operands of an instruction. Most have one, which needs no separate allocation.
 pub type Operands = SmallVec<[Operand; 1]>;
 
 /// One operand.
@@ -164,7 +164,7 @@ impl fmt::Display for Device {
     }
 }
 
-/// An index register behind an operand: `D0Z3`, `K4M0V` (a bare letter is number 0).
+/// An index register after an operand: `D0Z3`, `K4M0V` (a bare letter is number 0).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Index {
     /// `V` or `Z`.

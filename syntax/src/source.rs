@@ -120,7 +120,7 @@ impl Source {
         self.text.get(span.range()).unwrap_or("")
     }
 
-    /// The lines with what ends them, and where each begins; none behind the last end of a line.
+    /// The lines with what ends them, and where each begins; none after the last line end.
     pub fn lines(&self) -> impl Iterator<Item = (u32, &str)> {
         let ends = self.line_starts.iter().skip(1).copied();
         let ends = ends.chain([self.text.len() as u32]);

@@ -38,7 +38,7 @@ fn readme() -> Result<String, Problem> {
         let (_, after) = rest.split_once(END)?;
         Some((before, after))
     });
-    let (before, after) = parts.ok_or("README.md does not mark where the support table stands")?;
+    let (before, after) = parts.ok_or("README.md does not mark the place of the support table")?;
     let table = rungc_catalogue::support_table();
     Ok(format!("{before}{BEGIN}\n{table}\n{END}{after}"))
 }

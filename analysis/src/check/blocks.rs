@@ -1,7 +1,7 @@
 //! Contact logic: blocks begun by LD, joined by ANB and ORB, branched by MPS, MRD and MPP, and what they drive.
 //!
 //! A block is *spent* when its result has driven something. An LD then begins a new rung, unless a following ANB joins the new
-//! block to the spent one: lists of rungs that branch again behind a coil are written so (hm-programming §5.2, MPS).
+//! block to the spent one: lists of rungs that branch again after a coil are written like this (hm-programming §5.2, MPS).
 
 use super::{Code, Part};
 use rungc_catalogue::Basic;
@@ -43,9 +43,9 @@ struct Rungs<'a, 'p> {
     unsure: Option<Unsure>,
 }
 
-/// What is known of the rung behind an instruction that could not be resolved.
+/// What is known about the rung after an instruction that could not be resolved.
 enum Unsure {
-    /// It goes on.
+    /// It continues.
     Rung,
     /// Something was driven, so the next block may begin a new rung.
     Driven,
@@ -131,11 +131,11 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::TOO_MANY_BLOCKS
                 .at(
                     self.code.span(i),
-                    "more than eight blocks wait to be joined",
+                    "more than eight blocks are waiting to be joined",
                 )
                 .label("the ninth block")
-                .other(self.code.span(first), "the first one begins here")
-                .help("write ANB or ORB behind each block instead of all at the end");
+                .other(self.code.span(first), "the first one starts here")
+                .help("write ANB or ORB after each block instead of all at the end");
             self.report(diagnostic);
         }
     }
@@ -144,11 +144,11 @@ impl Rungs<'_, '_> {
         match self.blocks.last_mut() {
             Some(block) => block.spent = false,
             None => {
-                let message = format!("`{}` continues no contact", self.code.instr(i));
+                let message = format!("`{}` has no contact to continue", self.code.instr(i));
                 let diagnostic = codes::NO_START
                     .at(self.code.span(i), message)
-                    .label("no chain of contacts has begun")
-                    .help("begin it with LD, LDI, LDP or LDF");
+                    .label("no chain of contacts has started")
+                    .help("start it with LD, LDI, LDP or LDF");
                 self.report(diagnostic);
                 self.start(i);
             }
@@ -173,10 +173,10 @@ impl Rungs<'_, '_> {
         let diagnostic = match self.blocks.last() {
             Some(block) => diagnostic
                 .label("there is only one block before it")
-                .other(self.code.span(block.start), "which begins here"),
+                .other(self.code.span(block.start), "which starts here"),
             None => diagnostic.label("there is no block before it"),
         };
-        let help = format!("delete this {name}, or begin the second block with LD");
+        let help = format!("delete this {name}, or start the second block with LD");
         self.report(diagnostic.help(help));
     }
 
@@ -184,8 +184,8 @@ impl Rungs<'_, '_> {
         if self.blocks.is_empty() {
             let diagnostic = codes::NO_START
                 .at(self.code.span(i), "MPS has no result to store")
-                .label("no chain of contacts has begun")
-                .help("begin it with LD, LDI, LDP or LDF");
+                .label("no chain of contacts has started")
+                .help("start it with LD, LDI, LDP or LDF");
             self.report(diagnostic);
             self.start(i);
         }
@@ -197,7 +197,7 @@ impl Rungs<'_, '_> {
                 .at(self.code.span(i), "more than eleven branches are open")
                 .label("the twelfth MPS")
                 .other(self.code.span(first), "the first one is here")
-                .help("close branches with MPP, or begin a new rung with a relay that holds the result");
+                .help("close branches with MPP, or start a new rung with a relay that holds the result");
             self.report(diagnostic);
         }
     }
@@ -208,7 +208,7 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::NO_BRANCH
                 .at(self.code.span(i), format!("`{name}` without MPS"))
                 .label("no result is stored here");
-            let help = format!("delete this {name}, or put MPS where the branch begins");
+            let help = format!("delete this {name}, or put MPS where the branch starts");
             self.report(diagnostic.help(help));
             if self.blocks.is_empty() {
                 self.start(i);
@@ -224,11 +224,11 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::CROSSED_BRANCH
                 .at(
                     self.code.span(i),
-                    format!("`{name}` leaves a block that is not joined"),
+                    format!("`{name}` leaves a block that was not joined"),
                 )
-                .label("goes back to the branch")
+                .label("returns to the branch")
                 .other(self.code.span(open), "this block is still open")
-                .other(self.code.span(at), "the branch begins here")
+                .other(self.code.span(at), "the branch starts here")
                 .help("join the block with ANB or ORB first");
             self.report(diagnostic);
         }
@@ -248,8 +248,8 @@ impl Rungs<'_, '_> {
                 );
                 let diagnostic = codes::NO_CONTACT
                     .at(self.code.span(i), message)
-                    .label("connected to the bus directly")
-                    .help("put LD M8000 before it if it is to run always");
+                    .label("connected directly to the bus")
+                    .help("put LD M8000 before it to run it always");
                 self.report(diagnostic);
             }
             return;
@@ -267,9 +267,9 @@ impl Rungs<'_, '_> {
                 .label("the result of this block is lost")
                 .other(
                     self.code.span(self.blocks[top].start),
-                    "the next block begins here",
+                    "the next block starts here",
                 )
-                .other(self.code.span(i), "and drives this alone")
+                .other(self.code.span(i), "and alone drives this")
                 .help("join the blocks with ANB (both) or ORB (either)");
             self.report(diagnostic);
         }
@@ -291,7 +291,7 @@ impl Rungs<'_, '_> {
             let diagnostic = codes::OPEN_BRANCH
                 .at(self.code.span(branch.at), "no MPP closes this branch")
                 .label("stored here")
-                .other(self.code.span(i), "a new rung has begun before this")
+                .other(self.code.span(i), "a new rung started before this")
                 .help(CLOSE_BRANCH);
             self.out.push(diagnostic);
         }
@@ -311,7 +311,7 @@ impl Rungs<'_, '_> {
         }
     }
 
-    /// Ends the rung before an instruction that stands alone, or at the end of the program.
+    /// Ends the rung before an instruction without contacts, or at the end of the program.
     fn finish(&mut self, before: Option<usize>) {
         for branch in std::mem::take(&mut self.branches) {
             let diagnostic = codes::OPEN_BRANCH
@@ -336,11 +336,11 @@ impl Rungs<'_, '_> {
                 .at(
                     self.code.span(i),
                     format!(
-                        "`{}` takes no contacts before it",
+                        "`{}` must not have contacts before it",
                         self.code.instr(i).mnemonic
                     ),
                 )
-                .label("is connected to the bus itself")
+                .label("is connected directly to the bus")
                 .other(self.code.span(start), "these contacts drive nothing")
                 .help("end the rung with a coil before it, or delete these contacts"),
             None => codes::NO_COIL

@@ -58,13 +58,13 @@ fn driven_twice(code: &Code, device: Device, earlier: &[usize], last: usize) -> 
         true => codes::TIMER_TWICE
             .at(code.span(last), format!("`{device}` is driven {times}"))
             .label("… and again here")
-            .help("use one of its own for each place"),
+            .help("use a separate one in each place"),
         false => codes::DOUBLE_COIL
             .at(
                 code.span(last),
                 format!("coil `{device}` is driven {times}; only the last result counts"),
             )
-            .label("… and again here: this one decides what the coil does")
+            .label("… and again here: this one decides the state of the coil")
             .help("join the conditions with OR into one coil, or use SET and RST"),
     };
     for (n, &coil) in earlier.iter().enumerate() {

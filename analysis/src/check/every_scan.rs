@@ -170,7 +170,7 @@ fn report(code: &Code, device: Device, changes: &[Change]) -> Option<Diagnostic>
         format!("`{mnemonic}` changes `{device}` in every scan while its contacts are closed");
     let mut diagnostic = codes::EVERY_SCAN
         .at(code.span(first.at), message)
-        .label("runs again and again")
+        .label("runs in every scan")
         .help(format!("`{pulse}` runs once each time its contacts close"));
     let mut fix = Fix::suggested("write the pulse form");
     for change in changes {

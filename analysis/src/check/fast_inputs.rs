@@ -76,7 +76,10 @@ fn one_pointer_per_source(code: &Code, interrupts: &[Interrupt], out: &mut Diagn
             continue;
         };
         let message = match second.input {
-            Some(input) => format!("both edges of `{}` interrupt", DeviceClass::X.number(input)),
+            Some(input) => format!(
+                "two interrupt routines use `{}` (rising and falling edge)",
+                DeviceClass::X.number(input)
+            ),
             None => format!("timer interrupt I{} has two periods", second.number / 100),
         };
         let diagnostic = codes::BOTH_EDGES
@@ -132,10 +135,13 @@ fn without_input(code: &Code, out: &mut Diagnostics) {
             continue;
         };
         let fast = device.class == DeviceClass::C && device.number >= high_speed::FIRST;
-        // That it does not exist at all is told elsewhere.
+        // If it does not exist at all, that is reported elsewhere.
         let fast = fast && code.model().has(device.class, device.number);
         if fast && counters.counter(device.number).is_none() {
-            let message = format!("`{device}` counts no input of {}", code.model().name);
+            let message = format!(
+                "`{device}` does not count an input of {}",
+                code.model().name
+            );
             let span = code
                 .instr(i)
                 .operands
@@ -242,9 +248,9 @@ fn looked_at(code: &Code, others: &[Other], counters: &[Counter], out: &mut Diag
         let message = format!("`{input}` serves both {} and {name}", inst.name);
         let diagnostic = codes::MEASURED_INPUT
             .at(code.span(i), message)
-            .label("looked at here …")
+            .label("read here …")
             .other(code.span(at), "… and used here")
-            .help("choose an input of its own");
+            .help("use a separate input");
         out.push(diagnostic);
     }
 }
@@ -304,7 +310,7 @@ fn counters_share(code: &Code, counters: &[Counter], out: &mut Diagnostics) {
                 .at(code.span(second.coil), message)
                 .label("used here …")
                 .other(code.span(first.coil), "… and here")
-                .help("choose counters with inputs of their own");
+                .help("use counters with different inputs");
             out.push(diagnostic);
         }
     }
@@ -321,6 +327,6 @@ fn never_enabled(code: &Code, interrupts: &[Interrupt], out: &mut Diagnostics) {
             "this interrupt routine never runs: there is no EI",
         )
         .label("interrupts are disabled at the start of RUN")
-        .help("put EI at the beginning of the program");
+        .help("put EI at the start of the program");
     out.push(diagnostic);
 }

@@ -35,7 +35,7 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
         );
         let diagnostic = codes::FAST_UNITS
             .at(code.span(at), message)
-            .label("there is none left for this");
+            .label("none is left for this");
         out.push(diagnostic);
     }
 }

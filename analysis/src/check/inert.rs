@@ -137,9 +137,7 @@ fn report(reason: Reason, devices: &[(Device, Used)]) -> Option<Diagnostic> {
             };
         }
     }
-    Some(
-        diagnostic.help("what it does on the PLC has to be done by the host that runs the program"),
-    )
+    Some(diagnostic.help("the host that runs the program must do what it does on the PLC"))
 }
 
 /// Names in a row: all of them, if there are not too many.

@@ -45,7 +45,7 @@ impl JumpedOver {
         }
     }
 
-    /// What stands behind the jump, up to the next label that something leads to, never runs.
+    /// The code after the jump, up to the next label that something leads to, never runs.
     fn forward(
         &mut self,
         code: &Code,
@@ -76,7 +76,7 @@ impl JumpedOver {
                 code.span(jump),
                 "this jump has no condition that could be off",
             )
-            .help("give the jump a condition, or remove what it skips");
+            .help("give the jump a condition, or remove the instructions it skips");
         out.push(diagnostic);
     }
 }
@@ -103,9 +103,9 @@ fn backward(code: &Code, label: usize, jump: usize, out: &mut Diagnostics) {
     let diagnostic = codes::ENDLESS_JUMP
         .at(
             code.span(jump),
-            "nothing ends the loop that this jump makes",
+            "nothing ends the loop that this jump forms",
         )
-        .label("always goes back …")
+        .label("always jumps back …")
         .other(code.span(label), "… to here")
         .help("give the jump a condition that ends the loop");
     out.push(diagnostic);

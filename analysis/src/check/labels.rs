@@ -88,7 +88,7 @@ fn used_one_way(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagno
                     "jumped to here"
                 },
             )
-            .help("give the subroutine a label of its own");
+            .help("give the subroutine its own label");
         out.push(diagnostic);
     }
 }
@@ -104,10 +104,12 @@ fn missing(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnostics
         let diagnostic = codes::NO_LABEL
             .at(
                 named_at(code, i, device),
-                format!("there is no label `{device}`"),
+                format!("label `{device}` does not exist"),
             )
             .label("leads nowhere")
-            .help(format!("put the line `{device}` where it should lead"));
+            .help(format!(
+                "put the line `{device}` where the jump or call should go"
+            ));
         out.push(diagnostic);
     }
 }
@@ -117,11 +119,11 @@ fn no_routine(code: &Code, device: Device, pointer: &Pointer, out: &mut Diagnost
         let diagnostic = codes::NO_ROUTINE
             .at(
                 named_at(code, i, device),
-                format!("there is no interrupt routine `{device}`"),
+                format!("interrupt routine `{device}` does not exist"),
             )
-            .label("nothing would run")
+            .label("nothing to run")
             .help(format!(
-                "put the routine `{device}` behind FEND, with IRET at its end"
+                "put the routine `{device}` after FEND, with IRET at its end"
             ));
         out.push(diagnostic);
     }
@@ -142,7 +144,7 @@ fn unused(code: &Code, device: Device, pointer: &Pointer, label: usize, out: &mu
                 format!("nothing jumps to `{device}` or calls it"),
             )
             .label("not used")
-            .help("delete the label, or name it in the CJ or CALL that is to lead here");
+            .help("delete the label, or name it in the CJ or CALL that should lead here");
         out.push(diagnostic);
     }
 }
@@ -152,7 +154,7 @@ fn destination(code: &Code, nesting: &Nesting, jump: usize, label: usize, out: &
     let (from, to) = (nesting.of(jump), nesting.of(label));
     if from.routine != to.routine {
         let diagnostic = codes::BETWEEN_ROUTINES
-            .at(code.span(jump), "this jump leads into another routine")
+            .at(code.span(jump), "this jump goes into another routine")
             .label("jumps from here …")
             .other(code.span(label), "… to here")
             .help("use CALL to run a subroutine, SRET to leave one");
@@ -165,11 +167,11 @@ fn destination(code: &Code, nesting: &Nesting, jump: usize, label: usize, out: &
     }
     if around != to.inner_loop {
         let diagnostic = codes::INTO_LOOP
-            .at(code.span(jump), "this jump leads into a loop")
+            .at(code.span(jump), "this jump goes into a loop")
             .label("jumps from here …")
             .other(code.span(label), "… to here …")
             .other(code.span(to.inner_loop as usize), "… inside this loop")
-            .help("jump to the FOR or behind the NEXT");
+            .help("jump to the FOR or past the NEXT");
         out.push(diagnostic);
     }
     if from.state != to.state {
@@ -246,11 +248,11 @@ impl Calls {
                         code.span(beyond),
                         format!("calls may nest {depth} deep, but {name} allows {max}"),
                     )
-                    .help("a call that is too deep is not carried out; it reports 6702 when it is reached"),
+                    .help("a call that is too deep is skipped with error 6702 when it is reached"),
             };
             let diagnostic = diagnostic
                 .label("one call too many")
-                .other(code.span(first), "the chain begins here");
+                .other(code.span(first), "the chain starts here");
             out.push(diagnostic);
         }
     }
@@ -315,15 +317,12 @@ fn is_always_made(code: &Code, call: usize) -> bool {
 
 fn recursion(code: &Code, call: usize, called: Routine) -> rungc_syntax::Diagnostic {
     let diagnostic = codes::RECURSION
-        .at(
-            code.span(call),
-            "this call leads back into its own subroutine",
-        )
+        .at(code.span(call), "this call re-enters its own subroutine")
         .label("calls itself through this")
-        .help("this call is not carried out; it reports 6702 when it is reached");
+        .help("this call is skipped with error 6702 when it is reached");
     match called {
         Routine::Sub(label) | Routine::Interrupt(label) => {
-            diagnostic.other(code.span(label as usize), "the subroutine begins here")
+            diagnostic.other(code.span(label as usize), "the subroutine starts here")
         }
         Routine::Main | Routine::Nothing => diagnostic,
     }

@@ -150,7 +150,7 @@ impl<'a> Code<'a> {
         self.resolved.instrs[i].form.wide
     }
 
-    /// For each instruction that could not be read, how many stand before it.
+    /// For each instruction that could not be read, how many precede it.
     fn unread(&self) -> Peekable<Copied<Iter<'a, u32>>> {
         self.resolved.program.unread.iter().copied().peekable()
     }
@@ -248,7 +248,7 @@ impl<'a> Code<'a> {
         }
     }
 
-    /// Whether there is an END, and something behind it.
+    /// Whether there is an END, and something after it.
     fn end(&self, out: &mut Diagnostics) {
         let instrs = &self.resolved.program.instrs;
         let unread = self.resolved.program.unread.last();
@@ -258,7 +258,7 @@ impl<'a> Code<'a> {
         }
         let Some(last) = self.len.checked_sub(1) else {
             let empty = codes::NO_END.at(Span::default(), "the program is empty");
-            out.push(empty.help("a program holds at least END"));
+            out.push(empty.help("a program contains at least END"));
             return;
         };
         if self.basic(last) != Some(Basic::End) {
@@ -266,19 +266,20 @@ impl<'a> Code<'a> {
             out.push(
                 diagnostic
                     .label("the last instruction")
-                    .help("add END behind it")
+                    .help("add END after it")
                     .fix(self.append_end()),
             );
             return;
         }
-        let behind = (self.len..instrs.len()).find(|&i| self.part(i) != Part::Nothing);
-        if let Some(first) = behind
+        let after = (self.len..instrs.len()).find(|&i| self.part(i) != Part::Nothing);
+        if let Some(first) = after
             && self.basic(first) != Some(Basic::End)
         {
-            let diagnostic = codes::AFTER_END.at(self.span(first), "nothing behind END is run");
+            let diagnostic =
+                codes::AFTER_END.at(self.span(first), "instructions after END never run");
             out.push(
                 diagnostic
-                    .label("not run, and neither is what follows")
+                    .label("this and everything after it never runs")
                     .other(self.span(last), "the scan ends here"),
             );
         }
@@ -303,9 +304,9 @@ impl Code<'_> {
 enum Part {
     /// NOP.
     Nothing,
-    /// Begins a block: LD and its kin.
+    /// Begins a block: LD and related instructions.
     Start,
-    /// Continues the block: AND, OR, INV and their kin.
+    /// Continues the block: AND, OR, INV and related instructions.
     Continue,
     /// ANB.
     JoinSeries,

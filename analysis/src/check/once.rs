@@ -42,7 +42,7 @@ const LIMITS: &[Limit] = &[
     limit("HSCS", 2, Which::Each(DeviceClass::I)),
 ];
 
-/// Checks how often instructions stand in a program.
+/// Checks how often a program uses instructions.
 pub(super) fn check(code: &Code, out: &mut Diagnostics) {
     let mut by_name: BTreeMap<&str, (usize, Vec<usize>)> = BTreeMap::new();
     let mut by_operand: Vec<Vec<(usize, Device)>> = LIMITS.iter().map(|_| Vec::new()).collect();
@@ -104,7 +104,7 @@ fn report(
         n => format!("{n} times"),
     };
     let message = format!(
-        "`{}`{with} may stand only {often} in a program",
+        "`{}`{with} may be used only {often} in a program",
         code.instr(beyond).mnemonic
     );
     let diagnostic = codes::TOO_OFTEN

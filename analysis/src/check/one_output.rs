@@ -78,9 +78,9 @@ impl Outputs {
                 format!("two instructions send pulses through `{output}` at the same time");
             let diagnostic = codes::ONE_OUTPUT
                 .at(code.span(second), message)
-                .label("finds the output taken")
-                .other(code.span(first), "driven together with this one")
-                .help("give them conditions of which one is on at a time");
+                .label("finds the output in use")
+                .other(code.span(first), "driven at the same time as this one")
+                .help("give them conditions that are never on at the same time");
             out.push(diagnostic);
         }
     }

@@ -37,12 +37,14 @@ fn by_zero(code: &Code, i: usize, fails: bool, out: &mut Diagnostics) {
     let diagnostic =
         codes::DIVISION_BY_ZERO.at(divisor.span, format!("`{mnemonic}` divides by zero"));
     out.push(match fails {
-        true => diagnostic.label("an operation error each time this runs; nothing is divided"),
-        false => diagnostic.label("gives the end of the range each time this runs"),
+        true => {
+            diagnostic.label("an operation error each time this runs; the result does not change")
+        }
+        false => diagnostic.label("gives the limit of the range each time this runs"),
     });
 }
 
-/// ZRST whose first device stands behind its last one resets the first alone (FX3 programming manual, FNC 40).
+/// ZRST whose first device comes after its last one resets only the first (FX3 programming manual, FNC 40).
 fn reversed(code: &Code, i: usize, out: &mut Diagnostics) {
     let (Some(first), Some(last)) = (code.device(i, 0), code.device(i, 1)) else {
         return;
@@ -54,7 +56,7 @@ fn reversed(code: &Code, i: usize, out: &mut Diagnostics) {
     let places = &code.instr(i).operands;
     let diagnostic = codes::REVERSED_RANGE
         .at(code.span(i), format!("`{mnemonic}` resets `{first}` alone"))
-        .label("the first device of the range stands behind the last")
+        .label("the first device of the range comes after the last")
         .help(format!("write `{mnemonic} {last} {first}`"))
         .fix(
             Fix::suggested("swap the operands")

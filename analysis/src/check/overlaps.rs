@@ -81,7 +81,7 @@ impl Overlaps {
                 let number = first.number.checked_add(offset)?;
                 let device = Device { number, ..first };
                 let &(at, span) = self.parts.get(&device)?;
-                // Two pairs, which have a warning of their own.
+                // Two pairs, which have a separate warning.
                 let pairs = self
                     .results
                     .get(&device)
@@ -176,5 +176,5 @@ fn overwritten(
             result.span,
             format!("`{writer}` writes `{first}` to `{last}`"),
         )
-        .help("use registers of its own for each value")
+        .help("use separate registers for each value")
 }

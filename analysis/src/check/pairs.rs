@@ -50,9 +50,9 @@ impl Pairs {
             let message = format!("the 32-bit values at `{device}` and `{next}` share `{next}`");
             let diagnostic = codes::PAIRS_OVERLAP
                 .at(other.span, message)
-                .label(format!("this is `{next}` and the register behind it"))
+                .label(format!("this is `{next}` and the next register"))
                 .other(pair.span, format!("this is `{device}` and `{next}`"))
-                .help("leave one register between them");
+                .help("leave one register between the two values");
             found.push(diagnostic);
         }
         found.sort_by_key(|diagnostic| diagnostic.span);

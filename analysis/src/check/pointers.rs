@@ -115,7 +115,7 @@ impl Pointers {
             .is_some_and(|pointer| !pointer.calls.is_empty())
     }
 
-    /// Whether a call with an index register may mean this label, if it stands behind FEND: any that no jump names.
+    /// Whether a call with an index register may mean this label, if it follows FEND: any that no jump names.
     pub(super) fn may_be_called(&self, label: Device) -> bool {
         self.indexed_call && !self.is_jumped_to(label)
     }

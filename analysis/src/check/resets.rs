@@ -116,7 +116,7 @@ fn summary<'a>(
     let mut diagnostic = code
         .at(span, message)
         .label(here)
-        .help("nothing is wrong if an operator panel or another program resets it");
+        .help("this is fine if an operator panel or another program resets it");
     if !others.is_empty() {
         let all = std::iter::once(first).chain(others.iter().map(|&(_, device, _)| device));
         diagnostic = diagnostic.devices(all);

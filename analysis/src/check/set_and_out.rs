@@ -118,10 +118,10 @@ fn in_vain(
     for &i in rest {
         diagnostic = diagnostic.other(code.span(i), "written here too");
     }
-    Some(diagnostic.help("use SET and RST alone, or one OUT with all conditions"))
+    Some(diagnostic.help("use only SET and RST, or one OUT with all conditions"))
 }
 
-/// For each instruction where its rung begins: at an LD that nothing joins to what stands before it.
+/// For each instruction where its rung begins: at an LD that nothing joins to the code before it.
 fn begins_of_rungs(code: &Code) -> Vec<u32> {
     let mut begin = 0;
     let rungs = (0..code.len).map(|i| {

@@ -35,10 +35,10 @@ fn stands_twice(code: &Code, out: &mut Diagnostics) {
             continue;
         };
         let diagnostic = codes::STATE_TWICE
-            .at(code.span(i), format!("the state `{state}` stands twice"))
-            .label("begins again here")
-            .other(code.span(before), "first begins here")
-            .help("give one of the two another number, or put what both do in one section");
+            .at(code.span(i), format!("the state `{state}` occurs twice"))
+            .label("starts again here")
+            .other(code.span(before), "first starts here")
+            .help("give one of the two another number, or merge both into one section");
         out.push(diagnostic);
     }
 }
@@ -92,12 +92,12 @@ fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
         let (count, last) = flow_branches(&leads, *initial);
         if count > MAX_BRANCHES {
             let message = format!(
-                "{count} circuits branch off in the flow of `{initial}`, the PLC follows {MAX_BRANCHES}"
+                "{count} circuits branch off in the flow of `{initial}`, but the PLC supports {MAX_BRANCHES}"
             );
             let diagnostic = codes::STATE_BRANCHES
                 .at(code.span(last), message)
                 .label("the last of these branches")
-                .help("divide the flow among several initial states");
+                .help("split the flow into several initial states");
             out.push(diagnostic);
         }
     }

@@ -28,7 +28,7 @@ pub(super) enum Routine {
     Sub(u32),
     /// The interrupt routine that begins at this pointer.
     Interrupt(u32),
-    /// Nothing: it stands behind FEND, SRET or IRET without a label.
+    /// Nothing: it follows FEND, SRET or IRET without a label.
     Nothing,
 }
 
@@ -103,7 +103,7 @@ fn inside(outer: Kind, inner: Kind) -> Verdict {
     }
 }
 
-/// The same for a structure that begins inside another and ends behind it.
+/// The same for a structure that starts inside another and ends after it.
 fn crossing(outer: Kind, inner: Kind) -> u16 {
     use Kind::{For, Interrupt, Mc, Stl, Sub};
     match (outer, inner) {
@@ -150,7 +150,7 @@ struct Walk<'a, 'p> {
     routine: Routine,
     /// Whether the main program has ended.
     after_fend: bool,
-    /// A label behind FEND that nothing names, since the last end of a routine.
+    /// A label after FEND that nothing names, since the last end of a routine.
     unused_label: bool,
     /// The routine that FEND has cut off from its end, which is still to come.
     cut: Option<Kind>,
@@ -249,7 +249,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// PROC, PEND and PRET stand in advanced interrupts; a PRET in no routine at all is reported as such.
+    /// PROC, PEND and PRET belong in advanced interrupts; a PRET in no routine at all is reported as such.
     fn in_advanced_interrupt(&mut self, i: usize) {
         let interrupts = &self.code.model().interrupts;
         let advanced = match self.routine {
@@ -262,7 +262,7 @@ impl Walk<'_, '_> {
         };
         if !advanced {
             let name = &self.code.instr(i).mnemonic;
-            let message = format!("`{name}` stands in no advanced interrupt");
+            let message = format!("`{name}` outside an advanced interrupt");
             let diagnostic = codes::LONE_RETURN
                 .at(self.code.span(i), message)
                 .label("routines of other interrupts end with IRET")
@@ -271,14 +271,14 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// The next entry of an advanced interrupt leads behind PROC or PEND, and PEND leaves the routine: in a loop, one would run without
+    /// The next entry of an advanced interrupt continues after PROC or PEND, and PEND leaves the routine: in a loop, one would run without
     /// its FOR and the other without its NEXT, which belong together (hm-motion-controller §5.4.3, §5.4.4).
     fn in_no_loop(&mut self, i: usize) {
         let Some(&around) = self.loops.last() else {
             return;
         };
         let name = &self.code.instr(i).mnemonic;
-        let message = format!("`{name}` leads into a loop");
+        let message = format!("`{name}` goes into a loop");
         let diagnostic = codes::INTO_LOOP
             .at(self.code.span(i), message)
             .label("the routine is left or entered here …")
@@ -320,7 +320,7 @@ impl Walk<'_, '_> {
             let message = format!("N{level} is not deeper than the zone around it");
             let diagnostic = codes::MC_ORDER
                 .at(self.code.span(i), message)
-                .label("this zone lies inside …")
+                .label("this zone is inside …")
                 .other(self.code.span(around), "… this one")
                 .help("number nested zones N0, N1, N2 … from outside to inside, and close each with MCR");
             self.report(diagnostic);
@@ -352,7 +352,7 @@ impl Walk<'_, '_> {
     }
 
     fn begin_state(&mut self, i: usize) {
-        /// At most this many STL may stand in a row (h1u-h2u-programming §8.7, error 6625).
+        /// At most this many STL may follow each other (h1u-h2u-programming §8.7, error 6625).
         const MAX_ROW: u32 = 8;
         self.state = i as u32;
         self.stl_row += 1;
@@ -385,7 +385,7 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// A label that is not called. Behind FEND, SRET or IRET it goes on with the routine that jumps to it.
+    /// A label that is not called. After FEND, SRET or IRET it continues the routine that jumps to it.
     fn jump_label(&mut self, i: usize, label: Device) {
         if self.routine != Routine::Nothing {
             return;
@@ -415,14 +415,14 @@ impl Walk<'_, '_> {
         let mut reported = false;
         if !self.after_fend {
             reported = true;
-            let message = format!("this {} stands in the main program", kind.name());
+            let message = format!("this {} is in the main program", kind.name());
             let diagnostic = codes::ROUTINE_IN_MAIN
                 .at(self.code.span(i), message)
                 .label("begins before FEND")
-                .help("end the main program with FEND and put routines behind it");
+                .help("end the main program with FEND and put routines after it");
             let across = self.ends_behind_fend(i, kind);
             self.report(match kind {
-                // The nesting table has a number of its own for this (§8.8, row 0-FEND).
+                // The nesting table has a separate number for this (§8.8, row 0-FEND).
                 Kind::Sub if across => diagnostic.plc_error(6709),
                 _ => diagnostic,
             });
@@ -459,7 +459,7 @@ impl Walk<'_, '_> {
             };
             let diagnostic = diagnostic.help(match other {
                 Some((_, open)) => format!("write `MCR N{open}`"),
-                None => "delete this MCR, or put MC where the zone begins".to_owned(),
+                None => "delete this MCR, or put MC where the zone starts".to_owned(),
             });
             self.report(diagnostic);
             return;
@@ -478,7 +478,7 @@ impl Walk<'_, '_> {
             let diagnostic = codes::LONE_NEXT
                 .at(self.code.span(i), "no FOR is open here")
                 .label("there is nothing to repeat")
-                .help("delete this NEXT, or put FOR where the loop begins");
+                .help("delete this NEXT, or put FOR where the loop starts");
             self.report(diagnostic);
             return;
         };
@@ -522,7 +522,7 @@ impl Walk<'_, '_> {
                 self.code.span(i),
                 format!("`{name}` ends no {}", kind.name()),
             )
-            .label("no routine has begun")
+            .label("no routine has started")
             .help(format!(
                 "delete this {name}, or put the label of the {} before it",
                 kind.name()
@@ -560,7 +560,7 @@ impl Walk<'_, '_> {
         self.state = NONE;
     }
 
-    /// Whether the next end of a routine behind instruction `i`, before any other begins, is one of this kind.
+    /// Whether the next end of a routine after instruction `i`, before any other begins, is one of this kind.
     fn returns_next(&self, i: usize, kind: Kind) -> bool {
         let ends = |at: usize| match self.code.basic(at) {
             Some(Basic::Sret) => Some(kind == Kind::Sub),
@@ -609,7 +609,7 @@ impl Walk<'_, '_> {
         let (name, end) = (open.kind.name(), open.kind.end());
         codes::OPEN_ROUTINE
             .at(self.code.span(open.at), format!("this {name} has no {end}"))
-            .label("begins here and never ends")
+            .label("starts here and never ends")
             .help(format!("end it with {end}"))
     }
 
@@ -661,17 +661,17 @@ impl Walk<'_, '_> {
                         .map_or_else(String::new, |level| format!(" N{level}"));
                     codes::OPEN_MC
                         .at(span, format!("no MCR closes MC{level}"))
-                        .label("begins here and never ends")
+                        .label("starts here and never ends")
                         .help(format!("end the zone with `MCR{level}`"))
                 }
                 Kind::For => codes::OPEN_FOR
                     .at(span, "no NEXT closes this FOR")
-                    .label("begins here and never ends")
+                    .label("starts here and never ends")
                     .help("end the loop with NEXT"),
                 Kind::Stl => codes::OPEN_STL
                     .at(span, "no RET closes this step ladder")
-                    .label("begins here and never ends")
-                    .help("put RET behind the last state"),
+                    .label("starts here and never ends")
+                    .help("put RET after the last state"),
             };
             self.report(diagnostic);
         }
@@ -686,7 +686,7 @@ fn crossed(code: &Code, outer: &Open, inner: &Open, i: usize) -> Diagnostic {
             format!("the {outside} ends inside the {within}"),
         )
         .label(format!("ends the {outside} …"))
-        .other(code.span(outer.at), "… that began here")
+        .other(code.span(outer.at), "… that starts here")
         .other(
             code.span(inner.at),
             format!("but this {within} is still open"),
@@ -700,11 +700,11 @@ fn not_inside(code: &Code, outer: &Open, inner: &Open, plc_error: u16) -> Diagno
     codes::NOT_INSIDE
         .at(
             code.span(inner.at),
-            format!("a {within} cannot stand inside a {outside}")
+            format!("a {within} is not allowed inside a {outside}")
                 .replace("a interrupt", "an interrupt"),
         )
         .label(format!("this {within}"))
-        .other(code.span(outer.at), format!("lies in this {outside}"))
+        .other(code.span(outer.at), format!("is inside this {outside}"))
         .help(format!(
             "end the {outside} with {} before it, or move the {within} out",
             outer.kind.end()

@@ -47,10 +47,10 @@ fn in_routines(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
         } else {
             "an interrupt routine"
         };
-        let message = format!("`{device}` is brought up to date only in scans that run {name}");
+        let message = format!("`{device}` is updated only in scans that run {name}");
         let diagnostic = codes::TIMER_IN_ROUTINE
             .at(code.span(i), message)
-            .label("measures wrongly where not every scan does")
+            .label("measures incorrectly if not every scan does")
             .help(instead(model, kind.unit_ms, subroutine));
         out.push(diagnostic);
     }
@@ -65,7 +65,7 @@ fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
     let free = model.timers.iter().find(|timers| timers.kind.free_running);
     let free = free.map_or_else(String::new, named);
     if unit_ms == 100 {
-        return format!("{free} go on by themselves in scans that do not run their coils");
+        return format!("{free} continue by themselves in scans that do not run their coils");
     }
     let fine = model
         .timers
@@ -73,12 +73,12 @@ fn instead(model: &Model, unit_ms: u16, subroutine: bool) -> String {
         .find(|timers| timers.kind.accumulating && timers.kind.unit_ms == 1);
     let fine = fine.filter(|_| subroutine).map(|timers| {
         format!(
-            "; {} serve subroutines too: they count 1 ms and keep their value until RST",
+            "; {} work in subroutines too: they count 1 ms and keep their value until RST",
             named(timers)
         )
     });
     format!(
-        "{free} go on by themselves, but count 100 ms: a preset of {unit_ms} ms units has to be converted{}",
+        "{free} continue by themselves, but count 100 ms: convert a preset given in {unit_ms} ms units{}",
         fine.unwrap_or_default()
     )
 }
@@ -124,7 +124,7 @@ fn in_next_states(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
                     code.span(second),
                     format!("`{timer}` is driven in `{state}` and in `{next}`, which follows it"),
                 )
-                .label("not cleared when this state begins")
+                .label("not cleared when this state starts")
                 .other(code.span(first), "driven here too")
                 .help("use another timer in one of the two states");
             out.push(diagnostic);

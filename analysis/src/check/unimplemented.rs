@@ -21,5 +21,5 @@ pub fn refusal(inst: &Inst, what: &str, span: Span) -> Diagnostic {
     let message = format!("`{}` is not implemented yet: {what}", inst.name);
     codes::NOT_IMPLEMENTED
         .at(span, message)
-        .label("nothing can be built from a program with this")
+        .label("a program with this instruction cannot be built")
 }

@@ -5,7 +5,7 @@ use super::{Code, Part};
 use rungc_catalogue::Basic;
 use rungc_syntax::{Diagnostics, codes};
 
-/// Warns of runs of instructions behind FEND, SRET and IRET that no label leads to.
+/// Warns about runs of instructions after FEND, SRET and IRET that no label leads to.
 pub(super) fn check(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     let mut in_run = false;
     for i in 0..code.len {
@@ -17,7 +17,7 @@ pub(super) fn check(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
         if dead && !frame && !in_run {
             let diagnostic = codes::UNREACHABLE
                 .at(code.span(i), "this never runs")
-                .label("no label leads here, and what stands before it has ended")
+                .label("no label leads here, and the code before it has ended")
                 .help("put a label before it, or move it before FEND");
             out.push(diagnostic);
         }

@@ -232,7 +232,7 @@ fn summary<'d>(
     let mut diagnostic = code
         .at(span, message)
         .label(here)
-        .help("nothing is wrong if an operator panel or another program uses them");
+        .help("this is fine if an operator panel or another program uses them");
     if !others.is_empty() {
         diagnostic = diagnostic.devices(found.iter().map(|(device, _)| *device));
     }

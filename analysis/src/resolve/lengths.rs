@@ -55,8 +55,8 @@ impl<'p> Checker<'p> {
         out.push(
             codes::CODE_MISFIT
                 .at(instr.span, message)
-                .label("perhaps another instruction")
-                .help("compare this step with the editor, and export the list from it, which can be compiled as well"),
+                .label("this may be another instruction")
+                .help("compare this step with the editor, or export the list from it and compile that"),
         );
     }
 

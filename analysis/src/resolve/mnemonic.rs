@@ -123,13 +123,16 @@ impl Finder {
             .filter(|&id| inst.models.has(id))
             .map(|id| Model::get(id).name)
             .collect();
-        let message = format!("{} does not have `{}`", self.model.name, instr.mnemonic);
+        let message = format!(
+            "`{}` is not available on {}",
+            instr.mnemonic, self.model.title
+        );
         codes::NOT_ON_MODEL
             .at(instr.mnemonic_span, message)
             .label(inst.title)
             .help(match having.as_slice() {
-                [] => "no model that is supported has it".to_owned(),
-                names => format!("these models have it: {}", names.join(", ")),
+                [] => "no supported model has it".to_owned(),
+                names => format!("available on: {}", names.join(", ")),
             })
     }
 

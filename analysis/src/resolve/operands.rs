@@ -213,7 +213,7 @@ impl Checker {
             return Some(
                 codes::INDEX_WIDTH
                     .at(span, message)
-                    .label("here the index is a pair, named by its Z")
+                    .label("the index is a pair here, named by its Z")
                     .help(format!("use `Z{}` and clear `{index}`", index.number)),
             );
         }
@@ -320,10 +320,11 @@ impl Checker {
         let half = device.class == DeviceClass::V && self.model.z_pairs_with_v;
         (half && words(matched.found, param) == 2).then(|| {
             let mnemonic = &matched.instr.mnemonic;
-            let message = format!("`{device}` is only the upper half of what `{mnemonic}` takes");
+            let message =
+                format!("`{device}` is only the upper half of the operand of `{mnemonic}`");
             codes::INDEX_WIDTH
                 .at(span, message)
-                .label("here V and Z are a pair, named by its Z")
+                .label("V and Z are a pair here, named by its Z")
                 .help(format!("use `Z{}`", device.number))
                 .fix(
                     Fix::suggested(format!("write `Z{}`", device.number))
@@ -358,7 +359,7 @@ impl Checker {
         let last = device.number.saturating_add(count.max(1) - 1);
         (last > end).then(|| {
             let message = format!(
-                "operand {} of `{}` takes {count} devices from `{device}` on, but the last is `{}`",
+                "operand {} of `{}` uses {count} devices starting at `{device}`, but `{}` is the last one",
                 param.name,
                 matched.instr.mnemonic,
                 class.number(end)
@@ -371,14 +372,14 @@ impl Checker {
                 .label(format!("up to `{}`", class.number(last)));
             match highest {
                 Some(first) => {
-                    diagnostic.help(format!("begin at `{}` at the latest", class.number(first)))
+                    diagnostic.help(format!("start at `{}` or below", class.number(first)))
                 }
                 None => diagnostic,
             }
         })
     }
 
-    /// As [`Self::reach`], of a bit of a word: the bits after it go on in the next words.
+    /// As [`Self::reach`], for a bit of a word: the bits after it continue in the next words.
     fn bits_of_words(
         &self,
         matched: &Matched,
@@ -393,7 +394,7 @@ impl Checker {
         let last = device.number.saturating_add(words - 1);
         (index.is_none() && last > end).then(|| {
             let message = format!(
-                "operand {} of `{}` takes {bits} bits from `{device}.{bit:X}` on, but the last word is `{}`",
+                "operand {} of `{}` uses {bits} bits starting at `{device}.{bit:X}`, but `{}` is the last word",
                 param.name,
                 matched.instr.mnemonic,
                 device.class.number(end)
@@ -518,7 +519,7 @@ fn indexes_itself(span: Span, kind: &OperandKind) -> Option<Diagnostic> {
         codes::NOT_INDEXABLE
             .at(
                 span,
-                format!("`{device}` is an index register and takes none itself"),
+                format!("`{device}` is an index register and cannot be indexed itself"),
             )
             .label(format!("`{index}` is not allowed here"))
             .help("add the registers first, or use a data register")
@@ -528,9 +529,9 @@ fn indexes_itself(span: Span, kind: &OperandKind) -> Option<Diagnostic> {
 /// The notation `D0.F` is one of data registers, and takes no index register (FX3 manual, the note to every `D□.b`).
 fn bit_of_register(span: Span, device: Device, index: Option<Index>) -> Option<Diagnostic> {
     if device.class != DeviceClass::D {
-        let message = format!("`{device}` has no bits that can be named so");
+        let message = format!("`{device}` has no bits that can be named like this");
         let diagnostic = codes::OPERAND_CLASS.at(span, message);
-        return Some(diagnostic.label("only a data register has: `D0.F`"));
+        return Some(diagnostic.label("only a data register has bits: `D0.F`"));
     }
     let index = index?;
     let diagnostic = codes::NOT_INDEXABLE
@@ -549,7 +550,7 @@ fn digits_fit(matched: &Matched, span: Span, digits: u8, param: &Param) -> Optio
     let bits = bits(matched.found, param).saturating_mul(values).min(32);
     let most = bits / 4;
     (!(1..=most).contains(&u32::from(digits))).then(|| {
-        let message = format!("K{digits} is no digit count for a {bits}-bit value");
+        let message = format!("K{digits} is not a valid digit count for a {bits}-bit value");
         codes::DIGITS
             .at(span, message)
             .label(format!("K1 to K{most} here"))

@@ -1,4 +1,4 @@
-//! What an operand must obey besides its class and limits: the [`Rule`]s of the catalogue.
+//! Conditions on an operand in addition to its class and limits: the [`Rule`]s of the catalogue.
 
 use super::operands::constant_value;
 use rungc_catalogue::{Limits, Param, Rule};
@@ -59,7 +59,7 @@ pub(super) fn broken(
             let other = operands.get(other)?;
             device_of(&operand.kind).and(device_of(&other.kind))?;
             let differ = digits(operand).is_some() != digits(other).is_some();
-            differ.then(|| disagree(operand, other, "does not go with"))
+            differ.then(|| disagree(operand, other, "does not match"))
         }
         Rule::GroupAtMost(other, max) => {
             digits(operands.get(other)?)?;
@@ -76,8 +76,13 @@ pub(super) fn broken(
             let (last, first) = (unindexed(&operand.kind)?, unindexed(&other.kind)?);
             let apart =
                 is_special(first.class, first.number) != is_special(last.class, last.number);
-            (first.class == last.class && (apart || last.number < first.number))
-                .then(|| disagree(operand, other, "must be in one run with, and not before,"))
+            (first.class == last.class && (apart || last.number < first.number)).then(|| {
+                disagree(
+                    operand,
+                    other,
+                    "must be in the same range as, and not before,",
+                )
+            })
         }
         Rule::WideCounter => {
             let device = device_of(&operand.kind)?;
@@ -85,7 +90,7 @@ pub(super) fn broken(
             (wide && narrow).then(|| narrow_counter(operand))
         }
         Rule::Holds(holds, demand) => (!holds(operands)).then(|| {
-            let message = format!("`{}` does not go with the other operands", operand.kind);
+            let message = format!("`{}` contradicts the other operands", operand.kind);
             codes::OPERANDS_DISAGREE
                 .at(operand.span, message)
                 .label(demand)
@@ -156,7 +161,7 @@ fn partial_group(operand: &Operand, whole: u8) -> Diagnostic {
 
 fn narrow_counter(operand: &Operand) -> Diagnostic {
     let message = format!(
-        "`{}` is a 16-bit counter, a 32-bit one belongs here",
+        "`{}` is a 16-bit counter; a 32-bit one is required here",
         operand.kind
     );
     codes::NOT_THIS_NUMBER
@@ -168,8 +173,8 @@ fn disagree(operand: &Operand, other: &Operand, demand: &str) -> Diagnostic {
     let message = format!("`{}` {demand} `{}`", operand.kind, other.kind);
     // The labels are read in the order of their places.
     let (here, there) = match other.span < operand.span {
-        true => ("… does not go with this", "this …"),
-        false => ("this …", "… does not go with this"),
+        true => ("… conflicts with this", "this …"),
+        false => ("this …", "… conflicts with this"),
     };
     codes::OPERANDS_DISAGREE
         .at(operand.span, message)

@@ -56,7 +56,7 @@ impl Counter {
         if let Some((span, stated, expected)) = self.first.filter(|_| listed) {
             let more = match self.mismatches {
                 1 => String::new(),
-                n => format!(" (and {} more such places behind it)", n - 1),
+                n => format!(" (and {} more such steps after it)", n - 1),
             };
             let message = format!(
                 "the source numbers this step {stated}, but on {} it is step {expected}{more}",
@@ -65,7 +65,7 @@ impl Counter {
             out.push(
                 codes::STEPS_DIFFER
                     .at(span, message)
-                    .label(format!("step {expected} by the lengths of the instructions before it"))
+                    .label(format!("step {expected}, counting the instructions before it"))
                     .help("the program may be for another model (`--model`), or a line may be missing before this one"),
             );
         }

@@ -251,7 +251,7 @@ fn glued_operands(text: &str) -> Option<Vec<Operand>> {
     Some(operands)
 }
 
-/// `PMOV`, `MOVD`: the P of a pulse form in front, the D of a 32-bit form behind.
+/// `PMOV`, `MOVD`: the P of a pulse form as a prefix, the D of a 32-bit form as a suffix.
 fn moved_affix(instr: &Instr, model: &Model) -> Option<Meant> {
     let name = instr.mnemonic.as_str();
     let stems = [
@@ -280,7 +280,7 @@ fn moved_affix(instr: &Instr, model: &Model) -> Option<Meant> {
 /// The spellings that are close to a misspelt one and fit best.
 fn similar(instr: &Instr, open: Open, last: bool, model: &Model) -> Option<Meant> {
     static SPELLINGS: OnceLock<Vec<(String, ModelSet)>> = OnceLock::new();
-    /// More than this is no suggestion.
+    /// With more than this, nothing is suggested.
     const MAX_NAMES: usize = 3;
     let spellings = SPELLINGS.get_or_init(|| {
         let spelt = |inst: &'static Inst| {

@@ -7,7 +7,7 @@ use rungc_syntax::{
     Classes, Device, DeviceClass, Diagnostic, Fix, Instr, Operand, OperandKind, Source, Span, codes,
 };
 
-/// What is wrong with a line that goes on with another instruction: `LD X000 OUT Y000`.
+/// The error for a line that continues with another instruction: `LD X000 OUT Y000`.
 pub(super) fn second_instruction(
     instr: &Instr,
     params: &[Param],
@@ -40,9 +40,8 @@ pub(super) fn second_instruction(
     let first = at - usize::from(step.is_some());
     let before = first.checked_sub(1).and_then(|n| instr.operands.get(n));
     let gap = before.map_or(instr.mnemonic_span, |before| before.span).end;
-    let fix =
-        Fix::certain("put it on a line of its own").replace(Span::new(gap, begin.start), "\n");
-    let help = format!("write `{}` on a line of its own", text(second));
+    let fix = Fix::certain("put it on its own line").replace(Span::new(gap, begin.start), "\n");
+    let help = format!("write `{}` on its own line", text(second));
     Some(diagnostic.help(help).fix(fix))
 }
 
@@ -76,7 +75,7 @@ pub(super) fn too_many(instr: &Instr, first: Span, name: &str, params: &[Param])
     };
     codes::TOO_MANY_OPERANDS
         .at(first, message)
-        .label("too many from here on")
+        .label("too many operands from here on")
         .help(signature(name, params))
 }
 
@@ -159,18 +158,18 @@ fn instead(operand: &Operand, matched: &Matched, classes: Classes) -> Option<Str
     if let Some(grouped) = whole_group(operand, matched, classes) {
         let bits = if matched.found.form.wide { 32 } else { 16 };
         return Some(format!(
-            "`{device}` is one bit; a group of bits is written `{grouped}` ({bits} of them)"
+            "`{device}` is one bit; write a group of {bits} bits as `{grouped}`"
         ));
     }
     let coil = matched.found.inst.basic() == Some(Basic::Out);
     if coil && matches!(device.class, D | R | V | Z) {
         return Some(format!(
-            "a coil is Y, M, S, T, C or a bit of a word (`D0.F`); a value goes to `{device}` with `MOV`"
+            "a coil is Y, M, S, T, C or a bit of a word (`D0.F`); use `MOV` to write a value to `{device}`"
         ));
     }
     let bits = !classes.meets(group) && classes.meets(Classes::M);
     (bits && matches!(device.class, D) && classes.meets(Classes::WORD_BIT))
-        .then(|| format!("`{device}` is a word; one bit of it is written `{device}.F`"))
+        .then(|| format!("`{device}` is a word; write one bit of it as `{device}.F`"))
 }
 
 /// The classes that an operand takes with any of the devices that may stand first.
@@ -201,7 +200,7 @@ fn no_such_class(span: Span, device: Device, model: &Model) -> Diagnostic {
     codes::NO_DEVICE
         .at(span, message)
         .label(format!("not on {}", model.title))
-        .help(format!("these models have it: {}", names.join(", ")))
+        .help(format!("available on: {}", names.join(", ")))
 }
 
 /// A device whose number does not serve in this place.
@@ -220,7 +219,7 @@ pub(super) fn not_this_number(
         })
         .collect();
     let diagnostic = codes::NOT_THIS_NUMBER
-        .at(span, format!("`{device}` cannot serve here"))
+        .at(span, format!("`{device}` cannot be used here"))
         .label(format!("here only {}", ranges.join(", ")));
     let task = match (param.keeps_position, param.sends_pulses) {
         (true, _) => "keep a position",
@@ -228,7 +227,7 @@ pub(super) fn not_this_number(
         _ => return diagnostic,
     };
     diagnostic.help(format!(
-        "of the outputs of {} only these {task}: {}",
+        "only these outputs of {} {task}: {}",
         model.name,
         ranges.join(", ")
     ))
@@ -279,14 +278,14 @@ fn preset_of(matched: &Matched) -> Option<Device> {
     }
 }
 
-/// How a timer or counter goes on beyond its greatest preset.
+/// How to time or count beyond the greatest preset of a timer or counter.
 fn longer_preset(device: Device, model: &Model) -> String {
     match model
         .timer(device.number)
         .filter(|_| device.class == DeviceClass::T)
     {
         Some(kind) => format!(
-            "`{device}` counts up to {} s; for longer times let the contact of one timer drive the next",
+            "`{device}` counts up to {} s; for longer times, let the contact of one timer drive the next",
             f64::from(kind.unit_ms) * 32_767.0 / 1_000.0
         ),
         None => "C200 to C234 count with 32 bits".to_owned(),

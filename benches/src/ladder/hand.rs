@@ -1,5 +1,5 @@
 //! The C that an engineer would write by hand for a program: a struct of arrays of all devices that the machine has, one assignment
-//! for each coil, functions of 200 rungs. It knows nothing of PLCs beyond what the program does, so it is no slower for that: a timer
+//! for each coil, functions of 200 rungs. It knows nothing of PLCs beyond what the program does, so that does not slow it down: a timer
 //! counts milliseconds and knows no current value in its units, arithmetic sets no flags.
 
 use super::Kind;
@@ -56,7 +56,7 @@ pub fn source(ladder: &Ladder, prefix: &str) -> String {
     out
 }
 
-/// Whether a scan is told the time: there are timers.
+/// Whether a scan takes the time: there are timers.
 pub fn takes_time(ladder: &Ladder) -> bool {
     ladder.kind == Kind::Mixed
 }

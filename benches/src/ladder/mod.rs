@@ -91,7 +91,7 @@ pub enum Action {
     MoveOnce(u32, u32),
     /// INCP D.
     IncrementOnce(u32),
-    /// CMP D K M: the relay and the two behind it are on if the register is greater, equal, less.
+    /// CMP D K M: the relay and the two after it are on if the register is greater, equal, less.
     Compare(u32, u32, u32),
     /// ADD, SUB, WAND or DADD, D D D.
     Arithmetic(Operation, [u32; 3]),
@@ -137,7 +137,7 @@ pub struct Ladder {
 }
 
 impl Ladder {
-    /// A program of about so many steps. There is room for 766 stations; a program of them does not get longer.
+    /// A program of about this many steps. There is room for 766 stations; a program of them does not get longer.
     pub fn new(kind: Kind, steps: u32) -> Self {
         Self::with_seed(kind, steps, 1)
     }

@@ -107,7 +107,7 @@ fn build(
 }
 
 impl Plan {
-    /// The plan for one program: among several, each has an output path of its own.
+    /// The plan for one program: among several, each has a separate output path.
     fn at(
         &self,
         name: &str,
@@ -146,7 +146,7 @@ fn default_output(emit: Emit, name: &str) -> String {
 fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static Target, Failure> {
     let wrong = |why: &str| Err(Failure::Because(why.to_string()));
     if args.report && reporting.format == Format::Sarif {
-        return wrong("--report: SARIF has no place for it; --format json has");
+        return wrong("--report is not available in SARIF; use --format json");
     }
     let target = args.target.unwrap_or(target::host());
     let Some(emit) = args.emit else {
@@ -154,31 +154,35 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
     };
     match emit {
         _ if args.backend.is_some() && emit != Emit::Elf => {
-            wrong("--backend: that is for images, --emit elf")
+            wrong("--backend only applies to --emit elf")
         }
         Emit::Elf if args.report && args.backend == Some(Backend::Rust) => {
-            wrong("--report: what is measured is built from C")
+            wrong("--report measures C; it does not apply here")
         }
-        Emit::Ir | Emit::Rust if args.report => wrong("--report: what is measured is built from C"),
-        Emit::Ir if args.target.is_some() => wrong("--target: the IR is the same for all targets"),
+        Emit::Ir | Emit::Rust if args.report => {
+            wrong("--report measures C; it does not apply here")
+        }
+        Emit::Ir if args.target.is_some() => {
+            wrong("--target does not apply: the IR is the same for all targets")
+        }
         Emit::Ir | Emit::Bin | Emit::Lib if args.board.is_some() => wrong(
-            "--board: an image is made by --emit elf, its sources by --emit c and --emit rust",
+            "--board only applies to --emit elf (an image), --emit c and --emit rust (its sources)",
         ),
-        Emit::Elf if args.board.is_none() => wrong(
-            "--emit elf: an image is for a board; --board names its description (docs/src/boards.md)",
-        ),
-        Emit::Bin if target.is_bare() => wrong(
-            "--emit bin: nothing runs below a program there that could start it; --emit elf makes an image for a board",
-        ),
-        _ if args.main && args.board.is_some() => {
-            wrong("--main: an image has its own main program, which the board's description makes")
+        Emit::Elf if args.board.is_none() => {
+            wrong("--emit elf needs --board, a description of the board (docs/src/boards.md)")
         }
-        Emit::Lib if args.main => wrong("--main: a library has no main program"),
+        Emit::Bin if target.is_bare() => {
+            wrong("--emit bin: the target has no operating system; use --emit elf for an image")
+        }
+        _ if args.main && args.board.is_some() => wrong(
+            "--main does not apply: an image has its own main program, generated from the board's description",
+        ),
+        Emit::Lib if args.main => wrong("--main does not apply: a library has no main program"),
         _ => Ok(target),
     }
 }
 
-/// What an image needs besides its program.
+/// What an image needs in addition to its program.
 struct ForImage {
     board: Board,
     script: Script,
@@ -203,7 +207,7 @@ impl ForImage {
                 Ok((milliseconds(setting.at_ms)?, number, setting.value != 0.0))
             }
             other => Err(Failure::Because(format!(
-                "--set {other}: in an image only inputs switch themselves"
+                "--set {other}: only inputs can be scripted in an image"
             ))),
         });
         let script = Script {
@@ -221,7 +225,7 @@ impl ForImage {
         }
     }
 
-    /// The sources of the image. What its board has no pin for is told.
+    /// The sources of the image. Reports terminals that the board has no pin for.
     fn sources(
         &self,
         module: &Module,
@@ -232,7 +236,7 @@ impl ForImage {
         let own = !board.functions.is_empty() || !board.interrupts.is_empty();
         if backend == Backend::Rust && own {
             return Err(Failure::Because(format!(
-                "{} has functions in C, which an image in Rust does not call; --backend c",
+                "{} has C functions, which an image built from Rust cannot call; use --backend c",
                 board.name
             )));
         }
@@ -250,7 +254,7 @@ impl ForImage {
 
 /// A time in an image.
 fn milliseconds(ms: u64) -> std::result::Result<u32, Failure> {
-    let wrong = |_| Failure::Because("an image's time goes to 49 days".to_string());
+    let wrong = |_| Failure::Because("the time of an image is limited to 49 days".to_string());
     u32::try_from(ms).map_err(wrong)
 }
 
@@ -284,7 +288,7 @@ impl Job<'_> {
         }
         tools.announcing(|what| {
             tell(&format!(
-                "    Building {what}; it is kept for the next time"
+                "    Building {what}; it is cached for the next time"
             ))
         })
     }
@@ -363,7 +367,7 @@ impl Job<'_> {
     fn elf(&self) -> Built<Vec<u8>> {
         let image = self
             .image
-            .ok_or_else(|| because("an image is for a board"))?;
+            .ok_or_else(|| because("an image needs a board"))?;
         let backend = self.plan.backend.unwrap_or(Backend::C);
         let files = image.sources(self.module, backend)?;
         let file = format!("{}.elf", self.module.name);
@@ -408,7 +412,7 @@ fn bytes(files: Vec<OutFile>) -> Vec<OutFile<Vec<u8>>> {
 fn vacant(path: &Path, force: bool) -> std::result::Result<(), Failure> {
     match path.exists() && !force {
         true => Err(Failure::Because(format!(
-            "{} is already there; --force replaces it",
+            "{} already exists; use --force to overwrite",
             path.display()
         ))),
         false => Ok(()),
@@ -425,7 +429,7 @@ fn free(folder: &Path, force: bool) -> std::result::Result<bool, Failure> {
             .is_some();
     match occupied && !force {
         true => Err(Failure::Because(format!(
-            "{} is already there and not empty; --force writes into it",
+            "{} already exists and is not empty; use --force to write into it",
             folder.display()
         ))),
         false => Ok(there),

@@ -47,7 +47,7 @@ fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
     if let (Some(capacity), Some(steps)) = (parameters.capacity, parameters.program_steps()) {
         let (capacity, steps) = (counted(capacity as usize, "step"), grouped(steps as usize));
         lines.push(format!(
-            "      Memory {capacity}, {steps} of them for the program"
+            "      Memory {capacity}, of which {steps} for the program"
         ));
     }
     let blocks = parameters.file_register_blocks;
@@ -58,7 +58,7 @@ fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
     if model.latch_choices.is_empty() {
         let name = model.name;
         lines.push(format!(
-            "     Latched as on every {name}, whatever the parameters say"
+            "     Latched as on every {name}, regardless of the parameters"
         ));
     } else if let Some(latched) = &parameters.latched {
         let run = |run: &DeviceRun| {
@@ -74,7 +74,7 @@ fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
             .filter(|run| run.count > 0)
             .map(run)
             .collect();
-        let none = runs.is_empty().then(|| "nothing by choice".to_string());
+        let none = runs.is_empty().then(|| "no choice".to_string());
         lines.push(format!("     Latched {}", none.unwrap_or(runs.join(", "))));
     }
     lines.join("\n")

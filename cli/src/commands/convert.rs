@@ -31,7 +31,7 @@ fn convert(
         let diagnostic = codes::TEXT_BREAK
             .at(
                 text.span,
-                "this text holds a line break, which a list cannot",
+                "this text has a line break, which a list cannot represent",
             )
             .help("`--to csv` keeps it");
         diagnostics.push(diagnostic);
@@ -54,7 +54,7 @@ fn convert(
     if args.to == ConvertTo::Csv && comments > 0 {
         let what = counted(comments, "device comment");
         tell(&format!(
-            "rungc: {what} left out, which a list export has no place for; `--to il` keeps them"
+            "rungc: {what} omitted, because a list export cannot store them; `--to il` keeps them"
         ));
     }
     match &args.output {
@@ -67,7 +67,7 @@ fn convert(
             )?;
         }
         None if reporter.many() => {
-            let why = "-o: several programs are written into a folder; name it";
+            let why = "-o: several programs need a folder; name one";
             return Err(Failure::Because(why.to_string()));
         }
         Some(path) => write_file(path, &bytes, args.force)?,

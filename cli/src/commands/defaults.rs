@@ -19,9 +19,9 @@ fn unknown(project: &Project, name: &Named, what: &str, names: &[String]) -> Err
     let near = diag::did_you_mean(&name.text, names.iter().map(String::as_str));
     let help = match near {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there are {}", names.join(", ")),
+        None => format!("available: {}", names.join(", ")),
     };
-    let message = format!("there is no {what} `{}`", name.text);
+    let message = format!("unknown {what} `{}`", name.text);
     project.mistake(name.mistake(message).help(help))
 }
 
@@ -88,11 +88,11 @@ pub fn plan(plan: &Plan, subject: &Subject) -> Result<Plan, Failure> {
         }
     }
     if plan.emit.is_none() && !plan.report {
-        let why = "what is to be made? Give --emit, or --report to measure alone, or `emit` in `[build]` of rungc.toml";
+        let why = "nothing to build: use --emit, or --report to measure only, or set `emit` in `[build]` of rungc.toml";
         return Err(Failure::Because(why.to_string()));
     }
     if plan.board.is_none() && (!plan.set.is_empty() || plan.duration.is_some()) {
-        let why = "--set, --for: these are for an image; --board names the board that it is for";
+        let why = "--set and --for only apply to images; name a board with --board";
         return Err(Failure::Because(why.to_string()));
     }
     Ok(plan)

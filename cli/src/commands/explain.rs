@@ -24,7 +24,7 @@ pub fn run(args: &ExplainArgs) -> Result {
             .map(|near| format!("; did you mean `{near}`?"))
             .unwrap_or_default();
         return Err(Failure::Because(format!(
-            "`{}` is no diagnostic code, PLC error code, instruction or special device{hint}",
+            "`{}` is not a diagnostic code, PLC error code, instruction or special device{hint}",
             args.topic
         )));
     };
@@ -72,11 +72,11 @@ fn plc_error_page(number: u16) -> Option<String> {
         ),
         None if codes.is_empty() => return None,
         None => format!(
-            "PLC error {number}: the PLC finds it when a program is checked or written to it, so no compiled program raises it.\n"
+            "PLC error {number}: the PLC reports it when a program is checked or written to it, so compiled programs never raise it.\n"
         ),
     };
     if !codes.is_empty() {
-        page.push_str("\nWhat rungc reports of it before the program runs:\n\n");
+        page.push_str("\nrungc reports it before the program runs as:\n\n");
         for code in codes {
             let _ = writeln!(page, "    {} ({}): {}", code.id, code.name, code.title);
         }
@@ -99,13 +99,13 @@ fn special_page(topic: &str, model: ModelId) -> Option<String> {
 
 fn describe(special: &special::Special) -> String {
     let access = match special.access {
-        special::Access::Read => "the PLC writes it, a program only reads it",
-        special::Access::ReadWrite => "a program may write it",
+        special::Access::Read => "written by the PLC, read-only for programs",
+        special::Access::ReadWrite => "programs may write it",
     };
     let status = match special.status {
-        special::Status::Scan => "kept by the scan".to_string(),
+        special::Status::Scan => "updated by the scan".to_string(),
         special::Status::Instructions(names) => format!("used by {names}"),
-        special::Status::Inert(reason) => format!("inert here: {}", reason.text),
+        special::Status::Inert(reason) => format!("not simulated: {}", reason.text),
     };
     let default = if special.default == 0 {
         String::new()

@@ -14,11 +14,11 @@ const ROUNDS: usize = 8;
 /// What UTF-8 may begin with.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// Changes the file of a program, as a whole or not at all, and tells what was changed. What cannot be read is left to the check.
+/// Changes the file of a program, as a whole or not at all, and reports the changes. The check reports what cannot be read.
 pub fn fix(subject: &Subject, cx: Context) -> Result<(), Failure> {
     let path = subject.file.display();
     if subject.is_stdin() {
-        let why = "--fix: standard input cannot be changed; name the file";
+        let why = "--fix cannot change standard input; name the file";
         return Err(Failure::Because(why.to_string()));
     }
     let Ok(read) = subject::source(subject) else {
@@ -37,7 +37,7 @@ pub fn fix(subject: &Subject, cx: Context) -> Result<(), Failure> {
     let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
     if text != read.program.source.text.as_bytes() {
         return Err(Failure::Because(format!(
-            "--fix: {path} is not UTF-8; `rungc convert --to il` writes it so"
+            "--fix: {path} is not UTF-8; `rungc convert --to il` converts it"
         )));
     }
     let fixed = Fixed::of(subject, read);

@@ -34,7 +34,7 @@ pub fn run(args: &InitArgs, cx: Context) -> Result {
         false => folder.join(FILE),
     };
     if path.exists() {
-        let why = format!("{} is already there: edit it, or remove it", path.display());
+        let why = format!("{} already exists: edit or remove it", path.display());
         return Err(Failure::Because(why));
     }
     write_file(&path, template(name, model).as_bytes(), false)?;

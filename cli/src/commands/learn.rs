@@ -73,7 +73,7 @@ fn subject(args: &LearnArgs, cx: Context) -> std::result::Result<Subject, Failur
     subject::one(&Input { file, reading }, cx)
 }
 
-/// Text of a file, for people.
+/// Text of a file, for messages.
 fn plain(text: &str) -> String {
     text::one_line(text).into_owned()
 }
@@ -95,7 +95,7 @@ fn prove(lesson: &Lesson, model: &'static Model) -> std::result::Result<(), Fail
     let (code, mnemonic) = (lesson.shown(), &lesson.mnemonic);
     if rungc_catalogue::find(mnemonic).is_none() {
         let why = format!(
-            "the code {code} is `{mnemonic}` in the export, an instruction that no model has"
+            "the code {code} is `{mnemonic}` in the export, but no model has this instruction"
         );
         return Err(Failure::Because(plain(&why)));
     }
@@ -106,7 +106,7 @@ fn prove(lesson: &Lesson, model: &'static Model) -> std::result::Result<(), Fail
         .find(|instr| !fits(mnemonic, steps, &instr.operands, model))
     {
         Some(instr) => Err(Failure::Because(plain(&format!(
-            "the code {code} states {}, which `{instr}` of the export does not have on {}",
+            "the code {code} states {}, but `{instr}` of the export has another length on {}",
             counted(steps as usize, "step"),
             model.name
         )))),
@@ -165,11 +165,11 @@ fn letter(lessons: &[Lesson], project: &Read) -> String {
         .map(|lesson| format!("{} is {}", lesson.shown(), lesson.mnemonic))
         .collect();
     let mut text = format!(
-        "To let everybody read these codes, please send what follows to {}/issues:\n\nToken codes: {}\n\n",
+        "To help others read these codes, please report the following at {}/issues:\n\nToken codes: {}\n\n",
         env!("CARGO_PKG_REPOSITORY"),
         names.join(", ")
     );
-    text.push_str("| code | instruction | steps | times | for example |\n|---|---|---|---|---|\n");
+    text.push_str("| code | instruction | steps | count | example |\n|---|---|---|---|---|\n");
     for lesson in lessons {
         let example = lesson.uses.first().map(ToString::to_string);
         let example = plain(&example.unwrap_or_default()).replace('|', "\\|");
@@ -186,7 +186,7 @@ fn letter(lessons: &[Lesson], project: &Read) -> String {
         if let Taken::Derived(other) | Taken::Guess(other) = &lesson.reading
             && !same(other, &lesson.mnemonic)
         {
-            let _ = writeln!(text, "\n{} was taken for {other}.", lesson.shown());
+            let _ = writeln!(text, "\n{} was read as {other} before.", lesson.shown());
         }
     }
     let version = env!("CARGO_PKG_VERSION");

@@ -43,7 +43,7 @@ pub enum Outcome {
 /// Why a command could not do its work.
 #[derive(Debug)]
 pub enum Failure {
-    /// What stands in the way: exit code 2.
+    /// Why a command cannot run: exit code 2.
     Because(String),
     /// The same, where the report already says it.
     Reported,
@@ -56,7 +56,7 @@ impl fmt::Display for Failure {
         match self {
             Failure::Because(reason) => f.write_str(reason),
             Failure::Reported => f.write_str("the input cannot be read"),
-            Failure::BrokenPipe => f.write_str("nobody reads the output"),
+            Failure::BrokenPipe => f.write_str("output closed"),
         }
     }
 }
@@ -91,7 +91,7 @@ pub enum Verbosity {
     Quiet,
     /// A closing line for each program.
     Normal,
-    /// Details besides.
+    /// More details.
     Verbose,
 }
 
@@ -141,7 +141,7 @@ fn unread(error: &ReadError, subject: &Subject, reporter: &mut Reporter) -> io::
     let id = code.id;
     if subject.reporting.format == Format::Human {
         tell(&format!(
-            "rungc: error[{id}]: {error}\n       `rungc explain {id}` tells more"
+            "rungc: error[{id}]: {error}\n       for more, run `rungc explain {id}`"
         ));
     }
     let why = code.at(Span::default(), error.to_string());
@@ -156,7 +156,7 @@ pub fn say(text: &str) -> io::Result<()> {
     out.flush()
 }
 
-/// Tells people something on standard error; that nobody listens there is no reason to stop.
+/// Prints a line to standard error; a closed standard error does not stop the command.
 pub fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{}", visible(line));
 }
@@ -253,7 +253,7 @@ fn write_whole(
 ) -> std::result::Result<(), Failure> {
     if path.exists() && !force {
         return Err(Failure::Because(format!(
-            "{} is already there; --force replaces it",
+            "{} already exists; use --force to overwrite",
             path.display()
         )));
     }
@@ -279,13 +279,15 @@ impl AtomicFile {
     fn with_mode(path: &Path, mode: u32) -> std::result::Result<AtomicFile, Failure> {
         let at = |error: io::Error| Failure::Because(format!("{}: {error}", path.display()));
         if path.exists() && !path.is_file() {
-            let what = "is there already and is no file that can be replaced";
+            let what = "already exists and is not a regular file";
             return Err(Failure::Because(format!("{} {what}", path.display())));
         }
         let folder = parent_dir(path);
         if folder.exists() && !folder.is_dir() {
             let (path, folder) = (path.display(), folder.display());
-            return Err(Failure::Because(format!("{path}: {folder} is no folder")));
+            return Err(Failure::Because(format!(
+                "{path}: {folder} is not a folder"
+            )));
         }
         fs::create_dir_all(folder).map_err(at)?;
         let mut builder = tempfile::Builder::new();

@@ -99,7 +99,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     for axis in still {
         let name = axis.name();
         tell(&format!(
-            "rungc: the axis {name} stands still: the program sends no pulses to its output"
+            "rungc: the axis {name} never moves: the program sends no pulses to its output"
         ));
     }
     let run = simulate::Run {

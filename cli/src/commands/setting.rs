@@ -51,14 +51,14 @@ pub fn setting(text: &str) -> std::result::Result<Setting, Failure> {
     let value: f64 = value
         .trim()
         .parse()
-        .map_err(|_| wrong(format!("`{value}` is no number")))?;
+        .map_err(|_| wrong(format!("`{value}` is not a number")))?;
     let fits = match target {
         Target::Bit(..) => value == 0.0 || value == 1.0,
         Target::Word(..) => value.fract() == 0.0 && (-32768.0..=65535.0).contains(&value),
         Target::Float(..) => true,
         Target::Text(..) => return Err(wrong("characters cannot be set here".to_string())),
         Target::Pulses(_) | Target::Frequency(_) => {
-            return Err(wrong("pulses are the program's to send".to_string()));
+            return Err(wrong("only the program can send pulses".to_string()));
         }
         _ => value.fract() == 0.0 && (-2_147_483_648.0..=4_294_967_295.0).contains(&value),
     };

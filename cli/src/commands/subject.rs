@@ -109,13 +109,13 @@ impl Projects<'_> {
     /// The program of the project that this folder belongs to.
     fn own(&mut self) -> std::result::Result<PathBuf, Failure> {
         let Some(project) = self.of(Path::new("."))? else {
-            let why = "which program? Name a FILE, or write a rungc.toml with `rungc init`";
+            let why = "no program given: name a FILE, or create rungc.toml with `rungc init`";
             return Err(Failure::Because(why.to_string()));
         };
         project.program().map(near).ok_or_else(|| {
             let path = project.path.display();
             Failure::Because(format!(
-                "which program? Name a FILE, or `program` in `[project]` of {path}"
+                "no program given: name a FILE, or set `program` in `[project]` of {path}"
             ))
         })
     }
@@ -312,7 +312,7 @@ impl OutputPaths {
         match self.0.insert(path.clone(), subject.file.clone()) {
             None => Ok(path),
             Some(other) => Err(Failure::Because(format!(
-                "{}: {} is already made of {}; programs of the same name are built one at a time",
+                "{}: {} is already the output of {}; build programs with the same name one at a time",
                 subject.file.display(),
                 path.display(),
                 other.display()

@@ -36,7 +36,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
         paths.extend(files.map(|file| subject::near(project.at(file))));
     }
     if paths.is_empty() {
-        let why = "which tests? Name a FILE, or `files` in `[test]` of rungc.toml";
+        let why = "no tests given: name a FILE, or set `files` in `[test]` of rungc.toml";
         return Err(Failure::Because(why.to_string()));
     }
     let usual = settings.map(defaults::engine).transpose();
@@ -44,7 +44,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     let engine = args.engine.or(usual.flatten());
     let mut files = load(&paths, args.filter.as_deref())?;
     if files.is_empty() {
-        return Err(Failure::Because("no case to run".to_string()));
+        return Err(Failure::Because("no cases to run".to_string()));
     }
     if let Some(shard) = args.shard {
         keep(&mut files, shard);
@@ -81,7 +81,7 @@ pub fn run(args: &TestArgs, cx: Context) -> Result {
     })
 }
 
-/// Runs the cases on an engine, as far as nobody interrupts.
+/// Runs the cases on an engine until interrupted.
 fn run_on(kind: EngineKind, suite: &Suite, folder: &Path) -> std::result::Result<Report, Failure> {
     let what = match kind {
         EngineKind::Interp => "preparing",

@@ -7,7 +7,7 @@ use rungc_models::{Model, ModelId};
 use rungc_syntax::{Operands, codes};
 use std::collections::{BTreeMap, HashMap};
 
-/// For so many codes of a program the instructions that fit are looked for: more unknown ones are not a program.
+/// Fitting instructions are searched for at most this many codes of a program: with more unknown ones, it is not a program.
 const MAX_CODES: usize = 32;
 /// So many uses of a code are compared.
 const MAX_USES: usize = 16;

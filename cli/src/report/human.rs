@@ -1,4 +1,4 @@
-//! Diagnostics for people, drawn by ariadne: the message, the lines that it is about with what is to be said of them, and what to do.
+//! Human-readable diagnostics, drawn by ariadne: the message, the lines that it is about with their labels, and what to do.
 //!
 //! The library draws whole lines of whole files, numbered from 1. It is given a source made of the marked lines alone, each cut to a
 //! window, so that a diagnostic takes little time and a few lines of a terminal however long the program and its lines are and however
@@ -13,7 +13,7 @@ use rungc_syntax::{Diagnostic, Severity, SourceKind, Span};
 use std::io::{self, Write};
 use std::ops::Range;
 
-/// How many places besides the main one are drawn.
+/// How many places are drawn in addition to the main one.
 const MAX_PLACES: usize = 6;
 
 /// What stands between the marked lines in the source that is drawn: an empty line, which the library draws as a gap.
@@ -54,7 +54,7 @@ struct Mark<'a> {
 
 /// A part of a line, with what is said of places in it.
 struct Row<'a> {
-    /// What stands in the margin: the number of the line, or the step.
+    /// The text in the margin: the number of the line, or the step.
     number: String,
     window: Window<'a>,
     marks: Vec<&'a Mark<'a>>,
@@ -98,14 +98,14 @@ fn draw(findings: &Findings, name: &str, d: &Diagnostic, color: bool) -> io::Res
     let more = d.others.len().saturating_sub(MAX_PLACES);
     if more > 0 {
         report.add_note(format!(
-            "… and {more} more places (`--format json` names all)"
+            "… and {more} more locations (`--format json` lists all)"
         ));
     }
     let plc = d
         .plc_error
         .map(|code| format!("the PLC reports this as error {code}; "))
         .unwrap_or_default();
-    report.add_note(format!("{plc}`rungc explain {}` tells more", d.code));
+    report.add_note(format!("{plc}for more, run `rungc explain {}`", d.code));
     let mut drawn = Vec::new();
     let source = Source::from(source);
     report.finish().write((&*head, &source), &mut drawn)?;
@@ -218,7 +218,7 @@ mod tests {
     use super::{Color, Config, Label, Mark, Report, ReportKind, Row, Source, Span};
     use super::{Window, excerpt, numbered};
 
-    /// Draws marks in rows of their own, each with its number.
+    /// Draws marks in separate rows, each with its number.
     fn drawing(text: &str, marks: &[(&str, u32, u32)], color: bool) -> String {
         let marks: Vec<_> = marks
             .iter()

@@ -76,7 +76,7 @@ struct Proposal {
 struct Replacement {
     #[serde(flatten)]
     location: Option<Location>,
-    /// What stands there afterwards.
+    /// The new text.
     text: String,
 }
 

@@ -1,4 +1,4 @@
-//! Printing diagnostics: for people, as JSON, as SARIF.
+//! Printing diagnostics: human-readable, as JSON, as SARIF.
 
 mod human;
 mod json;
@@ -219,7 +219,7 @@ impl<'a> Reporter<'a> {
         self.stdout_in_use = true;
     }
 
-    /// Whether the report is for people.
+    /// Whether the report is human-readable.
     pub fn is_for_people(&self) -> bool {
         self.reporting.format == Format::Human
     }
@@ -237,7 +237,7 @@ impl<'a> Reporter<'a> {
                 let name = findings.name(self.many);
                 let limit = self.reporting.limit;
                 let mut out = io::stderr().lock();
-                // That nobody reads it is no reason to stop.
+                // A closed output does not stop the command.
                 return human::print(findings, &name, limit, self.color, &mut out).or_else(
                     |error| match error.kind() {
                         io::ErrorKind::BrokenPipe => Ok(()),
@@ -251,7 +251,7 @@ impl<'a> Reporter<'a> {
         Ok(())
     }
 
-    /// Prints the document for tools, if there is anything to be told.
+    /// Prints the document for tools, if there is anything to report.
     pub fn finish(self) -> io::Result<()> {
         let document = match self.reporting.format {
             Format::Human => return Ok(()),

@@ -20,7 +20,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// Adds what was found about a file, which stands in the list of artifacts if there can be `many`.
+    /// Adds the findings about a file, which is in the list of artifacts if there can be `many`.
     pub fn add(&mut self, findings: &Findings, many: bool) {
         self.begun = true;
         self.used

@@ -18,7 +18,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// As [`visible`], of a text that stands on one line.
+/// As [`visible`], for a text on one line.
 pub fn visible_line(text: &str) -> Cow<'_, str> {
     replaced(text, |c, out| match c {
         '\n' => out.push_str("\\n"),
@@ -27,7 +27,7 @@ pub fn visible_line(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// A JSON document in which the same characters are written as JSON escapes them. They stand in strings only; the line feeds
+/// A JSON document in which the same characters are written as JSON escapes them. They occur only in strings; the line feeds
 /// between the tokens stay.
 pub fn visible_json(document: &str) -> Cow<'_, str> {
     replaced(document, |c, out| match c {

@@ -12,14 +12,14 @@ const BEFORE: usize = 40;
 /// Longer instructions, in bytes, are not drawn whole.
 const MAX_ROWS: usize = 2 * WIDTH;
 
-/// A part of a line, or an instruction that stands in several rows of a table.
+/// A part of a line, or an instruction that spans several rows of a table.
 pub struct Window<'t> {
     text: &'t str,
     /// Where it begins in the source.
     start: usize,
     /// Whether the line begins further to the left.
     cut_before: bool,
-    /// Whether the line goes on.
+    /// Whether the line continues.
     cut_behind: bool,
 }
 
@@ -33,8 +33,8 @@ impl<'t> Window<'t> {
         let mut before: Vec<_> = before.take_while(|c| !breaks(c)).take(WIDTH).collect();
         let mut cut_before = before.len() == WIDTH;
         let all = source[at..].char_indices().take_while(|c| !breaks(c));
-        let behind = all.take(WIDTH + 1).count();
-        if before.len() + behind > WIDTH && before.len() > BEFORE {
+        let after = all.take(WIDTH + 1).count();
+        if before.len() + after > WIDTH && before.len() > BEFORE {
             before.truncate(BEFORE);
             cut_before = true;
         }
@@ -61,7 +61,7 @@ impl<'t> Window<'t> {
         }
     }
 
-    /// An instruction whose operands stand in rows of their own, if this is one; its rows are drawn as one line.
+    /// An instruction whose operands have separate rows, if this is one; its rows are drawn as one line.
     pub fn of_rows(source: &'t str, span: Span) -> Option<Self> {
         let text = source.get(span.range())?;
         let short = text.len() <= MAX_ROWS && text.contains('\n');

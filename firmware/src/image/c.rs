@@ -198,7 +198,7 @@ fn pins(image: &Image) -> String {
 enum Edges {
     /// In the interrupt of the tick, while scans run, too.
     InTick,
-    /// Between scans: nobody knows whether the board's own function that reads inputs may run in an interrupt.
+    /// Between scans: the board's own function that reads inputs may not be safe in an interrupt.
     InPoll,
 }
 
@@ -340,7 +340,7 @@ fn printed(image: &Image) -> String {
     table
 }
 
-/// A string literal, in ASCII but for what stands in comments.
+/// A string literal, in ASCII except in comments.
 fn literal(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {

@@ -32,7 +32,7 @@ fn set_bits(address: usize, bits: u32, on: bool) {
 ";
 
 /// What says whether an input switches itself, and how it stands.
-const SCRIPTED: &str = "/// Whether an input switches itself, and how it stands at a time.
+const SCRIPTED: &str = "/// The scripted state of an input at a time, if it has one.
 fn scripted(number: u16, now_ms: u32) -> Option<bool> {
     let own = SCRIPT.iter().filter(|(_, input, _)| *input == number);
     let state = |on, &(ms, _, then): &(u32, u16, bool)| if ms <= now_ms { then } else { on };

@@ -21,14 +21,10 @@ impl std::fmt::Display for Unbounded {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Unbounded::Recursion(names) => {
-                write!(
-                    f,
-                    "these may call each other in a ring: {}",
-                    names.join(", ")
-                )
+                write!(f, "these may form a call cycle: {}", names.join(", "))
             }
-            Unbounded::Dynamic(name) => write!(f, "{name} takes as much as its data say"),
-            Unbounded::Missing(name) => write!(f, "there is no function {name}"),
+            Unbounded::Dynamic(name) => write!(f, "the frame of {name} has no fixed size"),
+            Unbounded::Missing(name) => write!(f, "function {name} not found"),
         }
     }
 }
@@ -44,7 +40,7 @@ pub struct Functions {
 #[derive(Clone, Copy)]
 struct Depth {
     bytes: u32,
-    /// Whether one of them calls what a register tells.
+    /// Whether one of them calls through a register.
     indirect: bool,
 }
 
@@ -54,7 +50,7 @@ struct Function {
     frame: Frame,
 }
 
-/// The code of an image, where it is and what of it is no code.
+/// The code of an image, its address, and the parts of it that are not code.
 struct Code<'d> {
     sections: Vec<(u32, &'d [u8])>,
     /// From each address on: whether there is code.
@@ -75,7 +71,7 @@ impl Code<'_> {
         })
     }
 
-    /// All words that are no code.
+    /// All words that are not code.
     fn words(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
         self.sections.iter().flat_map(move |(start, bytes)| {
             let words = bytes.chunks_exact(4).enumerate();
@@ -119,7 +115,7 @@ fn code<'d>(file: &Elf<'d>) -> Code<'d> {
 }
 
 impl Functions {
-    /// Reads all functions of an image. Vectors are no stored addresses: hardware alone goes where they lead.
+    /// Reads all functions of an image. Vectors do not count as stored addresses: only hardware jumps through them.
     pub fn new(file: &Elf) -> Self {
         let code = code(file);
         let mut by_address = BTreeMap::new();
@@ -150,7 +146,7 @@ impl Functions {
         Functions { by_address, stored }
     }
 
-    /// Whether any function calls what a register tells.
+    /// Whether any function calls through a register.
     pub fn has_indirect_calls(&self) -> bool {
         self.by_address.values().any(|f| f.frame.indirect)
     }

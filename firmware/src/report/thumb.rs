@@ -5,11 +5,11 @@
 pub struct Frame {
     /// Bytes that it takes at most: the sum of all that its instructions push or subtract from SP.
     pub bytes: u32,
-    /// Addresses that it calls or goes on with.
+    /// Addresses that it calls or jumps to.
     pub calls: Vec<u32>,
-    /// It calls what a register tells.
+    /// It calls through a register.
     pub indirect: bool,
-    /// It takes as many bytes as a register tells, which is not known.
+    /// It takes as many bytes as a register says, which is unknown.
     pub dynamic: bool,
     /// Constants that it puts together in registers, which may be addresses of functions.
     pub constants: Vec<u32>,
@@ -66,7 +66,7 @@ impl Reader {
         self.frame.bytes = self.frame.bytes.saturating_add(bytes);
     }
 
-    /// A branch: out of the function it goes on with another one.
+    /// A branch: out of the function, it continues with another one.
     fn branch(&mut self, target: u32) {
         if !(self.from..self.end).contains(&target) {
             self.frame.calls.push(target);
@@ -149,7 +149,7 @@ impl Reader {
         let (j1, j2) = (second >> 13 & 1, second >> 11 & 1);
         let low = (second & 0x7FF) << 1;
         let distance = match second >> 12 & 0b101 {
-            // B condition: J2 comes before J1; what has no condition is no branch.
+            // B condition: J2 comes before J1; without a condition it is not a branch.
             0b000 if first >> 7 & 0b111 != 0b111 => {
                 let high = sign << 20 | j2 << 19 | j1 << 18;
                 signed(high | (first & 0x3F) << 12 | low, 21)

@@ -109,9 +109,9 @@ fn other_family(file: &str, kind: SourceKind, cpu: &str) -> Read {
                 span,
                 format!("the project is for the CPU {cpu}, which is not one of the FX family"),
             )
-            .label("the CPU that the project names")
+            .label("the CPU of the project")
             .help(
-                "only programs of FX PLCs can be compiled: change the PLC type in the editor, if the program is to run on one",
+                "only FX programs can be compiled: change the PLC type in the editor if the program is for an FX PLC",
             ),
     );
     Read {

@@ -123,7 +123,7 @@ fn without_program(name: &str, line: &str, why: impl FnOnce(Span) -> Diagnostic)
 fn no_program(name: &str, bytes: &[u8]) -> Read {
     let shown = hex(bytes.get(HEADER..).unwrap_or(bytes));
     without_program(name, &format!("?? {shown}"), |span| {
-        let what = "no program can be found; the data";
+        let what = "no program found; the data";
         bytes_error(&codes::DAMAGED, span, HEADER.min(bytes.len()), &shown, what)
     })
 }
@@ -134,10 +134,10 @@ fn damaged_part(what: &str, bytes: &[u8], at: usize) -> Diagnostic {
     codes::DAMAGED_PART
         .at(
             Span::default(),
-            format!("{what} cannot be read on at offset 0x{at:04X}: {shown}"),
+            format!("{what} cannot be read past offset 0x{at:04X}: {shown}"),
         )
         .label("the program itself is not affected")
-        .help("open the project in its editor and save it once more")
+        .help("open the project in its editor and save it again")
 }
 
 /// Adds the device comments of a `COMMENT.wcd` to a program.
@@ -153,12 +153,12 @@ fn add_comments(
     read.program.comments.extend(decoded);
     if let Some(at) = table.damaged {
         let shown = hex(bytes.get(at..).unwrap_or_default());
-        let what = "the table of device comments cannot be read on";
+        let what = "the table of device comments cannot be read past";
         read.diagnostics.push(
             codes::DAMAGED
-                .at(Span::default(), format!("{what} at offset 0x{at:04X}: {shown}"))
+                .at(Span::default(), format!("{what} offset 0x{at:04X}: {shown}"))
                 .label("comments of this program's devices")
-                .help("the program itself is not affected: remove the comment file to go on without comments"),
+                .help("the program itself is not affected: remove the comment file to continue without comments"),
         );
     }
 }

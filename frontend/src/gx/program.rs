@@ -17,7 +17,7 @@ use std::fmt::Write as _;
 /// How many bytes of an unknown or damaged place a message shows.
 const SHOWN: usize = 16;
 
-/// The body of the token at `at`, if a token stands there.
+/// The body of the token at `at`, if there is one.
 pub(super) fn body(bytes: &[u8], at: usize) -> Option<&[u8]> {
     let len = usize::from(*bytes.get(at)?);
     let token = bytes.get(at..at.checked_add(len)?)?;
@@ -79,7 +79,7 @@ enum Piece<'b> {
 
 /// What damage is.
 enum Damage {
-    /// Tokens go on after it.
+    /// Tokens continue after it.
     Hole,
     /// The file ends within a token.
     Cut,
@@ -204,7 +204,7 @@ enum Current {
     None,
     /// The last instruction.
     Instr,
-    /// A label of so many steps that waits for its pointer.
+    /// A label of this many steps that waits for its pointer.
     Label(u32),
     /// A label that has it.
     Labelled,
@@ -353,7 +353,7 @@ impl<'l> Reader<'l> {
         });
     }
 
-    /// An instruction whose code was derived: read, and told.
+    /// An instruction whose code was derived: read, and reported.
     fn derived(&mut self, body: &[u8], at: usize, mnemonic: SmolStr) {
         if let Some(learned) = self.learned.get(body) {
             return self.instruction(learned.clone());
@@ -414,7 +414,7 @@ impl<'l> Reader<'l> {
         match kind {
             Some(kind) => self.whole_operand(kind, body, at),
             None => {
-                let what = "an operand that its prefix does not go with";
+                let what = "an operand that does not match its prefix";
                 self.broken_operand(&codes::DAMAGED, at, body, what);
             }
         }
@@ -432,7 +432,12 @@ impl<'l> Reader<'l> {
                     self.current = Current::Labelled;
                 } else {
                     self.unread();
-                    self.report(&codes::DAMAGED, at, body, "a label whose pointer is none");
+                    self.report(
+                        &codes::DAMAGED,
+                        at,
+                        body,
+                        "a label whose pointer is not a pointer",
+                    );
                 }
                 self.advance(steps);
             }
@@ -526,14 +531,14 @@ impl<'l> Reader<'l> {
         self.step = None;
         self.listing.next_line();
         let (code, what) = match damage {
-            Damage::Hole => (&codes::DAMAGED, "bytes that are no part of a program"),
+            Damage::Hole => (&codes::DAMAGED, "bytes that are not part of a program"),
             Damage::Cut => (
                 &codes::TRUNCATED,
                 "the end of the file before the end of the program",
             ),
             Damage::Rest => (
                 &codes::DAMAGED,
-                "the end of all that can be read, without `END`",
+                "the end of the readable data, without `END`",
             ),
         };
         self.report(code, at, rest, what);
@@ -580,8 +585,8 @@ fn labels_error((span, names): (Span, Vec<String>)) -> Diagnostic {
             span,
             format!("operands are labels, not devices: {}", list.join(", ")),
         )
-        .label("which device this is only the compiled program says")
-        .help("convert the program in the editor (Rebuild All) and save the project: the compiled program in it is read then")
+        .label("only the compiled program says which device this is")
+        .help("convert the program in the editor (Rebuild All) and save the project: rungc then reads its compiled program")
 }
 
 /// An error that names the offset and the bytes.
@@ -594,7 +599,7 @@ pub(super) fn bytes_error(
 ) -> Diagnostic {
     code.at(span, format!("{what} at offset 0x{at:04X}: {shown}"))
         .label("read from these bytes")
-        .help("open the project in its editor and export the list as CSV, which is read as well")
+        .help("open the project in its editor and export the list as CSV, which rungc also reads")
 }
 
 /// Bytes as people read them.

@@ -1,6 +1,6 @@
 //! The tokens of GX Developer and GX Works2.
 //!
-//! A token is `[len, body…, len]`, where `len` counts both length bytes. The first byte of the body tells its kind: below 80h an
+//! A token is `[len, body…, len]`, where `len` counts both length bytes. The first byte of the body gives its kind: below 80h an
 //! instruction, 80h and 81h a statement, 82h a note, from 90h an operand, from F0h a prefix of the operand that follows.
 
 use super::table::{self, Code};
@@ -28,7 +28,7 @@ const DEVICES: [(u8, DeviceClass); 13] = [
     (0xD2, DeviceClass::N),
 ];
 
-/// The device class with this code in a table of comments, where special relays and registers have codes of their own.
+/// The device class with this code in a table of comments, where special relays and registers have separate codes.
 pub(super) fn commented(code: u8) -> Option<DeviceClass> {
     match code {
         0x91 => Some(DeviceClass::M),
@@ -72,7 +72,7 @@ pub(super) enum Bare<'b> {
     Address(u32),
 }
 
-/// What stands before an operand and changes it.
+/// A prefix that changes an operand.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Prefix {
     /// The module that the address is in.

@@ -18,11 +18,11 @@ pub(super) struct Fault {
 /// What is wrong.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Kind {
-    /// The text does not begin an instruction, or goes on in a way no instruction does.
+    /// The text does not start an instruction, or continues in a way no instruction does.
     Line,
     /// A step number that no program can have.
     Step,
-    /// A step number and nothing behind it.
+    /// A step number with nothing after it.
     Bare,
     /// Neither device, nor constant, nor text.
     Operand,
@@ -110,14 +110,14 @@ impl<'s, I: Input<'s>> Inspector<'s, I> for Faults {
 }
 
 impl Kind {
-    /// The diagnostic for this fault at `span`; `text` is what stands there, folded.
+    /// The diagnostic for this fault at `span`; `text` is the text there, folded.
     fn diagnostic(self, span: Span, text: &str) -> Diagnostic {
         match self {
             Kind::Line => line(span, text),
             Kind::Bare => codes::BAD_INSTRUCTION
                 .at(span, format!("step number `{text}` has no instruction"))
-                .label("nothing stands behind it")
-                .help("an instruction and all its operands stand on one line"),
+                .label("nothing follows it")
+                .help("put an instruction and all its operands on one line"),
             Kind::Operand => operand(span, text),
             Kind::Octal(class) => octal(class, span, text),
             Kind::DigitCount => codes::DIGITS
@@ -126,7 +126,7 @@ impl Kind {
                     format!("`{text}` does not group 1 to 8 digits of 4 bits"),
                 )
                 .label("the digit count is 1 to 8")
-                .help("16-bit instructions take K1 to K4, 32-bit ones K1 to K8"),
+                .help("16-bit instructions accept K1 to K4, 32-bit ones K1 to K8"),
             Kind::DigitClass(class) => codes::OPERAND_CLASS
                 .at(
                     span,
@@ -136,23 +136,25 @@ impl Kind {
                     ),
                 )
                 .label("only X, Y, M and S can be grouped")
-                .help("words are named without a digit count, e.g. `D0`; between two operands stands a space"),
+                .help(
+                    "words have no digit count, for example `D0`; separate operands with a space",
+                ),
             Kind::BitNumber => codes::BAD_OPERAND
                 .at(span, format!("`{text}` does not name a bit of a word"))
                 .label("the bit number is one hexadecimal digit, 0 to F")
                 .help("bit 10 is `.A`, bit 15 is `.F`"),
             Kind::Unclosed => codes::OPEN_TEXT
-                .at(span, "this text is never closed")
+                .at(span, "this text has no closing quotation mark")
                 .label("no closing `\"` on this line")
-                .help("put `\"` behind the last character")
-                .fix(
-                    Fix::suggested("close the text")
-                        .replace(Span::new(span.end, span.end), "\""),
-                ),
+                .help("put `\"` after the last character")
+                .fix(Fix::suggested("close the text").replace(Span::new(span.end, span.end), "\"")),
             Kind::LookAlike(letter) => codes::LOOK_ALIKE
                 .at(
                     span,
-                    format!("`{letter}` is U+{:04X}, not a Latin letter", u32::from(letter)),
+                    format!(
+                        "`{letter}` is U+{:04X}, not a Latin letter",
+                        u32::from(letter)
+                    ),
                 )
                 .label("only looks like one")
                 .help(format!("type `{text}` with Latin letters"))
@@ -170,9 +172,9 @@ impl Kind {
                     .fix(Fix::certain(format!("write `{joined}`")).replace(span, joined))
             }
             Kind::CommentSign => codes::BAD_INSTRUCTION
-                .at(span, format!("`{text}` does not begin a comment"))
+                .at(span, format!("`{text}` does not start a comment"))
                 .label("neither an instruction nor an operand")
-                .help("comments begin with `;` or `//` and end with their line"),
+                .help("comments start with `;` or `//` and end with their line"),
             Kind::Step | Kind::DeviceNumber | Kind::Decimal | Kind::Hex | Kind::Float => {
                 self.too_large(span, text)
             }
@@ -184,7 +186,7 @@ impl Kind {
             Kind::Step => (
                 "step number",
                 "a program has at most 64000 steps",
-                "step numbers are optional: leave it out",
+                "step numbers are optional: omit it",
             ),
             Kind::DeviceNumber => (
                 "the number of",
@@ -194,7 +196,7 @@ impl Kind {
             Kind::Hex => (
                 "constant",
                 "H is H0 to HFFFFFFFF",
-                "16-bit instructions take H0 to HFFFF, 32-bit ones the whole range",
+                "16-bit instructions accept H0 to HFFFF, 32-bit ones H0 to HFFFFFFFF",
             ),
             Kind::Float => (
                 "floating constant",
@@ -204,7 +206,7 @@ impl Kind {
             _ => (
                 "constant",
                 "K is K-2147483648 to K2147483647",
-                "16-bit instructions take K-32768 to K32767, 32-bit ones the whole range",
+                "16-bit instructions accept K-32768 to K32767, 32-bit ones K-2147483648 to K2147483647",
             ),
         };
         codes::BIG_NUMBER
@@ -220,11 +222,11 @@ fn line(span: Span, text: &str) -> Diagnostic {
     let error = codes::BAD_INSTRUCTION.at(span, format!("expected an instruction, found `{word}`"));
     match word.split_at_checked(digits) {
         Some((step, rest)) if digits > 0 && !rest.is_empty() => error
-            .label("a mnemonic begins with a letter")
-            .help(format!("if `{step}` is the step number, put a space behind it: `{step} {rest}`")),
+            .label("a mnemonic starts with a letter")
+            .help(format!("if `{step}` is the step number, put a space after it: `{step} {rest}`")),
         _ => error
             .label("not an instruction")
-            .help("an instruction is a mnemonic and its operands, e.g. `OUT T0 K30`; comments begin with `;` or `//`"),
+            .help("an instruction is a mnemonic and its operands, for example `OUT T0 K30`; comments start with `;` or `//`"),
     }
 }
 
@@ -239,14 +241,14 @@ fn octal(class: DeviceClass, span: Span, text: &str) -> Diagnostic {
         .label("8 and 9 are not octal digits");
     match digits.parse::<u32>() {
         Ok(n) => error.help(format!(
-            "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010; the device at place {n} is `{}`",
+            "{prefix} counts in octal, so {prefix}007 is followed by {prefix}010; decimal {n} is `{}`",
             class.number(n)
         )),
         Err(_) => error,
     }
 }
 
-/// Says what an unreadable operand lacks, as closely as its text tells.
+/// Says what an unreadable operand lacks, as precisely as its text allows.
 fn operand(span: Span, text: &str) -> Diagnostic {
     let upper = text.to_ascii_uppercase();
     let letters = upper.len()
@@ -263,9 +265,9 @@ fn operand(span: Span, text: &str) -> Diagnostic {
             } else {
                 "constant without a value"
             })
-            .help(format!("write e.g. `{prefix}10`"));
+            .help(format!("write for example `{prefix}10`"));
     }
-    let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not an operand"));
+    let error = codes::BAD_OPERAND.at(span, format!("`{text}` is not a valid operand"));
     if let Some((what, meant)) = other_notation(&upper) {
         let fix = Fix::certain(format!("write `{meant}`")).replace(span, meant.as_str());
         return error.label(what).help(format!("write `{meant}`")).fix(fix);
@@ -277,29 +279,29 @@ fn operand(span: Span, text: &str) -> Diagnostic {
     }
     if let Some(meant) = mistyped_digit(&upper) {
         return error
-            .label("a letter stands where a digit is expected")
+            .label("a letter where a digit is expected")
             .help(format!("did you mean `{meant}`?"))
             .fix(Fix::suggested(format!("write `{meant}`")).replace(span, meant.as_str()));
     }
     match prefix {
-        "K" => error.label("not a decimal constant").help("write e.g. `K10`, `K-5`, or `K4M0` for a group of bits"),
-        "H" => error.label("not a hexadecimal constant").help("write e.g. `H1F`: digits 0 to 9 and A to F, no sign"),
-        "E" => error.label("not a floating constant").help("write e.g. `E1.5` or `E-1.5E+3`"),
-        "U" => error.label("not an address in buffer memory").help("write e.g. `U0\\G5`: module 0, address 5"),
+        "K" => error.label("not a decimal constant").help("write for example `K10`, `K-5`, or `K4M0` for a group of bits"),
+        "H" => error.label("not a hexadecimal constant").help("write for example `H1F`: digits 0 to 9 and A to F, no sign"),
+        "E" => error.label("not a floating constant").help("write for example `E1.5` or `E-1.5E+3`"),
+        "U" => error.label("not an address in buffer memory").help("write for example `U0\\G5`: module 0, address 5"),
         _ if known => error
-            .label(format!("unexpected text behind the number of this {prefix} device"))
-            .help(format!("an operand is e.g. `{prefix}10`, with an index register `D0Z0`, or a bit of a word `D0.F`")),
+            .label(format!("unexpected text after the number of this {prefix} device"))
+            .help(format!("an operand is for example `{prefix}10`, with an index register `D0Z0`, or a bit of a word `D0.F`")),
         _ => {
             if is_name(text) {
                 return codes::LABEL_OPERAND
                     .at(span, format!("`{text}` is a label, not a device"))
-                    .label("which device this is only the compiled program says")
+                    .label("only the compiled program says which device this is")
                     .help("export the list of the compiled program, or write the device that the label stands for");
             }
             let classes = DeviceClass::ALL.map(DeviceClass::prefix);
             let help = match did_you_mean(prefix, classes.into_iter().filter(|c| c.len() > 1)) {
                 Some(meant) if !rest.is_empty() => format!("did you mean `{meant}{rest}`?"),
-                _ => format!("devices are {}; constants begin with K, H or E; text stands in quotes", classes.join(", ")),
+                _ => format!("devices are {}; constants start with K, H or E; text is quoted", classes.join(", ")),
             };
             error.label("neither a device nor a constant").help(help)
         }
@@ -319,11 +321,11 @@ fn other_notation(upper: &str) -> Option<(&'static str, String)> {
     let begins_with_digit = upper.starts_with(|c: char| c.is_ascii_digit());
     let suffixed = upper.strip_suffix('H').filter(|_| begins_with_digit);
     if let Some(meant) = prefixed.or(suffixed).and_then(hexadecimal) {
-        return Some(("a hexadecimal constant begins with H here", meant));
+        return Some(("a hexadecimal constant starts with H here", meant));
     }
     if upper.contains('.') && upper.parse::<f32>().is_ok_and(f32::is_finite) {
         return Some((
-            "a floating constant begins with E here",
+            "a floating constant starts with E here",
             format!("E{upper}"),
         ));
     }
@@ -333,12 +335,12 @@ fn other_notation(upper: &str) -> Option<(&'static str, String)> {
         && device.starts_with(['X', 'Y', 'M', 'S'])
         && !number.is_empty()
         && number.bytes().all(|b| b.is_ascii_digit());
-    group.then(|| ("a group of bits begins with K", format!("K{upper}")))
+    group.then(|| ("a group of bits starts with K", format!("K{upper}")))
 }
 
 /// Whether a word can only be a name that somebody has given: `bSpeed`, `motor_on`.
 fn is_name(text: &str) -> bool {
-    /// No device or constant that was mistyped has so many letters in a row.
+    /// No mistyped device or constant has this many letters in a row.
     const LETTERS: usize = 3;
     let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
     let letters = text
@@ -348,7 +350,7 @@ fn is_name(text: &str) -> bool {
     word && letters > LETTERS
 }
 
-/// What was meant by `XO01` or `Dl0`, where letters that look like digits stand behind a device letter.
+/// What was meant by `XO01` or `Dl0`, where letters that look like digits follow a device letter.
 pub(super) fn mistyped_digit(upper: &str) -> Option<String> {
     let (head, tail) = upper.split_at_checked(1)?;
     let digits = tail.replace('O', "0").replace(['I', 'L'], "1");

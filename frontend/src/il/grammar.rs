@@ -8,20 +8,20 @@ use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, Operands, S
 use smol_str::{SmolStr, ToSmolStr};
 use std::borrow::Cow;
 
-/// No line fails, so nobody asks where the grammar would have liked to go on: the error type is empty, which makes alternatives cheap.
+/// No line fails, so expected continuations are never needed: the error type is empty, which makes alternatives cheap.
 /// What is wrong with a line goes into the state.
 type Extra = extra::Full<EmptyErr, Faults, ()>;
 
-/// What stands on one line.
+/// The content of one line.
 #[derive(Debug)]
 pub(super) struct Line<'s> {
     /// Step number in front.
     pub step: Option<u32>,
-    /// Label, which may have an instruction behind it.
+    /// Label, which may be followed by an instruction.
     pub label: Option<(Device, Span)>,
     /// The instruction.
     pub instr: Option<Body<'s>>,
-    /// Where the comment's text begins, behind `;` or `//`.
+    /// Where the comment's text starts, after `;` or `//`.
     pub comment: Option<u32>,
 }
 
@@ -50,7 +50,7 @@ fn is_space(c: &char) -> bool {
     c.is_whitespace() || *c == ',' || *c == '\0'
 }
 
-/// Skips characters of a kind, as many as there are. As `any().filter(of_kind).repeated()`, but without going back behind the last.
+/// Skips characters of a kind, as many as there are. As `any().filter(of_kind).repeated()`, but without backtracking after the last.
 fn skip<'s>(of_kind: impl Fn(&char) -> bool + Copy) -> impl Parser<'s, &'s str, (), Extra> + Copy {
     custom(move |input| {
         while input.peek().is_some_and(|c| of_kind(&c)) {
@@ -480,7 +480,7 @@ fn body<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
 }
 
 fn step<'s>() -> impl Parser<'s, &'s str, (Option<u32>, Span), Extra> + Copy {
-    let behind = choice((boundary(), one_of(":.)").ignored()));
+    let after = choice((boundary(), one_of(":.)").ignored()));
     let number = digits().map_with(|digits: &str, e| {
         let step = digits.parse().unwrap_or_else(|_| {
             report(e, Kind::Step);
@@ -489,7 +489,7 @@ fn step<'s>() -> impl Parser<'s, &'s str, (Option<u32>, Span), Extra> + Copy {
         (Some(step), span(e.span()))
     });
     number
-        .then_ignore(behind)
+        .then_ignore(after)
         .or_not()
         .map(Option::unwrap_or_default)
 }
@@ -517,7 +517,7 @@ fn label<'s>() -> impl Parser<'s, &'s str, (Device, Span), Extra> + Copy {
         .then_ignore(choice((space().then(just(':')).ignored(), boundary())))
 }
 
-/// A whole line. A line that is no instruction is reported and skipped up to its comment.
+/// A whole line. A line that is not an instruction is reported and skipped up to its comment.
 pub(super) fn line<'s>() -> impl Parser<'s, &'s str, Line<'s>, Extra> + Copy {
     let comment_start = choice((just(';').ignored(), just("//").ignored()));
     let foreign_start = comment_sign().to_span().map_with(|s: SimpleSpan, e| {
@@ -615,7 +615,7 @@ pub(super) fn mnemonic_field<'s>() -> impl Parser<'s, &'s str, Option<SmolStr>, 
     choice((readable.then_ignore(space()).then_ignore(end()), unreadable))
 }
 
-/// What a parser makes of a text; what is wrong with that comes behind `faults`. A text that lacks something gives nothing.
+/// What a parser makes of a text; its faults come after `faults`. A text that lacks something gives nothing.
 pub(super) fn parse<'s, T>(
     parser: &impl Parser<'s, &'s str, T, Extra>,
     text: &'s str,

@@ -166,7 +166,7 @@ impl Reader {
         });
     }
 
-    /// Takes a property of the program; tells whether it is one.
+    /// Takes a property of the program; returns whether it is one.
     fn property(&mut self, text: &str) -> bool {
         let Some((key, value)) = text.split_once('=') else {
             return false;

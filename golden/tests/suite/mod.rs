@@ -44,7 +44,7 @@ fn load_all() -> Vec<TestFile> {
     paths.sort();
     let load = |path: &PathBuf| {
         let mut file = plctest::load(path).unwrap_or_else(|e| panic!("{e}"));
-        // The name without the folder that this repository stands in.
+        // The name without the folder of this repository.
         let short = path.strip_prefix(folder()).unwrap_or(path);
         file.name = short.display().to_string();
         file

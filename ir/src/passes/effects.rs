@@ -1,4 +1,4 @@
-//! What expressions read and statements write, and whether a read may be moved behind a write.
+//! What expressions read and statements write, and whether a read may be moved after a write.
 
 use super::fold::Arena;
 use crate::node::{Expr, ExprId, Place, Stmt};
@@ -60,7 +60,7 @@ impl Reads {
         self.index |= arena.model.has_alias(place.class, first, last);
     }
 
-    /// Whether the value may be another behind the write.
+    /// Whether the value may differ after the write.
     pub(super) fn disturbed_by(&self, writes: Writes) -> bool {
         let private = self.private && writes == Writes::All;
         let index = self.index && matches!(writes, Writes::Index | Writes::All);

@@ -163,12 +163,12 @@ impl Temps {
         self.take(|pending| pending.reads.disturbed_by(writes))
     }
 
-    /// What has to be assigned in front of a write because it is used behind it, and perhaps in it.
+    /// What has to be assigned before a write because it is used after it, and perhaps in it.
     pub(super) fn shared_before(&mut self, writes: Writes) -> Vec<(TempId, ExprId)> {
         self.take(|pending| pending.left > 1 && pending.reads.disturbed_by(writes))
     }
 
-    /// What has to be assigned in front of a condition: what is used besides it too.
+    /// What has to be assigned before a condition: what is also used elsewhere.
     pub(super) fn before_condition(&mut self) -> Vec<(TempId, ExprId)> {
         self.take(|pending| pending.left > 1)
     }

@@ -39,7 +39,7 @@ fn roll(module: &mut Module, body: Body) -> Body {
     let mut at = 0;
     while at < body.len() {
         let found = runs
-            .best(module, networks.behind(at))
+            .best(module, networks.from(at))
             .filter(|group| group.fits(module, &runs.arrays))
             .filter(|group| group.store(module));
         match found {
@@ -223,8 +223,8 @@ impl Networks {
         Networks(networks)
     }
 
-    /// The network that this statement begins and those behind it; none if it begins none.
-    fn behind(&self, at: usize) -> &[Network] {
+    /// The network that this statement starts and those after it; none if it starts none.
+    fn from(&self, at: usize) -> &[Network] {
         let found = self.0.binary_search_by_key(&at, |network| network.at);
         found.map_or(&[], |first| &self.0[first..])
     }
@@ -312,14 +312,14 @@ impl<'b> Runs<'b> {
         }
         let (_, length) = best?;
         let run = self.found.get(&(length, first % length))?;
-        let behind = (first - run.first) / length;
+        let skipped = (first - run.first) / length;
         let devices = run.devices.iter();
-        (behind >= run.leaking).then(|| Group {
+        (skipped >= run.leaking).then(|| Group {
             first,
             length,
-            iterations: run.iterations - behind,
+            iterations: run.iterations - skipped,
             devices: devices
-                .map(|&(kind, number, stride)| (kind, number + behind as u32 * stride, stride))
+                .map(|&(kind, number, stride)| (kind, number + skipped as u32 * stride, stride))
                 .collect(),
         })
     }
@@ -744,7 +744,7 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         self.module.add(expr)
     }
 
-    /// A coil of a timer or counter. All iterations have one kind of timers, so it is of its own number's.
+    /// A coil of a timer or counter. All iterations have one kind of timers, so its number decides it.
     fn coil(&mut self, stmt: &Stmt) -> Stmt {
         let Some((place, drive, preset)) = coil(stmt) else {
             return stmt.clone();

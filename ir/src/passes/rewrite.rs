@@ -99,7 +99,7 @@ impl Rewriter<'_> {
         out
     }
 
-    /// Rewrites statements behind those in `out`; what is put off stays so.
+    /// Rewrites statements after those in `out`; deferred ones stay deferred.
     fn into(&mut self, body: Body, out: &mut Body) {
         for stmt in body {
             if ends(out) {
@@ -250,7 +250,7 @@ impl Rewriter<'_> {
             })
             .collect();
         self.temps.set_available(Vec::new());
-        // A part that nothing jumps to goes on from the one before it, or cannot be reached.
+        // A part that nothing jumps to continues the one before it, or cannot be reached.
         let mut kept: Vec<Part> = Vec::with_capacity(rewritten.len());
         for part in rewritten {
             let reached = part.label.is_some_and(|label| self.gotos.contains(&label));
@@ -292,7 +292,7 @@ fn assign(assignments: Vec<(TempId, ExprId)>, out: &mut Body) {
     out.extend(assignments.into_iter().map(|(t, e)| Stmt::Let(t, e)));
 }
 
-/// Whether nothing behind these statements is executed.
+/// Whether nothing after these statements is executed.
 fn ends(body: &Body) -> bool {
     match body.last() {
         Some(Stmt::Return | Stmt::Goto(_)) => true,
@@ -305,11 +305,11 @@ fn ends(body: &Body) -> bool {
 
 /// Takes back the assignment to `temp` at the end of `out`, which the next one makes useless.
 fn drop_overwritten(temp: TempId, out: &mut Body) {
-    let behind = out
+    let trailing = out
         .iter()
         .rev()
         .take_while(|stmt| matches!(stmt, Stmt::Network(_)));
-    let at = out.len() - behind.count();
+    let at = out.len() - trailing.count();
     if let Some(last) = at.checked_sub(1)
         && matches!(out.get(last), Some(Stmt::Let(before, _)) if *before == temp)
     {

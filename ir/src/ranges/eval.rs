@@ -1,4 +1,4 @@
-//! What expressions can be, and what a condition tells of the words in it.
+//! What expressions can be, and what a condition implies for the words in it.
 
 use super::interval::Interval;
 use super::state::{Known, Mask, State, Words, join, temp_bit};

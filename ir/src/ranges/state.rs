@@ -163,7 +163,7 @@ impl Words {
 pub(super) enum Known {
     /// Where its value lies.
     Value(Interval),
-    /// It tells whether this condition holds still; the tracked words and (some bits for) the temporaries that this depends on.
+    /// Whether this condition still holds; the tracked words and (some bits for) the temporaries that this depends on.
     Condition(ExprId, Mask, u64),
 }
 

@@ -36,7 +36,7 @@ pub(super) struct Walk<'m> {
     writes: Vec<Mask>,
     /// Temporaries of which something is known at times.
     told: FxHashSet<TempId>,
-    /// Statements that write tracked words, tell something of them or go elsewhere, by address.
+    /// Statements that write tracked words, constrain them or go elsewhere, by address.
     matters: FxHashSet<*const Stmt>,
     /// Statements that have a [`Expr::Within`], by address.
     indexes: FxHashSet<*const Stmt>,
@@ -235,7 +235,7 @@ impl<'m> Walk<'m> {
             Some(count) => last.saturating_add(count.max(1) - 1),
             None => u32::MAX,
         };
-        // A run of ordinary registers does not go on in special ones.
+        // A run of ordinary registers does not continue into special ones.
         let end = match place.class {
             D if last < FIRST_SPECIAL => end.min(FIRST_SPECIAL - 1),
             _ => end,
@@ -283,7 +283,7 @@ impl<'m> Walk<'m> {
         exit
     }
 
-    /// Executes statements; what is known behind them, `None` if nothing there is executed.
+    /// Executes statements and returns what is known after them; `None` if nothing there is executed.
     fn body(&mut self, body: &'m [Stmt], mut state: Option<State>) -> Option<State> {
         let mut at = 0;
         while let Some(stmt) = body.get(at) {

@@ -18,7 +18,7 @@ pub fn findings(model: ModelId, text: &str) -> (Source, Vec<Diagnostic>) {
     (read.program.source, sorted)
 }
 
-/// Findings as plain text: code, place, message, what stands there, other places, help, the PLC's number.
+/// Findings as plain text: code, place, message, quoted text, other places, help, the PLC's number.
 pub fn render(source: &Source, diagnostics: &[Diagnostic]) -> String {
     let place = |start: u32| {
         let (line, column) = source.line_col(start);

@@ -70,7 +70,7 @@ pub(super) const FX2N: Model = Model {
 };
 
 /// Boards that take programs for FX2N. No manual of theirs is public: makers advertise up to eight outputs that send pulses, and which
-/// registers the ones behind Y001 would count in is unknown, so these keep no position.
+/// registers the outputs after Y001 would count in is unknown, so these keep no position.
 pub(super) const FX2N_COMPATIBLE: Model = Model {
     id: ModelId::Fx2nCompatible,
     name: "fx2n-compatible",

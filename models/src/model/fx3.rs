@@ -120,7 +120,7 @@ pub(super) const FX3U: Model = Model {
 };
 
 /// Boards that take programs for FX3U. No manual of theirs is public: makers advertise up to eight outputs that send pulses, and which
-/// registers the ones behind Y003 would count in is unknown, so these keep no position.
+/// registers the outputs after Y003 would count in is unknown, so these keep no position.
 pub(super) const FX3U_COMPATIBLE: Model = Model {
     id: ModelId::Fx3uCompatible,
     name: "fx3u-compatible",

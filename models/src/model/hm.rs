@@ -237,7 +237,7 @@ const RANGES: &[Range] = joined! {Range:
     NESTS,
 };
 
-/// Timers. They go on counting after the preset.
+/// Timers. They continue counting past the preset.
 const TIMERS: &[Timers] = &[
     timers(0, 199, 100).overrunning(),
     timers(200, 245, 10).overrunning(),

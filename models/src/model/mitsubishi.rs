@@ -16,10 +16,10 @@ pub(super) const ALL: &[Special] = specials! {
     M 8013 r 0 scan "clock of 1 s";
     M 8014 r 0 scan "clock of 1 min";
     M 8015 rw 0 scan "stops the real-time clock; its fall sets the clock from D8013–D8019";
-    M 8016 rw 0 scan "holds D8013–D8019 while the clock goes on";
+    M 8016 rw 0 scan "freezes D8013–D8019 while the clock continues";
     M 8017 rw 0 scan "its rise rounds the clock to a minute";
     M 8018 r 1 scan "there is a real-time clock";
-    M 8019 r 0 scan "the clock was to be set to no moment";
+    M 8019 r 0 scan "the clock was set to an invalid date or time";
     M 8020 r 0 by("arithmetic") "zero flag";
     M 8021 r 0 by("arithmetic") "borrow flag: the result was too small";
     M 8022 r 0 by("arithmetic") "carry flag: the result was too large; the bit that a rotation moved last";
@@ -29,7 +29,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8031 rw 0 scan "clears what is not latched";
     M 8032 rw 0 scan "clears what is latched";
     M 8033 rw 0 scan "devices keep their values in STOP";
-    M 8034 rw 0 scan "all outputs are off; their images go on";
+    M 8034 rw 0 scan "all outputs are off; their images are still updated";
     M 8035-8036 rw 0 inert(HOST) "both on: RUN is forced";
     M 8037 rw 0 scan "STOP is forced";
     M 8038 rw 0 inert(SERIAL) "communication parameters are set";
@@ -106,14 +106,14 @@ pub(super) const ALL: &[Special] = specials! {
     D 8195 rw 0 scan "V7";
 };
 
-/// What all but FX1S have besides.
+/// What all but FX1S have in addition.
 pub(super) const FROM_FX1N: &[Special] = specials! {
     M 8183-8191 r 0 inert(LINK) "N:N link";
     M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
     D 8201-8218 r 0 inert(LINK) "N:N link: times and errors";
 };
 
-/// What FX2N and FX3 have besides.
+/// What FX2N and FX3 have in addition.
 pub(super) const FROM_FX2N: &[Special] = specials! {
     M 8005 r 0 inert(POWER) "the battery is low";
     M 8006 r 0 inert(POWER) "the battery has been low";
@@ -143,7 +143,7 @@ pub(super) const FROM_FX2N: &[Special] = specials! {
     D 8130-8135 r 0 by("HSZ") "HSZ by a table, and PLSY by HSZ";
 };
 
-/// What FX2N, FX3G and FX3U have besides: modules and annunciators.
+/// What FX2N, FX3G and FX3U have in addition: modules and annunciators.
 pub(super) const NOT_FX3S: &[Special] = specials! {
     M 8028 rw 0 inert(INTERRUPTS) "interrupts may break FROM and TO";
     M 8048 r 0 scan "an annunciator is on (with M8049)";
@@ -166,7 +166,7 @@ pub(super) const D8145: &[Special] = specials! {
     D 8148 rw 100 by("ZRN, DRVI, DRVA") "time of acceleration and deceleration in ms";
 };
 
-/// What FX1S and FX1N have besides.
+/// What FX1S and FX1N have in addition.
 pub(super) const FX1: &[Special] = specials! {
     M 8140 rw 0 by("ZRN") "clear signal of Y000 at Y002, of Y001 at Y003";
     D 8030-8031 r 0 scan "potentiometers VR1, VR2: 0 to 255";
@@ -195,7 +195,7 @@ pub(super) const FX2N: &[Special] = specials! {
     D 8102 r 8 scan "program capacity in k steps";
 };
 
-/// What FX3S, FX3G and FX3U have besides.
+/// What FX3S, FX3G and FX3U have in addition.
 pub(super) const FX3: &[Special] = specials! {
     M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
     M 8151-8159 r 0 inert(SERIAL) "inverter communication";
@@ -243,7 +243,7 @@ pub(super) const FX3: &[Special] = specials! {
     D 8464-8467 rw 0 by("ZRN, DSZR") "outputs for the clear signal of positioning";
 };
 
-/// What FX3G and FX3U have besides: outputs from Y002 on.
+/// What FX3G and FX3U have in addition: outputs from Y002 up.
 pub(super) const FX3GU: &[Special] = specials! {
     M 8360 r 0 by("pulse outputs") "pulses are sent at Y002";
     M 8361 rw 0 by("ZRN, DSZR") "Y002: clear signal";
@@ -277,7 +277,7 @@ pub(super) const FX3GU: &[Special] = specials! {
     D 8378-8379 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: times of acceleration and deceleration in ms";
 };
 
-/// What FX3S and FX3G have besides.
+/// What FX3S and FX3G have in addition.
 pub(super) const FX3SG: &[Special] = specials! {
     M 8075 rw 0 scan "pulses of X000, X001, X003 and X004 are measured";
     M 8076-8079 rw 0 scan "measures the pulses of X000, X001, X003, X004";
@@ -310,7 +310,7 @@ pub(super) const FX3G: &[Special] = specials! {
 pub(super) const FX3U: &[Special] = specials! {
     M 8075-8079 rw 0 inert(TRACE) "sampling trace";
     M 8090 r 0 by("BKCMP") "all comparisons of BKCMP hold";
-    M 8091 rw 0 by("BINDA, COMRD") "no zero behind the characters";
+    M 8091 rw 0 by("BINDA, COMRD") "no zero after the characters";
     M 8165 rw 0 by("SORT2") "SORT2 sorts in falling order";
     M 8328-8329 r 0 by("RBFM, WBFM") "an instruction is not carried out, ended abnormally";
     M 8330-8334 rw 0 by("DUTY") "timing pulses of DUTY";

@@ -90,7 +90,7 @@ impl Remote {
     }
 }
 
-/// Whether the characters received so far are a request. One of format 1 whose length cannot be told ends by silence.
+/// Whether the characters received so far are a request. One of format 1 whose length is unknown ends by silence.
 ///
 /// What else a computer sends (ACK or NAK for data, EOT and CL) begins no request and is dropped: nothing answers it.
 pub fn cut(settings: Settings, received: &[u8]) -> Cut {
@@ -107,7 +107,7 @@ pub fn cut(settings: Settings, received: &[u8]) -> Cut {
     }
 }
 
-/// How many characters a request of format 1 has, as far as they tell.
+/// How many characters a request of format 1 has, as far as they show.
 fn expected(settings: Settings, received: &[u8]) -> Option<usize> {
     let contents = received.get(HEAD..)?;
     let count = |at: usize| hex_byte(contents, at).map(usize::from);
@@ -144,7 +144,7 @@ enum Refusal {
     Form,
     /// 06: a device, a count or a command that is not allowed.
     Area,
-    /// 07: a character of a value is no hexadecimal digit.
+    /// 07: a character of a value is not a hexadecimal digit.
     Digit,
     /// 10: the PC number is not FF.
     PcNumber,
@@ -164,7 +164,7 @@ impl Refusal {
         }
     }
 
-    /// What the PLC notes of it; that a request comes at the wrong time is no fault of the line.
+    /// What the PLC notes of it; a request at the wrong time is not a fault of the line.
     fn fault(self) -> Result<(), LineFault> {
         Err(match self {
             Refusal::Sum => LineFault::Sum,

@@ -20,7 +20,7 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// The frame is to be sent so many milliseconds after the request at the earliest.
+    /// The frame is to be sent at least this many milliseconds after the request.
     pub fn wait(&mut self, ms: u16) {
         self.wait_ms = ms;
     }

@@ -61,7 +61,7 @@ pub struct Transfer {
     pub source_class: u8,
     /// Class of the others.
     pub target_class: u8,
-    /// One character stands in a word, in its low byte; else two, the first in the low byte.
+    /// A word contains one character, in its low byte; else two, the first in the low byte.
     pub one_a_word: bool,
 }
 
@@ -155,7 +155,7 @@ impl Session<'_> {
         }
     }
 
-    /// Sends data characters with what stands before and after them; returns how many are not out yet.
+    /// Sends data characters with the characters before and after them; returns how many are not out yet.
     fn send_data(&mut self, before: Option<u8>, after: Option<u8>) -> u16 {
         let free = self.status.free;
         let head = u16::from(before.is_some());
@@ -273,7 +273,7 @@ impl Session<'_> {
         }
     }
 
-    /// An answer that does not go on in time is over.
+    /// An answer that does not continue in time is over.
     fn close_rs(&mut self, at_us: u32) {
         let free = self.status.free;
         let quiet_us = at_us.wrapping_sub(free.last_us);

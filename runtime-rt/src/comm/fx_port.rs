@@ -1,6 +1,6 @@
 //! The programming port of the FX family, which is also its HMI monitor: device read, write and force, RUN and STOP, monitor lists.
 //!
-//! The vendors do not publish this protocol (h1u-h2u-programming §5.3.1 names it, no manual prints a frame). What stands here comes from
+//! The vendors do not publish this protocol (h1u-h2u-programming §5.3.1 names it, no manual prints a frame). This code follows
 //! published recordings between GX Works2 and PLCs and from published drivers. A PLC of this kind has no program memory that could be read
 //! or replaced: commands for that are refused with NAK.
 //!
@@ -265,7 +265,7 @@ impl Server<'_> {
         Ok(Answer::Done)
     }
 
-    /// FX3 reads single bits and words by a command of their own.
+    /// FX3 reads single bits and words by a separate command.
     fn read_one(&mut self, fields: &[u8], reply: &mut Frame) -> Result<Answer, LineFault> {
         let mut fields = Fields(fields);
         reply.push(STX);

@@ -13,7 +13,7 @@ pub enum Parity {
     Even = 2,
 }
 
-/// How characters stand on a line.
+/// The format of characters on a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
 pub struct LineFormat {
@@ -66,7 +66,7 @@ impl LineFormat {
         }
     }
 
-    /// What a format word (D8120 and its like) says. A rate that it does not name is 9600 bit/s.
+    /// The meaning of a format word (D8120 and similar registers). A rate that it does not name is 9600 bit/s.
     pub fn from_word(word: u16) -> Self {
         let digit = word >> 4 & 15;
         let rate = match digit {

@@ -3,7 +3,7 @@
 //! The manuals print no frame of the links between PLCs (h1u-h2u-programming §5.3 to §5.5); those here are our own, so PLCs understand each
 //! other that run programs of rungc. What programs see (areas, registers, relays, times) is as the manuals say.
 //!
-//! A frame is `STX text ETX sum`, in characters of seven bits: the text begins with a letter that tells its kind, numbers are hexadecimal digits of
+//! A frame is `STX text ETX sum`, in characters of seven bits: the text starts with a letter that gives its kind, numbers are hexadecimal digits of
 //! upper case, a word has four, and the sum is the low byte of all characters after STX up to and with ETX, in two digits.
 //!
 //! | text | sent by | meaning |

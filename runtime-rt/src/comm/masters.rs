@@ -53,7 +53,7 @@ impl Session<'_> {
         }
     }
 
-    /// A frame of so many characters has come.
+    /// A frame of this many characters has come.
     pub(super) fn take_answer(&mut self, received: usize) {
         let framing = self.master_framing();
         let Some(port) = self.plc.port(self.wiring.number) else {

@@ -1,5 +1,5 @@
 //! MC protocol in binary, as a server: frames 1E (which FX3 understands) and 3E (which Q, L and FX5 do). This is what SCADA packages, Node-RED
-//! and libraries speak over TCP; none of our manuals has it. It stands here after the public descriptions of both frames, and after what
+//! and libraries speak over TCP; none of our manuals has it. It follows the public descriptions of both frames, and after what
 //! the libraries pymcprotocol and mcprotocol send.
 //!
 //! X and Y are numbered by terminals: 8 is X010. Words of bit devices hold 16 of them, the lowest in bit 0. The protocol has no
@@ -46,7 +46,7 @@ pub fn answer(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<()
     }
 }
 
-/// Why a request is refused; each frame has codes of its own.
+/// Why a request is refused; each frame has its own codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Refusal {
     /// A command that is not served.

@@ -19,7 +19,7 @@
 //!   Protocols whose frames end by silence (Modbus RTU) have none: the port waits for 3.5 characters of silence.
 //! * **Slaves** answer: `fn answer(settings: &Settings, request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault>`. `request` is one
 //!   frame as [`Cut`] or the silence ended it. The reply is what `reply` holds; an empty one is silence. `Err` says what the port notes in
-//!   the PLC's error register (D8063 and its like); the reply is sent all the same. A codec checks a request whole before it writes the first
+//!   the PLC's error register (D8063 and similar registers); the reply is sent all the same. A codec checks a request whole before it writes the first
 //!   device, and writes nothing where it refuses.
 //! * **Masters** ask: `fn request(job, map: &dyn Map, frame: &mut Frame) -> Result<(), LineFault>` makes the request of a job, and
 //!   `fn accept(job, reply: &[u8], map: &mut dyn Map) -> Result<(), LineFault>` takes the answer; retries, time-outs and whose turn it is are
@@ -79,7 +79,7 @@ pub use wiring::{Choice, PortWiring, Ports, Protocol};
 /// What the characters received so far are, in a protocol whose frames have a length or an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cut {
-    /// A frame goes on.
+    /// A frame continues.
     More,
     /// A frame is whole with the last character.
     Whole,
@@ -89,7 +89,7 @@ pub enum Cut {
     Drop,
 }
 
-/// What was wrong with a frame: the kinds of errors that the registers of ports tell apart (h1u-h2u-programming §8.1: 63x0 to 63x9 of
+/// What was wrong with a frame: the kinds of errors that the registers of ports distinguish (h1u-h2u-programming §8.1: 63x0 to 63x9 of
 /// Modbus, 6301 to 6306 of the other protocols, 6201 to 6205 of the programming port).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineFault {

@@ -14,7 +14,7 @@ use crate::plc::{Plc, Sys};
 /// Characters of the longest frame: Modbus ASCII has 513, computer link fewer.
 pub const FRAME: usize = 528;
 
-/// After so much silence a frame that has a length or an end is given up, in microseconds (Modbus over serial line §2.5.2.1).
+/// After this much silence, a frame that has a length or an end is given up, in microseconds (Modbus over serial line §2.5.2.1).
 const GIVEN_UP_US: u32 = 1_000_000;
 
 /// What a port is doing.
@@ -31,7 +31,7 @@ pub struct Status {
     pub spoiled: bool,
     /// A frame is being sent, or waits to be.
     pub sending: bool,
-    /// What the hardware was told.
+    /// The last settings of the hardware.
     pub format: LineFormat,
     /// What UINIT has set up: protocol and station, format, first register of the work area.
     pub uinit: [u16; 3],

@@ -3,7 +3,7 @@
 //! Function 60h names scattered bits and registers under a number and reads them, 61h reads what a number stands for. Two blocks are kept; a
 //! third takes the place of the older one. They are lost at power-off, and when the port's protocol changes.
 //!
-//! The manual says that errors have the codes 1 to 4, not which: a block that nobody has defined and an address without a device are 2, everything
+//! The manual says that errors have the codes 1 to 4, not which: an undefined block and an address without a device are 2, everything
 //! else is 3.
 
 use super::memory::{Memory, SIZE};
@@ -170,7 +170,7 @@ fn word_of(bytes: &[u8]) -> u16 {
     }
 }
 
-/// What marks a block's number in the memory, where 0 is no block.
+/// What marks a block's number in the memory, where 0 means no block.
 fn mark(number: u16) -> [u8; 2] {
     (number + 1).to_be_bytes()
 }

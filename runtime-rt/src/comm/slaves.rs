@@ -125,7 +125,7 @@ impl Slave {
         const CR_LF: u16 = 1 << 15;
         let is_hm = self.family == Ports::Hm;
         computer_link::Settings {
-            // A number that is no station is that of no frame.
+            // A number that is not a station does not occur in a frame.
             station: u8::try_from(self.station).unwrap_or(u8::MAX),
             sum: is_hm || self.format & SUM != 0,
             crlf: !is_hm && self.format & CR_LF != 0,

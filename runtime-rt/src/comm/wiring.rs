@@ -44,7 +44,7 @@ pub enum Protocol {
 }
 
 impl Protocol {
-    /// What a protocol number (D8126 and its like) means on H1U and H2U (h1u-h2u-programming §5.1).
+    /// What a protocol number (D8126 and similar registers) means on H1U and H2U (h1u-h2u-programming §5.1).
     fn from_number(number: u16) -> Self {
         match number {
             0x00 | 0x10 => Protocol::Free,
@@ -85,7 +85,7 @@ impl Protocol {
         )
     }
 
-    /// Whether bytes of 8 bits stand in its frames.
+    /// Whether its frames contain 8-bit bytes.
     const fn is_binary(self) -> bool {
         matches!(
             self,
@@ -158,7 +158,7 @@ pub struct PortWiring {
     pub gap: u32,
     /// Relay and register with the code of an error.
     pub error: u32,
-    /// The lowest code of an error of Modbus; 0: errors of Modbus have none of their own.
+    /// The lowest code of an error of Modbus; 0: errors of Modbus have no separate codes.
     pub modbus_errors: u16,
     /// It has one pair of wires whatever the format word says.
     pub one_pair: bool,
@@ -329,7 +329,7 @@ impl Ports {
         }
     }
 
-    /// The port that an operand of an instruction names: n1 of RS2 and MODBUS2, D2 of UINIT and its like.
+    /// The port that an operand of an instruction names: n1 of RS2 and MODBUS2, D2 of UINIT and similar instructions.
     pub fn named(self, operand: i32) -> Option<u8> {
         let number = match (self, operand) {
             (Ports::Inovance | Ports::Fx | Ports::Board, 0) => return None,
@@ -444,7 +444,7 @@ impl PortWiring {
         }
     }
 
-    /// How characters stand on the line under a protocol.
+    /// The format of characters on the line under a protocol.
     pub(crate) fn line(&self, plc: &dyn Plc, protocol: Protocol, uinit: [u16; 3]) -> LineFormat {
         let word = value(plc, self.format);
         let format = match protocol {

@@ -29,7 +29,7 @@ enum Kind {
     Highest,
     /// DDRVI, DDRVA: with the ramps of the axis.
     Move,
-    /// DDVIT: until an interrupt, and so many pulses more.
+    /// DDVIT: until an interrupt, and this many more pulses.
     ToInterrupt,
     /// DPLSV: without end; the speed may change.
     Variable,

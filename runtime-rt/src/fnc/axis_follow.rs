@@ -120,7 +120,7 @@ fn table(cx: &mut Cx, axis: Registers) -> Done {
     Ok(())
 }
 
-/// The pulses to the place in the table where the master has moved by so much of its range, between two of its points.
+/// The pulses to the place in the table where the master has moved by this much of its range, between two of its points.
 pub(super) fn go_to(cx: &mut Cx, steps: i64, moved: i64, range: i64) -> Result<i32, Fault> {
     let point = |cx: &Cx, n: i64| -> Result<i64, Fault> {
         let offset = i32::try_from(2 + 2 * n).map_err(|_| Fault::DEVICE)?;

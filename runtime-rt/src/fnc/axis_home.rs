@@ -43,7 +43,7 @@ struct Signals {
     only_zero: bool,
 }
 
-/// HOME D: runs axis D back until its DOG, creeps over it, and stops after so many pulses and zero signals as its registers say; from the
+/// HOME D: runs axis D back until its DOG, creeps over it, and stops after as many pulses and zero signals as its registers say; from the
 /// DOG or the left limit it first runs forward. Without a DOG it creeps until a zero signal. It stops at once with its drive.
 pub fn axis_home(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin, &go_on)
@@ -167,7 +167,7 @@ fn count(cx: &mut Cx, axis: Registers) -> Done {
     Ok(())
 }
 
-/// The pulses behind the DOG, or behind the last zero signal.
+/// The pulses after the DOG, or after the last zero signal.
 fn last_pulses(cx: &mut Cx, axis: Registers) -> Done {
     match u32::from(axis.word(cx, at::BEHIND) as u16) {
         0 => axis.stop(cx, state::DONE),

@@ -29,7 +29,7 @@ pub fn bk_sub(cx: &mut Cx) -> Done {
     elementwise(cx, i32::wrapping_sub)
 }
 
-/// D[i] = S1[i] holds against S2[i] for n elements; S1 may be a constant. M8090 tells whether all held.
+/// D[i] = S1[i] holds against S2[i] for n elements; S1 may be a constant. M8090 shows whether all held.
 fn compare(cx: &mut Cx, holds: fn(Ordering) -> bool) -> Done {
     let n = cx.count(3, 1..=i32::from(i16::MAX))?;
     cx.check_elems(0, n)?;
@@ -91,7 +91,7 @@ pub fn wsum(cx: &mut Cx) -> Done {
     }
 }
 
-/// Runs `step` for 0..n in the order that keeps an overlapping destination behind the source from overwriting what is still to be read.
+/// Runs `step` for 0..n in the order that keeps an overlapping destination after the source from overwriting what is still to be read.
 fn in_order(
     cx: &mut Cx,
     n: i32,
@@ -207,7 +207,7 @@ pub fn fins(cx: &mut Cx) -> Done {
 /// Index registers that ZPUSH saves: V0–V7 and Z0–Z7.
 const INDEX_PAIRS: u32 = 8;
 
-/// ZPUSH D (FNC 102): saves Z0, V0, Z1, V1, … Z7, V7 behind the batches that D counts.
+/// ZPUSH D (FNC 102): saves Z0, V0, Z1, V1, … Z7, V7 after the batches that D counts.
 pub fn zpush(cx: &mut Cx) -> Done {
     let count = i32::from(cx.word(0, 0)?);
     let first = batch(count)?;

@@ -1,5 +1,5 @@
 //! Extension file registers: FNC 290–292, 294 and 295 of the FX3 programming manual. ER keeps a second value for each R, in a
-//! memory cassette on the PLC. The compiler passes the ER devices with the numbers of S behind the operands that the program names.
+//! memory cassette on the PLC. The compiler passes the ER devices with the numbers of S after the operands that the program names.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};

@@ -64,7 +64,7 @@ pub fn tzcp(cx: &mut Cx) -> Done {
     one_of_three(cx, 3, zone(time, low, high))
 }
 
-/// TADD S1 S2 D (FNC 162): sum of times; from 24 hours on M8022 is on and a day is taken off. M8020 tells 0:00:00.
+/// TADD S1 S2 D (FNC 162): sum of times; from 24 hours on M8022 is on and a day is taken off. M8020 signals 0:00:00.
 pub fn tadd(cx: &mut Cx) -> Done {
     let sum = seconds(cx, 0)? + seconds(cx, 1)?;
     set_triple(cx, 2, sum % DAY)?;
@@ -73,7 +73,7 @@ pub fn tadd(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// TSUB S1 S2 D (FNC 163): difference of times; below 0 M8021 is on and a day is added. M8020 tells 0:00:00.
+/// TSUB S1 S2 D (FNC 163): difference of times; below 0 M8021 is on and a day is added. M8020 signals 0:00:00.
 pub fn tsub(cx: &mut Cx) -> Done {
     let difference = seconds(cx, 0)? - seconds(cx, 1)?;
     set_triple(cx, 2, difference.rem_euclid(DAY))?;
@@ -151,7 +151,7 @@ pub fn trd_short(cx: &mut Cx) -> Done {
     read_clock(cx, short_year)
 }
 
-/// The moment that words tell; `None` if there is none such. Two digits mean 1980 to 2079 if `short`.
+/// The moment given by words; `None` if it does not exist. Two digits mean 1980 to 2079 if `short`.
 fn moment(words: [i16; 7], short: bool) -> Option<Clock> {
     let [year, month, day, hour, minute, second, weekday] = words;
     let year = match year {
@@ -173,7 +173,7 @@ fn moment(words: [i16; 7], short: bool) -> Option<Clock> {
     clock.is_valid().then_some(clock)
 }
 
-/// Sets the clock from the seven words at S; M8019 tells that they are no moment, and the clock stays.
+/// Sets the clock from the seven words at S; M8019 signals that they are not a valid moment, and the clock is unchanged.
 fn write_clock(cx: &mut Cx, short: bool) -> Done {
     let mut words = [0; 7];
     for (offset, word) in (0..).zip(&mut words) {
@@ -185,7 +185,7 @@ fn write_clock(cx: &mut Cx, short: bool) -> Done {
         return Ok(());
     };
     if cx.special(M_CLOCK_STOP) {
-        // They set the clock when it goes on.
+        // They set the clock when it turns on.
         for (register, word) in REGISTERS.into_iter().zip(words) {
             cx.set_special_word(register, word);
         }
@@ -193,7 +193,7 @@ fn write_clock(cx: &mut Cx, short: bool) -> Done {
     cx.hal().set_clock(clock).ok_or(Fault::DEVICE)
 }
 
-/// TWR S (FNC 167): sets the clock from seven words in TRD's order; words that are no moment are ignored.
+/// TWR S (FNC 167): sets the clock from seven words in TRD's order; words that are not a valid moment are ignored.
 pub fn twr(cx: &mut Cx) -> Done {
     write_clock(cx, false)
 }
@@ -287,7 +287,7 @@ pub fn clock_refresh_short(cx: &mut Cx) -> Done {
     refresh(cx, true)
 }
 
-/// HOUR S D1 D2 (FNC 169): counts the time driven in D1 (hours; a pair in the 32-bit form) and the word behind it (seconds of the hour);
+/// HOUR S D1 D2 (FNC 169): counts the time driven in D1 (hours; a pair in the 32-bit form) and the word after it (seconds of the hour);
 /// D2 is on from S hours on. Stops at the most that D1 holds. Memory: milliseconds of the second; whether the last scan drove it.
 pub fn hour(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
@@ -296,12 +296,12 @@ pub fn hour(cx: &mut Cx) -> Done {
         return Ok(());
     }
     let set = cx.read(0)?;
-    let (behind, most) = if cx.wide() {
+    let (next, most) = if cx.wide() {
         (2, i32::MAX)
     } else {
         (1, i16::MAX.into())
     };
-    let (hours, seconds) = (cx.read(1)?, i32::from(cx.word(1, behind)?));
+    let (hours, seconds) = (cx.read(1)?, i32::from(cx.word(1, next)?));
     cx.bit(2, 0)?;
     let state = cx.state();
     let ms = state.0[0].saturating_add(if state.0[1] != 0 { dt } else { 0 });
@@ -313,7 +313,7 @@ pub fn hour(cx: &mut Cx) -> Done {
         _ => (most, 3599),
     };
     cx.write(1, hours)?;
-    cx.set_word(1, behind, seconds as i16)?;
+    cx.set_word(1, next, seconds as i16)?;
     cx.set_bit(2, 0, hours >= set)
 }
 

@@ -137,7 +137,7 @@ pub fn asc(cx: &mut Cx) -> Done {
 }
 
 /// PR S D (FNC 77): sends the characters of S, two a word, on the outputs D…D+7, three scans each, with a strobe on the ninth output in
-/// the middle one and the tenth on as long as it works. Eight characters, or with M8027 up to a 0, at most 16; then M8029 tells the end.
+/// the middle one and the tenth on as long as it works. Eight characters, or with M8027 up to a 0, at most 16; then M8029 signals the end.
 /// Memory: scans since it began; whether the last scan drove it.
 pub fn pr(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(1);

@@ -1,6 +1,6 @@
 //! Floating point: FNC 49, 110–137 and 438–440, h1u-h2u-programming §4.3.10, hm-motion-controller §5.4.
 //!
-//! Values are IEEE singles. A source that is no number is an operation error, and so is a function's argument outside its domain.
+//! Values are IEEE singles. A source that is not a number is an operation error, and so is a function's argument outside its domain.
 
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -202,7 +202,7 @@ pub fn ediv_clamped(cx: &mut Cx) -> Done {
     store_result(cx, 2, if b == 0.0 { largest.into() } else { a / b }).map(drop)
 }
 
-/// Writes the value of a function of one float; one that is no float is an error.
+/// Writes the value of a function of one float; one that is not a float is an error.
 fn function(cx: &mut Cx, f: fn(f32) -> f32) -> Done {
     let value = f(number(cx, 0)?);
     if !value.is_finite() {

@@ -55,7 +55,7 @@ pub fn absd(cx: &mut Cx) -> Done {
 }
 
 /// INCD S1 S2 D n (FNC 63): one of the n bits from D on is on, in turn: when counter S2 reaches the step's element of S1 it is reset and
-/// S2+1, the step, goes on; M8029 tells that the last step is over. Without drive the counters and bits are cleared. Memory: whether the
+/// S2+1, the step, advances; M8029 signals that the last step is over. Without drive the counters and bits are cleared. Memory: whether the
 /// last scan drove it.
 pub fn incd(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(0);
@@ -86,7 +86,7 @@ pub fn incd(cx: &mut Cx) -> Done {
     (0..n).try_for_each(|bit| cx.set_bit(2, bit, bit == step))
 }
 
-/// TTMR D n (FNC 64): D takes how long the drive is on, in seconds times 10ⁿ, and keeps it; D+1 tells it in 100 ms meanwhile. Memory:
+/// TTMR D n (FNC 64): D takes how long the drive is on, in seconds times 10ⁿ, and keeps it; D+1 shows it in 100 ms meanwhile. Memory:
 /// milliseconds; whether the last scan drove it.
 pub fn ttmr(cx: &mut Cx) -> Done {
     let dt = cx.dt_ms();
@@ -157,7 +157,7 @@ pub fn alt(cx: &mut Cx) -> Done {
     cx.set_bit(0, 0, !on)
 }
 
-/// RAMP S1 S2 D n (FNC 67): D goes from S1 to S2 in n scans, D+1 counts them, M8029 tells the end; then all over again, or with M8026 D
+/// RAMP S1 S2 D n (FNC 67): D goes from S1 to S2 in n scans, D+1 counts them, M8029 signals the end; then it restarts, or with M8026 D
 /// stays. Memory: whether the last scan drove it.
 pub fn ramp(cx: &mut Cx) -> Done {
     let driven = cx.was_driven(0);
@@ -190,7 +190,7 @@ pub fn ramp(cx: &mut Cx) -> Done {
 }
 
 /// ROTC S m1 m2 D (FNC 68): turns a table with m1 places so that piece S+2 comes to window S+1 the shorter way, slowly over the last m2
-/// places. D and D+1 are the two phases of its encoder (one place each cycle), D+2 tells place 0; S is its position. D+3 to D+7: fast
+/// places. D and D+1 are the two phases of its encoder (one place each cycle), D+2 signals place 0; S is its position. D+3 to D+7: fast
 /// forward, slow forward, stop, slow reverse, fast reverse. Memory: phase A of the last scan; whether that scan drove it.
 pub fn rotc(cx: &mut Cx) -> Done {
     let places = cx.count(1, 2..=32_767)?;
@@ -236,7 +236,7 @@ pub fn rotc(cx: &mut Cx) -> Done {
     (3..8).try_for_each(|bit| cx.set_bit(3, bit, bit == way))
 }
 
-/// Where a cell stands in a table.
+/// The position of a cell in a table.
 type Place = fn(row: i32, column: i32, rows: i32, columns: i32) -> i32;
 
 /// SORT S m1 m2 D n (FNC 69): sorts the m1 rows of m2 columns, kept column by column, by column n, smallest first.
@@ -254,7 +254,7 @@ pub fn sort2(cx: &mut Cx) -> Done {
     )
 }
 
-/// Copies a table from S to D and sorts it there, one row a scan; equal rows keep their order; M8029 tells the end. Memory: how many rows
+/// Copies a table from S to D and sorts it there, one row a scan; equal rows keep their order; M8029 signals the end. Memory: how many rows
 /// are sorted, plus one; the drive must go off before it sorts again.
 fn sort_table(cx: &mut Cx, place: Place, descending: bool) -> Done {
     if !cx.drive() {
@@ -323,7 +323,7 @@ const MODES: [Mode; 5] = [
 
 /// IST S D1 D2 (FNC 60), as in the FX family: S to S+4 select manual, origin return, step, one cycle, continuous; S+5 starts origin
 /// return, S+6 automatic running, S+7 stops it. Choosing a mode activates S0, S1 or S2 and (unless M8045) ends the states D1 to D2 and
-/// what they switched on. M8040 forbids transfers, M8041 allows the first, M8042 tells a start, M8047 turns the monitor of states on.
+/// what they switched on. M8040 forbids transfers, M8041 allows the first, M8042 signals a start, M8047 turns the monitor of states on.
 ///
 /// Memory: the mode plus one; the start and stop buttons of the last scan.
 pub fn ist(cx: &mut Cx) -> Done {

@@ -59,8 +59,8 @@ pub fn tky(cx: &mut Cx) -> Done {
 }
 
 /// HKY S D1 D2 D3 (FNC 71): scans 16 keys, those of row r in column c being number 4c+r, by the outputs D1…D1+3 (two scans each) and the
-/// inputs S…S+3. 0 to 9 are appended to D2; A to F switch D3…D3+5 on, until another one does; D3+6 and D3+7 tell that one of A to F, or
-/// of 0 to 9, is pressed. With M8167 all are hexadecimal digits. M8029 tells that all keys have been read.
+/// inputs S…S+3. 0 to 9 are appended to D2; A to F switch D3…D3+5 on, until another one does; D3+6 and D3+7 signal that one of A to F, or
+/// of 0 to 9, is pressed. With M8167 all are hexadecimal digits. M8029 signals that all keys have been read.
 ///
 /// Memory: see `key_of`; the scan of the eight; the keys read so far; whether the last scan drove it.
 pub fn hky(cx: &mut Cx) -> Done {

@@ -90,7 +90,7 @@ fn byte(cx: &Cx, i: usize) -> Result<u8, Fault> {
     u8::try_from(cx.word(i, 0)?).map_err(|_| Fault::VALUE)
 }
 
-/// Operand `i` and the devices behind it.
+/// Operand `i` and the devices after it.
 fn buffer(cx: &Cx, i: usize) -> Result<Buffer, Fault> {
     let op = *cx.ops.get(i).ok_or(Fault::DEVICE)?;
     let first = op.value as u32;
@@ -107,7 +107,7 @@ fn buffer(cx: &Cx, i: usize) -> Result<Buffer, Fault> {
     })
 }
 
-/// Station and function stand in one operand, address, number and data in the next three.
+/// Station and function are in one operand, address, number and data in the next three.
 fn station_and_function(cx: &Cx) -> Result<Job, Fault> {
     let [station, function] = unsigned(cx, 0)?.to_be_bytes();
     Ok(Job {
@@ -220,12 +220,12 @@ const READ: u8 = 0x03;
 const WRITE_ONE: u8 = 0x06;
 const WRITE: u8 = 0x10;
 
-/// RD3A m1 m2 D (FNC 176) of L01S: reads as many registers as D says to the registers behind it; the port stands before it.
+/// RD3A m1 m2 D (FNC 176) of L01S: reads as many registers as D says to the registers after it; the port precedes it.
 pub fn rd3a_modbus(cx: &mut Cx) -> Done {
     l01s(cx, |cx| l01s_job(cx, READ))
 }
 
-/// WR3A m1 m2 S (FNC 177) of L01S: writes as many registers as S says from behind it; the port stands before it.
+/// WR3A m1 m2 S (FNC 177) of L01S: writes as many registers as S says from the registers after it; the port precedes it.
 pub fn wr3a_modbus(cx: &mut Cx) -> Done {
     l01s(cx, |cx| {
         let function = match cx.word(2, 0)? {

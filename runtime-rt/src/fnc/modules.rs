@@ -80,8 +80,8 @@ fn transfer_count(cx: &Cx) -> Result<i32, Fault> {
     }
 }
 
-/// Address of word `n` behind `address`.
-fn behind(address: u16, n: i32) -> Result<u16, Fault> {
+/// Address of word `n` after `address`.
+fn address_of(address: u16, n: i32) -> Result<u16, Fault> {
     u16::try_from(i32::from(address) + n).map_err(|_| Fault::MODULE)
 }
 
@@ -104,11 +104,11 @@ pub fn from(cx: &mut Cx) -> Done {
     cx.check_elems(2, n)?;
     for k in 0..n {
         let value = if cx.wide() {
-            let low = read(cx, unit, behind(address, 2 * k)?)?;
-            let high = read(cx, unit, behind(address, 2 * k + 1)?)?;
+            let low = read(cx, unit, address_of(address, 2 * k)?)?;
+            let high = read(cx, unit, address_of(address, 2 * k + 1)?)?;
             crate::word::pair(low, high)
         } else {
-            read(cx, unit, behind(address, k)?)?.into()
+            read(cx, unit, address_of(address, k)?)?.into()
         };
         cx.set_elem(2, k, value)?;
     }
@@ -124,7 +124,7 @@ pub fn from_host(cx: &mut Cx) -> Done {
     let n = transfer_count(cx)?;
     cx.check_words(2, n)?;
     for k in 0..n {
-        let channel = u8::try_from(behind(address, k)?).map_err(|_| Fault::MODULE)?;
+        let channel = u8::try_from(address_of(address, k)?).map_err(|_| Fault::MODULE)?;
         let value = cx.hal().analog(channel).ok_or(Fault::MODULE)?;
         cx.set_word(2, k, value)?;
     }
@@ -140,10 +140,10 @@ pub fn to(cx: &mut Cx) -> Done {
         let value = cx.elem(2, k)?;
         if cx.wide() {
             let [low, high] = crate::word::words(value);
-            write(cx, unit, behind(address, 2 * k)?, low)?;
-            write(cx, unit, behind(address, 2 * k + 1)?, high)?;
+            write(cx, unit, address_of(address, 2 * k)?, low)?;
+            write(cx, unit, address_of(address, 2 * k + 1)?, high)?;
         } else {
-            write(cx, unit, behind(address, k)?, value as i16)?;
+            write(cx, unit, address_of(address, k)?, value as i16)?;
         }
     }
     Ok(())
@@ -288,21 +288,21 @@ fn finish_portion(cx: &mut Cx, end: i32, n: i32) {
     cx.set_special(M_COMPLETE, end >= n);
 }
 
-/// RBFM m1 m2 D n1 n2 (FNC 278): FROM of n1 words, n2 a scan; M8029 tells the end.
+/// RBFM m1 m2 D n1 n2 (FNC 278): FROM of n1 words, n2 a scan; M8029 signals the end.
 pub fn rbfm(cx: &mut Cx) -> Done {
     let Some((start, end, n)) = portion(cx)? else {
         return Ok(());
     };
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     for k in start..end {
-        let value = read(cx, unit, behind(address, k)?)?;
+        let value = read(cx, unit, address_of(address, k)?)?;
         cx.set_word(2, k, value)?;
     }
     finish_portion(cx, end, n);
     Ok(())
 }
 
-/// WBFM m1 m2 S n1 n2 (FNC 279): TO of n1 words, n2 a scan; M8029 tells the end.
+/// WBFM m1 m2 S n1 n2 (FNC 279): TO of n1 words, n2 a scan; M8029 signals the end.
 pub fn wbfm(cx: &mut Cx) -> Done {
     let Some((start, end, n)) = portion(cx)? else {
         return Ok(());
@@ -310,7 +310,7 @@ pub fn wbfm(cx: &mut Cx) -> Done {
     let (unit, address) = (place(cx, 0)?, place(cx, 1)?);
     for k in start..end {
         let value = cx.word(2, k)?;
-        write(cx, unit, behind(address, k)?, value)?;
+        write(cx, unit, address_of(address, k)?, value)?;
     }
     finish_portion(cx, end, n);
     Ok(())

@@ -56,7 +56,7 @@ struct Settings {
     td_ms: f32,
 }
 
-/// Reads the settings; each that is out of range has an error of its own (table of errors of §4.3.9).
+/// Reads the settings; each that is out of range has a separate error (table of errors of §4.3.9).
 fn settings(cx: &Cx, ti_unit_ms: f32, td_unit_ms: f32, kd_max: i16) -> Result<Settings, Fault> {
     let word = |offset, range: core::ops::RangeInclusive<i16>, code| {
         let value = cx.word(OPERAND_S3, offset)?;
@@ -108,7 +108,7 @@ pub fn pid_tuning(cx: &mut Cx) -> Done {
     }
 }
 
-/// Adds the time since the last scan; tells whether a sample is due. A sampling time not above the scan time is error 6740, and each
+/// Adds the time since the last scan; returns whether a sample is due. A sampling time not above the scan time is error 6740, and each
 /// scan is a sample then.
 fn sample_due(cx: &mut Cx, ts: u32, error: &mut Option<Fault>) -> Result<Option<f32>, Fault> {
     let dt = cx.plc.sys().dt_ms;

@@ -66,7 +66,7 @@ const SIGNAL_WAS_ON: usize = 5;
 const PULSES: usize = 6;
 const INTERRUPTED: usize = 7;
 
-/// DVIT S1 S2 D1 D2 (FNC 151): runs at S2 Hz with ramps, D2 on if S1 is positive, forward. At the rise of its interrupt signal it goes on by
+/// DVIT S1 S2 D1 D2 (FNC 151): runs at S2 Hz with ramps, D2 on if S1 is positive, forward. At the rising edge of its interrupt signal it continues by
 /// |S1| pulses, coming down to them; if they are too few for that, at once at a speed from which it can. It comes down when its drive goes
 /// off.
 pub fn dvit(cx: &mut Cx) -> Done {
@@ -220,7 +220,7 @@ mod stage {
     pub const SEEK: i32 = 4;
     /// Creeps over the DOG.
     pub const CREEP: i32 = 5;
-    /// Waits for the zero signal behind it.
+    /// Waits for the zero signal after it.
     pub const ZERO: i32 = 6;
     /// Comes to a halt at the limit of the return, to seek back.
     pub const TURN_BACK: i32 = 7;
@@ -231,7 +231,7 @@ const ZERO_WAS_ON: usize = 5;
 
 /// DSZR S1 S2 D1 D2 (FNC 150): returns to the origin at the speeds of special registers. It runs in the direction of the return until the
 /// DOG S1 is on, creeps until S1 is off and then to the next rise of the zero signal S2, where it stops at once. Begun over the DOG or
-/// behind it, at the limit, it first runs back until the DOG is left. With S1 = S2 the fall of the DOG is the origin.
+/// past it, at the limit, it first runs back until the DOG is left. With S1 = S2 the fall of the DOG is the origin.
 pub fn dszr(cx: &mut Cx) -> Done {
     held(cx, do_dszr)
 }
@@ -280,7 +280,7 @@ impl Signals {
         let on = |relay: Relay| output.has_on(cx, relay);
         let same = matches!(cx.ops, [dog, zero, ..] if dog == zero);
         let forward = on(home.forward);
-        let [ahead, behind] = [on(home.limits[0]), on(home.limits[1])];
+        let [ahead, back] = [on(home.limits[0]), on(home.limits[1])];
         let dog = cx.bit(0, 0)? != output.has_on(cx, home.dog_inverted);
         Ok(Signals {
             dog,
@@ -289,8 +289,8 @@ impl Signals {
             } else {
                 cx.bit(1, 0)? != on(home.zero_inverted)
             },
-            limit: if forward { ahead } else { behind },
-            other_limit: if forward { behind } else { ahead },
+            limit: if forward { ahead } else { back },
+            other_limit: if forward { back } else { ahead },
             same,
             forward,
         })

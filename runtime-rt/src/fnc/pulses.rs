@@ -1,5 +1,5 @@
 //! Pulses without a position: FNC 57 to 59 (h1u-h2u-programming §4.3.6, §8.7; l01s-programming §7.2, §7.3). What an instruction asks
-//! of an output goes on between scans; see [`crate::Axis`].
+//! of an output continues between scans; see [`crate::Axis`].
 
 use super::output::{LOWEST_HZ, Output, RAMP_MS, Turn, held, unsigned};
 use crate::cx::Cx;

@@ -33,7 +33,7 @@ struct Recording {
     channels: [[i32; 2]; 2],
 }
 
-/// Goes on to the time that operand 0 tells, in milliseconds. Memory: the time of the last call and tenths of milliseconds since the
+/// Advances to the time in operand 0, in milliseconds. Memory: the time of the last call and tenths of milliseconds since the
 /// last sample; then the [`Recording`].
 pub fn oscilloscope(cx: &mut Cx) -> Done {
     let now = cx.read(0)?;
@@ -94,7 +94,7 @@ fn triggered(cx: &Cx) -> bool {
     }
 }
 
-/// Takes the samples of so many tenths of a millisecond.
+/// Takes the samples of this many tenths of a millisecond.
 fn sample(cx: &mut Cx, passed: i32) {
     let mut recording = Recording::kept(cx);
     let mut since = cx.state().0[1].saturating_add(passed);
@@ -105,7 +105,7 @@ fn sample(cx: &mut Cx, passed: i32) {
         for [words, first] in recording.channels {
             for register in (first..).take(words as usize) {
                 let value = u16::try_from(register).map_or(0, |n| cx.special_word(Register(n)));
-                // What lies behind the registers of the user is not overwritten.
+                // Registers after the user's are not overwritten.
                 if let Ok(next @ ..=LAST_REGISTER) = u16::try_from(recording.next) {
                     cx.set_special_word(Register(next), value);
                 }

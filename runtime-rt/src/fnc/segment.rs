@@ -1,4 +1,4 @@
-//! Segments of point tables of HM: where a slave is while its master goes on (hm-motion-controller §8.3.4).
+//! Segments of point tables of HM: where a slave is while its master moves (hm-motion-controller §8.3.4).
 
 use super::table::{Maker, make};
 use crate::cx::Cx;
@@ -42,8 +42,8 @@ struct Segment {
 }
 
 impl Segment {
-    /// The segment that the parameters tell; `None` if they make no sense.
-    fn told(cx: &Cx) -> Result<Option<Self>, Fault> {
+    /// The segment that the parameters describe; `None` if they are invalid.
+    fn described(cx: &Cx) -> Result<Option<Self>, Fault> {
         let number = |offset| cx.word(0, offset).map(i128::from);
         let unsigned = |offset| cx.word(0, offset).map(|word| i128::from(word as u16));
         let curve = match cx.word(0, KIND)? {
@@ -132,7 +132,7 @@ impl Maker for Segment {
     const STATE: i32 = STATE;
 
     fn of(cx: &Cx) -> Result<Option<Self>, Fault> {
-        Segment::told(cx)
+        Segment::described(cx)
     }
 
     fn points(&self) -> i32 {
@@ -163,7 +163,7 @@ mod tests {
     use crate::double::{Double, reg};
     use crate::{RtFn, k};
 
-    /// The table behind D5000 with the segment at D1000.
+    /// The table after D5000 with the segment at D1000.
     fn run(segment: &[i32], interval: i32) -> Double {
         let mut plc = Double::new();
         plc.set_d(1000, segment);

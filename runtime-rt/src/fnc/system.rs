@@ -1,4 +1,4 @@
-//! What the scan does for special registers besides the program: the running time and error log of H1U/H2U (h1u-h2u-programming §8.2.2) and the built-in
+//! What the scan does for special registers in addition to the program: the running time and error log of H1U/H2U (h1u-h2u-programming §8.2.2) and the built-in
 //! analog inputs of L01S (l01s-programming §5.1) and potentiometers of FX3G.
 
 use crate::cx::Cx;

@@ -15,7 +15,7 @@ pub trait Maker: Sized {
     /// The word of the parameters that shows the state.
     const STATE: i32;
 
-    /// What the parameters tell; `None` if they make no sense.
+    /// What the parameters describe; `None` if they are invalid.
     fn of(cx: &Cx) -> Result<Option<Self>, Fault>;
 
     /// Prepares the table.
@@ -79,7 +79,7 @@ pub fn make<M: Maker>(cx: &mut Cx) -> Done {
     show::<M>(cx, DONE)
 }
 
-/// Whether the table has a point to go on from, and registers for all points.
+/// Whether the table has a point to continue from, and registers for all points.
 fn fits(cx: &Cx, points: i32) -> Result<bool, Fault> {
     let count = cx.dword(1, 0)?;
     let last = count

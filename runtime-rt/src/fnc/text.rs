@@ -11,7 +11,7 @@ use core::fmt::{self, Write};
 /// Longest string.
 const MAX_LENGTH: i32 = 32767;
 
-/// Character `n` of the string at operand `i`; 0 behind the end of a literal.
+/// Character `n` of the string at operand `i`; 0 after the end of a literal.
 fn char_at(cx: &Cx, i: usize, n: i32) -> Result<u8, Fault> {
     let op = cx.ops.get(i).ok_or(Fault::DEVICE)?;
     if op.kind == OperandKind::Text {
@@ -51,7 +51,7 @@ fn set_byte(cx: &mut Cx, i: usize, n: i32, byte: u8) -> Done {
     cx.set_word(i, n / 2, word as i16)
 }
 
-/// Writes `count` characters and the end to operand `i`; `source` tells character n. The last word is written whole.
+/// Writes `count` characters and the end to operand `i`; `source` gives character n. The last word is written whole.
 fn write(
     cx: &mut Cx,
     i: usize,
@@ -82,7 +82,7 @@ pub fn str_mov(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// $+ S1 S2 D (FNC 202): S2 behind S1.
+/// $+ S1 S2 D (FNC 202): S1 followed by S2.
 pub fn str_add(cx: &mut Cx) -> Done {
     let (first, second) = (length(cx, 0)?, length(cx, 1)?);
     write(cx, 2, first + second, |cx, n| {
@@ -161,7 +161,7 @@ pub fn midw(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// INSTR S1 S2 D n (FNC 208): where S1 stands in S2, sought from character n (from 1) on; 0 if nowhere.
+/// INSTR S1 S2 D n (FNC 208): the position of S1 in S2, searched from character n (counted from 1); 0 if not found.
 pub fn instr(cx: &mut Cx) -> Done {
     let (needle, hay) = (length(cx, 0)?, length(cx, 1)?);
     let from = i32::from(cx.word(3, 0)?);
@@ -222,12 +222,12 @@ fn write_buffer(cx: &mut Cx, i: usize, buffer: &Buffer) -> Done {
     })
 }
 
-/// Limits of STR and VAL by form: most characters in all, most behind the point.
+/// Limits of STR and VAL by form: most characters in all, most after the point.
 fn decimal_limits(cx: &Cx) -> (i32, i32) {
     if cx.wide() { (13, 10) } else { (8, 5) }
 }
 
-/// Whether `total` characters with `fraction` of them behind a point make a number.
+/// Whether `total` characters with `fraction` of them after a point make a number.
 fn check_format(total: i32, fraction: i32, limits: (i32, i32)) -> Done {
     let fits = (2..=limits.0).contains(&total) && (0..=limits.1).contains(&fraction);
     if fits && (fraction == 0 || fraction <= total - 3) {
@@ -237,13 +237,13 @@ fn check_format(total: i32, fraction: i32, limits: (i32, i32)) -> Done {
     }
 }
 
-/// STR S1 S2 D (FNC 200): the integer S2 as S1 characters: a sign (space or −), spaces, and digits with S1+1 of them behind a point.
+/// STR S1 S2 D (FNC 200): the integer S2 as S1 characters: a sign (space or −), spaces, and digits with S1+1 of them after a point.
 pub fn str(cx: &mut Cx) -> Done {
     let (total, fraction) = (i32::from(cx.word(0, 0)?), i32::from(cx.word(0, 1)?));
     check_format(total, fraction, decimal_limits(cx))?;
     let value = cx.read(1)?;
     let mut digits = Buffer::new();
-    // At least one digit stands before the point.
+    // At least one digit precedes the point.
     let _ = write!(
         digits,
         "{:0width$}",
@@ -266,7 +266,7 @@ pub fn str(cx: &mut Cx) -> Done {
     write_buffer(cx, 2, &text)
 }
 
-/// VAL S D1 D2 (FNC 201): a number in characters as an integer in D2, its number of characters in D1, of those behind the point in D1+1.
+/// VAL S D1 D2 (FNC 201): a number in characters as an integer in D2, its number of characters in D1, of those after the point in D1+1.
 pub fn val(cx: &mut Cx) -> Done {
     let limits = decimal_limits(cx);
     let total = length(cx, 0)?;
@@ -368,7 +368,7 @@ pub fn binda(cx: &mut Cx) -> Done {
     Ok(())
 }
 
-/// ESTR S1 S2 D (FNC 116): the float S1 as S2+1 characters, S2+2 of them behind the point: a sign, spaces and digits if S2 is 0,
+/// ESTR S1 S2 D (FNC 116): the float S1 as S2+1 characters, S2+2 of them after the point: a sign, spaces and digits if S2 is 0,
 /// a sign, spaces, mantissa and `E±nn` if it is 1.
 pub fn estr(cx: &mut Cx) -> Done {
     let value = cx.float(0, 0)?;

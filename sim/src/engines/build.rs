@@ -126,7 +126,7 @@ fn build_rust(modules: &[Module], folder: &Path) -> Result<PathBuf, BuildError> 
 /// What emitted C must compile with, without a warning.
 const C_FLAGS: &str = "-std=c99 -Wall -Wextra -Wconversion -Werror -O1";
 
-/// Writes the C files of a batch and lets `make` build it, with these flags besides those that are always given.
+/// Writes the C files of a batch and lets `make` build it, with these flags in addition to the standard ones.
 pub(super) fn make_batch(
     make: &mut Command,
     flags: &str,

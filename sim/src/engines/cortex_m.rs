@@ -36,7 +36,7 @@ pub const CORTEX_M4: Board = Board {
 };
 
 impl Board {
-    /// What the C compiler has to be told of the processor.
+    /// Options that select the processor for the C compiler.
     fn flags(&self) -> &'static str {
         target::find(self.target).map_or("", |target| target.flags)
     }

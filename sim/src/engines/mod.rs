@@ -1,4 +1,4 @@
-//! The ways to execute compiled programs, behind one interface.
+//! The ways to execute compiled programs, with one interface.
 
 mod build;
 #[cfg(feature = "cortex-m")]
@@ -31,7 +31,7 @@ pub trait Engine {
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
     /// The batch has no such program.
-    #[error("there is no program {0}")]
+    #[error("no program {0}")]
     NoProgram(usize),
     /// The executable could not be started.
     #[error("cannot start {command}: {error}")]
@@ -48,13 +48,13 @@ pub enum EngineError {
     #[error("no answer to `{0}`: a scan does not end")]
     Silent(Request),
     /// The executable said something else.
-    #[error("`{0}` was answered `{1}`")]
+    #[error("unexpected answer to `{0}`: `{1}`")]
     Garbled(Request, String),
     /// A client connects to what the case does not serve.
     #[error("{0}")]
     Unserved(String),
     /// A device, module or channel to be set does not exist.
-    #[error("`{0}`: there is no such device")]
+    #[error("`{0}`: no such device")]
     Missing(Request),
 }
 

@@ -73,7 +73,7 @@ impl Process {
         let Some(mut running) = self.running.take() else {
             return "it was not running".to_string();
         };
-        // It may have ended already, which is then what `wait` tells.
+        // It may have ended already; `wait` then returns its status.
         let _ = running.child.kill();
         match running.child.wait() {
             Ok(status) => status.to_string(),

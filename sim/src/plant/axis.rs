@@ -11,7 +11,7 @@ pub(super) enum Drive {
     Pulses {
         /// Output Y.
         output: u32,
-        /// The output that tells the direction, and its state for forward; without one the sign of the pulses tells it.
+        /// The direction output, and its state for forward; without one, the sign of the pulses decides.
         direction: Option<(u32, bool)>,
         /// Pulses that it has followed.
         followed: i32,
@@ -81,7 +81,7 @@ impl fmt::Display for Collision {
         } = self;
         write!(
             f,
-            "at {at_ms} ms: the axis {axis} runs into the end of its travel, at {position} {unit}"
+            "at {at_ms} ms: the axis {axis} hits its end stop at {position} {unit}"
         )
     }
 }
@@ -102,7 +102,7 @@ impl Axis {
         self.position / self.per_unit
     }
 
-    /// Its speed in units a second, negative when it goes back. `hz` tells how many pulses an output sends a second, negative in
+    /// Its speed in units a second, negative when it goes back. `hz` gives the pulses that an output sends per second, negative in
     /// reverse, `is_on` whether an output is on.
     pub fn speed(&self, hz: impl Fn(u32) -> f64, is_on: impl Fn(u32) -> bool) -> f64 {
         let speed = match self.drive {

@@ -2,7 +2,7 @@
 
 use super::{Look, Moment};
 
-/// An input that goes on when an output has been on for a time, and off when it has been off for a time.
+/// An input that turns on when an output has been on for a time, and off when it has been off for a time.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Delay {
     output: u32,

@@ -32,7 +32,7 @@ pub trait Terminals {
     /// What the outputs do now.
     fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Self::Error>;
 
-    /// An input goes on or off. Changes come in the order of their times.
+    /// An input turns on or off. Changes come in the order of their times.
     fn change(&mut self, change: Change) -> Result<(), Self::Error>;
 }
 
@@ -46,7 +46,7 @@ pub struct Plant {
     normally_closed: Vec<u32>,
 }
 
-/// An input that goes on or off: when, as a part of the millisecond, which one, and whether it is on now.
+/// An input that turns on or off: when, as a part of the millisecond, which one, and whether it is on now.
 type Moment = (f64, u32, bool);
 
 impl Plant {

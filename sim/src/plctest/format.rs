@@ -166,7 +166,7 @@ impl Reader<'_> {
 
     fn model(&mut self, name: &Spanned<String>) -> ModelId {
         ModelId::from_name(name.get_ref()).unwrap_or_else(|| {
-            let message = format!("there is no model `{}`", name.get_ref());
+            let message = format!("unknown model `{}`", name.get_ref());
             self.report(name.span().start, message);
             ModelId::Fx3u
         })
@@ -180,7 +180,10 @@ impl Reader<'_> {
         for case in raw.case {
             let name = case.get_ref().name.clone();
             if cases.iter().any(|c| c.name == *name.get_ref()) {
-                let message = format!("the case `{}` stands twice in this file", name.get_ref());
+                let message = format!(
+                    "the case `{}` is defined twice in this file",
+                    name.get_ref()
+                );
                 self.report(name.span().start, message);
             }
             let mut case = self.case(case, given, program.as_ref());
@@ -244,7 +247,7 @@ impl Reader<'_> {
         let tested = match raw.program {
             Some(program) => self.program(program),
             None => usual.cloned().unwrap_or_else(|| {
-                let message = "the case has no `program`, nor has the file one for all cases";
+                let message = "neither the case nor the file has a `program`";
                 self.report(at, message.to_string());
                 Tested::unread()
             }),
@@ -274,7 +277,7 @@ impl Reader<'_> {
         let check = match raw.rejects {
             Some(rejects) => {
                 if !steps.is_empty() {
-                    self.report(at, "a case has `rejects` or steps, not both".to_string());
+                    self.report(at, "use `rejects` or steps in a case, not both".to_string());
                 }
                 Check::Rejects(Rejects {
                     code: rejects.code,
@@ -283,7 +286,7 @@ impl Reader<'_> {
             }
             None => {
                 if steps.is_empty() {
-                    self.report(at, "a case has steps, or `rejects`".to_string());
+                    self.report(at, "a case needs steps or `rejects`".to_string());
                 }
                 Check::Steps { init, steps }
             }
@@ -309,7 +312,7 @@ impl Reader<'_> {
         let raw = raw.into_inner();
         let run = match (raw.scans, raw.run_ms) {
             (Some(_), Some(run_ms)) => {
-                let message = "a step has `scans` or `run_ms`, not both".to_string();
+                let message = "use `scans` or `run_ms` in a step, not both".to_string();
                 self.report(run_ms.span().start, message);
                 Run::Scans(1)
             }
@@ -375,7 +378,10 @@ impl Reader<'_> {
                 let message = "the name of a PLC consists of letters and digits".to_string();
                 self.report(at, message);
             } else if others.iter().any(|other| other.name == name) {
-                self.report(at, format!("the PLC `{name}` stands twice in this case"));
+                self.report(
+                    at,
+                    format!("the PLC `{name}` is defined twice in this case"),
+                );
             }
             let model = plc.model.as_ref().map(|model| self.model(model));
             others.push(OtherPlc {
@@ -474,7 +480,7 @@ impl Reader<'_> {
         match Target::parse(name.get_ref()) {
             Ok(Target::Bit(DeviceClass::X, number)) => Some(number),
             _ => {
-                let message = format!("`{}` is no input terminal", name.get_ref());
+                let message = format!("`{}` is not an input terminal", name.get_ref());
                 self.report(name.span().start, message);
                 None
             }
@@ -504,7 +510,8 @@ impl Reader<'_> {
                 match Value::of(target, value.get_ref()) {
                     Ok(value) => Some(Setting { plc, target, value }),
                     Err(expected) => {
-                        let message = format!("the value of `{}` is {expected}", name.get_ref());
+                        let message =
+                            format!("the value of `{}` must be {expected}", name.get_ref());
                         self.report(value.span().start, message);
                         None
                     }
@@ -517,7 +524,7 @@ impl Reader<'_> {
     fn word(&mut self, value: &Spanned<Scalar>) -> Option<i16> {
         let word = integer(value.get_ref(), 16).map(|v| v as i16);
         if word.is_none() {
-            let message = "this value is a 16-bit integer".to_string();
+            let message = "this value must be a 16-bit integer".to_string();
             self.report(value.span().start, message);
         }
         word
@@ -529,7 +536,7 @@ impl Reader<'_> {
                 let place = name.get_ref().split_once(':');
                 let place = place.and_then(|(u, a)| Some((u.parse().ok()?, a.parse().ok()?)));
                 let Some((unit, address)) = place else {
-                    let message = "a word of buffer memory is named `MODULE:ADDRESS`".to_string();
+                    let message = "write a word of buffer memory as `MODULE:ADDRESS`".to_string();
                     self.report(name.span().start, message);
                     return None;
                 };
@@ -543,7 +550,7 @@ impl Reader<'_> {
             .filter_map(|(name, value)| {
                 let channel = name.get_ref().strip_prefix("AD");
                 let Some(channel) = channel.and_then(|n| n.parse().ok()) else {
-                    let message = "an analog input is named `AD0`, `AD1`, …".to_string();
+                    let message = "write an analog input as `AD0`, `AD1`, …".to_string();
                     self.report(name.span().start, message);
                     return None;
                 };
@@ -555,7 +562,7 @@ impl Reader<'_> {
     fn clock(&mut self, text: &Spanned<String>) -> Option<Clock> {
         let clock = clock(text.get_ref());
         if clock.is_none() {
-            let message = "a time is written `2026-01-02T03:04:05`".to_string();
+            let message = "write a time as `2026-01-02T03:04:05`".to_string();
             self.report(text.span().start, message);
         }
         clock
@@ -579,7 +586,7 @@ fn clock(text: &str) -> Option<Clock> {
     )
 }
 
-/// An integer of so many bits, signed or unsigned; `"0xFFFF"` too.
+/// An integer of this many bits, signed or unsigned; `"0xFFFF"` too.
 fn integer(value: &Scalar, bits: u32) -> Option<i64> {
     let value = match value {
         Scalar::Integer(value) => *value,

@@ -164,7 +164,7 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// How characters stand on the line of a port.
+    /// The format of characters on the line of a port.
     fn format(&mut self, (plc, number): SerialPort) -> Result<LineFormat, Failure> {
         self.select(plc)?;
         let packed = match self.ask(Request::Line(number))? {

@@ -48,7 +48,7 @@ pub struct TestFile {
 pub struct Case {
     /// Its name, unique in the file.
     pub name: String,
-    /// Where it stands in the file, from 1.
+    /// Its line in the file, from 1.
     pub line: u32,
     /// The model that it is for.
     pub model: ModelId,
@@ -123,7 +123,7 @@ pub struct Rejects {
 /// One step of a case, its parts in the order in which they happen.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Where it stands in the file, from 1.
+    /// Its line in the file, from 1.
     pub line: u32,
     /// Power off and on.
     pub power_cycle: bool,
@@ -164,7 +164,7 @@ pub struct Step {
 pub enum Run {
     /// So many scans.
     Scans(u32),
-    /// Whole scans until so many milliseconds have passed.
+    /// Whole scans until this many milliseconds have passed.
     Ms(u32),
 }
 
@@ -247,10 +247,10 @@ program = "END"
         t.plctest.toml:6:15: the value of `D0` is a 16-bit integer, or hexadecimal in quotes: "0xFFFF"
         t.plctest.toml:6:22: `X009`: `X` is followed by an octal number
         t.plctest.toml:6:37: the value of `M0` is 0 or 1
-        t.plctest.toml:9:10: a step has `scans` or `run_ms`, not both
-        t.plctest.toml:10:9: a time is written `2026-01-02T03:04:05`
-        t.plctest.toml:11:9: a word of buffer memory is named `MODULE:ADDRESS`
-        t.plctest.toml:12:1: a case has steps, or `rejects`
+        t.plctest.toml:9:10: use `scans` or `run_ms` in a step, not both
+        t.plctest.toml:10:9: write a time as `2026-01-02T03:04:05`
+        t.plctest.toml:11:9: write a word of buffer memory as `MODULE:ADDRESS`
+        t.plctest.toml:12:1: a case needs steps or `rejects`
         t.plctest.toml:13:8: the case `a` stands twice in this file
         "#);
     }
@@ -278,15 +278,15 @@ cut = ["C:COM1"]
 mode = { C = "stop" }
 "#;
         insta::assert_snapshot!(problems_of(text), @r#"
-        t.plctest.toml:6:18: a port is named `COM1`, `CAN` or `TCP:502`
-        t.plctest.toml:7:11: a port is named `COM1`, `CAN` or `TCP:502`
+        t.plctest.toml:6:18: write a port as `COM1`, `CAN` or `TCP:502`
+        t.plctest.toml:7:11: write a port as `COM1`, `CAN` or `TCP:502`
         t.plctest.toml:12:8: the program of the PLC `B:` is empty
         t.plctest.toml:12:8: the name of a PLC consists of letters and digits
         t.plctest.toml:15:21: `C:D0` is no device name, e.g. `M0`, `X010`, `D0.i32`
-        t.plctest.toml:16:8: bytes are written as pairs of hexadecimal digits
-        t.plctest.toml:16:23: a CAN frame is written `200#1234`: its identifier and up to 8 bytes in hexadecimal digits
-        t.plctest.toml:17:15: bytes are written as pairs of hexadecimal digits
-        t.plctest.toml:18:8: a port is named `COM1`, `CAN` or `TCP:502`
+        t.plctest.toml:16:8: write bytes as pairs of hexadecimal digits
+        t.plctest.toml:16:23: write a CAN frame as `200#1234`: its identifier and up to 8 bytes in hexadecimal
+        t.plctest.toml:17:15: write bytes as pairs of hexadecimal digits
+        t.plctest.toml:18:8: write a port as `COM1`, `CAN` or `TCP:502`
         t.plctest.toml:19:8: the case has no PLC `C`
         "#);
     }
@@ -348,7 +348,7 @@ program = { file = "nowhere/x.il" }
 rejects = { code = 0 }
 "#;
         insta::assert_snapshot!(problems_of(text), @r"
-        t.plctest.toml:2:1: the case has no `program`, nor has the file one for all cases
+        t.plctest.toml:2:1: neither the case nor the file has a `program`
         t.plctest.toml:5:1: `model` is missing, the PLC that the program is for
         t.plctest.toml:11:11: cannot read `nowhere/x.il`: No such file or directory (os error 2)
         ");

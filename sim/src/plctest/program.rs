@@ -19,7 +19,7 @@ pub enum CaseProgram {
     File(Arc<ProgramFile>),
 }
 
-/// A program in a file of its own.
+/// A program in a separate file.
 #[derive(Clone, Debug)]
 pub struct ProgramFile {
     /// What was read. Mistakes in it are a matter of the case.
@@ -55,7 +55,7 @@ impl Tested {
         }
     }
 
-    /// In place of what could not be read, which is a problem of its own.
+    /// In place of what could not be read, which is a separate problem.
     pub fn unread() -> Self {
         Tested {
             program: CaseProgram::List(String::new()),

@@ -57,7 +57,11 @@ impl fmt::Display for Failure {
             }
             Failure::Accepted(message) => write!(f, "{message}"),
             Failure::Lacks(what) => {
-                write!(f, "needs {}, which this engine lacks", what.join(" and "))
+                write!(
+                    f,
+                    "needs {}, which this engine does not have",
+                    what.join(" and ")
+                )
             }
             Failure::NoDevice { step, target } => {
                 write!(f, "step {step}: `{target}` does not exist on the model")

@@ -26,7 +26,7 @@ const FLOAT_TOLERANCE: f64 = 1e-5;
 /// Relative tolerance of frequencies.
 const FREQUENCY_TOLERANCE: f64 = 0.01;
 
-/// Runs all cases. `progress` is told each result as it is known, and may break off.
+/// Runs all cases. `progress` receives each result as it is known, and may cancel the run.
 pub fn run(
     suite: &Suite,
     engine: &mut dyn Engine,
@@ -73,7 +73,7 @@ fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
         (code, Some(line)) => format!("error {code} on line {line}"),
     };
     let Built::Refused(errors) = built else {
-        let message = format!("the program compiles, {wanted} is expected");
+        let message = format!("expected {wanted}, but the program compiles");
         return Err(Failure::Accepted(message));
     };
     let fits = |(code, line, _): &(Option<u16>, u32, String)| {
@@ -90,7 +90,7 @@ fn check_rejects(rejects: Rejects, built: &Built) -> Result<(), Failure> {
             None => format!("line {line}: {message}"),
         })
         .collect();
-    let message = format!("{wanted} is expected, found {}", found.join("; "));
+    let message = format!("expected {wanted}, found {}", found.join("; "));
     Err(Failure::Accepted(message))
 }
 
@@ -304,7 +304,7 @@ impl Running<'_> {
             Run::Scans(scans) => scans,
             Run::Ms(ms) => ms.div_ceil(step.scan_ms),
         };
-        // A signal goes on to its end.
+        // A signal continues to its end.
         let signals = step.signals.iter().map(|signal| signal.duration_us());
         let signals = signals.max().unwrap_or(0).div_ceil(1000);
         let needed = signals.div_ceil(step.scan_ms.into()).try_into();

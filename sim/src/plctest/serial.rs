@@ -13,7 +13,7 @@ const CAN: &str = "CAN";
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "what a port sends is a text, or a list of texts of which one is right"
+    expecting = "expected a string, or a list of strings of which one must match"
 )]
 pub(super) enum RawSent {
     One(String),
@@ -34,7 +34,7 @@ impl RawSent {
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "`mode` is `run` or `stop`, or one of them for each PLC that is named"
+    expecting = "expected `run` or `stop`, or one of them for each named PLC"
 )]
 pub(super) enum RawMode {
     All(Switch),
@@ -121,7 +121,7 @@ impl PortId {
             }
             Some(_) => None,
         };
-        id.ok_or("a port is named `COM1`, `CAN` or `TCP:502`")
+        id.ok_or("write a port as `COM1`, `CAN` or `TCP:502`")
     }
 
     /// What no engine has yet of this port.
@@ -138,7 +138,7 @@ impl PortId {
 pub enum Item {
     /// A byte.
     Byte(u8, CharFault),
-    /// The line is idle for so many microseconds.
+    /// The line is idle for this many microseconds.
     Pause(u64),
     /// The client closes the connection.
     Close,
@@ -213,11 +213,9 @@ pub(super) fn is_name(name: &str) -> bool {
 pub(super) fn check_text(port: &str, way: Way, text: &str) -> Result<(), &'static str> {
     let mut words: Vec<&str> = text.split_whitespace().collect();
     if port == "CAN" {
-        return words
-            .iter()
-            .all(|word| is_frame(word))
-            .then_some(())
-            .ok_or("a CAN frame is written `200#1234`: its identifier and up to 8 bytes in hexadecimal digits");
+        return words.iter().all(|word| is_frame(word)).then_some(()).ok_or(
+            "write a CAN frame as `200#1234`: its identifier and up to 8 bytes in hexadecimal",
+        );
     }
     let end = match way {
         Way::ToPlc => CLOSE,
@@ -232,7 +230,7 @@ pub(super) fn check_text(port: &str, way: Way, text: &str) -> Result<(), &'stati
     };
     match words.iter().all(fits) {
         true => Ok(()),
-        false => Err("bytes are written as pairs of hexadecimal digits"),
+        false => Err("write bytes as pairs of hexadecimal digits"),
     }
 }
 

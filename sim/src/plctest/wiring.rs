@@ -45,7 +45,7 @@ pub(super) fn check(
         for (name, _) in &step.expect_position {
             if plant.axis(name).is_none() {
                 let axes: Vec<_> = plant.axes().iter().map(Axis::name).collect();
-                let message = format!("there is no axis `{name}`, but: {}", axes.join(", "));
+                let message = format!("unknown axis `{name}`; available: {}", axes.join(", "));
                 return wrong(i + 1, message);
             }
         }

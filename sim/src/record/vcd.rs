@@ -53,7 +53,7 @@ pub struct Vcd<W: Write> {
 }
 
 impl<W: Write> Vcd<W> {
-    /// Begins a recording of a program's signals, each with what it holds at time 0 unless a change at that time is still told.
+    /// Begins a recording of a program's signals, each with what it holds at time 0 unless a change at that time is still to come.
     pub fn begin(out: W, program: &str, signals: Vec<(Signal, Reading)>) -> io::Result<Self> {
         let mut writer = Writer::new(out);
         writer.version(concat!("rungc ", env!("CARGO_PKG_VERSION")))?;
@@ -141,7 +141,7 @@ impl<W: Write> Vcd<W> {
     }
 }
 
-/// Whether both are written alike; a float that is no number is like itself.
+/// Whether both are written alike; a float that is not a number is like itself.
 fn same(a: &Reading, b: &Reading) -> bool {
     match (a, b) {
         (Reading::Float(a), Reading::Float(b)) => a.to_bits() == b.to_bits(),

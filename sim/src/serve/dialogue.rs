@@ -59,7 +59,7 @@ pub struct Dialogue {
 pub struct Reaction {
     /// What it sends.
     pub reply: Vec<u8>,
-    /// Whether it closes: what came is no request.
+    /// Whether it closes: what came is not a request.
     pub closes: bool,
 }
 

@@ -4,7 +4,7 @@
 //! address. Both work only when they are asked to, between two scans, so a frame's writes reach the program together.
 //!
 //! None of these protocols knows a password: whoever reaches the address reads and writes every device. Hence servers bind to the loopback
-//! address unless they are told otherwise.
+//! address by default.
 
 mod dialogue;
 mod server;

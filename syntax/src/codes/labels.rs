@@ -3,32 +3,32 @@
 super::codes! {
     NO_LABEL = "E0430" "no-label" Error Some(6701),
     "jump or call to a label that does not exist",
-    "CJ and CALL name a label P that must stand somewhere in the program.",
+    "CJ and CALL name a label P that must exist somewhere in the program.",
     wrong: "LD X0\nCJ P5\nLD X1\nOUT Y0\nEND\n",
     right: "LD X0\nCJ P5\nLD X1\nOUT Y0\nP5\nEND\n";
 
     LABEL_TWICE = "E0431" "label-twice" Error Some(6504),
     "label defined twice",
-    "A pointer P or I stands at one place only. Labels of jumps and of subroutines share their numbers.",
+    "A pointer P or I may be defined only once. Labels of jumps and of subroutines share their numbers.",
     wrong: "LD X0\nCJ P1\nP1\nLD X1\nOUT Y0\nP1\nEND\n",
     right: "LD X0\nCJ P1\nP1\nLD X1\nOUT Y0\nEND\n";
 
     JUMPED_AND_CALLED = "E0432" "jumped-and-called" Error None,
     "label that is both jumped to and called",
-    "CJ goes on at its label, CALL comes back from it with SRET: they cannot share one.",
+    "CJ continues at its label; CALL returns from it with SRET: they cannot share a label.",
     wrong: "LD X0\nCJ P1\nLD X1\nCALL P1\nFEND\nP1\nLD X3\nOUT Y1\nSRET\nEND\n",
     right: "LD X0\nCJ P2\nLD X1\nCALL P1\nP2\nFEND\nP1\nLD X3\nOUT Y1\nSRET\nEND\n";
 
     P63 = "E0433" "p63" Error Some(6507),
     "P63 as a label or a subroutine",
-    "P63 is the end of the program: CJ P63 jumps to END. It must not be defined and cannot be called.",
+    "P63 is the end of the program: CJ P63 jumps to END. It must not be defined, and it cannot be called.",
     wrong: "LD X0\nCJ P63\nLD X1\nOUT Y0\nP63\nEND\n",
     right: "LD X0\nCJ P63\nLD X1\nOUT Y0\nEND\n";
 
     INTO_LOOP = "E0434" "into-loop" Error Some(6607),
     "jump into a loop",
-    "A jump from outside to a label between FOR and NEXT would run a loop that was never begun. The same holds for PROC and PEND \
-     of HM's advanced interrupts, at which a routine is left and entered again.",
+    "A jump from outside to a label between FOR and NEXT would run a loop that was never started. The same applies to PROC and PEND \
+     of HM's advanced interrupts, where a routine is left and re-entered.",
     wrong: "LD X0\nCJ P1\nFOR K2\nP1\nLD X1\nOUT Y0\nNEXT\nEND\n",
     right: "LD X0\nCJ P1\nFOR K2\nLD X1\nOUT Y0\nNEXT\nP1\nEND\n";
 
@@ -46,13 +46,13 @@ super::codes! {
 
     MAY_CALL_DEEP = "W0510" "may-call-deep" Warning Some(6702),
     "calls that may nest too deep",
-    "Calls nest five deep on most models (eight on HM). Whether these do depends on their conditions: when all of them are on at once, the call beyond the limit is not carried out and reports 6702.",
+    "Calls nest five deep on most models (eight on HM). Whether these do depends on their conditions: if all of them are on at once, the call beyond the limit is skipped with error 6702.",
     wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X0\nCALL P2\nSRET\nP2\nLD X0\nCALL P3\nSRET\nP3\nLD X0\nCALL P4\nSRET\nP4\nLD X0\nCALL P5\nSRET\nP5\nLD X0\nCALL P6\nSRET\nP6\nLD X0\nOUT Y0\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nFEND\nP1\nLD X0\nCALL P2\nSRET\nP2\nLD X0\nOUT Y0\nSRET\nEND\n";
 
     BOTH_EDGES = "E0440" "both-edges" Error Some(6508),
     "two interrupts of one source",
-    "An input interrupts at its rising or at its falling edge, not at both; a timer interrupt has one period.",
+    "An input triggers an interrupt on its rising or its falling edge, not on both; a timer interrupt has one period.",
     wrong: "EI\nFEND\nI000\nLD X1\nOUT Y0\nIRET\nI001\nLD X2\nOUT Y1\nIRET\nEND\n",
     right: "EI\nFEND\nI001\nLD X2\nOUT Y1\nIRET\nEND\n";
 
@@ -70,7 +70,7 @@ super::codes! {
 
     NO_ROUTINE = "E0443" "no-routine" Error Some(6712),
     "interrupt without a routine",
-    "DHSCS may request an interrupt instead of setting a bit; its routine must stand behind FEND.",
+    "DHSCS may request an interrupt instead of setting a bit; its routine must follow FEND.",
     wrong: "EI\nLD M8000\nOUT C235 K100\nDHSCS K50 C235 I010\nFEND\nEND\n",
     right: "EI\nLD M8000\nOUT C235 K100\nDHSCS K50 C235 I010\nFEND\nI010\nLD M8000\nINC D0\nIRET\nEND\n";
 }

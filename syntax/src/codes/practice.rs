@@ -1,9 +1,9 @@
-//! Legal, but it hurts in practice; and what the source says of itself.
+//! Legal, but causes trouble in practice; and contradictions within the source.
 
 super::codes! {
     NEVER_READ = "W0201" "never-read" Warning None,
     "relays that are driven and never read",
-    "Nothing in the program looks at these relays. That is fine if an operator panel does; otherwise they are left over or misspelt.",
+    "Nothing in the program reads these relays. That is fine if an operator panel does; otherwise they are leftovers or misspelt.",
     wrong: "LD X0\nOUT M10\nLD X1\nOUT Y0\nEND\n",
     right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
 
@@ -14,26 +14,26 @@ super::codes! {
     right: "LD X0\nOUT M10\nLD M10\nOUT Y0\nEND\n";
 
     DOUBLE_COIL = "W0203" "double-coil" Warning None,
-    "coil driven at two places",
-    "Both rungs write the coil in every scan, so the last one decides what the output does; the result of the first is lost. Join the conditions with OR, or use SET and RST. In different states of a step ladder a coil may be driven again.",
+    "coil driven in two places",
+    "Both rungs write the coil in every scan, so the last one decides the state of the output; the result of the first is lost. Join the conditions with OR, or use SET and RST. In different states of a step ladder a coil may be driven again.",
     wrong: "LD X0\nOUT Y0\nLD X1\nOUT Y0\nEND\n",
     right: "LD X0\nOR X1\nOUT Y0\nEND\n";
 
     TIMER_TWICE = "W0204" "timer-twice" Warning None,
-    "timer or counter driven at two places",
-    "A timer driven at two places starts and clears according to whichever runs; a counter counts the changes of both. Use one per place.",
+    "timer or counter driven in two places",
+    "A timer driven in two places starts and clears according to whichever runs; a counter counts the changes of both. Use a separate one in each place.",
     wrong: "LD X0\nOUT T0 K10\nLD X1\nOUT T0 K20\nLD T0\nOUT Y0\nEND\n",
     right: "LD X0\nOUT T0 K10\nLD X1\nOUT T1 K20\nLD T0\nOR T1\nOUT Y0\nEND\n";
 
     TIMER_IN_NEXT_STATE = "W0205" "timer-in-next-state" Warning None,
     "timer used in a state and in the one that follows it",
-    "At the transition both states are on for one scan, so the coil of the timer does not drop and the timer is not cleared.",
+    "At the transition both states are on for one scan, so the coil of the timer does not turn off and the timer is not cleared.",
     wrong: "LD M8002\nSET S0\nSTL S0\nOUT T0 K10\nLD T0\nSET S20\nSTL S20\nOUT T0 K10\nLD T0\nOUT S0\nRET\nEND\n",
     right: "LD M8002\nSET S0\nSTL S0\nOUT T0 K10\nLD T0\nSET S20\nSTL S20\nOUT T1 K10\nLD T1\nOUT S0\nRET\nEND\n";
 
     PAIRS_OVERLAP = "W0206" "pairs-overlap" Warning None,
     "32-bit values that share a word",
-    "A 32-bit value occupies the named register and the next one. Two values that begin at neighbouring registers overwrite each other.",
+    "A 32-bit value occupies the named register and the next one. Two values that start at adjacent registers overwrite each other.",
     wrong: "LD X0\nDMOV K1 D0\nDMOV K2 D1\nEND\n",
     right: "LD X0\nDMOV K1 D0\nDMOV K2 D2\nEND\n";
 
@@ -51,13 +51,13 @@ super::codes! {
 
     UNREACHABLE = "W0210" "unreachable" Warning None,
     "instructions that never run",
-    "Behind FEND, SRET or IRET only a label can be reached; these instructions stand before the next one.",
+    "After FEND, SRET or IRET, only a label can be reached; these instructions precede the next one.",
     wrong: "LD X0\nOUT Y0\nFEND\nLD X1\nOUT Y1\nEND\n",
     right: "LD X0\nOUT Y0\nLD X1\nOUT Y1\nFEND\nEND\n";
 
     AFTER_END = "W0211" "after-end" Warning None,
     "instructions after END",
-    "The scan ends at the first END; what is stored behind it is not processed.",
+    "The scan ends at the first END; instructions after it never run.",
     wrong: "LD X0\nOUT Y0\nEND\nLD X1\nOUT Y1\nEND\n",
     right: "LD X0\nOUT Y0\nLD X1\nOUT Y1\nEND\n";
 
@@ -69,128 +69,128 @@ super::codes! {
 
     TIMER_IN_ROUTINE = "W0213" "timer-in-routine" Warning None,
     "ordinary timer in a subroutine or interrupt routine",
-    "An ordinary timer is brought up to date where its coil is run; in a routine that does not run in every scan it measures wrongly. Nothing is wrong with a subroutine that is called in every scan while the timer is needed. T192 to T199, which count 100 ms, are made for routines, as are T246 to T249, which count 1 ms, for subroutines.",
+    "An ordinary timer is updated where its coil is executed; in a routine that does not run in every scan, it measures incorrectly. A subroutine that is called in every scan while the timer is needed is fine. T192 to T199 (100 ms) are intended for routines, and T246 to T249 (1 ms) for subroutines.",
     wrong: "LD X0\nCALL P1\nLD T0\nOUT Y0\nFEND\nP1\nLD X1\nOUT T0 K10\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nLD T192\nOUT Y0\nFEND\nP1\nLD X1\nOUT T192 K10\nSRET\nEND\n";
 
     JUMP_IN_STL = "W0214" "jump-in-stl" Warning None,
     "jump into, out of or between states",
-    "A jump that leaves its state skips the handling of transitions on the way. The manual discourages it: use a transition.",
+    "A jump that leaves its state skips the handling of transitions. The manual discourages it: use a transition.",
     wrong: "LD M8002\nSET S0\nSTL S0\nLD X0\nCJ P1\nLD X1\nOUT Y0\nRET\nP1\nEND\n",
     right: "LD M8002\nSET S0\nSTL S0\nLD X1\nOUT Y0\nRET\nEND\n";
 
     RECURSION = "W0215" "recursion" Warning Some(6702),
     "subroutine that calls itself",
-    "A subroutine must not call itself, neither directly nor through others. The PLC accepts the program; the call that closes the circle is not carried out and reports 6702 when it is reached.",
+    "A subroutine must not call itself, directly or through others. The PLC accepts the program, but skips the recursive call with error 6702 when it is reached.",
     wrong: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nCALL P1\nSRET\nEND\n",
     right: "LD X0\nCALL P1\nFEND\nP1\nLD X1\nOUT Y0\nSRET\nEND\n";
 
     MEASURED_INPUT = "W0216" "measured-input" Warning None,
-    "SPD or positioning on an input that serves something else",
-    "Each fast input should serve one purpose: SPD, the signals of ZRN and DSZR, a high-speed counter, an input interrupt or pulse catch.",
+    "SPD or positioning on an input used for something else",
+    "Use each fast input for one purpose only: SPD, the signals of ZRN and DSZR, a high-speed counter, an input interrupt or pulse catch.",
     wrong: "LD M8000\nOUT C235 K100\nLD X7\nSPD X0 K100 D0\nEND\n",
     right: "LD M8000\nOUT C235 K100\nLD X7\nSPD X1 K100 D0\nEND\n";
 
     FAST_UNITS = "W0217" "fast-units" Warning None,
-    "more fast inputs and outputs than the hardware serves",
-    "Fast inputs and outputs of H1U and H2U share 56 units of hardware: a pulse output takes 7, a counter of one input 6, of two 13, of an encoder 17, SPD 4, an input interrupt or pulse catch 1.",
+    "more fast inputs and outputs than the hardware supports",
+    "Fast inputs and outputs of H1U and H2U share 56 units of hardware: a pulse output takes 7, a counter with one input 6, with two inputs 13, for an encoder 17, SPD 4, an input interrupt or pulse catch 1.",
     model: "h2u",
     wrong: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nOUT C240 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n",
     right: "LD M8000\nOUT C235 K1\nOUT C236 K1\nOUT C237 K1\nOUT C238 K1\nOUT C239 K1\nPLSY K500 K9 Y0\nPLSY K500 K9 Y1\nPLSY K500 K9 Y2\nEND\n";
 
     PARTS_OVERLAP = "W0220" "parts-overlap" Warning None,
-    "register that belongs to a result and is written by itself",
-    "The result of a 32-bit instruction takes two registers, as does the product of MUL; DIV puts the remainder behind the quotient; the 32-bit forms of both take four. An instruction that writes one of the later registers overwrites a part of the result. Registers that are only cleared, and values whose low word is also written by itself, are not meant: they are put together from words.",
+    "part of a result that is also written separately",
+    "The result of a 32-bit instruction takes two registers, as does the product of MUL; DIV stores the remainder after the quotient; the 32-bit forms of both take four. An instruction that writes one of the later registers overwrites a part of the result. Registers that are only cleared are not reported, nor are values whose low word is also written separately, since they are assembled from words.",
     wrong: "LD X0\nMUL D0 D1 D10\nLD X1\nMOV K3 D11\nEND\n",
     right: "LD X0\nMUL D0 D1 D10\nLD X1\nMOV K3 D12\nEND\n";
 
     OUT_AND_SET = "W0221" "out-and-set" Warning None,
     "coil that both OUT and SET or RST write",
-    "OUT writes its coil in every scan, whether its contacts are closed or not, so what SET did is gone at once, and what RST did before it too. A RST after the OUT, which forces the coil off for the rest of the scan, is not meant; neither are a SET and an OUT in different states.",
+    "OUT writes its coil in every scan, whether its contacts are closed or not, so it undoes a SET at once, and a RST before it too. A RST after the OUT, which forces the coil off for the rest of the scan, is not reported; neither are a SET and an OUT in different states.",
     wrong: "LD X0\nSET Y0\nLD X1\nRST Y0\nLD X2\nOUT Y0\nEND\n",
     right: "LD X0\nOR X2\nSET Y0\nLD X1\nRST Y0\nEND\n";
 
     STATE_TWICE = "W0222" "state-twice" Warning None,
-    "state that stands twice",
-    "Each state of a step ladder has one section, which begins with its STL. A second section of the same number usually is a copy whose number was not changed: while the state is on, both run. STL in a row, which join parallel branches, name their states again and are not meant.",
+    "state that occurs twice",
+    "Each state of a step ladder has one section, which starts with its STL. A second section with the same number is usually a copy whose number was not changed: while the state is on, both run. Consecutive STL that join parallel branches repeat their states and are not reported.",
     wrong: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSTL S20\nOUT Y0\nLD X1\nSET S21\nSTL S20\nOUT Y1\nLD X2\nOUT S0\nRET\nEND\n",
     right: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSTL S20\nOUT Y0\nLD X1\nSET S21\nSTL S21\nOUT Y1\nLD X2\nOUT S0\nRET\nEND\n";
 
     REVERSED_RANGE = "W0223" "reversed-range" Warning None,
-    "ZRST whose first device stands behind its last",
-    "ZRST resets from its first device up to its second. If the first has the higher number, it alone is reset. On H1U, H2U and HM this is an error.",
+    "ZRST whose first device comes after its last",
+    "ZRST resets from its first device up to its second. If the first has the higher number, only that one is reset. On H1U, H2U and HM this is an error.",
     wrong: "LD X0\nZRST D10 D0\nEND\n",
     right: "LD X0\nZRST D0 D10\nEND\n";
 
     DIVISION_BY_ZERO = "W0224" "division-by-zero" Warning Some(6706),
     "division by the constant 0",
-    "Each time the instruction runs, the PLC reports an operation error in M8067 and D8067 and leaves the result as it was.",
+    "Each time the instruction runs, the PLC reports an operation error in M8067 and D8067 and leaves the result unchanged.",
     wrong: "LD X0\nDIV D0 K0 D2\nEND\n",
     right: "LD X0\nDIV D0 K10 D2\nEND\n";
 
     EVERY_SCAN = "W0225" "every-scan" Warning None,
     "instruction that changes its own operand in every scan",
-    "An instruction without the suffix P runs in each scan in which its contacts are closed: INC counts scans, ALT flickers, a shift empties its register. An input or a clock of a second stays on for many scans. Write the pulse form, or use LDP. Only drives of inputs and clocks alone are meant, outside of loops, routines, states and what jumps skip.",
+    "An instruction without the suffix P runs in each scan in which its contacts are closed: INC counts scans, ALT flickers, a shift empties its register. An input or a one-second clock stays on for many scans. Use the pulse form or LDP. Only instructions driven by inputs and clocks alone are reported, outside loops, routines, states and code that jumps skip.",
     wrong: "LD X0\nINC D0\nEND\n",
     right: "LD X0\nINCP D0\nEND\n";
 
     NEVER_RESET = "W0226" "never-reset" Warning None,
     "counter that nothing resets",
-    "A 16-bit counter that has reached its preset counts no more, and its contact stays closed until RST clears it. Nothing in the program does.",
+    "A 16-bit counter that has reached its preset stops counting, and its contact stays closed until RST clears it. Nothing in the program does.",
     wrong: "LD X0\nOUT C0 K10\nLD C0\nOUT Y0\nEND\n",
     right: "LD X1\nRST C0\nLD X0\nOUT C0 K10\nLD C0\nOUT Y0\nEND\n";
 
     NEVER_SWITCHED_OFF = "W0227" "never-switched-off" Warning None,
     "output that is set and never reset",
-    "SET switches an output on until something resets it. Nothing in the program does, so it stays on until STOP.",
+    "SET turns an output on until something resets it. Nothing in the program does, so it stays on until STOP.",
     wrong: "LD X0\nSET Y0\nEND\n",
     right: "LD X0\nSET Y0\nLD X1\nRST Y0\nEND\n";
 
     JUMPED_OVER = "W0228" "jumped-over" Warning None,
-    "instructions that a jump without a condition skips",
-    "M8000 is on in every scan, so the jump is always taken and what stands before its label never runs.",
+    "instructions that an unconditional jump skips",
+    "M8000 is on in every scan, so the jump is always taken and the instructions before its label never run.",
     wrong: "LD M8000\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n",
     right: "LD X2\nCJ P1\nLD X0\nOUT Y0\nP1\nLD X1\nOUT Y1\nEND\n";
 
     ONE_OUTPUT = "W0229" "one-output" Warning None,
     "two instructions that send pulses through one output at the same time",
-    "An output sends the pulses of one instruction at a time. Two that are driven by the same contacts, or of which one is always driven, disturb each other: the second does not start, or not before the first has ended.",
+    "An output sends the pulses of one instruction at a time. Two instructions that are driven by the same contacts, or one of which is always driven, interfere with each other: the second does not start, or not before the first has ended.",
     wrong: "LD X0\nPLSY K1000 K500 Y0\nPLSY K200 K100 Y0\nEND\n",
     right: "LD X0\nPLSY K1000 K500 Y0\nLDI X0\nPLSY K200 K100 Y0\nEND\n";
 
     STATE_BRANCHES = "W0230" "state-branches" Warning None,
-    "more branches of a step ladder than the PLC follows",
-    "A state branches into at most 8 others, selective or parallel, and at most 16 circuits branch off in the flow of one initial state. The editors do not show such a flow, and how the PLC runs it is not said. Compiled programs have no such limit.",
+    "more branches of a step ladder than the PLC supports",
+    "A state branches into at most 8 others, selective or parallel, and at most 16 circuits branch off in the flow of one initial state. The editors do not show such a flow, and the manuals do not say how the PLC runs it. Compiled programs have no such limit.",
     wrong: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSET S21\nSET S22\nSET S23\nSET S24\nSET S25\nSET S26\nSET S27\nSET S28\nRET\nEND\n",
     right: "LD M8002\nSET S0\nSTL S0\nLD X0\nSET S20\nSET S21\nSET S22\nSET S23\nSET S24\nSET S25\nSET S26\nSET S27\nRET\nEND\n";
 
     ENDLESS_JUMP = "W0231" "endless-jump" Warning Some(6105),
-    "jump back that is always taken",
-    "The jump has no condition that could be off, and nothing between its label and it leaves the loop: the scan does not end, and the watchdog stops the PLC.",
+    "backward jump that is always taken",
+    "The jump has no condition that could be off, and nothing between the label and the jump leaves the loop: the scan does not end, and the watchdog stops the PLC.",
     wrong: "P0\nLD X0\nOUT Y0\nLD M8000\nCJ P0\nEND\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
     INERT_DEVICE = "W0301" "inert-device" Warning None,
-    "special device that does nothing in a compiled program",
-    "On the PLC this special relay or register sets something up or reports it: a CAN network, an extension card, a constant scan time. Compiled programs do not have what it belongs to, so it is an ordinary relay or register there: a program that asks for a constant scan time with it runs as its host decides. The help page of each model (`docs/src/special-devices`) and `rungc explain D8039` say which devices work. Devices that only report faults which cannot happen here (a low battery, a failed supply) are not meant.",
+    "special device that has no effect in a compiled program",
+    "On the PLC, this special relay or register configures or reports something: a CAN network, an extension card, a constant scan time. Compiled programs do not have that function, so it is an ordinary relay or register there: a program that asks for a constant scan time with it runs as its host decides. The help page of each model (`docs/src/special-devices`) and `rungc explain D8039` show which devices work. Devices that only report faults that cannot happen here (a low battery, a failed supply) are not reported.",
     wrong: "LD M8002\nMOV K50 D8039\nEND\n",
     right: "LD M8002\nMOV K500 D8000\nEND\n";
 
     STEPS_DIFFER = "W0501" "steps-differ" Warning None,
     "step number that does not fit the instructions before it",
-    "The source numbers its steps, and the number differs from what the instructions before it take on this model: the model may be another one, or a row is missing.",
+    "The source numbers its steps, and the number differs from the steps that the instructions before it take on this model: the program may be for another model, or a row may be missing.",
     wrong: "0 LD X0\n1 OUT Y0\n9 END\n",
     right: "0 LD X0\n1 OUT Y0\n2 END\n";
 
     UNKNOWN_CPU = "W0502" "unknown-cpu" Warning None,
-    "CPU type that is not known",
-    "The source names a CPU type that none of the models goes by, and none resembles. It is compiled for FX3U; `--model` chooses another model.",
+    "unknown CPU type",
+    "The source names a CPU type that belongs to no supported model, and none resembles it. It is compiled for FX3U; `--model` selects another model.",
     wrong: "",
     right: "";
 
     NEAREST_MODEL = "N0020" "nearest-model" Note None,
-    "CPU type that is compiled as a model like it",
-    "The source names a CPU type that is not among the models. It is compiled for the one that resembles it most; the help says what is different there. `--model` chooses another model.",
+    "CPU type compiled as a similar model",
+    "The source names a CPU type that is not a supported model. It is compiled for the most similar one; the help describes the differences. `--model` selects another model.",
     wrong: "",
     right: "";
 
@@ -202,13 +202,13 @@ super::codes! {
 
     BOUND_UNUSED = "W0540" "bound-unused" Warning None,
     "bound of an operand that the program does not have",
-    "`[index]` in rungc.toml names an operand with an index register that no instruction has, so that the bound does nothing. It is for the operand exactly as the program writes it: a bound of `D100Z0` says nothing about `D101Z0`.",
+    "`[index]` in rungc.toml names an operand with an index register that no instruction has, so the bound has no effect. A bound applies to the operand exactly as the program writes it: a bound for `D100Z0` does not cover `D101Z0`.",
     wrong: "",
     right: "";
 
     INDEX_REACHES_MUCH = "N0030" "index-reaches-much" Note None,
     "indexed operand that makes the program store many devices",
-    "A compiled program stores the devices that its operands can reach. How far an index register leads is found out from constants, sums, masks (`WAND`), comparisons on the way, rounds of loops and what all scans leave in it; a value from a data register or a communication can be anything (a host may write data registers, but no index registers), and then the operand reaches every device of its class. Compare or mask the index before it is used, or bound the operand in rungc.toml: `[index]`, `D100Z0 = \"D100-D163\"`. An access beyond the bound is then the PLC's error 6706, as one beyond the devices is.",
+    "A compiled program stores the devices that its operands can reach. The range of an index register is derived from constants, sums, masks (`WAND`), comparisons on the way, loop iterations and the values that all scans leave in it; a value from a data register or from communication can be anything (a host may write data registers, but not index registers), and then the operand reaches every device of its class. Compare or mask the index before use, or bound the operand in rungc.toml: `[index]`, `D100Z0 = \"D100-D163\"`. An access outside the bound is then PLC error 6706, as is an access outside the model's devices.",
     wrong: "",
     right: "";
 }

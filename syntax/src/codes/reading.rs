@@ -3,7 +3,7 @@
 super::codes! {
     BAD_INSTRUCTION = "E0001" "bad-instruction" Error None,
     "this line cannot be read as an instruction",
-    "A line of an instruction list holds an optional step number, a mnemonic and its operands, separated by spaces. Comments begin with `;` or `//`.",
+    "A line of an instruction list has an optional step number, a mnemonic and its operands, separated by spaces. Comments start with `;` or `//`.",
     wrong: "LD X0\n= Y0\nEND\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
@@ -20,116 +20,116 @@ super::codes! {
     right: "LD X010\nOUT Y0\nEND\n";
 
     BIG_NUMBER = "E0004" "big-number" Error None,
-    "number that is too large for anything",
-    "No device number or constant of the PLC is as large as this.",
+    "number that is too large",
+    "No device number or constant of the PLC is this large.",
     wrong: "LD X0\nMOV K99999999999999999999 D0\nEND\n",
     right: "LD X0\nMOV K99 D0\nEND\n";
 
     OPEN_TEXT = "E0005" "open-text" Error None,
     "text without its closing quotation mark",
-    "A text in an operand begins and ends with `\"` on the same line.",
+    "A text operand starts and ends with `\"` on the same line.",
     wrong: "LD X0\n$MOV \"ABC D0\nEND\n",
     right: "LD X0\n$MOV \"ABC\" D0\nEND\n";
 
     FOREIGN_LANGUAGE = "E0006" "foreign-language" Error None,
-    "the text is in another language than an FX list",
+    "the text is not an FX instruction list",
     "Programs are read as instruction lists of the FX family, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list and structured text of IEC 61131-3 and PLCopen XML are other languages: their addresses (`%IX0.0`), declarations (`VAR`) and statements (`IF … THEN`, `:=`) have no counterpart here. Export the compiled program as a list from the editor, or rewrite it.",
     wrong: "PROGRAM Motor\nVAR\n  Run : BOOL;\nEND_VAR\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
     LOOK_ALIKE = "E0007" "look-alike" Error None,
     "letter of another alphabet that looks Latin",
-    "Mnemonics and devices are written with the letters A to Z. Cyrillic and Greek have letters that look the same on the screen and are others to every program. The line is read as it looks, so that nothing else is reported because of it.",
+    "Mnemonics and devices are written with the letters A to Z. Some Cyrillic and Greek letters look the same on screen but are different characters. The line is read as it looks, so this causes no further errors.",
     wrong: "LD \u{0425}0\nOUT Y0\nEND\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
     ONE_PER_LINE = "E0008" "one-per-line" Error None,
     "two instructions on one line",
-    "Each instruction of a list stands on a line of its own; only a label may have an instruction behind it.",
+    "Each instruction of a list needs its own line; only a label may be followed by an instruction on the same line.",
     wrong: "LD X0 OUT Y0\nEND\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
     TEXT_BREAK = "E0009" "text-break" Error None,
     "text with a line break",
-    "In an instruction list a text ends on the line on which it begins, so a text with a line break in it cannot be written as a list. A list export holds it.",
+    "In an instruction list, a text ends on the line where it starts, so a text with a line break cannot be written as a list. A list export can contain it.",
     wrong: "",
     right: "";
 
     UNKNOWN_FORMAT = "E0010" "unknown-format" Error None,
-    "this file is in none of the known formats",
-    "Read are instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg) and GX Works2 projects (.gxw). The format is found by content, not by the file's name.",
+    "unknown file format",
+    "rungc reads instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg) and GX Works2 projects (.gxw). It recognises the format by content, not by the file's name.",
     wrong: "",
     right: "";
 
     TRUNCATED = "E0011" "truncated" Error None,
     "the file ends too early",
-    "The file says that more follows than there is. What could be read before the end was read.",
+    "The file announces more data than it has. Everything before the end was read.",
     wrong: "",
     right: "";
 
     DAMAGED = "E0012" "damaged" Error None,
     "the file contradicts itself",
-    "A length, an offset or a mark in the file does not fit the rest. The message gives the offset and the bytes.",
+    "A length, an offset or a marker in the file contradicts the rest. The message gives the offset and the bytes.",
     wrong: "",
     right: "";
 
     UNKNOWN_BYTES = "E0013" "unknown-bytes" Error None,
-    "bytes that are no known instruction",
-    "The project holds the code of an instruction, or of an operand, that no published table has and no project has shown, or whose meaning is only guessed. The message gives the bytes, the operands and the step, the help the instructions that would fit; the rest of the program is read. `rungc learn PROJECT EXPORT` learns the codes of instructions from a list that the editor exports.",
+    "unknown instruction code",
+    "The project contains the code of an instruction or operand that no published table lists and no known project has shown, or whose meaning is only a guess. The message gives the bytes, the operands and the step; the help lists the instructions that would fit. The rest of the program is read. `rungc learn PROJECT EXPORT` learns instruction codes from a list that the editor exports.",
     wrong: "",
     right: "";
 
     BAD_ROW = "E0014" "bad-row" Error None,
     "row of a list export that does not fit its columns",
-    "A row of the export lacks a column, or an operand stands in a row that belongs to no instruction.",
+    "A row of the export lacks a column, or has an operand that belongs to no instruction.",
     wrong: "",
     right: "";
 
     UNREADABLE_TEXT = "E0015" "unreadable-text" Error None,
-    "bytes that no known encoding reads",
-    "Text is read as UTF-8, as UTF-16, or in the code page in which its bytes make the most sense: GBK, Big5, Shift-JIS, EUC-KR, Windows-1252 and its like. Here none reads every byte: the file is in another encoding, or damaged. Save it as UTF-8, or name its encoding with `--encoding`.",
+    "bytes in an unknown encoding",
+    "Text is read as UTF-8, as UTF-16, or in the most likely code page: GBK, Big5, Shift-JIS, EUC-KR, Windows-1252 and similar. None of them fits every byte here: the file is in another encoding, or damaged. Save it as UTF-8, or name its encoding with `--encoding`.",
     wrong: "",
     right: "";
 
     UNREADABLE_FILE = "E0016" "unreadable-file" Error None,
-    "the file cannot be read at all",
-    "There is no such file or folder, it may not be read, or it is larger than any program. The message says what the system says.",
+    "the file cannot be read",
+    "The file or folder does not exist, access is denied, or it is larger than any program. The message quotes the system.",
     wrong: "",
     right: "";
 
     LABEL_OPERAND = "E0017" "label-operand" Error None,
     "operand that is a label, not a device",
-    "A source in GX Works2 may name labels, and so may a list exported from it. Which devices they stand for is decided when the editor converts the program, and stands in the compiled program alone: convert the program in the editor and save the project, or export the list of the compiled program.",
+    "A source in GX Works2 may name labels, and so may a list exported from it. The editor assigns devices to them when it converts the program, and only the compiled program contains these: convert the program in the editor and save the project, or export the list of the compiled program.",
     wrong: "LD X0\nMOV wSpeed D0\nEND\n",
     right: "LD X0\nMOV D10 D0\nEND\n";
 
     OTHER_FAMILY = "E0018" "other-family" Error None,
     "the project is for a CPU of another family",
-    "Programs of the FX family can be compiled. Those of MELSEC-Q, L, A and QnA CPUs have instructions, devices and memory of their own, even where their names are the same.",
+    "rungc compiles programs of the FX family. MELSEC-Q, L, A and QnA CPUs have different instructions, devices and memory, even where the names are the same.",
     wrong: "",
     right: "";
 
     CODE_MISFIT = "E0019" "code-misfit" Error None,
     "the length of an instruction in the project does not fit the instruction",
-    "The code of an instruction in a project states its length in steps. Here it states another one than the instruction has with these operands, so that the code may mean another instruction. Compare the step with the editor.",
+    "The code of an instruction in a project states its length in steps. Here it differs from the length that the instruction has with these operands, so the code may mean another instruction. Compare the step with the editor.",
     wrong: "",
     right: "";
 
     DERIVED_CODES = "N0001" "derived-codes" Note None,
     "instructions read by codes that no project has shown yet",
-    "What these codes mean follows from the codes around them, but no published table and no project that was read has shown it. The message names all of them. Compare these instructions with the editor, or let `rungc learn PROJECT EXPORT` confirm them from a list that it exports.",
+    "The meaning of these codes follows from the codes around them, but no published table or known project confirms it. The message lists all of them. Compare these instructions with the editor, or let `rungc learn PROJECT EXPORT` confirm them from a list that it exports.",
     wrong: "",
     right: "";
 
     UNKNOWN_INSTRUCTION = "E0033" "unknown-instruction" Error Some(6506),
     "no model has this instruction",
-    "The mnemonic is none that the catalogue knows, in no spelling. If a similar one exists, the help names it.",
+    "The catalogue does not contain this mnemonic in any spelling. If a similar one exists, the help names it.",
     wrong: "LD X0\nMOVE K1 D0\nEND\n",
     right: "LD X0\nMOV K1 D0\nEND\n";
 
     NOT_ON_MODEL = "E0034" "not-on-model" Error Some(6506),
     "the model does not have this instruction",
-    "The instruction exists, but not on the model that the program is compiled for. The help names the models that have it; another model is chosen with `--model`.",
+    "The instruction exists, but not on the model that the program is compiled for. The help lists the models that have it; `--model` selects another model.",
     model: "l01s",
     wrong: "LD X0\nDHCMOV C235 D0 K1\nEND\n",
     right: "LD X0\nDMOV C235 D0\nEND\n";
@@ -141,8 +141,8 @@ super::codes! {
     right: "FOR K2\nLD X0\nOUT Y0\nNEXT\nEND\n";
 
     NOT_IMPLEMENTED = "E0036" "not-implemented" Error None,
-    "the compiler cannot translate this instruction yet",
-    "The instruction is known, checked and counted, but nothing implements it yet. The message names the group of instructions that is missing.",
+    "this instruction is not implemented yet",
+    "The instruction is known, checked and counted, but not implemented yet. The message names the group of instructions that is missing.",
     wrong: "",
     right: "";
 }

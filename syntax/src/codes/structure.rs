@@ -1,9 +1,9 @@
-//! Structure: what begins must end, and what may contain what.
+//! Structure: every block must be closed, and which blocks may contain which.
 
 super::codes! {
     OPEN_FOR = "E0412" "open-for" Error Some(6622),
-    "FOR that no NEXT closes",
-    "Every FOR needs its NEXT behind it, before FEND, END and the end of the routine.",
+    "FOR without NEXT",
+    "Every FOR needs a NEXT after it, before FEND, END and the end of the routine.",
     wrong: "FOR K2\nLD X0\nOUT Y0\nEND\n",
     right: "FOR K2\nLD X0\nOUT Y0\nNEXT\nEND\n";
 
@@ -20,7 +20,7 @@ super::codes! {
     right: "FOR K2\nFOR K2\nNEXT\nNEXT\nEND\n";
 
     OPEN_MC = "E0415" "open-mc" Error Some(6624),
-    "MC that no MCR closes",
+    "MC without MCR",
     "A master control zone ends with MCR of the same level.",
     wrong: "LD X0\nMC N0 M100\nLD X1\nOUT Y0\nEND\n",
     right: "LD X0\nMC N0 M100\nLD X1\nOUT Y0\nMCR N0\nEND\n";
@@ -38,38 +38,38 @@ super::codes! {
     right: "LD X0\nMC N0 M100\nLD X1\nMC N1 M101\nLD X2\nOUT Y0\nMCR N1\nMCR N0\nEND\n";
 
     OPEN_STL = "E0418" "open-stl" Error Some(6627),
-    "step ladder that no RET closes",
+    "step ladder without RET",
     "The last state of a step ladder is followed by RET.",
     wrong: "STL S0\nOUT Y0\nEND\n",
     right: "STL S0\nOUT Y0\nRET\nEND\n";
 
     LONE_RET = "E0419" "lone-ret" Error Some(6605),
     "RET outside a step ladder",
-    "RET ends the states begun with STL; none is open here.",
+    "RET ends the states that STL starts; no state is open here.",
     wrong: "LD X0\nOUT Y0\nRET\nEND\n",
     right: "STL S0\nOUT Y0\nRET\nEND\n";
 
     STL_ROW = "E0420" "stl-row" Error Some(6625),
     "nine or more STL in a row",
-    "STL in a row waits for parallel branches, of which there are at most eight.",
+    "Consecutive STL wait for parallel branches, of which there are at most eight.",
     wrong: "STL S20\nSTL S21\nSTL S22\nSTL S23\nSTL S24\nSTL S25\nSTL S26\nSTL S27\nSTL S28\nOUT Y0\nRET\nEND\n",
     right: "STL S20\nSTL S21\nOUT Y0\nRET\nEND\n";
 
     NOT_INSIDE = "E0421" "not-inside" Error Some(6606),
-    "structure inside another that must not hold it",
-    "Master control and step ladder stand in the main program, outside loops; routines stand behind FEND, outside everything. What may hold what is told in h1u-h2u-programming §8.8.",
+    "structure inside another that must not contain it",
+    "Master control and step ladders belong in the main program, outside loops; routines belong after FEND, outside everything else. h1u-h2u-programming §8.8 lists what may contain what.",
     wrong: "FOR K2\nSTL S0\nOUT Y0\nRET\nNEXT\nEND\n",
     right: "STL S0\nFOR K2\nLD X0\nOUT Y0\nNEXT\nRET\nEND\n";
 
     CROSSED = "E0422" "crossed" Error Some(6606),
     "structures that cross",
-    "Of two structures, one lies wholly inside the other or wholly outside.",
+    "Of two structures, one must be entirely inside or entirely outside the other.",
     wrong: "LD X0\nMC N0 M100\nFOR K2\nLD X1\nOUT Y0\nMCR N0\nNEXT\nEND\n",
     right: "LD X0\nMC N0 M100\nFOR K2\nLD X1\nOUT Y0\nNEXT\nMCR N0\nEND\n";
 
     FEND_INSIDE = "E0423" "fend-inside" Error Some(6632),
     "FEND inside another structure",
-    "FEND ends the main program: loops, master control zones, step ladders and routines must be closed before.",
+    "FEND ends the main program: loops, master control zones, step ladders and routines must be closed before it.",
     wrong: "FOR K2\nLD X0\nOUT Y0\nFEND\nNEXT\nEND\n",
     right: "FOR K2\nLD X0\nOUT Y0\nNEXT\nFEND\nEND\n";
 
@@ -81,13 +81,13 @@ super::codes! {
 
     LONE_RETURN = "E0425" "lone-return" Error Some(6629),
     "SRET or IRET outside a routine",
-    "SRET ends a subroutine that began with its label P, IRET an interrupt routine that began with its pointer I; both stand behind FEND.",
+    "SRET ends a subroutine that starts with its label P, IRET an interrupt routine that starts with its pointer I; both come after FEND.",
     wrong: "LD X0\nOUT Y0\nFEND\nLD X1\nOUT Y1\nIRET\nEND\n",
     right: "EI\nLD X0\nOUT Y0\nFEND\nI001\nLD X1\nOUT Y1\nIRET\nEND\n";
 
     ROUTINE_IN_MAIN = "E0426" "routine-in-main" Error Some(6606),
     "routine in the main program",
-    "Subroutines and interrupt routines stand behind FEND, where the main program has ended.",
+    "Subroutines and interrupt routines come after FEND, which ends the main program.",
     wrong: "EI\nI001\nLD X2\nOUT Y1\nIRET\nFEND\nEND\n",
     right: "EI\nFEND\nI001\nLD X2\nOUT Y1\nIRET\nEND\n";
 
@@ -99,7 +99,7 @@ super::codes! {
 
     TOO_OFTEN = "E0429" "too-often" Error None,
     "instruction used more often than the model allows",
-    "Some instructions own a piece of the hardware or of the system's memory, and a program may hold only one or two of them.",
+    "Some instructions reserve a part of the hardware or of the system's memory, and a program may contain only one or two of them.",
     wrong: "LD X0\nROTC D200 K10 K2 M0\nROTC D210 K10 K2 M20\nEND\n",
     right: "LD X0\nROTC D200 K10 K2 M0\nEND\n";
 }

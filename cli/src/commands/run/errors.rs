@@ -11,10 +11,10 @@ use rungc_syntax::{Device, DeviceClass, Index, Instr, OperandKind, Program};
 pub struct Errors<'a> {
     resolved: Resolved<'a>,
     model: &'static Model,
-    /// Whether errors are told as they come.
+    /// Whether errors are reported as they occur.
     at_once: bool,
-    /// How many have been told.
-    told: usize,
+    /// How many have been reported.
+    reported: usize,
 }
 
 impl<'a> Errors<'a> {
@@ -25,17 +25,17 @@ impl<'a> Errors<'a> {
             resolved,
             model,
             at_once,
-            told: 0,
+            reported: 0,
         }
     }
 
     /// Tells of new ones, if that is wanted.
     pub fn notice(&mut self, errors: &[OperationError]) {
         if self.at_once {
-            for error in errors.iter().skip(self.told) {
+            for error in errors.iter().skip(self.reported) {
                 tell(&format!("rungc: {}", self.describe(error)));
             }
-            self.told = errors.len();
+            self.reported = errors.len();
         }
     }
 
@@ -51,7 +51,7 @@ impl<'a> Errors<'a> {
         if let Some(error) = errors.first() {
             let (code, relay) = (error.code, self.model.error_relay.number());
             tell(&format!(
-                "rungc: a PLC shows these errors in M{relay} and D{relay}; `rungc explain {code}` tells more"
+                "rungc: a PLC reports these errors in M{relay} and D{relay}; for more, run `rungc explain {code}`"
             ));
         }
     }

@@ -99,7 +99,7 @@ impl Plotting {
         }
         if plot.is_empty() {
             return Err(Failure::Because(
-                "--plot: there is nothing to draw: no machine with an axis, no output that sends pulses, and no number or bit that --watch names".to_string(),
+                "--plot: nothing to draw: no machine with an axis, no output that sends pulses, and no number or bit in --watch".to_string(),
             ));
         }
         Ok(Plotting {

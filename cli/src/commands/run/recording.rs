@@ -33,7 +33,7 @@ impl Recording {
         let axes = plant.map_or(&[][..], Plant::axes);
         if targets.is_empty() && axes.is_empty() {
             return Err(Failure::Because(
-                "--vcd: the program has no inputs and outputs: there is nothing to record; --watch names devices".to_string(),
+                "--vcd: nothing to record: the program has no inputs and outputs; select devices with --watch".to_string(),
             ));
         }
         let of_axis = |axis: &Axis| {

@@ -45,7 +45,7 @@ pub struct Run<'a> {
     pub module: &'a Module,
     /// What it was compiled from.
     pub program: &'a Source,
-    /// Whether operation errors are told as they come.
+    /// Whether operation errors are reported as they occur.
     pub errors_at_once: bool,
     /// What is set, in the order of the times.
     pub settings: &'a [Setting],
@@ -162,7 +162,7 @@ impl Simulation<'_> {
             .line(format!("\n{}", self.view.diagram(args.duration)).trim_end_matches('\n'))?;
         for late in self.pending.by_ref() {
             tell(&format!(
-                "rungc: `{}` was not set: its time, {} ms, lies behind the last scan",
+                "rungc: `{}` was not set: its time, {} ms, is after the last scan",
                 late.target, late.at_ms
             ));
         }
@@ -274,9 +274,9 @@ impl Simulation<'_> {
 
 /// Standard output.
 struct Table {
-    /// Nobody reads it any more.
+    /// The reader has closed it.
     muted: bool,
-    /// A run that writes files goes on then.
+    /// A run that writes files continues then.
     optional: bool,
 }
 

@@ -9,7 +9,7 @@ pub enum Kind {
     Bit,
     /// As a number.
     Number,
-    /// As a number that changes of its own: it makes no row of the table by itself.
+    /// As a number that changes on its own: it does not start a row of the table.
     Running,
 }
 

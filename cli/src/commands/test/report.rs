@@ -1,4 +1,4 @@
-//! Results of tests, for people and for tools.
+//! Results of tests, human-readable and for tools.
 
 use rungc_sim::plctest::{Failure, Outcome, Report, Suite, Value};
 use serde::Serialize;

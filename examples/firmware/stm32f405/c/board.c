@@ -1,7 +1,7 @@
 /* board.c: an STM32F4 Discovery, or QEMU's netduinoplus2. The button is PA0, the lamps are PD11 to PD15. */
 #include "board.h"
 
-/* The core's clock: 16 MHz behind reset; QEMU's machine has 168 MHz. */
+/* The core's clock: 16 MHz after reset; QEMU's machine has 168 MHz. */
 #ifdef DEMO
 #define CPU_HZ 168000000u
 #else

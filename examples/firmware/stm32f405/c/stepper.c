@@ -17,7 +17,7 @@ static uint32_t now_us(void *context)
     return board_micros();
 }
 
-/* The button. Under QEMU nobody presses it: it is on from 10 to 20 ms. */
+/* The button. Under QEMU, it is pressed automatically: it is on from 10 to 20 ms. */
 static bool button(uint32_t now)
 {
 #ifdef DEMO

@@ -14,7 +14,7 @@ void board_tick_handler(uint32_t now_us)
 }
 
 #ifdef DEMO
-/* Under QEMU nobody presses the button: it is on from 2.0 to 2.1 s. What the lamps do is printed, for 30 s. */
+/* Under QEMU, the button is pressed automatically: it is on from 2.0 to 2.1 s. What the lamps do is printed, for 30 s. */
 static bool button(uint32_t now_ms)
 {
     return now_ms >= 2000u && now_ms < 2100u;

@@ -47,7 +47,7 @@ pub(crate) fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
             bytes,
             &data,
             options,
-            "the list of the project's parts cannot be read",
+            "the project's directory cannot be read",
         ),
     };
     read.program.kind = SourceKind::GxWorks2;
@@ -56,7 +56,7 @@ pub(crate) fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
 
 /// Reads the program that can be found by its bytes.
 fn recovered(name: &str, bytes: &[u8], data: &[u8], options: &ReadOptions, why: &str) -> Read {
-    // A container of its own, which may read all streams.
+    // A separate container, which may read all streams.
     let streams = Container::open(data).map_or_else(Vec::new, |inner| inner.all());
     let cpu = streams
         .iter()
@@ -87,7 +87,7 @@ fn recovered(name: &str, bytes: &[u8], data: &[u8], options: &ReadOptions, why: 
                 format!("{why}; the program was found by its bytes"),
             )
             .label("the longest program of the file")
-            .help("open the project in GX Works2, compare, and save it once more"),
+            .help("open the project in GX Works2, compare, and save it again"),
     );
     read
 }
@@ -201,15 +201,12 @@ impl<'o> Works<'o> {
         let others = self.compiled.iter().filter(|part| part.name != first.name);
         let others: Vec<_> = others.map(Part::stem).collect();
         if !others.is_empty() {
-            let message = format!(
-                "program files that are left out: {}",
-                listed(&others, NAMED)
-            );
+            let message = format!("program files that are ignored: {}", listed(&others, NAMED));
             found.push(
                 codes::PROGRAM_NOT_RUN
                     .at(Span::default(), message)
                     .label(format!("this is `{}`", first.stem()))
-                    .help("a PLC of the FX family runs one program file: move what is needed of the others into it"),
+                    .help("an FX-family PLC runs one program file: move what you need from the others into it"),
             );
         }
         Ok(first)
@@ -253,7 +250,7 @@ impl<'o> Works<'o> {
             .map(|compiled| || self.tokens(name, file, compiled.start, compiled.end));
         if self.options.compiled {
             let Some(as_compiled) = as_compiled else {
-                let message = "the project holds no compiled program".to_owned();
+                let message = "the project has no compiled program".to_owned();
                 return Ok(refused(name, file.stem(), &codes::NOT_COMPILED, message));
             };
             found.push(shown_as_compiled(format!(
@@ -289,7 +286,7 @@ impl<'o> Works<'o> {
         let what = described(&sources);
         let (Some(compiled), Some(as_compiled)) = (&compiled, as_compiled) else {
             let message =
-                format!("{what}: such a program is read as compiled, but nothing was compiled yet");
+                format!("{what}: such a program is read as compiled, but it was not compiled yet");
             return Ok(refused(name, &what, &codes::NOT_COMPILED, message));
         };
         let code = &file.bytes[compiled.start..compiled.end];
@@ -314,7 +311,7 @@ impl<'o> Works<'o> {
     /// The sources of these POUs; which cannot be read.
     fn sources(&self, pous: &[String]) -> Result<Vec<Source<'_>>, String> {
         if pous.is_empty() {
-            return Err("no task says what the program is made of".to_owned());
+            return Err("no task lists the parts of the program".to_owned());
         }
         if pous.len() > MAX_PARTS {
             return Err(format!("the tasks name more than {MAX_PARTS} POUs"));
@@ -355,9 +352,7 @@ impl<'o> Works<'o> {
                 memmem::find(code, source).is_none()
             });
             return match missing {
-                Some((part, _)) => {
-                    Age::Older(format!("`{}` is not in it as it is now", part.stem()))
-                }
+                Some((part, _)) => Age::Older(format!("`{}` has changed since", part.stem())),
                 None => Age::Newer,
             };
         }
@@ -409,8 +404,8 @@ impl<'o> Works<'o> {
                         Span::default(),
                         format!("no task runs {}", listed(&unused, NAMED)),
                     )
-                    .label("what the tasks run begins here")
-                    .help("add them to a task in GX Works2, if they are part of the program"),
+                    .label("the program that the tasks run starts here")
+                    .help("add them to a task in GX Works2 if they are part of the program"),
             );
         }
     }
@@ -483,7 +478,7 @@ fn better(source: Read, compiled: Read, pou: &str, found: &mut Diagnostics) -> R
     found.push(
         codes::SOURCE_DIFFERS
             .at(Span::default(), message)
-            .label("the ladder is taken")
+            .label("the ladder is used")
             .help(format!("{REBUILD}; `--compiled` reads what was compiled")),
     );
     source
@@ -493,7 +488,7 @@ fn damage_of_sources(why: &str) -> Diagnostic {
     codes::RECOVERED
         .at(
             Span::default(),
-            format!("{why}; the compiled program is taken"),
+            format!("{why}; the compiled program is used"),
         )
         .label("the compiled program")
         .help(REBUILD)
@@ -502,7 +497,7 @@ fn damage_of_sources(why: &str) -> Diagnostic {
 fn shown_as_compiled(message: String) -> Diagnostic {
     codes::READ_AS_COMPILED
         .at(Span::default(), message)
-        .label("the compiled program begins here")
+        .label("the compiled program starts here")
         .help("steps and automatically assigned devices are those of the last compilation")
 }
 
@@ -510,16 +505,16 @@ fn age_unknown(what: &str) -> Diagnostic {
     let message = format!("{what}: it is shown as compiled, which may be older than its source");
     codes::AGE_UNKNOWN
         .at(Span::default(), message)
-        .label("the compiled program begins here")
+        .label("the compiled program starts here")
         .help(format!(
-            "if the source was changed since, {REBUILD}; `-A W0521` leaves this warning out"
+            "if the source was changed since, {REBUILD}; `-A W0521` suppresses this warning"
         ))
 }
 
 /// A project whose program cannot be taken as it is.
 fn refused(name: &str, line: &str, code: &'static codes::Code, message: String) -> Read {
     let help = match code.id == codes::STALE_PROGRAM.id {
-        true => format!("{REBUILD}; `--compiled` reads the older program on purpose"),
+        true => format!("{REBUILD}; `--compiled` reads the older program anyway"),
         false => REBUILD.to_owned(),
     };
     super::without_program(name, line, |span| {

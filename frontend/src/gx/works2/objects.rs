@@ -65,7 +65,7 @@ impl Language {
             Language::StructuredText => "structured text",
             Language::Picture => "structured ladder or FBD",
             Language::Chart => "SFC",
-            Language::Other(_) => "in a language that is not known",
+            Language::Other(_) => "in an unknown language",
         }
     }
 }

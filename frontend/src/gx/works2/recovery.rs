@@ -24,7 +24,7 @@ pub(super) fn read(name: &str, streams: &[Vec<u8>], options: &ReadOptions) -> Op
     Some(code.read(name, encoding, options))
 }
 
-/// The program's beginning before `start`, if damage hides it: its length stands there, 32 bits that count the bytes through `END`.
+/// The program's beginning before `start`, if damage hides it: its length is stored there, 32 bits that count the bytes through `END`.
 fn stated_start(stream: &[u8], start: usize, chains: &[Chain]) -> Option<usize> {
     let end = (start..stream.len())
         .rev()

@@ -14,15 +14,15 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8004 r 0 scan "error present: on while any of M8060-M8067 except M8062 is on";
     M 8005 r 0 inert(POWER) "battery voltage is low (not on XP types)";
     M 8006 r 0 inert(POWER) "battery voltage has been low (latched)";
-    M 8007 r 0 inert(POWER) "AC power failure: comes on with M8008 after 5 ms of failure; the program goes on within the time D8008";
-    M 8008 r 0 inert(POWER) "AC power failure being detected; when it goes off the program stops and M8000 goes off";
+    M 8007 r 0 inert(POWER) "AC power failure: comes on with M8008 after 5 ms of failure; the program continues for the time in D8008";
+    M 8008 r 0 inert(POWER) "AC power failure being detected; when it turns off, the program stops and M8000 turns off";
     M 8009 r 0 inert(POWER) "24 V supply of an expansion unit has failed";
     M 8011 r 0 scan "10 ms clock: oscillates with a period of 10 ms (5 ms on, 5 ms off)";
     M 8012 r 0 scan "100 ms clock: oscillates with a period of 100 ms";
     M 8013 r 0 scan "1 s clock: oscillates with a period of 1 s";
     M 8014 r 0 scan "1 min clock: oscillates with a period of 1 minute";
     M 8015 rw 0 scan "on: real-time clock stopped; fall edge writes D8013-D8019 into the clock and restarts it";
-    M 8016 rw 0 scan "on: clock registers D8013-D8019 frozen (display), the clock goes on inside";
+    M 8016 rw 0 scan "on: clock registers D8013-D8019 frozen (display), the clock continues internally";
     M 8017 rw 0 scan "rise: round to the minute: seconds 0-29 to 0; seconds 30-59 to 0 and minute +1";
     M 8018 r 1 scan "real-time clock fitted";
     M 8019 r 0 scan "real-time clock error: a value to be set is out of its range";
@@ -44,7 +44,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8037 rw 0 scan "forced STOP: on stops the PLC";
     M 8038 rw 0 inert(SERIAL) "communication parameter setting flag";
     M 8039 rw 0 inert(HOST) "constant scan mode: a scan lasts at least D8039 ms";
-    M 8040 rw 0 scan "STL transfer inhibited: states do not transfer, outputs of the active state go on";
+    M 8040 rw 0 scan "STL transfer inhibited: states do not transfer, outputs of the active state stay driven";
     M 8041 rw 0 by("IST") "transfer start (IST)";
     M 8042 rw 0 by("IST") "start pulse: pulse output for the start input (IST)";
     M 8043 rw 0 by("IST") "home return finished (IST)";
@@ -103,7 +103,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8135 rw 0 by("pulse outputs") "Y0: separate acceleration/deceleration times and change of the pulse count while running";
     M 8136-8137 rw 0 by("pulse outputs") "Y1–2: as M8135";
     M 8140 rw 0 by("ZRN") "ZRN: CLR signal output enabled";
-    M 8141-8143 rw 0 by("pulse outputs") "Y0–2: the pulses stop when the input goes on whose number D8161–8163 hold; on MTP for Y5–7 what M8135 is";
+    M 8141-8143 rw 0 by("pulse outputs") "Y0–2: the pulses stop when the input whose number is in D8161–8163 turns on; on MTP for Y5–7 what M8135 is";
     M 8145-8146 rw 0 by("pulse outputs") "stop pulse output Y000–001";
     M 8147-8149 r 0 by("pulse outputs") "Y000–002 pulse output busy";
     M 8152 rw 0 by("pulse outputs") "stop pulse output Y002";

@@ -137,7 +137,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8473-8476 rw 0 by("PWM") "PWM: Y000–003 output signal inverted";
     D 8000 rw 200 scan "watchdog timer (ms)";
     D 8001 r 26232 scan "PLC type and system version";
-    D 8002 r 8 scan "memory capacity in k steps; 8 where it is 16 k or more, which D8102 tells";
+    D 8002 r 8 scan "memory capacity in k steps; 8 if it is 16 k or more, see D8102";
     D 8003 r 16 scan "memory kind: 10H = built-in memory";
     D 8010 r 0 scan "current scan time";
     D 8011 r 0 scan "minimum scan time";

@@ -61,7 +61,7 @@ const BASIC: &[Row] = &[
     (0x0a00, 0x0b8f, Area::Words(Class::C, 0)),
     (0x0c00, 0x0cdf, Area::Counters32),
     (0x0e00, 0x0fff, Area::Words(Class::D, 8000)),
-    // D512 and up have no place of their own here; some drivers go on.
+    // D512 and up have no separate place here; some drivers continue.
     (0x1000, 0x3fff, Area::Words(Class::D, 0)),
 ];
 
@@ -90,7 +90,7 @@ const FX2N: &[Row] = &[
 const FX3: &[Row] = &[
     (0x0a00, 0x0b8f, Area::Words(Class::C, 0)),
     (0x0c00, 0x0cdf, Area::Counters32),
-    // The place that FX2N has them at goes on working.
+    // The place that FX2N has them at still works.
     (0x0e00, 0x0fff, Area::Words(Class::D, 8000)),
     (0x1000, 0x127f, Area::Words(Class::T, 0)),
     (0x1400, 0x178f, Area::List),

@@ -176,7 +176,7 @@ fn monitor_lists() {
     client.map.set_bit(Class::X, 0, false);
     client.map.set_bit(Class::M, 10, true);
     assert_eq!(client.ask("E00179005"), "0500110006");
-    // A list that names its own sample is no loop.
+    // A list that names its own sample is not a loop.
     assert_eq!(client.ask("E1014000801810100901780BC"), "ACK");
     assert_eq!(client.ask("E00179003"), "000000");
 }

@@ -42,7 +42,7 @@ const BLOCK: u8 = b'D';
 /// Kind of a frame that asks for one.
 const ASK: u8 = b'P';
 
-/// How stations stand on the line.
+/// The state of stations on the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Net {
     enhanced: bool,
@@ -186,7 +186,7 @@ pub(super) fn receive(
     }
     if master {
         let is_expected = kind == BLOCK && link.waiting && station == link.station;
-        // An answer that comes too late is no error of the line.
+        // An answer that comes too late is not an error of the line.
         if !is_expected || net != Net::of_master(enhanced, map) {
             return Ok(());
         }

@@ -41,7 +41,7 @@ pub(super) fn is_command(byte: u8) -> bool {
     matches!(byte, READ_BITS..=TEST_WORDS | REMOTE_RUN..=LOOP_BACK)
 }
 
-/// How long a request is, as far as it tells.
+/// The length of a request, as far as it shows.
 pub(super) fn length(received: &[u8]) -> Option<usize> {
     let command = *received.first()?;
     let rest = received.get(HEAD..)?;
@@ -68,7 +68,7 @@ pub(super) fn length(received: &[u8]) -> Option<usize> {
 /// Why a frame is refused, in the codes of this frame.
 enum Refused {
     By(Refusal),
-    /// The PLC itself refuses: 5B and a code of its own.
+    /// The PLC itself refuses: 5B and a separate code.
     ByPlc(u8, LineFault),
 }
 

@@ -33,7 +33,7 @@ const MOST_ECHO: u32 = 960;
 /// What the PLC calls itself, in 16 characters; the code that follows is that of D8001.
 const NAME: &[u8; 16] = b"RUNGC           ";
 
-/// How long a request is, as far as it tells.
+/// The length of a request, as far as it shows.
 pub(super) fn length(received: &[u8]) -> Option<usize> {
     let length = received.get(HEAD - 2..HEAD)?;
     Some(HEAD + usize::from(length[0]) + 256 * usize::from(length[1]))

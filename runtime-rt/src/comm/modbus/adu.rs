@@ -1,4 +1,4 @@
-//! Frames around Modbus requests and replies: what stands before and after the function and its data.
+//! Frames around Modbus requests and replies: the parts before and after the function and its data.
 
 use super::check::{CRC_START, crc_step, crc16};
 use crate::comm::{Cut, Frame, LineFault, hex_byte};
@@ -40,7 +40,7 @@ pub(super) enum Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Takes a serial frame apart. What is wrong with it is nobody's to answer.
+    /// Takes a serial frame apart. A damaged frame is not answered.
     pub fn open(framing: Framing, frame: &'a [u8]) -> Result<Self, LineFault> {
         match framing {
             Framing::Rtu => Self::open_rtu(frame),

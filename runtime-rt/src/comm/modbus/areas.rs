@@ -50,7 +50,7 @@ impl Area {
         self
     }
 
-    /// What stands at `address`, if it is one of these.
+    /// The content of `address`, if it is one of these.
     fn place(&self, address: u16) -> Option<Place> {
         let offset = address.checked_sub(self.address)?;
         if offset >= self.count {
@@ -69,7 +69,7 @@ impl Area {
     }
 }
 
-/// What stands at one address.
+/// The content of one address.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::comm) enum Place {
     /// A bit device.
@@ -87,12 +87,12 @@ pub(in crate::comm) enum Place {
     Packed(Class, u32),
 }
 
-/// What stands at an address.
+/// The content of an address.
 pub(in crate::comm) fn place(areas: &[Area], address: u16) -> Option<Place> {
     areas.iter().find_map(|area| area.place(address))
 }
 
-/// What stands at the `count` addresses from `first` on; `None` where nothing does, or nothing that may be written.
+/// The content of the `count` addresses starting at `first`; `None` where nothing does, or nothing that may be written.
 pub(super) fn places(
     areas: &'static [Area],
     first: u16,
@@ -306,7 +306,7 @@ pub static HM: Profile = Profile {
 mod tests {
     use super::*;
 
-    /// What stands at one address.
+    /// The content of one address.
     fn at(areas: &'static [Area], address: u16) -> Option<Place> {
         places(areas, address, 1, false).next().flatten()
     }

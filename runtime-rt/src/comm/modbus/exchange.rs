@@ -2,7 +2,7 @@
 //!
 //! An instruction of the program that is driven while the port is free hands over its job ([`Exchange::begin`]). The port sends the request
 //! between scans and takes the answer. When the scan reaches that instruction again, driven or not, it learns how the exchange ended, and the
-//! next driven one has its turn: the search goes on right behind it and around (h1u-h2u-programming §5.7.1). So each has its turn, without
+//! next driven one has its turn: the search continues right after it and around (h1u-h2u-programming §5.7.1). So each has its turn, without
 //! a queue.
 
 use super::adu::Framing;
@@ -59,7 +59,7 @@ pub struct Exchange {
 /// What an instruction finds that the scan reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visit {
-    /// Nothing to do: the port works for another one or still for this one, or nobody drives it.
+    /// Nothing to do: the port works for another one or still for this one, or it is not driven.
     Pass,
     /// The port is free and this instruction driven: its turn.
     Turn,
@@ -147,7 +147,7 @@ impl Exchange {
         }
     }
 
-    /// A frame has come; `Err` says what is wrong with it. One that nobody has asked for is dropped.
+    /// A frame has come; `Err` says what is wrong with it. An unrequested one is dropped.
     pub fn receive(
         &mut self,
         framing: Framing,
@@ -162,7 +162,7 @@ impl Exchange {
         done
     }
 
-    /// The request cannot be made, or characters have come that are no answer.
+    /// The request cannot be made, or characters have come that are not an answer.
     pub fn fail(&mut self) {
         if self.phase != Phase::Free {
             self.end(End::Badly);
@@ -227,7 +227,7 @@ mod tests {
         let answer = [1, 3, 2, 0x51, 0, 0x85, 0xd4];
         let taken = exchange.receive(Framing::Rtu, &answer, &mut Served::new(&mut plc, 0));
         assert_eq!((taken, plc.d(10, 1)), (Ok(()), std::vec![0x5100]));
-        // The instruction that was switched off learns of its end; the one behind it is next.
+        // The instruction that was switched off learns of its end; the one after it is next.
         assert_eq!(
             scan(&mut exchange, [false, true, true]),
             [Over(End::Well), Turn, Pass]

@@ -11,7 +11,7 @@ use super::{COIL_ON, Exception};
 use crate::comm::{Frame, LineFault, Map};
 use crate::plc::Class;
 
-/// How data stands in the devices of a master.
+/// The layout of data in the devices of a master.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Layout {
@@ -32,7 +32,7 @@ pub enum Layout {
 pub struct Buffer {
     /// Their class.
     pub class: Class,
-    /// How data stands in them.
+    /// The layout of data in them.
     pub layout: Layout,
     /// Number of the first, or the constant.
     pub first: u32,
@@ -79,7 +79,7 @@ impl Buffer {
         }
     }
 
-    /// A word of coils with the first coil in its lowest bit, of one as it stands in the device, and the other way round.
+    /// A word of coils with the first coil in its lowest bit, of one as stored in the device, and the other way round.
     fn ordered(self, word: u16) -> u16 {
         match self.layout {
             Layout::HighFirst => word.swap_bytes(),
@@ -96,7 +96,7 @@ impl Buffer {
         Some(word >> (index % 16) & 1 == 1)
     }
 
-    /// Writes `count` coils that stand in `body` from byte `at` on. The rest of the last word is 0.
+    /// Writes `count` coils from `body`, starting at byte `at`. The rest of the last word is 0.
     fn set_coils(self, count: u16, body: Body, at: usize, map: &mut dyn Map) -> Option<()> {
         let count = u32::from(count);
         if self.layout == Layout::Bits {

@@ -1,4 +1,4 @@
-//! Slave and master held to rmodbus, which nobody here wrote.
+//! Slave and master checked against rmodbus, an independent implementation.
 
 use super::{
     Area, Buffer, Fill, Framing, Job, LONGEST_ASCII, Limits, Profile, Settings, accept, answer,

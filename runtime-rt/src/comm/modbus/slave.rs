@@ -170,7 +170,7 @@ fn read_words(
     Ok(())
 }
 
-/// The register that stands at a place.
+/// The register at a place.
 fn word(place: Place, map: &dyn Map) -> Option<u16> {
     match place {
         Place::Bit(..) => None,
@@ -185,7 +185,7 @@ fn word(place: Place, map: &dyn Map) -> Option<u16> {
     }
 }
 
-/// Writes the register that stands at a place.
+/// Writes the register at a place.
 fn set_word(place: Place, value: u16, map: &mut dyn Map) -> Option<()> {
     match place {
         Place::Bit(..) => None,

@@ -1,4 +1,4 @@
-//! Modbus TCP: the answers of a slave behind the header of the public standard ("MODBUS messaging on TCP/IP" 1.0b).
+//! Modbus TCP: the answers of a slave, with the header of the public standard ("MODBUS messaging on TCP/IP" 1.0b).
 
 use super::adu::{Body, TCP_HEADER, Writer};
 use super::slave::{refuse, serve_or_refuse};
@@ -8,7 +8,7 @@ use crate::comm::{Cut, Frame, LineFault, Map};
 /// The longest frame.
 pub const LONGEST: usize = 260;
 
-/// The units that mean the PLC itself rather than something behind it.
+/// The units that mean the PLC itself rather than a device connected to it.
 const UNITS: [u8; 3] = [0, 1, 255];
 
 /// Whether the characters so far are a frame. After [`Cut::Drop`] the connection is of no use: nothing says where a frame begins.

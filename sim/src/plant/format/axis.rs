@@ -24,10 +24,10 @@ impl Reader<'_> {
             self.report(at, "another axis follows the pulses of this output");
         } else if before.iter().any(|axis| axis.name == name) {
             let at = raw.name.as_ref().map_or(at, |name| name.span().start);
-            self.report(at, format!("there are two axes `{name}`"));
+            self.report(at, format!("two axes are named `{name}`"));
         }
         if name.is_empty() || name.contains(char::is_control) {
-            self.report(at, "the name of an axis is a text on one line");
+            self.report(at, "the name of an axis must be a single line");
         }
         let per_unit = match &raw.pulses_per_unit {
             Some(value) => self.positive(value, "pulses_per_unit")?,
@@ -81,7 +81,7 @@ impl Reader<'_> {
         match (&raw.output, &raw.forward) {
             (Some(output), None) => {
                 for span in of_motor {
-                    self.report(span.start, "this goes with `forward`, not with `output`");
+                    self.report(span.start, "this is for axes with `forward`, not `output`");
                 }
                 let number = self.output(output)?;
                 let direction = match &raw.direction {
@@ -89,11 +89,11 @@ impl Reader<'_> {
                     None => None,
                 };
                 if let (Some(name), true) = (&raw.direction, direction == Some(number)) {
-                    let message = "the direction is told by another output than the pulses";
+                    let message = "the direction output must differ from the pulse output";
                     self.report(name.span().start, message);
                 }
                 if let (None, Some(on)) = (direction, &raw.direction_on) {
-                    self.report(on.span().start, "this goes with `direction`");
+                    self.report(on.span().start, "this requires `direction`");
                 }
                 let on = raw.direction_on.as_ref().map(|on| *on.get_ref());
                 let forward = !matches!(on, Some(RawDirection::Reverse));
@@ -106,7 +106,7 @@ impl Reader<'_> {
             }
             (None, Some(forward)) => {
                 for span in of_pulses {
-                    self.report(span.start, "this goes with `output`, not with `forward`");
+                    self.report(span.start, "this is for axes with `output`, not `forward`");
                 }
                 let number = self.output(forward)?;
                 let back = match &raw.reverse {
@@ -114,7 +114,10 @@ impl Reader<'_> {
                     None => Back::Nothing,
                 };
                 let Some(speed) = &raw.speed else {
-                    self.report(at, "an axis with `forward` has a `speed` in units a second");
+                    self.report(
+                        at,
+                        "an axis with `forward` needs a `speed` in units per second",
+                    );
                     return None;
                 };
                 let speed = self.positive(speed, "speed")?;
@@ -128,8 +131,8 @@ impl Reader<'_> {
             }
             (both, _) => {
                 let message = match both {
-                    Some(_) => "an axis has `output` (pulses) or `forward` (a motor), not both",
-                    None => "an axis has `output` (pulses), or `forward` and `speed` (a motor)",
+                    Some(_) => "use `output` (pulses) or `forward` (a motor) for an axis, not both",
+                    None => "an axis needs `output` (pulses), or `forward` and `speed` (a motor)",
                 };
                 self.report(at, message);
                 None

@@ -134,7 +134,7 @@ impl<'t> Reader<'t> {
     fn machine(&mut self, raw: RawMachine) -> Plant {
         let mut plant = Plant::default();
         if raw.axis.is_empty() && raw.cylinder.is_empty() && raw.delay.is_empty() {
-            let message = "a machine has parts: write [[axis]], [[cylinder]] or [[delay]] tables";
+            let message = "the machine is empty: add [[axis]], [[cylinder]] or [[delay]] tables";
             self.report(0, message);
         }
         for axis in raw.axis {
@@ -173,7 +173,7 @@ impl<'t> Reader<'t> {
         let extended = raw.extended.as_ref().map(|name| self.input(name));
         let retracted = raw.retracted.as_ref().map(|name| self.input(name));
         if extended.is_none() && retracted.is_none() {
-            let message = "a cylinder has an input `extended`, `retracted`, or both";
+            let message = "a cylinder needs an input `extended`, `retracted`, or both";
             self.report(at, message);
         }
         let (out_ms, back_ms) = (f64::from(out_ms?), f64::from(back_ms?));
@@ -216,7 +216,7 @@ impl<'t> Reader<'t> {
     fn delay(&mut self, at: usize, raw: RawDelay) -> Option<Delay> {
         let (output, input) = (self.output(&raw.output), self.input(&raw.input));
         if raw.on_ms.is_none() && raw.off_ms.is_none() {
-            self.report(at, "a delay has `on_ms`, `off_ms`, or both");
+            self.report(at, "a delay needs `on_ms`, `off_ms`, or both");
         }
         let on_ms = raw.on_ms.map_or(Some(0), |time| self.time(&time, 0));
         let off_ms = raw.off_ms.map_or(Some(0), |time| self.time(&time, 0));

@@ -14,7 +14,7 @@ pub(super) struct Scale {
 }
 
 impl Reader<'_> {
-    /// The switches and the encoder of an axis, which switches at most so many times in its unit of length.
+    /// The switches and the encoder of an axis, which switches at most this many times in its unit of length.
     pub(super) fn switches(&mut self, raw: &RawAxis, scale: Scale, fastest: f64) -> Vec<Switch> {
         let mut switches = Vec::new();
         let home = self.home(raw, scale);
@@ -33,7 +33,7 @@ impl Reader<'_> {
         switches
     }
 
-    /// The home switch, unless told otherwise the first twentieth of the way forward from 0.
+    /// The home switch; by default, the first twentieth of the travel forward from 0.
     fn home(&mut self, raw: &RawAxis, scale: Scale) -> Option<Switch> {
         let input =
             self.switch_input("home", &raw.home, raw.home_at.as_ref().map(Spanned::span))?;
@@ -42,7 +42,7 @@ impl Reader<'_> {
             (None, Some([_, max])) if max > 0.0 => [0.0, max / 20.0],
             (None, _) => {
                 let at = raw.home.as_ref().map_or(0, |home| home.span().start);
-                let message = "where the home switch is on is told by `home_at = [from, to]`, or by a `travel` that goes beyond 0";
+                let message = "give the range of the home switch with `home_at = [from, to]`, or a `travel` that extends past 0";
                 self.report(at, message);
                 return None;
             }
@@ -51,7 +51,7 @@ impl Reader<'_> {
         Some(Switch { input, marks })
     }
 
-    /// A limit switch at the end of the way in one direction, unless told otherwise on in the last hundredth of the travel.
+    /// A limit switch at the end of the way in one direction; by default, on in the last hundredth of the travel.
     fn limit(
         &mut self,
         key: &str,
@@ -69,7 +69,7 @@ impl Reader<'_> {
             }
             (None, None) => {
                 let message =
-                    format!("where this switch is on is told by `{key}_at`, or by a `travel`");
+                    format!("give the position of this switch with `{key}_at`, or a `travel`");
                 self.report(named, message);
                 return None;
             }
@@ -98,7 +98,7 @@ impl Reader<'_> {
         match (input, position) {
             (Some(input), _) => self.input(input),
             (None, Some(position)) => {
-                self.report(position.start, format!("this goes with `{key}`"));
+                self.report(position.start, format!("this requires `{key}`"));
                 None
             }
             (None, None) => None,
@@ -111,7 +111,7 @@ impl Reader<'_> {
         let input = self.switch_input("zero_phase", &raw.zero_phase, position)?;
         let Some(every) = &raw.zero_phase_every else {
             let at = raw.zero_phase.as_ref().map_or(0, |name| name.span().start);
-            let message = "how far the axis goes in a turn is told by `zero_phase_every`";
+            let message = "`zero_phase_every` is missing, the distance per revolution";
             self.report(at, message);
             return None;
         };
@@ -133,7 +133,7 @@ impl Reader<'_> {
                 let at = every.span().start;
                 let every = self.period(every, scale.per_unit, fastest)?;
                 if to - from >= every {
-                    self.report(at, "`every` is longer than the place that comes again");
+                    self.report(at, "`every` must be longer than the range that repeats");
                     return None;
                 }
                 Marks::Periodic {

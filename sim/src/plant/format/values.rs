@@ -18,7 +18,7 @@ const SHORTEST: f64 = 1e-6;
 const LONGEST: f64 = 1e10;
 
 pub(super) const TOO_OFTEN: &str =
-    "this comes more often than 10 times a pulse, or a million times a second";
+    "this occurs more than 10 times per pulse, or a million times per second";
 
 impl Reader<'_> {
     /// A terminal of this class, by its name.
@@ -34,7 +34,10 @@ impl Reader<'_> {
                     DeviceClass::X => ("input", "X000"),
                     _ => ("output", "Y000"),
                 };
-                let message = format!("`{}` is no {what}, like `{example}`", name.get_ref());
+                let message = format!(
+                    "`{}` is not an {what}; write for example `{example}`",
+                    name.get_ref()
+                );
                 self.report(name.span().start, message);
                 None
             }
@@ -61,7 +64,7 @@ impl Reader<'_> {
             .find(|t| (t.class, t.number) == (class, number));
         if let Some(other) = other {
             let line = self.source.line_col(other.at as u32).0;
-            let message = format!("`{}` is driven in line {line} already", name.get_ref());
+            let message = format!("`{}` is already driven in line {line}", name.get_ref());
             self.report(at, message);
             return None;
         }
@@ -75,19 +78,19 @@ impl Reader<'_> {
         if length.abs() <= LONGEST {
             return Some(length);
         }
-        self.report(value.span().start, "this length is too great");
+        self.report(value.span().start, "this length is too large");
         None
     }
 
     pub(super) fn range(&mut self, value: &Spanned<Vec<f64>>, per_unit: f64) -> Option<[f64; 2]> {
         let at = value.span().start;
         let &[from, to] = value.get_ref().as_slice() else {
-            self.report(at, "this is written [from, to]");
+            self.report(at, "write this as [from, to]");
             return None;
         };
         let [from, to] = [from, to].map(|value| value * per_unit);
         if !(from.abs() <= LONGEST && to.abs() <= LONGEST) {
-            self.report(at, "this length is too great");
+            self.report(at, "this length is too large");
             return None;
         }
         if from >= to {
@@ -117,9 +120,9 @@ impl Reader<'_> {
         let fits = every * fastest >= 1.0 && (SHORTEST..=LONGEST).contains(&every);
         if !fits {
             let message = match every > 0.0 {
-                true if every > LONGEST => "this length is too great",
+                true if every > LONGEST => "this length is too large",
                 true => TOO_OFTEN,
-                false => "this length is above 0",
+                false => "this length must be above 0",
             };
             self.report(value.span().start, message);
         }
@@ -129,7 +132,7 @@ impl Reader<'_> {
     pub(super) fn time(&mut self, value: &Spanned<u32>, least: u32) -> Option<u32> {
         let fits = (least..=LONGEST_MS).contains(value.get_ref());
         if !fits {
-            let message = format!("this time is {least} to {LONGEST_MS} ms");
+            let message = format!("this time must be {least} to {LONGEST_MS} ms");
             self.report(value.span().start, message);
         }
         fits.then_some(*value.get_ref())

@@ -34,7 +34,7 @@ impl Curve {
         }
     }
 
-    /// A value that is no number is left out.
+    /// A value that is not a number is omitted.
     pub(super) fn push(&mut self, at_ms: u64, value: f64) {
         if !value.is_finite() {
             return;

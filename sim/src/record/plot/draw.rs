@@ -8,7 +8,7 @@ use svg::node::element::{Element, Group, Line, Polygon, Polyline, Rectangle, Tex
 
 /// Size of the picture and its parts, in pixels.
 const WIDTH: f64 = 900.0;
-/// Left of the panels, for scales and the names of lanes: so much at least and at most.
+/// Left of the panels, for scales and the names of lanes: minimum and maximum.
 const LEFT: [f64; 2] = [84.0, 260.0];
 const RIGHT: f64 = 20.0;
 const HEAD: f64 = 34.0;
@@ -20,7 +20,7 @@ const LANE: f64 = 24.0;
 /// Below everything, for the time.
 const FOOT: f64 = 46.0;
 
-/// Colours that people with any kind of sight tell apart (Okabe and Ito), and dashes that tell them apart without colour.
+/// Colours that are distinguishable with any kind of colour vision (Okabe and Ito), and dashes that distinguish them without colour.
 const STROKES: [(&str, &str); 6] = [
     ("#0072b2", "none"),
     ("#d55e00", "7 3"),
@@ -38,7 +38,7 @@ const LANE_FILL: &str = "#d6e6f2";
 struct Canvas {
     /// Left edge of the panels.
     left: f64,
-    /// What times are told in.
+    /// The unit of times.
     unit: Unit,
     duration_ms: f64,
     /// Until when values are held that do not change any more.
@@ -51,14 +51,14 @@ struct Canvas {
 /// A unit of time: its name and its milliseconds.
 type Unit = (&'static str, f64);
 
-/// Units of time, each with the longest time that is told in it, in milliseconds.
+/// Units of time, each with the longest time that is shown in it, in milliseconds.
 const UNITS: [(f64, Unit); 3] = [
     (1000.0, ("ms", 1.0)),
     (600_000.0, ("s", 1000.0)),
     (7_200_000.0, ("min", 60_000.0)),
 ];
 
-/// The unit that a run of this many milliseconds is told in.
+/// The unit for a run of this many milliseconds.
 fn unit(duration_ms: f64) -> Unit {
     let fits = UNITS.iter().find(|&&(longest, _)| duration_ms < longest);
     fits.map_or(("h", 3_600_000.0), |&(_, unit)| unit)

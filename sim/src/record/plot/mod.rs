@@ -22,7 +22,7 @@ pub enum Shape {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct CurveId(usize);
 
-/// A part of the diagram, with a scale of its own.
+/// A part of the diagram, with a separate scale.
 #[derive(Clone, PartialEq, Debug)]
 struct Panel {
     /// What its scale shows, with the unit.
@@ -48,7 +48,7 @@ pub struct Plot {
 }
 
 impl Plot {
-    /// An empty diagram of so much time.
+    /// An empty diagram for this much time.
     pub fn new(title: &str, duration_ms: u64) -> Plot {
         Plot {
             title: title.to_string(),
@@ -65,7 +65,7 @@ impl Plot {
         self.curves.is_empty()
     }
 
-    /// A new curve in the panel with this title, which comes below the others if it is new, too. Position and speed are told from
+    /// A new curve in the panel with this title, which comes below the others if it is new, too. Position and speed are derived from
     /// 0, other values from where they are.
     pub fn curve(&mut self, panel: &str, name: &str, shape: Shape) -> CurveId {
         let id = self.add(shape);

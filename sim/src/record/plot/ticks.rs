@@ -17,7 +17,7 @@ impl Ticks {
     pub(super) fn around(least: f64, greatest: f64, count: f64) -> Ticks {
         let (least, greatest) = match greatest - least > 0.0 {
             true => (least, greatest),
-            // A value that does not change stands in the middle.
+            // A value that does not change is in the middle.
             false => {
                 let margin = if least == 0.0 {
                     1.0

@@ -20,7 +20,7 @@ use rungc_rt::board::{
 use rungc_rt::{Axis, Hal, Program};
 use stepper::Stepper;
 
-/// Under QEMU nobody presses the button: it is on from 10 to 20 ms.
+/// Under QEMU, the button is pressed automatically: it is on from 10 to 20 ms.
 const DEMO: bool = cfg!(feature = "demo");
 
 /// What the button did.

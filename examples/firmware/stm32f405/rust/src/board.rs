@@ -6,7 +6,7 @@ use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::exception;
 
-/// The core's clock: 16 MHz behind reset; QEMU's machine has 168 MHz.
+/// The core's clock: 16 MHz after reset; QEMU's machine has 168 MHz.
 const CPU_HZ: u32 = if cfg!(feature = "demo") {
     168_000_000
 } else {
@@ -43,7 +43,7 @@ const TICK_US: u32 = 50;
 /// Time since the clock was set up: milliseconds, and microseconds, which wrap sooner.
 static TIME: Mutex<Cell<(u32, u32)>> = Mutex::new(Cell::new((0, 0)));
 
-/// What an interrupt does besides.
+/// What an interrupt also does.
 static ON_TICK: Mutex<Cell<Option<fn(u32)>>> = Mutex::new(Cell::new(None));
 
 #[exception]
@@ -81,7 +81,7 @@ pub fn millis() -> u32 {
     free(|cs| TIME.borrow(cs).get().0)
 }
 
-/// Microseconds since the clock was set up, wrapping; they go on in steps of 50.
+/// Microseconds since the clock was set up, wrapping; their resolution is 50.
 pub fn micros() -> u32 {
     free(|cs| TIME.borrow(cs).get().1)
 }

@@ -14,7 +14,7 @@ use traffic_light::TrafficLight;
 
 const SCAN_MS: u32 = 10;
 
-/// Under QEMU nobody presses the button: it is on from 2.0 to 2.1 s. What the lamps do is printed, for 30 s.
+/// Under QEMU, the button is pressed automatically: it is on from 2.0 to 2.1 s. What the lamps do is printed, for 30 s.
 const DEMO: bool = cfg!(feature = "demo");
 
 fn button(now_ms: u32) -> bool {
