@@ -17,6 +17,9 @@ pub const FRAME: usize = 528;
 /// After this much silence, a frame that has a length or an end is given up, in microseconds (Modbus over serial line §2.5.2.1).
 const GIVEN_UP_US: u32 = 1_000_000;
 
+/// The same on links that PLCs keep up by themselves, whose partners send frames without gaps: a frame that was cut off must not hold up the others.
+const LINK_GIVEN_UP_US: u32 = 50_000;
+
 /// What a port is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]
@@ -220,6 +223,8 @@ impl Session<'_> {
     fn silence_us(&self) -> u32 {
         if self.status.protocol.ends_by_silence() {
             self.status.format.silence_us() - 2
+        } else if self.role().is_some() {
+            LINK_GIVEN_UP_US
         } else {
             GIVEN_UP_US
         }

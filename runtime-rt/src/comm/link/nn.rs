@@ -37,6 +37,9 @@ const CODE_NO_MASTER: u16 = 0x11;
 /// After so long without the master a slave reports it; the longest time-out that it can set is shorter.
 const NO_MASTER_US: u32 = 3_000_000;
 
+/// Where counts of errors stop.
+const MOST_ERRORS: u16 = 10_000;
+
 /// Kind of a frame with a station's block.
 const BLOCK: u8 = b'D';
 /// Kind of a frame that asks for one.
@@ -145,7 +148,7 @@ fn fault_relay(station: u8) -> u32 {
 /// Counts an error of a station.
 fn count(station: u8, enhanced: bool, code: u16, map: &mut dyn Map) {
     let counter = D_COUNTS + u32::from(station);
-    let counted = value(counter, map).saturating_add(1);
+    let counted = value(counter, map).saturating_add(1).min(MOST_ERRORS);
     set_value(counter, counted, map);
     if !enhanced {
         set_value(D_CODES + u32::from(station), code, map);
