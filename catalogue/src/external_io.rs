@@ -237,7 +237,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(BOARDS).takes(RD3A_BOARD),
         ])
         .call(RtFn::Rd3a)
-        .lower_on(&[(L01S, Lower::Todo("serial communication")), (BOARDS, Lower::Call(RtFn::Rd3aBoard))])
+        .lower_on(&[(L01S, Lower::Call(RtFn::Rd3aModbus)), (BOARDS, Lower::Call(RtFn::Rd3aBoard))])
         .text(
             "Reads input m2 of the analog module at position m1: 1 or 2 of an FX0N-3A, 21 or 22 of an FX2N-2AD. On compatible boards \
              module 0 is the board with its own inputs, counted from 0. On L01S it reads registers by Modbus.",
@@ -253,7 +253,7 @@ pub(super) const ROWS: &[Inst] = &[
             on(BOARDS).takes(WR3A_BOARD),
         ])
         .call(RtFn::Wr3a)
-        .lower_on(&[(L01S, Lower::Todo("serial communication")), (BOARDS, Lower::Call(RtFn::Wr3aBoard))])
+        .lower_on(&[(L01S, Lower::Call(RtFn::Wr3aModbus)), (BOARDS, Lower::Call(RtFn::Wr3aBoard))])
         .text(
             "Writes S to output m2 of the analog module at position m1: 1 of an FX0N-3A, 21 or 22 of an FX2N-2DA. On compatible boards \
              module 0 is the board with its own outputs, counted from 0: the host finds S in buffer memory m2 of module 0. On L01S it writes \

@@ -164,11 +164,11 @@ const fn serial(name: &'static str, fnc: u16, title: &'static str) -> Inst {
         .todo(SERIAL)
 }
 
-const fn modbus_hm(name: &'static str, title: &'static str) -> Inst {
+const fn modbus_hm(name: &'static str, title: &'static str, function: RtFn) -> Inst {
     row(name, title, "hm-motion-controller §7")
         .forms(W16_P)
         .on(HM)
-        .todo(SERIAL)
+        .call(function)
         .text("Sends one Modbus request to station S1 on port D2, 0 RS232 or 1 RS485. S2 is the address, S3 how many.")
 }
 
@@ -273,6 +273,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(INOVANCE)
         .takes(&[any("S1"), any("S2"), any("n"), both("D", DATA).per(2)])
         .flags(&["M8122", "M8123"])
+        .call(RtFn::Modbus)
         .text("Sends a Modbus request: S1 the station and the function, S2 the address, n how many, D the data."),
     serial("CANTX", 90, "Send by CAN")
         .steps(13, 13)
@@ -291,6 +292,7 @@ pub(super) const ROWS: &[Inst] = &[
         .on(INOVANCE)
         .takes(&[any("S1"), any("S2"), any("n"), both("D", DATA).per(2), any("n1").limits(0, 3)])
         .flags(&["M8122", "M8123", "M8262", "M8263", "M8272", "M8273"])
+        .call(RtFn::Modbus2)
         .text("As MODBUS, on port n1."),
     row("UINIT", "Set up a port", "hm-motion-controller §7")
         .on(HM)
@@ -302,14 +304,14 @@ pub(super) const ROWS: &[Inst] = &[
         ])
         .call(RtFn::Uinit)
         .text("Starts port D2 with protocol S1 and format S2; D1 is the number of the first register of its work area."),
-    modbus_hm("MRDC", "Modbus: read coils").takes(READ_BITS),
-    modbus_hm("MRDI", "Modbus: read inputs").takes(READ_BITS),
-    modbus_hm("MRDD", "Modbus: read registers").takes(READ_WORDS),
-    modbus_hm("MRDAI", "Modbus: read input registers").takes(READ_WORDS),
-    modbus_hm("MWRC", "Modbus: write a coil").takes(WRITE_BIT),
-    modbus_hm("MWRD", "Modbus: write a register").takes(WRITE_WORD),
-    modbus_hm("MWRCS", "Modbus: write coils").takes(WRITE_BITS),
-    modbus_hm("MWRDS", "Modbus: write registers").takes(WRITE_WORDS),
+    modbus_hm("MRDC", "Modbus: read coils", RtFn::Mrdc).takes(READ_BITS),
+    modbus_hm("MRDI", "Modbus: read inputs", RtFn::Mrdi).takes(READ_BITS),
+    modbus_hm("MRDD", "Modbus: read registers", RtFn::Mrdd).takes(READ_WORDS),
+    modbus_hm("MRDAI", "Modbus: read input registers", RtFn::Mrdai).takes(READ_WORDS),
+    modbus_hm("MWRC", "Modbus: write a coil", RtFn::Mwrc).takes(WRITE_BIT),
+    modbus_hm("MWRD", "Modbus: write a register", RtFn::Mwrd).takes(WRITE_WORD),
+    modbus_hm("MWRCS", "Modbus: write coils", RtFn::Mwrcs).takes(WRITE_BITS),
+    modbus_hm("MWRDS", "Modbus: write registers", RtFn::Mwrds).takes(WRITE_WORDS),
     row("USEND", "Send bytes", "hm-motion-controller §7")
         .on(HM)
         .forms(W16_W32)
@@ -335,7 +337,7 @@ pub(super) const ROWS: &[Inst] = &[
     )
         .takes(&[any("S1"), any("S2"), dst("D", DATA), number("n", 2)])
         .variants(&[on(BOARDS).takes(&[any("S1"), any("S2"), dst("D", DATA).len_of(answer_words), COUNT])])
-        .lower_on(&[(BOARDS, Lower::Todo(SERIAL))]),
+        .lower_on(&[(BOARDS, Lower::Call(RtFn::Ivrd))]),
     inverter(
         "IVWR",
         273,
@@ -345,7 +347,7 @@ pub(super) const ROWS: &[Inst] = &[
     )
         .takes(&[any("S1"), any("S2"), any("S3"), number("n", 2)])
         .variants(&[on(BOARDS).takes(&[any("S1"), any("S2"), any("S3").len_of(answer_words), COUNT])])
-        .lower_on(&[(BOARDS, Lower::Todo(SERIAL))]),
+        .lower_on(&[(BOARDS, Lower::Call(RtFn::Ivwr))]),
     inverter("IVBWR", 274, "Write parameters", "Writes the S2 parameters of the table at S3 to inverter S1 on port n.")
         .on(FX3U)
         .takes(&[any("S1"), any("S2"), src("S3", DATA).open_ended(), number("n", 2)]),
@@ -368,7 +370,8 @@ pub(super) const ROWS: &[Inst] = &[
             mixed_out("D", BITS.or(DATA)).per(3).changed(),
         ])
         .flags(&["M8029"])
-        .todo(SERIAL),
+        .todo(SERIAL)
+        .lower_on(&[(L01S, Lower::Call(RtFn::Adprw))]),
     cassette("LOADR", 290, "Load from extension file registers", "Copies n words from ER to R, from number S on.")
         .takes(&[dst("S", Classes::R).per(1), number("n", 32767)])
         .twin(DeviceClass::ER)
