@@ -6,6 +6,7 @@ use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::ModelId;
 use rungc_project::Check;
 use rungc_syntax::{Severity, codes, diag};
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -225,9 +226,9 @@ pub struct Plan {
 pub struct RunArgs {
     #[command(flatten)]
     pub input: Input,
-    /// Virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds.
-    #[arg(long = "for", default_value = "1s", value_parser = crate::time::parse, value_name = "TIME")]
-    pub duration: u64,
+    /// Virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds. Default: 1s, or with a server until Ctrl-C.
+    #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
+    pub duration: Option<u64>,
     /// Scan period, in virtual time.
     #[arg(long, default_value = "10ms", value_parser = crate::time::parse, value_name = "TIME")]
     pub scan: u64,
@@ -256,6 +257,44 @@ pub struct RunArgs {
     /// Fail (exit code 1) on PLC operation errors; --verbose reports each as it occurs.
     #[arg(long)]
     pub deny_errors: bool,
+    #[command(flatten)]
+    pub serve: ServeArgs,
+}
+
+impl RunArgs {
+    /// How long it runs, in milliseconds; `None` until it is interrupted.
+    pub fn end_ms(&self) -> Option<u64> {
+        const USUAL_MS: u64 = 1000;
+        self.duration.or((!self.serve.any()).then_some(USUAL_MS))
+    }
+
+    /// Whether it keeps step with the clock.
+    pub fn in_real_time(&self) -> bool {
+        self.real_time || self.serve.any()
+    }
+}
+
+/// Servers that `run` opens.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Servers")]
+pub struct ServeArgs {
+    /// Serve all devices by Modbus TCP at this address: `127.0.0.1:5020`, or a port of this machine alone (`5020`). Runs in real time. The
+    /// protocol has no password: whoever reaches the address reads and writes every device.
+    #[arg(long, value_parser = address, value_name = "ADDRESS")]
+    pub modbus_tcp: Vec<SocketAddr>,
+    /// Serve all devices by MC protocol (frames 1E and 3E, binary), as --modbus-tcp does.
+    #[arg(long, value_parser = address, value_name = "ADDRESS")]
+    pub mc: Vec<SocketAddr>,
+    /// Serve all devices by the programming port's protocol, as --modbus-tcp does.
+    #[arg(long, value_parser = address, value_name = "ADDRESS")]
+    pub fx: Vec<SocketAddr>,
+}
+
+impl ServeArgs {
+    /// Whether there is a server.
+    pub fn any(&self) -> bool {
+        !(self.modbus_tcp.is_empty() && self.mc.is_empty() && self.fx.is_empty())
+    }
 }
 
 /// Arguments of `test`.
@@ -500,6 +539,14 @@ fn omissible(name: &str) -> Result<&'static str, String> {
         Severity::Note | Severity::Warning => Ok(code.id),
         Severity::Error => Err("errors cannot be suppressed".to_string()),
     }
+}
+
+fn address(text: &str) -> Result<SocketAddr, String> {
+    let port = text
+        .parse()
+        .map(|port| SocketAddr::from(([127, 0, 0, 1], port)));
+    port.or_else(|_| text.parse())
+        .map_err(|_| "an address is written `127.0.0.1:5020`, `[::1]:5020` or `5020`".to_string())
 }
 
 fn encoding(name: &str) -> Result<&'static Encoding, String> {

@@ -4,6 +4,7 @@ mod device;
 mod errors;
 mod plotting;
 mod recording;
+mod serving;
 mod simulate;
 mod view;
 mod wiring;
@@ -71,6 +72,8 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     let options = CompileOptions {
         name: Some(stem(&subject, &read)),
         observe: used.flat_map(observed).chain(wired).collect(),
+        // Clients may ask for any device.
+        observe_all: args.serve.any(),
         ..subject.options()
     };
     let compiled = compile(&read.program, &options);

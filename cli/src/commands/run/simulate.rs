@@ -3,6 +3,7 @@
 use super::errors::Errors;
 use super::plotting::Plotting;
 use super::recording::Recording;
+use super::serving::Servers;
 use super::view::{Column, Kind, View};
 use super::wiring::Wiring;
 use super::{Setting, device};
@@ -34,6 +35,7 @@ struct Simulation<'a> {
     plotting: Option<Plotting>,
     plant: Option<Plant>,
     errors: Errors<'a>,
+    servers: Servers,
     now_ms: u64,
 }
 
@@ -72,7 +74,10 @@ impl Run<'_> {
         };
         let plotting = match &args.plot {
             Some(path) => {
-                let duration = args.duration;
+                let duration = args.end_ms().ok_or_else(|| {
+                    let message = "--plot: state with --for how long the run takes";
+                    Failure::Because(message.to_string())
+                })?;
                 let plotting = Plotting::begin(path, &machine, around, self.watched, duration);
                 Some(plotting?)
             }
@@ -83,7 +88,10 @@ impl Run<'_> {
             hal: VirtualHal::new(),
             pending: self.settings.iter().peekable(),
             shown: self.shown,
-            view: View::new(self.shown.iter().map(|&t| column(t)).collect()),
+            view: View::new(
+                self.shown.iter().map(|&t| column(t)).collect(),
+                args.end_ms().is_some(),
+            ),
             out: Table {
                 muted: false,
                 optional: recording.is_some() || plotting.is_some(),
@@ -92,6 +100,7 @@ impl Run<'_> {
             plotting,
             plant,
             errors: Errors::new(self.program, module.model, self.errors_at_once),
+            servers: Servers::open(&args.serve, module.model)?,
             now_ms: 0,
         };
         interruption::note();
@@ -100,9 +109,9 @@ impl Run<'_> {
         simulation.errors.summarise(errors);
         let denied = args.deny_errors && !errors.is_empty();
         let cut_short = simulation.machine.watchdog_tripped() || interruption::is_asked();
-        let end_ms = match cut_short {
-            false => args.duration,
-            true => simulation.now_ms,
+        let end_ms = match args.end_ms() {
+            Some(end_ms) if !cut_short => end_ms,
+            _ => simulation.now_ms,
         };
         if let Some(recording) = simulation.recording {
             recording.keep(1000 * end_ms)?;
@@ -127,7 +136,9 @@ impl Simulation<'_> {
             // The description was held to the model, so the input exists.
             let _ = self.machine.set_bit(Class::X, number, on);
         }
+        let end_ms = args.end_ms().unwrap_or(u64::MAX);
         loop {
+            self.servers.poll(&mut self.machine);
             self.scan(args.scan)?;
             self.errors.notice(self.machine.errors());
             if self.machine.watchdog_tripped() {
@@ -140,7 +151,7 @@ impl Simulation<'_> {
                 tell(&format!("rungc: interrupted at {} ms", self.now_ms));
                 return Ok(Outcome::Interrupted);
             }
-            if self.now_ms + args.scan > args.duration {
+            if self.now_ms.saturating_add(args.scan) > end_ms {
                 break;
             }
             if self.is_idle_between_scans() {
@@ -154,12 +165,12 @@ impl Simulation<'_> {
                     }
                 }
             }
-            if args.real_time {
+            if args.in_real_time() {
                 thread::sleep(Duration::from_millis(self.now_ms).saturating_sub(begin.elapsed()));
             }
         }
         self.out
-            .line(format!("\n{}", self.view.diagram(args.duration)).trim_end_matches('\n'))?;
+            .line(format!("\n{}", self.view.diagram(end_ms)).trim_end_matches('\n'))?;
         for late in self.pending.by_ref() {
             tell(&format!(
                 "rungc: `{}` was not set: its time, {} ms, is after the last scan",

@@ -27,7 +27,7 @@ pub struct Column {
 pub struct View {
     columns: Vec<Column>,
     shown: Option<Vec<String>>,
-    /// For each bit column the moments of its changes, with the new state.
+    /// For each bit column the moments of its changes, with the new state; none if no diagram is drawn.
     traces: Vec<Vec<(u64, bool)>>,
 }
 
@@ -35,9 +35,12 @@ pub struct View {
 const DIAGRAM_WIDTH: usize = 64;
 
 impl View {
-    /// Nothing seen yet.
-    pub fn new(columns: Vec<Column>) -> Self {
-        let traces = vec![Vec::new(); columns.len()];
+    /// Nothing seen yet. What a diagram is drawn of is kept if there will be one.
+    pub fn new(columns: Vec<Column>, draws: bool) -> Self {
+        let traces = match draws {
+            true => vec![Vec::new(); columns.len()],
+            false => Vec::new(),
+        };
         View {
             columns,
             shown: None,
@@ -158,7 +161,8 @@ mod tests {
             name: name.to_string(),
             kind,
         };
-        let mut view = View::new(vec![column("Y000", Kind::Bit), column("D0", Kind::Number)]);
+        let columns = vec![column("Y000", Kind::Bit), column("D0", Kind::Number)];
+        let mut view = View::new(columns, true);
         let row =
             |view: &mut View, ms, y: &str, d: &str| view.scan(ms, &[y.to_string(), d.to_string()]);
         assert_eq!(view.heading(), "      time Y000     D0");
