@@ -1,11 +1,13 @@
 //! The generated pages of the book in `docs/src`: one for each diagnostic code, one for each family of instructions, one for the
-//! special devices of each model, and the lines of `SUMMARY.md` that list them.
+//! special devices of each model, one for the addresses of Modbus slaves, and the lines of `SUMMARY.md` that list them.
 
 use rungc_catalogue::{Family, Inst, explain, families, special_table};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::Severity;
 use rungc_syntax::codes::{self, Code};
 use std::fmt::Write;
+
+mod modbus;
 
 /// A generated page.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -19,8 +21,21 @@ pub struct Page {
 }
 
 /// All generated pages, chapter by chapter; the first page of a chapter is its index.
-pub fn chapters() -> [Vec<Page>; 3] {
-    [checks(), instructions(), special_devices()]
+pub fn chapters() -> [Vec<Page>; 4] {
+    [
+        checks(),
+        instructions(),
+        special_devices(),
+        modbus_addresses(),
+    ]
+}
+
+fn modbus_addresses() -> Vec<Page> {
+    vec![Page {
+        path: "modbus-addresses/index.md".to_owned(),
+        title: "Modbus addresses".to_owned(),
+        text: modbus::addresses(),
+    }]
 }
 
 /// `SUMMARY.md` with the pages of each chapter listed below the line of its index; all other lines stay as they are.

@@ -237,7 +237,7 @@ fn for_boards(
     let boards = compiled
         .model
         .boards
-        .filter(|_| runs && refused(compiled))?;
+        .filter(|_| runs && compiled.module.is_none())?;
     let compiled = compile_on(boards, case, program, warn);
     (!refused(&compiled)).then_some(compiled)
 }
