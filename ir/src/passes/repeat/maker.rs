@@ -1,0 +1,164 @@
+//! Making the body of a loop of its first iteration.
+
+use super::pair::coil;
+use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
+use crate::walk::{operands, operands_mut};
+
+/// The drive of a statement that only sets and resets bits, and what it does to each.
+fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Place, bool)>)> {
+    let Stmt::If {
+        cond,
+        then,
+        otherwise,
+    } = stmt
+    else {
+        return None;
+    };
+    let writes = then.iter().map(|stmt| match *stmt {
+        Stmt::WriteBit(place, value) => match *module.expr(value) {
+            Expr::Bit(on) => Some((place, on)),
+            _ => None,
+        },
+        _ => None,
+    });
+    let writes: Vec<_> = writes.collect::<Option<_>>()?;
+    (otherwise.is_empty() && !writes.is_empty()).then_some((*cond, writes))
+}
+
+/// Makes the body of a loop of a first iteration.
+pub(super) struct Maker<'m, S> {
+    pub(super) module: &'m mut Module,
+    pub(super) iteration: TempId,
+    /// How far the devices are from those of the next iteration, in the order in which the iteration names them.
+    pub(super) strides: S,
+}
+
+impl<S: Iterator<Item = u32>> Maker<'_, S> {
+    pub(super) fn body(&mut self, body: &[Stmt]) -> Body {
+        let mut out = Body::with_capacity(body.len());
+        for stmt in body {
+            match sets(self.module, stmt) {
+                Some((cond, writes)) => self.sets(cond, writes, &mut out),
+                None => out.push(self.stmt(stmt)),
+            }
+        }
+        out
+    }
+
+    /// SET and RST as assignments, `M0 := M0 | drive`: compilers do not vectorise what is done on a condition.
+    fn sets(&mut self, cond: ExprId, writes: Vec<(Place, bool)>, out: &mut Body) {
+        let mut drive = self.expr(cond);
+        if writes.len() > 1 {
+            let temp = TempId(self.module.temps.len() as u32);
+            self.module.temps.push(Ty::Bit);
+            out.push(Stmt::Let(temp, drive));
+            drive = self.module.add(Expr::Temp(temp));
+        }
+        for (place, on) in writes {
+            let place = self.place(place);
+            let before = self.module.add(Expr::ReadBit(place));
+            let after = match on {
+                true => Expr::Or(before, drive),
+                false => {
+                    let others = self.module.add(Expr::Not(drive));
+                    Expr::And(before, others)
+                }
+            };
+            out.push(Stmt::WriteBit(place, self.module.add(after)));
+        }
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) -> Stmt {
+        match stmt {
+            Stmt::Let(temp, value) => Stmt::Let(*temp, self.expr(*value)),
+            &Stmt::Edge {
+                edge,
+                kind,
+                input,
+                out,
+                ..
+            } => Stmt::Edge {
+                edge,
+                index: self.index(),
+                kind,
+                input: self.expr(input),
+                out,
+            },
+            Stmt::WriteBit(place, value) => {
+                let place = self.place(*place);
+                Stmt::WriteBit(place, self.expr(*value))
+            }
+            Stmt::WriteWord(place, value) => {
+                let place = self.place(*place);
+                Stmt::WriteWord(place, self.expr(*value))
+            }
+            Stmt::Timer { .. } | Stmt::Counter16 { .. } => self.coil(stmt),
+            Stmt::Reset(place) => Stmt::Reset(self.place(*place)),
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => Stmt::If {
+                cond: self.expr(*cond),
+                then: self.body(then),
+                otherwise: self.body(otherwise),
+            },
+            other => other.clone(),
+        }
+    }
+
+    fn expr(&mut self, id: ExprId) -> ExprId {
+        let mut expr = *self.module.expr(id);
+        if let Expr::ReadBit(place) | Expr::ReadWord(place) = &mut expr {
+            *place = self.place(*place);
+        } else if operands(&expr).next().is_none() {
+            return id;
+        } else {
+            operands_mut(&mut expr).for_each(|operand| *operand = self.expr(*operand));
+        }
+        self.module.add(expr)
+    }
+
+    /// A coil of a timer or counter. All iterations have one kind of timers, so its number decides it.
+    fn coil(&mut self, stmt: &Stmt) -> Stmt {
+        let Some((place, drive, preset)) = coil(stmt) else {
+            return stmt.clone();
+        };
+        let place = self.place(place);
+        let (drive, preset) = (self.expr(drive), self.expr(preset));
+        match (stmt, place.index) {
+            (Stmt::Timer { .. }, Some(_)) => Stmt::TimerAt {
+                place,
+                drive,
+                preset,
+            },
+            (&Stmt::Timer { number, kind, .. }, None) => Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            },
+            (_, Some(_)) => Stmt::Counter16At {
+                place,
+                drive,
+                preset,
+            },
+            (_, None) => Stmt::Counter16 {
+                number: place.number,
+                drive,
+                preset,
+            },
+        }
+    }
+
+    fn place(&mut self, place: Place) -> Place {
+        let index = self.index();
+        Place { index, ..place }
+    }
+
+    /// What leads from the next thing named in the first iteration to that of the present one, if it is another.
+    fn index(&mut self) -> Option<ExprId> {
+        let stride = self.strides.next().unwrap_or_default();
+        (stride > 0).then(|| self.module.add(Expr::Stride(self.iteration, stride)))
+    }
+}

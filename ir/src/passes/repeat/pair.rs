@@ -1,0 +1,181 @@
+//! Comparing two iterations, statement by statement.
+
+use crate::node::{Expr, ExprId, Module, Place, Stmt, TempId};
+use crate::walk::{operands, operands_mut};
+use rungc_syntax::DeviceClass;
+use std::collections::HashMap;
+
+/// What an iteration names, and how much higher the number of the next iteration's is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct Named {
+    pub(super) kind: Kind,
+    pub(super) number: u32,
+    pub(super) stride: u32,
+}
+
+/// What can differ between iterations.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Device(DeviceClass),
+    /// The memory of an edge.
+    Edge,
+}
+
+/// Two iterations side by side.
+pub(super) struct Pair<'m> {
+    module: &'m Module,
+    /// Temporaries of the first iteration, and what they are in the other.
+    temps: HashMap<TempId, TempId>,
+    /// What both name.
+    named: Vec<Named>,
+}
+
+impl<'m> Pair<'m> {
+    /// What two iterations name, in order, and by how much the numbers of the other one are higher; `None` if they differ otherwise.
+    pub(super) fn of(module: &'m Module, one: &[Stmt], other: &[Stmt]) -> Option<Vec<Named>> {
+        let mut pair = Pair {
+            module,
+            temps: HashMap::new(),
+            named: Vec::new(),
+        };
+        pair.body(one, other)?;
+        Some(pair.named)
+    }
+
+    fn body(&mut self, one: &[Stmt], other: &[Stmt]) -> Option<()> {
+        if one.len() != other.len() {
+            return None;
+        }
+        let mut both = one.iter().zip(other);
+        both.try_for_each(|(one, other)| self.stmt(one, other))
+    }
+
+    fn stmt(&mut self, one: &Stmt, other: &Stmt) -> Option<()> {
+        match (one, other) {
+            (Stmt::Network(_), Stmt::Network(_)) => Some(()),
+            (&Stmt::Let(temp, value), &Stmt::Let(with, other)) => {
+                self.expr(value, other)?;
+                self.temps.insert(temp, with);
+                Some(())
+            }
+            (
+                &Stmt::Edge {
+                    edge,
+                    kind,
+                    input,
+                    out,
+                    ..
+                },
+                &Stmt::Edge {
+                    edge: with_edge,
+                    kind: with_kind,
+                    input: with_input,
+                    out: with_out,
+                    ..
+                },
+            ) => {
+                (kind == with_kind).then_some(())?;
+                self.named(Kind::Edge, edge.0, with_edge.0)?;
+                self.expr(input, with_input)?;
+                self.temps.insert(out, with_out);
+                Some(())
+            }
+            (&Stmt::WriteBit(place, value), &Stmt::WriteBit(to, other))
+            | (&Stmt::WriteWord(place, value), &Stmt::WriteWord(to, other)) => {
+                self.place(place, to)?;
+                self.expr(value, other)
+            }
+            // A shared timer is driven in several places, which repeated rungs seldom do.
+            (&Stmt::Timer { kind, .. }, &Stmt::Timer { kind: other, .. })
+                if kind != other || kind.shared =>
+            {
+                None
+            }
+            (Stmt::Timer { .. }, Stmt::Timer { .. })
+            | (Stmt::Counter16 { .. }, Stmt::Counter16 { .. }) => {
+                let (one, other) = (coil(one)?, coil(other)?);
+                self.place(one.0, other.0)?;
+                self.expr(one.1, other.1)?;
+                self.expr(one.2, other.2)
+            }
+            (&Stmt::Reset(place), &Stmt::Reset(with)) => self.place(place, with),
+            (
+                Stmt::If {
+                    cond,
+                    then,
+                    otherwise,
+                },
+                Stmt::If {
+                    cond: other_cond,
+                    then: other_then,
+                    otherwise: other_otherwise,
+                },
+            ) => {
+                self.expr(*cond, *other_cond)?;
+                self.body(then, other_then)?;
+                self.body(otherwise, other_otherwise)
+            }
+            _ => None,
+        }
+    }
+
+    fn expr(&mut self, one: ExprId, other: ExprId) -> Option<()> {
+        match (*self.module.expr(one), *self.module.expr(other)) {
+            (Expr::ReadBit(place), Expr::ReadBit(with))
+            | (Expr::ReadWord(place), Expr::ReadWord(with)) => self.place(place, with),
+            (Expr::Temp(temp), Expr::Temp(with)) => {
+                (self.temps.get(&temp).copied().unwrap_or(temp) == with).then_some(())
+            }
+            (one, other) => {
+                // They are alike if they are the same with the same operands, and these are alike.
+                let mut like_other = one;
+                for (operand, others) in operands_mut(&mut like_other).zip(operands(&other)) {
+                    *operand = others;
+                }
+                let mut both = operands(&one).zip(operands(&other));
+                (like_other == other).then_some(())?;
+                both.try_for_each(|(a, b)| self.expr(a, b))
+            }
+        }
+    }
+
+    fn place(&mut self, one: Place, other: Place) -> Option<()> {
+        let same = one.class == other.class && one.index.is_none() && other.index.is_none();
+        same.then_some(())?;
+        self.named(Kind::Device(one.class), one.number, other.number)
+    }
+
+    fn named(&mut self, kind: Kind, number: u32, other: u32) -> Option<()> {
+        let stride = other.checked_sub(number)?;
+        self.named.push(Named {
+            kind,
+            number,
+            stride,
+        });
+        Some(())
+    }
+}
+
+/// The device of a coil of a timer or counter, its drive and its preset.
+pub(super) fn coil(stmt: &Stmt) -> Option<(Place, ExprId, ExprId)> {
+    let (class, number, drive, preset) = match *stmt {
+        Stmt::Timer {
+            number,
+            drive,
+            preset,
+            ..
+        } => (DeviceClass::T, number, drive, preset),
+        Stmt::Counter16 {
+            number,
+            drive,
+            preset,
+        } => (DeviceClass::C, number, drive, preset),
+        _ => return None,
+    };
+    let place = Place {
+        class,
+        number,
+        index: None,
+    };
+    Some((place, drive, preset))
+}

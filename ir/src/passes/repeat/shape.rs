@@ -1,0 +1,118 @@
+//! What statements have in common that differ in their devices only, as a number to compare them by.
+
+use crate::node::{Expr, ExprId, Module, Place, Stmt};
+use crate::walk::operands;
+use rungc_models::runs::is_counter32;
+use rungc_syntax::DeviceClass;
+use rustc_hash::FxHasher;
+use std::hash::{Hash, Hasher};
+
+/// How many operations a statement of an iteration may be.
+const LARGEST_STATEMENT: u64 = 500;
+
+/// What statements have in common that differ in their devices only.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shape {
+    hash: u64,
+    /// How many operations they are.
+    pub(super) size: u64,
+}
+
+/// The shape of a statement that a loop may have; `None` for any other.
+pub(super) fn shape(module: &Module, stmt: &Stmt) -> Option<Shape> {
+    let mut hasher = FxHasher::default();
+    let mut size = 0;
+    add_stmt(module, stmt, &mut hasher, &mut size)?;
+    Some(Shape {
+        hash: hasher.finish(),
+        size,
+    })
+}
+
+fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64) -> Option<()> {
+    std::mem::discriminant(stmt).hash(hasher);
+    *size += 1;
+    match stmt {
+        Stmt::Network(_) => *size -= 1,
+        Stmt::Let(_, value) => add_expr(module, *value, hasher, size)?,
+        Stmt::Edge { input, .. } => add_expr(module, *input, hasher, size)?,
+        Stmt::WriteBit(place, value) | Stmt::WriteWord(place, value) => {
+            add_place(*place, hasher)?;
+            add_expr(module, *value, hasher, size)?;
+        }
+        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+            add_expr(module, *drive, hasher, size)?;
+            add_expr(module, *preset, hasher, size)?;
+        }
+        Stmt::Reset(place) => add_place(*place, hasher)?,
+        Stmt::If {
+            cond,
+            then,
+            otherwise,
+        } => {
+            add_expr(module, *cond, hasher, size)?;
+            for body in [then, otherwise] {
+                body.len().hash(hasher);
+                for stmt in body {
+                    add_stmt(module, stmt, hasher, size)?;
+                }
+            }
+        }
+        _ => return None,
+    }
+    Some(())
+}
+
+fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) -> Option<()> {
+    let expr = module.expr(id);
+    std::mem::discriminant(expr).hash(hasher);
+    *size += 1;
+    if *size > LARGEST_STATEMENT {
+        return None;
+    }
+    match expr {
+        Expr::ReadBit(place) | Expr::ReadWord(place) => add_place(*place, hasher),
+        Expr::Bit(_)
+        | Expr::I16(_)
+        | Expr::I32(_)
+        | Expr::Temp(_)
+        | Expr::Sys(_)
+        | Expr::Flag(_)
+        | Expr::Not(_)
+        | Expr::And(..)
+        | Expr::Or(..)
+        | Expr::Cmp(..)
+        | Expr::Bin(..)
+        | Expr::Complement(_)
+        | Expr::Neg(_)
+        | Expr::Widen(_)
+        | Expr::Narrow(_)
+        | Expr::HighWord(_)
+        | Expr::BitToInt(_) => {
+            operands(expr).try_for_each(|operand| add_expr(module, operand, hasher, size))
+        }
+        Expr::F32(_)
+        | Expr::Un(..)
+        | Expr::Float(..)
+        | Expr::ReadWordBit(..)
+        | Expr::ReadPair(_)
+        | Expr::ReadFloat(_)
+        | Expr::ReadNibbles { .. }
+        | Expr::Cell(_)
+        | Expr::Entry(..)
+        | Expr::Stride(..)
+        | Expr::Within { .. }
+        | Expr::InRange { .. } => None,
+    }
+}
+
+fn add_place(place: Place, hasher: &mut FxHasher) -> Option<()> {
+    use DeviceClass::{C, D, M, R, S, T, X, Y};
+    place.class.hash(hasher);
+    let may = match place.class {
+        X | Y | M | S | T | D | R => true,
+        C => !is_counter32(place.class, place.number),
+        _ => false,
+    };
+    (place.index.is_none() && may).then_some(())
+}
