@@ -30,7 +30,10 @@ fn display_words(constants: &[Option<i64>]) -> Option<u32> {
 /// Local modules are 0 to 7, remote ones 100 and their station.
 const MODULE: Param = count("m1", 0, 162).rules(&[Rule::Not(8, 99)]);
 const ADDRESS: Param = count("m2", 0, 32767);
-const NUMBER: Param = count("n", 1, 32767);
+const NUMBER: Param = number("n");
+const fn number(name: &'static str) -> Param {
+    count(name, 1, 32767)
+}
 const FROM: &[Param] = &[MODULE, ADDRESS, dst("D", RESULTS).per(3), NUMBER];
 const TO: &[Param] = &[MODULE, ADDRESS, src("S", WRITTEN).per(3), NUMBER];
 /// What H1U and H2U write to a module: constants appear in the worked examples, groups of inputs nowhere.
@@ -280,12 +283,12 @@ pub(super) const ROWS: &[Inst] = &[
             MODULE_FX,
             ADDRESS.also(DATA),
             dst("D", DATA).per(3),
-            NUMBER.also(DATA),
+            number("n1").also(DATA),
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
         .call(RtFn::Rbfm)
-        .text("Copies n words of the buffer memory of module m1 from address m2 on to D, n2 words in each scan."),
+        .text("Copies n1 words of the buffer memory of module m1 from address m2 on to D, n2 words in each scan."),
     io("WBFM", 279, "Write to a module in parts")
         .on(FX3U)
         .steps(11, 11)
@@ -293,10 +296,10 @@ pub(super) const ROWS: &[Inst] = &[
             MODULE_FX,
             ADDRESS.also(DATA),
             src("S", DATA).per(3),
-            NUMBER.also(DATA),
+            number("n1").also(DATA),
             src("n2", CONSTANTS.or(DATA)).limits(1, 32767),
         ])
         .flags(&["M8029", "M8328", "M8329"])
         .call(RtFn::Wbfm)
-        .text("Copies n words from S on to the buffer memory of module m1 from address m2 on, n2 words in each scan."),
+        .text("Copies n1 words from S on to the buffer memory of module m1 from address m2 on, n2 words in each scan."),
 ];

@@ -8,25 +8,24 @@ use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 
 const PULSES: &str = "pulse output";
-/// An output that sends pulses and keeps a position.
-const POSITION_OUTPUT: Param = coil("D", Classes::Y).plain().positions();
+/// An output that sends pulses and keeps a position, by itself and with a direction.
+const POSITION_OUTPUT: Param = position_output("D");
+const PULSE_OUTPUT: Param = position_output("D1");
+const fn position_output(name: &'static str) -> Param {
+    coil(name, Classes::Y).plain().positions()
+}
 const DIRECTION: Param = coil("D2", COILS);
 const DISTANCE: Param = src("S1", VALUES);
 const SPEED: Param = src("S2", VALUES);
-const MOVE: &[Param] = &[DISTANCE, SPEED, POSITION_OUTPUT, DIRECTION];
+const MOVE: &[Param] = &[DISTANCE, SPEED, PULSE_OUTPUT, DIRECTION];
 /// A speed of at least 10 Hz; in 32 bits, up to the model's highest.
 const fn speed(name: &'static str, wide: &'static [Rule]) -> Param {
     src(name, VALUES).limits(10, 32767).rules(wide)
 }
 const INOVANCE_HZ: &[Rule] = &[Rule::WideLimits(10, 100_000)];
 const L01S_HZ: &[Rule] = &[Rule::WideLimits(10, 200_000)];
-const MOVE_INOVANCE: &[Param] = &[
-    DISTANCE,
-    speed("S2", INOVANCE_HZ),
-    POSITION_OUTPUT,
-    DIRECTION,
-];
-const MOVE_L01S: &[Param] = &[DISTANCE, speed("S2", L01S_HZ), POSITION_OUTPUT, DIRECTION];
+const MOVE_INOVANCE: &[Param] = &[DISTANCE, speed("S2", INOVANCE_HZ), PULSE_OUTPUT, DIRECTION];
+const MOVE_L01S: &[Param] = &[DISTANCE, speed("S2", L01S_HZ), PULSE_OUTPUT, DIRECTION];
 const MOVE_HM: &[Param] = &[
     src("D1", CONSTANTS.or(DATA)).limits(-16_000_000, 16_000_000),
     src("D2", CONSTANTS.or(DATA)),
@@ -56,32 +55,32 @@ const RETURN_L01S: &[Param] = &[
     bit("S3", BITS),
     POSITION_OUTPUT,
 ];
-const FREE: &[Param] = &[src("S", VALUES), POSITION_OUTPUT, DIRECTION];
+const FREE: &[Param] = &[src("S", VALUES), PULSE_OUTPUT, DIRECTION];
 const FREE_INOVANCE: &[Param] = &[
     src("S", VALUES)
         .limits(-32768, 32767)
         .rules(&[Rule::WideLimits(-100_000, 100_000), Rule::Not(0, 0)]),
-    POSITION_OUTPUT,
+    PULSE_OUTPUT,
     DIRECTION,
 ];
 const FREE_L01S: &[Param] = &[
     src("S", VALUES)
         .limits(-32768, 32767)
         .rules(&[Rule::WideLimits(-200_000, 200_000), Rule::Not(0, 0)]),
-    POSITION_OUTPUT,
+    PULSE_OUTPUT,
     DIRECTION,
 ];
 const SEARCH: &[Param] = &[
     bit("S1", BITS),
     bit("S2", Classes::X),
-    POSITION_OUTPUT,
+    PULSE_OUTPUT,
     coil("D2", Classes::Y.or(Classes::M)),
 ];
 /// The types of H1U and H2U with more than three outputs have no DSZR.
 const SEARCH_INOVANCE: &[Param] = &[
     bit("S1", BITS).numbers(SEARCH_RELAYS),
     bit("S2", Classes::X),
-    POSITION_OUTPUT.numbers(&[(DeviceClass::Y, 0, 2)]),
+    PULSE_OUTPUT.numbers(&[(DeviceClass::Y, 0, 2)]),
     coil("D2", Classes::Y.or(Classes::M)).numbers(SEARCH_RELAYS),
 ];
 const SEARCH_RELAYS: &[(DeviceClass, u32, u32)] = &[(DeviceClass::M, 0, 1023)];
