@@ -223,11 +223,24 @@ impl Generator<'_> {
         });
         let family = format_ident!("{}", format!("{:?}", self.module.model.ports));
         let type_code = Literal::u16_unsuffixed(self.module.model.type_code());
+        let (class, runs) = (self.rt("Class"), self.rt("Runs"));
+        let areas = self.module.layout.areas.iter();
+        let areas = areas.map(|area| (area.class, area.first, area.first + area.count - 1));
+        let rows: Vec<_> = areas.collect();
+        let rows = rows.into_iter().map(|(class, first, last)| {
+            let [first, last] = [first, last].map(Literal::u32_unsuffixed);
+            let class = self.class(class);
+            quote!((#class, #first, #last))
+        });
+        let rows: Vec<_> = rows.collect();
         Some(quote! {
             fn port(&mut self, number: u8) -> Option<&mut #port> {
                 match number { #(#arms)* _ => None }
             }
             fn ports(&self) -> #ports { #ports::#family }
+            fn stores(&self, class: #class, number: u32) -> bool {
+                #runs(&[#(#rows),*]).has(class, number)
+            }
             fn type_code(&self) -> u16 { #type_code }
         })
     }

@@ -37,7 +37,7 @@ impl Lowerer<'_> {
             self.specials.whole.extend(ANYWHERE);
         }
         if needs.port || needs.names_port || needs.any_port {
-            self.use_ports(needs);
+            self.use_ports(needs, function);
         }
         if needs.signals {
             self.find_signals(function, slot);
@@ -352,7 +352,8 @@ fn through(first: &OperandKind, last: &OperandKind) -> Option<u32> {
     }
 }
 
-fn constant(operand: &OperandKind) -> Option<i64> {
+/// The value of a constant without an index.
+pub(super) fn constant(operand: &OperandKind) -> Option<i64> {
     match *operand {
         OperandKind::Decimal(value, None) => Some(value),
         OperandKind::Hex(value, None) => i64::try_from(value).ok(),

@@ -1,8 +1,9 @@
 //! The serial ports that a program uses or sets up, or that a host opens.
 
 use super::Lowerer;
-use rungc_rt::Needs;
+use super::call::constant;
 use rungc_rt::comm::PortWiring;
+use rungc_rt::{Needs, RtFn};
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 
 /// Relays of the errors of programming ports and of other ports, and registers of their codes.
@@ -11,17 +12,17 @@ const ERRORS: [u32; 2] = [8062, 8063];
 impl Lowerer<'_> {
     /// The ports that an instruction uses: that of RS, those that a register may name, or the one that its last operand names; all if that
     /// is not a constant.
-    pub(super) fn use_ports(&mut self, needs: Needs) {
+    pub(super) fn use_ports(&mut self, needs: Needs, function: RtFn) {
+        if function == RtFn::Uinit && self.takes_work_area() {
+            self.specials.whole.push(DeviceClass::D);
+        }
         let ports = self.model.ports;
         let named = self
             .instr()
             .operands
             .last()
-            .and_then(|operand| match operand.kind {
-                OperandKind::Decimal(number, None) => i32::try_from(number).ok(),
-                OperandKind::Hex(number, None) => i32::try_from(number).ok(),
-                _ => None,
-            });
+            .and_then(|operand| constant(&operand.kind));
+        let named = named.and_then(|number| i32::try_from(number).ok());
         let masters = ports.all().iter().filter(|wiring| wiring.sends != 0);
         let masters = masters.map(|wiring| wiring.number);
         let all = ports.all().iter().map(|wiring| wiring.number);
@@ -31,6 +32,15 @@ impl Lowerer<'_> {
             Some(named) => self.module.ports.extend(ports.named(named)),
             None => self.module.ports.extend(all),
         }
+    }
+
+    /// Whether UINIT sets up a protocol with a work area, whose registers name others: free protocol, or master of a computer link
+    /// (hm-motion-controller §6.2).
+    fn takes_work_area(&self) -> bool {
+        const LINK_MASTER: i64 = 2;
+        const FREE: i64 = 5;
+        let protocol = self.operand(0).and_then(constant);
+        protocol.is_none_or(|word| matches!(word >> 8, LINK_MASTER | FREE))
     }
 
     /// Adds the ports that a host opens and that the program sets up; their special devices are stored.

@@ -366,6 +366,10 @@ impl Plc for Map {
         }
     }
 
+    fn stores(&self, class: Class, number: u32) -> bool {
+        matches!(self.find(class, number), Found::At(..))
+    }
+
     fn state(&mut self, slot: u16) -> &mut State {
         let layout = *self.layout();
         if slot == 0 || slot > layout.state_count {

@@ -1,8 +1,8 @@
 //! A PLC for the tests of this crate: all devices, no layout.
 
 use crate::{
-    Axis, Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, Pulses, RtFn, Site, State, Sys,
-    VirtualHal, d,
+    Axis, Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, Port, Ports, Pulses, RtFn, Site,
+    State, Sys, VirtualHal, d,
 };
 use std::collections::HashMap;
 use std::vec::Vec;
@@ -14,6 +14,10 @@ pub struct Double {
     counters: HashMap<u32, i32>,
     states: Vec<State>,
     axes: [Axis; 3],
+    /// Serial ports 0 to 3.
+    ports: Vec<Port>,
+    /// Of which family.
+    pub family: Ports,
     /// Time and mode.
     pub sys: Sys,
     /// Hardware.
@@ -60,6 +64,8 @@ impl Double {
             counters: HashMap::new(),
             states: std::vec![State::default(); 8],
             axes: [Axis::new(); 3],
+            ports: std::vec![Port::new(); 4],
+            family: Ports::Inovance,
             sys: Sys {
                 running: true,
                 first_scan: true,
@@ -151,6 +157,14 @@ impl Double {
         done
     }
 
+    /// Brings the serial ports to this time.
+    pub fn advance_ports(&mut self, now_us: u32) -> Option<bool> {
+        let mut hal = core::mem::take(&mut self.hal);
+        let request = crate::advance_ports(self, &mut hal, now_us);
+        self.hal = hal;
+        request
+    }
+
     /// Calls a function that is called in every scan, with this drive, `dt_ms` after the last scan.
     pub fn scan(&mut self, dt_ms: u32, drive: bool, function: RtFn, ops: &[Operand]) -> Done {
         self.sys.dt_ms = dt_ms;
@@ -205,6 +219,14 @@ impl Plc for Double {
 
     fn axis(&mut self, output: u32) -> Option<&mut Axis> {
         self.axes.get_mut(output as usize)
+    }
+
+    fn port(&mut self, number: u8) -> Option<&mut Port> {
+        self.ports.get_mut(usize::from(number))
+    }
+
+    fn ports(&self) -> Ports {
+        self.family
     }
 
     fn pulses(&self) -> Pulses {

@@ -177,6 +177,11 @@ pub trait Plc {
     fn counter32(&self, number: u32) -> Option<i32>;
     /// Sets the current value of a 32-bit counter.
     fn set_counter32(&mut self, number: u32, value: i32) -> Option<()>;
+    /// Whether a device that the model has is stored, so that partners on a line may ask for it.
+    fn stores(&self, class: Class, number: u32) -> bool {
+        let _ = (class, number);
+        true
+    }
     /// Private memory of an instruction.
     fn state(&mut self, slot: u16) -> &mut State;
     /// Time and mode.

@@ -22,7 +22,8 @@ impl Runs {
             .any(|&(c, from, to)| c == class && i64::from(from) <= first && last <= i64::from(to))
     }
 
-    fn has(self, class: Class, number: u32) -> bool {
+    /// Whether a device is among them.
+    pub fn has(self, class: Class, number: u32) -> bool {
         self.0
             .iter()
             .any(|&(c, from, to)| c == class && from <= number && number <= to)

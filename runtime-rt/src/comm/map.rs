@@ -41,7 +41,8 @@ pub trait Map {
     }
 }
 
-/// A running program as its ports serve it.
+/// A running program as its ports serve it: all devices that it stores. An emitted program stores those that it names; the interpreter, and
+/// programs compiled with `observe_all`, store all.
 pub struct Served<'a> {
     plc: &'a mut dyn Plc,
     type_code: u16,
@@ -64,32 +65,46 @@ impl<'a> Served<'a> {
     }
 }
 
+impl Served<'_> {
+    /// Refuses what is not stored.
+    fn stored(&self, class: Class, number: u32) -> Option<()> {
+        self.plc.stores(class, number).then_some(())
+    }
+}
+
 impl Map for Served<'_> {
     fn bit(&self, class: Class, number: u32) -> Option<bool> {
+        self.stored(class, number)?;
         self.plc.bit(class, number)
     }
 
     fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
+        self.stored(class, number)?;
         self.plc.set_bit(class, number, value)
     }
 
     fn word(&self, class: Class, number: u32) -> Option<i16> {
+        self.stored(class, number)?;
         self.plc.word(class, number)
     }
 
     fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
+        self.stored(class, number)?;
         self.plc.set_word(class, number, value)
     }
 
     fn counter32(&self, number: u32) -> Option<i32> {
+        self.stored(Class::C, number)?;
         self.plc.counter32(number)
     }
 
     fn set_counter32(&mut self, number: u32, value: i32) -> Option<()> {
+        self.stored(Class::C, number)?;
         self.plc.set_counter32(number, value)
     }
 
     fn reset(&mut self, class: Class, number: u32) -> Option<()> {
+        self.stored(class, number)?;
         self.plc.reset(class, number)
     }
 

@@ -61,6 +61,8 @@ pub mod mc;
 mod memory;
 pub mod modbus;
 mod port;
+#[cfg(test)]
+mod port_tests;
 mod qlink;
 mod slaves;
 #[cfg(test)]

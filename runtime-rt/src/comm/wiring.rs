@@ -142,6 +142,8 @@ pub struct PortWiring {
     pub time_out: u32,
     /// Unit of the time-out, in microseconds.
     pub time_out_unit_us: u32,
+    /// The first of the three registers that show what UINIT has set up.
+    pub uinit: u32,
     /// Relay: RS waits to send.
     pub waits: u32,
     /// Relay: RS is to send; a master's instruction is in work.
@@ -189,6 +191,7 @@ const fn bare(number: u8, choice: Choice) -> PortWiring {
         end: 0,
         time_out: 0,
         time_out_unit_us: 10_000,
+        uinit: 0,
         waits: 0,
         sends: 0,
         done: 0,
@@ -266,10 +269,12 @@ const L01S: [PortWiring; 3] = [
 const HM: [PortWiring; 2] = [
     PortWiring {
         error: 0,
+        uinit: 8120,
         ..bare(0, Choice::Uinit)
     },
     PortWiring {
         error: 0,
+        uinit: 8123,
         one_pair: true,
         ..bare(1, Choice::Uinit)
     },

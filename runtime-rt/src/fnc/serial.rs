@@ -215,6 +215,11 @@ pub fn uinit(cx: &mut Cx) -> Done {
     };
     port.status.uinit = [protocol as u16, format as u16, area as u16];
     port.status.protocol = Protocol::Off;
+    if let Some(wiring) = number.and_then(|number| cx.plc.ports().get(number)) {
+        for (register, word) in (wiring.uinit..).zip([protocol, format, area]) {
+            let _ = cx.plc.set_word(Class::D, register, word);
+        }
+    }
     const FREE: u16 = 5;
     if protocol as u16 >> 8 == FREE {
         free::check_area(cx.plc, area as u16 as u32);

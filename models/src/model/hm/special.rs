@@ -89,12 +89,12 @@ pub(super) const HM: &[Special] = specials! {
     D 8045 r 0 inert(MAKER) "longest time taken by timer interrupts";
     D 8100-8107 rw 0 scan "mirror of index register V0–7";
     D 8108-8115 rw 0 scan "mirror of index register Z0–7";
-    D 8120 rw 0 inert(SERIAL) "UART0 protocol control word";
-    D 8121 rw 0 inert(SERIAL) "UART0 byte control word";
-    D 8122 rw 7000 inert(SERIAL) "UART0: first D register it occupies";
-    D 8123 rw 0 inert(SERIAL) "UART1 protocol control word";
-    D 8124 rw 0 inert(SERIAL) "UART1 byte control word";
-    D 8125 rw 7020 inert(SERIAL) "UART1: first D register it occupies";
+    D 8120 rw 0 by("UINIT") "UART0 protocol control word";
+    D 8121 rw 0 by("UINIT") "UART0 byte control word";
+    D 8122 rw 7000 by("UINIT") "UART0: first D register it occupies";
+    D 8123 rw 0 by("UINIT") "UART1 protocol control word";
+    D 8124 rw 0 by("UINIT") "UART1 byte control word";
+    D 8125 rw 7020 by("UINIT") "UART1: first D register it occupies";
     D 8129 rw 7100 inert(SERIAL) "first D register occupied by extensions";
     D 8160-8167 r 0 scan "count of rising edges of X000–007 (up to 5 kHz)";
     D 8180-8185 rw 0 inert(MODES) "output mode of Y000..Y005: 0 PLC, 1 high-speed event output, 2 motion axis pulse/direction";

@@ -1,0 +1,181 @@
+//! Ports against a virtual line: whole exchanges, and any characters at all.
+
+use super::{CharFault, Ports, Received};
+use crate::double::{Double, reg};
+use crate::{Class, Plc, RtFn, k};
+use proptest::prelude::*;
+use std::vec::Vec;
+
+/// How long a character takes at 9600 bit/s and 10 bits, in microseconds.
+const CHARACTER_US: u32 = 1042;
+
+/// An H2U in RUN whose COM1 has these registers.
+fn plc(protocol: i32, format: i32) -> Double {
+    let mut plc = Double::new().with_d(8126, &[protocol]);
+    plc.set_d(8120, &[format, 1]);
+    plc.set_d(8129, &[10]);
+    plc.sys.first_scan = false;
+    plc.advance_ports(0);
+    plc
+}
+
+/// Characters come to COM1 back to back from this time on, without faults.
+fn feed(plc: &mut Double, from_us: u32, bytes: &[u8]) -> u32 {
+    let mut at_us = from_us;
+    for &byte in bytes {
+        at_us += CHARACTER_US;
+        let character = Received {
+            at_us,
+            byte,
+            fault: CharFault::None,
+        };
+        plc.hal.line(1).unwrap().feed(character).unwrap();
+    }
+    at_us
+}
+
+/// What COM1 has sent by this time.
+fn sent(plc: &mut Double, now_us: u32) -> Vec<u8> {
+    let line = plc.hal.line(1).unwrap();
+    std::iter::from_fn(|| line.take(now_us).map(|character| character.byte)).collect()
+}
+
+/// Time goes on to this moment in milliseconds.
+fn pass(plc: &mut Double, from_us: u32, to_us: u32) {
+    for ms in from_us / 1000..=to_us / 1000 {
+        plc.advance_ports(ms * 1000);
+    }
+}
+
+#[test]
+fn a_slave_answers_after_silence_and_takes_the_next_frame() {
+    let mut plc = plc(2, 0x81);
+    plc.set_d(100, &[0x5100]);
+    let request = [1, 3, 0, 0x64, 0, 1, 0xc5, 0xd5];
+    let end_us = feed(&mut plc, 0, &request);
+    pass(&mut plc, 0, end_us + 3000);
+    assert_eq!(sent(&mut plc, 100_000), []);
+    pass(&mut plc, end_us + 3000, end_us + 5000);
+    assert_eq!(sent(&mut plc, 100_000), [1, 3, 2, 0x51, 0, 0x85, 0xd4]);
+    pass(&mut plc, end_us + 5000, 50_000);
+    let end_us = feed(&mut plc, 50_000, &request);
+    pass(&mut plc, 50_000, end_us + 20_000);
+    assert_eq!(sent(&mut plc, 100_000).len(), 7);
+}
+
+#[test]
+fn what_comes_while_a_half_duplex_port_sends_is_not_received() {
+    let mut plc = plc(2, 0x81);
+    let request = [1, 3, 0, 0x64, 0, 1, 0xc5, 0xd5];
+    let end_us = feed(&mut plc, 0, &request);
+    pass(&mut plc, 0, end_us + 4000);
+    feed(&mut plc, end_us + 4000, &request[..5]);
+    pass(&mut plc, end_us + 4000, 100_000);
+    assert_eq!(sent(&mut plc, 200_000).len(), 7);
+    assert_eq!(plc.bit(Class::M, 8063), Some(false));
+}
+
+#[test]
+fn the_protocol_is_bound_until_stop() {
+    let mut plc = plc(2, 0x81);
+    plc.set_d(8126, &[3]);
+    pass(&mut plc, 0, 5000);
+    let end_us = feed(&mut plc, 5000, b":010300640001");
+    pass(&mut plc, 5000, end_us + 5000);
+    // Characters without a sum are a bad frame of RTU.
+    assert_eq!(plc.d(8063, 1), [6343]);
+    plc.sys.set_running(false);
+    plc.advance_ports(end_us + 6000);
+    let status = plc.port(1).unwrap().status;
+    assert_eq!(
+        (status.protocol, status.bound),
+        (super::Protocol::ModbusAscii, false)
+    );
+}
+
+/// RS D10 K4 D50 K4, driven.
+fn rs(plc: &mut Double) {
+    plc.site.drive = true;
+    plc.call(RtFn::Rs, &[reg(10), k(4), reg(50), k(4)]).unwrap();
+}
+
+#[test]
+fn rs_sends_marks_around_its_data_and_waits_for_them() {
+    let mut plc = plc(0x10, 0x781);
+    plc.set_d(8124, &[2, 3]);
+    plc.set_d(10, &[0x4241, 0x4443]);
+    rs(&mut plc);
+    plc.set_bit(Class::M, 8122, true);
+    pass(&mut plc, 0, 3000);
+    assert_eq!(plc.bit(Class::M, 8122), Some(true));
+    pass(&mut plc, 3000, 20_000);
+    assert_eq!(sent(&mut plc, 20_000), b"\x02ABCD\x03");
+    assert_eq!(
+        (plc.bit(Class::M, 8122), plc.d(8122, 1)[0]),
+        (Some(false), 0)
+    );
+    let end_us = feed(&mut plc, 20_000, b"x\x02ab\x03");
+    pass(&mut plc, 20_000, end_us + 1000);
+    assert_eq!(plc.bit(Class::M, 8123), Some(true));
+    assert_eq!((plc.d(50, 2), plc.d(8123, 1)[0]), (std::vec![0x6261, 0], 2));
+    // What comes before the program takes notice is lost.
+    let end_us = feed(&mut plc, end_us + 1000, b"\x02cd\x03");
+    pass(&mut plc, end_us, end_us + 1000);
+    assert_eq!(plc.d(50, 1), [0x6261]);
+}
+
+#[test]
+fn rs_shows_an_answer_that_does_not_go_on() {
+    let mut plc = plc(0x10, 0x481);
+    rs(&mut plc);
+    let end_us = feed(&mut plc, 0, b"ab");
+    pass(&mut plc, 0, end_us + 99_000);
+    assert_eq!(plc.bit(Class::M, 8124), Some(true));
+    pass(&mut plc, end_us + 99_000, end_us + 102_000);
+    let flags = [8123, 8124, 8129].map(|relay| plc.bit(Class::M, relay).unwrap());
+    assert_eq!((flags, plc.d(8123, 1)[0]), ([false, false, true], 2));
+}
+
+#[test]
+fn rs_under_another_protocol_is_an_error_of_the_port() {
+    let mut plc = plc(2, 0x81);
+    rs(&mut plc);
+    assert_eq!(
+        (plc.bit(Class::M, 8063), plc.d(8063, 1)[0]),
+        (Some(true), 6349)
+    );
+}
+
+fn any_character() -> impl Strategy<Value = (u8, u8, u32)> {
+    (any::<u8>(), 0..20u8, 0..40u32)
+}
+
+proptest! {
+    /// Whatever comes, with whatever faults and gaps, a port neither panics nor writes where its protocol may not.
+    #[test]
+    fn no_characters_do_harm(
+        family in prop::sample::select(std::vec![Ports::Inovance, Ports::L01s, Ports::Hm, Ports::Fx, Ports::Board]),
+        protocol in 0..0x90i32,
+        format: i16,
+        marks: [u8; 2],
+        characters in prop::collection::vec(any_character(), 0..700),
+    ) {
+        let mut plc = plc(protocol, format.into());
+        plc.family = family;
+        plc.set_d(8124, &marks.map(i32::from));
+        let mut now_us = 0;
+        for (byte, fault, gap_ms) in characters {
+            rs(&mut plc);
+            now_us += CHARACTER_US + if gap_ms < 5 { gap_ms * 1000 } else { 0 };
+            let character = Received { at_us: now_us, byte, fault: CharFault::of(fault) };
+            for port in 0..4 {
+                plc.hal.line(port).unwrap().feed(character);
+            }
+            plc.advance_ports(now_us);
+        }
+        let free = [0x00, 0x10].contains(&protocol) && family == Ports::Inovance && format >> 14 & 1 == 0;
+        if free {
+            prop_assert_eq!(plc.d(52, 10), std::vec![0; 10]);
+        }
+    }
+}
