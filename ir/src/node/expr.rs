@@ -1,0 +1,198 @@
+//! Expressions: values, without effects.
+
+use super::{BinOp, CellId, ExprId, FlagId, FloatOp, TableId, TempId, UnOp};
+use rungc_rt::{CmpOp, Register, Relay};
+use rungc_syntax::DeviceClass;
+
+/// Type of an expression or temporary.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum Ty {
+    /// Contact state.
+    Bit,
+    /// Signed 16-bit.
+    I16,
+    /// Signed 32-bit.
+    I32,
+    /// Single-precision float.
+    F32,
+}
+
+/// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression). A special register that is another name of
+/// an index register is that register, however a place or a run leads to it ([`rungc_models::Model::canonical`]).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub struct Place {
+    /// Class.
+    pub class: DeviceClass,
+    /// Number without the index.
+    pub number: u32,
+    /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold; that of an
+    /// [`Expr::Stride`] does. Which devices it may lead to says [`crate::reach`]; all of them are stored. An indexed
+    /// access of a word of C200 and up reads the low word, and writes the sign-extended word.
+    pub index: Option<ExprId>,
+}
+
+impl From<Relay> for Place {
+    fn from(relay: Relay) -> Self {
+        Place {
+            class: DeviceClass::M,
+            number: relay.number(),
+            index: None,
+        }
+    }
+}
+
+impl From<Register> for Place {
+    fn from(register: Register) -> Self {
+        Place {
+            class: DeviceClass::D,
+            number: register.number(),
+            index: None,
+        }
+    }
+}
+
+/// What the scan driver knows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
+pub enum SysValue {
+    /// `Bit`: in RUN (M8000).
+    Running,
+    /// `Bit`: first scan since RUN began (M8002).
+    FirstScan,
+    /// `I32`: milliseconds since power-on, wrapping, constant in a scan.
+    NowMs,
+    /// `I32`: duration of the last scan in units of 0.1 ms (D8010).
+    Scan100us,
+}
+
+/// An expression.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Expr {
+    /// `Bit` constant.
+    Bit(bool),
+    /// `I16` constant.
+    I16(i16),
+    /// `I32` constant.
+    I32(i32),
+    /// `F32` constant.
+    F32(f32),
+    /// A temporary's value.
+    Temp(TempId),
+    /// State of a bit device; for T and C the contact.
+    ReadBit(Place),
+    /// Bit 0–15 of a word device.
+    ReadWordBit(Place, u8),
+    /// `I16`: word device; for T and C0–C199 the current value.
+    ReadWord(Place),
+    /// `I32`: the pair (n+1, n); for C200 and up the current value; for Z on models where `z_pairs_with_v` the pair (Vn, Zn).
+    ReadPair(Place),
+    /// `F32`: the pair's bits as a float.
+    ReadFloat(Place),
+    /// `4 * digits` bits from a bit device as an integer, zero-extended: `I16` if `digits` ≤ 4 and not `wide`, else `I32`.
+    ReadNibbles {
+        /// First bit.
+        place: Place,
+        /// 1 to 8.
+        digits: u8,
+        /// As `I32`.
+        wide: bool,
+    },
+    /// A value of the scan driver.
+    Sys(SysValue),
+    /// State of a flag.
+    Flag(FlagId),
+    /// `I32`: value of a cell.
+    Cell(CellId),
+    /// `I32`: entry of a table. The index, an `I32`, must be known to be at least 0 and less than the table's length.
+    Entry(TableId, ExprId),
+    /// `I32`: the number of an iteration of the enclosing [`Stmt::Repeat`](super::Stmt::Repeat), times this factor (at least 1). Occurs only as an index.
+    Stride(TempId, u32),
+    /// Not, of a `Bit`.
+    Not(ExprId),
+    /// And, of two `Bit`s; both are evaluated (they have no effects).
+    And(ExprId, ExprId),
+    /// Or, of two `Bit`s.
+    Or(ExprId, ExprId),
+    /// Comparison of two `I16`, two `I32` or two `F32`; `Bit`.
+    Cmp(CmpOp, ExprId, ExprId),
+    /// Integer operator.
+    Bin(BinOp, ExprId, ExprId),
+    /// Function of one value.
+    Un(UnOp, ExprId),
+    /// Float operator, of two finite `F32`s.
+    Float(FloatOp, ExprId, ExprId),
+    /// Bitwise complement of an integer.
+    Complement(ExprId),
+    /// Two's complement negation of an integer; MIN stays MIN.
+    Neg(ExprId),
+    /// `I16` to `I32`, sign-extended.
+    Widen(ExprId),
+    /// `I32` to `I16`, low word.
+    Narrow(ExprId),
+    /// `I32` to `I16`, high word.
+    HighWord(ExprId),
+    /// `Bit` to `I16`: 0 or 1.
+    BitToInt(ExprId),
+    /// `I32`: a value that is known to lie between these ends where it is evaluated: how far an index leads ([`crate::ranges`]).
+    Within {
+        /// The value, an `I32`.
+        value: ExprId,
+        /// The least it is.
+        low: i32,
+        /// The most it is.
+        high: i32,
+    },
+    /// `Bit`: whether `count` devices from `place` on all exist on the model, in one run of it ([`rungc_models::Model::in_range`]).
+    InRange {
+        /// First device.
+        place: Place,
+        /// How many.
+        count: u32,
+    },
+}
+
+/// Type of an expression of an arena.
+pub fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
+    match exprs[id.0 as usize] {
+        Expr::Bit(_)
+        | Expr::ReadBit(_)
+        | Expr::ReadWordBit(..)
+        | Expr::Not(_)
+        | Expr::And(..)
+        | Expr::Or(..)
+        | Expr::Cmp(..)
+        | Expr::Flag(_)
+        | Expr::InRange { .. } => Ty::Bit,
+        Expr::I16(_)
+        | Expr::ReadWord(_)
+        | Expr::Narrow(_)
+        | Expr::HighWord(_)
+        | Expr::BitToInt(_) => Ty::I16,
+        Expr::I32(_)
+        | Expr::ReadPair(_)
+        | Expr::Widen(_)
+        | Expr::Cell(_)
+        | Expr::Stride(..)
+        | Expr::Within { .. }
+        | Expr::Entry(..) => Ty::I32,
+        Expr::F32(_)
+        | Expr::ReadFloat(_)
+        | Expr::Float(..)
+        | Expr::Un(UnOp::ToFloat | UnOp::Negate, _) => Ty::F32,
+        Expr::Un(UnOp::IsBcd | UnOp::IsFinite, _) => Ty::Bit,
+        Expr::Un(UnOp::Root | UnOp::Truncate, _) => Ty::I32,
+        Expr::Un(UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd, a) => {
+            type_of(exprs, temps, a)
+        }
+        Expr::Temp(temp) => temps[temp.0 as usize],
+        Expr::ReadNibbles { wide, .. } => {
+            if wide {
+                Ty::I32
+            } else {
+                Ty::I16
+            }
+        }
+        Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
+        Expr::Sys(SysValue::NowMs | SysValue::Scan100us) => Ty::I32,
+        Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => type_of(exprs, temps, a),
+    }
+}

@@ -1,0 +1,30 @@
+//! Handles: what expressions, statements and a module call each other by.
+
+/// Handle of an expression in [`Module::exprs`](super::Module::exprs).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct ExprId(pub u32);
+
+/// Handle of a temporary; its type is in [`Module::temps`](super::Module::temps). Assigned by [`Stmt::Let`](super::Stmt::Let), [`Stmt::Edge`](super::Stmt::Edge) or [`Stmt::Fetch`](super::Stmt::Fetch) before any use on
+/// every path, in the same [`Function`](super::Function), which may be in a body around or before the use; some are assigned in several places.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct TempId(pub u32);
+
+/// Handle of an edge memory: one bit, off at power-on and when RUN begins. Several statements may share one: each stores its input.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct EdgeId(pub u32);
+
+/// Handle of a [`Flag`](super::Flag) in [`Module::flags`](super::Module::flags).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct FlagId(pub u32);
+
+/// Handle of a [`Cell`](super::Cell) in [`Module::cells`](super::Module::cells).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct CellId(pub u32);
+
+/// Handle of a [`Table`](super::Table) in [`Module::tables`](super::Module::tables).
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct TableId(pub u32);
+
+/// Label of a part, unique in its function.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
+pub struct LabelId(pub u32);

@@ -1,0 +1,286 @@
+//! Modules: a program with all that belongs to it.
+
+use super::{Body, Expr, ExprId, Stmt, Ty, type_of};
+use crate::layout::Layout;
+use crate::walk::{calls_runtime, statements};
+use rungc_models::{Model, Range};
+use rungc_rt::EdgeKind;
+use rungc_rt::special::D_WATCHDOG_MS;
+use rungc_syntax::{DeviceClass, Span};
+use std::borrow::Cow;
+
+/// A private bit with a name; off at power-on and when RUN begins.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Flag {
+    /// An identifier in lower case, unique in the module: `x000_rose`.
+    pub name: String,
+    /// What it means, for a comment.
+    pub meaning: &'static str,
+    /// Set each time that this many milliseconds of RUN have passed since the last time, or since RUN began
+    /// ([`rungc_rt::Program::tick`]); `None`: by the program only.
+    pub period_ms: Option<u32>,
+    /// Set when a train of pulses of this output Y has been sent to its end ([`rungc_rt::Axis::take_end`], asked whenever pulses are counted).
+    pub pulses_end: Option<u32>,
+}
+
+/// A private `I32` with a name; 0 at power-on.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Cell {
+    /// An identifier in lower case, unique in the module: `c235_preset`.
+    pub name: String,
+    /// What it means, for a comment.
+    pub meaning: &'static str,
+    /// Set to the time, as for [`SysValue::NowMs`](super::SysValue::NowMs), each time that a host reports it ([`rungc_rt::Program::tick`]).
+    pub follows_time: bool,
+}
+
+/// Private `I32`s with a name; all 0 at power-on.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Table {
+    /// An identifier in lower case, unique in the module: `table1`.
+    pub name: String,
+    /// What it means, for a comment.
+    pub meaning: &'static str,
+    /// How many, at least 1.
+    pub length: u32,
+}
+
+/// How many steps a scan may repeat for each millisecond of the watchdog time D8000: more than the fastest PLC executes.
+pub const STEPS_PER_MS: u32 = 10_000;
+
+/// The watchdog time of a model without D8000.
+const WATCHDOG_MS: i16 = 200;
+
+/// A network: a run of rungs that a comment in the emitted code introduces.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Network {
+    /// Step number of its first instruction.
+    pub step: u32,
+    /// Its place in the source.
+    pub span: Span,
+    /// Line statement above it.
+    pub statement: Option<String>,
+    /// Note beside its coil.
+    pub note: Option<String>,
+}
+
+/// What a function is called by.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum FunctionKind {
+    /// The main program.
+    Main,
+    /// Before each scan's main program: special relays and registers. Runs in STOP too, where nothing else does.
+    Begin,
+    /// After it, before the output refresh: END processing.
+    End,
+    /// A subroutine, by its pointer number.
+    Subroutine(u32),
+    /// An interrupt routine, by its pointer number.
+    Interrupt(u32),
+    /// Runs the interrupt routines that are requested. `Main` calls it at the start of each network, and after code that sets or resets
+    /// a relay that requests or forbids one where relays keep requests (HM); `End` calls it first, and a host may between two scans
+    /// ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt routine is itself. What is
+    /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::Interrupts::precedence`] tells which comes
+    /// first.
+    TakeInterrupts,
+    /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.
+    InputEdge {
+        /// Terminal X, a plain number.
+        input: u32,
+        /// Which change.
+        kind: EdgeKind,
+    },
+    /// Calls the instructions that send pulses and look at inputs ([`rungc_rt::Needs::signals`]) once more, with the drive that they had
+    /// last. The edges of these inputs call it, when the device X shows them, and so do interrupts that may give the signal.
+    Signals,
+}
+
+/// A function: no parameters, no result, no recursion.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Function {
+    /// What it is.
+    pub kind: FunctionKind,
+    /// What it does.
+    pub body: Body,
+}
+
+/// A compiled program.
+#[derive(Clone, Debug)]
+pub struct Module {
+    /// Name for files and types, an identifier in lower case: `motor`.
+    pub name: String,
+    /// Name of the source for the header comment: `MAIN.csv`.
+    pub source_name: String,
+    /// Steps of the program.
+    pub steps: u32,
+    /// The model.
+    pub model: &'static Model,
+    /// The devices of the model, with those latched that the project's parameters choose: [`Model::ranges`] if they say nothing.
+    pub ranges: Cow<'static, [Range]>,
+    /// Expressions; an expression's operands have lower handles.
+    pub exprs: Vec<Expr>,
+    /// Types of the temporaries.
+    pub temps: Vec<Ty>,
+    /// How many edge memories there are.
+    pub edges: u32,
+    /// How many private memories there are; slots 1..=states are used.
+    pub states: u16,
+    /// Slots 1..=run_states are those of the program's instructions, which RUN begins anew; the others last until power-off.
+    pub run_states: u16,
+    /// Texts.
+    pub texts: Vec<String>,
+    /// Private bits.
+    pub flags: Vec<Flag>,
+    /// Private numbers.
+    pub cells: Vec<Cell>,
+    /// Private rows of numbers.
+    pub tables: Vec<Table>,
+    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, `TakeInterrupts` if there
+    /// are any of these, `Signals` if there are any, and one for each edge that means something.
+    pub functions: Vec<Function>,
+    /// Outputs Y at which instructions send pulses, in order, each once. Their [`rungc_rt::Axis`] is idle at power-on. Pulses are counted
+    /// ([`rungc_rt::advance_pulses`]) at the start of each scan before `Begin`, and each time that a host reports the time
+    /// ([`rungc_rt::Program::tick`]).
+    pub pulse_outputs: Vec<u32>,
+    /// Serial ports, in order: those that instructions use, that the program sets up, and that a host opens. They are brought up to date
+    /// ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time that a host reports the time.
+    pub ports: Vec<u8>,
+    /// Networks that [`Stmt::Network`] names.
+    pub networks: Vec<Network>,
+    /// Comments on devices.
+    pub comments: Vec<(DeviceClass, u32, String)>,
+    /// Stored devices.
+    pub layout: Layout,
+    /// Special registers' values at power-on, of those stored.
+    pub initial_words: Vec<(u32, i16)>,
+    /// Special relays that are on at power-on, of those stored.
+    pub initial_bits: Vec<u32>,
+}
+
+impl Module {
+    /// A program of no instructions, whose three functions do nothing. `name` is an identifier in lower case.
+    pub fn empty(name: String, source_name: String, model: &'static Model) -> Self {
+        let function = |kind| Function {
+            kind,
+            body: Body::new(),
+        };
+        Module {
+            name,
+            source_name,
+            steps: 0,
+            model,
+            ranges: Cow::Borrowed(model.ranges),
+            exprs: Vec::new(),
+            temps: Vec::new(),
+            edges: 0,
+            states: 0,
+            run_states: 0,
+            texts: Vec::new(),
+            flags: Vec::new(),
+            cells: Vec::new(),
+            tables: Vec::new(),
+            pulse_outputs: Vec::new(),
+            ports: Vec::new(),
+            functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
+                .map(function)
+                .into(),
+            networks: Vec::new(),
+            comments: Vec::new(),
+            layout: Layout::default(),
+            initial_words: Vec::new(),
+            initial_bits: Vec::new(),
+        }
+    }
+
+    /// The ranges of a class, in order.
+    pub fn ranges_of(&self, class: DeviceClass) -> impl Iterator<Item = &Range> {
+        self.ranges.iter().filter(move |r| r.class == class)
+    }
+
+    /// The expression of a handle.
+    pub fn expr(&self, id: ExprId) -> &Expr {
+        &self.exprs[id.0 as usize]
+    }
+
+    /// Whether a host has to report input edges and time.
+    pub fn takes_events(&self) -> bool {
+        let by_host = |f: &Function| {
+            matches!(
+                f.kind,
+                FunctionKind::InputEdge { .. } | FunctionKind::TakeInterrupts
+            )
+        };
+        self.sends_pulses() || self.has_ports() || self.functions.iter().any(by_host)
+    }
+
+    /// Whether it has pulse outputs.
+    pub fn sends_pulses(&self) -> bool {
+        !self.pulse_outputs.is_empty()
+    }
+
+    /// Whether it has serial ports.
+    pub fn has_ports(&self) -> bool {
+        !self.ports.is_empty()
+    }
+
+    /// The flags with a period, and their periods in milliseconds.
+    pub fn periods(&self) -> impl Iterator<Item = (&Flag, u32)> {
+        let flags = self.flags.iter();
+        flags.filter_map(|flag| flag.period_ms.map(|ms| (flag, ms)))
+    }
+
+    /// Whether a host has to report the time between scans.
+    pub fn takes_time(&self) -> bool {
+        let taken = |f: &Function| f.kind == FunctionKind::TakeInterrupts;
+        self.sends_pulses()
+            || self.has_ports()
+            || self.cells.iter().any(|cell| cell.follows_time)
+            || self.functions.iter().any(taken)
+    }
+
+    /// The steps that a scan may repeat in loops and by jumps back, with this watchdog time (D8000, at least 1): each [`Stmt::Watch`] takes
+    /// its share. They are given anew when a scan begins, and last until the next one does.
+    pub fn scan_steps(watchdog_ms: i16) -> u32 {
+        watchdog_ms.max(1).unsigned_abs() as u32 * STEPS_PER_MS
+    }
+
+    /// The watchdog time D8000 at power-on, in milliseconds: that of a program that does not look at D8000.
+    pub fn watchdog_ms(&self) -> i16 {
+        let mut words = self.model.special_words();
+        let found = words.find(|&(number, _)| number == D_WATCHDOG_MS.number());
+        found.map_or(WATCHDOG_MS, |(_, ms)| ms)
+    }
+
+    /// Whether the watchdog may cut a scan short.
+    pub fn has_watchdog(&self) -> bool {
+        self.any_statement(|stmt| matches!(stmt, Stmt::Watch { .. }))
+    }
+
+    /// Whether an instruction may fault, or something in the program stops the PLC: then a host can ask what it was
+    /// ([`rungc_rt::LastError`]).
+    pub fn may_fail(&self) -> bool {
+        self.any_statement(|stmt| {
+            calls_runtime(stmt)
+                || matches!(stmt, Stmt::Watch { .. } | Stmt::Fault { .. } | Stmt::Stop)
+        })
+    }
+
+    fn any_statement(&self, is_it: impl Fn(&Stmt) -> bool) -> bool {
+        let mut found = false;
+        for function in &self.functions {
+            statements(&function.body, &mut |stmt| found |= is_it(stmt));
+        }
+        found
+    }
+
+    /// Adds an expression.
+    pub fn add(&mut self, expr: Expr) -> ExprId {
+        self.exprs.push(expr);
+        ExprId(self.exprs.len() as u32 - 1)
+    }
+
+    /// Type of an expression.
+    pub fn ty(&self, id: ExprId) -> Ty {
+        type_of(&self.exprs, &self.temps, id)
+    }
+}

@@ -1,0 +1,288 @@
+//! Statements: what a program does, in order.
+
+use super::{CellId, EdgeId, ExprId, FlagId, LabelId, Place, TableId, TempId};
+use rungc_rt::{EdgeKind, RtFn, TimerKind};
+
+/// Operand of a call of the runtime.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Arg {
+    /// Constant, with an index to add (wrapping at 16 bits unless `wide`).
+    Const {
+        /// The constant.
+        value: i32,
+        /// What to add.
+        index: Option<ExprId>,
+        /// Wraps at 32 bits.
+        wide: bool,
+    },
+    /// Float constant.
+    Float(f32),
+    /// Device; the runtime checks its range. `extent` devices from it on may be accessed (for the layout): `None` = to the
+    /// end of its class.
+    Device {
+        /// Device.
+        place: Place,
+        /// How many (in devices of its class).
+        extent: Option<u32>,
+    },
+    /// Group of bits.
+    Nibbles {
+        /// First bit.
+        place: Place,
+        /// Digits.
+        digits: u8,
+        /// How many bits may be accessed.
+        extent: Option<u32>,
+    },
+    /// Bit of a word.
+    WordBit {
+        /// Word.
+        place: Place,
+        /// Bit 0 to 15.
+        bit: u8,
+        /// How many bits may be accessed; they continue in the next words.
+        extent: Option<u32>,
+    },
+    /// Text number in [`Module::texts`](super::Module::texts).
+    Text(u32),
+    /// A word of the buffer memory of a module, or the first of several.
+    Buffer {
+        /// Number of the module.
+        module: u8,
+        /// Address.
+        address: u32,
+        /// What to add to the address (`I32`).
+        index: Option<ExprId>,
+    },
+}
+
+/// A statement.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Stmt {
+    /// Here begins the code of a network (rung); no effect.
+    Network(u32),
+    /// Gives a temporary its value.
+    Let(TempId, ExprId),
+    /// Sets `out` to whether `input` changed as `kind` says since this statement was last executed, and stores `input` in the memory.
+    Edge {
+        /// Memory.
+        edge: EdgeId,
+        /// The distance in memories to this one's: an [`Expr::Stride`](super::Expr::Stride), in the body of a [`Stmt::Repeat`].
+        index: Option<ExprId>,
+        /// Which change.
+        kind: EdgeKind,
+        /// What is watched.
+        input: ExprId,
+        /// Receives the result.
+        out: TempId,
+    },
+    /// Writes a flag (`Bit`).
+    SetFlag(FlagId, ExprId),
+    /// Writes a cell (`I32`).
+    SetCell(CellId, ExprId),
+    /// Writes the entry of a table at the index (`I32`, as for [`Expr::Entry`](super::Expr::Entry)) (`I32`).
+    SetEntry(TableId, ExprId, ExprId),
+    /// Writes a bit device (Y, M, S, or X by force and at its own edge).
+    WriteBit(Place, ExprId),
+    /// Writes bit 0–15 of a word device.
+    WriteWordBit(Place, u8, ExprId),
+    /// Writes a word (`I16`).
+    WriteWord(Place, ExprId),
+    /// Writes a pair or a 32-bit counter (`I32`).
+    WritePair(Place, ExprId),
+    /// Writes a float pair.
+    WriteFloat(Place, ExprId),
+    /// Writes the low `4 * digits` bits of an integer to bit devices.
+    WriteNibbles {
+        /// First bit.
+        place: Place,
+        /// 1 to 8.
+        digits: u8,
+        /// `I16` or `I32`.
+        value: ExprId,
+    },
+    /// OUT T: [`rungc_rt::Timer::run`].
+    Timer {
+        /// Number.
+        number: u32,
+        /// Behaviour.
+        kind: TimerKind,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
+    /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
+    /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the iterations of a [`Stmt::Repeat`].
+    TimerAt {
+        /// The timer, which has an index.
+        place: Place,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
+    /// END processing of a timer that continues in scans that jump over its coil: [`rungc_rt::Timer::go_on`].
+    TimerGoesOn {
+        /// Number.
+        number: u32,
+        /// Behaviour.
+        kind: TimerKind,
+    },
+    /// OUT C0–C199: [`rungc_rt::Counter16::run`].
+    Counter16 {
+        /// Number.
+        number: u32,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
+    /// OUT C0–C199 with an index: as [`Stmt::Counter16`] of the counter that the place names.
+    Counter16At {
+        /// The counter, which has an index.
+        place: Place,
+        /// `Bit`.
+        drive: ExprId,
+        /// `I16`.
+        preset: ExprId,
+    },
+    /// OUT C200–C234: [`rungc_rt::Counter32::run`].
+    Counter32 {
+        /// Number.
+        number: u32,
+        /// `Bit`.
+        drive: ExprId,
+        /// `Bit`: counts down.
+        down: ExprId,
+        /// `I32`.
+        preset: ExprId,
+    },
+    /// A count of a high-speed counter: [`rungc_rt::Counter32::count`].
+    Count {
+        /// Number.
+        number: u32,
+        /// `Bit`: counts down.
+        down: ExprId,
+        /// `I32`.
+        preset: ExprId,
+    },
+    /// RST of a timer or counter: value 0, contact off; a counter's and timer's coil memory stays as it is.
+    Reset(Place),
+    /// Executes one branch.
+    If {
+        /// `Bit`.
+        cond: ExprId,
+        /// If on.
+        then: Body,
+        /// If off.
+        otherwise: Body,
+    },
+    /// Executes the body `count` times (`I16`; at most 0 means once), the count being evaluated once.
+    For {
+        /// How often.
+        count: ExprId,
+        /// What.
+        body: Body,
+    },
+    /// Executes the body `count` times, for rungs that the program repeats with other devices. `iteration` (`I32`) is 0, 1, 2 …, and leads to the
+    /// devices of each iteration ([`Expr::Stride`](super::Expr::Stride)), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
+    /// apart. The timers of a [`Stmt::TimerAt`] are of one kind. The body has neither loops nor jumps.
+    Repeat {
+        /// How often, at least 2.
+        count: u32,
+        /// Number of the iteration.
+        iteration: TempId,
+        /// What.
+        body: Body,
+        /// Steps of the first and the last of its networks in the program, for a comment.
+        steps: (u32, u32),
+    },
+    /// Calls [`Module::functions`](super::Module::functions)`[n]`.
+    CallSub(u32),
+    /// Leaves the function (SRET reached by a jump, CJ to P63 in a subroutine, …).
+    Return,
+    /// Runs `parts` from part 0 on: at the end of a part the next one follows; [`Stmt::Goto`] inside a part (however deep in
+    /// `If` and `For`, not across calls) continues with the part that has that label. Made only where jumps do not nest.
+    Parts(Vec<Part>),
+    /// Ends the current part and continues with the part of this label, in the innermost enclosing [`Stmt::Parts`] that has it.
+    Goto(LabelId),
+    /// Calls the runtime. A fault is reported with `step` ([`rungc_rt::report`]).
+    Call {
+        /// Function.
+        function: RtFn,
+        /// 32-bit form.
+        wide: bool,
+        /// Operands.
+        args: Vec<Arg>,
+        /// Drive contact, for functions that are called always; others stand inside an `If`.
+        drive: Option<ExprId>,
+        /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in [`FunctionKind::Signals`](super::FunctionKind::Signals).
+        signal: bool,
+        /// Private memory, for functions that need one; from 1.
+        slot: u16,
+        /// Step number.
+        step: u32,
+    },
+    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with `step`.
+    Fetch {
+        /// What is read.
+        from: Arg,
+        /// 32 bits of it.
+        wide: bool,
+        /// Receives the value, sign-extended; stays as it is after a fault.
+        value: CellId,
+        /// Receives whether there was no fault.
+        there: TempId,
+        /// Step number.
+        step: u32,
+    },
+    /// Writes an operand that only the runtime can ([`rungc_rt::send`]). A fault is reported with `step`.
+    Send {
+        /// What is written.
+        to: Arg,
+        /// 32 bits of it.
+        wide: bool,
+        /// `I32` if `wide`, else `I16`.
+        value: ExprId,
+        /// Step number.
+        step: u32,
+    },
+    /// Reports an operation error found inline.
+    Fault {
+        /// PLC's code.
+        code: u16,
+        /// Step number.
+        step: u32,
+    },
+    /// Takes this many steps of those that the scan may still execute ([`Module::scan_steps`](super::Module::scan_steps)). If fewer are left, the PLC stops as by
+    /// its watchdog ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
+    Watch {
+        /// How many PLC steps of the program come now: an iteration of a loop, or what a jump back repeats, with the subroutines that are called
+        /// and the short loops in it.
+        steps: u32,
+        /// Step of the loop or the jump.
+        at: u32,
+    },
+    /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function `End` only.
+    Stop,
+    /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices: M8031, M8032.
+    Clear {
+        /// Which.
+        latched: bool,
+    },
+}
+
+/// A part of a body that jumps do not nest in.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Part {
+    /// Its label; `None` if only fallen into.
+    pub label: Option<LabelId>,
+    /// The PLC's label, for a comment: `P12`.
+    pub name: Option<String>,
+    /// What it does.
+    pub body: Body,
+}
+
+/// A sequence of statements.
+pub type Body = Vec<Stmt>;
