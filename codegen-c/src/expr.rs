@@ -155,10 +155,10 @@ impl Writer<'_, '_> {
             | Expr::ReadNibbles { .. } => self.read(out, id, around),
             Expr::Cell(cell) => {
                 out.push_str("plc->");
-                out.push_str(&module.cells[cell.0 as usize].name);
+                out.push_str(&module.cells[*cell].name);
             }
             Expr::Entry(table, index) => {
-                let _ = write!(out, "plc->{}[", module.tables[table.0 as usize].name);
+                let _ = write!(out, "plc->{}[", module.tables[*table].name);
                 self.expr(out, *index, Around::Exact);
                 out.push(']');
             }
@@ -167,7 +167,7 @@ impl Writer<'_, '_> {
             }
             Expr::Flag(flag) => {
                 out.push_str("plc->");
-                out.push_str(&module.flags[flag.0 as usize].name);
+                out.push_str(&module.flags[*flag].name);
             }
             Expr::Sys(value) => out.push_str(match value {
                 SysValue::Running => "plc->sys.running",

@@ -112,8 +112,7 @@ fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
     }
     for (i, temp) in plan
         .temps
-        .iter()
-        .enumerate()
+        .iter_enumerated()
         .filter(|(_, t)| t.home() == Home::Field)
     {
         let ty = module.temps[i];

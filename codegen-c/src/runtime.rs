@@ -61,7 +61,7 @@ impl Writer<'_, '_> {
                 ..
             } => {
                 self.operand_call(code, "fetch", (*wide, *step), from);
-                let cell = &self.module.cells[value.0 as usize].name;
+                let cell = &self.module.cells[*value].name;
                 let _ = write!(code, ", &plc->{cell});");
             }
             Stmt::Send {

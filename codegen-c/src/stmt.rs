@@ -14,11 +14,7 @@ impl Writer<'_, '_> {
     fn assigned_temp(&self, temp: TempId) -> String {
         let mut code = String::new();
         if self.plan.temp(temp).home() == Home::Constant {
-            let _ = write!(
-                code,
-                "const {} ",
-                c_type(self.module.temps[temp.0 as usize])
-            );
+            let _ = write!(code, "const {} ", c_type(self.module.temps[temp]));
         }
         self.temp(&mut code, temp);
         code.push_str(" = ");
@@ -55,19 +51,19 @@ impl Writer<'_, '_> {
                 code.push(';');
             }
             Stmt::SetCell(cell, value) => {
-                code = format!("plc->{} = ", self.module.cells[cell.0 as usize].name);
+                code = format!("plc->{} = ", self.module.cells[*cell].name);
                 self.expr(&mut code, *value, Around::Exact);
                 code.push(';');
             }
             Stmt::SetEntry(table, index, value) => {
-                code = format!("plc->{}[", self.module.tables[table.0 as usize].name);
+                code = format!("plc->{}[", self.module.tables[*table].name);
                 self.expr(&mut code, *index, Around::Exact);
                 code.push_str("] = ");
                 self.expr(&mut code, *value, Around::Exact);
                 code.push(';');
             }
             Stmt::SetFlag(flag, on) => {
-                let flag = &self.module.flags[flag.0 as usize].name;
+                let flag = &self.module.flags[*flag].name;
                 code = format!("plc->{flag} = ");
                 self.expr(&mut code, *on, Around::Exact);
                 code.push(';');

@@ -39,17 +39,17 @@ pub fn hal_parameter(used: bool) -> Ident {
 impl Generator<'_> {
     /// The field of a flag.
     pub fn flag(&self, flag: FlagId) -> Ident {
-        flag_field(&self.module.flags[flag.0 as usize])
+        flag_field(&self.module.flags[flag])
     }
 
     /// The field of a cell.
     pub fn cell(&self, cell: CellId) -> Ident {
-        format_ident!("{}", self.module.cells[cell.0 as usize].name)
+        format_ident!("{}", self.module.cells[cell].name)
     }
 
     /// The field of a table.
     pub fn table(&self, table: TableId) -> Ident {
-        format_ident!("{}", self.module.tables[table.0 as usize].name)
+        format_ident!("{}", self.module.tables[table].name)
     }
 
     /// The fields that flags need; RUN begins with them as at power-on.

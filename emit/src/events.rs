@@ -40,7 +40,7 @@ pub fn set_outside(module: &Module) -> BTreeSet<usize> {
     for (at, _, _) in edges(module) {
         statements(&module.functions[at].body, &mut |stmt| {
             if let Stmt::SetFlag(flag, _) = stmt {
-                found.insert(flag.0 as usize);
+                found.insert(usize::from(*flag));
             }
         });
     }

@@ -3,11 +3,12 @@
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, TempId};
 use rungc_ir::walk::operands;
+use typed_index_collections::TiVec;
 
 /// Size and depth of every expression as it is written out.
 pub struct Sizes {
-    size: Vec<u32>,
-    depth: Vec<u32>,
+    size: TiVec<ExprId, u32>,
+    depth: TiVec<ExprId, u32>,
 }
 
 /// From which size on a shared operand may make the written expression much larger than what is stored.
@@ -17,17 +18,17 @@ impl Sizes {
     /// Measures them all.
     pub fn new(module: &Module) -> Self {
         let mut sizes = Sizes {
-            size: Vec::with_capacity(module.exprs.len()),
-            depth: Vec::with_capacity(module.exprs.len()),
+            size: TiVec::with_capacity(module.exprs.len()),
+            depth: TiVec::with_capacity(module.exprs.len()),
         };
         for expr in &module.exprs {
             let (mut size, mut depth) = (1u32, 0);
             for e in operands(expr) {
-                size = size.saturating_add(sizes.size[e.0 as usize]);
+                size = size.saturating_add(sizes.size[e]);
                 // Chains of one operator are written side by side.
                 let same = std::mem::discriminant(expr) == std::mem::discriminant(module.expr(e));
                 let chain = same && matches!(expr, Expr::And(..) | Expr::Or(..));
-                depth = depth.max(sizes.depth[e.0 as usize] + u32::from(!chain));
+                depth = depth.max(sizes.depth[e] + u32::from(!chain));
             }
             sizes.size.push(size);
             sizes.depth.push(depth);
@@ -37,17 +38,17 @@ impl Sizes {
 
     /// How many operations it is.
     pub fn size(&self, e: ExprId) -> u64 {
-        self.size[e.0 as usize].into()
+        self.size[e].into()
     }
 
     /// How deep it nests.
     pub fn depth(&self, e: ExprId) -> u32 {
-        self.depth[e.0 as usize]
+        self.depth[e]
     }
 
     /// Whether it is large enough that sharing inside matters.
     pub fn is_large(&self, e: ExprId) -> bool {
-        self.size[e.0 as usize] > LARGE
+        self.size[e] > LARGE
     }
 }
 

@@ -7,6 +7,7 @@ use rungc_ir::node::{Body, ExprId, LabelId, Part, Stmt, TempId};
 use rungc_ir::walk::{called_functions, calls_runtime, for_exprs};
 use smallvec::SmallVec;
 use std::collections::{BTreeSet, HashMap};
+use typed_index_collections::TiVec;
 
 /// About how many operations a function may hold: what a reader can take in and every compiler optimises in linear time.
 const FUNCTION_WEIGHT: u64 = 1200;
@@ -216,7 +217,7 @@ pub struct Plan<'m> {
     /// The functions, each after those it calls (but for subroutines).
     pub functions: Vec<Function<'m>>,
     /// The temporaries, by their handles.
-    pub temps: Vec<Temp>,
+    pub temps: TiVec<TempId, Temp>,
     /// Sizes of expressions.
     pub sizes: Sizes,
     /// States of labelled parts: (root, label) to state.
@@ -279,7 +280,7 @@ impl<'m> Plan<'m> {
 
     /// A temporary.
     pub fn temp(&self, temp: TempId) -> &Temp {
-        &self.temps[temp.0 as usize]
+        &self.temps[temp]
     }
 
     /// Whether nothing is left of a network, so that it needs no heading.

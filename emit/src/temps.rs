@@ -8,6 +8,7 @@ use rungc_ir::walk::for_exprs;
 use rungc_rt::EdgeKind;
 use rustc_hash::FxHashMap;
 use std::fmt::{self, Display, Formatter};
+use typed_index_collections::TiVec;
 
 /// A temporary of the module.
 #[derive(Clone, Copy, Default, Debug)]
@@ -63,15 +64,15 @@ impl Display for Temp {
 }
 
 /// Finds out about all temporaries.
-pub(crate) fn temps(module: &Module, functions: &[Function], sizes: &Sizes) -> Vec<Temp> {
+pub(crate) fn temps(module: &Module, functions: &[Function], sizes: &Sizes) -> TiVec<TempId, Temp> {
     if module.temps.is_empty() {
-        return Vec::new();
+        return TiVec::new();
     }
     let mut scopes = Scopes {
         module,
         sizes,
-        temps: vec![Temp::default(); module.temps.len()],
-        first: vec![First::default(); module.temps.len()],
+        temps: vec![Temp::default(); module.temps.len()].into(),
+        first: vec![First::default(); module.temps.len()].into(),
         open: Vec::new(),
         blocks: 0,
         function: 0,
@@ -98,8 +99,8 @@ struct First {
 struct Scopes<'a> {
     module: &'a Module,
     sizes: &'a Sizes,
-    temps: Vec<Temp>,
-    first: Vec<First>,
+    temps: TiVec<TempId, Temp>,
+    first: TiVec<TempId, First>,
     /// Blocks that are open, from the function's on.
     open: Vec<u32>,
     blocks: u32,
@@ -144,7 +145,7 @@ impl Scopes<'_> {
         for_exprs(stmt, &mut |&e| self.uses(e));
         match stmt {
             Stmt::Let(temp, _) => {
-                let prefix = match self.module.temps.get(temp.0 as usize) {
+                let prefix = match self.module.temps.get(*temp) {
                     Some(Ty::F32) => "real",
                     Some(Ty::I16 | Ty::I32) => "value",
                     _ => "step",
@@ -169,9 +170,9 @@ impl Scopes<'_> {
     fn uses(&mut self, expr: ExprId) {
         let mut seen = std::mem::take(&mut self.seen);
         measure::temps(self.module, self.sizes, expr, &mut seen, |temp| {
-            let known = &mut self.temps[temp.0 as usize];
+            let known = &mut self.temps[temp];
             known.used += 1;
-            let first = &mut self.first[temp.0 as usize];
+            let first = &mut self.first[temp];
             if *first.function.get_or_insert(self.function) != self.function {
                 known.home = Home::Field;
             } else if !first.block.is_some_and(|block| self.open.contains(&block)) {
@@ -182,8 +183,8 @@ impl Scopes<'_> {
     }
 
     fn assigns(&mut self, temp: TempId, prefix: &'static str) {
-        let known = &mut self.temps[temp.0 as usize];
-        let first = &mut self.first[temp.0 as usize];
+        let known = &mut self.temps[temp];
+        let first = &mut self.first[temp];
         if *first.function.get_or_insert(self.function) != self.function {
             known.home = Home::Field;
         } else if first.block.is_some() {

@@ -82,7 +82,7 @@ impl<'m> Machine<'m> {
             Expr::I16(v) => Value::I16(v),
             Expr::I32(v) => Value::I32(v),
             Expr::F32(v) => Value::F32(v),
-            Expr::Temp(temp) => self.temps[temp.0 as usize],
+            Expr::Temp(temp) => self.temps[temp],
             Expr::ReadBit(place) => Value::Bit(self.read_bit(place)),
             Expr::ReadWordBit(place, bit) => {
                 Value::Bit(self.read_word(place) as u16 >> (bit & 15) & 1 == 1)
@@ -102,15 +102,15 @@ impl<'m> Machine<'m> {
                     Value::I16(value as i16)
                 }
             }
-            Expr::Cell(cell) => Value::I32(self.cells[cell.0 as usize]),
+            Expr::Cell(cell) => Value::I32(self.cells[cell]),
             Expr::Stride(iteration, stride) => {
-                Value::I32(int(self.temps[iteration.0 as usize]).wrapping_mul(stride as i32))
+                Value::I32(int(self.temps[iteration]).wrapping_mul(stride as i32))
             }
             Expr::Entry(table, index) => {
                 let index = int(self.eval(index));
-                Value::I32(self.tables[table.0 as usize][index as usize])
+                Value::I32(self.tables[table][index as usize])
             }
-            Expr::Flag(flag) => Value::Bit(self.flags[flag.0 as usize]),
+            Expr::Flag(flag) => Value::Bit(self.flags[flag]),
             Expr::Sys(SysValue::Running) => Value::Bit(self.sys.running),
             Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
             Expr::Sys(SysValue::NowMs) => Value::I32(self.sys.now_ms as i32),
@@ -155,7 +155,7 @@ impl<'m> Machine<'m> {
                 Input::Bit(slot) => self.devices.bit_at(slot),
                 Input::Strided(i) => self.strided(i),
                 Input::Contact(class, n) => self.devices.bit(class, n).unwrap_or(false),
-                Input::Temp(temp) => self.temps[temp.0 as usize] == Value::Bit(true),
+                Input::Temp(temp) => self.temps[temp] == Value::Bit(true),
                 Input::Expr(id) => self.eval(id) == Value::Bit(true),
                 Input::Block => {
                     let on = blocks & 1 == 1;
@@ -180,7 +180,7 @@ impl<'m> Machine<'m> {
             iteration,
             stride,
         } = self.logic.strided[i as usize];
-        let iteration = int(self.temps[iteration.0 as usize]) as u32;
+        let iteration = int(self.temps[iteration]) as u32;
         self.devices
             .bit_at(first.plus(iteration.wrapping_mul(stride)))
     }

@@ -3,7 +3,7 @@
 use crate::devices::rt_class;
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
-use rungc_ir::node::{Arg, ExprId, LabelId, Part, Place, Stmt, TempId};
+use rungc_ir::node::{Arg, EdgeId, ExprId, LabelId, Part, Place, Stmt, TempId};
 use rungc_rt::{
     Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report, send,
 };
@@ -44,7 +44,7 @@ impl<'m> Machine<'m> {
     fn step(&mut self, stmt: &'m Stmt, hal: &mut dyn Hal) -> Flow {
         match stmt {
             Stmt::Network(_) => {}
-            &Stmt::Let(temp, value) => self.temps[temp.0 as usize] = self.eval(value),
+            &Stmt::Let(temp, value) => self.temps[temp] = self.eval(value),
             &Stmt::Edge {
                 edge,
                 index,
@@ -52,15 +52,16 @@ impl<'m> Machine<'m> {
                 input,
                 out,
             } => {
-                let further = index.map_or(0, |index| int(self.eval(index)) as usize);
-                let changed = self.edge(edge.0 as usize + further, kind, input);
-                self.temps[out.0 as usize] = Value::Bit(changed);
+                let further = index.map_or(0, |index| int(self.eval(index)) as u32);
+                let memory = EdgeId(edge.0 + further);
+                let changed = self.edge(memory, kind, input);
+                self.temps[out] = Value::Bit(changed);
             }
-            &Stmt::SetFlag(flag, value) => self.flags[flag.0 as usize] = self.on(value),
-            &Stmt::SetCell(cell, value) => self.cells[cell.0 as usize] = int(self.eval(value)),
+            &Stmt::SetFlag(flag, value) => self.flags[flag] = self.on(value),
+            &Stmt::SetCell(cell, value) => self.cells[cell] = int(self.eval(value)),
             &Stmt::SetEntry(table, index, value) => {
                 let index = int(self.eval(index));
-                self.tables[table.0 as usize][index as usize] = int(self.eval(value));
+                self.tables[table][index as usize] = int(self.eval(value));
             }
             &Stmt::WriteBit(place, value) => self.write_bit(place, self.on(value)),
             &Stmt::WriteWordBit(place, bit, value) => {
@@ -186,9 +187,9 @@ impl<'m> Machine<'m> {
             } => {
                 let fetched = fetch(site_of_form(*step, *wide), self.operand(from), self, hal);
                 if let Some(fetched) = fetched {
-                    self.cells[value.0 as usize] = fetched;
+                    self.cells[*value] = fetched;
                 }
-                self.temps[there.0 as usize] = Value::Bit(fetched.is_some());
+                self.temps[*there] = Value::Bit(fetched.is_some());
             }
             Stmt::Send {
                 to,
@@ -224,7 +225,7 @@ impl<'m> Machine<'m> {
     ) -> Flow {
         for n in 0..count {
             if let Some(iteration) = iteration {
-                self.temps[iteration.0 as usize] = Value::I32(n as i32);
+                self.temps[iteration] = Value::I32(n as i32);
             }
             let flow = self.run(body, hal);
             if flow != Flow::Next {
@@ -250,7 +251,7 @@ impl<'m> Machine<'m> {
     }
 
     /// Whether an input has changed since its memory was last written; writes the memory.
-    fn edge(&mut self, memory: usize, kind: EdgeKind, input: ExprId) -> bool {
+    fn edge(&mut self, memory: EdgeId, kind: EdgeKind, input: ExprId) -> bool {
         let now = self.on(input);
         let before = std::mem::replace(&mut self.edges[memory], now);
         match kind {

@@ -9,6 +9,7 @@ use crate::devices::{BitSlot, Devices, rt_class};
 use rungc_ir::node::{Expr, ExprId, Place, TempId, Ty};
 use rungc_ir::{Module, walk};
 use rungc_rt::Class;
+use typed_index_collections::TiVec;
 
 /// What an item does with its input.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -63,7 +64,7 @@ pub(crate) struct Logic {
     items: Vec<Item>,
     pub(crate) strided: Vec<Strided>,
     /// Where the list of each expression is, by handle; none if it is not logic that a statement uses.
-    lists: Vec<List>,
+    lists: TiVec<ExprId, List>,
 }
 
 /// Items from `begin` up to `end`.
@@ -80,7 +81,7 @@ impl Logic {
             module,
             devices,
             logic: Logic {
-                lists: vec![List::default(); module.exprs.len()],
+                lists: vec![List::default(); module.exprs.len()].into(),
                 ..Logic::default()
             },
             open: Vec::new(),
@@ -95,7 +96,7 @@ impl Logic {
 
     /// The list of an expression.
     pub(crate) fn list(&self, id: ExprId) -> &[Item] {
-        let List { begin, end } = self.lists[id.0 as usize];
+        let List { begin, end } = self.lists[id];
         debug_assert!(begin < end, "logic that no statement looks at");
         &self.items[begin as usize..end as usize]
     }
@@ -123,11 +124,11 @@ impl Decoder<'_> {
     }
 
     fn list(&mut self, id: ExprId) {
-        let List { begin, end } = self.logic.lists[id.0 as usize];
+        let List { begin, end } = self.logic.lists[id];
         if begin == end {
             let begin = self.length();
             self.block(id);
-            self.logic.lists[id.0 as usize] = List {
+            self.logic.lists[id] = List {
                 begin: begin as u32,
                 end: self.length() as u32,
             };

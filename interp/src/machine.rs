@@ -8,13 +8,14 @@ use crate::errors::OperationError;
 use crate::eval::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
-use rungc_ir::node::FunctionKind;
+use rungc_ir::node::{CellId, EdgeId, FlagId, FunctionKind, TableId, TempId};
 use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
 use rungc_rt::{
     Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
     Sys,
 };
 use std::collections::BTreeMap;
+use typed_index_collections::TiVec;
 
 /// The functions that a host calls, by their indexes in the module.
 struct Entries {
@@ -59,13 +60,13 @@ pub struct Machine<'m> {
     entries: Entries,
     pub(crate) logic: Logic,
     pub(crate) devices: Devices,
-    pub(crate) temps: Vec<Value>,
-    pub(crate) edges: Vec<bool>,
-    pub(crate) flags: Vec<bool>,
+    pub(crate) temps: TiVec<TempId, Value>,
+    pub(crate) edges: TiVec<EdgeId, bool>,
+    pub(crate) flags: TiVec<FlagId, bool>,
     /// When the period of each flag that has one began.
     periods: Vec<u32>,
-    pub(crate) cells: Vec<i32>,
-    pub(crate) tables: Vec<Vec<i32>>,
+    pub(crate) cells: TiVec<CellId, i32>,
+    pub(crate) tables: TiVec<TableId, Vec<i32>>,
     pub(crate) sys: Sys,
     /// Steps that this scan may still repeat.
     steps_left: u32,
@@ -93,10 +94,10 @@ impl<'m> Machine<'m> {
             logic: Logic::new(module, &devices),
             devices,
             temps: module.temps.iter().map(|&ty| Value::zero(ty)).collect(),
-            edges: vec![false; module.edges as usize],
-            flags: vec![false; module.flags.len()],
+            edges: vec![false; module.edges as usize].into(),
+            flags: vec![false; module.flags.len()].into(),
             periods: vec![0; module.flags.len()],
-            cells: vec![0; module.cells.len()],
+            cells: vec![0; module.cells.len()].into(),
             tables: module
                 .tables
                 .iter()
@@ -173,7 +174,7 @@ impl<'m> Machine<'m> {
             return;
         }
         rungc_rt::count_pulses(self, hal, now_us);
-        for (i, flag) in self.module.flags.iter().enumerate() {
+        for (i, flag) in self.module.flags.iter_enumerated() {
             if let Some(axis) = flag.pulses_end.and_then(|output| self.axis(output)) {
                 let ended = axis.take_end();
                 self.flags[i] |= ended;

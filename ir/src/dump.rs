@@ -282,21 +282,19 @@ impl Out<'_> {
 
     fn cell(&self, cell: CellId) -> String {
         let cells = &self.module.cells;
-        let name = cells.get(cell.0 as usize).map_or("?", |cell| &cell.name);
+        let name = cells.get(cell).map_or("?", |cell| &cell.name);
         format!("cell {name}")
     }
 
     fn table(&self, table: TableId) -> String {
         let tables = &self.module.tables;
-        let name = tables
-            .get(table.0 as usize)
-            .map_or("?", |table| &table.name);
+        let name = tables.get(table).map_or("?", |table| &table.name);
         format!("table {name}")
     }
 
     fn flag(&self, flag: FlagId) -> String {
         let flags = &self.module.flags;
-        let name = flags.get(flag.0 as usize).map_or("?", |flag| &flag.name);
+        let name = flags.get(flag).map_or("?", |flag| &flag.name);
         format!("flag {name}")
     }
 

@@ -5,12 +5,13 @@
 //! exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices together lie in one run ([`Model::runs`]): none
 //! continues from the general devices into the special ones. The range of an index is known from [`Expr::Within`].
 
-use crate::node::{Arg, Expr, Module, Place, Stmt};
+use crate::node::{Arg, Expr, ExprId, Module, Place, Stmt};
 use crate::walk::statements;
 use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
+use typed_index_collections::TiSlice;
 
 /// What an expression or a statement does with devices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -45,9 +46,9 @@ impl Access {
     }
 
     /// The runs of devices that it may meet, as (first, last).
-    pub fn reach(&self, model: &Model, exprs: &[Expr]) -> Vec<(u32, u32)> {
+    pub fn reach(&self, model: &Model, exprs: &TiSlice<ExprId, Expr>) -> Vec<(u32, u32)> {
         let Place { class, number, .. } = self.place;
-        let (low, high) = match self.place.index.map(|index| &exprs[index.0 as usize]) {
+        let (low, high) = match self.place.index.map(|index| &exprs[index]) {
             None => (0, 0),
             Some(&Expr::Within { low, high, .. }) => (low, high),
             Some(&Expr::I32(index)) => (index, index),

@@ -6,6 +6,7 @@ use crate::node::{
 };
 use crate::reach::{self, Access};
 use crate::walk::{callees, for_exprs, operands};
+use typed_index_collections::TiVec;
 
 /// Checks every rule; the first one that is broken.
 pub fn validate(module: &Module) -> Result<(), String> {
@@ -27,7 +28,7 @@ pub fn validate(module: &Module) -> Result<(), String> {
     for function in &module.functions {
         let mut checker = Checker {
             module,
-            assigned: vec![false; module.temps.len()],
+            assigned: vec![false; module.temps.len()].into(),
             log: Vec::new(),
             labels: Vec::new(),
             iterations: 1,
@@ -41,12 +42,12 @@ pub fn validate(module: &Module) -> Result<(), String> {
 
 fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
     for operand in operands(expr) {
-        if operand.0 as usize >= at {
+        if usize::from(operand) >= at {
             return Err(format!("expression {at} ({expr:?}) uses a later one"));
         }
     }
     if let Expr::Temp(temp) = expr
-        && temp.0 as usize >= module.temps.len()
+        && module.temps.get(*temp).is_none()
     {
         return Err(format!("expression {at} is {temp:?}, which does not exist"));
     }
@@ -66,15 +67,11 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::ReadNibbles { digits, wide, .. } => (1..=if wide { 8 } else { 4 }).contains(&digits),
         Expr::ReadWordBit(_, bit) => bit < 16,
         Expr::InRange { count, .. } => count > 0,
-        Expr::Cell(cell) => (cell.0 as usize) < module.cells.len(),
+        Expr::Cell(cell) => module.cells.get(cell).is_some(),
         Expr::Within { value, low, high } => ty(value) == Ty::I32 && low <= high,
-        Expr::Stride(iteration, by) => {
-            by > 0 && module.temps.get(iteration.0 as usize) == Some(&Ty::I32)
-        }
-        Expr::Entry(table, index) => {
-            (table.0 as usize) < module.tables.len() && ty(index) == Ty::I32
-        }
-        Expr::Flag(flag) => (flag.0 as usize) < module.flags.len(),
+        Expr::Stride(iteration, by) => by > 0 && module.temps.get(iteration) == Some(&Ty::I32),
+        Expr::Entry(table, index) => module.tables.get(table).is_some() && ty(index) == Ty::I32,
+        Expr::Flag(flag) => module.flags.get(flag).is_some(),
         Expr::Sys(
             SysValue::Running | SysValue::FirstScan | SysValue::NowMs | SysValue::Scan100us,
         )
@@ -141,7 +138,7 @@ fn no_recursion(module: &Module) -> Result<(), String> {
 struct Checker<'m> {
     module: &'m Module,
     /// Which temporaries have a value here.
-    assigned: Vec<bool>,
+    assigned: TiVec<TempId, bool>,
     /// Those assigned so far, in order.
     log: Vec<TempId>,
     /// Labels of the parts around, innermost last.
@@ -230,14 +227,14 @@ impl Checker<'_> {
         match (first, second) {
             (true, true) => {
                 for temp in &by_first {
-                    self.assigned[temp.0 as usize] = true;
+                    self.assigned[*temp] = true;
                 }
                 let both: Vec<TempId> = by_second
                     .into_iter()
-                    .filter(|temp| self.assigned[temp.0 as usize])
+                    .filter(|temp| self.assigned[*temp])
                     .collect();
                 for temp in by_first {
-                    self.assigned[temp.0 as usize] = false;
+                    self.assigned[temp] = false;
                 }
                 both.into_iter().for_each(|temp| self.assign(temp));
             }
@@ -249,7 +246,7 @@ impl Checker<'_> {
     }
 
     fn assign(&mut self, temp: TempId) {
-        if let Some(assigned) = self.assigned.get_mut(temp.0 as usize)
+        if let Some(assigned) = self.assigned.get_mut(temp)
             && !std::mem::replace(assigned, true)
         {
             self.log.push(temp);
@@ -260,18 +257,18 @@ impl Checker<'_> {
     fn forget(&mut self, begin: usize) -> Vec<TempId> {
         let taken = self.log.split_off(begin);
         for temp in &taken {
-            self.assigned[temp.0 as usize] = false;
+            self.assigned[*temp] = false;
         }
         taken
     }
 
     /// What is wrong with evaluating an expression here.
     fn fault_in(&self, id: ExprId) -> Option<String> {
-        let Some(expr) = self.module.exprs.get(id.0 as usize) else {
+        let Some(expr) = self.module.exprs.get(id) else {
             return Some(format!("{id:?} does not exist"));
         };
         let here = match *expr {
-            Expr::Temp(temp) | Expr::Stride(temp, _) if !self.assigned[temp.0 as usize] => {
+            Expr::Temp(temp) | Expr::Stride(temp, _) if !self.assigned[temp] => {
                 Some(format!("{temp:?} is not assigned on every path"))
             }
             _ => {
@@ -373,7 +370,7 @@ impl Checker<'_> {
     fn is_well_typed(&self, stmt: &Stmt) -> bool {
         let module = self.module;
         let is = |id: ExprId, ty: Ty| module.ty(id) == ty;
-        let temp_is = |temp: TempId, ty: Ty| module.temps.get(temp.0 as usize) == Some(&ty);
+        let temp_is = |temp: TempId, ty: Ty| module.temps.get(temp) == Some(&ty);
         match *stmt {
             Stmt::Network(n) => (n as usize) < module.networks.len(),
             Stmt::Let(temp, value) => temp_is(temp, module.ty(value)),
@@ -437,24 +434,18 @@ impl Checker<'_> {
                 value,
                 there,
                 ..
-            } => {
-                (value.0 as usize) < module.cells.len() && temp_is(there, Ty::Bit) && self.arg(from)
-            }
+            } => module.cells.get(value).is_some() && temp_is(there, Ty::Bit) && self.arg(from),
             Stmt::Send {
                 ref to,
                 wide,
                 value,
                 ..
             } => is(value, if wide { Ty::I32 } else { Ty::I16 }) && self.arg(to),
-            Stmt::SetCell(cell, value) => {
-                (cell.0 as usize) < module.cells.len() && is(value, Ty::I32)
-            }
+            Stmt::SetCell(cell, value) => module.cells.get(cell).is_some() && is(value, Ty::I32),
             Stmt::SetEntry(table, index, value) => {
-                (table.0 as usize) < module.tables.len() && is(index, Ty::I32) && is(value, Ty::I32)
+                module.tables.get(table).is_some() && is(index, Ty::I32) && is(value, Ty::I32)
             }
-            Stmt::SetFlag(flag, value) => {
-                (flag.0 as usize) < module.flags.len() && is(value, Ty::Bit)
-            }
+            Stmt::SetFlag(flag, value) => module.flags.get(flag).is_some() && is(value, Ty::Bit),
             Stmt::Reset(_)
             | Stmt::CallSub(_)
             | Stmt::Return

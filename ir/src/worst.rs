@@ -6,6 +6,7 @@
 use crate::node::{Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Stmt};
 use crate::walk::{for_exprs, operands, statements};
 use std::collections::BTreeMap;
+use typed_index_collections::TiVec;
 
 /// How much something does at most.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -113,7 +114,7 @@ struct Finder<'m> {
     /// Length of each network in steps.
     lengths: Vec<u64>,
     /// Operations of each expression.
-    sizes: Vec<u64>,
+    sizes: TiVec<ExprId, u64>,
     /// What functions cost that were looked at.
     known: BTreeMap<usize, Cost>,
     /// Whether interrupts are left aside.
@@ -126,9 +127,9 @@ struct Finder<'m> {
 
 impl<'m> Finder<'m> {
     fn new(module: &'m Module) -> Self {
-        let mut sizes: Vec<u64> = Vec::with_capacity(module.exprs.len());
+        let mut sizes: TiVec<ExprId, u64> = TiVec::with_capacity(module.exprs.len());
         for expr in &module.exprs {
-            let inner = operands(expr).map(|id| sizes.get(id.0 as usize).copied().unwrap_or(0));
+            let inner = operands(expr).map(|id| sizes.get(id).copied().unwrap_or(0));
             let inner = inner.fold(0u64, u64::saturating_add);
             sizes.push(inner.saturating_add(own(expr)));
         }
@@ -163,8 +164,8 @@ impl<'m> Finder<'m> {
 
     fn stmt(&mut self, stmt: &Stmt) -> Cost {
         let mut operations = 1u64;
-        for_exprs(stmt, &mut |&ExprId(id)| {
-            let size = self.sizes.get(id as usize).copied().unwrap_or(0);
+        for_exprs(stmt, &mut |&id| {
+            let size = self.sizes.get(id).copied().unwrap_or(0);
             operations = operations.saturating_add(size);
         });
         let cost = Cost {

@@ -13,7 +13,7 @@ const MAX_DEPTH: u8 = 40;
 impl Lowerer<'_> {
     /// Adds an expression.
     pub(super) fn add(&mut self, expr: Expr) -> ExprId {
-        let of = |id: ExprId| self.depths.get(id.0 as usize).copied().unwrap_or(0);
+        let of = |id: ExprId| self.depths.get(id).copied().unwrap_or(0);
         let depth = operands(&expr)
             .map(|id| of(id).saturating_add(1))
             .max()
@@ -56,7 +56,7 @@ impl Lowerer<'_> {
 
     /// The expression, or a temporary with its value if its tree is too deep to grow.
     fn shallow(&mut self, a: ExprId) -> ExprId {
-        if self.depths[a.0 as usize] >= MAX_DEPTH {
+        if self.depths[a] >= MAX_DEPTH {
             self.settled(a)
         } else {
             a
@@ -76,8 +76,7 @@ impl Lowerer<'_> {
     }
 
     pub(super) fn temp(&mut self, ty: Ty) -> TempId {
-        self.module.temps.push(ty);
-        TempId(self.module.temps.len() as u32 - 1)
+        self.module.temps.push_and_get_key(ty)
     }
 
     pub(super) fn new_edge(&mut self) -> EdgeId {

@@ -51,12 +51,11 @@ enum Width {
 impl Lowerer<'_> {
     /// A new table.
     fn new_table(&mut self, name: String, meaning: &'static str, length: u32) -> TableId {
-        self.module.tables.push(Table {
+        self.module.tables.push_and_get_key(Table {
             name,
             meaning,
             length,
-        });
-        TableId(self.module.tables.len() as u32 - 1)
+        })
     }
 
     /// HSZ with a relay that chooses a table, HSCT: while driven, the rows wait for their counts.

@@ -28,23 +28,21 @@ impl Lowerer<'_> {
         meaning: &'static str,
         period_ms: Option<u32>,
     ) -> FlagId {
-        self.module.flags.push(Flag {
+        self.module.flags.push_and_get_key(Flag {
             name,
             meaning,
             period_ms,
             pulses_end: None,
-        });
-        FlagId(self.module.flags.len() as u32 - 1)
+        })
     }
 
     /// A new cell.
     pub(super) fn cell(&mut self, name: String, meaning: &'static str) -> CellId {
-        self.module.cells.push(Cell {
+        self.module.cells.push_and_get_key(Cell {
             name,
             meaning,
             follows_time: false,
-        });
-        CellId(self.module.cells.len() as u32 - 1)
+        })
     }
 
     /// The time outside the scan, to a millisecond.
@@ -53,7 +51,7 @@ impl Lowerer<'_> {
             return clock;
         }
         let clock = self.cell("clock_ms".to_string(), "the time, between scans too");
-        self.module.cells[clock.0 as usize].follows_time = true;
+        self.module.cells[clock].follows_time = true;
         self.edges.clock = Some(clock);
         clock
     }

@@ -183,7 +183,7 @@ impl Lowerer<'_> {
                     });
                 }
                 Source::PulsesEnd { output } => {
-                    self.module.flags[flag.0 as usize].pulses_end = Some(output);
+                    self.module.flags[flag].pulses_end = Some(output);
                 }
                 Source::Period { .. } | Source::Comparison { .. } | Source::Row { .. } => {}
             }

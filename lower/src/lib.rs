@@ -46,9 +46,10 @@ use rungc_analysis::latches;
 use rungc_analysis::resolve::{Resolution, Resolved};
 use rungc_catalogue::{Basic, Drive, Join, Lower};
 use rungc_ir::layout::{self, Wanted};
-use rungc_ir::node::{CellId, Function, FunctionKind, Module, Network, Stmt};
+use rungc_ir::node::{CellId, ExprId, Function, FunctionKind, Module, Network, Stmt};
 use rungc_ir::ranges::{self, Bound, Reached};
 use rungc_models::Model;
+use typed_index_collections::TiVec;
 
 use flow::{Flow, Open};
 use parts::Item;
@@ -129,7 +130,7 @@ struct Lowerer<'a> {
     model: &'static Model,
     module: Module,
     /// How deep each expression's tree is.
-    depths: Vec<u8>,
+    depths: TiVec<ExprId, u8>,
     /// Runs of devices of each class, see [`Model::runs`].
     runs: Vec<Vec<(u32, u32)>>,
     specials: Specials,
@@ -176,7 +177,7 @@ impl<'a> Lowerer<'a> {
             module: Module {
                 steps: resolved.steps,
                 ranges: latches::ranges(program, model),
-                exprs: Vec::with_capacity(2 * resolved.instrs.len()),
+                exprs: TiVec::with_capacity(2 * resolved.instrs.len()),
                 functions: Vec::new(),
                 ..Module::empty(
                     module_name(options.name.as_deref().unwrap_or(&program.source.name)),
@@ -184,7 +185,7 @@ impl<'a> Lowerer<'a> {
                     model,
                 )
             },
-            depths: Vec::with_capacity(2 * resolved.instrs.len()),
+            depths: TiVec::with_capacity(2 * resolved.instrs.len()),
             runs: DeviceClass::ALL.iter().map(|&c| model.runs(c)).collect(),
             specials: Specials::of(resolved, options, reached),
             logic: logic::Logic::of(resolved),

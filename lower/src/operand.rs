@@ -383,9 +383,9 @@ impl Lowerer<'_> {
         let mut operands = self.instr().operands.iter();
         let position = operands.position(|o| o.kind == *operand);
         let name = format!("operand{}", position.map_or(0, |i| i + 1));
-        let cells = &self.module.cells;
-        match cells.iter().position(|cell| cell.name == name) {
-            Some(known) => CellId(known as u32),
+        let mut cells = self.module.cells.iter_enumerated();
+        match cells.find(|(_, cell)| cell.name == name) {
+            Some((known, _)) => known,
             None => self.cell(name, "an operand from buffer memory"),
         }
     }

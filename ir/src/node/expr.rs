@@ -3,6 +3,7 @@
 use super::{BinOp, CellId, ExprId, FlagId, FloatOp, TableId, TempId, UnOp};
 use rungc_rt::{CmpOp, Register, Relay};
 use rungc_syntax::DeviceClass;
+use typed_index_collections::TiSlice;
 
 /// Type of an expression or temporary.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
@@ -151,8 +152,8 @@ pub enum Expr {
 }
 
 /// Type of an expression of an arena.
-pub fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
-    match exprs[id.0 as usize] {
+pub fn type_of(exprs: &TiSlice<ExprId, Expr>, temps: &TiSlice<TempId, Ty>, id: ExprId) -> Ty {
+    match exprs[id] {
         Expr::Bit(_)
         | Expr::ReadBit(_)
         | Expr::ReadWordBit(..)
@@ -183,7 +184,7 @@ pub fn type_of(exprs: &[Expr], temps: &[Ty], id: ExprId) -> Ty {
         Expr::Un(UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd, a) => {
             type_of(exprs, temps, a)
         }
-        Expr::Temp(temp) => temps[temp.0 as usize],
+        Expr::Temp(temp) => temps[temp],
         Expr::ReadNibbles { wide, .. } => {
             if wide {
                 Ty::I32

@@ -25,6 +25,24 @@ pub struct CellId(pub u32);
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct TableId(pub u32);
 
+/// Makes handles index their tables ([`typed_index_collections::TiVec`]).
+macro_rules! indexes {
+    ($($handle:ident)*) => {$(
+        impl From<usize> for $handle {
+            fn from(index: usize) -> Self {
+                $handle(index as u32)
+            }
+        }
+
+        impl From<$handle> for usize {
+            fn from(handle: $handle) -> usize {
+                handle.0 as usize
+            }
+        }
+    )*};
+}
+indexes!(ExprId TempId EdgeId FlagId CellId TableId);
+
 /// Label of a part, unique in its function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct LabelId(pub u32);

@@ -1,6 +1,6 @@
 //! Modules: a program with all that belongs to it.
 
-use super::{Body, Expr, ExprId, Stmt, Ty, type_of};
+use super::{Body, CellId, Expr, ExprId, FlagId, Stmt, TableId, TempId, Ty, type_of};
 use crate::layout::Layout;
 use crate::walk::{calls_runtime, statements};
 use rungc_models::{Model, Range};
@@ -8,6 +8,7 @@ use rungc_rt::EdgeKind;
 use rungc_rt::special::D_WATCHDOG_MS;
 use rungc_syntax::{DeviceClass, Span};
 use std::borrow::Cow;
+use typed_index_collections::TiVec;
 
 /// A private bit with a name; off at power-on and when RUN begins.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -118,9 +119,9 @@ pub struct Module {
     /// The devices of the model, with those latched that the project's parameters choose: [`Model::ranges`] if they say nothing.
     pub ranges: Cow<'static, [Range]>,
     /// Expressions; an expression's operands have lower handles.
-    pub exprs: Vec<Expr>,
+    pub exprs: TiVec<ExprId, Expr>,
     /// Types of the temporaries.
-    pub temps: Vec<Ty>,
+    pub temps: TiVec<TempId, Ty>,
     /// How many edge memories there are.
     pub edges: u32,
     /// How many private memories there are; slots 1..=states are used.
@@ -130,11 +131,11 @@ pub struct Module {
     /// Texts.
     pub texts: Vec<String>,
     /// Private bits.
-    pub flags: Vec<Flag>,
+    pub flags: TiVec<FlagId, Flag>,
     /// Private numbers.
-    pub cells: Vec<Cell>,
+    pub cells: TiVec<CellId, Cell>,
     /// Private rows of numbers.
-    pub tables: Vec<Table>,
+    pub tables: TiVec<TableId, Table>,
     /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, `TakeInterrupts` if there
     /// are any of these, `Signals` if there are any, and one for each edge that means something.
     pub functions: Vec<Function>,
@@ -170,15 +171,15 @@ impl Module {
             steps: 0,
             model,
             ranges: Cow::Borrowed(model.ranges),
-            exprs: Vec::new(),
-            temps: Vec::new(),
+            exprs: TiVec::new(),
+            temps: TiVec::new(),
             edges: 0,
             states: 0,
             run_states: 0,
             texts: Vec::new(),
-            flags: Vec::new(),
-            cells: Vec::new(),
-            tables: Vec::new(),
+            flags: TiVec::new(),
+            cells: TiVec::new(),
+            tables: TiVec::new(),
             pulse_outputs: Vec::new(),
             ports: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
@@ -199,7 +200,7 @@ impl Module {
 
     /// The expression of a handle.
     pub fn expr(&self, id: ExprId) -> &Expr {
-        &self.exprs[id.0 as usize]
+        &self.exprs[id]
     }
 
     /// Whether a host has to report input edges and time.
@@ -275,8 +276,7 @@ impl Module {
 
     /// Adds an expression.
     pub fn add(&mut self, expr: Expr) -> ExprId {
-        self.exprs.push(expr);
-        ExprId(self.exprs.len() as u32 - 1)
+        self.exprs.push_and_get_key(expr)
     }
 
     /// Type of an expression.

@@ -5,6 +5,7 @@ use crate::node::{Expr, ExprId, Place, Stmt};
 use crate::walk::operands;
 use rungc_models::Model;
 use rungc_syntax::DeviceClass;
+use typed_index_collections::TiSlice;
 
 /// What an expression reads.
 #[derive(Clone, Debug, Default)]
@@ -83,8 +84,8 @@ fn is_index(class: DeviceClass) -> bool {
 }
 
 /// The numbers that an access may touch.
-fn run(exprs: &[Expr], place: Place, count: u32) -> (u32, u32) {
-    let (low, high) = match place.index.map(|index| &exprs[index.0 as usize]) {
+fn run(exprs: &TiSlice<ExprId, Expr>, place: Place, count: u32) -> (u32, u32) {
+    let (low, high) = match place.index.map(|index| &exprs[index]) {
         None => (0, 0),
         Some(&Expr::Within { low, high, .. }) => (low, high),
         Some(_) => return (0, u32::MAX),
@@ -97,7 +98,7 @@ fn run(exprs: &[Expr], place: Place, count: u32) -> (u32, u32) {
 }
 
 /// What a statement with these expressions writes, when it is executed.
-pub(super) fn writes(model: &Model, exprs: &[Expr], stmt: &Stmt) -> Writes {
+pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) -> Writes {
     let place = |place: Place, count| {
         if is_index(place.class) {
             return Writes::Index;

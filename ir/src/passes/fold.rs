@@ -4,13 +4,14 @@ use crate::node::{BinOp, Expr, ExprId, TempId, Ty};
 use crate::walk::operands;
 use rungc_models::Model;
 use rungc_rt::CmpOp;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// An arena of expressions that are simplified as they are added.
 pub(super) struct Arena<'m> {
-    pub(super) exprs: Vec<Expr>,
+    pub(super) exprs: TiVec<ExprId, Expr>,
     /// How deep each tree is.
-    depths: Vec<u8>,
-    temps: &'m [Ty],
+    depths: TiVec<ExprId, u8>,
+    temps: &'m TiSlice<TempId, Ty>,
     pub(super) model: &'static Model,
 }
 
@@ -20,27 +21,27 @@ const SAME_DEPTH: u8 = 3;
 impl<'m> Arena<'m> {
     /// An empty one, for about `capacity` expressions, in the room of others.
     pub(super) fn new(
-        temps: &'m [Ty],
+        temps: &'m TiSlice<TempId, Ty>,
         model: &'static Model,
-        mut room: Vec<Expr>,
+        mut room: TiVec<ExprId, Expr>,
         capacity: usize,
     ) -> Self {
         room.clear();
         room.reserve(capacity);
         Arena {
             exprs: room,
-            depths: Vec::with_capacity(capacity),
+            depths: TiVec::with_capacity(capacity),
             temps,
             model,
         }
     }
 
     pub(super) fn get(&self, id: ExprId) -> Expr {
-        self.exprs[id.0 as usize]
+        self.exprs[id]
     }
 
     pub(super) fn depth(&self, id: ExprId) -> u8 {
-        self.depths[id.0 as usize]
+        self.depths[id]
     }
 
     pub(super) fn is_constant(&self, id: ExprId) -> bool {
@@ -61,9 +62,8 @@ impl<'m> Arena<'m> {
         let deepest = operands(&expr)
             .map(|id| self.depth(id).saturating_add(1))
             .max();
-        self.exprs.push(expr);
         self.depths.push(deepest.unwrap_or(0));
-        ExprId(self.exprs.len() as u32 - 1)
+        self.exprs.push_and_get_key(expr)
     }
 
     /// The simplest expression with this value.

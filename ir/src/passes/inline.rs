@@ -5,6 +5,7 @@ use super::effects::{Reads, Writes};
 use super::fold::Arena;
 use crate::node::{Expr, ExprId, TempId};
 use crate::walk::operands;
+use typed_index_collections::TiVec;
 
 /// Expressions deeper than this are not put into others.
 const MAX_DEPTH: u8 = 24;
@@ -15,8 +16,8 @@ const MAX_AVAILABLE: usize = 8;
 
 /// How often temporaries are used and assigned, counted over the module; more than one is many.
 pub(super) struct Counts {
-    pub(super) uses: Vec<u32>,
-    pub(super) assignments: Vec<u32>,
+    pub(super) uses: TiVec<TempId, u32>,
+    pub(super) assignments: TiVec<TempId, u32>,
 }
 
 /// An assignment that was put off.
@@ -43,14 +44,14 @@ pub(super) struct Temps {
     /// Values that would be the same if they were computed again here.
     available: Vec<Available>,
     /// Constants and copies, by temporary.
-    known: Vec<Option<ExprId>>,
+    known: TiVec<TempId, Option<ExprId>>,
     pending: Vec<Pending>,
 }
 
 impl Temps {
     pub(super) fn new(counts: Counts) -> Self {
         Temps {
-            known: vec![None; counts.uses.len()],
+            known: vec![None; counts.uses.len()].into(),
             available: Vec::new(),
             counts,
             pending: Vec::new(),
@@ -59,12 +60,12 @@ impl Temps {
 
     /// Whether a temporary is assigned in one place only.
     pub(super) fn is_fixed(&self, temp: TempId) -> bool {
-        self.counts.assignments[temp.0 as usize] == 1
+        self.counts.assignments[temp] == 1
     }
 
     /// What stands for a temporary at its use.
     pub(super) fn value(&mut self, temp: TempId) -> Option<ExprId> {
-        if let Some(known) = self.known[temp.0 as usize] {
+        if let Some(known) = self.known[temp] {
             return Some(known);
         }
         let i = self.pending.iter().position(|p| p.temp == temp)?;
@@ -83,7 +84,7 @@ impl Temps {
         temp: TempId,
         value: ExprId,
     ) -> Vec<(TempId, ExprId)> {
-        let uses = self.counts.uses[temp.0 as usize];
+        let uses = self.counts.uses[temp];
         if uses == 0 {
             return Vec::new();
         }
@@ -92,7 +93,7 @@ impl Temps {
         }
         let copy = arena.temp(value).is_some();
         if copy || arena.is_constant(value) {
-            self.known[temp.0 as usize] = Some(value);
+            self.known[temp] = Some(value);
             return Vec::new();
         }
         let movable = uses == 1 || is_leaf(arena, value);
@@ -124,7 +125,7 @@ impl Temps {
             .iter()
             .find(|available| arena.same(available.value, value, u8::MAX));
         if let Some(before) = before {
-            self.known[temp.0 as usize] = Some(before.temp);
+            self.known[temp] = Some(before.temp);
             return Vec::new();
         }
         if self.available.len() == MAX_AVAILABLE {

@@ -11,11 +11,12 @@ mod repeat;
 mod rewrite;
 
 use crate::node::Module;
+use typed_index_collections::TiVec;
 
 /// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins neighbouring branches
 /// with one condition, and removes code that cannot be reached or whose results nothing uses.
 pub fn optimise(module: &mut Module) {
-    let room = rewrite::run(module, Vec::new());
+    let room = rewrite::run(module, TiVec::new());
     if rewrite::may_gain(module) {
         rewrite::run(module, room);
     }

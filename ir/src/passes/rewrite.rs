@@ -6,9 +6,10 @@ use super::inline::{Counts, Temps};
 use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
 use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut, statements};
 use rustc_hash::FxHashSet;
+use typed_index_collections::{TiSlice, TiVec};
 
 /// Rewrites every function, with new expressions in `room`; gives the room of the old ones back.
-pub(super) fn run(module: &mut Module, room: Vec<Expr>) -> Vec<Expr> {
+pub(super) fn run(module: &mut Module, room: TiVec<ExprId, Expr>) -> TiVec<ExprId, Expr> {
     let counts = count(module);
     let mut functions = std::mem::take(&mut module.functions);
     let mut rewriter = Rewriter {
@@ -48,8 +49,8 @@ pub(super) fn may_gain(module: &Module) -> bool {
 /// Counts how often each temporary is used and assigned.
 fn count(module: &Module) -> Counts {
     let mut counts = Counts {
-        uses: vec![0; module.temps.len()],
-        assignments: vec![0; module.temps.len()],
+        uses: vec![0; module.temps.len()].into(),
+        assignments: vec![0; module.temps.len()].into(),
     };
     if module.temps.is_empty() {
         return counts;
@@ -63,7 +64,7 @@ fn count(module: &Module) -> Counts {
 fn count_body(module: &Module, body: &Body, counts: &mut Counts) {
     for stmt in body {
         if let Some(temp) = assigned(stmt) {
-            counts.assignments[temp.0 as usize] += 1;
+            counts.assignments[temp] += 1;
         }
         for_exprs(stmt, &mut |expr| count_uses(module, *expr, counts));
         for inner in bodies(stmt) {
@@ -74,8 +75,8 @@ fn count_body(module: &Module, body: &Body, counts: &mut Counts) {
 
 fn count_uses(module: &Module, id: ExprId, counts: &mut Counts) {
     let expr = module.expr(id);
-    if let Expr::Temp(temp) = expr {
-        counts.uses[temp.0 as usize] += 1;
+    if let &Expr::Temp(temp) = expr {
+        counts.uses[temp] += 1;
     }
     for operand in operands(expr) {
         count_uses(module, operand, counts);
@@ -83,7 +84,7 @@ fn count_uses(module: &Module, id: ExprId, counts: &mut Counts) {
 }
 
 struct Rewriter<'m> {
-    old: &'m [Expr],
+    old: &'m TiSlice<ExprId, Expr>,
     arena: Arena<'m>,
     temps: Temps,
     /// Labels that are jumped to, of the code rewritten so far.
@@ -274,7 +275,7 @@ impl Rewriter<'_> {
     }
 
     fn expr(&mut self, id: ExprId) -> ExprId {
-        let mut expr = self.old[id.0 as usize];
+        let mut expr = self.old[id];
         if let Expr::Temp(temp) = expr {
             return match self.temps.value(temp) {
                 Some(value) => value,

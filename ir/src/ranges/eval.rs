@@ -189,7 +189,7 @@ impl Eval<'_> {
     }
 
     fn limit_temp(&self, state: &mut State, temp: TempId, limit: Interval) {
-        if self.module.temps[temp.0 as usize] != Ty::Bit {
+        if self.module.temps[temp] != Ty::Bit {
             state.limit_temp(temp, limit);
         }
     }

@@ -119,7 +119,7 @@ fn name_known(module: &mut Module) {
         let Some(index) = place.index else {
             return;
         };
-        let Expr::Within { low, high, .. } = exprs[index.0 as usize] else {
+        let Expr::Within { low, high, .. } = exprs[index] else {
             return;
         };
         let number = i64::from(place.number) + i64::from(low);

@@ -49,8 +49,7 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
     fn sets(&mut self, cond: ExprId, writes: Vec<(Place, bool)>, out: &mut Body) {
         let mut drive = self.expr(cond);
         if writes.len() > 1 {
-            let temp = TempId(self.module.temps.len() as u32);
-            self.module.temps.push(Ty::Bit);
+            let temp = self.module.temps.push_and_get_key(Ty::Bit);
             out.push(Stmt::Let(temp, drive));
             drive = self.module.add(Expr::Temp(temp));
         }

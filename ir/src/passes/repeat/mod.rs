@@ -8,7 +8,7 @@ mod runs;
 mod shape;
 
 use super::grids::{self, Arrays, meets_other_grid, spread};
-use crate::node::{Body, Module, Stmt, TempId, Ty};
+use crate::node::{Body, Module, Stmt, Ty};
 use maker::Maker;
 use pair::{Kind, Named};
 use rungc_syntax::DeviceClass;
@@ -116,8 +116,7 @@ impl Group {
 
     /// The loop.
     fn repeat(&self, module: &mut Module, body: &Body) -> Stmt {
-        let iteration = TempId(module.temps.len() as u32);
-        module.temps.push(Ty::I32);
+        let iteration = module.temps.push_and_get_key(Ty::I32);
         let mut maker = Maker {
             module,
             iteration,

@@ -7,6 +7,7 @@ use super::shape::Shape;
 use crate::node::{Body, Expr, Module, Stmt, TempId};
 use crate::walk::{assigned, bodies, for_exprs, operands};
 use std::collections::HashMap;
+use typed_index_collections::TiVec;
 
 /// Fewer iterations stay as they are written.
 const LEAST_ITERATIONS: usize = 4;
@@ -18,14 +19,14 @@ const LEAST_SAVED: u64 = 200;
 const LONGEST_ITERATION: usize = 100;
 
 /// From which statement of a body to which each temporary is used.
-fn spans(module: &Module, body: &Body) -> Vec<Option<(usize, usize)>> {
-    let mut spans = vec![None; module.temps.len()];
+fn spans(module: &Module, body: &Body) -> TiVec<TempId, Option<(usize, usize)>> {
+    let mut spans = TiVec::from(vec![None; module.temps.len()]);
     if spans.is_empty() {
         return spans;
     }
     for (at, stmt) in body.iter().enumerate() {
         let mut note = |temp: TempId| {
-            let span = spans[temp.0 as usize].get_or_insert((at, at));
+            let span = spans[temp].get_or_insert((at, at));
             span.1 = at;
         };
         each_temp(module, stmt, &mut note);
@@ -100,7 +101,7 @@ pub(super) struct Runs<'b> {
     body: &'b Body,
     shapes: Vec<Option<Shape>>,
     /// Where each temporary is used.
-    spans: Vec<Option<(usize, usize)>>,
+    spans: TiVec<TempId, Option<(usize, usize)>>,
     pub(super) arrays: Arrays,
     /// By the length of an iteration and where, modulo this, iterations begin: the last that was looked for.
     found: HashMap<(usize, usize), Run>,
@@ -203,7 +204,7 @@ impl<'b> Runs<'b> {
         let mut inside = true;
         for stmt in &self.body[iteration.clone()] {
             each_assigned(stmt, &mut |temp| {
-                let span = self.spans.get(temp.0 as usize).copied().flatten();
+                let span = self.spans.get(temp).copied().flatten();
                 inside &= span
                     .is_none_or(|(from, to)| iteration.contains(&from) && iteration.contains(&to));
             });
