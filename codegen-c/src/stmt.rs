@@ -106,7 +106,6 @@ impl Writer<'_, '_> {
             Stmt::Send { .. } => self.transfer(&mut code, stmt),
             Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
             Stmt::Fault { code: fault, step } => {
-                self.faults = true;
                 code = format!(
                     "{}_fault(plc, {fault}, {});",
                     self.module.name, *step as u16
@@ -117,7 +116,6 @@ impl Writer<'_, '_> {
                 code = format!("{}_set_running(plc, false);", self.module.name);
             }
             Stmt::Clear { latched } => {
-                self.clears[usize::from(*latched)] = true;
                 let what = if *latched { "latched" } else { "general" };
                 code = format!("{}_clear_{what}(plc);", self.module.name);
             }

@@ -3,16 +3,13 @@
 use crate::fields::{PrintField, PrintStorage};
 use crate::writer::{Writer, function_name};
 use crate::{events, header, table};
+use rungc_emit::cycle::{self, Asked, Budget, Latches, Shown, Shows};
 use rungc_emit::plan::Plan;
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_ir::Module;
 use rungc_ir::node::{FunctionKind, STEPS_PER_MS};
 use rungc_ir::walk::{calls_runtime, statements};
-use rungc_rt::special::{
-    D_ANY_ERROR, D_ERROR_STEP, D_FIRST_ERROR_STEP, D_WATCHDOG, D_WATCHDOG_MS, M_ANY_ERROR,
-    M_FIRST_ERROR, M_KEEP_IN_STOP, M_OPERATION_ERROR, M_OUTPUTS_OFF, M_WATCHDOG,
-    OPERATION_ERROR_BCD, Register, Relay, WATCHDOG_BCD, WATCHDOG_CODE,
-};
+use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -57,8 +54,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
         }
     }
 
-    let faults = writer.faults;
-    let [clears_general, clears_latched] = writer.clears;
+    let asked = Asked::of(&plan);
     let helpers = std::mem::take(&mut writer.helpers);
     let mut internal = String::new();
     states(&mut internal, &writer, &plan);
@@ -69,15 +65,16 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
         fields: &fields,
         plan: &plan,
     };
-    if faults {
+    if asked.faults {
         printer.fault(&mut internal);
     }
+    let latches = cycle::latches(module, &fields);
     if module.has_watchdog() {
         printer.watchdog(&mut internal);
     }
     // Where the program itself clears devices the functions stand before it, else with those of the API.
-    let clearing = printer.clear_functions(clears_latched || module.model.latch_key.is_some());
-    if clears_general || clears_latched {
+    let clearing = printer.clear_functions(asked.clears_latched || latches != Latches::Kept);
+    if asked.clears_general || asked.clears_latched {
         internal.push_str(&clearing);
     } else {
         groups[0].push_str(&clearing);
@@ -164,61 +161,38 @@ impl Printer<'_> {
 
     /// A special relay, if it is stored and means on the model what it means on most.
     fn special_relay(&self, relay: Relay) -> Option<String> {
-        let works = self.module.model.scan_keeps(relay);
-        self.stored(DeviceClass::M, relay.number())
-            .filter(|_| works)
+        cycle::keeps(self.module, self.fields, relay)
+            .then(|| self.stored(DeviceClass::M, relay.number()))
+            .flatten()
+    }
+
+    /// The statements by which special devices show an error.
+    fn show(&self, out: &mut String, indent: &str, shows: &[Shows]) {
+        for &(class, number, shown) in shows {
+            let device = self.stored(class, number).unwrap_or_default();
+            let _ = match shown {
+                Shown::On => writeln!(out, "{indent}{device} = true;"),
+                Shown::Word(value) => writeln!(out, "{indent}{device} = {value};"),
+                Shown::Code => writeln!(out, "{indent}{device} = plc_int16(code);"),
+                Shown::Step => writeln!(out, "{indent}{device} = plc_int16(step);"),
+            };
+        }
     }
 
     /// Reports an operation error (see the runtime's `report`), as far as the program looks at it.
     fn fault(&self, out: &mut String) {
         let mut lines = "    plc->error.code = code;\n    plc->error.step = step;\n".to_string();
-        let relay = self.module.model.error_relay;
-        // On HM the other numbers are something else.
-        let family = relay == M_OPERATION_ERROR;
-        let relay = relay.number();
-        let stored = |class, n| {
-            let kept = family || n == relay;
-            kept.then(|| self.stored(class, n)).flatten()
-        };
-        let m = |n| stored(DeviceClass::M, n);
-        let d = |n| stored(DeviceClass::D, n);
-        let latch = d(D_FIRST_ERROR_STEP.number()).map(|d| format!("{d} = plc_int16(step);"));
-        match (m(M_FIRST_ERROR.number()), latch) {
-            (Some(m), latch) => {
-                let _ = writeln!(
-                    lines,
-                    "    if (!{m}) {{ /* only the first one */\n        {m} = true;"
-                );
-                if let Some(latch) = latch {
-                    let _ = writeln!(lines, "        {latch}");
-                }
+        let [first, each] = cycle::fault_shows(self.module.model, self.fields);
+        match first.first() {
+            Some(&(class, number, Shown::On)) => {
+                let relay = self.stored(class, number).unwrap_or_default();
+                let _ = writeln!(lines, "    if (!{relay}) {{ /* only the first one */");
+                self.show(&mut lines, "        ", &first);
                 lines.push_str("    }\n");
             }
-            (None, Some(latch)) => {
-                let _ = writeln!(lines, "    {latch}");
-            }
-            (None, None) => {}
+            _ => self.show(&mut lines, "    ", &first),
         }
-        let shown = OPERATION_ERROR_BCD.to_string();
-        let values = [
-            (m(relay), "true"),
-            (
-                d(relay),
-                if family {
-                    "plc_int16(code)"
-                } else {
-                    "plc_int16(step)"
-                },
-            ),
-            (d(D_ERROR_STEP.number()), "plc_int16(step)"),
-            (m(M_ANY_ERROR.number()), "true"),
-            (d(D_ANY_ERROR.number()), &shown),
-        ];
-        for (device, value) in values {
-            if let Some(device) = device {
-                let _ = writeln!(lines, "    {device} = {value};");
-            }
-        }
+        self.show(&mut lines, "    ", &each);
         let name = self.name();
         let _ = write!(
             out,
@@ -227,16 +201,17 @@ impl Printer<'_> {
         );
     }
 
-    /// A scan begins: the watchdog gives it its time.
+    /// A scan begins: the watchdog gives it its time, if it has one.
     fn watchdog_begins(&self) -> String {
-        match self.stored(DeviceClass::D, D_WATCHDOG_MS.number()) {
-            Some(ms) => format!(
-                "    plc->steps_left = (uint32_t)plc_times({ms}) * UINT32_C({STEPS_PER_MS});\n"
-            ),
-            None => {
-                let steps = Module::scan_steps(self.module.watchdog_ms());
-                format!("    plc->steps_left = {steps}u;\n")
+        match cycle::budget(self.module, self.fields) {
+            Some(Budget::Register(register)) => {
+                let ms = self.stored(DeviceClass::D, register).unwrap_or_default();
+                format!(
+                    "    plc->steps_left = (uint32_t)plc_times({ms}) * UINT32_C({STEPS_PER_MS});\n"
+                )
             }
+            Some(Budget::Steps(steps)) => format!("    plc->steps_left = {steps}u;\n"),
+            None => String::new(),
         }
     }
 
@@ -246,25 +221,8 @@ impl Printer<'_> {
         let mut trip = String::from(
             "        plc->sys.running = false;\n        plc->error.stop = PLC_STOP_WATCHDOG;\n        plc->error.stop_step = step;\n",
         );
-        let relay = self.module.model.error_relay;
-        let (relays, registers): (&[Relay], &[(Register, i16)]) = if relay == M_OPERATION_ERROR {
-            (
-                &[M_WATCHDOG, M_ANY_ERROR],
-                &[(D_WATCHDOG, WATCHDOG_CODE), (D_ANY_ERROR, WATCHDOG_BCD)],
-            )
-        } else {
-            (&[relay], &[])
-        };
-        for &relay in relays {
-            if let Some(relay) = self.stored(DeviceClass::M, relay.number()) {
-                let _ = writeln!(trip, "        {relay} = true;");
-            }
-        }
-        for &(register, value) in registers {
-            if let Some(register) = self.stored(DeviceClass::D, register.number()) {
-                let _ = writeln!(trip, "        {register} = {value};");
-            }
-        }
+        let shows = cycle::watchdog_shows(self.module.model, self.fields);
+        self.show(&mut trip, "        ", &shows);
         let _ = write!(
             out,
             "/* Counts the steps that a loop or a jump back repeats. After too many in one scan the PLC stops, as its watchdog would have it. */\n\
@@ -357,6 +315,18 @@ impl Printer<'_> {
 
     /// The functions that a host calls.
     fn api_functions(&self, out: &mut String) {
+        let forget = self.forget(out);
+        out.push_str(&events::count_pulses(self.module));
+        out.push_str(&events::advance_ports(self.module));
+        self.power_cycle(out, forget);
+        self.set_running(out, forget);
+        self.scan(out);
+        self.output(out);
+        self.error(out);
+    }
+
+    /// The functions for power-on; `forget`: there is one for what RUN forgets.
+    fn power_cycle(&self, out: &mut String, forget: bool) {
         let (name, module) = (self.name(), self.module);
         let mut inputs = String::new();
         self.clear(&mut inputs, Section::Inputs, None);
@@ -375,61 +345,59 @@ impl Printer<'_> {
         if !module.model.keeps_contacts {
             self.each_timer_and_counter(&mut special, ["done = false"; 2]);
         }
-        let forget = self.forget(out);
-        out.push_str(&events::count_pulses(module));
-        out.push_str(&events::advance_ports(module));
-        let states = if module.states > 0 {
-            "    memset(plc->state, 0, sizeof plc->state);\n"
-        } else {
-            ""
-        };
-        let states = match module.sends_pulses() {
-            true => format!("{states}    memset(plc->axis, 0, sizeof plc->axis);\n"),
-            false => states.to_string(),
-        };
-        let states = match module.has_ports() {
-            true => format!("{states}    memset(plc->port, 0, sizeof plc->port);\n"),
-            false => states,
-        };
+        let mut states = String::new();
+        if module.states > 0 {
+            states.push_str("    memset(plc->state, 0, sizeof plc->state);\n");
+        }
+        if module.sends_pulses() {
+            states.push_str("    memset(plc->axis, 0, sizeof plc->axis);\n");
+        }
+        if module.has_ports() {
+            states.push_str("    memset(plc->port, 0, sizeof plc->port);\n");
+        }
         let cells = events::clear_cells(module);
         // An interrupt may come before the first scan.
-        let steps = match module.has_watchdog() {
-            true => self.watchdog_begins(),
+        let steps = self.watchdog_begins();
+        let forget = match forget {
+            true => format!("    {name}_forget(plc);\n"),
             false => String::new(),
         };
         let _ = write!(
             out,
             "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n    {name}_power_cycle(plc);\n}}\n\n\
              void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}{cells}{steps}    \
-             plc_power_on(&plc->sys);\n{}}}\n\n",
+             plc_power_on(&plc->sys);\n{forget}}}\n\n",
             self.lost_latches(),
-            if forget {
-                format!("    {name}_forget(plc);\n")
-            } else {
-                String::new()
-            },
         );
+    }
+
+    /// The function of the RUN/STOP switch.
+    fn set_running(&self, out: &mut String, forget: bool) {
+        let name = self.name();
         let hold = match self.special_relay(M_KEEP_IN_STOP) {
             Some(hold) => format!(" if (!{hold})"),
             None => String::new(),
         };
-        let begin_run = if forget {
-            format!("    if (running) {{\n        {name}_forget(plc);\n    }} else")
-        } else {
-            "    if (!running)".to_string()
+        let begin_run = match forget {
+            true => format!("    if (running) {{\n        {name}_forget(plc);\n    }} else"),
+            false => "    if (!running)".to_string(),
         };
         let _ = write!(
             out,
             "void {name}_set_running({name}_plc *plc, bool running)\n{{\n    if (running == plc->sys.running) {{\n        return;\n    }}\n    \
              plc->sys.running = running;\n    plc->sys.first_scan = running;\n{begin_run}{hold} {{\n        {name}_clear_general(plc);\n    }}\n}}\n\n"
         );
+    }
+
+    /// The function of a scan.
+    fn scan(&self, out: &mut String) {
+        let (name, module) = (self.name(), self.module);
         let call = |index: usize, indent: &str| {
             let mut function = String::new();
             function_name(&mut function, module, index);
-            if self.plan.whole(index).is_none() {
-                String::new()
-            } else {
-                format!("{indent}{function}(plc);\n")
+            match self.plan.whole(index) {
+                Some(_) => format!("{indent}{function}(plc);\n"),
+                None => String::new(),
             }
         };
         let pulses = match module.sends_pulses() {
@@ -440,6 +408,7 @@ impl Printer<'_> {
             true => format!("    {name}_advance_ports(plc, now_ms * 1000u);\n"),
             false => String::new(),
         };
+        let steps = self.watchdog_begins();
         let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
         let _ = write!(
             out,
@@ -447,8 +416,6 @@ impl Printer<'_> {
              plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{ports}{steps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
              plc->sys.first_scan = false;\n{ports}}}\n\n"
         );
-        self.output(out);
-        self.error(out);
     }
 
     /// The function that tells a host what has gone wrong.
@@ -519,16 +486,16 @@ impl Printer<'_> {
 
     /// Latched devices that a model keeps only while a special register holds a key.
     fn lost_latches(&self) -> String {
-        let Some((register, key)) = self.module.model.latch_key else {
-            return String::new();
-        };
         let name = self.name();
-        let register = register.number();
-        match self.stored(DeviceClass::D, register) {
-            Some(device) => format!(
-                "    if ({device} != {key}) {{\n        {name}_clear_latched(plc);\n    }}\n"
-            ),
-            None => format!(
+        match cycle::latches(self.module, self.fields) {
+            Latches::Kept => String::new(),
+            Latches::KeptIf(register, key) => {
+                let device = self.stored(DeviceClass::D, register).unwrap_or_default();
+                format!(
+                    "    if ({device} != {key}) {{\n        {name}_clear_latched(plc);\n    }}\n"
+                )
+            }
+            Latches::Lost(register, key) => format!(
                 "    {name}_clear_latched(plc); /* they are kept only if D{register} is {key} */\n"
             ),
         }
@@ -536,7 +503,9 @@ impl Printer<'_> {
 
     fn output(&self, out: &mut String) {
         let name = self.name();
-        let stop = match self.special_relay(M_KEEP_IN_STOP) {
+        let keep = self.special_relay(M_KEEP_IN_STOP);
+        let keeps = keep.is_some();
+        let stop = match keep {
             // The watchdog switches off what STOP would keep.
             Some(keep) if self.module.has_watchdog() => {
                 format!("!plc->sys.running && (!{keep} || plc->error.stop == PLC_STOP_WATCHDOG)")
@@ -545,7 +514,7 @@ impl Printer<'_> {
             None => "!plc->sys.running".to_string(),
         };
         let off = match self.special_relay(M_OUTPUTS_OFF) {
-            Some(off) if stop.contains(' ') => format!("({stop}) || {off}"),
+            Some(off) if keeps => format!("({stop}) || {off}"),
             Some(off) => format!("{stop} || {off}"),
             None => stop,
         };

@@ -44,10 +44,6 @@ pub struct Writer<'a, 'm> {
     pub(crate) fields: &'a Storage<'m>,
     /// Functions for indexed access that are needed.
     pub helpers: Helpers,
-    /// Whether [`Stmt::Fault`] occurs where something of it is to be seen.
-    pub faults: bool,
-    /// Whether the program clears the general devices, or the latched ones.
-    pub clears: [bool; 2],
     /// Names of parts of the current statement's expressions.
     pub(crate) named: FxHashMap<ExprId, Named>,
     /// How many calls of functions have been written: tells whether an operand makes any.
@@ -80,8 +76,6 @@ impl<'a, 'm> Writer<'a, 'm> {
             plan,
             fields,
             helpers: Helpers::default(),
-            faults: false,
-            clears: [false; 2],
             named: FxHashMap::default(),
             calls: 0,
             coils: Coils::of(module, plan, fields),

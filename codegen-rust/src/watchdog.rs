@@ -4,9 +4,9 @@ use crate::generate::Generator;
 use crate::storage::PrintStorage;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use rungc_emit::cycle::{self, Budget};
 use rungc_ir::Module;
 use rungc_ir::node::STEPS_PER_MS;
-use rungc_rt::special::D_WATCHDOG_MS;
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
@@ -15,21 +15,20 @@ impl Generator<'_> {
         Literal::u32_unsuffixed(Module::scan_steps(self.module.watchdog_ms()))
     }
 
-    /// A scan begins: the watchdog gives it its time.
-    pub fn watchdog_begins(&self) -> TokenStream {
-        let ms = self
-            .storage
-            .word(&quote!(self), DeviceClass::D, D_WATCHDOG_MS.number());
-        match ms {
-            Some(ms) => {
+    /// A scan begins: the watchdog gives it its time, if it has one.
+    pub fn watchdog_begins(&self) -> Option<TokenStream> {
+        Some(match cycle::budget(self.module, &self.storage)? {
+            Budget::Register(register) => {
+                let plc = quote!(self);
+                let ms = self.storage.word(&plc, DeviceClass::D, register)?;
                 let steps = Literal::u32_unsuffixed(STEPS_PER_MS);
                 quote!(self.steps_left = u32::from(#ms.max(1).unsigned_abs()) * #steps;)
             }
-            None => {
-                let steps = self.initial_steps();
+            Budget::Steps(steps) => {
+                let steps = Literal::u32_unsuffixed(steps);
                 quote!(self.steps_left = #steps;)
             }
-        }
+        })
     }
 
     /// What stops a scan that does not end.

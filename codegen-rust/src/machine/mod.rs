@@ -1,0 +1,276 @@
+//! The struct that holds the devices, and what it implements.
+
+mod access;
+mod clear;
+mod scan;
+
+use crate::events::Hidden;
+use crate::format;
+use crate::format::documented;
+use crate::generate::{Generator, Item};
+use crate::storage::{PrintField, type_name};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use rungc_emit::cycle::{self, Asked, Latches};
+use rungc_emit::storage::{Field, Keep, Kind, Section};
+
+impl Generator<'_> {
+    /// The struct.
+    pub fn machine_struct(&mut self) -> Item {
+        self.uses = Default::default();
+        let name = self.type_name.clone();
+        let fields: Vec<TokenStream> = self
+            .storage
+            .fields()
+            .to_vec()
+            .iter()
+            .map(|field| self.field(field))
+            .collect();
+        let doc = format!(
+            " The devices of the {} that the program uses, and what its scan remembers. All of them are plain fields: read and \
+             write them between two scans.",
+            self.module.model.title
+        );
+        let doc = self.with_comments.then(|| quote!(#[doc = #doc]));
+        let hidden = self.hidden_fields();
+        let hidden_types: Vec<TokenStream> = hidden.iter().map(|f| f.1.clone()).collect();
+        let hidden_names: Vec<Ident> = hidden.iter().map(|f| f.0.clone()).collect();
+        let hidden_docs: Vec<TokenStream> = hidden.iter().map(|f| self.doc(f.3)).collect();
+        self.item_of(quote! {
+            #doc
+            #[derive(Clone, Debug)]
+            pub struct #name {
+                #(#fields,)*
+                #(#hidden_docs pub(crate) #hidden_names: #hidden_types,)*
+            }
+        })
+    }
+
+    pub(crate) fn doc(&self, text: &str) -> TokenStream {
+        if !self.with_comments {
+            return TokenStream::new();
+        }
+        let text = format!(" {text}");
+        quote!(#[doc = #text])
+    }
+
+    fn field(&mut self, field: &Field) -> TokenStream {
+        let (class, first) = (field.class, field.first);
+        let mut text = class.number(first).to_string();
+        let latched = self.latched(field);
+        if field.array {
+            if field.count > 1 {
+                text.push_str(&format!("–{}", class.number(field.last())));
+            }
+            if let Some(grid) = field.columns() {
+                let second = class.number(first + 1);
+                let (columns, kept) = (grid.columns, grid.stored_columns);
+                text.push_str(&match kept {
+                    1 => format!(", {columns} apart"),
+                    _ if kept < columns => {
+                        format!(" in {columns} columns, {kept} stored, [1][0] is {second}")
+                    }
+                    _ => format!(" in {columns} columns, [1][0] is {second}"),
+                });
+            }
+            if field.kind == Kind::Level {
+                text.push_str(", 0 or 1");
+            }
+            text.push_str(&latched);
+            let named = field
+                .numbers()
+                .filter_map(|n| Some((n, self.device_comment(class, n)?)))
+                .map(|(n, comment)| format!("{} {}", class.number(n), documented(comment)));
+            let named: Vec<String> = named.collect();
+            if !named.is_empty() {
+                text.push_str(": ");
+                text.push_str(&named.join(", "));
+            }
+        } else {
+            text.push_str(&latched);
+            if let Some(comment) = self.device_comment(class, first) {
+                text.push_str(&format!(": {}", documented(comment)));
+            }
+        }
+        let doc = self.doc(&text);
+        let (name, ty) = (field.name(), self.field_type(field));
+        quote!(#doc pub #name: #ty)
+    }
+
+    /// Which of a field's devices are kept over power-off, for its documentation.
+    fn latched(&self, field: &Field) -> String {
+        match field.section {
+            Section::Latched | Section::Records => " (latched)".to_string(),
+            Section::Inputs | Section::General | Section::Special => String::new(),
+            Section::Mixed => {
+                let runs = self.storage.runs(field);
+                let latched = runs
+                    .filter(|run| matches!(run.keep, Keep::Latched | Keep::Record))
+                    .map(|run| {
+                        let last = run.first + run.count - 1;
+                        let [first, last] = [run.first, last].map(|n| field.class.number(n));
+                        format!(", latched: {first}–{last}")
+                    });
+                latched.collect()
+            }
+        }
+    }
+
+    fn field_type(&mut self, field: &Field) -> TokenStream {
+        let name = type_name(field.kind);
+        let ty = match field.kind.has_members() {
+            true => self.rt(name),
+            false => format_ident!("{name}"),
+        };
+        dimensions(field, quote!(#ty))
+    }
+
+    /// A field's value at power-on, special registers' apart.
+    fn zero(&mut self, field: &Field) -> TokenStream {
+        let zero = self.zero_element(field);
+        dimensions(field, zero)
+    }
+
+    /// The same of one of its devices.
+    fn zero_element(&mut self, field: &Field) -> TokenStream {
+        match field.kind {
+            Kind::Bit => quote!(false),
+            Kind::Level | Kind::Word => quote!(0),
+            Kind::Timer | Kind::Counter16 | Kind::Counter32 => {
+                let ty = self.rt(type_name(field.kind));
+                quote!(#ty::new())
+            }
+        }
+    }
+
+    /// What is no device: name, type, value at power-on, meaning.
+    fn hidden_fields(&mut self) -> Vec<Hidden> {
+        let (edge, state, sys) = (self.rt("Edge"), self.rt("State"), self.rt("Sys"));
+        let mut fields = Vec::new();
+        if self.module.edges > 0 {
+            let count = Literal::u32_unsuffixed(self.module.edges);
+            fields.push((
+                format_ident!("edges"),
+                quote!([#edge; #count]),
+                quote!([#edge(false); #count]),
+                "What edge contacts and pulse instructions saw last.",
+            ));
+        } else {
+            self.uses.imports.remove("Edge");
+        }
+        // Slot 0 stands for instructions without memory.
+        let count = Literal::u32_unsuffixed(u32::from(self.module.states) + 1);
+        fields.push((
+            format_ident!("states"),
+            quote!([#state; #count]),
+            quote!([#state::new(); #count]),
+            "Private memories of instructions.",
+        ));
+        fields.extend(self.flag_fields());
+        fields.extend(self.cell_fields());
+        fields.extend(self.axis_fields());
+        fields.extend(self.temp_fields());
+        fields.extend(self.port_fields());
+        if self.module.may_fail() {
+            let error = self.rt("LastError");
+            fields.push((
+                format_ident!("error"),
+                quote!(#error),
+                quote!(#error::NONE),
+                "What has gone wrong.",
+            ));
+        }
+        if self.module.has_watchdog() {
+            let steps = self.initial_steps();
+            fields.push((
+                format_ident!("steps_left"),
+                quote!(u32),
+                quote!(#steps),
+                "Steps that this scan may still repeat.",
+            ));
+        }
+        fields.push((
+            format_ident!("sys"),
+            quote!(#sys),
+            quote!(#sys::power_on()),
+            "Time and mode.",
+        ));
+        fields
+    }
+
+    /// Power-on, and clearing.
+    pub fn machine_impl(&mut self) -> Item {
+        self.uses = Default::default();
+        let name = self.type_name.clone();
+        let fields = self.storage.fields().to_vec();
+        let names: Vec<Ident> = fields.iter().map(PrintField::name).collect();
+        let zeros: Vec<TokenStream> = fields.iter().map(|f| self.zero(f)).collect();
+        let hidden = self.hidden_fields();
+        let hidden_names: Vec<&Ident> = hidden.iter().map(|f| &f.0).collect();
+        let hidden_zeros: Vec<&TokenStream> = hidden.iter().map(|f| &f.2).collect();
+        let preset = self.preset();
+        let doc = self.doc("The PLC as it leaves the factory, switched to RUN.");
+        let value = quote! {
+            Self { #(#names: #zeros,)* #(#hidden_names: #hidden_zeros,)* }
+        };
+        let new = if preset.is_empty() {
+            quote!(#doc pub const fn new() -> Self { #value })
+        } else {
+            quote!(#doc pub const fn new() -> Self { let mut plc = #value; plc.preset(); plc })
+        };
+        let preset = (!preset.is_empty()).then(|| {
+            let doc = self.doc("Gives special devices the values that they have at power-on.");
+            quote!(#doc const fn preset(&mut self) { #preset })
+        });
+        let clear_general = self.clear(false);
+        let lost = cycle::latches(self.module, &self.storage) != Latches::Kept;
+        let clear_latched =
+            (Asked::of(&self.plan).clears_latched || lost).then(|| self.clear(true));
+        let forget = self.forget();
+        let watchdog = self.module.has_watchdog().then(|| self.watchdog());
+        let count_pulses = self.count_pulses();
+        let advance_ports = self.advance_ports();
+        let pulse_outputs = self.pulse_outputs();
+        self.item_of(quote! {
+            impl #name {
+                #pulse_outputs
+                #new
+                #preset
+                #clear_general
+                #clear_latched
+                #forget
+                #count_pulses
+                #advance_ports
+                #watchdog
+            }
+            impl Default for #name {
+                fn default() -> Self { Self::new() }
+            }
+        })
+    }
+
+    /// The text of some items, and what they use.
+    pub fn item_of(&mut self, tokens: TokenStream) -> Item {
+        Item {
+            text: if self.with_comments {
+                format::items(tokens)
+            } else {
+                tokens.to_string()
+            },
+            uses: std::mem::take(&mut self.uses),
+        }
+    }
+}
+
+/// What an array has of each element: of a type the array's type, of a value its value.
+fn dimensions(field: &Field, element: TokenStream) -> TokenStream {
+    if !field.array {
+        return element;
+    }
+    let (columns, rows) = field.dimensions();
+    let rows = Literal::u32_unsuffixed(rows);
+    match columns.map(Literal::u32_unsuffixed) {
+        Some(columns) => quote!([[#element; #rows]; #columns]),
+        None => quote!([#element; #rows]),
+    }
+}

@@ -1,0 +1,113 @@
+//! The scan, and the RUN/STOP switch.
+
+use crate::events::hal_parameter;
+use crate::generate::{Generator, Item};
+use crate::storage::PrintStorage;
+use proc_macro2::TokenStream;
+use quote::quote;
+use rungc_emit::cycle;
+use rungc_ir::node::FunctionKind;
+use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
+use rungc_syntax::DeviceClass;
+
+impl Generator<'_> {
+    /// The scan.
+    pub fn program_impl(&mut self) -> Item {
+        self.uses = Default::default();
+        let name = self.type_name.clone();
+        let (program, hal) = (self.rt("Program"), self.rt("Hal"));
+        let call = |this: &Self, kind: FunctionKind| {
+            let mut functions = this.module.functions.iter();
+            let function = this.plan.whole(functions.position(|f| f.kind == kind)?)?;
+            let name = this.planned_name(function);
+            let hal = function.needs_hardware.then(|| quote!(, hal));
+            Some(quote!(program::#name(self #hal);))
+        };
+        let begin = call(self, FunctionKind::Begin);
+        let main = call(self, FunctionKind::Main);
+        let end = call(self, FunctionKind::End);
+        let asks = |root: usize| self.plan.whole(root).is_some_and(|f| f.needs_hardware);
+        let hal_name = hal_parameter(self.module.has_ports() || (0..3).any(asks));
+        let in_run =
+            (main.is_some() || end.is_some()).then(|| quote!(if self.sys.running { #main #end }));
+        let stop = match self.special_relay(M_KEEP_IN_STOP) {
+            Some(keep) => quote!({ if !#keep { self.clear_general(); } }),
+            None => quote!({
+                self.clear_general();
+            }),
+        };
+        let power_cycle = self.power_cycle();
+        let events = self.event_methods();
+        let count_pulses = self
+            .module
+            .sends_pulses()
+            .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
+        let ports = self.ports_advance();
+        let watchdog = self.watchdog_begins();
+        let last_error = self.last_error();
+        let pulse_timer = self.pulse_timer();
+        let output = self.output();
+        self.uses.plc = false;
+        self.item_of(quote! {
+            impl #program for #name {
+                fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
+                    self.sys.begin_scan(now_ms, scan_us);
+                    #count_pulses
+                    #ports
+                    #watchdog
+                    #begin
+                    #in_run
+                    self.sys.end_scan();
+                    #ports
+                }
+                #events
+                fn set_running(&mut self, running: bool) {
+                    if !self.sys.set_running(running) { return; }
+                    if running { self.forget(); } else #stop
+                }
+                #power_cycle
+                #pulse_timer
+                #last_error
+                #output
+            }
+        })
+    }
+
+    /// A special relay, if it is stored and means on the model what it means on most.
+    fn special_relay(&self, relay: Relay) -> Option<TokenStream> {
+        let keeps = cycle::keeps(self.module, &self.storage, relay);
+        let cell = || {
+            self.storage
+                .bit(&quote!(self), DeviceClass::M, relay.number())
+        };
+        keeps.then(cell).flatten()
+    }
+
+    /// The state of an output terminal.
+    fn output(&mut self) -> TokenStream {
+        let class = self.class(DeviceClass::Y);
+        let plc_trait = self.rt("Plc");
+        // The watchdog switches off what STOP would keep.
+        let keep = match self.special_relay(M_KEEP_IN_STOP) {
+            Some(keep) if self.module.has_watchdog() => {
+                let stop = self.rt("Stop");
+                quote!((self.sys.running | (#keep & (self.error.stop != #stop::Watchdog))))
+            }
+            Some(keep) => quote!((self.sys.running | #keep)),
+            None => quote!(self.sys.running),
+        };
+        let off = self.special_relay(M_OUTPUTS_OFF).map(|off| quote!(& !#off));
+        let pins = self.pins();
+        let image = quote!(#plc_trait::bit(self, #class, number).unwrap_or(false));
+        let level = match pins {
+            Some(_) => quote!((pulse | #image)),
+            None => image,
+        };
+        quote! {
+            fn output(&self, number: u32) -> bool {
+                #pins
+                #keep #off & #level
+            }
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! What a scan, STOP, power-off and the watchdog do, beyond the program's functions.
+
+use crate::plan::{Plan, statements};
+use crate::storage::Storage;
+use rungc_ir::Module;
+use rungc_ir::node::Stmt;
+use rungc_models::Model;
+use rungc_rt::special::{
+    D_ANY_ERROR, D_ERROR_STEP, D_FIRST_ERROR_STEP, D_WATCHDOG, D_WATCHDOG_MS, M_ANY_ERROR,
+    M_FIRST_ERROR, M_OPERATION_ERROR, M_WATCHDOG, OPERATION_ERROR_BCD, Relay, WATCHDOG_BCD,
+    WATCHDOG_CODE,
+};
+use rungc_syntax::DeviceClass;
+
+/// What of these the statements of a program ask for.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
+pub struct Asked {
+    /// Clears the general devices ([`Stmt::Clear`]).
+    pub clears_general: bool,
+    /// Clears the latched devices.
+    pub clears_latched: bool,
+    /// Reports operation errors that it finds itself ([`Stmt::Fault`]).
+    pub faults: bool,
+}
+
+impl Asked {
+    /// Looks at all functions.
+    pub fn of(plan: &Plan) -> Self {
+        let mut asked = Asked::default();
+        for function in &plan.functions {
+            statements(&function.body, &mut |stmt| {
+                asked.clears_general |= matches!(stmt, Stmt::Clear { latched: false });
+                asked.clears_latched |= matches!(stmt, Stmt::Clear { latched: true });
+                asked.faults |= matches!(stmt, Stmt::Fault { .. });
+            });
+        }
+        asked
+    }
+}
+
+/// Whether a special relay is stored and means on the model what it means on most.
+pub fn keeps(module: &Module, storage: &Storage, relay: Relay) -> bool {
+    let is_stored = storage.find(DeviceClass::M, relay.number()).is_some();
+    is_stored && module.model.scan_keeps(relay)
+}
+
+/// What becomes of latched devices at power-on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Latches {
+    /// They keep their values.
+    Kept,
+    /// They are cleared unless this register D holds this key.
+    KeptIf(u32, i16),
+    /// They are cleared, since this register D, which is not stored, does not hold this key.
+    Lost(u32, i16),
+}
+
+/// What becomes of the latched devices of a program.
+pub fn latches(module: &Module, storage: &Storage) -> Latches {
+    let Some((register, key)) = module.model.latch_key else {
+        return Latches::Kept;
+    };
+    let register = register.number();
+    if storage.find(DeviceClass::D, register).is_some() {
+        return Latches::KeptIf(register, key);
+    }
+    let mut words = module.model.special_words();
+    let at_power_on = words
+        .find(|word| word.0 == register)
+        .map_or(0, |word| word.1);
+    if at_power_on == key {
+        Latches::Kept
+    } else {
+        Latches::Lost(register, key)
+    }
+}
+
+/// How many steps a scan may repeat ([`Stmt::Watch`]).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Budget {
+    /// [`rungc_ir::node::STEPS_PER_MS`] for each millisecond in this register D, at least one.
+    Register(u32),
+    /// So many.
+    Steps(u32),
+}
+
+/// What the watchdog gives each scan; `None` if the program has nothing that it could cut short.
+pub fn budget(module: &Module, storage: &Storage) -> Option<Budget> {
+    let register = D_WATCHDOG_MS.number();
+    let is_stored = storage.find(DeviceClass::D, register).is_some();
+    module.has_watchdog().then(|| match is_stored {
+        true => Budget::Register(register),
+        false => Budget::Steps(Module::scan_steps(module.watchdog_ms())),
+    })
+}
+
+/// What a special device shows of an error.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Shown {
+    /// A relay goes on.
+    On,
+    /// A register takes this value.
+    Word(i16),
+    /// A register takes the error's code.
+    Code,
+    /// A register takes the step at which it happened.
+    Step,
+}
+
+/// A special device, and what it shows.
+pub type Shows = (DeviceClass, u32, Shown);
+
+/// What stored special devices show when the watchdog stops the PLC ([`rungc_rt::trip_watchdog`]).
+pub fn watchdog_shows(model: &Model, storage: &Storage) -> Vec<Shows> {
+    use DeviceClass::{D, M};
+    let shows = match model.error_relay {
+        M_OPERATION_ERROR => vec![
+            (M, M_WATCHDOG.number(), Shown::On),
+            (M, M_ANY_ERROR.number(), Shown::On),
+            (D, D_WATCHDOG.number(), Shown::Word(WATCHDOG_CODE)),
+            (D, D_ANY_ERROR.number(), Shown::Word(WATCHDOG_BCD)),
+        ],
+        relay => vec![(M, relay.number(), Shown::On)],
+    };
+    stored(storage, shows)
+}
+
+/// What stored special devices show of the first operation error, as long as the first of them, a relay, is on; then what they show of each one
+/// ([`rungc_rt::report`]).
+pub fn fault_shows(model: &Model, storage: &Storage) -> [Vec<Shows>; 2] {
+    use DeviceClass::{D, M};
+    let relay = model.error_relay.number();
+    let shows = match model.error_relay {
+        M_OPERATION_ERROR => [
+            vec![
+                (M, M_FIRST_ERROR.number(), Shown::On),
+                (D, D_FIRST_ERROR_STEP.number(), Shown::Step),
+            ],
+            vec![
+                (M, relay, Shown::On),
+                (D, relay, Shown::Code),
+                (D, D_ERROR_STEP.number(), Shown::Step),
+                (M, M_ANY_ERROR.number(), Shown::On),
+                (D, D_ANY_ERROR.number(), Shown::Word(OPERATION_ERROR_BCD)),
+            ],
+        ],
+        // On HM the other numbers are something else.
+        _ => [
+            Vec::new(),
+            vec![(M, relay, Shown::On), (D, relay, Shown::Step)],
+        ],
+    };
+    shows.map(|shows| stored(storage, shows))
+}
+
+fn stored(storage: &Storage, mut shows: Vec<Shows>) -> Vec<Shows> {
+    shows.retain(|&(class, number, _)| storage.find(class, number).is_some());
+    shows
+}
