@@ -66,7 +66,26 @@ impl Writer<'_, '_> {
                 value,
             } => self.put_nibbles(code, &place, digits, value),
             Stmt::Reset(place) => self.reset(code, &place),
-            _ => {}
+            Stmt::Network(_)
+            | Stmt::Let(..)
+            | Stmt::Edge { .. }
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::If { .. }
+            | Stmt::For { .. }
+            | Stmt::Repeat { .. }
+            | Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Call { .. }
+            | Stmt::Fetch { .. }
+            | Stmt::Send { .. }
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. } => {}
         }
     }
 

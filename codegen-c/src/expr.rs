@@ -3,9 +3,8 @@
 use crate::fields::PrintStorage;
 use crate::text;
 use crate::writer::Writer;
-use rungc_emit::logic;
+use rungc_emit::{bounds, logic};
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
-use rungc_models::runs::is_counter32;
 use rungc_rt::CmpOp;
 use rungc_syntax::DeviceClass;
 use smallvec::SmallVec;
@@ -38,6 +37,15 @@ pub enum Around {
 }
 
 impl Around {
+    /// The same where an `int` will do as well.
+    fn loosely(self) -> Self {
+        if self == Around::Exact {
+            Around::Loose
+        } else {
+            self
+        }
+    }
+
     /// Whether an expression made with `op` needs parentheses here. More than C asks for: compilers warn where readers may err.
     fn needs_parentheses(self, op: &str) -> bool {
         match self {
@@ -53,19 +61,21 @@ impl Around {
     }
 }
 
-/// Bounds of an integer expression that are plain to see.
-type Bounds = (i64, i64);
-
-const I16: Bounds = (i16::MIN as i64, i16::MAX as i64);
-const I32: Bounds = (i32::MIN as i64, i32::MAX as i64);
-
 /// The infix operator of a bitwise operation.
 fn bitwise(op: BinOp) -> Option<&'static str> {
     match op {
         BinOp::And => Some("&"),
         BinOp::Or => Some("|"),
         BinOp::Xor => Some("^"),
-        _ => None,
+        BinOp::Add
+        | BinOp::Sub
+        | BinOp::Mul
+        | BinOp::MulHigh
+        | BinOp::Div
+        | BinOp::Rem
+        | BinOp::SatAdd
+        | BinOp::SatSub
+        | BinOp::RotateLeft => None,
     }
 }
 
@@ -77,7 +87,13 @@ fn arithmetic(op: BinOp) -> Option<&'static str> {
         BinOp::Mul => Some("*"),
         BinOp::Div => Some("/"),
         BinOp::Rem => Some("%"),
-        _ => None,
+        BinOp::MulHigh
+        | BinOp::And
+        | BinOp::Or
+        | BinOp::Xor
+        | BinOp::SatAdd
+        | BinOp::SatSub
+        | BinOp::RotateLeft => None,
     }
 }
 
@@ -118,6 +134,12 @@ pub fn integer(out: &mut String, value: i32) {
     }
 }
 
+/// Writes a member of the struct.
+fn member(out: &mut String, name: &str) {
+    out.push_str("plc->");
+    out.push_str(name);
+}
+
 /// Writes a float constant.
 pub fn float(out: &mut String, value: f32) {
     if value.is_finite() {
@@ -147,16 +169,17 @@ impl Writer<'_, '_> {
                 float(out, *value);
             }
             Expr::Temp(temp) => self.temp(out, *temp),
-            Expr::ReadBit(_)
-            | Expr::ReadWordBit(..)
-            | Expr::ReadWord(_)
-            | Expr::ReadPair(_)
-            | Expr::ReadFloat(_)
-            | Expr::ReadNibbles { .. } => self.read(out, id, around),
-            Expr::Cell(cell) => {
-                out.push_str("plc->");
-                out.push_str(&module.cells[*cell].name);
-            }
+            Expr::ReadBit(place) => self.read_bit(out, place),
+            Expr::ReadWordBit(place, bit) => self.bit_of_word(out, place, *bit),
+            Expr::ReadWord(place) => self.word(out, place, 0),
+            Expr::ReadPair(place) => self.pair(out, place),
+            Expr::ReadFloat(place) => self.float_pair(out, place),
+            Expr::ReadNibbles {
+                place,
+                digits,
+                wide,
+            } => self.group(out, place, (*digits, *wide), around),
+            Expr::Cell(cell) => member(out, &module.cells[*cell].name),
             Expr::Entry(table, index) => {
                 let _ = write!(out, "plc->{}[", module.tables[*table].name);
                 self.expr(out, *index, Around::Exact);
@@ -165,16 +188,8 @@ impl Writer<'_, '_> {
             Expr::Stride(_, by) => {
                 let _ = write!(out, "{by} * (int32_t){}", self.round);
             }
-            Expr::Flag(flag) => {
-                out.push_str("plc->");
-                out.push_str(&module.flags[*flag].name);
-            }
-            Expr::Sys(value) => out.push_str(match value {
-                SysValue::Running => "plc->sys.running",
-                SysValue::FirstScan => "plc->sys.first_scan",
-                SysValue::NowMs => self.called("plc_int32(plc->sys.now_ms)"),
-                SysValue::Scan100us => self.called("plc_int32(plc->sys.scan_us / 100u)"),
-            }),
+            Expr::Flag(flag) => member(out, &module.flags[*flag].name),
+            Expr::Sys(value) => self.sys(out, *value),
             Expr::Not(a) => self.not(out, *a, around),
             Expr::And(..) => self.chain(out, id, "&", around),
             Expr::Or(..) => self.chain(out, id, "|", around),
@@ -184,38 +199,15 @@ impl Writer<'_, '_> {
                 let function = op.name(module.ty(*a));
                 self.call(out, &format!("plc_{function}"), *a);
             }
-            Expr::Float(op, a, b) => {
-                let _ = write!(self.call_in(out), "plc_{}(", op.name());
-                self.expr(out, *a, Around::Exact);
-                out.push_str(", ");
-                self.expr(out, *b, Around::Exact);
-                out.push(')');
-            }
+            Expr::Float(op, a, b) => self.call_of_two(out, "plc_", op.name(), (*a, *b)),
             Expr::Complement(a) => {
                 self.int16_of(out, id, around, |w, out| {
                     out.push('~');
                     w.expr(out, *a, Around::Unary);
                 });
             }
-            Expr::Neg(a) => {
-                let function = if self.module.ty(*a) == Ty::I16 {
-                    "plc_sub16(0, "
-                } else {
-                    "plc_sub32(0, "
-                };
-                self.call_in(out).push_str(function);
-                self.expr(out, *a, Around::Exact);
-                out.push(')');
-            }
-            Expr::Widen(a) => self.expr(
-                out,
-                *a,
-                if around == Around::Exact {
-                    Around::Loose
-                } else {
-                    around
-                },
-            ),
+            Expr::Neg(a) => self.neg(out, *a),
+            Expr::Widen(a) => self.expr(out, *a, around.loosely()),
             Expr::Within { value, .. } => self.expr(out, *value, around),
             Expr::Narrow(a) => self.narrow(out, *a, around),
             Expr::HighWord(a) => self.call(out, "plc_high", *a),
@@ -224,8 +216,43 @@ impl Writer<'_, '_> {
         }
     }
 
+    fn sys(&mut self, out: &mut String, value: SysValue) {
+        out.push_str(match value {
+            SysValue::Running => "plc->sys.running",
+            SysValue::FirstScan => "plc->sys.first_scan",
+            SysValue::NowMs => self.called("plc_int32(plc->sys.now_ms)"),
+            SysValue::Scan100us => self.called("plc_int32(plc->sys.scan_us / 100u)"),
+        });
+    }
+
+    fn neg(&mut self, out: &mut String, a: ExprId) {
+        let function = match self.module.ty(a) {
+            Ty::I16 => "plc_sub16(0, ",
+            Ty::I32 | Ty::Bit | Ty::F32 => "plc_sub32(0, ",
+        };
+        self.call_in(out).push_str(function);
+        self.expr(out, a, Around::Exact);
+        out.push(')');
+    }
+
+    fn call_of_two(
+        &mut self,
+        out: &mut String,
+        family: &str,
+        function: &str,
+        (a, b): (ExprId, ExprId),
+    ) {
+        self.call_in(out).push_str(family);
+        out.push_str(function);
+        out.push('(');
+        self.expr(out, a, Around::Exact);
+        out.push_str(", ");
+        self.expr(out, b, Around::Exact);
+        out.push(')');
+    }
+
     /// Where a call of a function is written: it is counted.
-    fn call_in<'o>(&mut self, out: &'o mut String) -> &'o mut String {
+    pub(crate) fn call_in<'o>(&mut self, out: &'o mut String) -> &'o mut String {
         self.calls += 1;
         out
     }
@@ -276,10 +303,12 @@ impl Writer<'_, '_> {
 
     /// Whether a `Bit` is written as an integer: one from an array of columns, or made of such.
     fn is_number(&self, e: ExprId) -> bool {
-        let known = |e: ExprId| match *self.module.expr(e) {
-            _ if self.named.contains_key(&e) => Some(false),
-            Expr::ReadBit(place) => Some(self.fields.is_level(place.class, place.number)),
-            _ => None,
+        let known = |e: ExprId| {
+            let is_named = self.named.contains_key(&e);
+            let Expr::ReadBit(place) = *self.module.expr(e) else {
+                return is_named.then_some(false);
+            };
+            Some(!is_named && self.fields.is_level(place.class, place.number))
         };
         !self.module.layout.grids.is_empty() && logic::is_number(self.module, e, &known)
     }
@@ -336,12 +365,10 @@ impl Writer<'_, '_> {
         let mut operands = Operands::new();
         let mut todo = Operands::from_slice(&[id]);
         while let Some(e) = todo.pop() {
-            match *self.module.expr(e) {
-                Expr::And(a, b) if op == "&" && (e == id || !self.named.contains_key(&e)) => {
-                    todo.extend([b, a])
-                }
-                Expr::Or(a, b) if op == "|" && (e == id || !self.named.contains_key(&e)) => {
-                    todo.extend([b, a])
+            let is_named = e != id && self.named.contains_key(&e);
+            match (op, *self.module.expr(e)) {
+                ("&", Expr::And(a, b)) | ("|", Expr::Or(a, b)) if !is_named => {
+                    todo.extend([b, a]);
                 }
                 _ => operands.push(e),
             }
@@ -418,7 +445,7 @@ impl Writer<'_, '_> {
             return;
         }
         // Operands that are known to be small enough cannot overflow in plain C arithmetic.
-        let plain = arithmetic(op).filter(|op| !narrow && self.exact_bounds(op, a, b).is_some());
+        let plain = arithmetic(op).filter(|_| !narrow && bounds::is_exact(self.module, op, a, b));
         if let Some(op) = plain {
             self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
                 // A word is an int, which may have 16 bits.
@@ -433,33 +460,20 @@ impl Writer<'_, '_> {
             });
             return;
         }
-        self.arithmetic_call(out, op, if narrow { "16(" } else { "32(" }, a, b);
-    }
-
-    fn arithmetic_call(&mut self, out: &mut String, op: BinOp, width: &str, a: ExprId, b: ExprId) {
-        self.call_in(out).push_str(function(op));
-        out.push_str(width);
-        self.expr(out, a, Around::Exact);
-        out.push_str(", ");
-        self.expr(out, b, Around::Exact);
-        out.push(')');
+        self.call_of_two(out, function(op), if narrow { "16" } else { "32" }, (a, b));
     }
 
     /// The low word. That of a sum of words is their 16-bit sum.
     fn narrow(&mut self, out: &mut String, a: ExprId, around: Around) {
-        let unwiden = |e: ExprId| match *self.module.expr(e) {
-            Expr::Widen(inner) => Some(inner),
-            _ => None,
-        };
         if !self.named.contains_key(&a) {
-            if let Some(inner) = unwiden(a) {
+            if let Expr::Widen(inner) = *self.module.expr(a) {
                 return self.expr(out, inner, around);
             }
             if let Expr::Bin(op @ (BinOp::Add | BinOp::Sub | BinOp::Mul), l, r) =
                 *self.module.expr(a)
                 && let (Some(l), Some(r)) = (self.word_of(l), self.word_of(r))
             {
-                return self.arithmetic_call(out, op, "16(", l, r);
+                return self.call_of_two(out, function(op), "16", (l, r));
             }
         }
         self.call(out, "plc_low", a);
@@ -467,11 +481,11 @@ impl Writer<'_, '_> {
 
     /// The word that a widened expression is made of; a small constant stands for itself.
     fn word_of(&self, e: ExprId) -> Option<ExprId> {
-        match *self.module.expr(e) {
-            Expr::Widen(inner) => Some(inner),
-            Expr::I32(value) if i16::try_from(value).is_ok() => Some(e),
-            _ => None,
+        let expr = *self.module.expr(e);
+        if let Expr::Widen(inner) = expr {
+            return Some(inner);
         }
+        matches!(expr, Expr::I32(value) if i16::try_from(value).is_ok()).then_some(e)
     }
 
     fn bit_to_int(&mut self, out: &mut String, a: ExprId, around: Around) {
@@ -480,68 +494,10 @@ impl Writer<'_, '_> {
             Expr::ReadBit(_) | Expr::Temp(_) | Expr::Bit(_)
         ) || self.named.contains_key(&a);
         if plain || around != Around::Exact {
-            return self.expr(
-                out,
-                a,
-                if around == Around::Exact {
-                    Around::Loose
-                } else {
-                    around
-                },
-            );
+            return self.expr(out, a, around.loosely());
         }
         out.push_str("(int16_t)");
         self.expr(out, a, Around::Unary);
-    }
-
-    /// Bounds of the result of an operator, if they lie within 32 bits for all operands.
-    fn exact_bounds(&self, op: &str, a: ExprId, b: ExprId) -> Option<Bounds> {
-        let ((a0, a1), (b0, b1)) = (self.bounds(a, 3), self.bounds(b, 3));
-        let (low, high) = match op {
-            "+" => (a0 + b0, a1 + b1),
-            "-" => (a0 - b1, a1 - b0),
-            "*" => {
-                let ends = [a0 * b0, a0 * b1, a1 * b0, a1 * b1];
-                (*ends.iter().min()?, *ends.iter().max()?)
-            }
-            _ if b0 > 0 => (a0.min(0), a1.max(0)),
-            // The divisor is not 0; only MIN / -1 does not fit.
-            _ if a0 > I32.0 || b0 > -1 || b1 < -1 => (a0.min(-a1), a1.max(-a0)),
-            _ => return None,
-        };
-        (low >= I32.0 && high <= I32.1).then_some((low, high))
-    }
-
-    /// Bounds of an integer expression, looking at most `depth` operators deep.
-    fn bounds(&self, e: ExprId, depth: u32) -> Bounds {
-        match *self.module.expr(e) {
-            Expr::I16(value) => (value.into(), value.into()),
-            Expr::I32(value) => (value.into(), value.into()),
-            Expr::Widen(a) => self.bounds(a, depth),
-            Expr::Within { value, low, high } => {
-                let (least, most) = self.bounds(value, depth);
-                (least.max(low.into()), most.min(high.into()))
-            }
-            Expr::BitToInt(_) => (0, 1),
-            Expr::ReadNibbles { digits, .. } if digits < 4 => (0, (1 << (4 * digits)) - 1),
-            Expr::Bin(BinOp::And, _, mask) if matches!(*self.module.expr(mask), Expr::I32(0..)) => {
-                (0, self.bounds(mask, 0).1)
-            }
-            Expr::Bin(op, a, b) if depth > 0 && self.module.ty(e) == Ty::I32 => arithmetic(op)
-                .and_then(|op| {
-                    let ((a0, a1), (b0, b1)) =
-                        (self.bounds(a, depth - 1), self.bounds(b, depth - 1));
-                    match op {
-                        "+" => Some((a0 + b0, a1 + b1)),
-                        "-" => Some((a0 - b1, a1 - b0)),
-                        _ => None,
-                    }
-                })
-                .filter(|&(low, high)| low >= I32.0 && high <= I32.1)
-                .unwrap_or(I32),
-            _ if self.module.ty(e) == Ty::I16 => I16,
-            _ => I32,
-        }
     }
 
     /// The number of an indexed device, as an `int32_t`.
@@ -551,10 +507,10 @@ impl Writer<'_, '_> {
             let _ = write!(out, "{base}");
             return;
         };
-        let (low, high) = self.bounds(index, 2);
+        let (low, high) = bounds::of(self.module, index, 2);
         if base == 0 {
             self.expr(out, index, Around::Exact);
-        } else if low + base >= I32.0 && high + base <= I32.1 {
+        } else if bounds::fits((low + base, high + base)) {
             let _ = write!(out, "{base} + ");
             self.expr(out, index, Around::Operand("+"));
         } else {
@@ -582,159 +538,5 @@ impl Writer<'_, '_> {
         );
         self.number(out, place, 0);
         let _ = write!(out, ", {count})");
-    }
-
-    /// Reads of devices.
-    fn read(&mut self, out: &mut String, id: ExprId, around: Around) {
-        match *self.module.expr(id) {
-            Expr::ReadBit(place) => self.read_bit(out, &place),
-            Expr::ReadWordBit(place, bit) => {
-                self.call_in(out).push_str("plc_bit(");
-                self.word(out, &place, 0);
-                let _ = write!(out, ", {bit}u)");
-            }
-            Expr::ReadWord(place) => self.word(out, &place, 0),
-            Expr::ReadPair(place) => self.pair(out, &place),
-            Expr::ReadFloat(place) => {
-                self.call_in(out).push_str("plc_float(");
-                self.pair(out, &place);
-                out.push(')');
-            }
-            Expr::ReadNibbles {
-                place,
-                digits,
-                wide,
-            } => {
-                let narrow = !wide && digits <= 4;
-                if narrow && (digits == 4 || around == Around::Exact) {
-                    self.call_in(out).push_str("plc_low(");
-                    self.nibbles(out, &place, digits);
-                    out.push(')');
-                } else {
-                    self.nibbles(out, &place, digits);
-                }
-            }
-            _ => {}
-        }
-    }
-
-    fn read_bit(&mut self, out: &mut String, place: &Place) {
-        if self.invariant_of_rounds(out, place) {
-            return;
-        }
-        let of_round = self.access_round(out, place);
-        if place.index.is_some() && !of_round {
-            return self.indexed_call(out, "bit", place, 0);
-        }
-        if !of_round && !self.fields.access(out, place.class, place.number) {
-            out.push_str("false");
-        } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
-            out.push_str(".done");
-        }
-    }
-
-    /// Writes the expression of a device of the present round of a loop; false for any other.
-    pub fn access_round(&self, out: &mut String, place: &Place) -> bool {
-        match place.index.map(|index| self.module.expr(index)) {
-            Some(&Expr::Stride(_, by)) => {
-                self.fields
-                    .access_round(out, (place.class, place.number), by, &self.round)
-            }
-            _ => false,
-        }
-    }
-
-    /// Reads the word `plus` places after `place`.
-    pub fn word(&mut self, out: &mut String, place: &Place, plus: i32) {
-        let of_round = plus == 0 && self.access_round(out, place);
-        if place.index.is_some() && !of_round {
-            return self.indexed_call(out, "word", place, plus);
-        }
-        let number = place.number.saturating_add_signed(plus);
-        if !of_round && !self.fields.access(out, place.class, number) {
-            out.push('0');
-        } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
-            out.push_str(".value");
-        }
-    }
-
-    /// Where the high word of a pair is.
-    pub fn high_word(&self, place: &Place) -> (Place, i32) {
-        if place.class == DeviceClass::Z && self.module.model.z_pairs_with_v {
-            (
-                Place {
-                    class: DeviceClass::V,
-                    ..*place
-                },
-                0,
-            )
-        } else {
-            (*place, 1)
-        }
-    }
-
-    fn pair(&mut self, out: &mut String, place: &Place) {
-        if place.index.is_some() && place.class == DeviceClass::C {
-            return self.indexed_call(out, "long", place, 0);
-        }
-        if is_counter32(place.class, place.number) {
-            return self.word(out, place, 0);
-        }
-        let (high, plus) = self.high_word(place);
-        self.call_in(out).push_str("plc_join(");
-        self.word(out, &high, plus);
-        out.push_str(", ");
-        self.word(out, place, 0);
-        out.push(')');
-    }
-
-    fn nibbles(&mut self, out: &mut String, place: &Place, digits: u8) {
-        let count = 4 * u32::from(digits);
-        if place.index.is_some() {
-            self.helpers.bits(place.class);
-            let _ = write!(
-                self.call_in(out),
-                "{}_bits_{}(plc, ",
-                self.module.name,
-                place.class.prefix()
-            );
-            self.number(out, place, 0);
-            let _ = write!(out, ", {count}u)");
-        } else if self
-            .fields
-            .array(place.class, place.number, count)
-            .is_some()
-        {
-            self.call_in(out).push_str("plc_bits(&");
-            self.fields.access(out, place.class, place.number);
-            let _ = write!(out, ", {count}u)");
-        } else {
-            // Relays that are no array: their states side by side.
-            self.call_in(out).push_str("plc_bits((const bool[]){");
-            for bit in 0..count {
-                out.push_str(if bit > 0 { ", " } else { "" });
-                self.read_bit(
-                    out,
-                    &Place {
-                        number: place.number + bit,
-                        ..*place
-                    },
-                );
-            }
-            let _ = write!(out, "}}, {count}u)");
-        }
-    }
-
-    /// A read through the program's function for indexed access.
-    fn indexed_call(&mut self, out: &mut String, what: &'static str, place: &Place, plus: i32) {
-        self.helpers.get(what, place.class);
-        let _ = write!(
-            self.call_in(out),
-            "{}_{what}_{}(plc, ",
-            self.module.name,
-            place.class.prefix()
-        );
-        self.number(out, place, plus);
-        out.push(')');
     }
 }

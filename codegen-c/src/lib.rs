@@ -20,6 +20,7 @@ mod helpers;
 mod host;
 mod page;
 mod places;
+mod reads;
 mod rounds;
 mod runtime;
 mod stmt;

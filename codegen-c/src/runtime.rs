@@ -2,7 +2,7 @@
 
 use crate::expr::{Around, float, integer};
 use crate::writer::Writer;
-use rungc_ir::node::{Arg, Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{Arg, CellId, Expr, ExprId, Place, Stmt};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -50,33 +50,19 @@ impl Writer<'_, '_> {
         code.push_str(");");
     }
 
-    /// Writes a [`Stmt::Fetch`], without what it assigns, or a [`Stmt::Send`].
-    pub fn transfer(&mut self, code: &mut String, stmt: &Stmt) {
-        match stmt {
-            Stmt::Fetch {
-                from,
-                wide,
-                value,
-                step,
-                ..
-            } => {
-                self.operand_call(code, "fetch", (*wide, *step), from);
-                let cell = &self.module.cells[*value].name;
-                let _ = write!(code, ", &plc->{cell});");
-            }
-            Stmt::Send {
-                to,
-                wide,
-                value,
-                step,
-            } => {
-                self.operand_call(code, "send", (*wide, *step), to);
-                code.push_str(", ");
-                self.expr(code, *value, Around::Exact);
-                code.push_str(");");
-            }
-            _ => {}
-        }
+    /// Writes a [`Stmt::Fetch`], without what it assigns.
+    pub fn fetch(&mut self, code: &mut String, from: &Arg, form: (bool, u32), value: CellId) {
+        self.operand_call(code, "fetch", form, from);
+        let cell = &self.module.cells[value].name;
+        let _ = write!(code, ", &plc->{cell});");
+    }
+
+    /// Writes a [`Stmt::Send`].
+    pub fn send(&mut self, code: &mut String, to: &Arg, form: (bool, u32), value: ExprId) {
+        self.operand_call(code, "send", form, to);
+        code.push_str(", ");
+        self.expr(code, value, Around::Exact);
+        code.push_str(");");
     }
 
     /// The begin of a call that reads or writes an operand.

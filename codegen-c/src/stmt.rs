@@ -97,13 +97,24 @@ impl Writer<'_, '_> {
                     code = format!("return {};", self.state_name(root, state));
                 }
             }
-            Stmt::Fetch { there, .. } => {
+            Stmt::Fetch {
+                from,
+                wide,
+                value,
+                there,
+                step,
+            } => {
                 if self.plan.temp(*there).used > 0 {
                     code = self.assigned_temp(*there);
                 }
-                self.transfer(&mut code, stmt);
+                self.fetch(&mut code, from, (*wide, *step), *value);
             }
-            Stmt::Send { .. } => self.transfer(&mut code, stmt),
+            Stmt::Send {
+                to,
+                wide,
+                value,
+                step,
+            } => self.send(&mut code, to, (*wide, *step), *value),
             Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
             Stmt::Fault { code: fault, step } => {
                 code = format!(
@@ -119,7 +130,26 @@ impl Writer<'_, '_> {
                 let what = if *latched { "latched" } else { "general" };
                 code = format!("{}_clear_{what}(plc);", self.module.name);
             }
-            _ => self.device_stmt(&mut code, stmt),
+            Stmt::WriteBit(..)
+            | Stmt::WriteWordBit(..)
+            | Stmt::WriteWord(..)
+            | Stmt::WritePair(..)
+            | Stmt::WriteFloat(..)
+            | Stmt::WriteNibbles { .. }
+            | Stmt::Timer { .. }
+            | Stmt::TimerAt { .. }
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16 { .. }
+            | Stmt::Counter16At { .. }
+            | Stmt::Counter32 { .. }
+            | Stmt::Count { .. }
+            | Stmt::Reset(_) => self.device_stmt(&mut code, stmt),
+            // Written as nodes.
+            Stmt::Network(_)
+            | Stmt::If { .. }
+            | Stmt::For { .. }
+            | Stmt::Repeat { .. }
+            | Stmt::Parts(_) => {}
         }
         if !code.is_empty() {
             let beside = comments::written(stmt)

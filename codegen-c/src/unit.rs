@@ -292,7 +292,9 @@ impl Printer<'_> {
                     field.element(&mut array, "n", "u");
                     let mut clear = match field.kind {
                         Kind::Bit | Kind::Level | Kind::Word => format!("        {array} = 0;\n"),
-                        _ => format!("        memset(&{array}, 0, sizeof {array});\n"),
+                        Kind::Timer | Kind::Counter16 | Kind::Counter32 => {
+                            format!("        memset(&{array}, 0, sizeof {array});\n")
+                        }
                     };
                     if let Some(is_kept) = field.column_is_kept("n", "u") {
                         clear = format!("        if ({is_kept}) {{\n    {clear}        }}\n");

@@ -20,64 +20,56 @@ pub const OUT_COUNTER: &str = "out_counter";
 const SHORT_DRIVE: u64 = 5;
 
 impl Generator<'_> {
-    /// OUT T and OUT C.
-    pub fn coil(&mut self, stmt: &Stmt) -> TokenStream {
-        match *stmt {
-            Stmt::Timer {
-                number,
-                kind,
-                drive,
-                preset,
-            } => {
-                let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::T, number) else {
-                    return TokenStream::new();
-                };
-                let kind = self.coils.kind(number, kind);
-                self.timer_coil(cell, kind, drive, preset)
-            }
-            _ => self.counter_coil(stmt),
-        }
-    }
-
-    fn counter_coil(&mut self, stmt: &Stmt) -> TokenStream {
-        let mut before = TokenStream::new();
-        let mut method = format_ident!("run");
-        let (number, arguments) = match *stmt {
-            Stmt::Counter16 {
-                number,
-                drive,
-                preset,
-            } => {
-                let arguments;
-                (before, arguments) = self.drive_and_preset(drive, preset);
-                (number, arguments)
-            }
-            Stmt::Counter32 {
-                number,
-                drive,
-                down,
-                preset,
-            } => {
-                let drive = self.drive(drive, &mut before);
-                let down = self.expr(down);
-                let preset = self.expr(preset);
-                (number, quote!(#drive, #down, #preset))
-            }
-            Stmt::Count {
-                number,
-                down,
-                preset,
-            } => {
-                let (down, preset) = (self.expr(down), self.expr(preset));
-                method = format_ident!("count");
-                (number, quote!(#down, #preset))
-            }
-            _ => return TokenStream::new(),
-        };
-        let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::C, number) else {
+    /// OUT T.
+    pub fn timer(
+        &mut self,
+        number: u32,
+        kind: TimerKind,
+        drive: ExprId,
+        preset: ExprId,
+    ) -> TokenStream {
+        let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::T, number) else {
             return TokenStream::new();
         };
-        quote!(#before #cell.#method(#arguments);)
+        let kind = self.coils.kind(number, kind);
+        self.timer_coil(cell, kind, drive, preset)
+    }
+
+    /// OUT C of a 16-bit counter.
+    pub fn counter16(&mut self, number: u32, drive: ExprId, preset: ExprId) -> TokenStream {
+        let (before, arguments) = self.drive_and_preset(drive, preset);
+        let call = self.counter_call(number, "run", &arguments);
+        quote!(#before #call)
+    }
+
+    /// OUT C of a 32-bit counter.
+    pub fn counter32(
+        &mut self,
+        number: u32,
+        drive: ExprId,
+        down: ExprId,
+        preset: ExprId,
+    ) -> TokenStream {
+        let mut before = TokenStream::new();
+        let drive = self.drive(drive, &mut before);
+        let (down, preset) = (self.expr(down), self.expr(preset));
+        let call = self.counter_call(number, "run", &quote!(#drive, #down, #preset));
+        quote!(#before #call)
+    }
+
+    /// A count of a high-speed counter.
+    pub fn count(&mut self, number: u32, down: ExprId, preset: ExprId) -> TokenStream {
+        let (down, preset) = (self.expr(down), self.expr(preset));
+        self.counter_call(number, "count", &quote!(#down, #preset))
+    }
+
+    fn counter_call(&self, number: u32, method: &str, arguments: &TokenStream) -> TokenStream {
+        let method = format_ident!("{method}");
+        let cell = self.storage.cell(&quote!(plc), DeviceClass::C, number);
+        cell.map_or(
+            TokenStream::new(),
+            |cell| quote!(#cell.#method(#arguments);),
+        )
     }
 
     /// What stands in front of a coil, and the first two arguments of the function that runs it.
@@ -198,10 +190,10 @@ impl Generator<'_> {
     pub fn indexed_coils(&mut self) {
         let (mut timers, mut counters) = (false, false);
         for function in &self.module.functions {
-            rungc_ir::walk::statements(&function.body, &mut |stmt| match stmt {
-                Stmt::TimerAt { place, .. } => timers |= self.is_indexed(*place),
-                Stmt::Counter16At { place, .. } => counters |= self.is_indexed(*place),
-                _ => {}
+            rungc_ir::walk::statements(&function.body, &mut |stmt| {
+                timers |= matches!(stmt, Stmt::TimerAt { place, .. } if self.is_indexed(*place));
+                counters |=
+                    matches!(stmt, Stmt::Counter16At { place, .. } if self.is_indexed(*place));
             });
         }
         if timers {

@@ -3,7 +3,7 @@
 use crate::generate::Generator;
 use crate::storage::{PrintField, PrintStorage, bit_of, word_of};
 use proc_macro2::{Literal, TokenStream};
-use quote::{ToTokens, quote};
+use quote::{ToTokens, format_ident, quote};
 use rungc_emit::logic;
 use rungc_emit::storage::{Kind, high_word};
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
@@ -79,7 +79,7 @@ impl Code {
     pub fn receiver(self) -> TokenStream {
         match self.shape {
             Shape::Atom => self.tokens,
-            _ => {
+            Shape::Unary | Shape::Cast | Shape::Binary(_) => {
                 let tokens = self.tokens;
                 quote!((#tokens))
             }
@@ -91,7 +91,7 @@ impl Code {
         match self.shape {
             Shape::Atom | Shape::Unary => self.tokens,
             Shape::Binary(own) if own == op && matches!(op, "&" | "|" | "^") => self.tokens,
-            _ => self.receiver(),
+            Shape::Cast | Shape::Binary(_) => self.receiver(),
         }
     }
 }
@@ -266,66 +266,61 @@ impl Generator<'_> {
     }
 
     fn arithmetic(&mut self, op: BinOp, a: ExprId, b: ExprId, typed: bool) -> Code {
-        let bitwise = match op {
-            BinOp::And => Some("&"),
-            BinOp::Or => Some("|"),
-            BinOp::Xor => Some("^"),
-            _ => None,
+        let is_wide = self.module.ty(a) == Ty::I32;
+        let min = if is_wide {
+            quote!(i32::MIN)
+        } else {
+            quote!(i16::MIN)
         };
-        if let Some(sign) = bitwise {
-            return Code::binary(sign, self.code(a, typed), self.expr(b));
-        }
-        let min = match self.module.ty(a) {
-            Ty::I32 => quote!(i32::MIN),
-            _ => quote!(i16::MIN),
-        };
-        let by_constant = match *self.module.expr(b) {
-            Expr::I16(value) => !matches!(value, 0 | -1),
-            Expr::I32(value) => !matches!(value, 0 | -1),
-            _ => false,
-        };
-        let a = self.typed(a);
-        let b = match (op, self.module.expr(b)) {
-            (BinOp::RotateLeft, Expr::I16(_) | Expr::I32(_)) => self.expr(b),
-            (BinOp::RotateLeft, _) => {
-                let places = self.typed(b).operand_of("as");
-                Code::shaped(quote!(#places as u32), Shape::Cast)
-            }
-            _ => self.expr(b),
+        let divisor = *self.module.expr(b);
+        let is_constant = matches!(divisor, Expr::I16(_) | Expr::I32(_));
+        let by_constant = is_constant && !matches!(divisor, Expr::I16(0 | -1) | Expr::I32(0 | -1));
+        let mut operands = |this: &mut Self| (this.typed(a).receiver(), this.expr(b));
+        let call = |(a, b): (TokenStream, Code), method: &str| {
+            let method = format_ident!("{method}");
+            Code::atom(quote!(#a.#method(#b)))
         };
         match op {
+            BinOp::And => Code::binary("&", self.code(a, typed), self.expr(b)),
+            BinOp::Or => Code::binary("|", self.code(a, typed), self.expr(b)),
+            BinOp::Xor => Code::binary("^", self.code(a, typed), self.expr(b)),
+            BinOp::Add => call(operands(self), "wrapping_add"),
+            BinOp::Sub => call(operands(self), "wrapping_sub"),
+            BinOp::Mul => call(operands(self), "wrapping_mul"),
+            BinOp::SatAdd => call(operands(self), "saturating_add"),
+            BinOp::SatSub => call(operands(self), "saturating_sub"),
             BinOp::MulHigh => {
+                let (a, b) = (self.typed(a), self.expr(b));
                 let mul_high = self.word_function("mul_high");
-                return Code::atom(quote!(#mul_high(#a, #b)));
+                Code::atom(quote!(#mul_high(#a, #b)))
             }
-            BinOp::Div if by_constant => return Code::binary("/", a, b),
-            BinOp::Rem if by_constant => return Code::binary("%", a, b),
-            _ => {}
-        }
-        let a = a.receiver();
-        Code::atom(match op {
-            BinOp::Add => quote!(#a.wrapping_add(#b)),
-            BinOp::Sub => quote!(#a.wrapping_sub(#b)),
-            BinOp::Mul => quote!(#a.wrapping_mul(#b)),
-            BinOp::SatAdd => quote!(#a.saturating_add(#b)),
-            BinOp::SatSub => quote!(#a.saturating_sub(#b)),
-            BinOp::RotateLeft => quote!(#a.rotate_left(#b)),
+            BinOp::RotateLeft if is_constant => call(operands(self), "rotate_left"),
+            BinOp::RotateLeft => {
+                let a = self.typed(a).receiver();
+                let places = self.typed(b).operand_of("as");
+                Code::atom(quote!(#a.rotate_left(#places as u32)))
+            }
+            BinOp::Div if by_constant => Code::binary("/", self.typed(a), self.expr(b)),
+            BinOp::Rem if by_constant => Code::binary("%", self.typed(a), self.expr(b)),
             // Only MIN / -1 has no quotient left here: it wraps to MIN, with remainder 0.
-            BinOp::Div => quote!(#a.checked_div(#b).unwrap_or(#min)),
-            _ => quote!(#a.checked_rem(#b).unwrap_or(0)),
-        })
+            BinOp::Div => {
+                let (a, b) = operands(self);
+                Code::atom(quote!(#a.checked_div(#b).unwrap_or(#min)))
+            }
+            BinOp::Rem => {
+                let (a, b) = operands(self);
+                Code::atom(quote!(#a.checked_rem(#b).unwrap_or(0)))
+            }
+        }
     }
 
     /// The device of a loop's present round.
     pub fn cell_of_round(&self, place: Place) -> Option<TokenStream> {
-        match *self.module.expr(place.index?) {
-            Expr::Stride(_, by) => {
-                let device = (place.class, place.number);
-                self.storage
-                    .cell_of_round(device, by, &quote::format_ident!("i"))
-            }
-            _ => None,
-        }
+        let Expr::Stride(_, by) = *self.module.expr(place.index?) else {
+            return None;
+        };
+        let device = (place.class, place.number);
+        self.storage.cell_of_round(device, by, &format_ident!("i"))
     }
 
     /// Where a bit is stored; `None` if it is not, or if an index leads to it.
@@ -474,13 +469,14 @@ impl Generator<'_> {
 
     /// `base` + `index`.
     pub fn offset(&mut self, base: i32, index: ExprId) -> TokenStream {
-        let cannot_overflow = match *self.module.expr(index) {
-            Expr::Widen(_) => true,
-            Expr::Within { low, high, .. } => {
-                base.checked_add(low).is_some() && base.checked_add(high).is_some()
-            }
-            _ => false,
-        };
+        let fits = |end: i32| base.checked_add(end).is_some();
+        let cannot_overflow = matches!(
+            *self.module.expr(index),
+            Expr::Widen(_) | Expr::Within { .. }
+        ) && !matches!(
+            *self.module.expr(index),
+            Expr::Within { low, high, .. } if !(fits(low) && fits(high))
+        );
         let index = self.typed(index);
         if base == 0 {
             return index.tokens;

@@ -54,7 +54,10 @@ impl Body {
         for piece in other.pieces {
             match piece {
                 Piece::Code(code) => self.code(code),
-                piece => self.pieces.push(piece),
+                piece @ (Piece::Comment(_)
+                | Piece::Beside(_)
+                | Piece::Block { .. }
+                | Piece::Branches { .. }) => self.pieces.push(piece),
             }
         }
     }

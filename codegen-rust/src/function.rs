@@ -110,18 +110,16 @@ impl Generator<'_> {
 
     /// What a function returns that ends by a jump or a return.
     fn last_jump(&mut self, function: &Function, last: &Node) -> TokenStream {
-        match last {
-            Node::Stmt(Stmt::Goto(label)) => {
-                let state = self.plan.state(function.root, *label);
-                let state = state.map(|state| self.state_name(function.root, state));
-                quote!(Some(#state))
-            }
-            _ if function.flow == Flow::Void => TokenStream::new(),
-            _ => {
-                let leave = self.leave();
-                quote!(Some(#leave))
-            }
+        if let Node::Stmt(Stmt::Goto(label)) = last {
+            let state = self.plan.state(function.root, *label);
+            let state = state.map(|state| self.state_name(function.root, state));
+            return quote!(Some(#state));
         }
+        if function.flow == Flow::Void {
+            return TokenStream::new();
+        }
+        let leave = self.leave();
+        quote!(Some(#leave))
     }
 
     /// What a statement returns that leaves the function of the module.

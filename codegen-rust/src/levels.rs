@@ -13,28 +13,30 @@ use rungc_syntax::DeviceClass;
 impl Generator<'_> {
     /// Whether a `Bit` is written as a number: one from an array of columns, or made of such.
     pub fn is_level(&self, id: ExprId) -> bool {
-        let known = |e: ExprId| match *self.module.expr(e) {
-            _ if self.named.contains_key(&e) => Some(false),
-            Expr::ReadBit(place) => {
-                Some(self.storage.is_level(place.class, place.number) || self.is_invariant(place))
+        let known = |e: ExprId| {
+            let is_named = self.named.contains_key(&e);
+            if let Expr::Temp(temp) = *self.module.expr(e) {
+                return Some(!is_named && self.levels.contains(&temp));
             }
-            Expr::Temp(temp) => Some(self.levels.contains(&temp)),
-            _ => None,
+            let Expr::ReadBit(place) = *self.module.expr(e) else {
+                return is_named.then_some(false);
+            };
+            let is_level = self.storage.is_level(place.class, place.number);
+            Some(!is_named && (is_level || self.is_invariant(place)))
         };
         !self.module.layout.grids.is_empty() && logic::is_number(self.module, id, &known)
     }
 
     /// A `Bit` as a number.
     pub fn level(&mut self, id: ExprId) -> Code {
-        match *self.module.expr(id) {
-            Expr::Bit(value) => literal(value),
-            Expr::And(a, b) if self.is_level(id) => Code::binary("&", self.level(a), self.level(b)),
-            Expr::Or(a, b) if self.is_level(id) => Code::binary("|", self.level(a), self.level(b)),
-            Expr::Not(a) if self.is_level(id) => Code::binary("^", self.level(a), literal(true)),
-            Expr::Temp(temp) if self.is_level(id) => Code::atom(self.temp_place(temp)),
-            Expr::ReadBit(place) if self.is_level(id) => {
-                Code::atom(self.level_cell(place).unwrap_or_default())
-            }
+        let is_level = self.is_level(id);
+        match (*self.module.expr(id), is_level) {
+            (Expr::Bit(value), _) => literal(value),
+            (Expr::And(a, b), true) => Code::binary("&", self.level(a), self.level(b)),
+            (Expr::Or(a, b), true) => Code::binary("|", self.level(a), self.level(b)),
+            (Expr::Not(a), true) => Code::binary("^", self.level(a), literal(true)),
+            (Expr::Temp(temp), true) => Code::atom(self.temp_place(temp)),
+            (Expr::ReadBit(place), true) => Code::atom(self.level_cell(place).unwrap_or_default()),
             _ => {
                 let bit = self.expr(id);
                 Code::atom(quote!(u8::from(#bit)))

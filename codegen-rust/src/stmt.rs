@@ -70,12 +70,11 @@ impl Generator<'_> {
                 otherwise,
             } => self.branches(body, *cond, then, otherwise),
             Node::For { count, body: inner } => {
-                let count = match *self.module.expr(*count) {
-                    Expr::I16(n) => literal32(i32::from(n.max(1)), false).tokens,
-                    _ => {
-                        let count = self.typed(*count).receiver();
-                        quote!(#count.max(1))
-                    }
+                let count = if let Expr::I16(n) = *self.module.expr(*count) {
+                    literal32(i32::from(n.max(1)), false).tokens
+                } else {
+                    let count = self.typed(*count).receiver();
+                    quote!(#count.max(1))
                 };
                 let inner = self.nodes(inner);
                 body.block(quote!(for _ in 0..#count), inner);
@@ -119,10 +118,28 @@ impl Generator<'_> {
                 let value = self.expr(*value);
                 quote!(plc.#table[#index as usize] = #value;)
             }
-            Stmt::Timer { .. }
-            | Stmt::Counter16 { .. }
-            | Stmt::Counter32 { .. }
-            | Stmt::Count { .. } => self.coil(stmt),
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => self.timer(*number, *kind, *drive, *preset),
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => self.counter16(*number, *drive, *preset),
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => self.counter32(*number, *drive, *down, *preset),
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => self.count(*number, *down, *preset),
             Stmt::TimerAt {
                 place,
                 drive,
@@ -239,9 +256,10 @@ impl Generator<'_> {
     fn branches(&mut self, body: &mut Body, cond: ExprId, then: &[Node], otherwise: &[Node]) {
         // `if a {} else { b }` is `if !a { b }`.
         let (code, first, second) = if then.is_empty() {
-            let code = match *self.module.expr(cond) {
-                Expr::Not(a) => self.expr(a),
-                _ => self.not(cond),
+            let code = if let Expr::Not(a) = *self.module.expr(cond) {
+                self.expr(a)
+            } else {
+                self.not(cond)
             };
             (code, otherwise, then)
         } else {

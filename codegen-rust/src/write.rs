@@ -22,17 +22,15 @@ impl Generator<'_> {
         };
         let holds = |e: ExprId| self.is_value_of(e, place);
         let commutes = matches!(op, "&" | "|" | "^");
-        let rest = match *self.module.expr(of) {
-            Expr::And(a, b) | Expr::Or(a, b) | Expr::Bin(_, a, b) => {
-                if holds(a) {
-                    Some(&operands.1)
-                } else if commutes && holds(b) {
-                    Some(&operands.0)
-                } else {
-                    None
-                }
-            }
-            _ => None,
+        let (Expr::And(a, b) | Expr::Or(a, b) | Expr::Bin(_, a, b)) = *self.module.expr(of) else {
+            return quote!(#target = #value;);
+        };
+        let rest = if holds(a) {
+            Some(&operands.1)
+        } else if commutes && holds(b) {
+            Some(&operands.0)
+        } else {
+            None
         };
         let rest = rest.map(|rest| &rest.tokens);
         match (op, rest) {

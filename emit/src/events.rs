@@ -10,9 +10,11 @@ use std::collections::BTreeSet;
 pub fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
     let functions = module.functions.iter().enumerate();
     let functions = functions.filter(|(_, function)| !function.body.is_empty());
-    functions.filter_map(|(at, function)| match function.kind {
-        FunctionKind::InputEdge { input, kind } => Some((at, input, kind)),
-        _ => None,
+    functions.filter_map(|(at, function)| {
+        let FunctionKind::InputEdge { input, kind } = function.kind else {
+            return None;
+        };
+        Some((at, input, kind))
     })
 }
 

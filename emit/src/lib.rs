@@ -8,6 +8,7 @@
 //!
 //! Start reading at [`plan::Plan`] and [`storage::Storage`].
 
+pub mod bounds;
 pub mod comments;
 pub mod cycle;
 pub mod edges;

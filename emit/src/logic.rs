@@ -21,21 +21,19 @@ pub fn comparison(module: &Module, op: CmpOp, a: ExprId, b: ExprId) -> (CmpOp, E
 /// The comparison that is the opposite of an expression, if that is a comparison of integers. With floats, not (a < b) is not a >= b, for
 /// NaN.
 pub fn opposite(module: &Module, e: ExprId) -> Option<(CmpOp, ExprId, ExprId)> {
-    match *module.expr(e) {
-        Expr::Cmp(op, a, b) if module.ty(a) != Ty::F32 => Some((op.opposite(), a, b)),
-        _ => None,
-    }
+    let Expr::Cmp(op, a, b) = *module.expr(e) else {
+        return None;
+    };
+    (module.ty(a) != Ty::F32).then(|| (op.opposite(), a, b))
 }
 
 /// Whether a bit is made of bits that are numbers, 0 or 1, as those of grids are. `known` answers for what a backend has a name or a place
 /// for; it is asked first, of each operand.
 pub fn is_number(module: &Module, e: ExprId, known: &dyn Fn(ExprId) -> Option<bool>) -> bool {
-    known(e).unwrap_or_else(|| match *module.expr(e) {
-        Expr::Not(a) => is_number(module, a, known),
-        Expr::And(a, b) | Expr::Or(a, b) => {
-            is_number(module, a, known) || is_number(module, b, known)
-        }
-        _ => false,
+    known(e).unwrap_or_else(|| {
+        let expr = module.expr(e);
+        let made_of_bits = matches!(expr, Expr::Not(_) | Expr::And(..) | Expr::Or(..));
+        made_of_bits && operands(expr).any(|operand| is_number(module, operand, known))
     })
 }
 

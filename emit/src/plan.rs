@@ -367,8 +367,10 @@ impl<'m> Builder<'m> {
             Node::If {
                 then, otherwise, ..
             } => then.is_empty() && otherwise.is_empty(),
-            Node::Stmt(Stmt::CallSub(root)) => is_empty(module, *root as usize),
-            _ => false,
+            Node::Stmt(stmt) => {
+                matches!(stmt, Stmt::CallSub(root) if is_empty(module, *root as usize))
+            }
+            Node::For { .. } | Node::Repeat(_) | Node::Parts { .. } | Node::Stretch(_) => false,
         };
         let items = body.iter().map(|stmt| self.stmt(stmt, root, nesting));
         items.filter(|item| !does_nothing(item)).collect()
@@ -417,7 +419,33 @@ impl<'m> Builder<'m> {
                 leaves.labels.insert(*label);
                 Node::Stmt(stmt)
             }
-            _ => Node::Stmt(stmt),
+            Stmt::Network(_)
+            | Stmt::Let(..)
+            | Stmt::Edge { .. }
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::WriteBit(..)
+            | Stmt::WriteWordBit(..)
+            | Stmt::WriteWord(..)
+            | Stmt::WritePair(..)
+            | Stmt::WriteFloat(..)
+            | Stmt::WriteNibbles { .. }
+            | Stmt::Timer { .. }
+            | Stmt::TimerAt { .. }
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16 { .. }
+            | Stmt::Counter16At { .. }
+            | Stmt::Counter32 { .. }
+            | Stmt::Count { .. }
+            | Stmt::Reset(_)
+            | Stmt::CallSub(_)
+            | Stmt::Call { .. }
+            | Stmt::Fetch { .. }
+            | Stmt::Send { .. }
+            | Stmt::Fault { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. } => Node::Stmt(stmt),
         };
         Item {
             node,
@@ -488,9 +516,10 @@ impl<'m> Builder<'m> {
         let mut size = 0;
         for item in items {
             // Rungs stay together, unless one is larger than a whole function.
-            let limit = match item.node {
-                Node::Stmt(Stmt::Network(_)) => FUNCTION_WEIGHT * 3 / 4,
-                _ => FUNCTION_WEIGHT,
+            let limit = if matches!(item.node, Node::Stmt(Stmt::Network(_))) {
+                FUNCTION_WEIGHT * 3 / 4
+            } else {
+                FUNCTION_WEIGHT
             };
             if size + item.weight > limit {
                 let full = std::mem::take(&mut stretch);

@@ -20,9 +20,11 @@ pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> BT
     let mut below = Vec::new();
     for root in roots {
         measure::below(module, root, &mut below);
-        found.extend(below.iter().filter_map(|&id| match *module.expr(id) {
-            Expr::ReadBit(place) if place.index.is_none() => Some((place.class, place.number)),
-            _ => None,
+        found.extend(below.iter().filter_map(|&id| {
+            let Expr::ReadBit(place) = *module.expr(id) else {
+                return None;
+            };
+            (place.index.is_none()).then_some((place.class, place.number))
         }));
     }
     found.retain(|device| {

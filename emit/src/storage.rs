@@ -41,10 +41,7 @@ impl Kind {
 
     /// The same in a grid.
     fn in_grid(self) -> Kind {
-        match self {
-            Kind::Bit => Kind::Level,
-            other => other,
-        }
+        if self == Kind::Bit { Kind::Level } else { self }
     }
 
     /// Whether it has a contact, a value and a coil, as timers and counters have.
@@ -440,7 +437,17 @@ fn pieces(module: &Module) -> Vec<Piece> {
         let cut = match area.class {
             DeviceClass::C => FIRST_COUNTER32,
             DeviceClass::M | DeviceClass::D => FIRST_SPECIAL,
-            _ => end,
+            DeviceClass::X
+            | DeviceClass::Y
+            | DeviceClass::S
+            | DeviceClass::T
+            | DeviceClass::R
+            | DeviceClass::ER
+            | DeviceClass::V
+            | DeviceClass::Z
+            | DeviceClass::P
+            | DeviceClass::I
+            | DeviceClass::N => end,
         };
         let cut = cut.clamp(first, end);
         for (first, end) in [(first, cut), (cut, end)] {

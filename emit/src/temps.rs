@@ -4,7 +4,7 @@ use crate::measure::{self, Sizes};
 use crate::plan::{Function, Node};
 use rungc_ir::Module;
 use rungc_ir::node::{Expr, ExprId, Stmt, TempId, Ty};
-use rungc_ir::walk::for_exprs;
+use rungc_ir::walk::{assigned, for_exprs};
 use rungc_rt::EdgeKind;
 use rustc_hash::FxHashMap;
 use std::fmt::{self, Display, Formatter};
@@ -143,27 +143,25 @@ impl Scopes<'_> {
             self.step = self.module.networks.get(*network as usize).map(|n| n.step);
         }
         for_exprs(stmt, &mut |&e| self.uses(e));
-        match stmt {
-            Stmt::Let(temp, _) => {
-                let prefix = match self.module.temps.get(*temp) {
-                    Some(Ty::F32) => "real",
-                    Some(Ty::I16 | Ty::I32) => "value",
-                    _ => "step",
-                };
-                self.assigns(*temp, prefix);
-            }
-            Stmt::Edge {
-                kind, input, out, ..
-            } => self.assigns(
-                *out,
-                match kind {
-                    EdgeKind::Rising => "rising",
-                    EdgeKind::Falling if *self.module.expr(*input) == Expr::Bit(false) => "taken",
-                    EdgeKind::Falling => "falling",
-                },
-            ),
-            Stmt::Fetch { there, .. } => self.assigns(*there, "fetched"),
-            _ => {}
+        if let Some(temp) = assigned(stmt) {
+            self.assigns(temp, self.prefix(stmt, temp));
+        }
+    }
+
+    /// The name without numbers of the temporary to which a statement gives its value.
+    fn prefix(&self, stmt: &Stmt, temp: TempId) -> &'static str {
+        if let Stmt::Edge { kind, input, .. } = stmt {
+            return match kind {
+                EdgeKind::Rising => "rising",
+                EdgeKind::Falling if *self.module.expr(*input) == Expr::Bit(false) => "taken",
+                EdgeKind::Falling => "falling",
+            };
+        }
+        match self.module.temps.get(temp) {
+            _ if matches!(stmt, Stmt::Fetch { .. }) => "fetched",
+            Some(Ty::F32) => "real",
+            Some(Ty::I16 | Ty::I32) => "value",
+            Some(Ty::Bit) | None => "step",
         }
     }
 

@@ -90,8 +90,9 @@ impl Coils {
 
 /// As how many a coil with this preset counts.
 fn weight(module: &Module, preset: ExprId) -> u32 {
-    match module.expr(preset) {
-        Expr::I16(_) => 1,
-        _ => 2,
+    if matches!(module.expr(preset), Expr::I16(_)) {
+        1
+    } else {
+        2
     }
 }

@@ -1,0 +1,101 @@
+//! Bounds of integer expressions that are plain to see.
+
+use rungc_ir::Module;
+use rungc_ir::node::{BinOp, Expr, ExprId, Ty};
+
+/// The least and the most that a value is.
+pub type Bounds = (i64, i64);
+
+const I16: Bounds = (i16::MIN as i64, i16::MAX as i64);
+const I32: Bounds = (i32::MIN as i64, i32::MAX as i64);
+
+/// How many operators deep a look at the operands of an operator goes.
+const DEPTH: u32 = 3;
+
+/// Whether these bounds lie within 32 bits.
+pub fn fits((low, high): Bounds) -> bool {
+    low >= I32.0 && high <= I32.1
+}
+
+/// Whether an operator's result lies within 32 bits for all values of its operands, so that it needs no wrapping. The divisor of a quotient
+/// is not 0.
+pub fn is_exact(module: &Module, op: BinOp, a: ExprId, b: ExprId) -> bool {
+    let (a, b) = (of(module, a, DEPTH), of(module, b, DEPTH));
+    result(op, a, b).is_some_and(fits)
+}
+
+/// Bounds of an operator's result, if it has such as these.
+fn result(op: BinOp, (a0, a1): Bounds, (b0, b1): Bounds) -> Option<Bounds> {
+    match op {
+        BinOp::Add => Some((a0 + b0, a1 + b1)),
+        BinOp::Sub => Some((a0 - b1, a1 - b0)),
+        BinOp::Mul => {
+            let ends = [a0 * b0, a0 * b1, a1 * b0, a1 * b1];
+            Some((*ends.iter().min()?, *ends.iter().max()?))
+        }
+        BinOp::Div | BinOp::Rem if b0 > 0 => Some((a0.min(0), a1.max(0))),
+        // Only MIN / -1 does not fit.
+        BinOp::Div | BinOp::Rem if a0 > I32.0 || b0 > -1 || b1 < -1 => {
+            Some((a0.min(-a1), a1.max(-a0)))
+        }
+        BinOp::Div
+        | BinOp::Rem
+        | BinOp::MulHigh
+        | BinOp::And
+        | BinOp::Or
+        | BinOp::Xor
+        | BinOp::SatAdd
+        | BinOp::SatSub
+        | BinOp::RotateLeft => None,
+    }
+}
+
+/// Bounds of an integer expression, looking at most `depth` operators deep.
+pub fn of(module: &Module, e: ExprId, depth: u32) -> Bounds {
+    let of_type = if module.ty(e) == Ty::I16 { I16 } else { I32 };
+    match *module.expr(e) {
+        Expr::I16(value) => (value.into(), value.into()),
+        Expr::I32(value) => (value.into(), value.into()),
+        Expr::Widen(a) => of(module, a, depth),
+        Expr::Within { value, low, high } => {
+            let (least, most) = of(module, value, depth);
+            (least.max(low.into()), most.min(high.into()))
+        }
+        Expr::BitToInt(_) => (0, 1),
+        Expr::ReadNibbles { digits, .. } if digits < 4 => (0, (1 << (4 * digits)) - 1),
+        Expr::Bin(BinOp::And, _, mask) if matches!(*module.expr(mask), Expr::I32(0..)) => {
+            (0, of(module, mask, 0).1)
+        }
+        Expr::Bin(op @ (BinOp::Add | BinOp::Sub), a, b) if depth > 0 && of_type == I32 => {
+            let (a, b) = (of(module, a, depth - 1), of(module, b, depth - 1));
+            let bounds = result(op, a, b).filter(|&bounds| fits(bounds));
+            bounds.unwrap_or(I32)
+        }
+        Expr::Bit(_)
+        | Expr::F32(_)
+        | Expr::Temp(_)
+        | Expr::ReadBit(_)
+        | Expr::ReadWordBit(..)
+        | Expr::ReadWord(_)
+        | Expr::ReadPair(_)
+        | Expr::ReadFloat(_)
+        | Expr::ReadNibbles { .. }
+        | Expr::Sys(_)
+        | Expr::Flag(_)
+        | Expr::Cell(_)
+        | Expr::Entry(..)
+        | Expr::Stride(..)
+        | Expr::Not(_)
+        | Expr::And(..)
+        | Expr::Or(..)
+        | Expr::Cmp(..)
+        | Expr::Bin(..)
+        | Expr::Un(..)
+        | Expr::Float(..)
+        | Expr::Complement(_)
+        | Expr::Neg(_)
+        | Expr::Narrow(_)
+        | Expr::HighWord(_)
+        | Expr::InRange { .. } => of_type,
+    }
+}
