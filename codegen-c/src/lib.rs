@@ -9,6 +9,8 @@
 //!
 //! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`, then `unit`.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 mod board;
 mod devices;
 mod events;

@@ -275,7 +275,7 @@ impl Generator<'_> {
         let divisor = *self.module.expr(b);
         let is_constant = matches!(divisor, Expr::I16(_) | Expr::I32(_));
         let by_constant = is_constant && !matches!(divisor, Expr::I16(0 | -1) | Expr::I32(0 | -1));
-        let mut operands = |this: &mut Self| (this.typed(a).receiver(), this.expr(b));
+        let operands = |this: &mut Self| (this.typed(a).receiver(), this.expr(b));
         let call = |(a, b): (TokenStream, Code), method: &str| {
             let method = format_ident!("{method}");
             Code::atom(quote!(#a.#method(#b)))

@@ -9,6 +9,8 @@
 //!
 //! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 mod call;
 mod coils;
 mod events;

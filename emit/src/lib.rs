@@ -8,6 +8,8 @@
 //!
 //! Start reading at [`plan::Plan`] and [`storage::Storage`].
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 pub mod bounds;
 pub mod comments;
 pub mod cycle;
