@@ -1,12 +1,10 @@
 //! Expressions as C.
 
-use crate::fields::PrintStorage;
 use crate::text;
 use crate::writer::Writer;
 use rungc_emit::{bounds, logic};
 use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
 use rungc_rt::CmpOp;
-use rungc_syntax::DeviceClass;
 use smallvec::SmallVec;
 use std::fmt::Write;
 use std::ops::Range;
