@@ -119,8 +119,8 @@ impl SerialPort for VirtualLine {
         if rest_us <= 0 {
             return 0;
         }
-        let character_us = self.format.character_us().max(1);
-        (rest_us as u32).div_ceil(character_us) as u16
+        let rest_ns = u64::from(rest_us.unsigned_abs()) * 1000 + u64::from(self.end_ns);
+        rest_ns.div_ceil(self.format.nanoseconds(2).max(1)) as u16
     }
 }
 
