@@ -7,6 +7,7 @@
 #![deny(missing_docs)]
 
 mod device;
+pub mod modbus;
 mod program;
 mod reader;
 mod template;
@@ -51,6 +52,8 @@ pub struct Project {
     pub learned: LearnedCodes,
     /// `[index]`: what indexed operands can reach.
     pub index: Vec<Bound>,
+    /// `[[modbus]]`: the rows of the Modbus table.
+    pub modbus: Vec<modbus::Row>,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is named.
     pub latched: Vec<Latched>,
 }

@@ -23,8 +23,12 @@ impl Project {
         bounds.map(bound).collect()
     }
 
-    /// Gives a program for a model the latched devices of the settings. Those that the model does not let choose are mistakes.
-    pub fn complete(&self, program: &mut Program, model: &Model) -> Result<(), Error> {
+    /// Gives the program of `file` the latched devices of the settings and, if the project is about it, the Modbus table. What the model
+    /// does not have is a mistake.
+    pub fn complete(&self, file: &Path, program: &mut Program, model: &Model) -> Result<(), Error> {
+        if self.is_about(file) {
+            self.add_table(program, model)?;
+        }
         if self.latched.is_empty() {
             return Ok(());
         }

@@ -1,17 +1,18 @@
 //! From TOML to [`Project`], every mistake with its place.
 
+use crate::modbus::{self, Row};
 use crate::{Bound, Latched, Named, Project, device};
 use encoding_rs::Encoding;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::codes::{self, Code};
-use rungc_syntax::{DeviceClass, Diagnostics, Severity, Span, diag};
-use std::ops::Range;
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Severity, Span, diag};
+use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 7] = [
+const TABLES: [(&str, &[&str]); 8] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output"]),
@@ -19,6 +20,15 @@ const TABLES: [(&str, &[&str]); 7] = [
     ("tokens", &[]),
     ("index", &[]),
     ("latched", &[]),
+    (MODBUS, &[]),
+];
+
+/// The table of which each entry is a row.
+const MODBUS: &str = "modbus";
+
+/// Keys of a row.
+const ROW: &[&str] = &[
+    "port", "station", "read", "write", "address", "count", "buffer", "trigger",
 ];
 
 /// Classes with devices that can be latched.
@@ -99,6 +109,10 @@ impl Reader {
                 self.found.push(unknown.help(help));
                 continue;
             };
+            if name == MODBUS {
+                self.modbus(at, value, project);
+                continue;
+            }
             let Some(table) = value.get_ref().as_table() else {
                 let message = format!("`{name}` is a table");
                 self.wrong(
@@ -137,6 +151,10 @@ impl Reader {
                     format!("`{key}` applies to the project's program, but there is none");
                 self.wrong(at, message, "add `program = \"…\"` to `[project]`");
             }
+        }
+        if let (Some(row), None) = (project.modbus.first(), &project.program) {
+            let message = "`[[modbus]]` applies to the project's program, but there is none";
+            self.wrong(row.span, message, "add `program = \"…\"` to `[project]`");
         }
         if let (Some(at), None) = (output, &project.build.emit) {
             let message = "`output` requires `emit`";
@@ -388,6 +406,137 @@ impl Reader {
                 None
             }
         }
+    }
+
+    fn modbus(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
+        let Some(rows) = value.get_ref().as_array() else {
+            let help = "write `[[modbus]]` on its own line, and the keys of the row below";
+            return self.wrong(at, "each row of `modbus` is a table", help);
+        };
+        for row in rows {
+            let at = span(row.span());
+            match row.get_ref().as_table() {
+                Some(table) => project.modbus.extend(self.row(at, table)),
+                None => self.wrong(at, "a row of `modbus` is a table", ""),
+            }
+        }
+    }
+
+    /// A row of the Modbus table.
+    fn row(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
+        self.known(MODBUS, table, ROW);
+        let port = match self.get(table, "port") {
+            None => 1,
+            Some(named) => {
+                let number = named.text.strip_prefix("COM").and_then(|n| n.parse().ok());
+                number
+                    .filter(|number| (1..=3).contains(number))
+                    .or_else(|| {
+                        self.wrong(
+                            named.span,
+                            "a master's port is `COM1`, `COM2` or `COM3`",
+                            "",
+                        );
+                        None
+                    })?
+            }
+        };
+        let transfer = self.transfer(at, table)?;
+        let least = match transfer.key {
+            // A write may be for all stations.
+            "write" => 0,
+            _ => 1,
+        };
+        let row = Row {
+            port,
+            station: self.number(table, at, "station", least..=247, None)? as u8,
+            transfer,
+            address: self.number(table, at, "address", 0..=0xffff, None)? as u16,
+            count: self.number(table, at, "count", 1..=transfer.most.into(), Some(1))? as u16,
+            buffer: match self.row_device(table, "buffer", &[DeviceClass::D])? {
+                Some(device) => device.number,
+                None => {
+                    self.wrong(
+                        at,
+                        "a row has `buffer`",
+                        "add for example `buffer = \"D100\"`",
+                    );
+                    return None;
+                }
+            },
+            trigger: {
+                use DeviceClass::{C, M, S, T};
+                self.row_device(table, "trigger", &[M, C, T, S])?
+            },
+            span: at,
+        };
+        Some(row)
+    }
+
+    /// What a row reads or writes.
+    fn transfer(&mut self, at: Span, table: &DeTable<'_>) -> Option<modbus::Transfer> {
+        let (key, named) = match (self.get(table, "read"), self.get(table, "write")) {
+            (Some(named), None) => ("read", named),
+            (None, Some(named)) => ("write", named),
+            _ => {
+                let help = "add for example `read = \"registers\"`";
+                self.wrong(at, "a row has `read` or `write`", help);
+                return None;
+            }
+        };
+        let found = modbus::transfer(key, &named);
+        if found.is_none() {
+            let of_key = modbus::TRANSFERS.iter().filter(|other| other.key == key);
+            let names: Vec<_> = of_key.map(|other| other.what).collect();
+            let message = format!("a row cannot {key} `{}`", named.text);
+            self.wrong(named.span, message, &hint(&named.text, &names));
+        }
+        found
+    }
+
+    /// A number of a row; the usual one if the row does not say it.
+    fn number(
+        &mut self,
+        table: &DeTable<'_>,
+        row: Span,
+        key: &str,
+        range: RangeInclusive<u32>,
+        usual: Option<u32>,
+    ) -> Option<u32> {
+        let Some(value) = table.get(key) else {
+            if usual.is_none() {
+                self.wrong(row, format!("a row has `{key}`"), "");
+            }
+            return usual;
+        };
+        let digits = value.get_ref().as_integer();
+        let number = digits.and_then(|n| u32::from_str_radix(n.as_str(), n.radix()).ok());
+        let number = number.filter(|number| range.contains(number));
+        if number.is_none() {
+            let message = format!("`{key}` is {} to {}", range.start(), range.end());
+            self.wrong(span(value.span()), message, "");
+        }
+        number
+    }
+
+    /// A device of a row, if it names one; `None` for one of another class.
+    fn row_device(
+        &mut self,
+        table: &DeTable<'_>,
+        key: &str,
+        classes: &[DeviceClass],
+    ) -> Option<Option<Device>> {
+        let Some(named) = self.get(table, key) else {
+            return Some(None);
+        };
+        let found = device::device(&named.text.to_uppercase());
+        let fits = found.filter(|device| classes.contains(&device.class));
+        if fits.is_none() {
+            let letters: Vec<_> = classes.iter().map(|class| class.prefix()).collect();
+            let message = format!("`{}` is not a device {}", named.text, letters.join(", "));
+            self.wrong(named.span, message, "");
+        }
+        fits.map(Some)
     }
 
     fn latched(&mut self, table: &DeTable<'_>, project: &mut Project) {

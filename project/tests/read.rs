@@ -200,7 +200,7 @@ fn latched_devices_are_those_that_can_be() {
     let mut program = rungc_syntax::Program::default();
     let project = parse("[latched]\nD = 'D200-D299'\n").unwrap();
     project
-        .complete(&mut program, Model::get(ModelId::Fx3u))
+        .complete(Path::new("p.il"), &mut program, Model::get(ModelId::Fx3u))
         .unwrap();
     let latched = program.parameters.clone().unwrap().latched.unwrap();
     let of = |class| {
@@ -213,7 +213,11 @@ fn latched_devices_are_those_that_can_be() {
         let project = parse(text).unwrap();
         let Err(Error::Mistakes {
             text, diagnostics, ..
-        }) = project.complete(&mut rungc_syntax::Program::default(), Model::get(model))
+        }) = project.complete(
+            Path::new("p.il"),
+            &mut rungc_syntax::Program::default(),
+            Model::get(model),
+        )
         else {
             panic!("{text} is taken");
         };
@@ -313,4 +317,104 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn rows_of_the_modbus_table_become_instructions() {
+    let text = r#"[project]
+program = "read.rs"
+
+[[modbus]]
+station = 2
+read = "registers"
+address = 0x1001
+buffer = "D20"
+
+[[modbus]]
+port = "COM2"
+station = 0
+write = "coils"
+address = 0xE000
+count = 20
+buffer = "d10"
+trigger = "M10"
+"#;
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let project = Project::parse(&folder.join(rungc_project::FILE), text).unwrap();
+    let mut program = rungc_frontend::read_text("p.il", "LD X000\nOUT Y000\nEND\n").program;
+    let (file, model) = (folder.join("read.rs"), Model::get(ModelId::H2u));
+    project.complete(&file, &mut program, model).unwrap();
+    let shown = |instr: &rungc_syntax::Instr| {
+        let operands = instr
+            .operands
+            .iter()
+            .map(|operand| operand.kind.to_string());
+        let words = std::iter::once(instr.mnemonic.to_string()).chain(operands);
+        words.collect::<Vec<_>>().join(" ")
+    };
+    let shown: Vec<_> = program.instrs.iter().map(shown).collect();
+    assert_eq!(
+        shown,
+        [
+            "LD X000",
+            "OUT Y000",
+            "LD M8000",
+            "MODBUS2 H203 H1001 H1 D20 H1",
+            "LD M10",
+            "MODBUS2 HF HE000 H14 D10 H2",
+            "END"
+        ]
+    );
+    let other = folder.join("snapshots");
+    project.complete(&other, &mut program, model).unwrap();
+    assert_eq!(program.instrs.len(), shown.len());
+    let fx3u = project.complete(&file, &mut program, Model::get(ModelId::Fx3u));
+    let Err(Error::Mistakes { diagnostics, .. }) = fx3u else {
+        panic!("FX3U has no Modbus table");
+    };
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
+    assert_eq!(messages, ["Mitsubishi FX3U has no Modbus table"]);
+}
+
+#[test]
+fn mistakes_in_rows_of_the_modbus_table() {
+    let rows = [
+        "station = 1\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nread = \"coil\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 0\nread = \"coils\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nread = \"coils\"\nwrite = \"coils\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nwrite = \"registers\"\naddress = 0\ncount = 121\nbuffer = \"D0\"",
+        "station = 1\nread = \"registers\"\naddress = 65536\nbuffer = \"D0\"",
+        "station = 1\nread = \"registers\"\naddress = 0",
+        "station = 1\nread = \"registers\"\naddress = 0\nbuffer = \"M0\"",
+        "port = \"COM0\"\nstation = 1\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"",
+        "station = 1\nread = \"registers\"\naddress = 0\nbuffer = \"D0\"\ntrigger = \"X0\"",
+        "station = 1\nread = \"registers\"\nadress = 0\nbuffer = \"D0\"",
+    ];
+    let mut found = String::new();
+    for row in rows {
+        let text = format!("[project]\nprogram = \"p.il\"\n\n[[modbus]]\n{row}\n");
+        let parsed = Project::parse(Path::new("rungc.toml"), &text);
+        let Err(Error::Mistakes { diagnostics, .. }) = parsed else {
+            panic!("{row}: no mistake");
+        };
+        for diagnostic in diagnostics.iter() {
+            found += &format!("{}: {}\n", diagnostic.code, diagnostic.message);
+        }
+    }
+    for text in [
+        "modbus = 1",
+        "modbus = [1]",
+        "[[modbus]]\nstation = 1\nread = \"coils\"\naddress = 0\nbuffer = \"D0\"",
+    ] {
+        let Err(Error::Mistakes { diagnostics, .. }) =
+            Project::parse(Path::new("rungc.toml"), text)
+        else {
+            panic!("{text}: no mistake");
+        };
+        for diagnostic in diagnostics.iter() {
+            found += &format!("{}: {}\n", diagnostic.code, diagnostic.message);
+        }
+    }
+    insta::assert_snapshot!(found);
 }

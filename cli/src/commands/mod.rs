@@ -124,7 +124,7 @@ pub fn read(subject: &Subject, reporter: &mut Reporter) -> std::result::Result<R
             ..CompileOptions::default()
         };
         let model = compile::model(&read.program, &options);
-        if let Err(error) = project.complete(&mut read.program, model) {
+        if let Err(error) = project.complete(&subject.file, &mut read.program, model) {
             subject::report_mistakes(error, &subject.reporting, reporter)?;
             return Err(Failure::Reported);
         }

@@ -77,7 +77,7 @@ pub(super) fn read(path: &Path) -> Result<Tested, String> {
         ..CompileOptions::default()
     };
     let model = compile::model(&read.program, &compiled);
-    let completed = project.complete(&mut read.program, model);
+    let completed = project.complete(path, &mut read.program, model);
     completed.map_err(|error| mistakes(&error))?;
     Ok(Tested {
         model: Some(model.id),
