@@ -44,7 +44,7 @@ fn processor_time() -> Option<Duration> {
 /// What programs that were started, and have ended, have worked; `None` where the system does not report it. In steps of 10 ms.
 pub fn of_others() -> Option<Duration> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // Behind the name, which may hold spaces: cutime and cstime are fields 16 and 17 of proc(5), the state is field 3.
+    // After the name, which may contain spaces: cutime and cstime are fields 16 and 17 of proc(5), the state is field 3.
     let (_, fields) = stat.rsplit_once(')')?;
     let mut fields = fields.split_whitespace().skip(16 - 3);
     let mut ticks = || fields.next()?.parse::<u64>().ok();

@@ -51,7 +51,7 @@ impl Code {
 /// An implementation of a program in C.
 #[derive(Clone, Debug)]
 pub struct CSubject {
-    /// Begin of its names: `PREFIX_scan`, `PREFIX_one_scan` of the adaptor.
+    /// Prefix of its names: `PREFIX_scan`, `PREFIX_one_scan` of the adaptor.
     pub prefix: String,
     folder: PathBuf,
     program: Vec<String>,

@@ -1,5 +1,5 @@
 /* host.c: checks all subjects and times them in turns. Arguments: scans to check, rounds, microseconds that a turn takes about.
- * Prints a line for each: its name, checksums at the begin and at the end, and the nanoseconds that a scan took in each round. */
+ * Prints a line for each: its name, checksums at the start and at the end, and the nanoseconds that a scan took in each round. */
 #define _POSIX_C_SOURCE 199309L
 #include "subjects.h"
 #include <stdio.h>

@@ -30,7 +30,7 @@ struct run {
     uint32_t input; /* which one changes next */
 };
 
-/* Scans so many times, 10 ms apart, with one input changed before each scan. */
+/* Scans this many times, 10 ms apart, with one input changed before each scan. */
 static inline void scan_times(struct run *run, uint32_t scans)
 {
     const struct subject *const subject = run->subject;

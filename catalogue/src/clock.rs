@@ -39,7 +39,7 @@ pub(super) const ROWS: &[Inst] = &[
             coil("D", RESULT_BITS).len(3),
         ])
         .call(RtFn::Tzcp)
-        .text("Tells where the time at S lies: D is on before S1, D+1 from S1 to S2, D+2 after S2. Each is hour, minute, second."),
+        .text("Compares the time at S with the period S1 to S2: D is on before S1, D+1 from S1 to S2, D+2 after S2. Each is hour, minute, second."),
     clock("TADD", 162, "Add times")
         .steps(7, 7)
         .takes(&[

@@ -58,7 +58,7 @@ pub(super) const ROWS: &[Inst] = &[
         .errors(&[6706])
         .lower(Lower::Zcp)
         .text(
-            "Tells where S lies, signed: D is on if it is below S1, D+1 if it lies between S1 and S2 (both included), D+2 if it is \
+            "Compares S with the zone S1 to S2, signed: D is on if it is below S1, D+1 if it lies between S1 and S2 (both included), D+2 if it is \
              above S2. If S2 is smaller than S1 it counts as equal to S1.",
         ),
 ];

@@ -68,7 +68,7 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(17, 17)
         .on(NOT_FX3SG)
         .takes(&[real("S1", NUMBERS), real("S2", NUMBERS), real("S", NUMBERS), coil("D", RESULT_BITS).len(3)])
-        .text("Tells where the float S lies: D is on below S1, D+1 from S1 to S2, D+2 above S2."),
+        .text("Compares the float S with the zone S1 to S2: D is on below S1, D+1 from S1 to S2, D+2 above S2."),
     float("EMOV", 112, "Move a float", RtFn::Emov)
         .on(NOT_HM_FX1.without(ModelSet::FX2N))
         .takes(ONE)

@@ -28,7 +28,7 @@ pub(super) const ROWS: &[Inst] = &[
         .errors(&[6701])
         .example("LD X000\nCJ P0\nLD X001\nOUT Y000\nP0\nLD X002\nOUT Y001")
         .text(
-            "Goes on at the label while driven; what lies between is not executed and keeps its state. P63 is the end of the scan.",
+            "Continues at the label while driven; the instructions between are not executed and keep their state. P63 is the end of the scan.",
         ),
     flow("CALL", 1, "Subroutine call", Basic::Call)
         .forms(W16_P)

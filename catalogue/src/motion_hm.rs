@@ -55,7 +55,7 @@ const fn named_only(name: &'static str, title: &'static str) -> Inst {
 }
 
 pub(super) const ROWS: &[Inst] = &[
-    process("PROC", "Begin of a process section", Basic::Proc)
+    process("PROC", "Start of a process section", Basic::Proc)
         .drive(Drive::Alone)
         .example("FEND\nI900\nPROC\nLD M0\nPEND\nPRET")
         .text("Where the next request of an advanced interrupt enters it while the PEND that follows is not driven."),

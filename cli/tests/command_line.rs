@@ -129,7 +129,7 @@ fn warnings_can_be_denied_or_allowed() {
     );
 }
 
-/// Tools get an object for what is no program, too, and exit code 2 beside it.
+/// Tools get an object for input that is not a program, too, with exit code 2.
 #[test]
 fn unreadable_input_for_tools() {
     let folder = folder(&[("junk.bin", &[0, 159, 146, 150, 0, 1, 2, 3])]);
@@ -357,7 +357,7 @@ fn a_program_may_be_called_main() {
     assert!(path.join("out/main.c").is_file() && path.join("out/plc_main.c").is_file());
 }
 
-/// A flood of commands starves neither the scan nor the signals; the end tells of errors.
+/// A flood of commands starves neither the scan nor the signals; the end reports errors.
 #[test]
 #[cfg(unix)]
 fn an_executable_goes_on_under_a_flood_of_commands() {
@@ -385,7 +385,7 @@ fn an_executable_goes_on_under_a_flood_of_commands() {
     let told = errors
         .lines()
         .any(|line| line.contains("step 1: error 6706"));
-    assert!(told, "the end tells of the error");
+    assert!(told, "the end reports the error");
 }
 
 /// Five loops of 32767 rounds, one in the other: the watchdog ends the scan, and the executable says so.

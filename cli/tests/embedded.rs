@@ -43,7 +43,7 @@ fn traffic_light_in_c() {
     insta::assert_snapshot!("traffic_light", lamps(&output));
 }
 
-/// How often a pin of port D goes on, by what QEMU saw of writes to the register that sets (low half) and resets (high half) pins.
+/// How often a pin of port D turns on, by what QEMU saw of writes to the register that sets (low half) and resets (high half) pins.
 fn pulses(log: &str, pin: u32) -> usize {
     let writes = log.lines().filter_map(|line| {
         let value =

@@ -485,7 +485,7 @@ fn an_image_sends_pulses() {
         .current_dir(folder.path());
     quiet(&build.output().unwrap());
     let printed = simulated("netduinoplus2", &folder.path().join("stepper.elf"));
-    // The train ends after 344 ms; the scan behind it sees that.
+    // The train ends after 344 ms; the scan after it sees that.
     let lines = ["      0.010 s  Y002 on", "      0.350 s  Y001 on  done"];
     assert_eq!(printed, lines.join("\n"));
 }

@@ -136,7 +136,7 @@ fn nothing_hostile_reaches_the_terminal() {
     );
 }
 
-/// Devices that are driven and never read, and places of a coil: some for people, all for tools.
+/// Devices that are driven and never read, and places of a coil: some in the human format, all for tools.
 #[test]
 fn lists_are_complete_for_tools() {
     let mut list = String::new();

@@ -1,4 +1,4 @@
-//! Results of tests for tools, parts of a suite, and what an interruption leaves behind.
+//! Results of tests for tools, parts of a suite, and the output of an interrupted run.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! `rungc run --modbus-tcp` and its like, with clients of our own and with pymodbus.
+//! `rungc run --modbus-tcp` and similar options, with clients of our own and with pymodbus.
 
 mod common;
 

@@ -105,7 +105,7 @@ static const char *meaning(unsigned code)
     }
 }
 
-/* Tells once what stopped the program. */
+/* Reports once what stopped the program. */
 static void print_stop(const PROGRAM_plc *plc)
 {
     static bool told;
@@ -119,7 +119,7 @@ static void print_stop(const PROGRAM_plc *plc)
     told = error.stop != PLC_STOP_NONE;
 }
 
-/* Tells which operation error was the last one. */
+/* Reports the last operation error. */
 static void print_error(const PROGRAM_plc *plc)
 {
     const plc_error error = PROGRAM_error(plc);

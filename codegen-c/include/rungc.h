@@ -22,7 +22,7 @@ typedef struct plc_sys {
     uint16_t scan;    /* another odd number in each scan, wrapping */
 } plc_sys;
 
-/* What put the PLC in STOP, besides the RUN/STOP switch. */
+/* What put the PLC in STOP, other than the RUN/STOP switch. */
 enum {
     PLC_STOP_NONE = 0,
     PLC_STOP_M8037 = 1,      /* the program, by M8037 */
@@ -558,7 +558,7 @@ static inline void plc_timer_run(plc_timer *timer, bool drive, int16_t preset, c
     }
 }
 
-/* What END does for a free-running timer: with its coil on, it goes on timing in a scan that did not execute it. */
+/* What END does for a free-running timer: with its coil on, it continues timing in a scan that did not execute it. */
 static inline void plc_timer_go_on(plc_timer *timer, const plc_sys *sys, uint32_t unit_ms, unsigned options)
 {
     if (timer->coil != 0u) {

@@ -12,18 +12,18 @@
 /* A change of an input. */
 typedef struct rungc_edge {
     uint16_t input; /* the input X */
-    bool on;        /* whether it went on */
+    bool on;        /* whether it turned on */
 } rungc_edge;
 
-/* How many edges a queue has room for, and one more. */
+/* How many edges a queue has room for, plus one. */
 #ifndef RUNGC_EDGES
 #define RUNGC_EDGES 64u
 #endif
 
 /* A queue of edges between one interrupt and NAME_poll, on one core. All zero is an empty one. */
 typedef struct rungc_edges {
-    volatile uint16_t slots[RUNGC_EDGES]; /* an input's number, and in the lowest bit whether it went on */
-    volatile uint16_t first;              /* where the oldest edge stands; the main loop's */
+    volatile uint16_t slots[RUNGC_EDGES]; /* an input's number, and in the lowest bit whether it turned on */
+    volatile uint16_t first;              /* where the oldest edge is; the main loop's */
     volatile uint16_t end;                /* where the next one goes; the interrupt's */
     volatile uint16_t lost;               /* how many found no room, wrapping; the interrupt's */
 } rungc_edges;
@@ -68,29 +68,29 @@ typedef struct rungc_count {
 
 /* A board. What it lacks is NULL; only `now_us` has to be there. `hal.context` is handed to each function. */
 typedef struct rungc_board {
-    /* Pins and what instructions ask: `input` is called before each scan, `set_output` behind it, behind edges and counts, and for
+    /* Pins and what instructions ask: `input` is called before each scan, `set_output` after it, after edges and counts, and for
        pulses; `hold_pulses` keeps the interrupt from coming that calls NAME_on_timer, or lets it come again. It is not nested. */
     rungc_hal hal;
 
-    /* Time: microseconds since the board began, wrapping. The steps in which they go on are those in which all else is on time. */
+    /* Time: microseconds since the board began, wrapping. Their resolution is that of everything else. */
     uint32_t (*now_us)(void *context);
 
     /* Edges: an interrupt notes each in a queue, see rungc_note_edge. Gives the oldest one that was not taken yet; false if there is none. */
     bool (*next_edge)(void *context, rungc_edge *edge);
 
     /* Counters, for rates at which an interrupt for each edge is too slow. Gives what this one has counted since last asked, which may
-       be nothing; false behind the last one, they are numbered from 0. The program gets it as that many edges, so its comparisons act
+       be nothing; false after the last one, they are numbered from 0. The program gets it as that many edges, so its comparisons act
        at the count. */
     bool (*counted)(void *context, unsigned counter, rungc_count *count);
 
-    /* Pulses: arms the timer whose interrupt calls NAME_on_timer, in so many microseconds; 0: as soon as it can, UINT32_MAX: not at
+    /* Pulses: arms the timer whose interrupt calls NAME_on_timer, to fire in this many microseconds; 0: as soon as it can, UINT32_MAX: not at
        all. Without it pulses are as exact as NAME_poll is called often. */
     void (*wake_in)(void *context, uint32_t us);
 
     /* Bit n: X n (0 to 31) follows edges and counts and not `hal.input`, so that the phases of an encoder stay in order. */
     uint32_t followed;
 
-    /* From the begin of a scan to the begin of the next one, below 2^31; 0: a scan at each NAME_poll. */
+    /* Scan period, start to start, in microseconds, below 2^31; 0: a scan at each NAME_poll. */
     uint32_t period_us;
 
     /* Private. */
@@ -114,7 +114,7 @@ static inline bool rungc_board_begins(rungc_board *board, uint32_t now_us)
     return first;
 }
 
-/* Time goes on: whether it is another millisecond. */
+/* Advances time: whether another millisecond has passed. */
 static inline bool rungc_board_passes(rungc_board *board, uint32_t now_us)
 {
     const uint32_t passed = (now_us - board->millisecond) / 1000u;

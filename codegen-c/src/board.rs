@@ -17,7 +17,7 @@ const TAKE_EVENTS: &str = "    const bool edges = take_edges(plc, board);
     const bool counts = take_counts(plc, board);
 ";
 
-/// The functions that a program with pulses has besides.
+/// The additional functions of a program with pulses.
 const ON_TIMER: &str = "
 void PROGRAM_on_timer(PROGRAM_plc *plc, rungc_board *board)
 {

@@ -197,7 +197,7 @@ impl Writer<'_, '_> {
             code.push_str(");");
             return;
         }
-        // A device that nobody looks at is not stored.
+        // A device that nothing reads is not stored.
         if of_round || self.fields.access(code, place.class, place.number) {
             code.push_str(match (place.class, what) {
                 (DeviceClass::T | DeviceClass::C, "bit") => ".done = ",
@@ -321,7 +321,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Spreads a number over relays that are no array.
+    /// Spreads a number over relays that are not an array.
     fn put_scattered(&mut self, code: &mut String, place: &Place, count: u32, value: ExprId) {
         code.push_str("plc_scatter((bool *const[]){");
         for bit in 0..count {

@@ -67,13 +67,13 @@ pub fn prototypes(module: &Module) -> String {
         "Not while a scan runs: it counts or acts at once."
     };
     let mut out = format!(
-        "\n/* An input terminal X (a plain number: 8 is X010) goes on or off. {when} */\n\
+        "\n/* An input terminal X (a plain number: 8 is X010) turns on or off. {when} */\n\
          void {name}_input_edge({name}_plc *plc, unsigned terminal, bool on);\n"
     );
     if module.takes_time() {
         let _ = write!(
             out,
-            "\n/* Time goes on: call it each millisecond, in an interrupt handler or the main loop, for what follows time to be on time. */\n\
+            "\n/* Advances time: call it each millisecond, in an interrupt handler or the main loop, so that everything timed is on time. */\n\
              void {name}_tick({name}_plc *plc, uint32_t now_ms);\n"
         );
     }

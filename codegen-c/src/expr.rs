@@ -124,7 +124,7 @@ fn among_calls(texts: &[&str], op: &str, around: Around) -> String {
     }
 }
 
-/// Writes an integer constant; the smallest ones have no literal of their own in C.
+/// Writes an integer constant; the smallest ones have no literal in C.
 pub fn integer(out: &mut String, value: i32) {
     match value {
         i32::MIN => out.push_str("INT32_MIN"),

@@ -117,7 +117,7 @@ fn header_file(module: &Module, unit: &Unit) -> String {
     )
 }
 
-/// A number that tells one text of a shared header from another, the same in each build (FNV-1a).
+/// A number that distinguishes versions of a shared header, the same in each build (FNV-1a).
 fn stamp(text: &str) -> u32 {
     text.bytes().fold(0x811C_9DC5, |hash, byte| {
         (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)

@@ -15,7 +15,7 @@ use std::fmt::Write;
 /// Column of the comments beside fields.
 const COMMENT_COLUMN: usize = 36;
 
-/// So many edges of inputs are told one by one how they get in.
+/// For this many input edges, the header explains one by one how they get in.
 const MOST_EDGES: usize = 4;
 
 /// Heading of a section of the struct.
@@ -58,7 +58,7 @@ pub fn api(module: &Module, fields: &Storage, plan: &Plan, runtime: bool) -> Str
     if runtime {
         let _ = write!(
             out,
-            "\n/* The struct as the runtime library sees it; with rungc_get_bit() and its like a host finds devices by number. */\n\
+            "\n/* The struct as the runtime library sees it; with rungc_get_bit() and similar functions a host finds devices by number. */\n\
              rungc_map {name}_map({name}_plc *plc);\n"
         );
     }

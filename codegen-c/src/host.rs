@@ -76,7 +76,7 @@ pub fn main_file(module: &Module) -> String {
         .replace("PROGRAM", name)
 }
 
-/// The input terminals, and what it means to each that it goes on or off.
+/// The input terminals, and the effect of each turning on or off.
 fn inputs_of(module: &Module, fields: &Storage) -> BTreeMap<u32, String> {
     let mut inputs: BTreeMap<u32, String> = BTreeMap::new();
     for (number, access) in terminals(fields, DeviceClass::X) {

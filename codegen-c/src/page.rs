@@ -77,7 +77,7 @@ impl Page {
         }
     }
 
-    /// Adds a comment on lines of its own, wrapped where it is too long.
+    /// Adds a comment on separate lines, wrapped where it is too long.
     pub fn comment(&mut self, comment: &str) {
         text::block(&mut self.text, self.indent, comment);
         self.fresh = false;

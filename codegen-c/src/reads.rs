@@ -21,7 +21,7 @@ impl Writer<'_, '_> {
         out.push(')');
     }
 
-    /// A group of bits as a number: so many digits, and whether it has 32 bits in any case.
+    /// A group of bits as a number: its number of digits, and whether it has 32 bits in any case.
     pub(crate) fn group(
         &mut self,
         out: &mut String,
@@ -130,7 +130,7 @@ impl Writer<'_, '_> {
             self.fields.access(out, place.class, place.number);
             let _ = write!(out, ", {count}u)");
         } else {
-            // Relays that are no array: their states side by side.
+            // Relays that are not an array: their states side by side.
             self.call_in(out).push_str("plc_bits((const bool[]){");
             for bit in 0..count {
                 out.push_str(if bit > 0 { ", " } else { "" });

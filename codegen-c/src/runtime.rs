@@ -65,7 +65,7 @@ impl Writer<'_, '_> {
         code.push_str(");");
     }
 
-    /// The begin of a call that reads or writes an operand.
+    /// The start of a call that reads or writes an operand.
     fn operand_call(
         &mut self,
         code: &mut String,

@@ -4,7 +4,7 @@ use rungc_syntax::text::acts;
 
 /// Longest line.
 pub const WIDTH: usize = 120;
-/// Longest line of a comment on lines of its own: what most engineers write above a network stays on one.
+/// Longest line of a comment on separate lines: what most engineers write above a network stays on one.
 const COMMENT_WIDTH: usize = 200;
 /// Where comments beside statements begin.
 const COMMENT_COLUMN: usize = 64;
@@ -61,7 +61,7 @@ pub fn line(out: &mut String, indent: usize, code: &str, beside: Option<&str>) {
     out.push('\n');
 }
 
-/// Appends a comment on lines of its own, wrapped where it is too long.
+/// Appends a comment on separate lines, wrapped where it is too long.
 pub fn block(out: &mut String, indent: usize, text: &str) {
     push_indent(out, indent);
     out.push_str("/*");
@@ -96,7 +96,7 @@ pub fn push_number(out: &mut String, number: impl itoa::Integer) {
     out.push_str(itoa::Buffer::new().format(number));
 }
 
-/// Where to break a line that has no room: before the operator, or behind the comma, that stands least deep in parentheses.
+/// Where to break a line that has no room: before the operator, or after the comma, that is least deep in parentheses.
 fn break_at(code: &str, room: usize) -> Option<usize> {
     if code.len() <= room {
         return None;

@@ -16,7 +16,7 @@ use std::fmt::Write;
 /// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to divide.
 const FILE_WEIGHT: u64 = 60_000;
 
-/// Up to how many output terminals are told apart by a `switch`.
+/// Up to how many output terminals a `switch` distinguishes.
 const FEW_TERMINALS: usize = 8;
 
 /// A module's C text.
@@ -107,7 +107,7 @@ pub fn uses_runtime(module: &Module) -> bool {
 fn states(out: &mut String, writer: &Writer, plan: &Plan) {
     let roots = (0..writer.module.functions.len()).map(|root| (root, plan.state_names(root)));
     for (root, names) in roots.filter(|(_, names)| !names.is_empty()) {
-        out.push_str("/* Where the program goes on after a jump. */\nenum {\n");
+        out.push_str("/* Where the program continues after a jump. */\nenum {\n");
         for state in 1..=names.len() {
             let comma = if state < names.len() { "," } else { "" };
             let _ = writeln!(
@@ -420,7 +420,7 @@ impl Printer<'_> {
         );
     }
 
-    /// The function that tells a host what has gone wrong.
+    /// The function that reports errors to a host.
     fn error(&self, out: &mut String) {
         let name = self.name();
         let body = match self.module.may_fail() {

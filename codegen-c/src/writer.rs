@@ -26,7 +26,7 @@ const LIMITS: Limits = Limits {
     plain: 256,
 };
 
-/// The memory of an edge, and how far behind it that of a loop's present round is.
+/// The memory of an edge, and the offset from it to that of a loop's present round.
 pub(crate) type Memory = (EdgeId, Option<ExprId>);
 
 /// What stands for an expression in the statement being written.
@@ -46,7 +46,7 @@ pub struct Writer<'a, 'm> {
     pub helpers: Helpers,
     /// Names of parts of the current statement's expressions.
     pub(crate) named: FxHashMap<ExprId, Named>,
-    /// How many calls of functions have been written: tells whether an operand makes any.
+    /// How many calls of functions have been written: shows whether an operand makes any.
     pub(crate) calls: u64,
     /// What timers have to remember.
     pub(crate) coils: Coils,
@@ -226,7 +226,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         self.node_with_names(page, node);
     }
 
-    /// Gives names to inner parts of expressions that nest deep, or that share parts so much that writing them out would explode.
+    /// Gives names to inner parts of expressions that nest deep, or whose shared parts would make the text explode.
     fn name_parts(&mut self, page: &mut Page, roots: &[ExprId]) {
         self.named.clear();
         for e in parts::named(self.module, &self.plan.sizes, roots, LIMITS) {

@@ -80,7 +80,7 @@ impl Generator<'_> {
         (before, quote!(#drive, #preset))
     }
 
-    /// A drive that would make a coil's line long gets one of its own.
+    /// A drive that would make a coil's line long gets a separate line.
     fn drive(&mut self, drive: ExprId, before: &mut TokenStream) -> TokenStream {
         let code = self.expr(drive).tokens;
         if self.plan.sizes.size(drive) <= SHORT_DRIVE {
@@ -140,7 +140,7 @@ impl Generator<'_> {
         let run = kind_name(kind).to_lowercase();
         self.timer_coils.insert(run.clone(), kind);
         let run = format_ident!("{run}");
-        // The timer behind what is read, which may be the timer itself.
+        // The timer after what is read, which may be the timer itself.
         quote!(#before #run(#arguments, &mut #timer, &plc.sys);)
     }
 

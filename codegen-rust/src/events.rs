@@ -127,7 +127,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Time goes on; `None` if that means nothing.
+    /// Advances time; `None` if that has no effect.
     fn tick(&mut self) -> Option<TokenStream> {
         if !self.module.takes_time() {
             return None;

@@ -14,7 +14,7 @@ use rungc_rt::CmpOp;
 pub enum Shape {
     /// Needs none: a path, field, call, positive literal.
     Atom,
-    /// Behind a prefix operator.
+    /// After a prefix operator.
     Unary,
     /// `a as T`.
     Cast,
@@ -102,7 +102,7 @@ impl ToTokens for Code {
     }
 }
 
-/// A 16-bit literal, with its type if nothing around it tells.
+/// A 16-bit literal, with its type if the context does not give it.
 fn literal16(value: i16, typed: bool) -> Code {
     match (value, typed) {
         (i16::MIN, _) => Code::atom(quote!(i16::MIN)),
@@ -115,7 +115,7 @@ fn literal16(value: i16, typed: bool) -> Code {
     }
 }
 
-/// A 32-bit literal, with its type if nothing around it tells.
+/// A 32-bit literal, with its type if the context does not give it.
 pub fn literal32(value: i32, typed: bool) -> Code {
     match (value, typed) {
         (i32::MIN, _) => Code::atom(quote!(i32::MIN)),
@@ -341,7 +341,7 @@ impl Generator<'_> {
                 let (class, number) = self.indexed(place);
                 Code::atom(quote!(plc.bit_at(#class, #number)))
             }
-            // A device that is not stored is a special one nobody looks at, which reads as 0.
+            // A device that is not stored is a special one that nothing reads; it reads as 0.
             None => Code::atom(quote!(false)),
         }
     }

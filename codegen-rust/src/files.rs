@@ -42,7 +42,7 @@ fn manifest(name: &str, description: &str, runtime_path: &str, profile: &str) ->
     format!(
         "[package]\nname = {name}\ndescription = {description}\nversion = \"{EMITTED_VERSION}\"\nedition = \"2024\"\npublish = false\n\n\
          [dependencies]\nrungc-rt = {{ path = {runtime_path} }}\n\n\
-         # A workspace of its own. Delete this line to make the crate a member of yours.\n[workspace]\n{profile}"
+         # A separate workspace. Delete this line to make the crate a member of yours.\n[workspace]\n{profile}"
     )
 }
 
@@ -144,7 +144,7 @@ fn imports(uses: &Uses) -> String {
     out
 }
 
-/// Names behind each other, as many on a line as fit, laid out as rustfmt does.
+/// Names one after the other, as many on a line as fit, laid out as rustfmt does.
 fn fill(out: &mut String, names: &[&str]) {
     let mut line = String::from("   ");
     for name in names {
@@ -203,7 +203,7 @@ fn exported(text: &str, visibility: &str) -> String {
     out
 }
 
-/// What a host of a program with interrupts has to know besides.
+/// What a host of a program with interrupts also has to know.
 const EVENTS_DOC: &str = "\
 //!
 //! Interrupts: tell the program of edges of input terminals ([`Program::input_edge`]) and, each millisecond, of time
@@ -467,7 +467,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
          /// Does something with a program, freshly powered on; `None` if there is no such program.\n\
          pub fn run(number: usize, what: &mut dyn FnMut(&mut dyn Program)) -> Option<()> {{\n    \
          match number {{\n{arms}        _ => return None,\n    }}\n    Some(())\n}}\n\n\
-         /// A function of its own for each program: in one, the stack would hold all of them.\n\
+         /// A separate function for each program: in one, the stack would hold all of them.\n\
          #[inline(never)]\n\
          fn power_on<T: Program>(new: fn() -> T, what: &mut dyn FnMut(&mut dyn Program)) {{\n    what(&mut new())\n}}\n"
     );

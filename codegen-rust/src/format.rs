@@ -62,7 +62,7 @@ impl Body {
         }
     }
 
-    /// Adds a comment on lines of its own, after an empty line.
+    /// Adds a comment on separate lines, after an empty line.
     pub fn comment(&mut self, text: &str) {
         self.pieces.push(Piece::Comment(clean(text)));
     }
@@ -245,7 +245,7 @@ impl Printer {
         self.out.extend(std::iter::repeat_n("    ", depth));
     }
 
-    /// Prints statements, laid out as in so many blocks, or at depth 0 an item, without so many lines at the end.
+    /// Prints statements, laid out as in this many blocks, or at depth 0 an item, without this many lines at the end.
     fn code(&mut self, tokens: TokenStream, depth: usize, without: usize) {
         let mut enclosed = tokens.clone();
         for _ in 1..depth {

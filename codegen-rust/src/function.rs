@@ -16,7 +16,7 @@ use std::rc::Rc;
 const LEAVE: &str = "LEAVE";
 
 impl Generator<'_> {
-    /// Writes all functions of the plan, and those that they call besides.
+    /// Writes all functions of the plan, and those that they also call.
     pub fn functions(&mut self) {
         for index in 0..self.plan.functions.len() {
             let item = self.function(index);

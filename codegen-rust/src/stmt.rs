@@ -309,7 +309,7 @@ impl Generator<'_> {
         });
     }
 
-    /// A call of a stretch that is a function of its own.
+    /// A call of a stretch that is a separate function.
     fn stretch(&mut self, function: usize) -> TokenStream {
         let plan = Rc::clone(&self.plan);
         let function = &plan.functions[function];

@@ -37,7 +37,7 @@ impl PrintField for Field {
 
 /// Stored devices as Rust.
 pub trait PrintStorage {
-    /// The place of a device behind `plc`: `plc.x0`, `plc.d[7]`.
+    /// The field of a device of `plc`: `plc.x0`, `plc.d[7]`.
     fn cell(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream>;
 
     /// The place of a device of a loop's present round, whose number is in `variable`.

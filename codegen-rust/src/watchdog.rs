@@ -68,7 +68,7 @@ impl Generator<'_> {
         })
     }
 
-    /// The method of `Program` that tells what has gone wrong.
+    /// The method of `Program` that reports errors.
     pub fn last_error(&mut self) -> Option<TokenStream> {
         self.module.may_fail().then(|| {
             let error = self.rt("LastError");

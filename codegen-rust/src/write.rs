@@ -55,7 +55,7 @@ impl Generator<'_> {
         !self.named.contains_key(&e) && device(read) == device(place) && index(read) == index(place)
     }
 
-    /// Writes a bit; nothing for a special device that nobody looks at, which is not stored.
+    /// Writes a bit; nothing for a special device that nothing reads, which is not stored.
     pub fn write_bit(&mut self, place: Place, value: ExprId) -> TokenStream {
         match self.bit_cell(place) {
             Some(cell) => {

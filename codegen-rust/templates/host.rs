@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// Time from the start of one scan to the start of the next.
 const SCAN: Duration = Duration::from_millis(10);
 
-/// So many lines of standard input are looked at in a scan.
+/// The number of lines of standard input that a scan reads.
 const COMMANDS_PER_SCAN: usize = 16;
 
 /// Output terminals: number, name, comment.
@@ -62,7 +62,7 @@ fn meaning(code: u16) -> &'static str {
     known.map_or("operation error", |error| error.1)
 }
 
-/// Tells of an operation error at another place than the last one, and of what stops the program.
+/// Reports an operation error at another place than the last one, and what stops the program.
 fn print_error(before: LastError, now: LastError) {
     if now.code != 0 && (now.code, now.step) != (before.code, before.step) {
         let LastError { code, step, .. } = now;

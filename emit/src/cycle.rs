@@ -80,7 +80,7 @@ pub fn latches(module: &Module, storage: &Storage) -> Latches {
 pub enum Budget {
     /// [`rungc_ir::node::STEPS_PER_MS`] for each millisecond in this register D, at least one.
     Register(u32),
-    /// So many.
+    /// A constant number.
     Steps(u32),
 }
 
@@ -97,7 +97,7 @@ pub fn budget(module: &Module, storage: &Storage) -> Option<Budget> {
 /// What a special device shows of an error.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Shown {
-    /// A relay goes on.
+    /// A relay turns on.
     On,
     /// A register takes this value.
     Word(i16),

@@ -1,4 +1,4 @@
-//! Parts of expressions that get a name of their own, because expressions would nest too deep or be written out too often.
+//! Parts of expressions that get a separate name, because expressions would nest too deep or be written out too often.
 
 use crate::measure::{Sizes, below};
 use rungc_ir::Module;
@@ -13,7 +13,7 @@ pub struct Limits {
     pub depth: u32,
     /// From how many operations on a part that occurs several times gets a name.
     pub shared: u64,
-    /// In an expression of up to so many operations no part does for occurring several times alone.
+    /// In an expression of up to this many operations, no part gets one only because it occurs several times.
     pub plain: u64,
 }
 

@@ -60,7 +60,7 @@ impl Function<'_> {
         Some((*steps.first()?, *steps.last()?))
     }
 
-    /// Whether it ends by a jump or a return of its own.
+    /// Whether it ends with its own jump or return.
     pub fn ends_by_jump(&self) -> bool {
         let last = self.body.last();
         matches!(last, Some(Node::Stmt(Stmt::Goto(_) | Stmt::Return)))
@@ -111,7 +111,7 @@ pub enum Node<'m> {
         /// Whether a part may continue outside of them.
         leaves: bool,
     },
-    /// A call of a stretch of this function that is a function of its own.
+    /// A call of a stretch of this function that is a separate function.
     Stretch(usize),
 }
 
@@ -164,7 +164,7 @@ pub fn statements<'m>(nodes: &[Node<'m>], visit: &mut dyn FnMut(&'m Stmt)) {
     }
 }
 
-/// Where control may go from a body besides its end.
+/// Where control may go from a body other than its end.
 #[derive(Clone, Default)]
 struct Leaves {
     returns: bool,
@@ -454,7 +454,7 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// A branch or a loop's body: bounded, and in a function of its own if it nests too deep.
+    /// A branch or a loop's body: bounded, and in a separate function if it nests too deep.
     fn inner(&mut self, body: &'m Body, root: usize, nesting: u32) -> Closed<'m> {
         let items = self.body(body, root, nesting);
         let items = self.bounded(items, root);
@@ -498,7 +498,7 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// Moves stretches of a body that is too large into functions of their own.
+    /// Moves stretches of a body that is too large into separate functions.
     fn bounded(&mut self, mut items: Vec<Item<'m>>, root: usize) -> Vec<Item<'m>> {
         while weight(&items) > FUNCTION_WEIGHT {
             let before = items.len();
@@ -534,7 +534,7 @@ impl<'m> Builder<'m> {
     }
 
     fn put_stretch(&mut self, items: Vec<Item<'m>>, root: usize, outer: &mut Vec<Item<'m>>) {
-        // A single statement would not get smaller by a function of its own.
+        // A separate function would not make a single statement smaller.
         if items.len() > 1 {
             outer.push(self.stretch(items, root));
         } else {

@@ -350,7 +350,7 @@ impl<'m> Storage<'m> {
         field.holds(number).then_some((field, number))
     }
 
-    /// Where the device of a loop's present round is, which moves on by so many numbers with each round.
+    /// Where the device of a loop's present round is, which advances by this many numbers with each round.
     pub fn round_slot(&self, class: DeviceClass, number: u32, by: u32) -> Option<RoundSlot<'_>> {
         let field = self.find(class, number)?;
         let grid = field.grid.filter(|grid| grid.columns == by)?;
@@ -512,7 +512,7 @@ fn fields(pieces: &[Piece]) -> Vec<Field> {
     fields
 }
 
-/// The runs: what a grid does not store is no gap between them.
+/// The runs: what a grid does not store is not a gap between them.
 fn runs(pieces: &[Piece]) -> Vec<(DeviceClass, Run)> {
     let mut runs: Vec<(DeviceClass, Run)> = Vec::new();
     for piece in pieces {

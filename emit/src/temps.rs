@@ -190,7 +190,7 @@ impl Scopes<'_> {
         } else {
             first.block = self.open.last().copied();
         }
-        // A value at the start of the program belongs to no rung; a later one tells more.
+        // A value at the start of the program belongs to no rung; a later one says more.
         if known.prefix.is_empty() || (known.step.is_none() && self.step.is_some()) {
             let ordinal = self.names.entry((prefix, self.step)).or_default();
             known.prefix = prefix;

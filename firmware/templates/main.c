@@ -1,6 +1,6 @@
 #include "PROGRAM_board.h"
 
-/* The clock that SysTick counts, the steps in which time goes on, and from scan to scan. */
+/* The clock that SysTick counts, the resolution of time, and the scan period. */
 #define CLOCK_HZ /* HZ */u
 #define TICK_US /* TICK */u
 #define SCAN_US /* SCAN */u

@@ -74,9 +74,9 @@ impl Row {
                     }
                     Named::Own(number) => format!("{verb} M{}", own + number - self.apart),
                     Named::Shared(number) => format!("{verb} M{number}"),
-                    Named::Numbered(class, number, behind) => {
+                    Named::Numbered(class, number, after) => {
                         let number = number + self.others_apart * station;
-                        format!("{verb} {class}{number}{behind}")
+                        format!("{verb} {class}{number}{after}")
                     }
                 });
             }
@@ -128,17 +128,17 @@ impl Rung {
 /// A contact of a timer or counter, or a comparison of a register or a current value.
 fn contact(rng: &mut Rng) -> (&'static str, Named) {
     let class = rng.pick(&['T', 'C', 'D']).unwrap_or('T');
-    let (verbs, behind): (&[&str], _) = match rng.below(2) {
+    let (verbs, after): (&[&str], _) = match rng.below(2) {
         0 if class != 'D' => (&["AND", "ANI", "OR", "ORI"], ""),
         _ => (&["AND>", "AND=", "OR<", "OR<>"], " K3"),
     };
     let verb = rng.pick(verbs).unwrap_or("AND");
-    (verb, numbered(rng, class, behind))
+    (verb, numbered(rng, class, after))
 }
 
 /// What a rung does to a timer, counter or register.
 fn action(rng: &mut Rng) -> (&'static str, Named) {
-    let (verb, class, behind) = rng
+    let (verb, class, after) = rng
         .pick(&[
             ("OUT", 'T', " K2"),
             ("OUT", 'T', " K5"),
@@ -160,12 +160,12 @@ fn action(rng: &mut Rng) -> (&'static str, Named) {
         .unwrap_or(("OUT", 'T', " K1"));
     let named = match class {
         'M' => Named::Own(rng.below(30)),
-        _ => numbered(rng, class, behind),
+        _ => numbered(rng, class, after),
     };
     (verb, named)
 }
 
 /// One of the first timers, counters or registers of a row.
-fn numbered(rng: &mut Rng, class: char, behind: &'static str) -> Named {
-    Named::Numbered(class, rng.below(12), behind)
+fn numbered(rng: &mut Rng, class: char, after: &'static str) -> Named {
+    Named::Numbered(class, rng.below(12), after)
 }

@@ -15,7 +15,7 @@ pub(crate) enum Flow {
     Next,
     /// By [`Stmt::Return`].
     Return,
-    /// By a jump that none of its own [`Stmt::Parts`] takes.
+    /// By a jump that none of the [`Stmt::Parts`] in it takes.
     Goto(LabelId),
 }
 

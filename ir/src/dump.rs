@@ -202,7 +202,7 @@ impl Out<'_> {
                 preset,
             } => self.coil_at("counter", place, *drive, *preset),
             Stmt::TimerGoesOn { number, kind } => {
-                format!("timer T{number} {} goes on", timer_text(kind))
+                format!("timer T{number} {} continues", timer_text(kind))
             }
             Stmt::Counter16 {
                 number,

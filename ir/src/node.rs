@@ -6,7 +6,7 @@
 //! # Values
 //!
 //! Integers are two's complement and wrap. `I16` values are signed 16-bit, `I32` signed 32-bit, `F32` IEEE single, `Bit` true or false.
-//! Types are never converted silently: [`Expr::Widen`], [`Expr::Narrow`] and their like say so. An operand stands before the expression
+//! Types are never converted silently: [`Expr::Widen`], [`Expr::Narrow`] and similar expressions say so. An operand stands before the expression
 //! that uses it in the arena, so that one walk from the front meets operands first.
 //!
 //! # Order

@@ -24,7 +24,7 @@ pub(super) struct Section {
 impl Lowerer<'_> {
     /// An advanced interrupt's routine.
     pub(super) fn section(&mut self, number: u32, function: u32, interrupt: Advanced) -> Request {
-        let at = self.cell(format!("i{number}_at"), "where the routine goes on");
+        let at = self.cell(format!("i{number}_at"), "where the routine continues");
         self.interrupts.sections.push(Section {
             function,
             interrupt,

@@ -71,7 +71,7 @@ pub(super) fn check(resolved: &Resolved, bounds: &[Bound], diagnostics: &mut Dia
     }
 }
 
-/// Tells which operands make a program store many devices because little is known of their index.
+/// Reports operands that make a program store many devices because little is known about their index.
 pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagnostics) {
     let mut told: BTreeMap<(DeviceClass, u32, DeviceClass, u32), ()> = BTreeMap::new();
     for used in uses {

@@ -42,7 +42,7 @@ pub(super) struct Rows {
 /// Which bits a pattern writes.
 #[derive(Clone, Copy)]
 enum Width {
-    /// So many, from the first on.
+    /// This many, starting with the first.
     Bits(u32),
     /// Those of a word that are on in a mask: the operand's value, and where it is kept for the counts.
     Mask { cell: CellId, value: ExprId },

@@ -56,7 +56,7 @@ pub(super) enum Action {
     Request(FlagId),
     /// Shows the zone in three bits.
     Zone(OperandKind),
-    /// Goes on in a table.
+    /// Continues in a table.
     Rows(Rows),
 }
 

@@ -161,7 +161,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Behind an interrupt routine, which may have switched on a relay that gives a signal.
+    /// After an interrupt routine, which may have switched on a relay that gives a signal.
     pub(super) fn signals_of_relays(&mut self) {
         if let Some(function) = self.signals.function.filter(|_| self.signals.relays) {
             self.emit(Stmt::CallSub(function));

@@ -110,7 +110,7 @@ fn errors_on(model: &'static Model, case: &Case) -> Vec<(u32, Diagnostic)> {
 /// What is wrong with the verdict on a case, if anything.
 fn misjudged(case: &Case) -> Option<String> {
     let errors = errors(case);
-    let told: Vec<_> = errors
+    let listed: Vec<_> = errors
         .iter()
         .map(|(line, error)| {
             format!(
@@ -119,7 +119,7 @@ fn misjudged(case: &Case) -> Option<String> {
             )
         })
         .collect();
-    let told = told.join("; ");
+    let listed = listed.join("; ");
     let right = match case.rejects {
         None => errors.is_empty(),
         Some((code, at)) => errors.iter().any(|(line, error)| {
@@ -127,7 +127,7 @@ fn misjudged(case: &Case) -> Option<String> {
                 && at.is_none_or(|at| at == i64::from(*line))
         }),
     };
-    (!right).then(|| format!("{}: expected {:?}, found {told}", case.name, case.rejects))
+    (!right).then(|| format!("{}: expected {:?}, found {listed}", case.name, case.rejects))
 }
 
 #[test]
@@ -191,8 +191,8 @@ fn instructions_without_implementation_are_errors() {
             let read = read_text("case", &format!("OR X0\n{example}"));
             let (resolved, _) = resolve(&read.program, model);
             let found = check(&resolved);
-            let told = found.iter().any(|d| d.code == codes::NOT_IMPLEMENTED.id);
-            assert!(told, "{} on {}:\n{example}", inst.name, model.name);
+            let listed = found.iter().any(|d| d.code == codes::NOT_IMPLEMENTED.id);
+            assert!(listed, "{} on {}:\n{example}", inst.name, model.name);
             count += 1;
         }
     }

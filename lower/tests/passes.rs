@@ -288,7 +288,7 @@ fn rounds_have_the_same_presets_and_kinds_of_timers() {
     let main = stations(20, timed_station, "");
     assert!(main.starts_with("repeat 12 times"), "{main}");
     assert!(main.contains("repeat 8 times"), "{main}");
-    // Behind T245 timers keep their values.
+    // After T245, timers keep their values.
     let late = |n: u32| timed_station(n).replace(&format!(" T{n}"), &format!(" T{}", 236 + n));
     let main = stations(12, late, "");
     assert!(main.starts_with("repeat 10 times"), "{main}");

@@ -43,7 +43,7 @@ pub enum Source {
         /// Which change.
         kind: EdgeKind,
     },
-    /// So many milliseconds of RUN have passed.
+    /// This many milliseconds of RUN have passed.
     Period {
         /// Period, at least 1.
         ms: u32,
@@ -183,7 +183,7 @@ pub struct CountRows {
     pub first: Register,
     /// Shows the row that waits, from 0.
     pub row: Register,
-    /// Goes on when the last row was reached, after which the first one waits again.
+    /// Turns on when the last row was reached, after which the first one waits again.
     pub done: Relay,
     /// Pointer of the first row.
     pub pointer: u32,

@@ -235,7 +235,7 @@ pub struct Model {
     pub pulse_outputs: &'static [(DeviceClass, u32, u32)],
     /// Those of them that keep a position, for positioning.
     pub position_outputs: &'static [(DeviceClass, u32, u32)],
-    /// Parameters of axes that begin with a value other than 0 besides the output, which is at first an axis' own
+    /// Parameters of axes that start with a value other than 0, in addition to the output, which is at first an axis' own
     /// ([`rungc_rt::axis_place`]).
     pub axis_defaults: &'static [(u32, i16)],
     /// Special data registers that are other names of index registers: (number, class, index number), e.g. D8028 is Z0.

@@ -290,7 +290,7 @@ impl Generator {
         u64::from(remaining).saturating_sub(way_down).max(1) as u32
     }
 
-    /// So many pulses have ended; gives the next one its speed.
+    /// This many pulses have ended; gives the next one its speed.
     fn passed(&mut self, pulses: u32) {
         if self.modulates {
             return;

@@ -1,6 +1,6 @@
 //! Special relays and registers: their types, and the names of those that the runtime, the compiler or emitted code touch.
 //!
-//! Every such number stands here and nowhere else. What a number means on which model is told by the tables of the models, which
+//! Every such number is here and nowhere else. The tables of the models say what a number means on which model; they
 //! know many more of them.
 
 /// A special relay M, by its number.

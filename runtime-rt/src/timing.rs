@@ -10,11 +10,11 @@ pub struct TimerKind {
     pub unit_ms: u16,
     /// Keeps its value while not driven; only RST clears it.
     pub accumulating: bool,
-    /// Goes on timing in scans that jump over its coil (T192–T199).
+    /// Continues timing in scans that jump over its coil (T192–T199).
     pub free_running: bool,
     /// Takes the preset over when timing starts instead of reading it all the time (H1U/H2U).
     pub latches_preset: bool,
-    /// Goes on counting up to 32767 after the preset is reached (HM).
+    /// Continues counting up to 32767 after the preset is reached (HM).
     pub overruns: bool,
     /// Advances by at most one unit a scan, so scans longer than its unit make it slow (10 ms timers of L01S).
     pub stepwise: bool,

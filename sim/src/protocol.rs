@@ -38,7 +38,7 @@ pub enum Request {
     },
     /// An input terminal turns on or off.
     Edge(u32, bool),
-    /// So many milliseconds have passed since power-on.
+    /// This many milliseconds have passed since power-on.
     Tick(u32),
     /// Runs the interrupts that are requested.
     Interrupts,

@@ -25,7 +25,7 @@ set = { X000 = 1 }
 expect = { Y000 = 1 }
 
 [[case]]
-name = "of its own"
+name = "separate"
 model = "hm"
 program = "LD M8000\nOUT Y001\nEND\n"
 [[case.step]]

@@ -39,7 +39,7 @@ struct Rungs<'a, 'p> {
     branches: Vec<Branch>,
     /// Whether coils may stand directly on the bus, because it is the sub-bus of a state.
     in_state: bool,
-    /// Behind an instruction that could not be resolved nothing is sure until a new rung begins.
+    /// After an instruction that could not be resolved, nothing is certain until a new rung starts.
     unsure: Option<Unsure>,
 }
 

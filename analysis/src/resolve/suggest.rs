@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 /// What was probably meant.
 pub(super) struct Meant {
-    /// Tells the author.
+    /// Reports it to the author.
     pub(super) help: String,
     /// The instruction, where only one comes into question.
     pub(super) found: Option<Found>,

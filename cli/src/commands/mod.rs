@@ -96,14 +96,14 @@ pub enum Verbosity {
 }
 
 impl Context {
-    /// Tells people what was done, unless they asked for quiet.
+    /// Prints what was done, unless `--quiet` is given.
     pub fn note(self, line: &str) {
         if self.verbosity > Verbosity::Quiet {
             tell(line);
         }
     }
 
-    /// Tells people a detail that they asked for.
+    /// Prints a detail, if `--verbose` is given.
     pub fn detail(self, line: impl FnOnce() -> String) {
         if self.verbosity == Verbosity::Verbose {
             tell(&line());

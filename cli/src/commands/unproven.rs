@@ -9,9 +9,9 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Fitting instructions are searched for at most this many codes of a program: with more unknown ones, it is not a program.
 const MAX_CODES: usize = 32;
-/// So many uses of a code are compared.
+/// The number of uses of a code that are compared.
 const MAX_USES: usize = 16;
-/// So many instructions are named.
+/// The number of instructions that are named.
 const MAX_NAMED: usize = 12;
 
 /// Completes the errors about codes that are not known by the instructions that would fit on the program's model, which is `chosen`

@@ -44,7 +44,7 @@ pub fn wpg(cpu: u16, bodies: &[&[u8]]) -> Vec<u8> {
     bytes
 }
 
-/// A folder of its own with these files.
+/// A separate folder with these files.
 pub fn folder(files: &[(&str, &[u8])]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, content) in files {

@@ -147,7 +147,7 @@ impl Generator<'_> {
         }
     }
 
-    /// A field's device behind `self` where a pattern has matched its number.
+    /// A field's device in `self` where a pattern has matched its number.
     pub(super) fn matched(field: &Field) -> TokenStream {
         let name = field.name();
         if !field.array {
@@ -168,7 +168,7 @@ impl Generator<'_> {
         }
     }
 
-    /// How far a number is behind a field's first.
+    /// The distance of a number from a field's first.
     fn distance(field: &Field) -> TokenStream {
         match field.first {
             0 => quote!(number),

@@ -143,7 +143,7 @@ impl Generator<'_> {
         }
     }
 
-    /// What is no device: name, type, value at power-on, meaning.
+    /// Fields that are not devices: name, type, value at power-on, meaning.
     fn hidden_fields(&mut self) -> Vec<Hidden> {
         let (edge, state, sys) = (self.rt("Edge"), self.rt("State"), self.rt("Sys"));
         let mut fields = Vec::new();

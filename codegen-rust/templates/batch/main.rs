@@ -7,7 +7,7 @@ fn main() {
     let mut output = io::stdout().lock();
     batch::serve(
         &mut |bytes| input.read(bytes).unwrap_or(0),
-        // Nobody is there any more who could be told that writing fails.
+        // The reader is gone, so a failed write cannot be reported.
         &mut |bytes| drop(output.write_all(bytes).and_then(|()| output.flush())),
     );
 }

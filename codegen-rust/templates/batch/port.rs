@@ -55,7 +55,7 @@ impl<'a> Port<'a> {
         };
         let line = &self.input[self.begin..self.begin + length];
         self.begin += length + 1;
-        // What is no text is no request, either.
+        // What is not a text is not a request, either.
         Some(core::str::from_utf8(line).unwrap_or_default())
     }
 

@@ -1,6 +1,6 @@
 //! PLC parameters: `param.wpa` of GX Developer, `Param.wpa` of GX Works2.
 //!
-//! Behind the header stand blocks: `length:u16` (with this head), `id:u16`, data; a length of FFFFh ends them.
+//! After the header come blocks: `length:u16` (with this head), `id:u16`, data; a length of FFFFh ends them.
 
 use super::fields::Fields;
 use super::{HEADER, tokens};

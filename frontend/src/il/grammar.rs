@@ -380,7 +380,7 @@ fn operand<'s>() -> impl Parser<'s, &'s str, Operand, Extra> + Copy {
         report(e, kind);
         OperandKind::Unreadable(meant_device(word))
     });
-    // Behind the last operand no kind of operand is tried.
+    // After the last operand no kind of operand is tried.
     choice((boundary(), comment_sign()))
         .not()
         .ignore_then(choice((

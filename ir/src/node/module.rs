@@ -81,7 +81,7 @@ pub enum FunctionKind {
     /// Runs the interrupt routines that are requested. `Main` calls it at the start of each network, and after code that sets or resets
     /// a relay that requests or forbids one where relays keep requests (HM); `End` calls it first, and a host may between two scans
     /// ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt routine is itself. What is
-    /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::Interrupts::precedence`] tells which comes
+    /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::Interrupts::precedence`] decides which comes
     /// first.
     TakeInterrupts,
     /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.

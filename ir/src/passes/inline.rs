@@ -144,7 +144,7 @@ impl Temps {
         self.available.clone()
     }
 
-    /// Goes on with what was known before.
+    /// Continues with what was known before.
     pub(super) fn set_available(&mut self, available: Vec<Available>) {
         self.available = available;
     }

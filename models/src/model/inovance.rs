@@ -128,7 +128,7 @@ const COUNT_ROWS: CountRows = CountRows {
     most: 24,
 };
 
-/// Besides the pointers of FX, those of the ends of pulse trains, I502 to I506 for Y000 to Y004 (h1u-h2u-programming §4.3.6), and of
+/// In addition to the pointers of FX, those of the ends of pulse trains, I502 to I506 for Y000 to Y004 (h1u-h2u-programming §4.3.6), and of
 /// the rows of a table of counts.
 fn pointers(number: u32) -> Option<Interrupt> {
     let (502..=506) = number else {

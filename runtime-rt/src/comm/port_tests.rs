@@ -40,7 +40,7 @@ fn sent(plc: &mut Double, now_us: u32) -> Vec<u8> {
     std::iter::from_fn(|| line.take(now_us).map(|character| character.byte)).collect()
 }
 
-/// Time goes on to this moment in milliseconds.
+/// Advances time to this moment in milliseconds.
 fn pass(plc: &mut Double, from_us: u32, to_us: u32) {
     for ms in from_us / 1000..=to_us / 1000 {
         plc.advance_ports(ms * 1000);

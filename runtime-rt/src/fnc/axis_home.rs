@@ -154,7 +154,7 @@ fn turn(cx: &mut Cx, axis: Registers, next: i32) -> Done {
     Ok(())
 }
 
-/// Behind the DOG: what is left are pulses, zero signals, or one after the other.
+/// After the DOG: what is left are pulses, zero signals, or one after the other.
 fn count(cx: &mut Cx, axis: Registers) -> Done {
     let zeros = i32::from(axis.word(cx, at::ZEROS) as u16);
     let either = axis.has(cx, event::EITHER);

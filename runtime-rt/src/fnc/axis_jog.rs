@@ -18,7 +18,7 @@ const SINCE: usize = 3;
 const PULSES: i32 = 0;
 /// It waits.
 const PAUSES: i32 = 1;
-/// It goes on and on.
+/// It continues without end.
 const GOES_ON: i32 = 2;
 
 /// JOG D1 D2 D3 D4 D5: while an input of mask D4 (forward) or D5 (reverse, which prevails) is on, jogs axis D1 by D2 pulses and, if it is
@@ -60,7 +60,7 @@ fn begin(cx: &mut Cx, axis: Registers) -> Done {
     axis.start(cx, train, reverse)
 }
 
-/// Goes on and on: below the first speed at once, else with ramps.
+/// Continues without end: below the first speed at once, else with ramps.
 fn run_on(cx: &mut Cx, axis: Registers, reverse: bool) -> Done {
     let (wanted, first) = speeds(cx, axis)?;
     let train = match wanted < first {

@@ -282,7 +282,7 @@ fn portion(cx: &mut Cx) -> Result<Option<(i32, i32, i32)>, Fault> {
     Ok((done < n).then_some((done, (done + most).min(n), n)))
 }
 
-/// Tells whether a divided transfer is over.
+/// Returns whether a divided transfer is over.
 fn finish_portion(cx: &mut Cx, end: i32, n: i32) {
     cx.state().0[0] = end;
     cx.set_special(M_COMPLETE, end >= n);

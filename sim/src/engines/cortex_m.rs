@@ -160,7 +160,7 @@ fn find_cargo(target: &str) -> Result<Command, BuildError> {
 fn write_support(folder: &Path) -> Result<(), BuildError> {
     let mut files = SUPPORT.iter();
     files.try_for_each(|(name, text)| write(&folder.join(name), text))?;
-    // The emitted Makefile does not know these files: linking anew is no work.
+    // The emitted Makefile does not know these files: linking again is cheap.
     match std::fs::remove_file(folder.join("batch")) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(io_error(folder.display(), error)),
         _ => Ok(()),

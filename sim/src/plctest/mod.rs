@@ -162,7 +162,7 @@ pub struct Step {
 /// How long a step runs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Run {
-    /// So many scans.
+    /// This many scans.
     Scans(u32),
     /// Whole scans until this many milliseconds have passed.
     Ms(u32),

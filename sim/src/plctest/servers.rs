@@ -51,7 +51,7 @@ impl Servers {
         }
     }
 
-    /// The connection of a name, opened if it is new; `None` if nobody serves the port.
+    /// The connection of a name, opened if it is new; `None` if the port is not served.
     fn connection(&mut self, port: u16, name: &str) -> Option<&mut Connection> {
         let service = *self.services.get(&port)?;
         let connection = self.connections.entry((port, name.to_string()));

@@ -1,4 +1,4 @@
-//! What the projects of vendors' editors contain besides a program, and which part was read.
+//! What the projects of vendors' editors contain in addition to a program, and which part was read.
 
 super::codes! {
     NOT_COMPILED = "E0021" "not-compiled" Error None,

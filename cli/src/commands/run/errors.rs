@@ -7,7 +7,7 @@ use rungc_models::{Model, plc_errors};
 use rungc_rt::{Class, LastError};
 use rungc_syntax::{Device, DeviceClass, Index, Instr, OperandKind, Program};
 
-/// Tells of errors with the instructions that they happened to.
+/// Reports errors with the instructions that caused them.
 pub struct Errors<'a> {
     resolved: Resolved<'a>,
     model: &'static Model,
@@ -29,7 +29,7 @@ impl<'a> Errors<'a> {
         }
     }
 
-    /// Tells of new ones, if that is wanted.
+    /// Reports new ones, if requested.
     pub fn notice(&mut self, errors: &[OperationError]) {
         if self.at_once {
             for error in errors.iter().skip(self.reported) {
@@ -39,7 +39,7 @@ impl<'a> Errors<'a> {
         }
     }
 
-    /// Tells of all of them at the end of the run.
+    /// Reports all of them at the end of the run.
     pub fn summarise(&self, errors: &[OperationError]) {
         for error in errors {
             let times = match error.times {

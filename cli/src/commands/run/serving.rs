@@ -1,4 +1,4 @@
-//! `rungc run --modbus-tcp` and its like: what clients over TCP read and write.
+//! `rungc run --modbus-tcp` and similar options: what clients over TCP read and write.
 
 use crate::args::ServeArgs;
 use crate::commands::{Failure, tell};

@@ -11,7 +11,7 @@ void board_init(void);
 /* Milliseconds since board_init. */
 uint32_t board_millis(void);
 
-/* Microseconds since board_init, wrapping; they go on in steps of BOARD_TICK_US. */
+/* Microseconds since board_init, wrapping; their resolution is BOARD_TICK_US. */
 #define BOARD_TICK_US 50u
 uint32_t board_micros(void);
 
