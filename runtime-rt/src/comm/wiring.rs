@@ -488,6 +488,14 @@ impl PortWiring {
         }
     }
 
+    /// How long a Modbus master waits for an answer, in microseconds. Compatible boards count milliseconds here, but tens of them for RS.
+    pub(crate) fn answer_time_out_us(&self, plc: &dyn Plc) -> u32 {
+        match (self.choice, value(plc, self.time_out)) {
+            (Choice::Board, ms @ 1..) => u32::from(ms) * 1000,
+            _ => self.time_out_us(plc),
+        }
+    }
+
     /// How many scans lie between two requests of RD3A and WR3A.
     pub(crate) fn gap_scans(&self, plc: &dyn Plc) -> u16 {
         value(plc, self.gap)

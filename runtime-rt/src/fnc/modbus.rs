@@ -63,7 +63,7 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
                 return Ok(Turn::None);
             }
             let job = job(cx)?;
-            let time_out_us = wiring.time_out_us(cx.plc);
+            let time_out_us = wiring.answer_time_out_us(cx.plc);
             if let Some(port) = cx.plc.port(number) {
                 port.status.exchange.begin(owner, job, time_out_us);
             }

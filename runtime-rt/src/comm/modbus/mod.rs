@@ -26,6 +26,8 @@ mod master;
 #[cfg(test)]
 mod oracle_tests;
 mod slave;
+#[cfg(test)]
+mod storm_tests;
 pub mod tcp;
 
 pub use adu::{Framing, LONGEST_ASCII, LONGEST_RTU, cut_ascii};
