@@ -15,6 +15,10 @@ const WORDS: u32 = 8;
 const BITS: u32 = 16;
 
 /// Whether an instruction on a block that a runtime function implements is inline code, judging by its operands.
+#[expect(
+    clippy::wildcard_enum_match_arm,
+    reason = "the other functions of the runtime are called"
+)]
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
     let count = |i, most| {
@@ -56,7 +60,15 @@ fn is_word(class: DeviceClass) -> bool {
 fn device(operand: &OperandKind) -> Option<Device> {
     match *operand {
         OperandKind::Device(device, None) => Some(device),
-        _ => None,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 
@@ -67,6 +79,10 @@ fn register(operand: &OperandKind) -> Option<Device> {
 
 impl Lowerer<'_> {
     /// Emits an instruction on a block as inline code; false if the runtime has to be called.
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "the other functions of the runtime are called"
+    )]
     pub(super) fn inline_block(&mut self, function: RtFn) -> bool {
         if !is_inline(function, self.instr()) {
             return false;
@@ -214,7 +230,14 @@ impl Lowerer<'_> {
                         let off = this.bit_const(false);
                         Stmt::WriteBit(place, off)
                     }
-                    _ => {
+                    DeviceClass::D
+                    | DeviceClass::R
+                    | DeviceClass::ER
+                    | DeviceClass::V
+                    | DeviceClass::Z
+                    | DeviceClass::P
+                    | DeviceClass::I
+                    | DeviceClass::N => {
                         let zero = this.int(0, false);
                         Stmt::WriteWord(place, zero)
                     }

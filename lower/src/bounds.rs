@@ -110,13 +110,13 @@ pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagno
 
 /// How many bytes devices take.
 fn size(model: &Model, class: DeviceClass, (first, last): (u32, u32)) -> u64 {
-    use DeviceClass::{C, M, S, T, X, Y};
+    use DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
     let each = match class {
         X | Y | M | S => 1,
         T => 8,
         C if is_counter32(class, first) => 8,
         C => 4,
-        _ => 2,
+        D | R | ER | V | Z | P | I | N => 2,
     };
     let aliases = model.index_aliases.iter();
     let aliases = aliases.filter(|a| class == DeviceClass::D && (first..=last).contains(&a.0));

@@ -65,13 +65,23 @@ impl Lowerer<'_> {
 
     /// The expression's value as of now: itself if nothing can change it, else a temporary.
     pub(super) fn settled(&mut self, a: ExprId) -> ExprId {
-        match self.expr(a) {
-            Expr::Temp(_) | Expr::Bit(_) | Expr::I16(_) | Expr::I32(_) | Expr::F32(_) => a,
-            _ => {
-                let temp = self.temp(self.module.ty(a));
-                self.emit(Stmt::Let(temp, a));
-                self.add(Expr::Temp(temp))
-            }
+        if matches!(
+            self.expr(a),
+            Expr::Temp(_) | Expr::Bit(_) | Expr::I16(_) | Expr::I32(_) | Expr::F32(_)
+        ) {
+            return a;
+        }
+        let temp = self.temp(self.module.ty(a));
+        self.emit(Stmt::Let(temp, a));
+        self.add(Expr::Temp(temp))
+    }
+
+    /// A bit that is known here.
+    pub(super) fn known_bit(&self, a: ExprId) -> Option<bool> {
+        if let Expr::Bit(on) = self.expr(a) {
+            Some(on)
+        } else {
+            None
         }
     }
 
@@ -111,10 +121,10 @@ impl Lowerer<'_> {
 
     /// What `make` emits is executed if `cond` is on.
     pub(super) fn when(&mut self, cond: ExprId, make: impl FnOnce(&mut Self)) {
-        match self.expr(cond) {
-            Expr::Bit(true) => make(self),
-            Expr::Bit(false) => {}
-            _ => {
+        match self.known_bit(cond) {
+            Some(true) => make(self),
+            Some(false) => {}
+            None => {
                 let then = self.body(make);
                 self.emit(Stmt::If {
                     cond,

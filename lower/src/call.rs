@@ -304,7 +304,12 @@ pub(super) fn output_of(kind: &OperandKind) -> Option<u32> {
         OperandKind::Device(Device { number, .. }, _) => Some(number),
         OperandKind::Decimal(axis, _) => u32::try_from(axis).ok(),
         OperandKind::Hex(axis, _) => u32::try_from(axis).ok(),
-        _ => None,
+        OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 
@@ -357,7 +362,15 @@ pub(super) fn constant(operand: &OperandKind) -> Option<i64> {
     match *operand {
         OperandKind::Decimal(value, None) => Some(value),
         OperandKind::Hex(value, None) => i64::try_from(value).ok(),
-        _ => None,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 
@@ -379,10 +392,22 @@ fn unit(param: &Param, operand: &OperandKind, form: Form) -> u32 {
     match *operand {
         OperandKind::Nibbles(digits, ..) => 4 * u32::from(digits),
         OperandKind::Device(device, _) if is_counter32(device.class, device.number) => 1,
-        _ => match param.shape {
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => match param.shape {
             Shape::Value if form.wide => 2,
             Shape::Pair | Shape::Float => 2,
-            _ => 1,
+            Shape::Bit
+            | Shape::Value
+            | Shape::Word
+            | Shape::Text
+            | Shape::Pointer
+            | Shape::Mixed => 1,
         },
     }
 }

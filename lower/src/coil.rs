@@ -117,9 +117,10 @@ impl Lowerer<'_> {
         let place = self.place(device, Some(index), 1, false, &mut guards);
         if let (false, Some(index)) = (timer, place.index) {
             // A 32-bit counter does not count as a 16-bit one.
-            let index = match self.expr(index) {
-                Expr::Within { value, .. } => value,
-                _ => index,
+            let index = if let Expr::Within { value, .. } = self.expr(index) {
+                value
+            } else {
+                index
             };
             let room = self.add(Expr::I32(FIRST_COUNTER32 as i32 - device.number as i32));
             guards.demand(self.add(Expr::Cmp(CmpOp::Lt, index, room)));
@@ -171,7 +172,15 @@ impl Lowerer<'_> {
             OperandKind::Device(device, None) if on && self.is_transition(device) => {
                 return self.transition(device.number);
             }
-            _ => {}
+            OperandKind::Device(..)
+            | OperandKind::WordBit(..)
+            | OperandKind::Nibbles(..)
+            | OperandKind::Decimal(..)
+            | OperandKind::Hex(..)
+            | OperandKind::Float(_)
+            | OperandKind::Text(_)
+            | OperandKind::Buffer { .. }
+            | OperandKind::Unreadable(_) => {}
         }
         self.driven(|this| match *operand {
             OperandKind::Device(device, index)
@@ -190,7 +199,15 @@ impl Lowerer<'_> {
                 let zero = this.int(0, false);
                 this.guarded(guards, |this| this.store(target, zero));
             }
-            _ => {
+            OperandKind::Device(..)
+            | OperandKind::WordBit(..)
+            | OperandKind::Nibbles(..)
+            | OperandKind::Decimal(..)
+            | OperandKind::Hex(..)
+            | OperandKind::Float(_)
+            | OperandKind::Text(_)
+            | OperandKind::Buffer { .. }
+            | OperandKind::Unreadable(_) => {
                 let value = this.bit_const(on);
                 this.write_bits(operand, value);
                 if let &OperandKind::Device(device, None) = operand {

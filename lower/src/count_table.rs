@@ -446,6 +446,14 @@ fn constant(operand: &OperandKind) -> Option<u32> {
     match *operand {
         OperandKind::Decimal(value, None) => u32::try_from(value).ok(),
         OperandKind::Hex(value, None) => u32::try_from(value).ok(),
-        _ => None,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }

@@ -121,13 +121,11 @@ impl Flow {
         };
         let routine = |i: usize| -> Option<FunctionKind> {
             let label = resolved.instrs[i].label?;
-            match label.class {
-                DeviceClass::P if called.contains(&label.number) => {
-                    Some(FunctionKind::Subroutine(label.number))
-                }
-                DeviceClass::I => Some(FunctionKind::Interrupt(label.number)),
-                _ => None,
+            if label.class == DeviceClass::I {
+                return Some(FunctionKind::Interrupt(label.number));
             }
+            let subroutine = label.class == DeviceClass::P && called.contains(&label.number);
+            subroutine.then_some(FunctionKind::Subroutine(label.number))
         };
         let mut i = 0;
         while i < end {
@@ -216,7 +214,13 @@ impl Flow {
                 function: region.function,
                 start: region.start,
             }),
-            _ => None,
+            FunctionKind::Main
+            | FunctionKind::Begin
+            | FunctionKind::End
+            | FunctionKind::Subroutine(_)
+            | FunctionKind::TakeInterrupts
+            | FunctionKind::InputEdge { .. }
+            | FunctionKind::Signals => None,
         };
         self.regions.iter().filter_map(routine).collect()
     }
@@ -316,7 +320,13 @@ impl Flow {
     fn instructions(&self, region: &Region) -> impl Iterator<Item = usize> + use<> {
         let routines: Vec<(usize, usize)> = match region.kind {
             FunctionKind::Main => self.regions[1..].iter().map(|r| (r.start, r.end)).collect(),
-            _ => Vec::new(),
+            FunctionKind::Begin
+            | FunctionKind::End
+            | FunctionKind::Subroutine(_)
+            | FunctionKind::Interrupt(_)
+            | FunctionKind::TakeInterrupts
+            | FunctionKind::InputEdge { .. }
+            | FunctionKind::Signals => Vec::new(),
         };
         let mut routines = routines.into_iter().peekable();
         (region.start..region.end).filter(move |&i| {
@@ -330,7 +340,14 @@ impl Flow {
 fn pointer(resolved: &Resolved, i: usize) -> Option<u32> {
     match resolved.program.instrs.get(i)?.operands.first()?.kind {
         OperandKind::Device(device, _) => Some(device.number),
-        _ => None,
+        OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 
@@ -338,7 +355,14 @@ fn pointer(resolved: &Resolved, i: usize) -> Option<u32> {
 fn pointer_index(resolved: &Resolved, i: usize) -> Option<Index> {
     match resolved.program.instrs.get(i)?.operands.first()?.kind {
         OperandKind::Device(_, index) => index,
-        _ => None,
+        OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 

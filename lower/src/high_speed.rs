@@ -242,9 +242,9 @@ impl Lowerer<'_> {
                 }
             });
         });
-        match self.expr(drive) {
-            Expr::Bit(true) => then.into_iter().for_each(|stmt| self.emit(stmt)),
-            _ => {
+        match self.known_bit(drive) {
+            Some(true) => then.into_iter().for_each(|stmt| self.emit(stmt)),
+            Some(false) | None => {
                 let otherwise = self.body(|this| this.disarm(armed));
                 self.emit(Stmt::If {
                     cond: drive,
@@ -330,7 +330,15 @@ impl Lowerer<'_> {
                 let on = comparison == Comparison::Set;
                 return Some(Action::Switch(target.clone(), on));
             }
-            _ => return None,
+            OperandKind::Device(..)
+            | OperandKind::WordBit(..)
+            | OperandKind::Nibbles(..)
+            | OperandKind::Decimal(..)
+            | OperandKind::Hex(..)
+            | OperandKind::Float(_)
+            | OperandKind::Text(_)
+            | OperandKind::Buffer { .. }
+            | OperandKind::Unreadable(_) => return None,
         };
         let counts_itself = matches!(counted, Counted::Counter(number) if number == device.number);
         Some(match (comparison, device.class) {

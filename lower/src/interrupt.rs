@@ -167,7 +167,10 @@ impl Lowerer<'_> {
             }
             let period = match source {
                 Source::Period { ms } => Some(ms),
-                _ => None,
+                Source::Input { .. }
+                | Source::Comparison { .. }
+                | Source::Row { .. }
+                | Source::PulsesEnd { .. } => None,
             };
             let flag = self.flag(flag_name(source), "requests an interrupt", period);
             match source {

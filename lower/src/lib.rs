@@ -7,6 +7,8 @@
 //! This crate must not know file formats or output languages. Start reading at [`compile::compile`], the whole way from a program to a
 //! module.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 mod advanced;
 mod arith;
 mod axes;
@@ -53,7 +55,7 @@ use typed_index_collections::TiVec;
 
 use flow::{Flow, Open};
 use parts::Item;
-use rungc_rt::TimerKind;
+use rungc_rt::{EdgeKind, TimerKind};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
 use special::Specials;
 use std::cell::OnceCell;
@@ -321,13 +323,14 @@ impl<'a> Lowerer<'a> {
     }
 
     fn begins_network(&self, lower: Lower) -> bool {
-        match lower {
+        let starts = matches!(
+            lower,
             Lower::Basic(Basic::Ld | Basic::Ldi | Basic::Ldp | Basic::Ldf)
-            | Lower::Compare(Join::Ld, _) => self.logic.starts_rung[self.at],
-            Lower::Basic(Basic::For) => true,
-            Lower::Basic(Basic::Stl) => !self.steps.continues_row[self.at],
-            _ => false,
-        }
+                | Lower::Compare(Join::Ld, _)
+        );
+        starts && self.logic.starts_rung[self.at]
+            || self.instr_is(Basic::For)
+            || self.instr_is(Basic::Stl) && !self.steps.continues_row[self.at]
     }
 
     fn begin_network(&mut self) {
@@ -360,16 +363,26 @@ impl<'a> Lowerer<'a> {
 
     fn basic(&mut self, basic: Basic) {
         match basic {
-            Basic::Ld | Basic::Ldi | Basic::And | Basic::Ani | Basic::Or | Basic::Ori => {
-                self.contact(basic)
-            }
-            Basic::Ldp | Basic::Ldf | Basic::Andp | Basic::Andf | Basic::Orp | Basic::Orf => {
-                self.edge_contact(basic)
-            }
-            Basic::Anb | Basic::Orb | Basic::Mps | Basic::Mrd | Basic::Mpp => {
-                self.join_blocks(basic)
-            }
-            Basic::Inv | Basic::Mep | Basic::Mef => self.change_result(basic),
+            Basic::Ld => self.contact(Join::Ld, false),
+            Basic::Ldi => self.contact(Join::Ld, true),
+            Basic::And => self.contact(Join::And, false),
+            Basic::Ani => self.contact(Join::And, true),
+            Basic::Or => self.contact(Join::Or, false),
+            Basic::Ori => self.contact(Join::Or, true),
+            Basic::Ldp => self.edge_contact(Join::Ld, EdgeKind::Rising),
+            Basic::Ldf => self.edge_contact(Join::Ld, EdgeKind::Falling),
+            Basic::Andp => self.edge_contact(Join::And, EdgeKind::Rising),
+            Basic::Andf => self.edge_contact(Join::And, EdgeKind::Falling),
+            Basic::Orp => self.edge_contact(Join::Or, EdgeKind::Rising),
+            Basic::Orf => self.edge_contact(Join::Or, EdgeKind::Falling),
+            Basic::Anb => self.join_blocks(Join::And),
+            Basic::Orb => self.join_blocks(Join::Or),
+            Basic::Mps => self.push_result(),
+            Basic::Mrd => self.read_result(),
+            Basic::Mpp => self.pop_result(),
+            Basic::Inv => self.invert_result(),
+            Basic::Mep => self.edge_of_result(EdgeKind::Rising),
+            Basic::Mef => self.edge_of_result(EdgeKind::Falling),
             Basic::Out => self.coil(),
             Basic::Set | Basic::Rst => self.set_or_reset(basic == Basic::Set),
             Basic::Pls | Basic::Plf => self.pulse(basic),

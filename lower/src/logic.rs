@@ -145,33 +145,18 @@ impl Lowerer<'_> {
         self.guarded_value(guards, state)
     }
 
-    pub(super) fn contact(&mut self, basic: Basic) {
+    pub(super) fn contact(&mut self, join: Join, inverted: bool) {
         let state = self.contact_state();
-        let inverted = matches!(basic, Basic::Ldi | Basic::Ani | Basic::Ori);
-        let contact = match self.expr(state) {
-            Expr::Bit(on) if inverted => self.bit_const(!on),
-            _ if inverted => self.not(state),
-            _ => state,
-        };
-        let join = match basic {
-            Basic::And | Basic::Ani => Join::And,
-            Basic::Or | Basic::Ori => Join::Or,
-            _ => Join::Ld,
+        let contact = match (inverted, self.known_bit(state)) {
+            (true, Some(on)) => self.bit_const(!on),
+            (true, None) => self.not(state),
+            (false, _) => state,
         };
         self.join(join, contact);
     }
 
-    pub(super) fn edge_contact(&mut self, basic: Basic) {
+    pub(super) fn edge_contact(&mut self, join: Join, kind: EdgeKind) {
         let state = self.contact_state();
-        let kind = match basic {
-            Basic::Ldf | Basic::Andf | Basic::Orf => EdgeKind::Falling,
-            _ => EdgeKind::Rising,
-        };
-        let join = match basic {
-            Basic::Andp | Basic::Andf => Join::And,
-            Basic::Orp | Basic::Orf => Join::Or,
-            _ => Join::Ld,
-        };
         let edge = self.new_edge();
         let contact = self.edge(edge, kind, state);
         self.join(join, contact);
@@ -190,58 +175,55 @@ impl Lowerer<'_> {
         self.join(join, contact);
     }
 
-    pub(super) fn join_blocks(&mut self, basic: Basic) {
-        match basic {
-            Basic::Anb | Basic::Orb => {
-                let Some(last) = self.logic.stack.pop() else {
-                    return;
-                };
-                let join = if basic == Basic::Anb {
-                    Join::And
-                } else {
-                    Join::Or
-                };
-                self.join(join, last);
-            }
-            Basic::Mps => {
-                let result = match self.logic.stack.pop() {
-                    Some(result) => self.settled(result),
-                    None => self.bit_const(true),
-                };
-                self.logic.stack.push(result);
-                self.logic.branches.push(result);
-            }
-            Basic::Mrd | Basic::Mpp => {
-                let pushed = self.logic.branches.last().copied();
-                if basic == Basic::Mpp {
-                    self.logic.branches.pop();
-                }
-                if let Some(pushed) = pushed {
-                    self.logic.stack.pop();
-                    self.logic.stack.push(pushed);
-                }
-            }
-            _ => {}
+    /// ANB, ORB.
+    pub(super) fn join_blocks(&mut self, join: Join) {
+        if let Some(last) = self.logic.stack.pop() {
+            self.join(join, last);
         }
     }
 
-    pub(super) fn change_result(&mut self, basic: Basic) {
-        let result = match self.logic.stack.pop() {
+    /// The result at hand; the bus, if there is none.
+    fn take_result(&mut self) -> ExprId {
+        match self.logic.stack.pop() {
             Some(result) => result,
             None => self.bit_const(true),
-        };
-        let changed = match basic {
-            Basic::Inv => self.not(result),
-            _ => {
-                let kind = if basic == Basic::Mef {
-                    EdgeKind::Falling
-                } else {
-                    EdgeKind::Rising
-                };
-                let edge = self.new_edge();
-                self.edge(edge, kind, result)
-            }
-        };
+        }
+    }
+
+    /// MPS.
+    pub(super) fn push_result(&mut self) {
+        let result = self.take_result();
+        let result = self.settled(result);
+        self.logic.stack.push(result);
+        self.logic.branches.push(result);
+    }
+
+    /// MPP.
+    pub(super) fn pop_result(&mut self) {
+        self.read_result();
+        self.logic.branches.pop();
+    }
+
+    /// MRD.
+    pub(super) fn read_result(&mut self) {
+        if let Some(&pushed) = self.logic.branches.last() {
+            self.logic.stack.pop();
+            self.logic.stack.push(pushed);
+        }
+    }
+
+    /// INV.
+    pub(super) fn invert_result(&mut self) {
+        let result = self.take_result();
+        let inverted = self.not(result);
+        self.logic.stack.push(inverted);
+    }
+
+    /// MEP, MEF.
+    pub(super) fn edge_of_result(&mut self, kind: EdgeKind) {
+        let result = self.take_result();
+        let edge = self.new_edge();
+        let changed = self.edge(edge, kind, result);
         self.logic.stack.push(changed);
     }
 

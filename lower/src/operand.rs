@@ -209,7 +209,15 @@ impl Lowerer<'_> {
                     let words = extent.map(|bits| words_of_bits(bit & 15, bits));
                     (device, index, words)
                 }
-                _ => continue,
+                OperandKind::Device(..)
+                | OperandKind::WordBit(..)
+                | OperandKind::Nibbles(..)
+                | OperandKind::Decimal(..)
+                | OperandKind::Hex(..)
+                | OperandKind::Float(_)
+                | OperandKind::Text(_)
+                | OperandKind::Buffer { .. }
+                | OperandKind::Unreadable(_) => continue,
             };
             let (place, count) = (fixed(device.class, device.number), extent.unwrap_or(1));
             if let Some(bound) = self.bound(place, written, count) {
@@ -299,7 +307,13 @@ impl Lowerer<'_> {
                 let place = self.place(device, index, 1, false, guards);
                 self.add(Expr::ReadWordBit(place, bit & 15))
             }
-            _ => {
+            OperandKind::Nibbles(..)
+            | OperandKind::Decimal(..)
+            | OperandKind::Hex(..)
+            | OperandKind::Float(_)
+            | OperandKind::Text(_)
+            | OperandKind::Buffer { .. }
+            | OperandKind::Unreadable(_) => {
                 self.unreadable(operand);
                 self.bit_const(false)
             }
@@ -490,7 +504,12 @@ impl Lowerer<'_> {
                     None => Target::None,
                 }
             }
-            _ => {
+            OperandKind::WordBit(..)
+            | OperandKind::Decimal(..)
+            | OperandKind::Hex(..)
+            | OperandKind::Float(_)
+            | OperandKind::Text(_)
+            | OperandKind::Unreadable(_) => {
                 self.unreadable(operand);
                 Target::None
             }
@@ -539,7 +558,13 @@ impl Lowerer<'_> {
                 let place = self.place(device, index, words, wide, guards);
                 Some(BitTarget::OfWord(place, bit & 15))
             }
-            _ => {
+            OperandKind::Nibbles(..)
+            | OperandKind::Decimal(..)
+            | OperandKind::Hex(..)
+            | OperandKind::Float(_)
+            | OperandKind::Text(_)
+            | OperandKind::Buffer { .. }
+            | OperandKind::Unreadable(_) => {
                 self.unreadable(operand);
                 None
             }
@@ -586,7 +611,12 @@ pub(super) fn indexed(operand: &OperandKind) -> Option<(Device, Index)> {
         OperandKind::Device(device, index)
         | OperandKind::Nibbles(_, device, index)
         | OperandKind::WordBit(device, _, index) => Some((device, index?)),
-        _ => None,
+        OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 

@@ -181,7 +181,9 @@ fn nest(run: Vec<(usize, Item)>, labels: &FxHashMap<u32, usize>, body: &mut Body
                     innermost(&mut open, body).push(stmt);
                 }
             }
-            item => innermost(&mut open, body).extend(item.into_stmt()),
+            item @ Item::Code(_) | item @ Item::Jump(_) | item @ Item::Nested(..) => {
+                innermost(&mut open, body).extend(item.into_stmt())
+            }
         }
     }
 }
@@ -212,7 +214,10 @@ fn parts(run: Vec<(usize, Item)>, targets: &FxHashSet<usize>) -> Stmt {
                     body: Vec::new(),
                 });
             }
-            item => {
+            item @ Item::Code(_)
+            | item @ Item::Label(_)
+            | item @ Item::Jump(_)
+            | item @ Item::Nested(..) => {
                 if let (Some(part), Some(stmt)) = (parts.last_mut(), item.into_stmt()) {
                     part.body.push(stmt);
                 }

@@ -72,16 +72,26 @@ impl Lowerer<'_> {
 
     /// Whether the program names a device that chooses what the port speaks.
     fn sets_up(&self, wiring: &PortWiring) -> bool {
-        let chooses = |device: Device| match device.class {
-            DeviceClass::D => wiring.setup_registers().any(|n| n == device.number),
-            DeviceClass::M => wiring.setup_relays().any(|n| n == device.number),
-            _ => false,
+        let chooses = |device: Device| {
+            let register = device.class == DeviceClass::D
+                && wiring.setup_registers().any(|n| n == device.number);
+            register
+                || device.class == DeviceClass::M
+                    && wiring.setup_relays().any(|n| n == device.number)
         };
         let operands = self.resolved.program.instrs.iter();
         let mut operands = operands.flat_map(|instr| &instr.operands);
         operands.any(|operand| match operand.kind {
             OperandKind::Device(device, None) => chooses(device),
-            _ => false,
+            OperandKind::Device(..)
+            | OperandKind::WordBit(..)
+            | OperandKind::Nibbles(..)
+            | OperandKind::Decimal(..)
+            | OperandKind::Hex(..)
+            | OperandKind::Float(_)
+            | OperandKind::Text(_)
+            | OperandKind::Buffer { .. }
+            | OperandKind::Unreadable(_) => false,
         })
     }
 }

@@ -27,7 +27,7 @@ impl Times {
     fn looped(self, looped: bool) -> Times {
         match self {
             Times::Once if looped => Times::Often,
-            times => times,
+            times @ Times::Never | times @ Times::Once | times @ Times::Often => times,
         }
     }
 }
@@ -45,13 +45,14 @@ pub(super) fn mark(module: &mut Module) {
     let times = function_times(module);
     let (mut seen, mut shared, mut indexed) = (BTreeSet::new(), BTreeSet::new(), false);
     for (function, &times) in module.functions.iter().zip(&times) {
-        executed(&function.body, times, &mut |stmt, times| match *stmt {
-            Stmt::Timer { number, .. } if !seen.insert(number) || times == Times::Often => {
+        executed(&function.body, times, &mut |stmt, times| {
+            if let Stmt::Timer { number, .. } = *stmt
+                && (!seen.insert(number) || times == Times::Often)
+            {
                 shared.insert(number);
             }
             // It may lead to any timer.
-            Stmt::TimerAt { .. } => indexed = true,
-            _ => {}
+            indexed |= matches!(stmt, Stmt::TimerAt { .. });
         });
     }
     if indexed || !shared.is_empty() {
@@ -82,7 +83,10 @@ fn function_times(module: &Module) -> Vec<Times> {
         .map(|function| match function.kind {
             FunctionKind::Begin | FunctionKind::Main | FunctionKind::End => Times::Once,
             FunctionKind::Subroutine(_) => Times::Never,
-            _ => Times::Often,
+            FunctionKind::Interrupt(_)
+            | FunctionKind::TakeInterrupts
+            | FunctionKind::InputEdge { .. }
+            | FunctionKind::Signals => Times::Often,
         })
         .collect();
     let mut times = by_host.clone();
@@ -106,6 +110,10 @@ fn function_times(module: &Module) -> Vec<Times> {
 }
 
 /// Calls `visit` with each statement that is executed so often, and with how often that is.
+#[expect(
+    clippy::wildcard_enum_match_arm,
+    reason = "`bodies` matches all statements"
+)]
 fn executed<'m>(body: &'m [Stmt], times: Times, visit: &mut dyn FnMut(&'m Stmt, Times)) {
     for stmt in body {
         visit(stmt, times);

@@ -61,7 +61,15 @@ impl Lowerer<'_> {
                     let mask = mask_of(kind);
                     inputs.extend((0..u16::BITS).filter(|input| mask >> input & 1 == 1));
                 }
-                _ => {}
+                OperandKind::Device(..)
+                | OperandKind::WordBit(..)
+                | OperandKind::Nibbles(..)
+                | OperandKind::Decimal(..)
+                | OperandKind::Hex(..)
+                | OperandKind::Float(_)
+                | OperandKind::Text(_)
+                | OperandKind::Buffer { .. }
+                | OperandKind::Unreadable(_) => {}
             }
         }
         let buffer = |kind: &OperandKind| matches!(kind, OperandKind::Buffer { .. });
@@ -91,12 +99,11 @@ impl Lowerer<'_> {
             .zip(&self.resolved.instrs)
             .filter_map(|(instr, resolution)| {
                 let (axis, operands) = instr.operands.split_first()?;
-                match resolution.lower? {
-                    Lower::Axis(places) if output_of(&axis.kind) == Some(number) => {
-                        Some(places.iter().zip(operands))
-                    }
-                    _ => None,
-                }
+                let Lower::Axis(places) = resolution.lower? else {
+                    return None;
+                };
+                let own = output_of(&axis.kind) == Some(number);
+                own.then(|| places.iter().zip(operands))
             });
         let said = said.flatten();
         said.filter(|(place, _)| INPUTS.contains(place))
@@ -222,6 +229,14 @@ fn mask_of(kind: &OperandKind) -> u16 {
     match *kind {
         OperandKind::Decimal(mask, None) => mask as u16,
         OperandKind::Hex(mask, None) => mask as u16,
-        _ => u16::MAX,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => u16::MAX,
     }
 }

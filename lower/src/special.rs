@@ -57,24 +57,22 @@ impl Specials {
 
     /// Whether something looks at a special device.
     pub(super) fn has<D: SpecialDevice>(&self, device: D) -> bool {
-        let set = match D::CLASS {
-            DeviceClass::M => &self.relays,
-            DeviceClass::D => &self.registers,
-            _ => return false,
+        let set = match D::CLASS == DeviceClass::M {
+            true => &self.relays,
+            false => &self.registers,
         };
-        device
-            .number()
-            .checked_sub(FIRST_SPECIAL)
-            .and_then(|i| set.get(i as usize))
-            .copied()
-            .unwrap_or(false)
+        let i = device.number().checked_sub(FIRST_SPECIAL);
+        let mark = i.and_then(|i| set.get(i as usize));
+        mark.copied().unwrap_or(false)
     }
 
     fn mark(&mut self, class: DeviceClass, number: u32, count: Option<u32>) {
-        let set = match class {
-            DeviceClass::M => &mut self.relays,
-            DeviceClass::D => &mut self.registers,
-            _ => return,
+        let set = if class == DeviceClass::M {
+            &mut self.relays
+        } else if class == DeviceClass::D {
+            &mut self.registers
+        } else {
+            return;
         };
         let Some(first) = number.checked_sub(FIRST_SPECIAL) else {
             return;
@@ -119,7 +117,12 @@ impl Specials {
                     (device, index)
                 }
                 OperandKind::WordBit(device, _, index) => (device, index),
-                _ => continue,
+                OperandKind::Decimal(..)
+                | OperandKind::Hex(..)
+                | OperandKind::Float(_)
+                | OperandKind::Text(_)
+                | OperandKind::Buffer { .. }
+                | OperandKind::Unreadable(_) => continue,
             };
             // Where an index leads is found out from what is lowered.
             if index.is_some() {
@@ -167,7 +170,13 @@ impl Lowerer<'_> {
                 let (device, index) = match operand.kind {
                     OperandKind::Device(device, index) => (device, index),
                     OperandKind::WordBit(device, _, index) => (device, index),
-                    _ => continue,
+                    OperandKind::Nibbles(..)
+                    | OperandKind::Decimal(..)
+                    | OperandKind::Hex(..)
+                    | OperandKind::Float(_)
+                    | OperandKind::Text(_)
+                    | OperandKind::Buffer { .. }
+                    | OperandKind::Unreadable(_) => continue,
                 };
                 if device.class != DeviceClass::D {
                     continue;
@@ -202,7 +211,15 @@ fn run_flag_contact(resolved: &Resolved, i: usize) -> Option<usize> {
         {
             Some((device.number - FIRST_SPECIAL) as usize)
         }
-        _ => None,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 

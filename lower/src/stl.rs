@@ -35,7 +35,15 @@ pub(super) struct Steps {
 fn state(resolved: &Resolved, i: usize) -> Option<u32> {
     match resolved.program.instrs.get(i)?.operands.first()?.kind {
         OperandKind::Device(device, None) if device.class == DeviceClass::S => Some(device.number),
-        _ => None,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 

@@ -130,7 +130,35 @@ impl Watcher<'_> {
                         0
                     }
                 }
-                stmt => {
+                stmt @ (Stmt::Let(..)
+                | Stmt::Edge { .. }
+                | Stmt::SetFlag(..)
+                | Stmt::SetCell(..)
+                | Stmt::SetEntry(..)
+                | Stmt::WriteBit(..)
+                | Stmt::WriteWordBit(..)
+                | Stmt::WriteWord(..)
+                | Stmt::WritePair(..)
+                | Stmt::WriteFloat(..)
+                | Stmt::WriteNibbles { .. }
+                | Stmt::Timer { .. }
+                | Stmt::TimerAt { .. }
+                | Stmt::TimerGoesOn { .. }
+                | Stmt::Counter16 { .. }
+                | Stmt::Counter16At { .. }
+                | Stmt::Counter32 { .. }
+                | Stmt::Count { .. }
+                | Stmt::Reset(_)
+                | Stmt::Repeat { .. }
+                | Stmt::Return
+                | Stmt::Goto(_)
+                | Stmt::Call { .. }
+                | Stmt::Fetch { .. }
+                | Stmt::Send { .. }
+                | Stmt::Fault { .. }
+                | Stmt::Watch { .. }
+                | Stmt::Stop
+                | Stmt::Clear { .. }) => {
                     out.push(stmt);
                     0
                 }
@@ -145,9 +173,10 @@ impl Watcher<'_> {
         let at = self.step;
         let (mut body, iteration) = self.body(body);
         let iteration = iteration.max(1);
-        let all = match *self.module.expr(count) {
-            Expr::I16(count) => Some(iteration.saturating_mul(count.max(1) as u64)),
-            _ => None,
+        let all = if let Expr::I16(count) = *self.module.expr(count) {
+            Some(iteration.saturating_mul(count.max(1) as u64))
+        } else {
+            None
         };
         let short = all.filter(|&all| all <= SHORT);
         if short.is_none() {
@@ -183,6 +212,10 @@ impl Watcher<'_> {
     }
 
     /// Puts a watch in front of each jump to one of the labels.
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "`bodies_mut` matches all statements"
+    )]
     fn jumps_back(&mut self, body: &mut Body, labels: &[Option<LabelId>], steps: &[u64]) {
         let mut at = 0;
         while at < body.len() {

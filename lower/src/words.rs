@@ -13,6 +13,10 @@ const DOMAIN: u16 = rungc_rt::Fault::DOMAIN.0;
 
 /// Whether an instruction that a runtime function implements is inline code, judging by its operands. Such an instruction stores no
 /// flags that nothing looks at.
+#[expect(
+    clippy::wildcard_enum_match_arm,
+    reason = "the other functions of the runtime are called"
+)]
 pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     let kind = |i: usize| instr.operands.get(i).map(|operand| &operand.kind);
     let constant = |i| kind(i).and_then(constant);
@@ -44,7 +48,15 @@ pub(super) fn constant(operand: &OperandKind) -> Option<i32> {
     match *operand {
         OperandKind::Decimal(value, None) => Some(value as i32),
         OperandKind::Hex(value, None) => Some(value as u32 as i32),
-        _ => None,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => None,
     }
 }
 
@@ -60,6 +72,10 @@ fn is_float(operand: &OperandKind) -> bool {
 
 impl Lowerer<'_> {
     /// Emits an instruction as inline code; false if the runtime has to be called.
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "the other functions of the runtime are called"
+    )]
     pub(super) fn inline_words(&mut self, function: RtFn) -> bool {
         if !is_inline(function, self.instr()) || self.calls_for_flags(function) {
             return false;
@@ -299,7 +315,9 @@ impl Lowerer<'_> {
             Some(operand @ &OperandKind::Device(..)) => {
                 match self.target(operand, 0, true, self.wide(), guards) {
                     Target::Pair(place) => self.add(Expr::ReadFloat(place)),
-                    _ => self.add(Expr::F32(0.0)),
+                    Target::Word(_) | Target::Nibbles(..) | Target::Sent(..) | Target::None => {
+                        self.add(Expr::F32(0.0))
+                    }
                 }
             }
             operand => {
@@ -327,9 +345,9 @@ impl Lowerer<'_> {
         for value in values {
             if !matches!(self.expr(value), Expr::F32(_)) {
                 let finite = self.add(Expr::Un(UnOp::IsFinite, value));
-                all = match self.expr(all) {
-                    Expr::Bit(true) => finite,
-                    _ => self.and(all, finite),
+                all = match self.known_bit(all) {
+                    Some(true) => finite,
+                    Some(false) | None => self.and(all, finite),
                 };
             }
         }
@@ -417,7 +435,7 @@ impl Lowerer<'_> {
         let target = self.float_target(1, &mut guards);
         self.guarded(guards, |this| match this.module.ty(value) {
             Ty::F32 => this.store_float(target, value),
-            _ => this.store(target, value),
+            Ty::Bit | Ty::I16 | Ty::I32 => this.store(target, value),
         });
     }
 
