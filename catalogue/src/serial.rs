@@ -7,7 +7,6 @@ use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
 const SERIAL: &str = "serial communication";
-const CAN: &str = "CAN communication";
 const INVERTER: &str = "inverter communication";
 const CASSETTE: &str = "memory cassettes";
 
@@ -279,13 +278,13 @@ pub(super) const ROWS: &[Inst] = &[
         .steps(13, 13)
         .on(INOVANCE)
         .takes(&[any("S1"), any("S2").rules(&[CAN_IDENTIFIER]), src("D", DATA).len(4), number("n", 8)])
-        .todo(CAN)
+        .call(RtFn::Cantx)
         .text("Sends n bytes from D on, high byte first, with the identifier in S1 and S2."),
     serial("CANRX", 91, "Receive by CAN")
         .steps(13, 13)
         .on(INOVANCE)
         .takes(&[any("S1"), any("S2"), dst("D", DATA).len(4), number("n", 8)])
-        .todo(CAN)
+        .call(RtFn::Canrx)
         .text("Receives n bytes with the identifier in S1 and S2 to D, high byte first."),
     serial("MODBUS2", 93, "Modbus master on a port")
         .steps(11, 11)

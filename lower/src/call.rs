@@ -36,7 +36,7 @@ impl Lowerer<'_> {
         if needs.anywhere {
             self.specials.whole.extend(ANYWHERE);
         }
-        if needs.port || needs.names_port || needs.any_port {
+        if needs.port || needs.names_port || needs.any_port || needs.can {
             self.use_ports(needs, function);
         }
         if needs.signals {

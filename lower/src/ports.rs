@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::call::constant;
-use rungc_rt::comm::PortWiring;
+use rungc_rt::comm::{CAN_PORT, PortWiring};
 use rungc_rt::{Needs, RtFn};
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 
@@ -26,7 +26,9 @@ impl Lowerer<'_> {
         let masters = ports.all().iter().filter(|wiring| wiring.sends != 0);
         let masters = masters.map(|wiring| wiring.number);
         let all = ports.all().iter().map(|wiring| wiring.number);
+        let all = all.filter(|&number| number != CAN_PORT);
         match named {
+            _ if needs.can => self.module.ports.push(CAN_PORT),
             _ if needs.port => self.module.ports.push(ports.of_rs()),
             _ if needs.any_port => self.module.ports.extend(masters),
             Some(named) => self.module.ports.extend(ports.named(named)),

@@ -36,6 +36,8 @@ pub struct Needs {
     pub names_port: bool,
     /// It works on a serial port that a register names: all of the model are there.
     pub any_port: bool,
+    /// It works on the CAN card ([`crate::comm::CAN_PORT`]).
+    pub can: bool,
     /// Registers give it devices by number, of any class that a scan may write.
     pub anywhere: bool,
 }
@@ -110,6 +112,7 @@ macro_rules! registry {
                         port: false,
                         names_port: false,
                         any_port: false,
+                        can: false,
                         anywhere: false,
                     };
                     $($(needs.$need = true;)*)?
@@ -225,6 +228,8 @@ registry! {
     Mwrd = modbus::mwrd(s1, s2, d1, d2) [state, always, names_port];
     Mwrcs = modbus::mwrcs(s1, s2, s3, d1, d2) [state, always, names_port];
     Mwrds = modbus::mwrds(s1, s2, s3, d1, d2) [state, always, names_port];
+    Cantx = can::cantx(s1, s2, d, n) [hal, can];
+    Canrx = can::canrx(s1, s2, d, n) [can];
     Uinit = serial::uinit(s1, s2, d1, d2) [names_port];
     Usend = serial::usend(s1, s2, d) [names_port];
     Urcv = serial::urcv(s1, s2, d) [names_port];

@@ -9,8 +9,8 @@ const BFM_WORDS: usize = 1024;
 /// Built-in analog inputs.
 const ANALOG_CHANNELS: usize = 16;
 
-/// Serial ports; COM0 to COM3.
-const LINES: usize = 4;
+/// Serial ports: COM0 to COM3, and the CAN card.
+const LINES: usize = 5;
 
 /// A word of buffer memory.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,7 +69,7 @@ impl VirtualHal {
         }
     }
 
-    /// The other end of a serial port; `None` if the number is above 3.
+    /// The other end of a serial port; `None` if the number is above 4.
     pub fn line(&mut self, number: u8) -> Option<&mut VirtualLine> {
         self.lines.get_mut(usize::from(number))
     }

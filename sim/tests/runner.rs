@@ -97,16 +97,6 @@ END
 """
 rejects = { code = 0 }
 [[case]]
-name = "can"
-program = """
-LD X000
-OUT Y000
-END
-"""
-[[case.step]]
-rx = { CAN = "200#01" }
-expect = { Y000 = 0 }
-[[case]]
 name = "no_such_device"
 program = """
 LD X000
@@ -122,7 +112,6 @@ set = { D9999 = 1 }
     t.plctest.toml:13: rejected_as_it_should [interp]: passed
     t.plctest.toml:21: rejected_elsewhere [interp]: error 6610 on line 1 is expected, found error 6503 on line 2: `D0` cannot be operand D of `OUT`
     t.plctest.toml:29: accepted [interp]: the program compiles, an error is expected
-    t.plctest.toml:37: can [interp]: needs CAN, which this engine lacks
-    t.plctest.toml:47: no_such_device [interp]: step 1: `D9999` does not exist on the model
+    t.plctest.toml:37: no_such_device [interp]: step 1: `D9999` does not exist on the model
     ");
 }

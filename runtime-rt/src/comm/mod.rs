@@ -48,6 +48,7 @@
 //! | `link.rs` | links between PLCs: parallel link, N:N link; polling by HM as a computer link's master |
 //! | `qlink.rs`, `can.rs` | QLink, CAN |
 
+mod can;
 pub mod computer_link;
 mod frame;
 pub(crate) mod free;
@@ -69,6 +70,7 @@ mod slaves;
 mod watched;
 mod wiring;
 
+pub use can::{CAN_PORT, CanFrame, CanTurn};
 pub use frame::{Frame, hex_byte, hex_digits};
 pub use free::{Free, Transfer};
 pub use line::{CharFault, LineFormat, Parity, Received};

@@ -1,5 +1,6 @@
 //! The state machine of one port, beside the scan.
 
+use super::can::{CanFrame, CanTurn};
 use super::computer_link::Remote;
 use super::free::Free;
 use super::line::{CharFault, LineFormat, Received};
@@ -52,6 +53,8 @@ pub struct Status {
     pub free: Free,
     /// Links between PLCs.
     pub link: Link,
+    /// Which instruction waits for a frame on CAN.
+    pub can: CanTurn,
     /// RUN and STOP by computer link.
     pub remote: Remote,
     /// Instructions of a Modbus master.
@@ -99,6 +102,7 @@ impl Port {
                 due_us: 0,
                 free: Free::new(),
                 link: Link::new(),
+                can: CanTurn::new(),
                 remote: Remote::new(),
                 exchange: Exchange::new(),
             },
@@ -200,6 +204,7 @@ impl Session<'_> {
             self.status.sending = false;
             self.status.free = Free::new();
             self.status.link = Link::new();
+            self.status.can = CanTurn::new();
             self.forget();
             self.status.exchange = Exchange::new();
         }
@@ -361,6 +366,9 @@ impl Session<'_> {
     fn answer(&mut self) {
         let received = usize::from(self.status.received);
         self.drop_frame();
+        if self.status.protocol == Protocol::Can {
+            return self.take_can(received);
+        }
         if self.status.protocol.is_master() {
             return self.take_answer(received);
         }
@@ -395,6 +403,15 @@ impl Session<'_> {
         let wait_us = u32::from(reply.wait_ms()) * 1000;
         let reply = reply.len();
         self.begin_sending(&bytes[..reply], wait_us);
+    }
+
+    /// A frame of CAN has come.
+    fn take_can(&mut self, received: usize) {
+        let port = self.plc.port(self.wiring.number);
+        let frame = port.and_then(|port| CanFrame::parse(&port.buffer[..received]));
+        if let Some(frame) = frame {
+            self.status.can.receive(frame);
+        }
     }
 
     /// Sends a frame, not before `wait_us` after the last character received.

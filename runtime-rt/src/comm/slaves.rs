@@ -5,7 +5,7 @@ use super::fx_port::{self, Space};
 use super::link::Role;
 use super::modbus::{self, Framing, Profile};
 use super::wiring::{Ports, Protocol};
-use super::{Cut, Frame, LineFault, Map, Memory, qlink};
+use super::{Cut, Frame, LineFault, Map, Memory, can, qlink};
 
 /// A port's partner is answered like this.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +55,7 @@ impl Slave {
         match self.protocol {
             Protocol::ModbusAscii | Protocol::MasterAscii => modbus::cut_ascii(received),
             Protocol::ProgrammingPort => fx_port::cut(received),
+            Protocol::Can => can::cut(received),
             Protocol::ComputerLink => computer_link::cut(self.computer_link(), received),
             _ => Cut::Drop,
         }

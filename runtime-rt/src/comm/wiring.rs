@@ -1,6 +1,7 @@
 //! The special devices of serial ports, by family of models, and the protocol that they choose.
 
 use super::LineFault;
+use super::can::CAN_PORT;
 use super::line::LineFormat;
 use crate::plc::{Class, Plc};
 
@@ -41,6 +42,8 @@ pub enum Protocol {
     EnhancedMaster = 14,
     /// Slave of an enhanced N:N link.
     EnhancedSlave = 15,
+    /// Frames of CAN, by CANTX and CANRX.
+    Can = 16,
 }
 
 impl Protocol {
@@ -105,6 +108,8 @@ pub enum Choice {
     Com1,
     /// A programming port that is nothing else.
     ProgrammingPort,
+    /// The CAN card: H2U finds it, a program of H1U says that it is there by D8199 = 7 (h1u-h2u-programming §5.9.1).
+    Can,
     /// Port 2 of L01S: M8196, M8125 and the format word.
     L01sPort2,
     /// Port 3 of L01S: M8192 and D8401.
@@ -226,11 +231,27 @@ const fn block(number: u8, choice: Choice, base: u32) -> PortWiring {
     }
 }
 
-const INOVANCE: [PortWiring; 4] = [
+/// Register with the type of the extension card, and the type of the CAN card.
+const D_CARD: u32 = 8199;
+const CAN_CARD: u16 = 7;
+/// Types of H1U begin so (h1u-h2u-programming §8.3, D8001).
+const H1U: u16 = 26;
+
+/// How characters stand on the way to a CAN adapter; USB adapters ignore it.
+const ADAPTER: LineFormat = LineFormat {
+    bits_per_second: 1_000_000,
+    ..LineFormat::new()
+};
+
+const INOVANCE: [PortWiring; 5] = [
     block(0, Choice::Com0, 8110),
     block(1, Choice::Com1, 8120),
     block(2, Choice::Number, 8260),
     block(3, Choice::Number, 8270),
+    PortWiring {
+        error: 0,
+        ..bare(CAN_PORT, Choice::Can)
+    },
 ];
 
 /// l01s-programming §9: port 1 is the programming port, ports 2 and 3 are RS-485.
@@ -338,6 +359,7 @@ impl Ports {
     pub fn named(self, operand: i32) -> Option<u8> {
         let number = match (self, operand) {
             (Ports::Inovance | Ports::Fx | Ports::Board, 0) => return None,
+            (Ports::Inovance, operand) if operand == i32::from(CAN_PORT) => return None,
             (Ports::L01s, 0..=1) => 2 + operand,
             _ => operand,
         };
@@ -390,6 +412,10 @@ impl PortWiring {
         let number = value(plc, self.protocol);
         match self.choice {
             Choice::ProgrammingPort => Protocol::ProgrammingPort,
+            Choice::Can => match (plc.type_code() / 1000, value(plc, D_CARD)) {
+                (H1U, card) if card != CAN_CARD => Protocol::Off,
+                _ => Protocol::Can,
+            },
             Choice::Com0 => match number {
                 2 if plc.sys().running => Protocol::ModbusRtu,
                 3 if plc.sys().running => Protocol::ModbusAscii,
@@ -454,6 +480,7 @@ impl PortWiring {
         let word = value(plc, self.format);
         let format = match protocol {
             Protocol::ProgrammingPort => return LineFormat::seven_even(9600, self.one_pair),
+            Protocol::Can => return ADAPTER,
             // The rate of the format word replaces the usual one where it is not 0 (h1u-h2u-communication §3.4).
             Protocol::ParallelMaster | Protocol::ParallelSlave => return linked(word, 19_200),
             Protocol::NnMaster | Protocol::NnSlave => return linked(word, 38_400),

@@ -10,6 +10,7 @@ pub mod axis_home;
 pub mod axis_jog;
 mod axis_registers;
 pub mod block;
+pub mod can;
 pub mod cassette;
 pub mod clock;
 pub mod cut;

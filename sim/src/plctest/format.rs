@@ -329,21 +329,23 @@ impl Reader<'_> {
         let mut rx = Vec::new();
         for (port, text) in raw.rx.into_iter().flatten() {
             let port = self.line_text(&port, Way::ToPlc, std::slice::from_ref(&text));
-            rx.extend(port.map(|port| (port, serial::items(&text))));
+            rx.extend(port.map(|port| {
+                let items = port.id.items(&text);
+                (port, items)
+            }));
         }
         let mut expect_tx = Vec::new();
         for (port, sent) in raw.expect_tx.into_iter().flatten() {
             let port = self.line_text(&port, Way::FromPlc, sent.texts());
             let texts = sent.texts().iter();
-            let sent = texts.map(|text| serial::sent(text));
-            expect_tx.extend(port.map(|port| (port, sent.collect())));
+            expect_tx.extend(port.map(|port| {
+                let sent = texts.map(|text| port.id.sent(text)).collect();
+                (port, sent)
+            }));
         }
         let cut = raw
             .cut
             .map(|cut| cut.iter().filter_map(|port| self.port(port)).collect());
-        let ports = rx.iter().map(|(port, _)| port);
-        let ports = ports.chain(expect_tx.iter().map(|(port, _): &(Port, Vec<_>)| port));
-        let needs = ports.filter_map(|port| port.id.lacking()).collect();
         Step {
             line: self.line(at),
             power_cycle: raw.power_cycle,
@@ -361,7 +363,6 @@ impl Reader<'_> {
             expect: self.settings(raw.expect),
             expect_bfm: self.buffer(raw.expect_bfm),
             expect_position: raw.expect_position.into_iter().collect(),
-            needs,
         }
     }
 

@@ -1,10 +1,10 @@
 //! The serial lines of a case: what comes to its ports and what they send, with exact times.
 
 use super::runner::Running;
-use super::serial::{Item, Port, PortId, Sent};
+use super::serial::{Item, Port, Sent};
 use super::{Failure, Step, Value};
 use crate::protocol::{Answer, Request};
-use rungc_rt::comm::{CharFault, LineFormat, Parity, Received};
+use rungc_rt::comm::{CAN_PORT, CharFault, LineFormat, Parity, Received};
 use std::collections::BTreeMap;
 
 /// A port as engines number them: its PLC and its number.
@@ -21,13 +21,12 @@ pub(super) struct Lines {
     pending: Vec<(SerialPort, Received)>,
     /// What ports have sent in this step.
     sent: BTreeMap<SerialPort, Sent>,
+    /// What CAN cards have sent of a frame that is not whole yet.
+    part: BTreeMap<SerialPort, Vec<u8>>,
 }
 
 fn serial(port: &Port) -> Option<SerialPort> {
-    match port.id {
-        PortId::Serial(number) => Some((port.plc, number)),
-        PortId::Can | PortId::Tcp(..) => None,
-    }
+    port.id.number().map(|number| (port.plc, number))
 }
 
 impl Lines {
@@ -45,6 +44,7 @@ impl Lines {
     /// After power-on nothing is on its way.
     pub(super) fn power_cycle(&mut self) {
         self.pending.clear();
+        self.part.clear();
     }
 
     fn on_line(&self, port: SerialPort) -> bool {
@@ -146,6 +146,10 @@ impl Running<'_> {
             if !self.lines.is_wired(port) {
                 continue;
             }
+            if number == CAN_PORT {
+                self.carry_can(port, character);
+                continue;
+            }
             let format = self.format(port)?;
             for hearer in self.lines.hearers(port) {
                 if hearer == port {
@@ -162,6 +166,21 @@ impl Running<'_> {
             self.select(plc)?;
         }
         Ok(())
+    }
+
+    /// Frames of CAN come to the others whole, since one at a time is on the bus.
+    fn carry_can(&mut self, port: SerialPort, character: Received) {
+        let part = self.lines.part.entry(port).or_default();
+        part.push(character.byte);
+        if character.byte != b'\r' {
+            return;
+        }
+        let frame = std::mem::take(part);
+        for hearer in self.lines.hearers(port) {
+            for &byte in frame.iter().filter(|_| hearer != port) {
+                self.lines.push(hearer, Received { byte, ..character });
+            }
+        }
     }
 
     /// The format of characters on the line of a port.

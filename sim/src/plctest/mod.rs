@@ -155,8 +155,6 @@ pub struct Step {
     pub expect_bfm: Vec<(u16, u16, i16)>,
     /// Where axes of the machine must be then, in their units.
     pub expect_position: Vec<(String, f64)>,
-    /// Hardware that the step needs and no engine has yet.
-    pub needs: Vec<&'static str>,
 }
 
 /// How long a step runs.
@@ -329,7 +327,6 @@ cut = ["B:COM2"]
         });
         assert_eq!(step.expect_tx, [(port(1, 2), sent.to_vec())]);
         assert_eq!(step.cut, Some(vec![port(1, 2)]));
-        assert!(step.needs.is_empty());
     }
 
     #[test]

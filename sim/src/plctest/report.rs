@@ -12,8 +12,6 @@ pub enum Failure {
     Refused(Vec<(u32, String)>),
     /// Its program had to be rejected, and was not, or for another reason.
     Accepted(String),
-    /// It needs hardware that no engine has yet.
-    Lacks(Vec<&'static str>),
     /// A device of it does not exist on the model.
     NoDevice {
         /// Step of the case, from 1; 0 for `init`.
@@ -56,13 +54,6 @@ impl fmt::Display for Failure {
                     .try_for_each(|(line, message)| write!(f, " line {line}: {message};"))
             }
             Failure::Accepted(message) => write!(f, "{message}"),
-            Failure::Lacks(what) => {
-                write!(
-                    f,
-                    "needs {}, which this engine does not have",
-                    what.join(" and ")
-                )
-            }
             Failure::NoDevice { step, target } => {
                 write!(f, "step {step}: `{target}` does not exist on the model")
             }

@@ -1,13 +1,9 @@
-//! What test files say about communication. No engine has CAN yet, so a case that uses it needs what engines lack
-//! ([`Step::needs`](super::Step)).
+//! What test files say about communication.
 
-use rungc_rt::comm::CharFault;
+use rungc_rt::comm::{CAN_PORT, CanFrame, CharFault, Frame};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fmt;
-
-/// Needed by a case with CAN frames.
-const CAN: &str = "CAN";
 
 /// What a port is expected to send: one text, or any of several.
 #[derive(Deserialize)]
@@ -124,11 +120,47 @@ impl PortId {
         id.ok_or("write a port as `COM1`, `CAN` or `TCP:502`")
     }
 
-    /// What no engine has yet of this port.
-    pub(super) fn lacking(&self) -> Option<&'static str> {
+    /// Its number, if it is a port of the PLC.
+    pub(super) fn number(&self) -> Option<u8> {
         match self {
-            PortId::Serial(_) | PortId::Tcp(..) => None,
-            PortId::Can => Some(CAN),
+            PortId::Serial(number) => Some(*number),
+            PortId::Can => Some(CAN_PORT),
+            PortId::Tcp(..) => None,
+        }
+    }
+
+    /// What comes to it by this text.
+    pub(super) fn items(&self, text: &str) -> Vec<Item> {
+        match self {
+            PortId::Can => {
+                let characters = text.split_whitespace().filter_map(characters).flatten();
+                let items = characters.map(|byte| Item::Byte(byte, CharFault::None));
+                items.collect()
+            }
+            PortId::Serial(_) | PortId::Tcp(..) => items(text),
+        }
+    }
+
+    /// What it sends by this text.
+    pub(super) fn sent(&self, text: &str) -> Sent {
+        match self {
+            PortId::Can => Sent {
+                bytes: text
+                    .split_whitespace()
+                    .filter_map(characters)
+                    .flatten()
+                    .collect(),
+                closed: false,
+            },
+            PortId::Serial(_) | PortId::Tcp(..) => sent(text),
+        }
+    }
+
+    /// What it has sent, as a test file says it.
+    pub(super) fn shown(&self, sent: &Sent) -> String {
+        match self {
+            PortId::Can => frames(&sent.bytes),
+            PortId::Serial(_) | PortId::Tcp(..) => hex(sent),
         }
     }
 }
@@ -154,7 +186,7 @@ pub struct Sent {
 }
 
 /// As a test file says it.
-pub(super) fn hex(sent: &Sent) -> String {
+fn hex(sent: &Sent) -> String {
     let bytes = sent.bytes.iter().map(|byte| format!("{byte:02X}"));
     let words: Vec<_> = bytes
         .chain(sent.closed.then(|| CLOSED.to_string()))
@@ -166,8 +198,39 @@ pub(super) fn hex(sent: &Sent) -> String {
 const CLOSE: &str = "close";
 const CLOSED: &str = "closed";
 
+/// The characters with which a CAN frame goes to and from the card.
+fn characters(word: &str) -> Option<Vec<u8>> {
+    let (id, data) = word.split_once('#')?;
+    let mark = if id.len() > 3 { CanFrame::EXTENDED } else { 0 };
+    let mut frame = CanFrame::new();
+    frame.id = u32::from_str_radix(id, 16).ok()? | mark;
+    frame.len = (data.len() / 2) as u8;
+    for (byte, at) in frame.data.iter_mut().zip((0..data.len()).step_by(2)) {
+        *byte = u8::from_str_radix(data.get(at..at + 2)?, 16).ok()?;
+    }
+    let mut text = [0; 32];
+    let mut writer = Frame::new(&mut text);
+    frame.write(&mut writer);
+    Some(writer.as_slice().to_vec())
+}
+
+/// CAN frames as a test file writes them.
+fn frames(bytes: &[u8]) -> String {
+    let written = bytes.split_inclusive(|&byte| byte == b'\r').map(|text| {
+        let Some(frame) = CanFrame::parse(text) else {
+            return "?".to_string();
+        };
+        let id = frame.id & !CanFrame::EXTENDED;
+        let width = if frame.id == id { 3 } else { 8 };
+        let data = frame.data.iter().take(frame.len.into());
+        let data: String = data.map(|byte| format!("{byte:02X}")).collect();
+        format!("{id:0width$X}#{data}")
+    });
+    written.collect::<Vec<_>>().join(" ")
+}
+
 /// The bytes that a text stands for, and the pauses between them; what holds to the format has no other words.
-pub(super) fn items(text: &str) -> Vec<Item> {
+fn items(text: &str) -> Vec<Item> {
     let byte = |word: &str| u8::from_str_radix(word, 16).ok();
     let item = |word: &str| match (word.strip_prefix('/'), word.split_once('!')) {
         (Some(ms), _) => {
@@ -182,7 +245,7 @@ pub(super) fn items(text: &str) -> Vec<Item> {
 }
 
 /// What a text says that a port sends.
-pub(super) fn sent(text: &str) -> Sent {
+fn sent(text: &str) -> Sent {
     let bytes = items(text).into_iter().filter_map(|item| match item {
         Item::Byte(byte, _) => Some(byte),
         Item::Pause(_) | Item::Close => None,

@@ -1,7 +1,7 @@
 //! The servers of a case over TCP: what clients send on their connections and what comes back.
 
 use super::runner::Running;
-use super::serial::{Item, PortId, Protocol, Sent, hex};
+use super::serial::{Item, PortId, Protocol, Sent};
 use super::{Failure, Port, Step, Value};
 use crate::engines::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
@@ -166,12 +166,13 @@ impl Running<'_> {
         expected: &[Sent],
         sent: &Sent,
     ) -> (String, Value, Value) {
-        let expected: Vec<_> = expected.iter().map(hex).collect();
+        let expected = expected.iter().map(|sent| port.id.shown(sent));
+        let expected: Vec<_> = expected.collect();
         let name = format!("what {} sent", self.port_name(port));
         (
             name,
             Value::Text(expected.join(" | ")),
-            Value::Text(hex(sent)),
+            Value::Text(port.id.shown(sent)),
         )
     }
 }

@@ -1,6 +1,6 @@
 //! The programs of many test files, compiled.
 
-use super::{Case, CaseProgram, Check, OtherPlc, PortId, TestFile};
+use super::{Case, CaseProgram, Check, OtherPlc, TestFile};
 use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
@@ -137,10 +137,7 @@ fn opened(case: &Case, plc: usize) -> Vec<u8> {
     let ports = ports.chain(case.wires.iter().flatten());
     let ports: BTreeSet<u8> = ports
         .filter(|port| port.plc == plc)
-        .filter_map(|port| match port.id {
-            PortId::Serial(number) => Some(number),
-            PortId::Can | PortId::Tcp(..) => None,
-        })
+        .filter_map(|port| port.id.number())
         .collect();
     ports.into_iter().collect()
 }

@@ -114,7 +114,7 @@ fn why(failure: &Failure) -> Why<'_> {
         Failure::NoDevice { step, .. }
         | Failure::Machine { step, .. }
         | Failure::Engine { step, .. } => (Some(*step), None),
-        Failure::Refused(_) | Failure::Accepted(_) | Failure::Lacks(_) => (None, None),
+        Failure::Refused(_) | Failure::Accepted(_) => (None, None),
     };
     let values = match failure {
         Failure::Differs { values, .. } => &values[..],
@@ -141,7 +141,6 @@ pub(super) fn kind(failure: &Failure) -> &'static str {
     match failure {
         Failure::Refused(_) => "does-not-compile",
         Failure::Accepted(_) => "not-rejected",
-        Failure::Lacks(_) => "lacks-hardware",
         Failure::NoDevice { .. } => "no-device",
         Failure::Differs { .. } => "differs",
         Failure::Machine { .. } => "machine",

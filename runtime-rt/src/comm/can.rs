@@ -1,0 +1,222 @@
+//! The CAN card of H1U and H2U: frames of the program's own, by CANTX and CANRX (h1u-h2u-programming §4.3.9).
+//!
+//! The card is a serial port of its own, [`CAN_PORT`], whose other end speaks SLCAN, as USB adapters do (LAWICEL, CANable; on Linux any of them is a
+//! tty): `tiiildd…` and `Tiiiiiiiildd…` are frames with identifiers of 11 and 29 bits, in hexadecimal digits with l bytes of data, and a carriage
+//! return ends them. Its bit rate and whether the bus is open are the adapter's.
+//!
+//! As the manual says, instructions that receive are served one after the other, and a frame that the waiting one does not name is lost. The
+//! manual states no time after which the next one waits; here it is [`TURN_US`].
+
+use super::{Cut, Frame, hex_digits};
+
+/// Number of the CAN card among the ports of H1U and H2U, after COM3.
+pub const CAN_PORT: u8 = 4;
+
+/// After so many microseconds without its frame an instruction lets the next one wait.
+pub const TURN_US: u32 = 100_000;
+
+/// Most bytes of data.
+pub const MOST: usize = 8;
+
+/// Most characters of a frame.
+const LONGEST: usize = 1 + 8 + 1 + 2 * MOST + 1;
+
+/// A frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct CanFrame {
+    /// The identifier; bit 31 marks one of 29 bits.
+    pub id: u32,
+    /// How many bytes of data there are.
+    pub len: u8,
+    /// The data; 0 after its end.
+    pub data: [u8; MOST],
+}
+
+impl CanFrame {
+    /// Marks an identifier of 29 bits.
+    pub const EXTENDED: u32 = 1 << 31;
+
+    /// No identifier and no data.
+    pub const fn new() -> Self {
+        CanFrame {
+            id: 0,
+            len: 0,
+            data: [0; MOST],
+        }
+    }
+
+    /// Appends the frame as SLCAN writes it.
+    pub fn write(&self, text: &mut Frame) {
+        let extended = self.id & Self::EXTENDED != 0;
+        text.push(if extended { b'T' } else { b't' });
+        text.push_hex(self.id & !Self::EXTENDED, if extended { 8 } else { 3 });
+        text.push_hex(self.len.into(), 1);
+        for &byte in self.data.iter().take(self.len.into()) {
+            text.push_hex(byte.into(), 2);
+        }
+        text.push(b'\r');
+    }
+
+    /// Reads a frame as SLCAN writes it; what follows the data (a time stamp) is ignored.
+    pub fn parse(text: &[u8]) -> Option<Self> {
+        let (digits, mark) = match text.first()? {
+            b't' => (3, 0),
+            b'T' => (8, Self::EXTENDED),
+            _ => return None,
+        };
+        let mut frame = CanFrame::new();
+        frame.id = hex_digits(text.get(1..1 + digits)?)? | mark;
+        frame.len = hex_digits(text.get(1 + digits..2 + digits)?)? as u8;
+        let data = text.get(2 + digits..)?;
+        for (index, byte) in frame.data.iter_mut().enumerate() {
+            if index < frame.len.into() {
+                *byte = hex_digits(data.get(2 * index..2 * index + 2)?)? as u8;
+            }
+        }
+        (usize::from(frame.len) <= MOST).then_some(frame)
+    }
+}
+
+/// Whether the characters received so far are a frame. Answers of the adapter are dropped.
+pub(super) fn cut(received: &[u8]) -> Cut {
+    match received {
+        [b't' | b'T', .., b'\r'] => Cut::Whole,
+        // A time stamp has four digits more.
+        [b't' | b'T', ..] if received.len() < LONGEST + 4 => Cut::More,
+        _ => Cut::Drop,
+    }
+}
+
+/// Which instruction waits for a frame. All zero is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct CanTurn {
+    /// The instruction: its step plus 1; 0: none waits.
+    pub owner: u32,
+    /// When it began to wait.
+    pub since_us: u32,
+    /// Its identifier.
+    pub id: u32,
+    /// It has taken a frame, and lets another instruction wait if one wants to.
+    pub released: bool,
+    /// Its frame has come.
+    pub come: bool,
+    /// The frame.
+    pub frame: CanFrame,
+}
+
+impl CanTurn {
+    /// None waits.
+    pub const fn new() -> Self {
+        CanTurn {
+            owner: 0,
+            since_us: 0,
+            id: 0,
+            released: false,
+            come: false,
+            frame: CanFrame::new(),
+        }
+    }
+
+    /// A frame has come.
+    pub(super) fn receive(&mut self, frame: CanFrame) {
+        if self.owner != 0 && frame.id == self.id && !self.come {
+            self.frame = frame;
+            self.come = true;
+            self.released = false;
+        }
+    }
+
+    /// The scan reaches a driven instruction that waits for this identifier; returns its frame if one has come.
+    pub fn visit(&mut self, owner: u32, id: u32, now_us: u32) -> Option<CanFrame> {
+        let expired = now_us.wrapping_sub(self.since_us) >= TURN_US;
+        let frame = if self.owner == owner && self.id == id {
+            let come = core::mem::take(&mut self.come).then_some(self.frame);
+            self.released = self.released || expired || come.is_some();
+            come
+        } else {
+            None
+        };
+        let is_own = self.owner == owner && self.id == id;
+        if self.owner == 0 || !is_own && (self.released || expired) {
+            *self = CanTurn {
+                owner,
+                since_us: now_us,
+                id,
+                ..CanTurn::new()
+            };
+        }
+        frame
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::comm::watched::reply_of;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    fn text(frame: CanFrame) -> Vec<u8> {
+        reply_of(|text| {
+            frame.write(text);
+            Ok(())
+        })
+        .0
+    }
+
+    #[test]
+    fn frames_are_written_as_slcan() {
+        let mut frame = CanFrame {
+            id: 0x200,
+            len: 3,
+            data: [0x12, 0x34, 0x56, 0, 0, 0, 0, 0],
+        };
+        assert_eq!(text(frame), b"t2003123456\r");
+        frame.id = 0x134f_0200 | CanFrame::EXTENDED;
+        assert_eq!(text(frame), b"T134F02003123456\r");
+        assert_eq!(CanFrame::parse(b"T134F02003123456\r"), Some(frame));
+        assert_eq!(CanFrame::parse(b"t20031234\r"), None);
+        assert_eq!(CanFrame::parse(b"t2009112233445566778899\r"), None);
+        assert_eq!(cut(b"t2003123456\r"), Cut::Whole);
+        assert_eq!(cut(b"z\r"), Cut::Drop);
+    }
+
+    #[test]
+    fn instructions_take_turns() {
+        let mut turn = CanTurn::new();
+        let frame = |id| CanFrame {
+            id,
+            ..CanFrame::new()
+        };
+        assert_eq!(turn.visit(1, 0x200, 0), None);
+        assert_eq!(turn.visit(2, 0x201, 0), None);
+        turn.receive(frame(0x201));
+        turn.receive(frame(0x200));
+        assert_eq!(turn.visit(1, 0x200, 1000), Some(frame(0x200)));
+        assert_eq!(turn.visit(2, 0x201, 1000), None);
+        turn.receive(frame(0x200));
+        turn.receive(frame(0x201));
+        assert_eq!(turn.visit(1, 0x200, 2000), None);
+        assert_eq!(turn.visit(2, 0x201, 2000), Some(frame(0x201)));
+        // One that gets nothing lets the next one wait.
+        assert_eq!(turn.visit(1, 0x200, 3000), None);
+        assert_eq!(turn.visit(2, 0x201, 3000 + TURN_US), None);
+        turn.receive(frame(0x201));
+        assert_eq!(turn.visit(2, 0x201, 4000 + TURN_US), Some(frame(0x201)));
+        // Alone it goes on waiting.
+        turn.receive(frame(0x201));
+        assert_eq!(turn.visit(2, 0x201, 5000 + TURN_US), Some(frame(0x201)));
+    }
+
+    proptest! {
+        #[test]
+        fn any_bytes(received in proptest::collection::vec(any::<u8>(), 0..40)) {
+            cut(&received);
+            if let Some(frame) = CanFrame::parse(&received) {
+                prop_assert_eq!(CanFrame::parse(&text(frame)), Some(frame));
+            }
+        }
+    }
+}
