@@ -330,7 +330,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8193 rw 0 scan "same memory as V6";
     D 8194 rw 0 scan "same memory as Z7";
     D 8195 rw 0 scan "same memory as V7";
-    D 8199 rw 0 inert(CARDS) "extension card type (h2u detects it, h1u must set it): 1 RS232, 2 RS422/485, 3 AD, 4 DA, 5 6A/6B, 6";
+    D 8199 rw 0 by("CANTX, CANRX") "extension card type (h2u detects it, h1u must set it): 1 RS232, 2 RS422/485, 3 AD, 4 DA, 5 6A/6B, 6";
     D 8200 r 0 scan "vendor software version XXX.YY";
     D 8201 r 0 by("serial ports") "N:N link: present link scan time";
     D 8202 r 0 by("serial ports") "N:N link: longest link scan time";
