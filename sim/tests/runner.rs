@@ -60,7 +60,7 @@ expect = { T0 = 1, "T0.value" = 2, K4M0 = "0xFFFF", M17 = 1, M16 = 0, "D20.f32" 
 }
 
 #[test]
-fn programs_that_do_not_compile_and_missing_hardware_are_failures() {
+fn programs_that_do_not_compile_are_failures() {
     let text = format!(
         "{HEAD}{}",
         r#"
@@ -110,8 +110,8 @@ set = { D9999 = 1 }
     insta::assert_snapshot!(outcomes(&text), @"
     t.plctest.toml:5: refused [interp]: the program does not compile: line 2: `D0` cannot be operand D of `OUT`
     t.plctest.toml:13: rejected_as_it_should [interp]: passed
-    t.plctest.toml:21: rejected_elsewhere [interp]: error 6610 on line 1 is expected, found error 6503 on line 2: `D0` cannot be operand D of `OUT`
-    t.plctest.toml:29: accepted [interp]: the program compiles, an error is expected
+    t.plctest.toml:21: rejected_elsewhere [interp]: expected error 6610 on line 1, found error 6503 on line 2: `D0` cannot be operand D of `OUT`
+    t.plctest.toml:29: accepted [interp]: expected an error, but the program compiles
     t.plctest.toml:37: no_such_device [interp]: step 1: `D9999` does not exist on the model
     ");
 }

@@ -241,15 +241,15 @@ name = "a"
 program = "END"
 "#;
         insta::assert_snapshot!(problems_of(text), @r#"
-        t.plctest.toml:1:9: there is no model `h3u`
-        t.plctest.toml:6:15: the value of `D0` is a 16-bit integer, or hexadecimal in quotes: "0xFFFF"
+        t.plctest.toml:1:9: unknown model `h3u`
+        t.plctest.toml:6:15: the value of `D0` must be a 16-bit integer, or hexadecimal in quotes: "0xFFFF"
         t.plctest.toml:6:22: `X009`: `X` is followed by an octal number
-        t.plctest.toml:6:37: the value of `M0` is 0 or 1
+        t.plctest.toml:6:37: the value of `M0` must be 0 or 1
         t.plctest.toml:9:10: use `scans` or `run_ms` in a step, not both
         t.plctest.toml:10:9: write a time as `2026-01-02T03:04:05`
         t.plctest.toml:11:9: write a word of buffer memory as `MODULE:ADDRESS`
         t.plctest.toml:12:1: a case needs steps or `rejects`
-        t.plctest.toml:13:8: the case `a` stands twice in this file
+        t.plctest.toml:13:8: the case `a` is defined twice in this file
         "#);
     }
 
@@ -280,7 +280,7 @@ mode = { C = "stop" }
         t.plctest.toml:7:11: write a port as `COM1`, `CAN` or `TCP:502`
         t.plctest.toml:12:8: the program of the PLC `B:` is empty
         t.plctest.toml:12:8: the name of a PLC consists of letters and digits
-        t.plctest.toml:15:21: `C:D0` is no device name, e.g. `M0`, `X010`, `D0.i32`
+        t.plctest.toml:15:21: `C:D0` is not a device name; examples: `M0`, `X010`, `D0.i32`
         t.plctest.toml:16:8: write bytes as pairs of hexadecimal digits
         t.plctest.toml:16:23: write a CAN frame as `200#1234`: its identifier and up to 8 bytes in hexadecimal
         t.plctest.toml:17:15: write bytes as pairs of hexadecimal digits
