@@ -209,7 +209,7 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
             program.push(file.path);
         }
     }
-    let places = rungc_codegen_c::Places::new(&module);
+    let members = rungc_codegen_c::Members::new(&module);
     let adaptor = CAdaptor {
         prefix,
         header: format!("{prefix}.h"),
@@ -218,7 +218,7 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
         reset: format!("{prefix}_init(&plc);"),
         scan: format!("{prefix}_scan(&plc, now_ms, 0);"),
     };
-    let text = adaptor.text(ladder, |(class, number)| places.of(class, number))?;
+    let text = adaptor.text(ladder, |(class, number)| members.of(class, number))?;
     tools::write(&folder.join("adaptor.c"), &text)?;
     Ok(CSubject {
         prefix: prefix.to_string(),
@@ -228,8 +228,8 @@ fn emitted_c(ladder: &Ladder, prefix: &str, folder: &Path) -> Result<CSubject> {
 }
 
 fn rust_adaptor(ladder: &Ladder, module: &Module, prefix: &str) -> Result<String> {
-    let places = rungc_codegen_rust::Places::new(module);
-    let place = |(class, number): Device| places.of(class, number);
+    let members = rungc_codegen_rust::Members::new(module);
+    let place = |(class, number): Device| members.of(class, number);
     let mut input_list = String::new();
     for device in inputs() {
         // Writing to a String does not fail.
@@ -247,7 +247,7 @@ fn rust_adaptor(ladder: &Ladder, module: &Module, prefix: &str) -> Result<String
         );
     }
     Ok(RUST_ADAPTOR
-        .replace("@PROGRAM@", &format!("{prefix}::{}", places.type_name()))
+        .replace("@PROGRAM@", &format!("{prefix}::{}", members.type_name()))
         .replace("@PREFIX@", prefix)
         .replace("@INPUTS@", &inputs().count().to_string())
         .replace("@INPUT_LIST@", &input_list)

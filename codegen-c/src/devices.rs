@@ -117,8 +117,8 @@ impl Writer<'_, '_> {
         run_timer(code, kind, timer, &drive, &preset);
     }
 
-    /// A coil of the timer or counter of a loop's present round; false for any other.
-    fn coil_of_round(
+    /// A coil of the timer or counter of a loop's current iteration; false for any other.
+    fn coil_of_iteration(
         &mut self,
         code: &mut String,
         place: &Place,
@@ -126,7 +126,7 @@ impl Writer<'_, '_> {
         preset: ExprId,
     ) -> bool {
         let mut device = String::new();
-        if !self.access_round(&mut device, place) {
+        if !self.access_iteration(&mut device, place) {
             return false;
         }
         match (place.class, self.module.model.timer(place.number)) {
@@ -137,7 +137,7 @@ impl Writer<'_, '_> {
                 };
                 let kind = self
                     .coils
-                    .kind_of_rounds(place.number, by, self.rounds, kind);
+                    .kind_of_iterations(place.number, by, self.iterations, kind);
                 self.run_timer(code, (&device, kind), drive, preset);
             }
             _ => {
@@ -153,7 +153,7 @@ impl Writer<'_, '_> {
 
     /// A coil of a timer or counter that an index leads to.
     fn indexed_coil(&mut self, code: &mut String, place: &Place, drive: ExprId, preset: ExprId) {
-        if self.coil_of_round(code, place, drive, preset) {
+        if self.coil_of_iteration(code, place, drive, preset) {
             return;
         }
         self.helpers.out(place.class);
@@ -182,8 +182,8 @@ impl Writer<'_, '_> {
     }
 
     fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
-        let of_round = self.access_round(code, place);
-        if place.index.is_some() && !of_round {
+        let of_iteration = self.access_iteration(code, place);
+        if place.index.is_some() && !of_iteration {
             self.helpers.put(what, place.class);
             let _ = write!(
                 code,
@@ -198,13 +198,13 @@ impl Writer<'_, '_> {
             return;
         }
         // A device that nothing reads is not stored.
-        if of_round || self.fields.access(code, place.class, place.number) {
+        if of_iteration || self.fields.access(code, place.class, place.number) {
             code.push_str(match (place.class, what) {
                 (DeviceClass::T | DeviceClass::C, "bit") => ".done = ",
                 (DeviceClass::T | DeviceClass::C, _) => ".value = ",
                 _ => " = ",
             });
-            match self.fields.is_level(place.class, place.number) {
+            match self.fields.is_numeric_bit(place.class, place.number) {
                 true => self.grid_value(code, value),
                 false => self.expr(code, value, Around::Exact),
             }
@@ -343,8 +343,8 @@ impl Writer<'_, '_> {
 
     fn reset(&mut self, code: &mut String, place: &Place) {
         let mut name = String::new();
-        let of_round = self.access_round(&mut name, place);
-        if place.index.is_some() && !of_round {
+        let of_iteration = self.access_iteration(&mut name, place);
+        if place.index.is_some() && !of_iteration {
             self.helpers.reset(place.class);
             let _ = write!(
                 code,
@@ -359,7 +359,7 @@ impl Writer<'_, '_> {
         let Some(field) = self.fields.find(place.class, place.number) else {
             return;
         };
-        if !of_round {
+        if !of_iteration {
             self.fields.access(&mut name, place.class, place.number);
         }
         let _ = write!(code, "{}(&{name});", reset_function(field.kind));

@@ -184,7 +184,7 @@ impl Writer<'_, '_> {
                 out.push(']');
             }
             Expr::Stride(_, by) => {
-                let _ = write!(out, "{by} * (int32_t){}", self.round);
+                let _ = write!(out, "{by} * (int32_t){}", self.iteration);
             }
             Expr::Flag(flag) => member(out, &module.flags[*flag].name),
             Expr::Sys(value) => self.sys(out, *value),
@@ -306,7 +306,7 @@ impl Writer<'_, '_> {
             let Expr::ReadBit(place) = *self.module.expr(e) else {
                 return is_named.then_some(false);
             };
-            Some(!is_named && self.fields.is_level(place.class, place.number))
+            Some(!is_named && self.fields.is_numeric_bit(place.class, place.number))
         };
         !self.module.layout.grids.is_empty() && logic::is_number(self.module, e, &known)
     }
@@ -371,7 +371,7 @@ impl Writer<'_, '_> {
                 _ => operands.push(e),
             }
         }
-        // gcc takes `!a & (b | c)` for a slip; the other way round it is as good.
+        // gcc takes `!a & (b | c)` for a slip; the other way around it is as good.
         if self.is_not(operands[0]) && !self.is_not(operands[1]) && self.is_compound(operands[1]) {
             operands.swap(0, 1);
         }

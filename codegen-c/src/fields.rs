@@ -9,7 +9,7 @@ use std::fmt::Write;
 pub fn c_type(kind: Kind) -> &'static str {
     match kind {
         Kind::Bit => "bool",
-        Kind::Level => "uint8_t",
+        Kind::NumericBit => "uint8_t",
         Kind::Word => "int16_t",
         Kind::Timer => "plc_timer",
         Kind::Counter16 => "plc_counter16",
@@ -93,8 +93,8 @@ impl PrintField for Field {
 pub trait PrintStorage {
     /// Writes the expression of a stored device; false if it is not stored.
     fn access(&self, out: &mut String, class: DeviceClass, number: u32) -> bool;
-    /// Writes the expression of a device of a loop's present round, whose number is in `variable`; false if it is not stored so.
-    fn access_round(
+    /// Writes the expression of a device of a loop's current iteration, whose number is in `variable`; false if it is not stored so.
+    fn access_iteration(
         &self,
         out: &mut String,
         device: (DeviceClass, u32),
@@ -121,7 +121,7 @@ impl PrintStorage for Storage<'_> {
         true
     }
 
-    fn access_round(
+    fn access_iteration(
         &self,
         out: &mut String,
         (class, number): (DeviceClass, u32),

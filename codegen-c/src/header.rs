@@ -184,7 +184,7 @@ fn field_line(out: &mut String, storage: &Storage, field: &Field) {
             class.number(first),
             class.number(field.end() - 1)
         );
-        if field.kind == Kind::Level {
+        if field.kind == Kind::NumericBit {
             comment.push_str(", 0 or 1");
         }
         if let Some(grid) = field.columns() {

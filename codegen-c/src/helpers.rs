@@ -403,6 +403,6 @@ pub fn reset_function(kind: Kind) -> &'static str {
     match kind {
         Kind::Timer => "plc_timer_reset",
         Kind::Counter32 => "plc_count32_reset",
-        Kind::Counter16 | Kind::Bit | Kind::Level | Kind::Word => "plc_count16_reset",
+        Kind::Counter16 | Kind::Bit | Kind::NumericBit | Kind::Word => "plc_count16_reset",
     }
 }

@@ -40,26 +40,26 @@ impl Writer<'_, '_> {
     }
 
     pub(crate) fn read_bit(&mut self, out: &mut String, place: &Place) {
-        if self.invariant_of_rounds(out, place) {
+        if self.loop_invariant(out, place) {
             return;
         }
-        let of_round = self.access_round(out, place);
-        if place.index.is_some() && !of_round {
+        let of_iteration = self.access_iteration(out, place);
+        if place.index.is_some() && !of_iteration {
             return self.indexed_call(out, "bit", place, 0);
         }
-        if !of_round && !self.fields.access(out, place.class, place.number) {
+        if !of_iteration && !self.fields.access(out, place.class, place.number) {
             out.push_str("false");
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".done");
         }
     }
 
-    /// Writes the expression of a device of the present round of a loop; false for any other.
-    pub fn access_round(&self, out: &mut String, place: &Place) -> bool {
+    /// Writes the expression of a device of the current iteration of a loop; false for any other.
+    pub fn access_iteration(&self, out: &mut String, place: &Place) -> bool {
         match place.index.map(|index| self.module.expr(index)) {
             Some(&Expr::Stride(_, by)) => {
                 self.fields
-                    .access_round(out, (place.class, place.number), by, &self.round)
+                    .access_iteration(out, (place.class, place.number), by, &self.iteration)
             }
             _ => false,
         }
@@ -67,12 +67,12 @@ impl Writer<'_, '_> {
 
     /// Reads the word `plus` places after `place`.
     pub fn word(&mut self, out: &mut String, place: &Place, plus: i32) {
-        let of_round = plus == 0 && self.access_round(out, place);
-        if place.index.is_some() && !of_round {
+        let of_iteration = plus == 0 && self.access_iteration(out, place);
+        if place.index.is_some() && !of_iteration {
             return self.indexed_call(out, "word", place, plus);
         }
         let number = place.number.saturating_add_signed(plus);
-        if !of_round && !self.fields.access(out, place.class, number) {
+        if !of_iteration && !self.fields.access(out, place.class, number) {
             out.push('0');
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".value");

@@ -15,7 +15,7 @@ fn class_name(class: DeviceClass) -> String {
 /// The C name of what an area is made of.
 fn kind_name(kind: Kind) -> &'static str {
     match kind {
-        Kind::Bit | Kind::Level => "RUNGC_AREA_KIND_BITS",
+        Kind::Bit | Kind::NumericBit => "RUNGC_AREA_KIND_BITS",
         Kind::Word => "RUNGC_AREA_KIND_WORDS",
         Kind::Timer => "RUNGC_AREA_KIND_TIMERS",
         Kind::Counter16 => "RUNGC_AREA_KIND_COUNTERS16",

@@ -291,7 +291,9 @@ impl Printer<'_> {
                     let (first, end) = (run.first, run.first + run.count);
                     field.element(&mut array, "n", "u");
                     let mut clear = match field.kind {
-                        Kind::Bit | Kind::Level | Kind::Word => format!("        {array} = 0;\n"),
+                        Kind::Bit | Kind::NumericBit | Kind::Word => {
+                            format!("        {array} = 0;\n")
+                        }
                         Kind::Timer | Kind::Counter16 | Kind::Counter32 => {
                             format!("        memset(&{array}, 0, sizeof {array});\n")
                         }

@@ -26,7 +26,7 @@ const LIMITS: Limits = Limits {
     plain: 256,
 };
 
-/// The memory of an edge, and the offset from it to that of a loop's present round.
+/// The memory of an edge, and the offset from it to that of a loop's current iteration.
 pub(crate) type Memory = (EdgeId, Option<ExprId>);
 
 /// What stands for an expression in the statement being written.
@@ -56,11 +56,11 @@ pub struct Writer<'a, 'm> {
     pub(crate) loops: usize,
     /// Whether an operand beside is a number, so that `!` would seem a slip.
     pub(crate) numbers: bool,
-    /// Variable that counts the rounds of the loop over rungs.
-    pub(crate) round: String,
-    /// How many rounds that has.
-    pub(crate) rounds: u32,
-    /// Devices that it reads before its first round.
+    /// Variable that counts the iterations of the loop over rungs.
+    pub(crate) iteration: String,
+    /// How many iterations that has.
+    pub(crate) iterations: u32,
+    /// Devices that it reads before its first iteration.
     pub(crate) invariants: BTreeSet<Device>,
     /// Devices that a loop of this function reads so.
     pub(crate) invariants_named: BTreeSet<Device>,
@@ -82,8 +82,8 @@ impl<'a, 'm> Writer<'a, 'm> {
             function: 0,
             loops: 0,
             numbers: false,
-            round: String::new(),
-            rounds: 0,
+            iteration: String::new(),
+            iterations: 0,
             invariants: BTreeSet::new(),
             invariants_named: BTreeSet::new(),
             names: 0,
@@ -137,7 +137,7 @@ impl<'a, 'm> Writer<'a, 'm> {
             Flow::Part { next: Some(next) } => {
                 page.line(&format!("return {};", self.state_name(function.root, next)));
             }
-            Flow::Part { next: None } | Flow::Stretch => page.line("return PLC_GO_ON;"),
+            Flow::Part { next: None } | Flow::Outlined => page.line("return PLC_GO_ON;"),
         }
         *out = page.finish();
         out.push_str("}\n\n");
@@ -211,11 +211,11 @@ impl<'a, 'm> Writer<'a, 'm> {
     pub(crate) fn edge_memory(&self, out: &mut String, (edge, index): Memory) {
         let first = edge.0;
         let _ = match (index.map(|index| self.module.expr(index)), first) {
-            (Some(Expr::Stride(_, 1)), 0) => write!(out, "plc->edge[{}]", self.round),
-            (Some(Expr::Stride(_, 1)), _) => write!(out, "plc->edge[{first} + {}]", self.round),
-            (Some(Expr::Stride(_, by)), 0) => write!(out, "plc->edge[{by} * {}]", self.round),
+            (Some(Expr::Stride(_, 1)), 0) => write!(out, "plc->edge[{}]", self.iteration),
+            (Some(Expr::Stride(_, 1)), _) => write!(out, "plc->edge[{first} + {}]", self.iteration),
+            (Some(Expr::Stride(_, by)), 0) => write!(out, "plc->edge[{by} * {}]", self.iteration),
             (Some(Expr::Stride(_, by)), _) => {
-                write!(out, "plc->edge[{first} + {by} * {}]", self.round)
+                write!(out, "plc->edge[{first} + {by} * {}]", self.iteration)
             }
             _ => write!(out, "plc->edge[{first}]"),
         };
@@ -256,9 +256,9 @@ impl<'a, 'm> Writer<'a, 'm> {
                 otherwise,
             } => self.branch(page, *cond, then, otherwise),
             Node::For { count, body } => self.repeat(page, *count, body),
-            Node::Repeat(stations) => self.rounds(page, stations),
+            Node::Repeat(stations) => self.station_loop(page, stations),
             Node::Parts { parts, leaves } => self.parts(page, parts, *leaves),
-            Node::Stretch(function) => self.stretch(page, *function),
+            Node::Outlined(function) => self.outline(page, *function),
         }
     }
 
@@ -357,7 +357,7 @@ impl<'a, 'm> Writer<'a, 'm> {
         page.close();
     }
 
-    fn stretch(&mut self, page: &mut Page, function: usize) {
+    fn outline(&mut self, page: &mut Page, function: usize) {
         let call = self.planned_call(function);
         match (
             self.plan.functions[function].flow == Flow::Void,

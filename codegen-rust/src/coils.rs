@@ -98,8 +98,8 @@ impl Generator<'_> {
         drive: ExprId,
         preset: ExprId,
     ) -> TokenStream {
-        if let Some(cell) = self.cell_of_round(place) {
-            return self.coil_of_round(cell, place, drive, preset);
+        if let Some(cell) = self.cell_of_iteration(place) {
+            return self.coil_of_iteration(cell, place, drive, preset);
         }
         let function = format_ident!("{function}");
         let (_, number) = self.operand_place(place);
@@ -107,8 +107,8 @@ impl Generator<'_> {
         quote!(#before #function(plc, #number, #arguments);)
     }
 
-    /// A coil of the timer or counter of a loop's present round.
-    fn coil_of_round(
+    /// A coil of the timer or counter of a loop's current iteration.
+    fn coil_of_iteration(
         &mut self,
         cell: TokenStream,
         place: Place,
@@ -122,7 +122,7 @@ impl Generator<'_> {
             };
             let kind = self
                 .coils
-                .kind_of_rounds(place.number, by, self.rounds, kind);
+                .kind_of_iterations(place.number, by, self.iterations, kind);
             return self.timer_coil(cell, kind, drive, preset);
         }
         let (before, arguments) = self.drive_and_preset(drive, preset);
@@ -164,7 +164,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Whether an index leads to a device, rather than the round of a loop.
+    /// Whether an index leads to a device, rather than the iteration of a loop.
     fn is_indexed(&self, place: Place) -> bool {
         let index = place.index.map(|index| self.module.expr(index));
         index.is_some_and(|index| !matches!(index, Expr::Stride(..)))
@@ -172,7 +172,7 @@ impl Generator<'_> {
 
     /// RST of a timer or counter.
     pub fn reset(&mut self, place: Place) -> TokenStream {
-        if let Some(cell) = self.cell_of_round(place) {
+        if let Some(cell) = self.cell_of_iteration(place) {
             return quote!(#cell.reset(););
         }
         if place.index.is_some() {

@@ -249,13 +249,13 @@ impl Generator<'_> {
 
     fn temp(&mut self, temp: TempId) -> Code {
         let place = self.temp_place(temp);
-        match self.levels.contains(&temp) {
+        match self.numeric_temps.contains(&temp) {
             true => Self::is_on(place),
             false => Code::atom(place),
         }
     }
 
-    /// `!a`; comparisons of integers are turned round instead.
+    /// `!a`; comparisons of integers are turned around instead.
     pub fn not(&mut self, a: ExprId) -> Code {
         let is_named = self.named.contains_key(&a);
         if let Some((op, x, y)) = logic::opposite(self.module, a).filter(|_| !is_named) {
@@ -314,26 +314,27 @@ impl Generator<'_> {
         }
     }
 
-    /// The device of a loop's present round.
-    pub fn cell_of_round(&self, place: Place) -> Option<TokenStream> {
+    /// The device of a loop's current iteration.
+    pub fn cell_of_iteration(&self, place: Place) -> Option<TokenStream> {
         let Expr::Stride(_, by) = *self.module.expr(place.index?) else {
             return None;
         };
         let device = (place.class, place.number);
-        self.storage.cell_of_round(device, by, &format_ident!("i"))
+        self.storage
+            .cell_of_iteration(device, by, &format_ident!("i"))
     }
 
     /// Where a bit is stored; `None` if it is not, or if an index leads to it.
     pub fn bit_cell(&self, place: Place) -> Option<TokenStream> {
         match place.index {
-            Some(_) => bit_of(place.class, place.number, self.cell_of_round(place)?),
+            Some(_) => bit_of(place.class, place.number, self.cell_of_iteration(place)?),
             None => self.storage.bit(&quote!(plc), place.class, place.number),
         }
     }
 
     fn read_bit(&mut self, place: Place) -> Code {
-        if let Some(level) = self.level_cell(place) {
-            return Self::is_on(level);
+        if let Some(number) = self.numeric_cell(place) {
+            return Self::is_on(number);
         }
         match self.bit_cell(place) {
             Some(cell) => Code::atom(cell),
@@ -349,7 +350,7 @@ impl Generator<'_> {
     /// Where a word is stored; `None` if it is not, or if an index leads to it.
     pub fn word_cell(&self, place: Place) -> Option<TokenStream> {
         match place.index {
-            Some(_) => word_of(place.class, place.number, self.cell_of_round(place)?),
+            Some(_) => word_of(place.class, place.number, self.cell_of_iteration(place)?),
             None => self.storage.word(&quote!(plc), place.class, place.number),
         }
     }

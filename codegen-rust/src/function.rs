@@ -32,7 +32,7 @@ impl Generator<'_> {
         let function = &plan.functions[index];
         self.function = index;
         self.names = 0;
-        self.levels.clear();
+        self.numeric_temps.clear();
         self.uses.plc = true;
         let variables = self.variables(index);
         let (body, tail) = match function.body.split_last() {
@@ -104,7 +104,7 @@ impl Generator<'_> {
                 let state = self.state_name(function.root, next);
                 quote!(Some(#state))
             }
-            Flow::Stretch | Flow::Part { next: None } => quote!(None),
+            Flow::Outlined | Flow::Part { next: None } => quote!(None),
         }
     }
 

@@ -102,13 +102,13 @@ pub struct Generator<'m> {
     /// Whether a function says that one that calls it is to be left.
     pub leaves: bool,
     /// Temporaries that are numbers, 0 or 1, since they are made of bits that are.
-    pub levels: HashSet<TempId>,
-    /// Bits that the loop over stations around the statement being written has read before its first round.
+    pub numeric_temps: HashSet<TempId>,
+    /// Bits that the loop over stations around the statement being written has read before its first iteration.
     pub invariants: BTreeSet<Device>,
     /// Whether the statement being written is in a loop over rungs.
-    pub in_rounds: bool,
-    /// How many rounds that has.
-    pub rounds: u32,
+    pub in_station_loop: bool,
+    /// How many iterations that has.
+    pub iterations: u32,
     /// Kinds of timers that coils run, by the functions for them.
     pub timer_coils: BTreeMap<String, TimerKind>,
 }
@@ -130,10 +130,10 @@ impl<'m> Generator<'m> {
             names: 0,
             named: HashMap::new(),
             leaves: false,
-            levels: HashSet::new(),
+            numeric_temps: HashSet::new(),
             invariants: BTreeSet::new(),
-            in_rounds: false,
-            rounds: 0,
+            in_station_loop: false,
+            iterations: 0,
             timer_coils: BTreeMap::new(),
         }
     }

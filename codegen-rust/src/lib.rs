@@ -1,7 +1,7 @@
 //! Rust from rungc's IR: a `no_std` crate without `unsafe`, made with quote, laid out by prettyplease.
 //!
 //! [`emit`] makes a crate of one program; [`batch`] one of many, for tests. How a program becomes Rust: `storage` names the fields,
-//! `analysis` finds where temporaries live, `function` splits what is long, `stmt`, `coils`, `expr` and `levels` write statements and
+//! `analysis` finds where temporaries live, `function` splits what is long, `stmt`, `coils`, `expr` and `numeric` write statements and
 //! expressions, `machine` the struct and its implementations, `format` lays out and prints comments between statements, `files` puts it together.
 //!
 //! Layout takes about as long as everything else together; it is made function by function, so time is linear in the program's
@@ -19,16 +19,16 @@ mod files;
 mod format;
 mod function;
 mod generate;
-mod levels;
 mod machine;
-mod places;
+mod members;
+mod numeric;
 mod stmt;
 mod storage;
 mod temps;
 mod watchdog;
 mod write;
 
-pub use places::Places;
+pub use members::Members;
 pub use rungc_emit::OutFile;
 use rungc_ir::Module;
 

@@ -81,7 +81,7 @@ impl Generator<'_> {
             }
             Node::Repeat(stations) => self.stations(body, stations),
             Node::Parts { parts, leaves } => self.parts(body, parts, *leaves),
-            Node::Stretch(function) => body.code(self.stretch(*function)),
+            Node::Outlined(function) => body.code(self.outline(*function)),
         }
     }
 
@@ -243,14 +243,14 @@ impl Generator<'_> {
     /// A loop over rungs that the program repeats.
     fn stations(&mut self, body: &mut Body, stations: &Stations) {
         body.comment(&stations::heading(stations));
-        let rounds = Literal::u32_unsuffixed(stations.count);
+        let iterations = Literal::u32_unsuffixed(stations.count);
         self.invariants = stations::invariants(self.module, &self.storage, stations);
         body.code(self.invariant_lets());
-        (self.in_rounds, self.rounds) = (true, stations.count);
+        (self.in_station_loop, self.iterations) = (true, stations.count);
         let inner = self.nodes(&stations.body);
-        self.in_rounds = false;
+        self.in_station_loop = false;
         self.invariants.clear();
-        body.block(quote!(for i in 0..#rounds), inner);
+        body.block(quote!(for i in 0..#iterations), inner);
     }
 
     fn branches(&mut self, body: &mut Body, cond: ExprId, then: &[Node], otherwise: &[Node]) {
@@ -309,8 +309,8 @@ impl Generator<'_> {
         });
     }
 
-    /// A call of a stretch that is a separate function.
-    fn stretch(&mut self, function: usize) -> TokenStream {
+    /// A call of a block that is a separate function.
+    fn outline(&mut self, function: usize) -> TokenStream {
         let plan = Rc::clone(&self.plan);
         let function = &plan.functions[function];
         let call = self.planned_call(function);

@@ -9,7 +9,7 @@ use rungc_syntax::DeviceClass;
 pub fn type_name(kind: Kind) -> &'static str {
     match kind {
         Kind::Bit => "bool",
-        Kind::Level => "u8",
+        Kind::NumericBit => "u8",
         Kind::Word => "i16",
         Kind::Timer => "Timer",
         Kind::Counter16 => "Counter16",
@@ -40,15 +40,15 @@ pub trait PrintStorage {
     /// The field of a device of `plc`: `plc.x0`, `plc.d[7]`.
     fn cell(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream>;
 
-    /// The place of a device of a loop's present round, whose number is in `variable`.
-    fn cell_of_round(
+    /// The place of a device of a loop's current iteration, whose number is in `variable`.
+    fn cell_of_iteration(
         &self,
         device: (DeviceClass, u32),
         by: u32,
         variable: &Ident,
     ) -> Option<TokenStream>;
 
-    /// Where its state as a bit is: a number if [`Storage::is_level`].
+    /// Where its state as a bit is: a number if [`Storage::is_numeric_bit`].
     fn bit(&self, plc: &TokenStream, class: DeviceClass, number: u32) -> Option<TokenStream> {
         bit_of(class, number, self.cell(plc, class, number)?)
     }
@@ -82,7 +82,7 @@ impl PrintStorage for Storage<'_> {
         })
     }
 
-    fn cell_of_round(
+    fn cell_of_iteration(
         &self,
         (class, number): (DeviceClass, u32),
         by: u32,

@@ -41,7 +41,7 @@ impl Generator<'_> {
             return TokenStream::new();
         }
         let value = match self.assigns_level(temp, value) {
-            true => self.level(value),
+            true => self.numeric(value),
             false => self.typed(value),
         };
         self.bind(temp, value.tokens)

@@ -59,8 +59,8 @@ impl Generator<'_> {
     pub fn write_bit(&mut self, place: Place, value: ExprId) -> TokenStream {
         match self.bit_cell(place) {
             Some(cell) => {
-                let code = match self.storage.is_level(place.class, place.number) {
-                    true => self.level(value),
+                let code = match self.storage.is_numeric_bit(place.class, place.number) {
+                    true => self.numeric(value),
                     false => self.expr(value),
                 };
                 self.assign(cell, code, place, value)

@@ -50,7 +50,7 @@ pub fn asker(
         | Node::For { .. }
         | Node::Repeat(_)
         | Node::Parts { .. }
-        | Node::Stretch(_) => None,
+        | Node::Outlined(_) => None,
     }
 }
 

@@ -33,7 +33,7 @@ pub struct Function<'m> {
 }
 
 impl Function<'_> {
-    /// Whether it is a whole function of the module, or what is left of one when stretches and parts have been moved out.
+    /// Whether it is a whole function of the module, or what is left of one after blocks and parts have been outlined.
     pub fn is_whole(&self) -> bool {
         self.suffix.is_empty()
     }
@@ -72,9 +72,9 @@ impl Function<'_> {
 pub enum Flow {
     /// No result; runs to its end or returns.
     Void,
-    /// A stretch of another one, with jumps out of it: returns the state of the part to continue with, or that the root is to be left, or
+    /// A block of another one, with jumps out of it: returns the state of the part to continue with, or that the root is to be left, or
     /// that it has come to its end.
-    Stretch,
+    Outlined,
     /// A part: returns the same; from its end it continues with this part.
     Part {
         /// State of the next part, if there is one.
@@ -111,8 +111,8 @@ pub enum Node<'m> {
         /// Whether a part may continue outside of them.
         leaves: bool,
     },
-    /// A call of a stretch of this function that is a separate function.
-    Stretch(usize),
+    /// A call of a block of this function that is a separate function.
+    Outlined(usize),
 }
 
 impl Node<'_> {
@@ -124,7 +124,7 @@ impl Node<'_> {
             } => [then, otherwise],
             Node::For { body, .. } => [body, &[]],
             Node::Repeat(stations) => [&stations.body, &[]],
-            Node::Stmt(_) | Node::Parts { .. } | Node::Stretch(_) => [&[], &[]],
+            Node::Stmt(_) | Node::Parts { .. } | Node::Outlined(_) => [&[], &[]],
         };
         bodies.into_iter()
     }
@@ -136,7 +136,7 @@ impl Node<'_> {
             Node::Stmt(stmt) => for_exprs(stmt, &mut |&e| roots.push(e)),
             Node::If { cond, .. } => roots.push(*cond),
             Node::For { count, .. } => roots.push(*count),
-            Node::Repeat(_) | Node::Parts { .. } | Node::Stretch(_) => {}
+            Node::Repeat(_) | Node::Parts { .. } | Node::Outlined(_) => {}
         }
         roots
     }
@@ -237,7 +237,7 @@ impl<'m> Plan<'m> {
             sizes: Sizes::new(module),
             states: HashMap::new(),
             state_names: vec![Vec::new(); module.functions.len()],
-            stretches: vec![0; module.functions.len()],
+            outlined: vec![0; module.functions.len()],
         };
         let mut whole = vec![None; module.functions.len()];
         let called = called_functions(module);
@@ -303,7 +303,7 @@ fn is_empty(module: &Module, root: usize) -> bool {
 /// Finds the functions that need the hardware because one that they call does.
 fn hand_hardware_on(functions: &mut [Function], whole: &[Option<usize>]) {
     let callees: Vec<Vec<usize>> = functions.iter().map(|f| callees(&f.body, whole)).collect();
-    // Calls do not recurse, so this ends after as many rounds as calls nest.
+    // Calls do not recurse, so this ends after as many passes as calls nest.
     let mut changed = true;
     while changed {
         changed = false;
@@ -324,7 +324,7 @@ fn callees(nodes: &[Node], whole: &[Option<usize>]) -> Vec<usize> {
         match node {
             Node::Stmt(Stmt::CallSub(root)) => found.extend(whole[*root as usize]),
             Node::Parts { parts, .. } => found.extend(parts.iter().map(|&(_, function)| function)),
-            Node::Stretch(function) => found.push(*function),
+            Node::Outlined(function) => found.push(*function),
             Node::Stmt(_) | Node::If { .. } | Node::For { .. } | Node::Repeat(_) => {}
         }
         for body in node.bodies() {
@@ -340,8 +340,8 @@ struct Builder<'m> {
     sizes: Sizes,
     states: HashMap<(usize, LabelId), u32>,
     state_names: Vec<Vec<String>>,
-    /// Stretches made so far, by root.
-    stretches: Vec<u32>,
+    /// How many blocks have been outlined so far, by root.
+    outlined: Vec<u32>,
 }
 
 impl<'m> Builder<'m> {
@@ -370,7 +370,7 @@ impl<'m> Builder<'m> {
             Node::Stmt(stmt) => {
                 matches!(stmt, Stmt::CallSub(root) if is_empty(module, *root as usize))
             }
-            Node::For { .. } | Node::Repeat(_) | Node::Parts { .. } | Node::Stretch(_) => false,
+            Node::For { .. } | Node::Repeat(_) | Node::Parts { .. } | Node::Outlined(_) => false,
         };
         let items = body.iter().map(|stmt| self.stmt(stmt, root, nesting));
         items.filter(|item| !does_nothing(item)).collect()
@@ -459,7 +459,7 @@ impl<'m> Builder<'m> {
         let items = self.body(body, root, nesting);
         let items = self.bounded(items, root);
         if nesting.is_multiple_of(MAX_NESTING) && items.len() > 1 {
-            close(vec![self.stretch(items, root)])
+            close(vec![self.outline(items, root)])
         } else {
             close(items)
         }
@@ -498,7 +498,7 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// Moves stretches of a body that is too large into separate functions.
+    /// Outlines blocks of a body that is too large: makes them separate functions.
     fn bounded(&mut self, mut items: Vec<Item<'m>>, root: usize) -> Vec<Item<'m>> {
         while weight(&items) > FUNCTION_WEIGHT {
             let before = items.len();
@@ -512,7 +512,7 @@ impl<'m> Builder<'m> {
 
     fn divided(&mut self, items: Vec<Item<'m>>, root: usize) -> Vec<Item<'m>> {
         let mut outer = Vec::new();
-        let mut stretch = Vec::new();
+        let mut block = Vec::new();
         let mut size = 0;
         for item in items {
             // Rungs stay together, unless one is larger than a whole function.
@@ -522,38 +522,38 @@ impl<'m> Builder<'m> {
                 FUNCTION_WEIGHT
             };
             if size + item.weight > limit {
-                let full = std::mem::take(&mut stretch);
-                self.put_stretch(full, root, &mut outer);
+                let full = std::mem::take(&mut block);
+                self.put_outlined(full, root, &mut outer);
                 size = 0;
             }
             size += item.weight;
-            stretch.push(item);
+            block.push(item);
         }
-        self.put_stretch(stretch, root, &mut outer);
+        self.put_outlined(block, root, &mut outer);
         outer
     }
 
-    fn put_stretch(&mut self, items: Vec<Item<'m>>, root: usize, outer: &mut Vec<Item<'m>>) {
+    fn put_outlined(&mut self, items: Vec<Item<'m>>, root: usize, outer: &mut Vec<Item<'m>>) {
         // A separate function would not make a single statement smaller.
         if items.len() > 1 {
-            outer.push(self.stretch(items, root));
+            outer.push(self.outline(items, root));
         } else {
             outer.extend(items);
         }
     }
 
-    fn stretch(&mut self, items: Vec<Item<'m>>, root: usize) -> Item<'m> {
+    fn outline(&mut self, items: Vec<Item<'m>>, root: usize) -> Item<'m> {
         let body = close(items);
         let leaves = body.leaves.clone();
         let flow = if leaves.any() {
-            Flow::Stretch
+            Flow::Outlined
         } else {
             Flow::Void
         };
-        self.stretches[root] += 1;
-        let suffix = format!("_{}", self.stretches[root]);
+        self.outlined[root] += 1;
+        let suffix = format!("_{}", self.outlined[root]);
         Item {
-            node: Node::Stretch(self.function(body, root, suffix, flow)),
+            node: Node::Outlined(self.function(body, root, suffix, flow)),
             weight: 1,
             leaves,
         }

@@ -14,7 +14,7 @@ pub enum Kind {
     /// A bit.
     Bit,
     /// A number, 0 or 1: a bit in a [`Grid`]. Compilers vectorise loops over numbers better than loops over booleans.
-    Level,
+    NumericBit,
     /// A signed 16-bit word.
     Word,
     /// A timer of the runtime.
@@ -41,7 +41,11 @@ impl Kind {
 
     /// The same in a grid.
     fn in_grid(self) -> Kind {
-        if self == Kind::Bit { Kind::Level } else { self }
+        if self == Kind::Bit {
+            Kind::NumericBit
+        } else {
+            self
+        }
     }
 
     /// Whether it has a contact, a value and a coil, as timers and counters have.
@@ -52,7 +56,7 @@ impl Kind {
     /// Where its state as a bit is; `None` if it has none.
     pub fn bit(self) -> Option<Member> {
         match self {
-            Kind::Bit | Kind::Level => Some(Member::Whole),
+            Kind::Bit | Kind::NumericBit => Some(Member::Whole),
             Kind::Word => None,
             Kind::Timer | Kind::Counter16 | Kind::Counter32 => Some(Member::Done),
         }
@@ -63,14 +67,14 @@ impl Kind {
         match self {
             Kind::Word => Some(Member::Whole),
             Kind::Timer | Kind::Counter16 => Some(Member::Value),
-            Kind::Bit | Kind::Level | Kind::Counter32 => None,
+            Kind::Bit | Kind::NumericBit | Kind::Counter32 => None,
         }
     }
 
     /// Its size and alignment in bytes, on a 32-bit machine.
     pub fn size(self) -> (u32, u32) {
         match self {
-            Kind::Bit | Kind::Level => (1, 1),
+            Kind::Bit | Kind::NumericBit => (1, 1),
             Kind::Word => (2, 2),
             Kind::Timer => (8, 2),
             Kind::Counter16 => (4, 2),
@@ -233,14 +237,14 @@ pub enum At {
     },
 }
 
-/// Where the device of a loop's present round is.
+/// Where the device of a loop's current iteration is.
 #[derive(Clone, Copy, Debug)]
 pub struct RoundSlot<'a> {
     /// The field.
     pub field: &'a Field,
     /// Which column, if there are several.
     pub column: Option<u32>,
-    /// Where in it the device of round 0 is; those of the next rounds follow.
+    /// Where in it the device of iteration 0 is; those of the next iterations follow.
     pub row: u32,
 }
 
@@ -350,7 +354,7 @@ impl<'m> Storage<'m> {
         field.holds(number).then_some((field, number))
     }
 
-    /// Where the device of a loop's present round is, which advances by this many numbers with each round.
+    /// Where the device of a loop's current iteration is, which advances by this many numbers with each iteration.
     pub fn round_slot(&self, class: DeviceClass, number: u32, by: u32) -> Option<RoundSlot<'_>> {
         let field = self.find(class, number)?;
         let grid = field.grid.filter(|grid| grid.columns == by)?;
@@ -369,9 +373,9 @@ impl<'m> Storage<'m> {
     }
 
     /// Whether a device is a bit that is stored as a number.
-    pub fn is_level(&self, class: DeviceClass, number: u32) -> bool {
+    pub fn is_numeric_bit(&self, class: DeviceClass, number: u32) -> bool {
         let field = self.find(class, number);
-        field.is_some_and(|field| field.kind == Kind::Level)
+        field.is_some_and(|field| field.kind == Kind::NumericBit)
     }
 
     /// The runs of a field that power-off treats alike.

@@ -132,7 +132,7 @@ impl Scopes<'_> {
                     self.block(body);
                 }
                 Node::Repeat(stations) => self.block(&stations.body),
-                Node::Parts { .. } | Node::Stretch(_) => {}
+                Node::Parts { .. } | Node::Outlined(_) => {}
             }
         }
         self.open.pop();

@@ -34,9 +34,15 @@ impl Coils {
         }
     }
 
-    /// The same for a coil that runs the timers of all rounds of a loop.
-    pub fn kind_of_rounds(&self, first: u32, by: u32, rounds: u32, kind: TimerKind) -> TimerKind {
-        let numbers = (0..rounds).map(|n| first + n * by);
+    /// The same for a coil that runs the timers of all iterations of a loop.
+    pub fn kind_of_iterations(
+        &self,
+        first: u32,
+        by: u32,
+        iterations: u32,
+        kind: TimerKind,
+    ) -> TimerKind {
+        let numbers = (0..iterations).map(|n| first + n * by);
         let mut kinds = numbers.map(|number| self.kind(number, kind));
         TimerKind {
             latches_preset: kinds.any(|kind| kind.latches_preset),
@@ -44,7 +50,7 @@ impl Coils {
         }
     }
 
-    fn count(&mut self, module: &Module, storage: &Storage, nodes: &[Node], rounds: u32) {
+    fn count(&mut self, module: &Module, storage: &Storage, nodes: &[Node], iterations: u32) {
         for node in nodes {
             match node {
                 Node::Stmt(Stmt::Timer { number, preset, .. }) => {
@@ -53,7 +59,7 @@ impl Coils {
                 Node::Stmt(Stmt::TimerAt { place, preset, .. }) => {
                     match place.index.map(|index| module.expr(index)) {
                         Some(&Expr::Stride(_, by)) => {
-                            for n in 0..rounds {
+                            for n in 0..iterations {
                                 let coils = self.coils.entry(place.number + n * by).or_default();
                                 *coils += weight(module, *preset);
                             }
@@ -71,18 +77,18 @@ impl Coils {
                 | Node::For { .. }
                 | Node::Repeat(_)
                 | Node::Parts { .. }
-                | Node::Stretch(_) => {}
+                | Node::Outlined(_) => {}
             }
-            let rounds = match node {
+            let iterations = match node {
                 Node::Repeat(stations) => stations.count,
                 Node::Stmt(_)
                 | Node::If { .. }
                 | Node::For { .. }
                 | Node::Parts { .. }
-                | Node::Stretch(_) => rounds,
+                | Node::Outlined(_) => iterations,
             };
             for body in node.bodies() {
-                self.count(module, storage, body, rounds);
+                self.count(module, storage, body, iterations);
             }
         }
     }

@@ -193,7 +193,7 @@ impl Generator<'_> {
         for field in &fields {
             let pattern = self.pattern(field, access != Access::Counter32);
             let cell = Self::matched(field);
-            if (access, field.kind) == (Access::Bit, Kind::Level) {
+            if (access, field.kind) == (Access::Bit, Kind::NumericBit) {
                 out.extend(match set {
                     true => quote!(#pattern => #cell = u8::from(value),),
                     false => quote!(#pattern => #cell != 0,),

@@ -73,7 +73,7 @@ impl Generator<'_> {
                     _ => format!(" in {columns} columns, [1][0] is {second}"),
                 });
             }
-            if field.kind == Kind::Level {
+            if field.kind == Kind::NumericBit {
                 text.push_str(", 0 or 1");
             }
             text.push_str(&latched);
@@ -135,7 +135,7 @@ impl Generator<'_> {
     fn zero_element(&mut self, field: &Field) -> TokenStream {
         match field.kind {
             Kind::Bit => quote!(false),
-            Kind::Level | Kind::Word => quote!(0),
+            Kind::NumericBit | Kind::Word => quote!(0),
             Kind::Timer | Kind::Counter16 | Kind::Counter32 => {
                 let ty = self.rt(type_name(field.kind));
                 quote!(#ty::new())

@@ -1,19 +1,19 @@
-//! Where a host that reads and writes devices itself finds them.
+//! The members of an emitted struct, for a host that reads and writes devices itself.
 
 use crate::fields::PrintStorage;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 
-/// Where the devices of an emitted program are in its struct.
-pub struct Places<'m> {
+/// The members of an emitted program's struct that hold its devices.
+pub struct Members<'m> {
     fields: Storage<'m>,
 }
 
-impl<'m> Places<'m> {
+impl<'m> Members<'m> {
     /// Those of a program.
     pub fn new(module: &'m Module) -> Self {
-        Places {
+        Members {
             fields: Storage::new(module),
         }
     }

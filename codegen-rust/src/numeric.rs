@@ -12,31 +12,33 @@ use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
     /// Whether a `Bit` is written as a number: one from an array of columns, or made of such.
-    pub fn is_level(&self, id: ExprId) -> bool {
+    pub fn is_numeric(&self, id: ExprId) -> bool {
         let known = |e: ExprId| {
             let is_named = self.named.contains_key(&e);
             if let Expr::Temp(temp) = *self.module.expr(e) {
-                return Some(!is_named && self.levels.contains(&temp));
+                return Some(!is_named && self.numeric_temps.contains(&temp));
             }
             let Expr::ReadBit(place) = *self.module.expr(e) else {
                 return is_named.then_some(false);
             };
-            let is_level = self.storage.is_level(place.class, place.number);
-            Some(!is_named && (is_level || self.is_invariant(place)))
+            let is_numeric = self.storage.is_numeric_bit(place.class, place.number);
+            Some(!is_named && (is_numeric || self.is_invariant(place)))
         };
         !self.module.layout.grids.is_empty() && logic::is_number(self.module, id, &known)
     }
 
     /// A `Bit` as a number.
-    pub fn level(&mut self, id: ExprId) -> Code {
-        let is_level = self.is_level(id);
-        match (*self.module.expr(id), is_level) {
+    pub fn numeric(&mut self, id: ExprId) -> Code {
+        let is_numeric = self.is_numeric(id);
+        match (*self.module.expr(id), is_numeric) {
             (Expr::Bit(value), _) => literal(value),
-            (Expr::And(a, b), true) => Code::binary("&", self.level(a), self.level(b)),
-            (Expr::Or(a, b), true) => Code::binary("|", self.level(a), self.level(b)),
-            (Expr::Not(a), true) => Code::binary("^", self.level(a), literal(true)),
+            (Expr::And(a, b), true) => Code::binary("&", self.numeric(a), self.numeric(b)),
+            (Expr::Or(a, b), true) => Code::binary("|", self.numeric(a), self.numeric(b)),
+            (Expr::Not(a), true) => Code::binary("^", self.numeric(a), literal(true)),
             (Expr::Temp(temp), true) => Code::atom(self.temp_place(temp)),
-            (Expr::ReadBit(place), true) => Code::atom(self.level_cell(place).unwrap_or_default()),
+            (Expr::ReadBit(place), true) => {
+                Code::atom(self.numeric_cell(place).unwrap_or_default())
+            }
             _ => {
                 let bit = self.expr(id);
                 Code::atom(quote!(u8::from(#bit)))
@@ -44,7 +46,7 @@ impl Generator<'_> {
         }
     }
 
-    /// Numbers for the bits that a loop over stations reads before its first round.
+    /// Numbers for the bits that a loop over stations reads before its first iteration.
     pub fn invariant_lets(&self) -> TokenStream {
         let lets = self.invariants.iter().filter_map(|&(class, number)| {
             let cell = self.storage.bit(&quote!(plc), class, number)?;
@@ -59,27 +61,27 @@ impl Generator<'_> {
     }
 
     /// Where a bit is that is stored as a number.
-    pub fn level_cell(&self, place: Place) -> Option<TokenStream> {
+    pub fn numeric_cell(&self, place: Place) -> Option<TokenStream> {
         if self.is_invariant(place) {
             return Some(invariant_name(place.class, place.number).into_token_stream());
         }
         let cell = self.bit_cell(place)?;
         self.storage
-            .is_level(place.class, place.number)
+            .is_numeric_bit(place.class, place.number)
             .then_some(cell)
     }
 
     /// A number as a `Bit`: whether it is on.
-    pub fn is_on(level: TokenStream) -> Code {
-        Code::binary("!=", Code::atom(level), literal(false))
+    pub fn is_on(number: TokenStream) -> Code {
+        Code::binary("!=", Code::atom(number), literal(false))
     }
 
     /// Gives a temporary of a loop over rungs a number, if its value is one; false if not.
     pub fn assigns_level(&mut self, temp: TempId, value: ExprId) -> bool {
         let is_constant = self.plan.temp(temp).home() == Home::Constant;
-        let is = self.in_rounds && is_constant && self.is_level(value);
+        let is = self.in_station_loop && is_constant && self.is_numeric(value);
         if is {
-            self.levels.insert(temp);
+            self.numeric_temps.insert(temp);
         }
         is
     }

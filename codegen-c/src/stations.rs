@@ -10,7 +10,7 @@ use std::fmt::Write;
 
 impl<'m> Writer<'_, 'm> {
     /// Writes a loop.
-    pub fn rounds(&mut self, page: &mut Page, stations: &Stations<'m>) {
+    pub fn station_loop(&mut self, page: &mut Page, stations: &Stations<'m>) {
         let (variable, count) = (self.loop_variable(), stations.count);
         page.set_off();
         page.comment(&stations::heading(stations));
@@ -31,7 +31,7 @@ impl<'m> Writer<'_, 'm> {
         }
         let head = format!("for (unsigned {variable} = 0; {variable} < {count}; {variable}++) {{");
         page.open(&head);
-        (self.round, self.rounds) = (variable, count);
+        (self.iteration, self.iterations) = (variable, count);
         self.invariants = invariants;
         self.loops += 1;
         self.nodes(page, &stations.body);
@@ -44,7 +44,7 @@ impl<'m> Writer<'_, 'm> {
     }
 
     /// Writes the name of a bit that has been read before the loop around; false for any other.
-    pub fn invariant_of_rounds(&self, out: &mut String, place: &Place) -> bool {
+    pub fn loop_invariant(&self, out: &mut String, place: &Place) -> bool {
         let device = (place.class, place.number);
         let is = place.index.is_none() && self.invariants.contains(&device);
         if is {
