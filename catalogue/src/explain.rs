@@ -160,7 +160,7 @@ fn meaning(param: &Param, params: &[Param]) -> String {
             Rule::Aligned(of) => format!("; its number is a multiple of {of}"),
             Rule::WholeGroup => "; a group has K4, in the 32-bit form K8".to_owned(),
             Rule::WideAligned(of) => {
-                format!("; in the 32-bit form a group begins at a multiple of {of}")
+                format!("; in the 32-bit form, a group starts at a multiple of {of}")
             }
             Rule::SameDigits(i) => format!("; a group has as many digits as {}", name(i)),
             Rule::GroupLike(i) => format!("; a group if and only if {} is one", name(i)),

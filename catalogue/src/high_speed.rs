@@ -93,7 +93,7 @@ const TABLE: Rule = Rule::Holds(
             |first, _| matches!(first, OperandKind::Device(first, None) if matches!(first.class, DeviceClass::D | DeviceClass::R)),
         )
     },
-    "a table begins at a data register",
+    "a table starts at a data register",
 );
 /// … and S2 the number of its rows.
 const ROWS_OF_TABLE: Rule = Rule::Holds(

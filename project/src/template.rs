@@ -18,43 +18,43 @@ pub fn template(program: Option<&Path>, model: Option<ModelId>) -> String {
         None => format!("# {}", key("model", "fx3u")),
     };
     format!(
-        r#"# Settings of a project for rungc, explained in docs/src/project.md. Options of the command line win over them.
+        r#"# Settings of a project for rungc, explained in docs/src/project.md. Command-line options take precedence.
 
 [project]
-# The program, by its path from here: what a command works on that is given no FILE.
+# The program, relative to this file: the default for commands without a FILE.
 {program}
 # The PLC model: {models}.
 {model}
-# Name of the program in emitted code, if not the file's.
+# Name of the program in emitted code, if it differs from the file's.
 # name = "packer"
-# Encoding of texts that are not Unicode, where rungc takes them for another.
+# Encoding of texts that are not Unicode, if rungc guesses wrong.
 # encoding = "windows-1252"
 
 [check]
-# Warnings to leave out, by code or name: `rungc explain double-coil`.
+# Warnings to suppress, by code or name: `rungc explain double-coil`.
 allow = []
-# Warnings that are errors here.
+# Warnings to treat as errors.
 deny = []
-# Limits of the model that are warnings here, by the codes of their errors.
+# Limits of the model to treat as warnings, by the codes of their errors.
 # warn = ["E0105"]
 
 [build]
-# What `rungc build` makes, and where: c, rust, lib, bin, elf or ir.
+# The output form of `rungc build`, and its path: c, rust, lib, bin, elf or ir.
 # emit = "c"
 # output = "firmware/plc"
 # target = "thumbv7em-none-eabihf"
 # board = "board.toml"
 
 [test]
-# What `rungc test` runs, and on which engine: interp, c, rust or all.
+# The files that `rungc test` runs, and on which engine: interp, c, rust or all.
 # files = ["tests"]
 # engine = "interp"
 
-# What an operand with an index register can reach, so that no more is stored.
+# The devices that an operand with an index register can reach, so that no others are stored.
 # [index]
 # "D100Z0" = "D100-D163"
 
-# Instructions by the bytes that stand for them in vendor projects; `rungc learn` writes them.
+# Instructions, by the bytes that encode them in vendor projects; `rungc learn` writes them.
 # [tokens]
 # "63 09 20" = "DSZR"
 

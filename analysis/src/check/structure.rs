@@ -418,7 +418,7 @@ impl Walk<'_, '_> {
             let message = format!("this {} is in the main program", kind.name());
             let diagnostic = codes::ROUTINE_IN_MAIN
                 .at(self.code.span(i), message)
-                .label("begins before FEND")
+                .label("starts before FEND")
                 .help("end the main program with FEND and put routines after it");
             let across = self.ends_behind_fend(i, kind);
             self.report(match kind {

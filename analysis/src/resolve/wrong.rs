@@ -36,7 +36,7 @@ pub(super) fn second_instruction(
     let end = Span::new(instr.span.end, instr.span.end);
     let diagnostic = codes::ONE_PER_LINE
         .at(begin.to(end), message)
-        .label("begins here");
+        .label("starts here");
     let first = at - usize::from(step.is_some());
     let before = first.checked_sub(1).and_then(|n| instr.operands.get(n));
     let gap = before.map_or(instr.mnemonic_span, |before| before.span).end;
