@@ -91,10 +91,8 @@ fn inputs_of(module: &Module, fields: &Storage) -> BTreeMap<u32, String> {
 
 /// The terminals that the program looks at, and the fields that they have.
 pub fn terminals(fields: &Storage, class: DeviceClass) -> Vec<(u32, String)> {
-    let numbers = |f: &Field| f.first..f.end();
-    let numbers = fields.of_class(class).iter().flat_map(numbers);
+    let numbers = fields.of_class(class).iter().flat_map(Field::numbers);
     numbers
-        .filter(|&number| fields.find(class, number).is_some())
         .map(|number| {
             let mut access = String::new();
             fields.access(&mut access, class, number);

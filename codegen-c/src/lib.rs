@@ -33,9 +33,8 @@ mod writer;
 
 pub use members::Members;
 pub use rungc_emit::OutFile;
-use rungc_emit::storage::{Field, Storage};
+pub use rungc_emit::storage::{Memory, memory};
 use rungc_ir::Module;
-use rungc_syntax::DeviceClass;
 
 /// What to emit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,34 +58,6 @@ const RUNGC_BOARD_H: &str = include_str!("../include/rungc_board.h");
 /// `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     files::batch(modules)
-}
-
-/// How much of the program's struct the devices of a class take, in bytes on a 32-bit machine.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Memory {
-    /// The class.
-    pub class: DeviceClass,
-    /// How many are stored.
-    pub devices: u32,
-    /// Their bytes, without what aligns fields.
-    pub bytes: u32,
-}
-
-/// What the devices of a program take, by their classes; the rest of the struct is private.
-pub fn memory(module: &Module) -> Vec<Memory> {
-    let fields = Storage::new(module);
-    let of = |class: DeviceClass| {
-        let fields = fields.of_class(class);
-        let bytes = |field: &Field| field.kind.size().0 * field.room();
-        let devices = |field: &Field| field.numbers().count() as u32;
-        Memory {
-            class,
-            devices: fields.iter().map(devices).sum(),
-            bytes: fields.iter().map(bytes).sum(),
-        }
-    };
-    let all = DeviceClass::ALL.into_iter().map(of);
-    all.filter(|memory| memory.devices > 0).collect()
 }
 
 /// Emits a program. The same module gives the same bytes.

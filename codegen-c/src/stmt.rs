@@ -3,10 +3,11 @@
 use crate::expr::Around;
 use crate::page::Page;
 use crate::text;
-use crate::writer::{Writer, c_type, function_name};
+use crate::writer::{Memory, Writer, c_type, function_name};
 use rungc_emit::comments;
 use rungc_emit::temps::Home;
-use rungc_ir::node::{Stmt, TempId};
+use rungc_ir::node::{ExprId, Stmt, TempId};
+use rungc_rt::EdgeKind;
 use std::fmt::Write;
 
 impl Writer<'_, '_> {
@@ -21,74 +22,70 @@ impl Writer<'_, '_> {
         code
     }
 
+    /// Writes the right side of an assignment.
+    fn value(&mut self, code: &mut String, value: ExprId) {
+        self.expr(code, value, Around::Exact);
+        code.push(';');
+    }
+
+    fn edge(&mut self, code: &mut String, edge: (Memory, EdgeKind, ExprId), out: TempId) {
+        if self.plan.temp(out).used == 0 {
+            self.edge_memory(code, edge.0);
+            code.push_str(" = ");
+            return self.value(code, edge.2);
+        }
+        code.push_str(&self.assigned_temp(out));
+        self.edge_call(code, edge);
+        code.push(';');
+    }
+
+    /// The statement that leaves the function of the module.
+    fn leave(&self) -> &'static str {
+        match self.is_void() {
+            true => "return;",
+            false => "return PLC_LEAVE;",
+        }
+    }
+
     pub(crate) fn stmt(&mut self, page: &mut Page, stmt: &Stmt) {
         let mut code = String::with_capacity(text::WIDTH);
         match stmt {
             Stmt::Let(temp, value) => {
-                if self.plan.temp(*temp).used == 0 {
-                    return;
+                if self.plan.temp(*temp).used > 0 {
+                    code = self.assigned_temp(*temp);
+                    self.value(&mut code, *value);
                 }
-                code = self.assigned_temp(*temp);
-                self.expr(&mut code, *value, Around::Exact);
-                code.push(';');
             }
             Stmt::Edge {
                 edge,
                 index,
                 kind,
                 input,
-                out: temp,
-            } => {
-                let memory = (*edge, *index);
-                if self.plan.temp(*temp).used == 0 {
-                    self.edge_memory(&mut code, memory);
-                    code.push_str(" = ");
-                    self.expr(&mut code, *input, Around::Exact);
-                } else {
-                    code = self.assigned_temp(*temp);
-                    self.edge_call(&mut code, (memory, *kind, *input));
-                }
-                code.push(';');
-            }
+                out,
+            } => self.edge(&mut code, ((*edge, *index), *kind, *input), *out),
             Stmt::SetCell(cell, value) => {
                 code = format!("plc->{} = ", self.module.cells[*cell].name);
-                self.expr(&mut code, *value, Around::Exact);
-                code.push(';');
+                self.value(&mut code, *value);
             }
             Stmt::SetEntry(table, index, value) => {
                 code = format!("plc->{}[", self.module.tables[*table].name);
                 self.expr(&mut code, *index, Around::Exact);
                 code.push_str("] = ");
-                self.expr(&mut code, *value, Around::Exact);
-                code.push(';');
+                self.value(&mut code, *value);
             }
             Stmt::SetFlag(flag, on) => {
-                let flag = &self.module.flags[*flag].name;
-                code = format!("plc->{flag} = ");
-                self.expr(&mut code, *on, Around::Exact);
-                code.push(';');
+                code = format!("plc->{} = ", self.module.flags[*flag].name);
+                self.value(&mut code, *on);
             }
             Stmt::CallSub(function) => {
                 function_name(&mut code, self.module, *function as usize);
                 code.push_str("(plc);");
             }
-            Stmt::Return => code.push_str(if self.is_void() {
-                "return;"
-            } else {
-                "return PLC_LEAVE;"
-            }),
+            Stmt::Return => code.push_str(self.leave()),
             Stmt::Watch { steps, at } => {
-                let leave = if self.is_void() {
-                    "return;"
-                } else {
-                    "return PLC_LEAVE;"
-                };
-                let condition = format!(
-                    "if ({}_out_of_time(plc, {steps}u, {}u)) {{",
-                    self.module.name, *at as u16
-                );
-                page.open(&condition);
-                page.line(leave);
+                let (name, at) = (&self.module.name, *at as u16);
+                page.open(&format!("if ({name}_out_of_time(plc, {steps}u, {at}u)) {{"));
+                page.line(self.leave());
                 page.close();
             }
             Stmt::Goto(label) => {

@@ -2,7 +2,8 @@
 
 use crate::fields::PrintField;
 use crate::text;
-use rungc_emit::storage::{Field, Kind, Storage};
+use rungc_emit::areas::{self, Area};
+use rungc_emit::storage::{Kind, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -23,68 +24,11 @@ fn kind_name(kind: Kind) -> &'static str {
     }
 }
 
-/// The runtime's order of classes, in which it searches: as the values of its enum.
-fn rank(class: DeviceClass) -> usize {
-    use DeviceClass::*;
-    [X, Y, M, S, T, C, D, R, V, Z, ER]
-        .iter()
-        .position(|&c| c == class)
-        .unwrap_or(usize::MAX)
-}
-
 /// Writes the tables and the function that binds them to a struct.
 pub fn write(out: &mut String, module: &Module, fields: &Storage) {
     let name = &module.name;
     let mut layout = Vec::new();
-    let areas = areas(name, fields);
-    layout.extend(table(
-        out,
-        ("areas", "area", "Where the runtime finds the devices."),
-        name,
-        &areas,
-    ));
-    let ranges = ranges(module);
-    layout.extend(table(
-        out,
-        ("ranges", "range", "Devices that the model has."),
-        name,
-        &ranges,
-    ));
-    let aliases: Vec<String> = module
-        .model
-        .index_aliases
-        .iter()
-        .filter(|(_, class, index)| fields.find(*class, *index).is_some())
-        .map(|(number, class, index)| format!("{{{number}, {}, {index}}}", class_name(*class)))
-        .collect();
-    layout.extend(table(
-        out,
-        (
-            "aliases",
-            "alias",
-            "Special registers that are other names of index registers.",
-        ),
-        name,
-        &aliases,
-    ));
-    let texts: Vec<String> = module
-        .texts
-        .iter()
-        .map(|text| {
-            format!(
-                "{{(const uint8_t *){}, {}}}",
-                text::string_literal(text),
-                text.len()
-            )
-        })
-        .collect();
-    layout.extend(table(
-        out,
-        ("texts", "text", "Texts of the program."),
-        name,
-        &texts,
-    ));
-
+    tables(out, &mut layout, module, fields);
     layout.push(format!(".sys = offsetof({name}_plc, sys)"));
     if module.may_fail() {
         layout.push(format!(".error = offsetof({name}_plc, error)"));
@@ -138,6 +82,44 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
     );
 }
 
+/// Writes the tables; the members of the layout that name them go into `layout`.
+fn tables(out: &mut String, layout: &mut Vec<String>, module: &Module, fields: &Storage) {
+    let name = &module.name;
+    let areas = areas(name, fields);
+    let ranges = areas::ranges(module).into_iter();
+    let ranges: Vec<String> = ranges
+        .map(|(class, first, last)| format!("{{{}, {first}, {last}}}", class_name(class)))
+        .collect();
+    let aliases = module.model.index_aliases.iter();
+    let aliases: Vec<String> = aliases
+        .filter(|(_, class, index)| fields.find(*class, *index).is_some())
+        .map(|(number, class, index)| format!("{{{number}, {}, {index}}}", class_name(*class)))
+        .collect();
+    let texts = module.texts.iter().map(|text| {
+        let literal = text::string_literal(text);
+        format!("{{(const uint8_t *){literal}, {}}}", text.len())
+    });
+    let tables = [
+        (
+            "areas",
+            "area",
+            "Where the runtime finds the devices.",
+            areas,
+        ),
+        ("ranges", "range", "Devices that the model has.", ranges),
+        (
+            "aliases",
+            "alias",
+            "Special registers that are other names of index registers.",
+            aliases,
+        ),
+        ("texts", "text", "Texts of the program.", texts.collect()),
+    ];
+    for (member, ty, what, rows) in tables {
+        layout.extend(table(out, (member, ty, what), name, &rows));
+    }
+}
+
 /// Writes one table; returns the members of the layout that name it.
 fn table(
     out: &mut String,
@@ -162,35 +144,15 @@ fn table(
     ]
 }
 
-/// Areas: arrays, and relays or words of consecutive numbers that stand side by side.
-fn areas(name: &str, fields: &Storage) -> Vec<String> {
-    let mut order: Vec<(usize, &Field)> = fields.in_sections().into_iter().enumerate().collect();
-    order.sort_by_key(|(_, f)| (rank(f.class), f.first));
-    let mut rows: Vec<(usize, &Field, u32)> = Vec::new();
-    for (place, field) in order {
-        match rows.last_mut() {
-            // Elements of one type that follow each other in the struct have no gap between them.
-            Some((last, first, count))
-                if *last + 1 == place
-                    && first.class == field.class
-                    && first.kind == field.kind
-                    && first.grid.is_none()
-                    && field.grid.is_none()
-                    && first.first + *count == field.first =>
-            {
-                *last = place;
-                *count += field.count;
-            }
-            _ => rows.push((place, field, field.count)),
-        }
-    }
-    rows.iter()
-        .map(|(_, field, count)| {
+/// The rows of the areas.
+fn areas(name: &str, storage: &Storage) -> Vec<String> {
+    let areas = areas::areas(storage).into_iter();
+    areas
+        .map(|Area { field, count }| {
             let mut member = String::new();
             field.name(&mut member);
-            let (columns, kept) = field
-                .grid
-                .map_or((1, 1), |grid| (grid.columns, grid.stored_columns));
+            let grid = field.grid.map(|grid| (grid.columns, grid.stored_columns));
+            let (columns, kept) = grid.unwrap_or((1, 1));
             format!(
                 "{{{}, {}, {}, {count}, {columns}, {kept}, offsetof({name}_plc, {member})}}",
                 class_name(field.class),
@@ -198,29 +160,5 @@ fn areas(name: &str, fields: &Storage) -> Vec<String> {
                 field.first,
             )
         })
-        .collect()
-}
-
-/// The model's devices, neighbouring ranges joined.
-fn ranges(module: &Module) -> Vec<String> {
-    let mut joined: Vec<(DeviceClass, u32, u32)> = Vec::new();
-    let devices = module
-        .model
-        .ranges
-        .iter()
-        .filter(|r| rank(r.class) != usize::MAX);
-    let mut sorted: Vec<_> = devices.collect();
-    sorted.sort_by_key(|r| (rank(r.class), r.first));
-    for range in sorted {
-        match joined.last_mut() {
-            Some((class, _, last)) if *class == range.class && *last + 1 == range.first => {
-                *last = range.last
-            }
-            _ => joined.push((range.class, range.first, range.last)),
-        }
-    }
-    joined
-        .iter()
-        .map(|(class, first, last)| format!("{{{}, {first}, {last}}}", class_name(*class)))
         .collect()
 }

@@ -163,12 +163,7 @@ impl Generator<'_> {
             Expr::F32(value) => float_literal(value),
             Expr::Temp(temp) => self.temp(temp),
             Expr::ReadBit(place) => self.read_bit(place),
-            Expr::ReadWordBit(place, bit) => {
-                let word = self.read_word(place);
-                let function = self.word_function("bit");
-                let bit = Literal::u8_unsuffixed(bit);
-                Code::atom(quote!(#function(#word, #bit)))
-            }
+            Expr::ReadWordBit(place, bit) => self.read_word_bit(place, bit),
             Expr::ReadWord(place) => self.read_word(place),
             Expr::ReadPair(place) => self.read_pair(place),
             Expr::ReadFloat(place) => self.read_float(place),
@@ -217,13 +212,7 @@ impl Generator<'_> {
                 let a = self.typed(a).receiver();
                 Code::atom(quote!(#a.wrapping_neg()))
             }
-            Expr::Widen(a) => {
-                if let Expr::I16(value) = *self.module.expr(a) {
-                    return literal32(value.into(), typed);
-                }
-                let a = self.typed(a);
-                Code::atom(quote!(i32::from(#a)))
-            }
+            Expr::Widen(a) => self.widen(a, typed),
             Expr::Narrow(a) => {
                 let a = self.typed(a).operand_of("as");
                 Code::shaped(quote!(#a as i16), Shape::Cast)
@@ -239,6 +228,21 @@ impl Generator<'_> {
             }
             Expr::InRange { place, count } => self.in_range(place, count),
         }
+    }
+
+    fn read_word_bit(&mut self, place: Place, bit: u8) -> Code {
+        let word = self.read_word(place);
+        let function = self.word_function("bit");
+        let bit = Literal::u8_unsuffixed(bit);
+        Code::atom(quote!(#function(#word, #bit)))
+    }
+
+    fn widen(&mut self, a: ExprId, typed: bool) -> Code {
+        if let Expr::I16(value) = *self.module.expr(a) {
+            return literal32(value.into(), typed);
+        }
+        let a = self.typed(a);
+        Code::atom(quote!(i32::from(#a)))
     }
 
     /// A comparison, with a constant on the right.

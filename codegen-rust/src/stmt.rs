@@ -92,23 +92,6 @@ impl Generator<'_> {
                 let edge = self.edge(&Node::Stmt(stmt));
                 self.bind(*out, edge)
             }
-            Stmt::WriteBit(place, value) => self.write_bit(*place, *value),
-            Stmt::WriteWordBit(place, bit, value) => self.write_word_bit(*place, *bit, *value),
-            Stmt::WriteWord(place, value) => self.write_word(*place, *value),
-            Stmt::WritePair(place, value) => self.write_pair(*place, *value),
-            Stmt::WriteFloat(place, value) => self.write_float(*place, *value),
-            Stmt::WriteNibbles {
-                place,
-                digits,
-                value,
-            } => self.write_nibbles(*place, *digits, *value),
-            Stmt::TimerGoesOn { number, kind } => {
-                let kind = self.timer_kind(self.coils.kind(*number, *kind));
-                match self.storage.cell(&quote!(plc), DeviceClass::T, *number) {
-                    Some(cell) => quote!(#cell.go_on(#kind, &plc.sys);),
-                    None => TokenStream::new(),
-                }
-            }
             Stmt::SetCell(cell, value) => {
                 let (cell, value) = (self.cell(*cell), self.expr(*value));
                 quote!(plc.#cell = #value;)
@@ -118,43 +101,10 @@ impl Generator<'_> {
                 let value = self.expr(*value);
                 quote!(plc.#table[#index as usize] = #value;)
             }
-            Stmt::Timer {
-                number,
-                kind,
-                drive,
-                preset,
-            } => self.timer(*number, *kind, *drive, *preset),
-            Stmt::Counter16 {
-                number,
-                drive,
-                preset,
-            } => self.counter16(*number, *drive, *preset),
-            Stmt::Counter32 {
-                number,
-                drive,
-                down,
-                preset,
-            } => self.counter32(*number, *drive, *down, *preset),
-            Stmt::Count {
-                number,
-                down,
-                preset,
-            } => self.count(*number, *down, *preset),
-            Stmt::TimerAt {
-                place,
-                drive,
-                preset,
-            } => self.indexed_coil(OUT_TIMER, *place, *drive, *preset),
-            Stmt::Counter16At {
-                place,
-                drive,
-                preset,
-            } => self.indexed_coil(OUT_COUNTER, *place, *drive, *preset),
             Stmt::SetFlag(flag, value) => {
                 let (flag, value) = (self.flag(*flag), self.expr(*value));
                 quote!(plc.#flag = #value;)
             }
-            Stmt::Reset(place) => self.reset(*place),
             Stmt::CallSub(root) => self.call_sub(*root as usize),
             Stmt::Return => self.return_statement(),
             Stmt::Goto(label) => {
@@ -197,12 +147,102 @@ impl Generator<'_> {
             }
             Stmt::Clear { latched: false } => quote!(plc.clear_general();),
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
+            Stmt::WriteBit(..)
+            | Stmt::WriteWordBit(..)
+            | Stmt::WriteWord(..)
+            | Stmt::WritePair(..)
+            | Stmt::WriteFloat(..)
+            | Stmt::WriteNibbles { .. }
+            | Stmt::Timer { .. }
+            | Stmt::TimerAt { .. }
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16 { .. }
+            | Stmt::Counter16At { .. }
+            | Stmt::Counter32 { .. }
+            | Stmt::Count { .. }
+            | Stmt::Reset(_) => self.device_statement(stmt),
             // Written as nodes.
             Stmt::Network(_)
             | Stmt::If { .. }
             | Stmt::For { .. }
             | Stmt::Repeat { .. }
             | Stmt::Parts(_) => TokenStream::new(),
+        }
+    }
+
+    /// A statement that writes to devices; nothing for any other.
+    fn device_statement(&mut self, stmt: &Stmt) -> TokenStream {
+        match stmt {
+            Stmt::WriteBit(place, value) => self.write_bit(*place, *value),
+            Stmt::WriteWordBit(place, bit, value) => self.write_word_bit(*place, *bit, *value),
+            Stmt::WriteWord(place, value) => self.write_word(*place, *value),
+            Stmt::WritePair(place, value) => self.write_pair(*place, *value),
+            Stmt::WriteFloat(place, value) => self.write_float(*place, *value),
+            Stmt::WriteNibbles {
+                place,
+                digits,
+                value,
+            } => self.write_nibbles(*place, *digits, *value),
+            Stmt::TimerGoesOn { number, kind } => {
+                let kind = self.timer_kind(self.coils.kind(*number, *kind));
+                match self.storage.cell(&quote!(plc), DeviceClass::T, *number) {
+                    Some(cell) => quote!(#cell.go_on(#kind, &plc.sys);),
+                    None => TokenStream::new(),
+                }
+            }
+            Stmt::Timer {
+                number,
+                kind,
+                drive,
+                preset,
+            } => self.timer(*number, *kind, *drive, *preset),
+            Stmt::Counter16 {
+                number,
+                drive,
+                preset,
+            } => self.counter16(*number, *drive, *preset),
+            Stmt::Counter32 {
+                number,
+                drive,
+                down,
+                preset,
+            } => self.counter32(*number, *drive, *down, *preset),
+            Stmt::Count {
+                number,
+                down,
+                preset,
+            } => self.count(*number, *down, *preset),
+            Stmt::TimerAt {
+                place,
+                drive,
+                preset,
+            } => self.indexed_coil(OUT_TIMER, *place, *drive, *preset),
+            Stmt::Counter16At {
+                place,
+                drive,
+                preset,
+            } => self.indexed_coil(OUT_COUNTER, *place, *drive, *preset),
+            Stmt::Reset(place) => self.reset(*place),
+            Stmt::Network(_)
+            | Stmt::Let(..)
+            | Stmt::Edge { .. }
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::If { .. }
+            | Stmt::For { .. }
+            | Stmt::Repeat { .. }
+            | Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Call { .. }
+            | Stmt::Fetch { .. }
+            | Stmt::Send { .. }
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. } => TokenStream::new(),
         }
     }
 

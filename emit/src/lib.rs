@@ -10,6 +10,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
+pub mod areas;
 pub mod bounds;
 pub mod comments;
 pub mod cycle;

@@ -396,6 +396,34 @@ impl<'m> Storage<'m> {
     }
 }
 
+/// How much of the program's struct the devices of a class take, in bytes on a 32-bit machine.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Memory {
+    /// The class.
+    pub class: DeviceClass,
+    /// How many are stored.
+    pub devices: u32,
+    /// Their bytes, without what aligns fields.
+    pub bytes: u32,
+}
+
+/// What the devices of a program take, by their classes; the rest of the struct is private.
+pub fn memory(module: &Module) -> Vec<Memory> {
+    let storage = Storage::new(module);
+    let of = |class: DeviceClass| {
+        let fields = storage.of_class(class);
+        let bytes = |field: &Field| field.kind.size().0 * field.room();
+        let devices = |field: &Field| field.numbers().count() as u32;
+        Memory {
+            class,
+            devices: fields.iter().map(devices).sum(),
+            bytes: fields.iter().map(bytes).sum(),
+        }
+    };
+    let all = DeviceClass::ALL.into_iter().map(of);
+    all.filter(|memory| memory.devices > 0).collect()
+}
+
 /// Which of the fields of one class holds a device, by number.
 fn fields_by_number(fields: &[Field]) -> Vec<u32> {
     let end = fields.last().map_or(0, Field::end);
