@@ -226,7 +226,7 @@ fn bytes<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<u32, D::Error> {
 }
 
 /// Fields of `rungc_hal` and `rungc_board` that a function may stand for, and what the function is.
-pub const FUNCTIONS: [(&str, &str); 13] = [
+pub const FUNCTIONS: [(&str, &str); 17] = [
     ("init", "void NAME(void)"),
     (
         "input",
@@ -254,6 +254,22 @@ pub const FUNCTIONS: [(&str, &str); 13] = [
         "bool NAME(void *context, uint8_t channel, int16_t *value)",
     ),
     ("hold_pulses", "void NAME(void *context, bool hold)"),
+    (
+        "set_line",
+        "void NAME(void *context, uint8_t port, const rungc_line_format *format)",
+    ),
+    (
+        "receive",
+        "bool NAME(void *context, uint8_t port, uint32_t now_us, rungc_received *received)",
+    ),
+    (
+        "send",
+        "bool NAME(void *context, uint8_t port, uint8_t byte, uint32_t now_us)",
+    ),
+    (
+        "unsent",
+        "uint16_t NAME(void *context, uint8_t port, uint32_t now_us)",
+    ),
     ("now_us", "uint32_t NAME(void *context)"),
     ("next_edge", "bool NAME(void *context, rungc_edge *edge)"),
     (

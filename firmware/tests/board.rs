@@ -52,7 +52,7 @@ fn pins_have_octal_numbers() {
 #[test]
 fn mistakes_are_named() {
     for (from, to, said) in [
-        ("thumbv7m", "thumbv9", "board.toml:2:10: no such target"),
+        ("thumbv7m", "thumbv9", "board.toml:2:10: unknown target"),
         (
             "hz = 25_000_000",
             "hz = 100",
@@ -64,7 +64,7 @@ fn mistakes_are_named() {
             "SysTick has 2 to 16 777 216",
         ),
         ("hz = ", "herz = 1\nhz = ", "unknown field `herz`"),
-        ("length = 16384", "length = 0", "`ram` has no bytes"),
+        ("length = 16384", "length = 0", "`ram` is empty"),
         ("\n[clock]", "[clock]\nhz = 1\n[clock]", "duplicate key"),
     ] {
         let error = read(&DESK.replacen(from, to, 1)).unwrap_err();
@@ -83,13 +83,13 @@ fn mistakes_are_named() {
         ("[outputs]\nY0 = { at = 4, on = 1 }", "an output has either"),
         (
             "[functions]\nblink = \"f\"",
-            "no such function; there are init",
+            "unknown function; available: init",
         ),
         (
             "[functions]\ninput = \"2f\"",
             "`2f` is not the name of a C function",
         ),
-        ("[functions]\ninput = \"f\"", "no `sources` that have them"),
+        ("[functions]\ninput = \"f\"", "`sources` is missing"),
         ("[interrupts]\nTIM2 = \"f\"", "a number from 0 to 479"),
     ] {
         let error = read(&format!("{DESK}\n{added}\n")).unwrap_err();
