@@ -1,4 +1,4 @@
-//! `rungc run --modbus-tcp` and similar options, with clients of our own and with pymodbus.
+//! `rungc run --modbus-tcp` and similar options, with clients of our own, pymodbus and pymcprotocol.
 
 mod common;
 
@@ -128,19 +128,19 @@ fn python_with(module: &str) -> Option<PathBuf> {
     found.then(|| python.into())
 }
 
-#[test]
-fn pymodbus_reads_and_writes() {
-    let Some(python) = python_with("pymodbus") else {
+/// Runs a client of `tests/clients`, if there is a Python with the module that it needs.
+fn reads_and_writes(module: &str, server: &str, client: &str) {
+    let Some(python) = python_with(module) else {
         eprintln!(
-            "skipped: there is no pymodbus (pip install pymodbus; RUNGC_PYTHON names a Python that has it)"
+            "skipped: there is no {module} (pip install {module}; RUNGC_PYTHON names a Python that has it)"
         );
         return;
     };
     let folder = folder(&[("p.il", PROGRAM.as_bytes())]);
-    let run = Run::with(folder.path(), &["--modbus-tcp"]);
-    let client = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/clients/modbus_tcp.py");
+    let run = Run::with(folder.path(), &[server]);
+    let clients = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/clients");
     let output = Command::new(python)
-        .arg(client)
+        .arg(clients.join(client))
         .arg(run.ports[0].to_string())
         .output()
         .unwrap();
@@ -150,4 +150,14 @@ fn pymodbus_reads_and_writes() {
         text(&output.stdout),
         text(&output.stderr)
     );
+}
+
+#[test]
+fn pymodbus_reads_and_writes() {
+    reads_and_writes("pymodbus", "--modbus-tcp", "modbus_tcp.py");
+}
+
+#[test]
+fn pymcprotocol_reads_and_writes() {
+    reads_and_writes("pymcprotocol", "--mc", "mc.py");
 }
