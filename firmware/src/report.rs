@@ -63,7 +63,7 @@ pub struct Scan {
     pub operations: u64,
     /// What comes on top each time that it happens.
     pub events: Vec<EventCost>,
-    /// Loops that run as often as a device says; one round of each is counted.
+    /// Loops that run as often as a device says; one iteration of each is counted.
     pub loops: Vec<LoopCost>,
     /// Steps where jumps back begin; they are not counted.
     pub jumps_back: Vec<u32>,
@@ -80,14 +80,14 @@ pub struct EventCost {
     pub operations: u64,
 }
 
-/// What each further round of a loop costs.
+/// What each further iteration of a loop costs.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct LoopCost {
     /// Step of its network.
     pub step: u32,
-    /// Steps of a round.
+    /// Steps of one iteration.
     pub steps: u64,
-    /// Operations of a round.
+    /// Operations of one iteration.
     pub operations: u64,
 }
 
