@@ -6,7 +6,7 @@ use crate::text;
 use crate::writer::{Memory, Writer, c_type, function_name};
 use rungc_emit::comments;
 use rungc_emit::temps::Home;
-use rungc_ir::node::{ExprId, Stmt, TempId};
+use rungc_ir::node::{ExprId, LabelId, Stmt, TempId};
 use rungc_rt::EdgeKind;
 use std::fmt::Write;
 
@@ -47,7 +47,34 @@ impl Writer<'_, '_> {
         }
     }
 
+    /// Writes a statement, and beside it the comment on the device that it writes.
     pub(crate) fn stmt(&mut self, page: &mut Page, stmt: &Stmt) {
+        let code = self.code(page, stmt);
+        if !code.is_empty() {
+            let beside = comments::written(stmt)
+                .and_then(|(class, number)| self.fields.comment(class, number));
+            page.commented(&code, beside);
+        }
+    }
+
+    fn watch(&mut self, page: &mut Page, steps: u32, at: u32) {
+        let (name, at) = (&self.module.name, at as u16);
+        page.open(&format!("if ({name}_out_of_time(plc, {steps}u, {at}u)) {{"));
+        page.line(self.leave());
+        page.close();
+    }
+
+    fn goto(&self, label: LabelId) -> String {
+        let root = self.root();
+        let state = self.plan.state(root, label);
+        state.map_or(String::new(), |state| {
+            format!("return {};", self.state_name(root, state))
+        })
+    }
+
+    /// The last line of a statement; those before it are written.
+    fn code(&mut self, page: &mut Page, stmt: &Stmt) -> String {
+        let name = &self.module.name;
         let mut code = String::with_capacity(text::WIDTH);
         match stmt {
             Stmt::Let(temp, value) => {
@@ -82,18 +109,8 @@ impl Writer<'_, '_> {
                 code.push_str("(plc);");
             }
             Stmt::Return => code.push_str(self.leave()),
-            Stmt::Watch { steps, at } => {
-                let (name, at) = (&self.module.name, *at as u16);
-                page.open(&format!("if ({name}_out_of_time(plc, {steps}u, {at}u)) {{"));
-                page.line(self.leave());
-                page.close();
-            }
-            Stmt::Goto(label) => {
-                let root = self.root();
-                if let Some(state) = self.plan.state(root, *label) {
-                    code = format!("return {};", self.state_name(root, state));
-                }
-            }
+            Stmt::Watch { steps, at } => self.watch(page, *steps, *at),
+            Stmt::Goto(label) => code = self.goto(*label),
             Stmt::Fetch {
                 from,
                 wide,
@@ -114,18 +131,15 @@ impl Writer<'_, '_> {
             } => self.send(&mut code, to, (*wide, *step), *value),
             Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
             Stmt::Fault { code: fault, step } => {
-                code = format!(
-                    "{}_fault(plc, {fault}, {});",
-                    self.module.name, *step as u16
-                );
+                code = format!("{name}_fault(plc, {fault}, {});", *step as u16);
             }
             Stmt::Stop => {
                 page.line("plc->error.stop = PLC_STOP_M8037;");
-                code = format!("{}_set_running(plc, false);", self.module.name);
+                code = format!("{name}_set_running(plc, false);");
             }
             Stmt::Clear { latched } => {
                 let what = if *latched { "latched" } else { "general" };
-                code = format!("{}_clear_{what}(plc);", self.module.name);
+                code = format!("{name}_clear_{what}(plc);");
             }
             Stmt::WriteBit(..)
             | Stmt::WriteWordBit(..)
@@ -148,10 +162,6 @@ impl Writer<'_, '_> {
             | Stmt::Repeat { .. }
             | Stmt::Parts(_) => {}
         }
-        if !code.is_empty() {
-            let beside = comments::written(stmt)
-                .and_then(|(class, number)| self.fields.comment(class, number));
-            page.commented(&code, beside);
-        }
+        code
     }
 }

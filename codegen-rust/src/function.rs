@@ -111,8 +111,7 @@ impl Generator<'_> {
     /// What a function returns that ends by a jump or a return.
     fn last_jump(&mut self, function: &Function, last: &Node) -> TokenStream {
         if let Node::Stmt(Stmt::Goto(label)) = last {
-            let state = self.plan.state(function.root, *label);
-            let state = state.map(|state| self.state_name(function.root, state));
+            let state = self.label_state(*label);
             return quote!(Some(#state));
         }
         if function.flow == Flow::Void {

@@ -5,13 +5,13 @@ use crate::expr::literal32;
 use crate::format::Body;
 use crate::generate::Generator;
 use crate::storage::PrintStorage;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::comments;
 use rungc_emit::edges::{Asker, asker};
 use rungc_emit::plan::{Flow, Node, Plan, Stations};
 use rungc_emit::stations;
-use rungc_ir::node::{Expr, ExprId, Stmt};
+use rungc_ir::node::{Expr, ExprId, LabelId, Stmt};
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
@@ -108,9 +108,7 @@ impl Generator<'_> {
             Stmt::CallSub(root) => self.call_sub(*root as usize),
             Stmt::Return => self.return_statement(),
             Stmt::Goto(label) => {
-                let root = self.plan.functions[self.function].root;
-                let state = self.plan.state(root, *label);
-                let state = state.map(|state| self.state_name(root, state));
+                let state = self.label_state(*label);
                 quote!(return Some(#state);)
             }
             Stmt::Call { .. } => self.call(stmt),
@@ -168,6 +166,13 @@ impl Generator<'_> {
             | Stmt::Repeat { .. }
             | Stmt::Parts(_) => TokenStream::new(),
         }
+    }
+
+    /// The constant that stands for the part with this label.
+    pub fn label_state(&self, label: LabelId) -> Option<Ident> {
+        let root = self.plan.functions[self.function].root;
+        let state = self.plan.state(root, label)?;
+        Some(self.state_name(root, state))
     }
 
     /// A statement that writes to devices; nothing for any other.
