@@ -1,6 +1,6 @@
 //! The CAN card of H1U and H2U: frames of the program's own, by CANTX and CANRX (h1u-h2u-programming §4.3.9).
 //!
-//! The card is a serial port of its own, [`CAN_PORT`], whose other end speaks SLCAN, as USB adapters do (LAWICEL, CANable; on Linux any of them is a
+//! The card is a separate serial port, [`CAN_PORT`], whose other end speaks SLCAN, as USB adapters do (LAWICEL, CANable; on Linux any of them is a
 //! tty): `tiiildd…` and `Tiiiiiiiildd…` are frames with identifiers of 11 and 29 bits, in hexadecimal digits with l bytes of data, and a carriage
 //! return ends them. Its bit rate and whether the bus is open are the adapter's.
 //!
@@ -12,7 +12,7 @@ use super::{Cut, Frame, hex_digits};
 /// Number of the CAN card among the ports of H1U and H2U, after COM3.
 pub const CAN_PORT: u8 = 4;
 
-/// After so many microseconds without its frame an instruction lets the next one wait.
+/// After this many microseconds without its frame, an instruction lets the next one wait.
 pub const TURN_US: u32 = 100_000;
 
 /// Most bytes of data.
@@ -205,7 +205,7 @@ mod tests {
         assert_eq!(turn.visit(2, 0x201, 3000 + TURN_US), None);
         turn.receive(frame(0x201));
         assert_eq!(turn.visit(2, 0x201, 4000 + TURN_US), Some(frame(0x201)));
-        // Alone it goes on waiting.
+        // Alone, it keeps waiting.
         turn.receive(frame(0x201));
         assert_eq!(turn.visit(2, 0x201, 5000 + TURN_US), Some(frame(0x201)));
     }
