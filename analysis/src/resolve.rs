@@ -11,8 +11,6 @@ mod steps;
 mod suggest;
 mod wrong;
 
-pub use operands::constant_value;
-
 use mnemonic::{Fit, Match};
 use rungc_catalogue::{Basic, Form, Found, Inst, Lower, Param};
 use rungc_models::{ErrorNumbers, Model};

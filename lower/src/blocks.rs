@@ -32,17 +32,20 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         RtFn::Fmov => register(1) && count(2, WORDS),
         RtFn::Mean | RtFn::MeanSum => register(0) && count(2, WORDS),
         RtFn::Deco => {
-            let bits = kind(1).and_then(device);
+            let bits = kind(1).and_then(OperandKind::device);
             register(0) && bits.is_some_and(|first| !is_word(first.class)) && count(2, BITS.ilog2())
         }
-        RtFn::Zrst => match (kind(0).and_then(device), kind(1).and_then(device)) {
+        RtFn::Zrst => match (
+            kind(0).and_then(OperandKind::device),
+            kind(1).and_then(OperandKind::device),
+        ) {
             (Some(first), Some(last)) => {
                 first.class == last.class && last.number.saturating_sub(first.number) < BITS
             }
             _ => false,
         },
         RtFn::Sftl | RtFn::Sftr => {
-            let bits = |i| kind(i).and_then(device).is_some();
+            let bits = |i| kind(i).and_then(OperandKind::device).is_some();
             let length = kind(2).and_then(constant).unwrap_or(0);
             bits(0) && bits(1) && count(2, BITS) && count(3, length.max(0) as u32)
         }
@@ -56,25 +59,11 @@ fn is_word(class: DeviceClass) -> bool {
     matches!(class, T | C | D | R | V | Z | ER)
 }
 
-/// A device without an index.
-fn device(operand: &OperandKind) -> Option<Device> {
-    match *operand {
-        OperandKind::Device(device, None) => Some(device),
-        OperandKind::Device(..)
-        | OperandKind::WordBit(..)
-        | OperandKind::Nibbles(..)
-        | OperandKind::Decimal(..)
-        | OperandKind::Hex(..)
-        | OperandKind::Float(_)
-        | OperandKind::Text(_)
-        | OperandKind::Buffer { .. }
-        | OperandKind::Unreadable(_) => None,
-    }
-}
-
 /// A data register without an index.
 fn register(operand: &OperandKind) -> Option<Device> {
-    device(operand).filter(|device| matches!(device.class, DeviceClass::D | DeviceClass::R))
+    operand
+        .device()
+        .filter(|device| matches!(device.class, DeviceClass::D | DeviceClass::R))
 }
 
 impl Lowerer<'_> {
@@ -112,7 +101,7 @@ impl Lowerer<'_> {
 
     /// The device that operand `i` names.
     fn device_of(&self, i: usize) -> Option<Device> {
-        self.operand(i).and_then(device)
+        self.operand(i).and_then(OperandKind::device)
     }
 
     /// A condition that never holds where `count` devices from one on do not all exist.

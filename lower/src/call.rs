@@ -336,7 +336,7 @@ pub(super) fn extents<'o>(
     operands: &'o [Operand],
 ) -> impl Iterator<Item = Option<u32>> + use<'o> {
     let (params, form) = (resolution.params, resolution.form);
-    let constants: Vec<Option<i64>> = operands.iter().map(|o| constant(&o.kind)).collect();
+    let constants: Vec<Option<i64>> = operands.iter().map(|o| o.kind.constant()).collect();
     operands.iter().enumerate().map(move |(i, operand)| {
         let param = params.get(i)?;
         if let Extent::Through(last) = param.extent {
@@ -354,23 +354,6 @@ fn through(first: &OperandKind, last: &OperandKind) -> Option<u32> {
             Some(last.number.saturating_sub(first.number).saturating_add(1))
         }
         _ => None,
-    }
-}
-
-/// The value of a constant without an index.
-pub(super) fn constant(operand: &OperandKind) -> Option<i64> {
-    match *operand {
-        OperandKind::Decimal(value, None) => Some(value),
-        OperandKind::Hex(value, None) => i64::try_from(value).ok(),
-        OperandKind::Device(..)
-        | OperandKind::WordBit(..)
-        | OperandKind::Nibbles(..)
-        | OperandKind::Decimal(..)
-        | OperandKind::Hex(..)
-        | OperandKind::Float(_)
-        | OperandKind::Text(_)
-        | OperandKind::Buffer { .. }
-        | OperandKind::Unreadable(_) => None,
     }
 }
 

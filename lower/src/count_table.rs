@@ -443,17 +443,5 @@ impl Lowerer<'_> {
 
 /// A constant that is at least 0.
 fn constant(operand: &OperandKind) -> Option<u32> {
-    match *operand {
-        OperandKind::Decimal(value, None) => u32::try_from(value).ok(),
-        OperandKind::Hex(value, None) => u32::try_from(value).ok(),
-        OperandKind::Device(..)
-        | OperandKind::WordBit(..)
-        | OperandKind::Nibbles(..)
-        | OperandKind::Decimal(..)
-        | OperandKind::Hex(..)
-        | OperandKind::Float(_)
-        | OperandKind::Text(_)
-        | OperandKind::Buffer { .. }
-        | OperandKind::Unreadable(_) => None,
-    }
+    u32::try_from(operand.constant()?).ok()
 }

@@ -1,7 +1,6 @@
 //! The serial ports that a program uses or sets up, or that a host opens.
 
 use super::Lowerer;
-use super::call::constant;
 use rungc_rt::comm::{CAN_PORT, PortWiring};
 use rungc_rt::{Needs, RtFn};
 use rungc_syntax::{Device, DeviceClass, OperandKind};
@@ -21,7 +20,7 @@ impl Lowerer<'_> {
             .instr()
             .operands
             .last()
-            .and_then(|operand| constant(&operand.kind));
+            .and_then(|operand| operand.kind.constant());
         let named = named.and_then(|number| i32::try_from(number).ok());
         let masters = ports.all().iter().filter(|wiring| wiring.sends != 0);
         let masters = masters.map(|wiring| wiring.number);
@@ -41,7 +40,7 @@ impl Lowerer<'_> {
     fn takes_work_area(&self) -> bool {
         const LINK_MASTER: i64 = 2;
         const FREE: i64 = 5;
-        let protocol = self.operand(0).and_then(constant);
+        let protocol = self.operand(0).and_then(OperandKind::constant);
         protocol.is_none_or(|word| matches!(word >> 8, LINK_MASTER | FREE))
     }
 

@@ -226,17 +226,5 @@ impl Lowerer<'_> {
 
 /// The inputs that the bits of an operand name: all that there are, if only a run knows.
 fn mask_of(kind: &OperandKind) -> u16 {
-    match *kind {
-        OperandKind::Decimal(mask, None) => mask as u16,
-        OperandKind::Hex(mask, None) => mask as u16,
-        OperandKind::Device(..)
-        | OperandKind::WordBit(..)
-        | OperandKind::Nibbles(..)
-        | OperandKind::Decimal(..)
-        | OperandKind::Hex(..)
-        | OperandKind::Float(_)
-        | OperandKind::Text(_)
-        | OperandKind::Buffer { .. }
-        | OperandKind::Unreadable(_) => u16::MAX,
-    }
+    kind.constant().map_or(u16::MAX, |mask| mask as u16)
 }

@@ -11,7 +11,7 @@ use rungc_catalogue::Basic;
 use rungc_ir::node::{EdgeId, Expr};
 use rungc_rt::EdgeKind;
 use rungc_rt::special::M_TRANSFER_OFF;
-use rungc_syntax::{Device, DeviceClass, OperandKind};
+use rungc_syntax::{Device, DeviceClass};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Annunciators: S devices that are not states.
@@ -33,18 +33,9 @@ pub(super) struct Steps {
 
 /// The S device that an instruction names first.
 fn state(resolved: &Resolved, i: usize) -> Option<u32> {
-    match resolved.program.instrs.get(i)?.operands.first()?.kind {
-        OperandKind::Device(device, None) if device.class == DeviceClass::S => Some(device.number),
-        OperandKind::Device(..)
-        | OperandKind::WordBit(..)
-        | OperandKind::Nibbles(..)
-        | OperandKind::Decimal(..)
-        | OperandKind::Hex(..)
-        | OperandKind::Float(_)
-        | OperandKind::Text(_)
-        | OperandKind::Buffer { .. }
-        | OperandKind::Unreadable(_) => None,
-    }
+    let operand = resolved.program.instrs.get(i)?.operands.first()?;
+    let device = operand.kind.device()?;
+    (device.class == DeviceClass::S).then_some(device.number)
 }
 
 impl Steps {

@@ -43,21 +43,9 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     }
 }
 
-/// The value of a constant without an index.
+/// The 32 bits of a constant without an index.
 pub(super) fn constant(operand: &OperandKind) -> Option<i32> {
-    match *operand {
-        OperandKind::Decimal(value, None) => Some(value as i32),
-        OperandKind::Hex(value, None) => Some(value as u32 as i32),
-        OperandKind::Device(..)
-        | OperandKind::WordBit(..)
-        | OperandKind::Nibbles(..)
-        | OperandKind::Decimal(..)
-        | OperandKind::Hex(..)
-        | OperandKind::Float(_)
-        | OperandKind::Text(_)
-        | OperandKind::Buffer { .. }
-        | OperandKind::Unreadable(_) => None,
-    }
+    operand.constant().map(|value| value as i32)
 }
 
 /// Whether it is a register that holds floats in pairs.

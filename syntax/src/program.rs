@@ -209,6 +209,25 @@ pub enum OperandKind {
     Unreadable(Option<Device>),
 }
 
+impl OperandKind {
+    /// The value of a constant without an index.
+    pub fn constant(&self) -> Option<i64> {
+        match *self {
+            OperandKind::Decimal(value, None) => Some(value),
+            OperandKind::Hex(value, None) => i64::try_from(value).ok(),
+            _ => None,
+        }
+    }
+
+    /// A device without an index.
+    pub fn device(&self) -> Option<Device> {
+        match *self {
+            OperandKind::Device(device, None) => Some(device),
+            _ => None,
+        }
+    }
+}
+
 impl fmt::Display for OperandKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let index = match self {

@@ -1,7 +1,6 @@
 //! Which devices each instruction reads and writes.
 
 use super::Code;
-use crate::resolve::constant_value;
 use rungc_catalogue::{Extent, Param, Role, Shape};
 use rungc_syntax::{Classes, Device, DeviceClass, Operand, OperandKind, Span};
 
@@ -92,7 +91,7 @@ fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) ->
 
 /// How many values an operand takes, if that can be known.
 fn values(operands: &[Operand], operand: &Operand, param: &Param) -> Option<u32> {
-    let constant = |operand: &Operand| constant_value(&operand.kind);
+    let constant = |operand: &Operand| operand.kind.constant();
     match param.extent {
         Extent::One => Some(1),
         Extent::Count(count) => Some(count),

@@ -2,7 +2,6 @@
 
 use super::Code;
 use super::accesses::Access;
-use crate::resolve::constant_value;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_models::special::{Missed, Reason, Special, Status};
@@ -100,7 +99,7 @@ fn leaves_default(code: &Code, i: usize, row: &Special) -> bool {
     let Some(inst) = code.inst(i) else {
         return false;
     };
-    let source = || constant_value(&code.instr(i).operands.first()?.kind);
+    let source = || code.instr(i).operands.first()?.kind.constant();
     match code.lower(i) {
         Some(Lower::Basic(Basic::Rst)) => row.default == 0,
         Some(Lower::Move) => source() == Some(row.default.into()),

@@ -1,7 +1,6 @@
 //! Operands that make an instruction fail, or do less than it says, each time it runs.
 
 use super::Code;
-use crate::resolve::constant_value;
 use rungc_catalogue::{ArithOp, Lower};
 use rungc_syntax::{Diagnostics, Fix, OperandKind, codes};
 
@@ -28,7 +27,7 @@ fn by_zero(code: &Code, i: usize, fails: bool, out: &mut Diagnostics) {
     };
     let zero = match divisor.kind {
         OperandKind::Float(value) => value == 0.0,
-        ref kind => constant_value(kind) == Some(0),
+        ref kind => kind.constant() == Some(0),
     };
     if !zero {
         return;

@@ -4,7 +4,6 @@
 
 use super::Code;
 use super::accesses::Access;
-use crate::resolve::constant_value;
 use rungc_catalogue::{ArithOp, Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
@@ -139,7 +138,7 @@ fn clears(code: &Code, i: usize) -> bool {
     };
     let zero = || {
         let source = code.instr(i).operands.first();
-        source.and_then(|source| constant_value(&source.kind)) == Some(0)
+        source.and_then(|source| source.kind.constant()) == Some(0)
     };
     match code.lower(i) {
         Some(Lower::Basic(Basic::Rst)) => true,

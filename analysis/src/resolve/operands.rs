@@ -470,23 +470,14 @@ fn extent(operands: &[Operand], param: &Param) -> u32 {
         Extent::Count(count) => count,
         Extent::Operand { i, extra } => operands
             .get(i)
-            .and_then(|operand| constant_value(&operand.kind))
+            .and_then(|operand| operand.kind.constant())
             .and_then(|count| u32::try_from(count + i64::from(extra)).ok())
             .unwrap_or(1),
         Extent::Of(count) => {
-            let constants = operands.iter().map(|operand| constant_value(&operand.kind));
+            let constants = operands.iter().map(|operand| operand.kind.constant());
             let constants: Vec<_> = constants.collect();
             count(&constants).unwrap_or(1)
         }
-    }
-}
-
-/// The value of a constant without an index.
-pub fn constant_value(kind: &OperandKind) -> Option<i64> {
-    match *kind {
-        OperandKind::Decimal(value, None) => Some(value),
-        OperandKind::Hex(value, None) => i64::try_from(value).ok(),
-        _ => None,
     }
 }
 

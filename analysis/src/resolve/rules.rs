@@ -1,6 +1,5 @@
 //! Conditions on an operand in addition to its class and limits: the [`Rule`]s of the catalogue.
 
-use super::operands::constant_value;
 use rungc_catalogue::{Limits, Param, Rule};
 use rungc_models::runs::{FIRST_COUNTER32, is_special};
 use rungc_syntax::{Classes, Device, DeviceClass, Diagnostic, Operand, OperandKind, codes};
@@ -19,13 +18,13 @@ pub(super) fn broken(
     param.rules.iter().find_map(|rule| match *rule {
         Rule::WideLimits(..) | Rule::WordsWith(_) => None,
         Rule::Not(min, max) => {
-            let value = constant_value(&operand.kind)?;
+            let value = operand.kind.constant()?;
             (min..=max)
                 .contains(&value)
                 .then(|| forbidden(operand, min, max))
         }
         Rule::MultipleOf(of) => {
-            let value = constant_value(&operand.kind)?;
+            let value = operand.kind.constant()?;
             (of != 0 && value % of != 0).then(|| no_multiple(operand, of))
         }
         Rule::AtMost(other) => against(other, |v, bound| v > bound, "must not be greater than"),
@@ -63,7 +62,7 @@ pub(super) fn broken(
         }
         Rule::GroupAtMost(other, max) => {
             digits(operands.get(other)?)?;
-            let value = constant_value(&operand.kind)?;
+            let value = operand.kind.constant()?;
             (value > max).then(|| {
                 let message = format!("`{}` is too many groups of bits", operand.kind);
                 codes::LIMITS
@@ -137,7 +136,7 @@ fn compare(
     wrong: fn(i64, i64) -> bool,
     demand: &str,
 ) -> Option<Diagnostic> {
-    let (value, bound) = (constant_value(&operand.kind)?, constant_value(&other.kind)?);
+    let (value, bound) = (operand.kind.constant()?, other.kind.constant()?);
     wrong(value, bound).then(|| disagree(operand, other, demand))
 }
 

@@ -3,7 +3,7 @@
 //! The nearest spelling alone misleads: what the operands fit and what the program waits for at this place count as much. A suggestion
 //! never turns a contact into its opposite.
 
-use super::operands::{constant_value, takes};
+use super::operands::takes;
 use rungc_catalogue::{Basic, Found, Inst};
 use rungc_models::{Model, ModelSet};
 use rungc_syntax::{Device, DeviceClass, Instr, Operand, OperandKind};
@@ -232,7 +232,7 @@ fn glued_operands(text: &str) -> Option<Vec<Operand>> {
             }
         };
         // A constant in front of a relay is the number of digits of a group.
-        let digits = operands.last().and_then(|last| constant_value(&last.kind));
+        let digits = operands.last().and_then(|last| last.kind.constant());
         let kind = match (digits, kind) {
             (Some(digits @ 1..=8), OperandKind::Device(device, None))
                 if matches!(
