@@ -79,7 +79,7 @@ impl Writer<'_, '_> {
             | Stmt::Return
             | Stmt::Parts(_)
             | Stmt::Goto(_)
-            | Stmt::Call { .. }
+            | Stmt::Call(_)
             | Stmt::Fetch { .. }
             | Stmt::Send { .. }
             | Stmt::Fault { .. }

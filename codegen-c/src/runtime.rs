@@ -2,11 +2,11 @@
 
 use crate::expr::{Around, float, integer};
 use crate::writer::Writer;
-use rungc_ir::node::{Arg, CellId, Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{Arg, Call, CellId, Expr, ExprId, Place};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// Where a [`Stmt::Call`] stands, and what it is.
+/// Where a call stands, and what it is.
 struct Site {
     wide: bool,
     drive: Option<ExprId>,
@@ -16,32 +16,20 @@ struct Site {
 }
 
 impl Writer<'_, '_> {
-    /// Writes a [`Stmt::Call`].
-    pub fn runtime_call(&mut self, code: &mut String, stmt: &Stmt) {
-        let Stmt::Call {
-            function,
-            wide,
-            args,
-            drive,
-            signal,
-            slot,
-            step,
-        } = stmt
-        else {
-            return;
-        };
-        let _ = write!(code, "rungc_{}(&map, ", function.name());
+    /// Writes a [`Stmt::Call`](rungc_ir::node::Stmt::Call).
+    pub fn runtime_call(&mut self, code: &mut String, call: &Call) {
+        let _ = write!(code, "rungc_{}(&map, ", call.function.name());
         let site = Site {
-            wide: *wide,
-            drive: *drive,
-            signal: *signal,
-            slot: *slot,
-            step: *step,
+            wide: call.wide,
+            drive: call.drive,
+            signal: call.signal,
+            slot: call.slot,
+            step: call.step,
         };
         self.site(code, &site);
-        for i in 0..function.operands().len() {
+        for i in 0..call.function.operands().len() {
             code.push_str(", ");
-            match args.get(i) {
+            match call.args.get(i) {
                 Some(arg) => self.argument(code, arg),
                 // An operand that was left out.
                 None => code.push_str("rungc_K(0)"),
@@ -50,14 +38,14 @@ impl Writer<'_, '_> {
         code.push_str(");");
     }
 
-    /// Writes a [`Stmt::Fetch`], without what it assigns.
+    /// Writes a [`Stmt::Fetch`](rungc_ir::node::Stmt::Fetch), without what it assigns.
     pub fn fetch(&mut self, code: &mut String, from: &Arg, form: (bool, u32), value: CellId) {
         self.operand_call(code, "fetch", form, from);
         let cell = &self.module.cells[value].name;
         let _ = write!(code, ", &plc->{cell});");
     }
 
-    /// Writes a [`Stmt::Send`].
+    /// Writes a [`Stmt::Send`](rungc_ir::node::Stmt::Send).
     pub fn send(&mut self, code: &mut String, to: &Arg, form: (bool, u32), value: ExprId) {
         self.operand_call(code, "send", form, to);
         code.push_str(", ");

@@ -129,7 +129,7 @@ impl Writer<'_, '_> {
                 value,
                 step,
             } => self.send(&mut code, to, (*wide, *step), *value),
-            Stmt::Call { .. } => self.runtime_call(&mut code, stmt),
+            Stmt::Call(call) => self.runtime_call(&mut code, call),
             Stmt::Fault { code: fault, step } => {
                 code = format!("{name}_fault(plc, {fault}, {});", *step as u16);
             }

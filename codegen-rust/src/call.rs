@@ -4,12 +4,12 @@ use crate::expr::literal32;
 use crate::generate::Generator;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{Arg, CellId, ExprId, Place, Stmt, TempId};
+use rungc_ir::node::{Arg, Call, CellId, ExprId, Place, TempId};
 
 impl Generator<'_> {
     /// A call of an instruction's function.
-    pub fn call(&mut self, stmt: &Stmt) -> TokenStream {
-        let Stmt::Call {
+    pub fn call(&mut self, call: &Call) -> TokenStream {
+        let Call {
             function,
             wide,
             ref args,
@@ -17,10 +17,7 @@ impl Generator<'_> {
             signal,
             slot,
             step,
-        } = *stmt
-        else {
-            return TokenStream::new();
-        };
+        } = *call;
         let call = self.rt("call");
         self.uses.fnc_imports.insert(function.module());
         let module = format_ident!("{}", function.module());

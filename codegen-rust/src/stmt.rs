@@ -111,7 +111,7 @@ impl Generator<'_> {
                 let state = self.label_state(*label);
                 quote!(return Some(#state);)
             }
-            Stmt::Call { .. } => self.call(stmt),
+            Stmt::Call(call) => self.call(call),
             Stmt::Fetch {
                 from,
                 wide,

@@ -51,7 +51,7 @@ pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
         | Stmt::Return
         | Stmt::Parts(_)
         | Stmt::Goto(_)
-        | Stmt::Call { .. }
+        | Stmt::Call(_)
         | Stmt::Fetch { .. }
         | Stmt::Send { .. }
         | Stmt::Fault { .. }

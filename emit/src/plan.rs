@@ -440,7 +440,7 @@ impl<'m> Builder<'m> {
             | Stmt::Count { .. }
             | Stmt::Reset(_)
             | Stmt::CallSub(_)
-            | Stmt::Call { .. }
+            | Stmt::Call(_)
             | Stmt::Fetch { .. }
             | Stmt::Send { .. }
             | Stmt::Fault { .. }

@@ -160,23 +160,15 @@ impl<'m> Machine<'m> {
             Stmt::Return => return Flow::Return,
             Stmt::Parts(parts) => return self.run_parts(parts, hal),
             Stmt::Goto(label) => return Flow::Goto(*label),
-            Stmt::Call {
-                function,
-                wide,
-                args,
-                drive,
-                signal,
-                slot,
-                step,
-            } => {
+            Stmt::Call(call) => {
                 let site = Site {
-                    step: *step,
-                    slot: *slot,
-                    wide: *wide,
-                    drive: drive.is_none_or(|drive| self.on(drive)),
-                    signal: *signal,
+                    step: call.step,
+                    slot: call.slot,
+                    wide: call.wide,
+                    drive: call.drive.is_none_or(|drive| self.on(drive)),
+                    signal: call.signal,
                 };
-                self.call(*function, args, site, hal);
+                self.call(call.function, &call.args, site, hal);
             }
             Stmt::Fetch {
                 from,

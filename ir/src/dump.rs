@@ -5,8 +5,8 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Arg, BinOp, Body, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Module, Place, Stmt,
-    SysValue, TableId,
+    Arg, BinOp, Body, Call, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Module, Place,
+    Stmt, SysValue, TableId,
 };
 use rungc_rt::{EdgeKind, TimerKind};
 use rungc_syntax::DeviceClass;
@@ -230,7 +230,7 @@ impl Out<'_> {
             },
             Stmt::Return => "return".into(),
             Stmt::Goto(label) => format!("goto L{}", label.0),
-            Stmt::Call { .. } => self.call(stmt),
+            Stmt::Call(call) => self.call(call),
             Stmt::Fetch {
                 from,
                 wide,
@@ -298,19 +298,16 @@ impl Out<'_> {
         format!("flag {name}")
     }
 
-    fn call(&self, stmt: &Stmt) -> String {
-        let Stmt::Call {
+    fn call(&self, call: &Call) -> String {
+        let Call {
             function,
             wide,
             args,
             drive,
             signal,
             slot,
-            ..
-        } = stmt
-        else {
-            return String::new();
-        };
+            step: _,
+        } = call;
         let args: Vec<String> = args.iter().map(|arg| self.arg(arg)).collect();
         let mut line = format!("{}({})", function.name(), args.join(", "));
         if *wide {

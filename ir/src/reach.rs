@@ -127,15 +127,11 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Access)) {
         | Stmt::Count { number, .. } => {
             found(Access::of(fixed(DeviceClass::C, number), true));
         }
-        Stmt::Call {
-            function,
-            wide,
-            ref args,
-            ..
-        } => {
-            args.iter().for_each(|arg| of_arg(model, arg, wide, found));
+        Stmt::Call(ref call) => {
+            let args = call.args.iter();
+            args.for_each(|arg| of_arg(model, arg, call.wide, found));
             // These save and restore all index registers, whether the program names them or not.
-            if matches!(function, RtFn::Zpush | RtFn::Zpop) {
+            if matches!(call.function, RtFn::Zpush | RtFn::Zpop) {
                 for class in [DeviceClass::V, DeviceClass::Z] {
                     found(Access::run(fixed(class, 0), None, true));
                 }

@@ -419,15 +419,10 @@ impl Checker<'_> {
             Stmt::Repeat {
                 count, iteration, ..
             } => count > 1 && temp_is(iteration, Ty::I32),
-            Stmt::Call {
-                ref args,
-                drive,
-                slot,
-                ..
-            } => {
-                slot <= module.states
-                    && drive.is_none_or(|drive| is(drive, Ty::Bit))
-                    && args.iter().all(|arg| self.arg(arg))
+            Stmt::Call(ref call) => {
+                call.slot <= module.states
+                    && call.drive.is_none_or(|drive| is(drive, Ty::Bit))
+                    && call.args.iter().all(|arg| self.arg(arg))
             }
             Stmt::Fetch {
                 ref from,

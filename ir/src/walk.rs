@@ -1,6 +1,6 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
-use crate::node::{Arg, Body, Expr, ExprId, FunctionKind, Module, Part, Place, Stmt, TempId};
+use crate::node::{Arg, Body, Call, Expr, ExprId, FunctionKind, Module, Part, Place, Stmt, TempId};
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
@@ -113,7 +113,7 @@ macro_rules! for_exprs {
                 Stmt::Reset(place) => place.index.$iter().for_each(f),
                 Stmt::If { cond, .. } => f(cond),
                 Stmt::For { count, .. } => f(count),
-                Stmt::Call { args, drive, .. } => {
+                Stmt::Call(Call { args, drive, .. }) => {
                     for arg in args {
                         if let Some(index) = $index_of(arg) {
                             f(index);
@@ -171,7 +171,7 @@ pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
         | Stmt::TimerAt { place, .. }
         | Stmt::Counter16At { place, .. }
         | Stmt::Reset(place) => f(place),
-        Stmt::Call { args, .. } => args.iter_mut().for_each(|arg| of_arg(arg, f)),
+        Stmt::Call(Call { args, .. }) => args.iter_mut().for_each(|arg| of_arg(arg, f)),
         Stmt::Fetch { from: arg, .. } | Stmt::Send { to: arg, .. } => of_arg(arg, f),
         _ => {}
     }
@@ -189,10 +189,7 @@ pub fn assigned(stmt: &Stmt) -> Option<TempId> {
 
 /// Whether a statement itself calls the runtime.
 pub fn calls_runtime(stmt: &Stmt) -> bool {
-    matches!(
-        stmt,
-        Stmt::Call { .. } | Stmt::Fetch { .. } | Stmt::Send { .. }
-    )
+    matches!(stmt, Stmt::Call(_) | Stmt::Fetch { .. } | Stmt::Send { .. })
 }
 
 /// The bodies directly inside a statement.

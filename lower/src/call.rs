@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::operand::fixed;
 use rungc_analysis::resolve::Resolution;
 use rungc_catalogue::{Extent, Form, Lower, Param, Rule, Shape};
-use rungc_ir::node::{Arg, CellId, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_ir::node::{Arg, Call, CellId, Expr, ExprId, Place, Stmt, SysValue};
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, Register, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
@@ -53,7 +53,7 @@ impl Lowerer<'_> {
             let guards = this.bounds_hold();
             this.guarded_while(guards, drive, |this| {
                 let args = this.args();
-                this.emit(Stmt::Call {
+                this.emit(Stmt::Call(Call {
                     function,
                     wide: form.wide,
                     args,
@@ -61,7 +61,7 @@ impl Lowerer<'_> {
                     signal: false,
                     slot,
                     step,
-                });
+                }));
             });
         };
         if needs.always {
@@ -105,7 +105,7 @@ impl Lowerer<'_> {
         self.guarded_while(guards, Some(drive), |this| {
             let args = this.args();
             let step = this.step();
-            this.emit(Stmt::Call {
+            this.emit(Stmt::Call(Call {
                 function,
                 wide,
                 args,
@@ -113,7 +113,7 @@ impl Lowerer<'_> {
                 signal: false,
                 slot,
                 step,
-            });
+            }));
         });
     }
 

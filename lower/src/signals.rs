@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::call::output_of;
 use super::operand::fixed;
 use rungc_catalogue::{Lower, Role};
-use rungc_ir::node::{Arg, Expr, ExprId, Function, FunctionKind, Stmt};
+use rungc_ir::node::{Arg, Call, Expr, ExprId, Function, FunctionKind, Stmt};
 use rungc_rt::axis_place::INPUTS;
 use rungc_rt::{CmpOp, EdgeKind, Relay, RtFn, StopInput, Wiring};
 use rungc_syntax::DeviceClass::{D, X, Y};
@@ -156,7 +156,7 @@ impl Lowerer<'_> {
         let guards = self.bounds_hold();
         self.guarded(guards, |this| {
             let (args, step) = (this.args(), this.step());
-            this.emit(Stmt::Call {
+            this.emit(Stmt::Call(Call {
                 function: looker.function,
                 wide,
                 args,
@@ -164,7 +164,7 @@ impl Lowerer<'_> {
                 signal: true,
                 slot: looker.slot,
                 step,
-            });
+            }));
         });
     }
 
@@ -209,7 +209,7 @@ impl Lowerer<'_> {
     }
 
     fn stop_pulses(&mut self, output: u32) {
-        self.emit(Stmt::Call {
+        self.emit(Stmt::Call(Call {
             function: RtFn::StopPulses,
             wide: false,
             args: vec![Arg::Device {
@@ -220,7 +220,7 @@ impl Lowerer<'_> {
             signal: false,
             slot: 0,
             step: 0,
-        });
+        }));
     }
 }
 

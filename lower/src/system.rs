@@ -4,7 +4,7 @@
 use super::Lowerer;
 use super::operand::fixed;
 use super::stl::ANNUNCIATORS;
-use rungc_ir::node::{Arg, BinOp, Body, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
+use rungc_ir::node::{Arg, BinOp, Body, Call, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
 use rungc_models::special::SpecialDevice;
 use rungc_rt::special::*;
 use rungc_rt::{CmpOp, RtFn};
@@ -317,7 +317,7 @@ impl Lowerer<'_> {
         let needs = function.needs();
         let drive = needs.always.then(|| self.bit_const(true));
         self.module.states = self.module.states.saturating_add(needs.state.into());
-        self.emit(Stmt::Call {
+        self.emit(Stmt::Call(Call {
             function,
             wide: false,
             args,
@@ -325,7 +325,7 @@ impl Lowerer<'_> {
             signal: false,
             slot: if needs.state { self.module.states } else { 0 },
             step: 0,
-        });
+        }));
     }
 
     /// D8030 to D8043 (HM): what is recorded, and where, is known only in a run.

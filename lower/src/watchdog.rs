@@ -152,7 +152,7 @@ impl Watcher<'_> {
                 | Stmt::Repeat { .. }
                 | Stmt::Return
                 | Stmt::Goto(_)
-                | Stmt::Call { .. }
+                | Stmt::Call(_)
                 | Stmt::Fetch { .. }
                 | Stmt::Send { .. }
                 | Stmt::Fault { .. }

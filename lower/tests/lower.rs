@@ -219,7 +219,7 @@ fn has_call(module: &Module) -> bool {
     let mut found = false;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            found |= matches!(stmt, Stmt::Call { .. });
+            found |= matches!(stmt, Stmt::Call(_));
         });
     }
     found

@@ -56,6 +56,25 @@ pub enum Arg {
     },
 }
 
+/// A call of the runtime.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Call {
+    /// Function.
+    pub function: RtFn,
+    /// 32-bit form.
+    pub wide: bool,
+    /// Operands.
+    pub args: Vec<Arg>,
+    /// Drive contact, for functions that are called always; others stand inside an `If`.
+    pub drive: Option<ExprId>,
+    /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in [`FunctionKind::Signals`](super::FunctionKind::Signals).
+    pub signal: bool,
+    /// Private memory, for functions that need one; from 1.
+    pub slot: u16,
+    /// Step number.
+    pub step: u32,
+}
+
 /// A statement.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Stmt {
@@ -207,23 +226,8 @@ pub enum Stmt {
     Parts(Vec<Part>),
     /// Ends the current part and continues with the part of this label, in the innermost enclosing [`Stmt::Parts`] that has it.
     Goto(LabelId),
-    /// Calls the runtime. A fault is reported with `step` ([`rungc_rt::report`]).
-    Call {
-        /// Function.
-        function: RtFn,
-        /// 32-bit form.
-        wide: bool,
-        /// Operands.
-        args: Vec<Arg>,
-        /// Drive contact, for functions that are called always; others stand inside an `If`.
-        drive: Option<ExprId>,
-        /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in [`FunctionKind::Signals`](super::FunctionKind::Signals).
-        signal: bool,
-        /// Private memory, for functions that need one; from 1.
-        slot: u16,
-        /// Step number.
-        step: u32,
-    },
+    /// Calls the runtime. A fault is reported with its step ([`rungc_rt::report`]).
+    Call(Call),
     /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with `step`.
     Fetch {
         /// What is read.

@@ -131,7 +131,7 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
         | Stmt::For { .. }
         | Stmt::Repeat { .. }
         | Stmt::Parts(_)
-        | Stmt::Call { .. }
+        | Stmt::Call(_)
         | Stmt::Fetch { .. }
         | Stmt::Send { .. }
         | Stmt::CallSub(_)
