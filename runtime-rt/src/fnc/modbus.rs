@@ -301,30 +301,42 @@ fn hm(cx: &mut Cx, port: usize, job: fn(&Cx) -> Result<Job, Fault>) -> Done {
     turn.map(drop)
 }
 
-macro_rules! hm {
-    ($($(#[$doc:meta])* $name:ident($function:literal, $several:literal);)*) => {
-        $($(#[$doc])*
-        pub fn $name(cx: &mut Cx) -> Done {
-            hm(cx, if $several { 4 } else { 3 }, |cx| hm_job(cx, $function, $several))
-        })*
-    };
+/// MRDC S1 S2 S3 D1 D2 (HM): reads coils.
+pub fn mrdc(cx: &mut Cx) -> Done {
+    hm(cx, 4, |cx| hm_job(cx, 0x01, true))
 }
 
-hm! {
-    /// MRDC S1 S2 S3 D1 D2 (HM): reads coils.
-    mrdc(0x01, true);
-    /// MRDI S1 S2 S3 D1 D2 (HM): reads inputs.
-    mrdi(0x02, true);
-    /// MRDD S1 S2 S3 D1 D2 (HM): reads registers.
-    mrdd(0x03, true);
-    /// MRDAI S1 S2 S3 D1 D2 (HM): reads input registers.
-    mrdai(0x04, true);
-    /// MWRC S1 S2 D1 D2 (HM): writes a coil.
-    mwrc(0x05, false);
-    /// MWRD S1 S2 D1 D2 (HM): writes a register.
-    mwrd(0x06, false);
-    /// MWRCS S1 S2 S3 D1 D2 (HM): writes coils.
-    mwrcs(0x0f, true);
-    /// MWRDS S1 S2 S3 D1 D2 (HM): writes registers.
-    mwrds(0x10, true);
+/// MRDI S1 S2 S3 D1 D2 (HM): reads inputs.
+pub fn mrdi(cx: &mut Cx) -> Done {
+    hm(cx, 4, |cx| hm_job(cx, 0x02, true))
+}
+
+/// MRDD S1 S2 S3 D1 D2 (HM): reads registers.
+pub fn mrdd(cx: &mut Cx) -> Done {
+    hm(cx, 4, |cx| hm_job(cx, 0x03, true))
+}
+
+/// MRDAI S1 S2 S3 D1 D2 (HM): reads input registers.
+pub fn mrdai(cx: &mut Cx) -> Done {
+    hm(cx, 4, |cx| hm_job(cx, 0x04, true))
+}
+
+/// MWRC S1 S2 D1 D2 (HM): writes a coil.
+pub fn mwrc(cx: &mut Cx) -> Done {
+    hm(cx, 3, |cx| hm_job(cx, 0x05, false))
+}
+
+/// MWRD S1 S2 D1 D2 (HM): writes a register.
+pub fn mwrd(cx: &mut Cx) -> Done {
+    hm(cx, 3, |cx| hm_job(cx, 0x06, false))
+}
+
+/// MWRCS S1 S2 S3 D1 D2 (HM): writes coils.
+pub fn mwrcs(cx: &mut Cx) -> Done {
+    hm(cx, 4, |cx| hm_job(cx, 0x0f, true))
+}
+
+/// MWRDS S1 S2 S3 D1 D2 (HM): writes registers.
+pub fn mwrds(cx: &mut Cx) -> Done {
+    hm(cx, 4, |cx| hm_job(cx, 0x10, true))
 }
