@@ -2,6 +2,7 @@
 
 mod device;
 mod errors;
+mod lines;
 mod plotting;
 mod recording;
 mod serving;
@@ -74,6 +75,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         observe: used.flat_map(observed).chain(wired).collect(),
         // Clients may ask for any device.
         observe_all: args.serve.any(),
+        ports: args.serve.serial.iter().map(|serial| serial.port).collect(),
         ..subject.options()
     };
     let compiled = compile(&read.program, &options);

@@ -1,6 +1,7 @@
 //! The run itself: scans in virtual time, what happens between them, and what is shown and recorded.
 
 use super::errors::Errors;
+use super::lines::Lines;
 use super::plotting::Plotting;
 use super::recording::Recording;
 use super::serving::Servers;
@@ -36,6 +37,7 @@ struct Simulation<'a> {
     plant: Option<Plant>,
     errors: Errors<'a>,
     servers: Servers,
+    lines: Lines,
     now_ms: u64,
 }
 
@@ -101,6 +103,7 @@ impl Run<'_> {
             plant,
             errors: Errors::new(self.program, module.model, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model)?,
+            lines: Lines::open(&args.serve.serial, module.model)?,
             now_ms: 0,
         };
         interruption::note();
@@ -154,6 +157,11 @@ impl Simulation<'_> {
             if self.now_ms.saturating_add(args.scan) > end_ms {
                 break;
             }
+            if args.in_real_time() {
+                let next = Duration::from_millis(self.now_ms + args.scan);
+                thread::sleep(next.saturating_sub(begin.elapsed()));
+                self.lines.receive(&mut self.hal, begin, self.now_ms);
+            }
             if self.is_idle_between_scans() {
                 self.pass(args.scan)?;
             } else {
@@ -165,9 +173,7 @@ impl Simulation<'_> {
                     }
                 }
             }
-            if args.in_real_time() {
-                thread::sleep(Duration::from_millis(self.now_ms).saturating_sub(begin.elapsed()));
-            }
+            self.lines.send(&mut self.hal, self.now_ms);
         }
         self.out
             .line(format!("\n{}", self.view.diagram(end_ms)).trim_end_matches('\n'))?;
