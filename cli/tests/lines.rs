@@ -55,7 +55,7 @@ impl Drop for Run {
     }
 }
 
-/// Sends a request until it is answered in time: on a loaded machine a request may arrive with a pause in it, and then it is no frame.
+/// Sends a request until it is answered in time: on a loaded machine a request may arrive with a pause in it, which cuts the frame.
 fn ask(port: &SerialPort, request: &[u8], length: usize) -> Vec<u8> {
     for _ in 0..5 {
         port.write_all(request).unwrap();

@@ -1,6 +1,6 @@
 //! `rungc run --serial COM1=/dev/ttyUSB0`: serial ports of this machine as those of the PLC, in real time.
 //!
-//! A thread for each port notes when characters come in. The run lags behind by at most one scan, so that they reach the program's ports at
+//! A thread for each port notes when characters come in. The run is late by at most one scan, so that they reach the program's ports at
 //! their own times, and the end of a frame is where the line was silent.
 
 use crate::args::{SerialArg, SerialDevice};
