@@ -138,7 +138,7 @@ pub(super) const ROWS: &[Inst] = &[
             both("D5", DATA).word().len(31),
         ])
         .call(RtFn::AxisCam)
-        .text("The axis follows register D3 along the cam table at D2; the 28 words at D5 say when it engages and disengages."),
+        .text("The axis follows register D3 along the cam table at D2; the 31 words at D5 say when it engages and disengages."),
     wide("PCTAB", "Cam table")
         .takes(&[both("D1", DATA).word().len(16), table("D2").open_ended()])
         .lower(Lower::Exclusive(RtFn::Pctab))
