@@ -14,12 +14,11 @@
 //! Memory: words 0 and 1 see `axis_registers`, words 2 and 5 `axis_follow`; word 3 the master's value at phase 0, word 4 the flags and the rest
 //! of the auxiliary gear, words 6 and 7 the phase compensation and the auxiliary axis before.
 
-use super::axis_follow::{PENDING, PLACE, go_to, hand_over};
+use super::axis_follow::{PENDING, PLACE, go_to, hand_over, long, word};
 use super::axis_registers::{Registers, motion};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
-use crate::word::pair;
 
 /// Words of the memory.
 const ZERO: usize = 3;
@@ -325,14 +324,6 @@ fn auxiliary(cx: &Cx) -> Result<i32, Fault> {
 /// Number of a register that a word names.
 fn register(named: i16) -> Result<u32, Fault> {
     u32::try_from(named).map_err(|_| Fault::DEVICE)
-}
-
-fn word(cx: &Cx, number: u32) -> Result<i16, Fault> {
-    cx.plc.word(Class::D, number).ok_or(Fault::DEVICE)
-}
-
-fn long(cx: &Cx, number: u32) -> Result<i32, Fault> {
-    Ok(pair(word(cx, number)?, word(cx, number + 1)?))
 }
 
 /// What the master has moved on since phase 0.

@@ -15,6 +15,7 @@ use crate::operand::OperandKind;
 use crate::plc::Class;
 use crate::pulse::Train;
 use crate::special::Register;
+use crate::word::pair;
 
 /// Words of the memory.
 pub(super) const PENDING: usize = 2;
@@ -27,12 +28,20 @@ pub fn axis_gear(cx: &mut Cx) -> Done {
     motion(cx, 0, true, &begin_gear, &gear)
 }
 
+/// A register by its number.
+pub(super) fn word(cx: &Cx, number: u32) -> Result<i16, Fault> {
+    cx.plc.word(Class::D, number).ok_or(Fault::DEVICE)
+}
+
+/// A pair of registers by the number of its low word.
+pub(super) fn long(cx: &Cx, number: u32) -> Result<i32, Fault> {
+    Ok(pair(word(cx, number)?, word(cx, number + 1)?))
+}
+
 /// What the master has counted: that of an axis or input whose increment is named is its position, so that no increment is lost.
 fn count_of_master(cx: &Cx) -> Result<i32, Fault> {
     if let Some(position) = position_of_increment(cx) {
-        let word = |n| cx.plc.word(Class::D, n).ok_or(Fault::DEVICE);
-        let [low, high] = position.run().map(Register::number);
-        return Ok(crate::word::pair(word(low)?, word(high)?));
+        return long(cx, position.number());
     }
     cx.dword(1, 0)
 }
