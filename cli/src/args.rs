@@ -5,8 +5,8 @@ use rungc_firmware::target::{self, Target};
 use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::ModelId;
 use rungc_project::Check;
+use rungc_project::serve::{Line, address};
 use rungc_syntax::{Severity, codes, diag};
-use std::fmt;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -289,37 +289,11 @@ pub struct ServeArgs {
     /// Serve all devices by the programming port's protocol, as --modbus-tcp does.
     #[arg(long, value_parser = address, value_name = "ADDRESS")]
     pub fx: Vec<SocketAddr>,
-    /// Connect a serial port of the PLC to one of this machine, or to a new pseudo-terminal that clients open: `COM1=/dev/ttyUSB0`,
-    /// `COM1=pty`. Runs in real time. The program sets the line's format and protocol.
-    #[arg(long, value_parser = serial, value_name = "PORT=DEVICE")]
-    pub serial: Vec<SerialArg>,
-}
-
-/// A serial port of the PLC, and what it is connected to.
-#[derive(Clone, Debug)]
-pub struct SerialArg {
-    /// The number of the PLC's port.
-    pub port: u8,
-    /// What it is connected to.
-    pub device: SerialDevice,
-}
-
-/// A serial port of this machine.
-#[derive(Clone, Debug)]
-pub enum SerialDevice {
-    /// The one at this path, `COM3` on Windows.
-    Path(PathBuf),
-    /// A new pseudo-terminal.
-    Pty,
-}
-
-impl fmt::Display for SerialDevice {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            SerialDevice::Path(path) => path.display().fmt(f),
-            SerialDevice::Pty => f.write_str("a pseudo-terminal"),
-        }
-    }
+    /// Connect a serial port of the PLC to one of this machine (`COM1=/dev/ttyUSB0`), to a new pseudo-terminal that clients open
+    /// (`COM1=pty`), to a serial device server (`COM1=tcp:HOST:PORT`), or to the client of a socket (`COM1=tcp-listen:4001`). Runs in
+    /// real time. The program sets the line's format and protocol. What vanishes is opened again.
+    #[arg(long, value_name = "PORT=DEVICE")]
+    pub serial: Vec<Line>,
 }
 
 impl ServeArgs {
@@ -574,28 +548,6 @@ fn omissible(name: &str) -> Result<&'static str, String> {
         Severity::Note | Severity::Warning => Ok(code.id),
         Severity::Error => Err("errors cannot be suppressed".to_string()),
     }
-}
-
-fn address(text: &str) -> Result<SocketAddr, String> {
-    let port = text
-        .parse()
-        .map(|port| SocketAddr::from(([127, 0, 0, 1], port)));
-    port.or_else(|_| text.parse())
-        .map_err(|_| "an address is written `127.0.0.1:5020`, `[::1]:5020` or `5020`".to_string())
-}
-
-fn serial(text: &str) -> Result<SerialArg, String> {
-    let wrong = || "a line is written `COM1=/dev/ttyUSB0` or `COM1=pty`".to_string();
-    let (port, device) = text.split_once('=').ok_or_else(wrong)?;
-    let number = port.strip_prefix("COM").and_then(|n| n.parse().ok());
-    Ok(SerialArg {
-        port: number.ok_or_else(wrong)?,
-        device: match device {
-            "" => return Err(wrong()),
-            "pty" => SerialDevice::Pty,
-            path => SerialDevice::Path(path.into()),
-        },
-    })
 }
 
 fn encoding(name: &str) -> Result<&'static Encoding, String> {

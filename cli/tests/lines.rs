@@ -5,9 +5,12 @@ mod common;
 
 use common::{folder, rungc, text};
 use serial2::SerialPort;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
 use std::time::Duration;
 
 /// COM1 is a Modbus slave, RTU, station 1, 9600 bit/s, 8 data bits, no parity, 1 stop bit.
@@ -101,6 +104,121 @@ fn mbpoll_reads_and_writes() {
     poll(&["-t", "4", &run.path, "20", "22"]);
     let shown = poll(&["-t", "4", "-c", "3", &run.path]);
     assert!(shown.contains("[3]: \t42"), "{shown}");
+}
+
+/// A run whose COM1 is a client of this socket; what it reports goes to the channel.
+fn at_socket(folder: &Path, listener: &TcpListener) -> (Run, Receiver<String>) {
+    let line = format!("COM1=tcp:{}", listener.local_addr().unwrap());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["run", "p.il", "--model", "h2u", "--serial", &line])
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let errors = child.stderr.take().unwrap();
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || {
+        let mut lines = BufReader::new(errors).lines().map_while(Result::ok);
+        lines.try_for_each(|line| sender.send(line))
+    });
+    let path = String::new();
+    (Run { child, path }, receiver)
+}
+
+/// Asks over a connection until it is answered in time.
+fn ask_stream(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> {
+    stream
+        .set_read_timeout(Some(Duration::from_secs(4)))
+        .unwrap();
+    for _ in 0..5 {
+        stream.write_all(request).unwrap();
+        let mut reply = vec![0; length];
+        if stream.read_exact(&mut reply).is_ok() {
+            return reply;
+        }
+    }
+    panic!("no answer to {request:02x?}");
+}
+
+/// A gateway that is restarted: the line is connected again, and each change is reported once.
+#[test]
+fn a_vanished_gateway_is_connected_again() {
+    let folder = folder(&[("p.il", SLAVE.as_bytes())]);
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap();
+    let (_run, said) = at_socket(folder.path(), &listener);
+    let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
+    let (mut stream, _) = listener.accept().unwrap();
+    assert_eq!(ask_stream(&mut stream, &write_d0, 8), write_d0);
+    drop((stream, listener));
+    // Long enough for several attempts in vain.
+    thread::sleep(Duration::from_millis(1500));
+    let listener = TcpListener::bind(address).unwrap();
+    let (mut stream, _) = listener.accept().unwrap();
+    let read_d2 = [1, 3, 0, 2, 0, 1, 0x25, 0xca];
+    assert_eq!(ask_stream(&mut stream, &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
+    let said: Vec<_> = said.try_iter().collect();
+    let name = format!("COM1: tcp:{address}");
+    let about = |what: &str| {
+        let what = format!("rungc: {name} {what}");
+        said.iter().filter(|line| line.starts_with(&what)).count()
+    };
+    assert_eq!((about("is gone"), about("is back")), (1, 1), "{said:?}");
+}
+
+/// An adapter that is unplugged and comes back under the same name: socat's pseudo-terminals are its stand-in.
+#[test]
+fn a_vanished_adapter_is_opened_again() {
+    if Command::new("socat").arg("-V").output().is_err() {
+        eprintln!("skipped: there is no socat (apt-get install socat)");
+        return;
+    }
+    let folder = folder(&[("p.il", SLAVE.as_bytes())]);
+    let path = folder.path();
+    let plug = || {
+        let ends = ["adapter", "client"].map(|name| {
+            let link = path.join(name);
+            format!("pty,rawer,link={}", link.display())
+        });
+        let socat = Command::new("socat").args(ends).spawn().unwrap();
+        while !path.join("client").exists() {
+            thread::sleep(Duration::from_millis(10));
+        }
+        socat
+    };
+    let unplug = |socat: &mut Child| {
+        socat.kill().unwrap();
+        socat.wait().unwrap();
+        for end in ["adapter", "client"] {
+            let _ = std::fs::remove_file(path.join(end));
+        }
+    };
+    let open = || {
+        let mut port = SerialPort::open(path.join("client"), 9600).unwrap();
+        port.set_read_timeout(Duration::from_secs(4)).unwrap();
+        port
+    };
+    let mut adapter = plug();
+    let child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["run", "p.il", "--model", "h2u", "--serial", "COM1=adapter"])
+        .current_dir(path)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let _run = Run {
+        child,
+        path: String::new(),
+    };
+    let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
+    assert_eq!(ask(&open(), &write_d0, 8), write_d0);
+    unplug(&mut adapter);
+    thread::sleep(Duration::from_millis(700));
+    let mut adapter = plug();
+    let read_d2 = [1, 3, 0, 2, 0, 1, 0x25, 0xca];
+    assert_eq!(ask(&open(), &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
+    unplug(&mut adapter);
 }
 
 #[test]

@@ -10,6 +10,7 @@ mod device;
 pub mod modbus;
 mod program;
 mod reader;
+pub mod serve;
 mod template;
 
 use encoding_rs::Encoding;
@@ -55,7 +56,9 @@ pub struct Project {
     /// `[[modbus]]`: the rows of the Modbus table.
     pub modbus: Vec<modbus::Row>,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is named.
-    pub latched: Vec<Latched>,
+    pub latched: Vec<Range>,
+    /// `[serve]`: servers and serial lines of a running program, and devices that it serves.
+    pub serve: serve::Serve,
 }
 
 /// Which findings count, and how much: identifiers of codes, such as `W0203`.
@@ -117,9 +120,9 @@ pub struct Bound {
     pub span: Span,
 }
 
-/// Devices that keep their value over power-off.
+/// A range of devices with its place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Latched {
+pub struct Range {
     /// Their class.
     pub class: DeviceClass,
     /// First number.

@@ -1,6 +1,6 @@
 //! What settings say of a program: what its PLC keeps over power-off, and what its indexes reach.
 
-use crate::{Error, Latched, Project};
+use crate::{Error, Project, Range};
 use rungc_lower::compile::Bound;
 use rungc_models::Model;
 use rungc_syntax::{Device, DeviceClass, DeviceRun, Program, codes};
@@ -26,6 +26,7 @@ impl Project {
     /// Gives the program of `file` the latched devices of the settings and, if the project is about it, the Modbus table. What the model
     /// does not have is a mistake.
     pub fn complete(&self, file: &Path, program: &mut Program, model: &Model) -> Result<(), Error> {
+        self.check_served(model)?;
         if self.is_about(file) {
             self.add_table(program, model)?;
         }
@@ -48,7 +49,7 @@ impl Project {
         Ok(())
     }
 
-    fn can_latch(&self, run: &Latched, model: &Model) -> Result<(), Error> {
+    fn can_latch(&self, run: &Range, model: &Model) -> Result<(), Error> {
         let fits = |number| {
             let fixed = model.range(run.class, number);
             model.can_choose_latch(run.class, number) || fixed.is_some_and(|range| range.latched)

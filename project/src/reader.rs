@@ -1,7 +1,9 @@
 //! From TOML to [`Project`], every mistake with its place.
 
+mod serve;
+
 use crate::modbus::{self, Row};
-use crate::{Bound, Latched, Named, Project, device};
+use crate::{Bound, Named, Project, Range as DeviceRange, device};
 use encoding_rs::Encoding;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::codes::{self, Code};
@@ -12,7 +14,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 8] = [
+const TABLES: [(&str, &[&str]); 9] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output"]),
@@ -20,6 +22,7 @@ const TABLES: [(&str, &[&str]); 8] = [
     ("tokens", &[]),
     ("index", &[]),
     ("latched", &[]),
+    ("serve", &[]),
     (MODBUS, &[]),
 ];
 
@@ -35,6 +38,12 @@ const ROW: &[&str] = &[
 const LATCHABLE: [DeviceClass; 6] = {
     use DeviceClass::*;
     [M, S, T, C, D, R]
+};
+
+/// Classes with devices that ports serve.
+const SERVED: [DeviceClass; 8] = {
+    use DeviceClass::*;
+    [X, Y, M, S, T, C, D, R]
 };
 
 /// The body of an instruction is no longer, in bytes.
@@ -132,6 +141,7 @@ impl Reader {
                 "test" => self.test(table, project),
                 "tokens" => self.tokens(table, project),
                 "index" => self.index(table, project),
+                "serve" => self.serve(table, project),
                 _ => self.latched(table, project),
             }
         }
@@ -543,23 +553,28 @@ impl Reader {
         let letters: Vec<_> = LATCHABLE.iter().map(|class| class.prefix()).collect();
         self.known("latched", table, &letters);
         for class in LATCHABLE {
-            let letters = class.prefix();
-            let ranges = match table.get(letters) {
-                Some(value) if value.get_ref().is_array() => self.list(table, letters),
-                Some(value) => self.text(letters, value).into_iter().collect(),
-                None => continue,
-            };
-            for named in ranges {
-                if let Some((first, last)) = self.range(&named, class) {
-                    project.latched.push(Latched {
-                        class,
-                        first,
-                        last,
-                        span: named.span,
-                    });
-                }
-            }
+            project.latched.extend(self.ranges(table, class));
         }
+    }
+
+    /// Ranges of devices of a class: one, or a list of them.
+    fn ranges(&mut self, table: &DeTable<'_>, class: DeviceClass) -> Vec<DeviceRange> {
+        let letters = class.prefix();
+        let named = match table.get(letters) {
+            Some(value) if value.get_ref().is_array() => self.list(table, letters),
+            Some(value) => self.text(letters, value).into_iter().collect(),
+            None => return Vec::new(),
+        };
+        let ranges = named.into_iter().filter_map(|named| {
+            let (first, last) = self.range(&named, class)?;
+            Some(DeviceRange {
+                class,
+                first,
+                last,
+                span: named.span,
+            })
+        });
+        ranges.collect()
     }
 }
 

@@ -61,6 +61,14 @@ deny = []
 # Devices that keep their values over power-off, where that differs from the model's usual ranges.
 # [latched]
 # D = "D200-D511"
+
+# What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
+# [serve]
+# modbus-tcp = "127.0.0.1:5020"
+# mc = "127.0.0.1:5001"
+# fx = "127.0.0.1:5556"
+# serial = {{ COM1 = "/dev/ttyUSB0" }}
+# D = "D0-D511"
 "#,
         models = models.join(", ")
     )

@@ -67,6 +67,14 @@ engine = "all"
 [latched]
 D = "D200-D511"
 M = ["M500-M600", "M700"]
+
+[serve]
+modbus-tcp = 5020
+mc = ["127.0.0.1:5001", "[::1]:5001"]
+fx = "5556"
+serial = { COM1 = "/dev/ttyUSB0", COM2 = "tcp:gateway:4001" }
+D = "D0-D511"
+Y = ["Y000-Y017"]
 "#,
     )
     .unwrap();
@@ -109,6 +117,57 @@ M = ["M500-M600", "M700"]
         (DeviceClass::D, 200, 511),
     ];
     assert_eq!(latched, expected);
+    let serve = &project.serve;
+    assert_eq!(serve.modbus_tcp, ["127.0.0.1:5020".parse().unwrap()]);
+    assert_eq!((serve.mc.len(), serve.fx.len()), (2, 1));
+    let lines: Vec<_> = serve.serial.iter().map(|s| s.line.clone()).collect();
+    let expected = ["COM1=/dev/ttyUSB0", "COM2=tcp:gateway:4001"];
+    assert_eq!(lines, expected.map(|line| line.parse().unwrap()));
+    assert_eq!(serve.stored().count(), 512 + 16);
+}
+
+#[test]
+fn what_is_served_has_to_be_there() {
+    insta::assert_snapshot!(
+        "serve",
+        mistakes(
+            r#"
+[serve]
+modbus = 5020
+modbus-tcp = 99999
+mc = "plc:5001"
+fx = [5556, true]
+serial = { COMM1 = "pty", COM1 = "tcp:gateway", COM2 = 3 }
+D = "M0-M10"
+K = "K0"
+"#
+        )
+    );
+    insta::assert_snapshot!("serve_lines", mistakes("[serve]\nserial = 'COM1=pty'\n"));
+    let why = |text: &str, model| {
+        let project = parse(text).unwrap();
+        let mut program = rungc_syntax::Program::default();
+        let path = Path::new("p.il");
+        match project.complete(path, &mut program, Model::get(model)) {
+            Err(Error::Mistakes {
+                text, diagnostics, ..
+            }) => {
+                let d = diagnostics.sorted().remove(0);
+                let help = d.help.unwrap_or_default();
+                format!("{} {}; {help}", text.slice(d.span), d.message)
+            }
+            _ => panic!("{text} is taken"),
+        }
+    };
+    let fx1s = ModelId::Fx1s;
+    insta::assert_snapshot!(
+        "serve_model",
+        [
+            why("[serve]\nserial = { COM3 = 'pty' }\n", fx1s),
+            why("[serve]\nD = ['D0', 'D200-D300']\n", fx1s),
+        ]
+        .join("\n")
+    );
 }
 
 #[test]
@@ -278,6 +337,9 @@ fn piece() -> impl Strategy<Value = String> {
         "[latched]\n",
         "[build]\n",
         "[test]\n",
+        "[serve]\n",
+        "serial = { COM1 = \"pty\" }",
+        "mc = ",
         "model = ",
         "allow = ",
         "warn = ",

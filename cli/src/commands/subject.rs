@@ -6,6 +6,7 @@ use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::ModelId;
+use rungc_project::serve::Serve;
 use rungc_project::{Error, Project};
 use rungc_syntax::Program;
 use std::collections::{BTreeMap, BTreeSet};
@@ -40,8 +41,10 @@ impl Subject {
     /// How to compile it, as far as its settings say.
     pub fn options(&self) -> CompileOptions {
         let Reporting { warn, rules, .. } = &self.reporting;
+        let served = self.project.as_ref().map(|project| &project.serve);
         CompileOptions {
             model: self.model,
+            observe: served.into_iter().flat_map(Serve::stored).collect(),
             warn: warn.iter().chain(&rules.warn).copied().collect(),
             bounds: self
                 .project

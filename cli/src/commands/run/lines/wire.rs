@@ -1,0 +1,274 @@
+//! The end of a line on this machine: a serial port, a pseudo-terminal, or a TCP connection. A thread for each keeps it open: what vanishes
+//! is opened again.
+
+use rungc_project::serve::LineEnd;
+use rungc_rt::comm::{LineFormat, Parity};
+use serial2::{CharSize, SerialPort, Settings, StopBits};
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::{TcpListener, TcpStream, ToSocketAddrs};
+use std::sync::mpsc::{self, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How long a thread waits for characters before it asks again.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// How long the run waits for a line to take characters; what does not fit by then waits for the next scan.
+const WRITE_WAIT: Duration = Duration::from_millis(1);
+
+/// The first and the longest pause before another attempt to open what has vanished.
+const PAUSES: [Duration; 2] = [Duration::from_millis(200), Duration::from_secs(5)];
+
+/// How long an attempt to connect may take.
+const CONNECT_WAIT: Duration = Duration::from_secs(3);
+
+/// Before the program has set up the line.
+const USUAL_RATE: u32 = 9600;
+
+/// An open end.
+#[derive(Debug)]
+pub enum Wire {
+    /// A serial port, or our end of a pseudo-terminal.
+    Serial(SerialPort),
+    /// A connection.
+    Tcp(TcpStream),
+}
+
+/// What a thread has noticed.
+pub enum Event {
+    /// The end is open.
+    Up(Wire),
+    /// The end has vanished, for this reason.
+    Down(io::Error),
+    /// Characters have come.
+    Chunk(Chunk),
+}
+
+/// Characters that came together.
+pub struct Chunk {
+    /// When the last of them was in.
+    pub at: Instant,
+    /// The characters.
+    pub bytes: Vec<u8>,
+}
+
+/// Where a thread finds its end.
+enum Source {
+    /// What can be opened again.
+    Known(LineEnd),
+    /// Clients of a socket; the latest is the other end.
+    Clients(TcpListener),
+    /// A pseudo-terminal, with the end of its clients: open, so that clients can come and go.
+    Pty { _clients: SerialPort },
+}
+
+/// Opens an end, and keeps it open. Returns what it is called and what happens to it.
+///
+/// # Errors
+/// What the system says of an end of this machine. Another machine that does not answer is asked again.
+pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
+    let (name, source, wire) = match end {
+        LineEnd::Path(_) => {
+            let wire = open(end)?;
+            (end.to_string(), Source::Known(end.clone()), Some(wire))
+        }
+        LineEnd::Tcp(_) => (end.to_string(), Source::Known(end.clone()), None),
+        LineEnd::TcpListen(address) => {
+            let listener = TcpListener::bind(address)?;
+            let name = LineEnd::TcpListen(listener.local_addr()?).to_string();
+            (name, Source::Clients(listener), None)
+        }
+        LineEnd::Pty => {
+            let (ours, clients, name) = pseudo_terminal()?;
+            let wire = prepared(ours)?;
+            (name, Source::Pty { _clients: clients }, Some(wire))
+        }
+    };
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || source.keep(wire, &sender));
+    Ok((name, receiver))
+}
+
+/// The run no longer wants to know.
+struct Over;
+
+impl Source {
+    /// Reports what happens to the end, until the run no longer wants to know. `wire` is the end if it is open already.
+    fn keep(&self, mut wire: Option<Wire>, events: &Sender<Event>) {
+        let mut pause = PAUSES[0];
+        let mut reported = false;
+        loop {
+            let opened = match wire.take() {
+                Some(wire) => Ok(wire),
+                None => self.open(),
+            };
+            let error = match opened.and_then(|wire| Ok((wire.try_clone()?, wire))) {
+                Ok((ours, wire)) => {
+                    reported = false;
+                    pause = PAUSES[0];
+                    if events.send(Event::Up(wire)).is_err() {
+                        return;
+                    }
+                    match ours.listen(events) {
+                        Ok(error) => error,
+                        Err(Over) => return,
+                    }
+                }
+                Err(error) => error,
+            };
+            // That it is still not there is not worth a word.
+            if !reported && events.send(Event::Down(error)).is_err() {
+                return;
+            }
+            reported = true;
+            if !matches!(self, Source::Clients(_)) {
+                thread::sleep(pause);
+                pause = (2 * pause).min(PAUSES[1]);
+            }
+        }
+    }
+
+    fn open(&self) -> io::Result<Wire> {
+        match self {
+            Source::Known(end) => open(end),
+            Source::Clients(listener) => {
+                let (stream, _) = listener.accept()?;
+                connected(stream)
+            }
+            Source::Pty { .. } => Err(ErrorKind::NotFound.into()),
+        }
+    }
+}
+
+/// Opens an end that has a name.
+fn open(end: &LineEnd) -> io::Result<Wire> {
+    match end {
+        LineEnd::Path(path) => prepared(SerialPort::open(path, USUAL_RATE)?),
+        LineEnd::Tcp(peer) => {
+            let mut last = io::Error::from(ErrorKind::NotFound);
+            for address in peer.to_socket_addrs()? {
+                match TcpStream::connect_timeout(&address, CONNECT_WAIT) {
+                    Ok(stream) => return connected(stream),
+                    Err(error) => last = error,
+                }
+            }
+            Err(last)
+        }
+        LineEnd::Pty | LineEnd::TcpListen(_) => Err(ErrorKind::Unsupported.into()),
+    }
+}
+
+fn prepared(mut port: SerialPort) -> io::Result<Wire> {
+    port.set_read_timeout(PATIENCE)?;
+    port.set_write_timeout(WRITE_WAIT)?;
+    Ok(Wire::Serial(port))
+}
+
+fn connected(stream: TcpStream) -> io::Result<Wire> {
+    // A frame is one small packet: waiting for more only delays it.
+    stream.set_nodelay(true)?;
+    stream.set_read_timeout(Some(PATIENCE))?;
+    stream.set_write_timeout(Some(WRITE_WAIT))?;
+    Ok(Wire::Tcp(stream))
+}
+
+impl Wire {
+    fn try_clone(&self) -> io::Result<Wire> {
+        Ok(match self {
+            Wire::Serial(port) => Wire::Serial(port.try_clone()?),
+            Wire::Tcp(stream) => Wire::Tcp(stream.try_clone()?),
+        })
+    }
+
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Wire::Serial(port) => port.read(buffer),
+            Wire::Tcp(stream) => stream.read(buffer),
+        }
+    }
+
+    /// Sends what the other end takes now; how many characters.
+    pub fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = match self {
+            Wire::Serial(port) => port.write(bytes),
+            Wire::Tcp(stream) => stream.write(bytes),
+        };
+        match written {
+            Err(error) if is_patience(&error) => Ok(0),
+            written => written,
+        }
+    }
+
+    /// Sets a serial port to a format of characters. A connection has none.
+    pub fn set_format(&mut self, format: LineFormat) -> io::Result<()> {
+        let Wire::Serial(port) = self else {
+            return Ok(());
+        };
+        let mut settings = port.get_configuration()?;
+        apply(&mut settings, format)?;
+        port.set_configuration(&settings)
+    }
+
+    /// Reports what comes, until the end fails; returns why.
+    fn listen(mut self, events: &Sender<Event>) -> Result<io::Error, Over> {
+        let mut buffer = [0; 1024];
+        loop {
+            let event = match self.read(&mut buffer) {
+                Ok(0) => return Ok(ErrorKind::UnexpectedEof.into()),
+                Ok(count) => Event::Chunk(Chunk {
+                    at: Instant::now(),
+                    bytes: buffer[..count].to_vec(),
+                }),
+                Err(error) if is_patience(&error) => continue,
+                Err(error) => return Ok(error),
+            };
+            events.send(event).map_err(|_| Over)?;
+        }
+    }
+}
+
+/// Whether nothing is wrong but that nothing has happened in time.
+fn is_patience(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted
+    )
+}
+
+/// Sets a port to a format of characters.
+fn apply(settings: &mut Settings, format: LineFormat) -> io::Result<()> {
+    settings.set_raw();
+    settings.set_baud_rate(format.bits_per_second)?;
+    settings.set_char_size(match format.data_bits {
+        7 => CharSize::Bits7,
+        _ => CharSize::Bits8,
+    });
+    settings.set_parity(match format.parity {
+        Parity::None => serial2::Parity::None,
+        Parity::Odd => serial2::Parity::Odd,
+        Parity::Even => serial2::Parity::Even,
+    });
+    settings.set_stop_bits(match format.stop_bits {
+        2 => StopBits::Two,
+        _ => StopBits::One,
+    });
+    Ok(())
+}
+
+/// A new pseudo-terminal: our end, the end of its clients, and the path by which they open it.
+#[cfg(unix)]
+fn pseudo_terminal() -> io::Result<(SerialPort, SerialPort, String)> {
+    let (ours, mut theirs) = SerialPort::pair()?;
+    let mut settings = theirs.get_configuration()?;
+    settings.set_raw();
+    theirs.set_configuration(&settings)?;
+    let path = rustix::termios::ttyname(&theirs, Vec::new())?;
+    let path = path.to_string_lossy().into_owned();
+    Ok((ours, theirs, path))
+}
+
+/// There are no pseudo-terminals here.
+#[cfg(not(unix))]
+fn pseudo_terminal() -> io::Result<(SerialPort, SerialPort, String)> {
+    Err(ErrorKind::Unsupported.into())
+}

@@ -1,0 +1,94 @@
+//! `[serve]`.
+
+use super::{Reader, SERVED, Value, span};
+use crate::serve::{self, Line, LineEnd, SerialLine};
+use crate::{Named, Project};
+use std::net::SocketAddr;
+use toml::de::DeTable;
+
+/// Keys of addresses.
+pub(super) const ADDRESSES: [&str; 3] = ["modbus-tcp", "mc", "fx"];
+
+/// Key of the table of serial lines.
+pub(super) const SERIAL: &str = "serial";
+
+impl Reader {
+    pub(super) fn serve(&mut self, table: &DeTable<'_>, project: &mut Project) {
+        let classes = SERVED.iter().map(|class| class.prefix());
+        let keys: Vec<_> = ADDRESSES
+            .into_iter()
+            .chain([SERIAL])
+            .chain(classes)
+            .collect();
+        self.known("serve", table, &keys);
+        let [modbus_tcp, mc, fx] = ADDRESSES.map(|key| self.addresses(table, key));
+        project.serve.modbus_tcp = modbus_tcp;
+        project.serve.mc = mc;
+        project.serve.fx = fx;
+        if let Some(value) = table.get(SERIAL) {
+            self.lines(value, project);
+        }
+        for class in SERVED {
+            project.serve.devices.extend(self.ranges(table, class));
+        }
+    }
+
+    /// The addresses of a server: one, or a list of them.
+    fn addresses(&mut self, table: &DeTable<'_>, key: &str) -> Vec<SocketAddr> {
+        let Some(value) = table.get(key) else {
+            return Vec::new();
+        };
+        let named = match value.get_ref() {
+            value if value.is_array() => self.list(table, key),
+            _ => {
+                let number = value.get_ref().as_integer();
+                let number = number.filter(|number| number.radix() == 10);
+                let port = number.map(|number| Named {
+                    text: number.as_str().to_string(),
+                    span: span(value.span()),
+                });
+                let text = port.or_else(|| self.text(key, value));
+                text.into_iter().collect()
+            }
+        };
+        let mut addresses = Vec::new();
+        for named in named {
+            match serve::address(&named.text) {
+                Ok(address) => addresses.push(address),
+                Err(why) => {
+                    let message = format!("`{}` is not an address", named.text);
+                    self.wrong(named.span, message, &why);
+                }
+            }
+        }
+        addresses
+    }
+
+    fn lines(&mut self, value: &Value<'_>, project: &mut Project) {
+        const HELP: &str = "write `serial = { COM1 = \"/dev/ttyUSB0\" }`";
+        let Some(lines) = value.get_ref().as_table() else {
+            return self.wrong(span(value.span()), "`serial` is a table", HELP);
+        };
+        for (key, end) in lines {
+            let name = key.get_ref().as_ref();
+            let Some(port) = serve::port(name) else {
+                let message = format!("`{name}` is not a serial port");
+                self.wrong(span(key.span()), message, HELP);
+                continue;
+            };
+            let Some(named) = self.text(name, end) else {
+                continue;
+            };
+            match LineEnd::parse(&named.text) {
+                Ok(end) => project.serve.serial.push(SerialLine {
+                    line: Line { port, end },
+                    span: span(key.span()),
+                }),
+                Err(why) => {
+                    let message = format!("`{}` is not the end of a line", named.text);
+                    self.wrong(named.span, message, &why);
+                }
+            }
+        }
+    }
+}
