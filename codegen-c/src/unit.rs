@@ -336,16 +336,9 @@ impl Printer<'_> {
         self.clear(&mut inputs, Section::Inputs, None);
         let mut special = String::new();
         self.clear(&mut special, Section::Special, Some(Keep::Special));
-        for &(number, value) in &module.initial_words {
-            if let Some(device) = self.stored(DeviceClass::D, number) {
-                let _ = writeln!(special, "    {device} = {value};");
-            }
-        }
-        for &number in &module.initial_bits {
-            if let Some(device) = self.stored(DeviceClass::M, number) {
-                let _ = writeln!(special, "    {device} = true;");
-            }
-        }
+        self.preset(&mut special, false);
+        let mut first = String::new();
+        self.preset(&mut first, true);
         if !module.model.keeps_contacts {
             self.each_timer_and_counter(&mut special, ["done = false"; 2]);
         }
@@ -368,11 +361,32 @@ impl Printer<'_> {
         };
         let _ = write!(
             out,
-            "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n    {name}_power_cycle(plc);\n}}\n\n\
+            "void {name}_init({name}_plc *plc)\n{{\n    memset(plc, 0, sizeof *plc);\n{first}    {name}_power_cycle(plc);\n}}\n\n\
              void {name}_power_cycle({name}_plc *plc)\n{{\n{}{inputs}    {name}_clear_general(plc);\n{special}{states}{cells}{steps}    \
              plc_power_on(&plc->sys);\n{forget}}}\n\n",
             self.lost_latches(),
         );
+    }
+
+    /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all others.
+    fn preset(&self, out: &mut String, latched: bool) {
+        let module = self.module;
+        for &(number, value) in &module.initial_words {
+            let device = self.stored(DeviceClass::D, number);
+            if let Some(device) =
+                device.filter(|_| module.is_latched(DeviceClass::D, number) == latched)
+            {
+                let _ = writeln!(out, "    {device} = {value};");
+            }
+        }
+        for &number in &module.initial_bits {
+            let device = self.stored(DeviceClass::M, number);
+            if let Some(device) =
+                device.filter(|_| module.is_latched(DeviceClass::M, number) == latched)
+            {
+                let _ = writeln!(out, "    {device} = true;");
+            }
+        }
     }
 
     /// The function of the RUN/STOP switch.

@@ -14,6 +14,7 @@ use rungc_rt::{
     Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
     Sys,
 };
+use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
 
@@ -114,8 +115,25 @@ impl<'m> Machine<'m> {
             ports: vec![Port::new(); module.ports.len()],
             type_code: module.model.type_code(),
         };
+        machine.preset(true);
         machine.power_on();
         machine
+    }
+
+    /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all others.
+    fn preset(&mut self, latched: bool) {
+        let module = self.module;
+        for (number, value) in module.model.special_words() {
+            if module.is_latched(DeviceClass::D, number) == latched {
+                // A model's table names only devices that it has.
+                let _ = self.set_word(Class::D, number, value);
+            }
+        }
+        for number in module.model.special_bits() {
+            if module.is_latched(DeviceClass::M, number) == latched {
+                let _ = self.set_bit(Class::M, number, true);
+            }
+        }
     }
 
     /// The module it runs.
@@ -135,13 +153,7 @@ impl<'m> Machine<'m> {
     }
 
     fn power_on(&mut self) {
-        for (number, value) in self.module.model.special_words() {
-            // A model's table names only devices that it has.
-            let _ = self.set_word(Class::D, number, value);
-        }
-        for number in self.module.model.special_bits() {
-            let _ = self.set_bit(Class::M, number, true);
-        }
+        self.preset(false);
         self.states.fill(State::default());
         self.axes.fill(Axis::new());
         self.ports.fill(Port::new());

@@ -11,17 +11,21 @@ use rungc_emit::storage::{Keep, Kind, Run};
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
-    /// The statements that give special registers their values.
-    pub(super) fn preset(&mut self) -> TokenStream {
-        let plc = quote!(self);
-        let words = self.module.initial_words.iter();
-        let bits = self.module.initial_bits.iter().filter_map(|&number| {
-            let cell = self.storage.bit(&plc, DeviceClass::M, number)?;
+    /// The statements that give special devices of `plc` their defaults: latched ones, when the PLC is switched on for the first time, or all
+    /// others.
+    pub(super) fn preset(&mut self, plc: &TokenStream, latched: bool) -> TokenStream {
+        let module = self.module;
+        let bits = module.initial_bits.iter();
+        let bits = bits.filter(|&&number| module.is_latched(DeviceClass::M, number) == latched);
+        let bits = bits.filter_map(|&number| {
+            let cell = self.storage.bit(plc, DeviceClass::M, number)?;
             Some(quote!(#cell = true;))
         });
+        let words = module.initial_words.iter();
+        let words = words.filter(|word| module.is_latched(DeviceClass::D, word.0) == latched);
         words
             .filter_map(|&(number, value)| {
-                let cell = self.storage.word(&plc, DeviceClass::D, number)?;
+                let cell = self.storage.word(plc, DeviceClass::D, number)?;
                 let value = literal32(i32::from(value), false);
                 Some(quote!(#cell = #value;))
             })
@@ -140,7 +144,8 @@ impl Generator<'_> {
             Latches::Lost(..) => quote!(self.clear_latched();),
         };
         let others = self.zeroing(&[Keep::Input, Keep::Special]);
-        let preset = (!self.preset().is_empty()).then(|| quote!(self.preset();));
+        let preset = self.preset(&plc, false);
+        let preset = (!preset.is_empty()).then(|| quote!(self.preset();));
         let contacts = (!self.module.model.keeps_contacts)
             .then(|| self.each_timer_and_counter(&quote!(done = false), &quote!(done = false)));
         let hidden = self.hidden_fields();

@@ -208,15 +208,17 @@ impl Generator<'_> {
         let hidden = self.hidden_fields();
         let hidden_names: Vec<&Ident> = hidden.iter().map(|f| &f.0).collect();
         let hidden_zeros: Vec<&TokenStream> = hidden.iter().map(|f| &f.2).collect();
-        let preset = self.preset();
+        let preset = self.preset(&quote!(self), false);
+        let first = self.preset(&quote!(plc), true);
         let doc = self.doc("The PLC as it leaves the factory, switched to RUN.");
         let value = quote! {
             Self { #(#names: #zeros,)* #(#hidden_names: #hidden_zeros,)* }
         };
-        let new = if preset.is_empty() {
+        let new = if preset.is_empty() && first.is_empty() {
             quote!(#doc pub const fn new() -> Self { #value })
         } else {
-            quote!(#doc pub const fn new() -> Self { let mut plc = #value; plc.preset(); plc })
+            let preset = (!preset.is_empty()).then(|| quote!(plc.preset();));
+            quote!(#doc pub const fn new() -> Self { let mut plc = #value; #first #preset plc })
         };
         let preset = (!preset.is_empty()).then(|| {
             let doc = self.doc("Gives special devices the values that they have at power-on.");

@@ -13,21 +13,20 @@ const PARTS: [&str; 8] = [
     "fx1n", "fx1s", "fx2n", "fx3s", "fx3u", "h1u-h2u", "hm", "l01s",
 ];
 
+/// The list of disputed cases.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Expected {
-    reason: Vec<Reason>,
+struct List {
+    disputed: Vec<Disputed>,
 }
 
-/// Cases that do not pass, and why.
+/// Cases of a file that contradict the manual, and why.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Reason {
+struct Disputed {
+    file: String,
+    cases: Vec<String>,
     why: String,
-    /// The engines on which they do not pass; by default all.
-    engines: Option<Vec<String>>,
-    /// Names of cases by file.
-    cases: BTreeMap<String, Vec<String>>,
 }
 
 fn folder() -> PathBuf {
@@ -52,23 +51,20 @@ fn load_all() -> Vec<TestFile> {
     paths.iter().map(load).collect()
 }
 
-/// Which cases fail: why, and on which engines.
-type Failures = BTreeMap<(String, String), (String, Option<Vec<String>>)>;
+/// Why cases are disputed, by file and name.
+type Reasons = BTreeMap<(String, String), String>;
 
-fn expected_failures() -> Failures {
-    let text = std::fs::read_to_string(folder().join("EXPECTED_FAILURES.toml")).unwrap();
-    let expected: Expected = toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
-    let mut failures = BTreeMap::new();
-    for reason in expected.reason {
-        for (file, cases) in reason.cases {
-            for case in cases {
-                let reason = (reason.why.clone(), reason.engines.clone());
-                let twice = failures.insert((file.clone(), case.clone()), reason);
-                assert!(twice.is_none(), "{file}: {case} is listed twice");
-            }
+fn disputed() -> Reasons {
+    let text = std::fs::read_to_string(folder().join("DISPUTED.toml")).unwrap();
+    let list: List = toml::from_str(&text).unwrap_or_else(|e| panic!("{e}"));
+    let mut reasons = BTreeMap::new();
+    for Disputed { file, cases, why } in list.disputed {
+        for case in cases {
+            let twice = reasons.insert((file.clone(), case.clone()), why.clone());
+            assert!(twice.is_none(), "{file}: {case} is listed twice");
         }
     }
-    failures
+    reasons
 }
 
 fn key(suite: &Suite, outcome: &Outcome) -> (String, String) {
@@ -76,28 +72,28 @@ fn key(suite: &Suite, outcome: &Outcome) -> (String, String) {
     (file.name.clone(), file.cases[outcome.id.case].name.clone())
 }
 
-/// All cases, and which of them do not pass.
+/// All cases, and which of them are disputed.
 pub struct Conformance {
     suite: Suite,
-    expected: Failures,
+    disputed: Reasons,
 }
 
 impl Conformance {
     /// Reads and compiles them.
     pub fn load() -> Self {
         let suite = Suite::compile(load_all(), &[]);
-        let expected = expected_failures();
+        let disputed = disputed();
         let cases = suite.cases();
         let names: BTreeSet<_> = cases
             .map(|(id, case)| (suite.files()[id.file].name.clone(), case.name.clone()))
             .collect();
-        for key @ (file, case) in expected.keys() {
+        for key @ (file, case) in disputed.keys() {
             assert!(
                 names.contains(key),
                 "{file}: {case} is listed, but there is no such case"
             );
         }
-        Conformance { suite, expected }
+        Conformance { suite, disputed }
     }
 
     /// The compiled programs.
@@ -117,20 +113,13 @@ impl Conformance {
         );
         for outcome in &report.outcomes {
             let described = outcome.describe(&self.suite);
-            let listed = self.expected.get(&key(&self.suite, outcome));
-            let fails = |engines: &Vec<String>| {
-                let name = engine.name();
-                engines.iter().any(|engine| name.starts_with(engine))
-            };
-            let why = listed
-                .filter(|(_, engines)| engines.as_ref().is_none_or(fails))
-                .map(|(why, _)| why);
-            match (&outcome.failure, why) {
+            let disputed = self.disputed.get(&key(&self.suite, outcome));
+            match (&outcome.failure, disputed) {
                 (Some(_), None) => wrong.push(described),
-                (None, Some(why)) => wrong.push(format!(
-                    "{described}, but is listed as one that fails: {why}"
-                )),
-                (Some(_), Some(why)) => println!("{why}: {described}"),
+                (None, Some(why)) => {
+                    wrong.push(format!("{described}, but is listed as disputed: {why}"));
+                }
+                (Some(_), Some(_)) => println!("disputed: {described}"),
                 (None, None) => {}
             }
         }

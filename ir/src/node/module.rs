@@ -193,6 +193,13 @@ impl Module {
         }
     }
 
+    /// Whether a device keeps its value over power-off. A special device that does begins with its default only when the PLC is switched on
+    /// for the first time.
+    pub fn is_latched(&self, class: DeviceClass, number: u32) -> bool {
+        let mut ranges = self.ranges_of(class);
+        ranges.any(|r| r.latched && (r.first..=r.last).contains(&number))
+    }
+
     /// The ranges of a class, in order.
     pub fn ranges_of(&self, class: DeviceClass) -> impl Iterator<Item = &Range> {
         self.ranges.iter().filter(move |r| r.class == class)

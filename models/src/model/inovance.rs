@@ -142,6 +142,20 @@ fn pointers(number: u32) -> Option<Interrupt> {
     })
 }
 
+/// Special registers of both. The format words and the station numbers of the serial ports are latched (h1u-h2u-programming §5.1).
+const D_SPECIAL: &[Range] = &[
+    general(D, 8000, 8109),
+    latched(D, 8110, 8111),
+    general(D, 8112, 8119),
+    latched(D, 8120, 8121),
+    general(D, 8122, 8259),
+    latched(D, 8260, 8261),
+    general(D, 8262, 8269),
+    latched(D, 8270, 8271),
+    general(D, 8272, 8489),
+    latched(D, 8490, 8511),
+];
+
 /// Devices of H1U. Its latched ranges are fixed.
 const H1U_RANGES: &[Range] = joined! {Range:
     TERMINALS,
@@ -156,9 +170,8 @@ const H1U_RANGES: &[Range] = joined! {Range:
     &[
         general(D, 0, 127),
         latched(D, 128, 7999),
-        general(D, 8000, 8489),
-        latched(D, 8490, 8511),
     ],
+    D_SPECIAL,
     INDEXES,
     &[general(P, 0, 131)],
     I_INPUTS_AND_COUNTERS,
@@ -183,9 +196,8 @@ const H2U_RANGES: &[Range] = joined! {Range:
     &[
         general(D, 0, 199),
         latched(D, 200, 7999),
-        general(D, 8000, 8489),
-        latched(D, 8490, 8511),
     ],
+    D_SPECIAL,
     INDEXES,
     &[general(P, 0, 131)],
     I_INPUTS_AND_COUNTERS,
