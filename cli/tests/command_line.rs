@@ -357,7 +357,7 @@ fn a_program_may_be_called_main() {
     assert!(path.join("out/main.c").is_file() && path.join("out/plc_main.c").is_file());
 }
 
-/// A flood of commands starves neither the scan nor the signals; the end reports errors.
+/// A flood of commands starves neither the scan nor the signals nor the reports of errors.
 #[test]
 #[cfg(unix)]
 fn an_executable_goes_on_under_a_flood_of_commands() {
@@ -384,8 +384,8 @@ fn an_executable_goes_on_under_a_flood_of_commands() {
     let errors = text(&done.stderr);
     let told = errors
         .lines()
-        .any(|line| line.contains("step 1: error 6706"));
-    assert!(told, "the end reports the error");
+        .any(|line| line.contains("step 1: DIV D0 D1 D2: error 6706"));
+    assert!(told, "it reports the error: {errors}");
 }
 
 /// Five loops of 32767 rounds, one in the other: the watchdog ends the scan, and the executable says so.
@@ -411,8 +411,43 @@ fn an_executable_stops_a_scan_that_does_not_end() {
         .output()
         .unwrap();
     assert_eq!(done.status.code(), Some(0), "it ends by itself: {done:?}");
-    let told = "nest: step 12: error 6105, a scan does not end (watchdog); the PLC is in STOP\n";
-    assert_eq!(text(&done.stderr), told);
+    let errors = text(&done.stderr);
+    let (head, told) = errors.split_once(", ").unwrap_or_default();
+    assert!(
+        head.starts_with("nest: at ") && head.ends_with(" ms"),
+        "{errors}"
+    );
+    let expected =
+        "step 12: FOR K32767: error 6105, a scan does not end (watchdog); the PLC is in STOP\n";
+    assert_eq!(told, expected);
+}
+
+/// An executable names the instruction and the device of an error, once, as `rungc run` does.
+#[test]
+#[cfg(unix)]
+fn an_executable_names_what_an_error_is_about() {
+    for tool in ["cc", "make", "timeout"] {
+        if Command::new(tool).arg("--version").output().is_err() {
+            println!("skipped: there is no {tool}");
+            return;
+        }
+    }
+    let program = b"LD M8000\nMOV K30000 Z0\nMOV K1  D500Z0\nEND\n";
+    let folder = folder(&[("reach.il", program)]);
+    let path = folder.path();
+    let args = ["build", "reach.il", "--emit", "bin", "-o", "reach"];
+    assert_eq!(code(path, &args), 0);
+    let done = Command::new("timeout")
+        .args(["--preserve-status", "-s", "TERM", "-k", "8", "1", "./reach"])
+        .current_dir(path)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let errors = text(&done.stderr);
+    let told = "step 6: MOV K1 D500Z0: error 6706, D30500 does not exist";
+    assert_eq!(errors, format!("reach: at 0 ms, {told}\n"));
+    let run = text(&rungc(path, &["run", "reach.il", "--for", "20ms"]).stderr);
+    assert!(run.contains(told), "{run}");
 }
 
 #[test]

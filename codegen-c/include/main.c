@@ -105,27 +105,59 @@ static const char *meaning(unsigned code)
     }
 }
 
+/* Instructions at which an error can occur. The last entry ends the table. */
+static const struct {
+    unsigned step;
+    const char *text;
+} instructions[] = {
+    /* INSTRUCTIONS */
+    {0, ""},
+};
+
+/* The place of a step's instruction in the table, that of the last entry if it has none. */
+static size_t instruction_at(unsigned step)
+{
+    size_t i = 0;
+
+    while (instructions[i].text[0] != '\0' && instructions[i].step != step) {
+        i++;
+    }
+    return i;
+}
+
+/* MISSING */
 /* Reports once what stopped the program. */
-static void print_stop(const PROGRAM_plc *plc)
+static void print_stop(const PROGRAM_plc *plc, uint32_t now_ms)
 {
     static bool told;
     const plc_error error = PROGRAM_error(plc);
 
     if (!told && error.stop == PLC_STOP_WATCHDOG) {
-        fprintf(stderr, "PROGRAM: step %u: error %u, %s; the PLC is in STOP\n", error.stop_step, error.stop, meaning(error.stop));
+        fprintf(stderr, "PROGRAM: at %lu ms, step %u: %s: error %u, %s; the PLC is in STOP\n", (unsigned long)now_ms, error.stop_step,
+                instructions[instruction_at(error.stop_step)].text, error.stop, meaning(error.stop));
     } else if (!told && error.stop == PLC_STOP_M8037) {
         fprintf(stderr, "PROGRAM: the program has stopped itself (M8037)\n");
     }
     told = error.stop != PLC_STOP_NONE;
 }
 
-/* Reports the last operation error. */
-static void print_error(const PROGRAM_plc *plc)
+/* Reports the operation error that the last scan has met, once for each instruction. */
+static void print_error(const PROGRAM_plc *plc, uint32_t now_ms)
 {
+    static bool told[sizeof instructions / sizeof instructions[0]];
     const plc_error error = PROGRAM_error(plc);
+    const size_t i = instruction_at(error.step);
+    char device[40];
 
-    if (error.code != 0) {
-        fprintf(stderr, "PROGRAM: step %u: error %u, %s\n", error.step, error.code, meaning(error.code));
+    if (error.code == 0 || told[i]) {
+        return;
+    }
+    told[i] = true;
+    fprintf(stderr, "PROGRAM: at %lu ms, step %u: %s: error %u, ", (unsigned long)now_ms, error.step, instructions[i].text, error.code);
+    if (missing_device(plc, error.step, device, sizeof device)) {
+        fprintf(stderr, "%s does not exist\n", device);
+    } else {
+        fprintf(stderr, "%s\n", meaning(error.code));
     }
 }
 
@@ -149,11 +181,14 @@ int main(void)
 {
     PROGRAM_plc *const plc = &plc_memory;
     const uint64_t start = microseconds();
+    struct sigaction action = {.sa_flags = SA_RESTART};
     uint64_t next = start;
     uint32_t scan_us = 0;
 
-    signal(SIGINT, stop);
-    signal(SIGTERM, stop);
+    action.sa_handler = stop;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
     PROGRAM_init(plc);
     while (!stopped) {
         const uint64_t begin = microseconds();
@@ -161,12 +196,12 @@ int main(void)
         read_commands(plc);
         PROGRAM_scan(plc, now_ms, scan_us);
         print_outputs(plc, now_ms);
-        print_stop(plc);
+        print_error(plc, now_ms);
+        print_stop(plc, now_ms);
         scan_us = (uint32_t)(microseconds() - begin);
 
         next += SCAN_MS * 1000u;
         /* WAIT */
     }
-    print_error(plc);
     return 0;
 }

@@ -5,7 +5,7 @@ use crate::text;
 use rungc_emit::storage::{Field, Storage};
 use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// What stands around the tables of terminals.
@@ -69,11 +69,100 @@ pub fn main_file(module: &Module) -> String {
         .collect();
     MAIN_C
         .replace("    /* ERRORS */\n", &errors)
+        .replace("    /* INSTRUCTIONS */\n", &instructions(module))
+        .replace("/* MISSING */\n", &missing_device(module, &fields))
         .replace("/* WAIT */", wait)
         .replace("/* INTERRUPTS */", interrupts)
         .replace("    /* INPUTS */\n", &inputs)
         .replace("    /* OUTPUTS */\n", &outputs)
         .replace("PROGRAM", name)
+}
+
+/// The rows of the instructions at which an error can occur.
+fn instructions(module: &Module) -> String {
+    let rows = module.origins.iter().map(|origin| {
+        let text = text::string_literal(&origin.text);
+        format!("    {{{}, {text}}},\n", origin.step)
+    });
+    rows.collect()
+}
+
+/// Devices that the PLC has, and whether it has the one to which an index leads.
+const IS_MISSING: &str = "\
+/* Devices that the PLC has, of the classes that the program names with an index. The last entry ends the table. */
+static const struct {
+    char letter;
+    long first;
+    long last;
+} ranges[] = {
+    /* RANGES */
+    {'\\0', 0, 0},
+};
+
+/* Names the device to which an index leads, if the PLC does not have it; else false. */
+static bool is_missing(char *name, size_t size, const char *letter, long first, long index)
+{
+    const long number = first + index;
+
+    for (size_t i = 0; ranges[i].letter != '\\0'; i++) {
+        if (ranges[i].letter == letter[0] && ranges[i].first <= number && number <= ranges[i].last) {
+            return false;
+        }
+    }
+    if (number < 0) {
+        (void)snprintf(name, size, \"%s%ld with an index of %ld\", letter, first, index);
+    } else if (letter[0] == 'X' || letter[0] == 'Y') {
+        (void)snprintf(name, size, \"%s%03lo\", letter, (unsigned long)number);
+    } else {
+        (void)snprintf(name, size, \"%s%ld\", letter, number);
+    }
+    return true;
+}
+
+";
+
+/// The function that names the device which an instruction with an index has not found.
+fn missing_device(module: &Module, fields: &Storage) -> String {
+    let mut cases = String::new();
+    let mut classes = BTreeSet::new();
+    for origin in &module.origins {
+        let mut checks = Vec::new();
+        for (device, index) in &origin.indexed {
+            let mut register = String::new();
+            if fields.access(&mut register, index.class, index.number) {
+                let (letter, number) = (device.class.prefix(), device.number);
+                checks.push(format!(
+                    "is_missing(name, size, \"{letter}\", {number}, {register})"
+                ));
+                classes.insert(device.class);
+            }
+        }
+        if !checks.is_empty() {
+            let (step, checks) = (origin.step, checks.join(" || "));
+            let _ = writeln!(cases, "    case {step}u:\n        return {checks};");
+        }
+    }
+    let head = "\
+/* Names a device that the instruction at a step has not found, as its index registers are now; false if it has all of them. */
+static bool missing_device(const PROGRAM_plc *plc, unsigned step, char *name, size_t size)
+{
+";
+    if cases.is_empty() {
+        return format!(
+            "{head}    (void)plc;\n    (void)step;\n    (void)name;\n    (void)size;\n    return false;\n}}\n\n"
+        );
+    }
+    let mut ranges = String::new();
+    for class in classes {
+        let letter = &class.prefix()[..1];
+        for (first, last) in module.model.runs(class) {
+            let _ = writeln!(ranges, "    {{'{letter}', {first}, {last}}},");
+        }
+    }
+    let is_missing = IS_MISSING.replace("    /* RANGES */\n", &ranges);
+    format!(
+        "{is_missing}{head}    switch (step) {{\n{cases}    default:\n        return false;\n    }}\n}}\n\n"
+    )
 }
 
 /// The input terminals, and the effect of each turning on or off.

@@ -4,6 +4,7 @@ use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
 use crate::{Options, OutFile, Runtime};
 use rungc_ir::Module;
+use rungc_ir::node::Origin;
 use rungc_models::plc_errors;
 use rungc_rt::TimerKind;
 use rungc_runtime_sources::EMITTED_VERSION;
@@ -409,10 +410,39 @@ fn host(generator: &Generator, crate_name: &str) -> String {
         .collect();
     include_str!("../templates/host.rs")
         .replace("ERROR_TABLE", &errors)
+        .replace("INSTRUCTION_TABLE", &instructions(generator.module))
         .replace("OUTPUT_TABLE", &table)
         .replace("        WAIT;\n", wait)
         .replace("CRATE", crate_name)
         .replace("TYPE", &generator.type_name.to_string())
+}
+
+/// The rows of the instructions at which an error can occur.
+fn instructions(module: &Module) -> String {
+    let mut rows = String::new();
+    for Origin {
+        step,
+        text,
+        indexed,
+    } in &module.origins
+    {
+        let indexed = indexed.iter().map(|(device, index)| {
+            let [class, index_class] = [device.class, index.class].map(|c| format!("Class::{c:?}"));
+            format!(
+                "({class}, {:?}, {}, {index_class}, {})",
+                device.class.prefix(),
+                device.number,
+                index.number
+            )
+        });
+        let indexed = indexed.collect::<Vec<_>>().join(", ");
+        let text = one_line(text);
+        let _ = write!(rows, "\n    ({step}, {text:?}, &[{indexed}]),");
+    }
+    if !rows.is_empty() {
+        rows.push('\n');
+    }
+    rows
 }
 
 /// How a host waits for the next scan.

@@ -4,6 +4,7 @@
 
 use CRATE::TYPE;
 use rungc_rt::{Class, LastError, Plc, Program, Stop, VirtualHal};
+use std::collections::BTreeSet;
 use std::io::{self, BufRead};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, Instant};
@@ -20,6 +21,12 @@ const OUTPUTS: &[(u32, &str, &str)] = &[OUTPUT_TABLE];
 /// Error codes of the PLC that the program may meet, and what they mean.
 const ERRORS: &[(u16, &str)] = &[ERROR_TABLE];
 
+/// A device with an index: its class, letter and number, and the index register.
+type Indexed = (Class, &'static str, u32, Class, u32);
+
+/// Instructions at which an error can occur: step, text, devices with an index.
+const INSTRUCTIONS: &[(u16, &str, &[Indexed])] = &[INSTRUCTION_TABLE];
+
 fn main() {
     let mut plc = TYPE::new();
     let mut hal = VirtualHal::new();
@@ -28,7 +35,7 @@ fn main() {
     let start = Instant::now();
     let mut next = start;
     let mut scan_us = 0;
-    let mut error = LastError::NONE;
+    let mut reported = Reported::default();
     loop {
         let begin = Instant::now();
         let now_ms = (begin - start).as_millis() as u32;
@@ -48,8 +55,7 @@ fn main() {
                 println!("{seconds:>11.3} s  {name} {state:<3} {comment}");
             }
         }
-        print_error(error, plc.last_error());
-        error = plc.last_error();
+        reported.add(&plc, now_ms);
         scan_us = begin.elapsed().as_micros() as u32;
         next += SCAN;
         WAIT;
@@ -62,22 +68,56 @@ fn meaning(code: u16) -> &'static str {
     known.map_or("operation error", |error| error.1)
 }
 
-/// Reports an operation error at another place than the last one, and what stops the program.
-fn print_error(before: LastError, now: LastError) {
-    if now.code != 0 && (now.code, now.step) != (before.code, before.step) {
-        let LastError { code, step, .. } = now;
-        eprintln!("step {step}: error {code}, {}", meaning(code));
-    }
-    if now.stop != before.stop {
-        match now.stop {
-            Stop::No => {}
-            Stop::Program => eprintln!("the program has stopped itself (M8037)"),
-            Stop::Watchdog => {
-                let (code, step) = (Stop::Watchdog as u16, now.stop_step);
-                eprintln!("step {step}: error {code}, {}; the PLC is in STOP", meaning(code));
+/// What has been reported.
+#[derive(Default)]
+struct Reported {
+    /// Steps of the instructions with an operation error.
+    steps: BTreeSet<u16>,
+    stop: Stop,
+}
+
+impl Reported {
+    /// Reports an operation error, once for each instruction, and what stops the program.
+    fn add(&mut self, plc: &TYPE, now_ms: u32) {
+        let LastError { code, step, stop, stop_step } = plc.last_error();
+        if code != 0 && self.steps.insert(step) {
+            let what = missing_device(plc, step).unwrap_or(meaning(code).to_string());
+            eprintln!("at {now_ms} ms, step {step}: {}: error {code}, {what}", instruction(step).0);
+        }
+        if stop != self.stop {
+            match stop {
+                Stop::No => {}
+                Stop::Program => eprintln!("the program has stopped itself (M8037)"),
+                Stop::Watchdog => {
+                    let (code, text) = (Stop::Watchdog as u16, instruction(stop_step).0);
+                    let what = meaning(code);
+                    eprintln!("at {now_ms} ms, step {stop_step}: {text}: error {code}, {what}; the PLC is in STOP");
+                }
             }
+            self.stop = stop;
         }
     }
+}
+
+/// The instruction at a step, and its devices with an index.
+fn instruction(step: u16) -> (&'static str, &'static [Indexed]) {
+    let known = INSTRUCTIONS.iter().find(|known| known.0 == step);
+    known.map_or(("", &[]), |known| (known.1, known.2))
+}
+
+/// A device that the instruction at a step has not found, as its index registers are now.
+fn missing_device(plc: &TYPE, step: u16) -> Option<String> {
+    instruction(step).1.iter().find_map(|&(class, name, first, index, register)| {
+        let offset = plc.word(index, register)?;
+        let number = first.checked_add_signed(offset.into());
+        let exists = |&n: &u32| plc.bit(class, n).is_some() || plc.word(class, n).is_some();
+        match (number, class) {
+            (Some(number), _) if exists(&number) => None,
+            (Some(number), Class::X | Class::Y) => Some(format!("{name}{number:03o} does not exist")),
+            (Some(number), _) => Some(format!("{name}{number} does not exist")),
+            (None, _) => Some(format!("{name}{first} with an index of {offset} does not exist")),
+        }
+    })
 }
 
 /// The lines of standard input, as they come.

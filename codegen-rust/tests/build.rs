@@ -4,7 +4,7 @@ mod common;
 
 use common::{cargo, runtime_path, write};
 use rungc_codegen_rust::{Options, Runtime, batch, emit};
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
 
 #[test]
@@ -17,6 +17,66 @@ fn a_program_builds_without_warnings() {
     write(folder.path(), &emit(&common::motor(), &options));
     cargo(folder.path(), &["clippy"]);
     cargo(folder.path(), &["build"]);
+}
+
+/// What uses a crate whose instructions fail: first at an index, then at a division, and at last the watchdog stops a scan.
+const ERRORS: &str = r#"
+use errors::Errors;
+use rungc_rt::{Class, LastError, Plc, Program, Stop, VirtualHal};
+
+fn main() {
+    let (mut plc, mut hal) = (Errors::new(), VirtualHal::new());
+    let mut scan = |inputs: [bool; 3]| {
+        for (number, on) in (0..).zip(inputs) {
+            plc.set_bit(Class::X, number, on).unwrap();
+        }
+        plc.scan(&mut hal, 0, 0);
+        plc.last_error()
+    };
+    assert_eq!(scan([false; 3]), LastError::NONE);
+    let index = LastError { code: 6706, step: 6, ..LastError::NONE };
+    assert_eq!(scan([true, false, false]), index);
+    assert_eq!(scan([false; 3]), index, "it stays until another one comes");
+    let division = LastError { code: 6706, step: 12, ..LastError::NONE };
+    assert_eq!(scan([true, true, false]), division);
+    let stopped = LastError { stop: Stop::Watchdog, stop_step: 21, ..division };
+    assert_eq!(scan([false, false, true]), stopped);
+    plc.set_running(true);
+    assert_eq!(plc.last_error(), LastError::NONE, "RUN begins anew");
+}
+"#;
+
+#[test]
+fn a_program_keeps_its_last_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = Options {
+        main: true,
+        runtime: Runtime::At(runtime_path()),
+    };
+    let list = "LD X0\nMOV K30000 Z0\nMOV K1 D500Z0\nLD X1\nDIV D0 D1 D2\nP0\nLD X2\nCJ P0\nEND\n";
+    write(
+        folder.path(),
+        &emit(&common::compiled("errors", list), &options),
+    );
+    let example = folder.path().join("examples");
+    std::fs::create_dir(&example).unwrap();
+    std::fs::write(example.join("errors.rs"), ERRORS).unwrap();
+    cargo(folder.path(), &["run", "--example", "errors"]);
+    let target = cargo(folder.path(), &["build"]);
+    let mut host = Command::new(target.join("debug/errors"))
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    host.stdin.take().unwrap().write_all(b"X0=1\n").unwrap();
+    let mut told = String::new();
+    let errors = host.stderr.take().unwrap();
+    BufReader::new(errors).read_line(&mut told).unwrap();
+    host.kill().unwrap();
+    host.wait().unwrap();
+    let told = told.split_once(", ").map(|(_, told)| told);
+    let expected = "step 6: MOV K1 D500Z0: error 6706, D30500 does not exist\n";
+    assert_eq!(told, Some(expected));
 }
 
 #[test]

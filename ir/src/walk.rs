@@ -192,6 +192,18 @@ pub fn calls_runtime(stmt: &Stmt) -> bool {
     matches!(stmt, Stmt::Call(_) | Stmt::Fetch { .. } | Stmt::Send { .. })
 }
 
+/// The step at which a statement reports a fault, if it can.
+pub fn fault_step(stmt: &Stmt) -> Option<u32> {
+    match *stmt {
+        Stmt::Call(Call { step, .. })
+        | Stmt::Fetch { step, .. }
+        | Stmt::Send { step, .. }
+        | Stmt::Fault { step, .. }
+        | Stmt::Watch { at: step, .. } => Some(step),
+        _ => None,
+    }
+}
+
 /// The bodies directly inside a statement.
 pub fn bodies(stmt: &Stmt) -> impl Iterator<Item = &Body> {
     let (own, parts): ([Option<&Body>; 2], &[Part]) = match stmt {

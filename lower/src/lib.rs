@@ -30,6 +30,7 @@ mod interrupt;
 mod logic;
 mod name;
 mod operand;
+mod origins;
 mod parts;
 mod ports;
 mod pulse_width;
@@ -105,6 +106,7 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Di
         &specials.flags,
         &specials.whole,
     );
+    module.origins = origins::find(&module, resolved);
     module.comments = resolved
         .program
         .comments

@@ -110,7 +110,6 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     let run = simulate::Run {
         args,
         module: &module,
-        program: &read.program,
         errors_at_once: cx.verbosity == Verbosity::Verbose,
         settings: &settings,
         shown: &shown,

@@ -6,7 +6,7 @@ use crate::walk::{calls_runtime, statements};
 use rungc_models::{Model, Range};
 use rungc_rt::EdgeKind;
 use rungc_rt::special::D_WATCHDOG_MS;
-use rungc_syntax::{DeviceClass, Span};
+use rungc_syntax::{Device, DeviceClass, Index, Span};
 use std::borrow::Cow;
 use typed_index_collections::TiVec;
 
@@ -63,6 +63,17 @@ pub struct Network {
     pub statement: Option<String>,
     /// Note beside its coil.
     pub note: Option<String>,
+}
+
+/// An instruction of the program at which a fault can occur, for hosts that report it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Origin {
+    /// Its step number, by which [`Stmt::Fault`] and others name it.
+    pub step: u32,
+    /// As the program writes it: `MOV D0 D100Z0`.
+    pub text: String,
+    /// The devices that it names with an index, from which the index may lead to one that the model does not have.
+    pub indexed: Vec<(Device, Index)>,
 }
 
 /// What a function is called by.
@@ -148,6 +159,8 @@ pub struct Module {
     pub ports: Vec<u8>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
+    /// The instructions at which faults can occur, by step.
+    pub origins: Vec<Origin>,
     /// Comments on devices.
     pub comments: Vec<(DeviceClass, u32, String)>,
     /// Stored devices.
@@ -186,6 +199,7 @@ impl Module {
                 .map(function)
                 .into(),
             networks: Vec::new(),
+            origins: Vec::new(),
             comments: Vec::new(),
             layout: Layout::default(),
             initial_words: Vec::new(),
@@ -219,6 +233,12 @@ impl Module {
             )
         };
         self.sends_pulses() || self.has_ports() || self.functions.iter().any(by_host)
+    }
+
+    /// The instruction at a step, if a fault can occur there.
+    pub fn origin(&self, step: u32) -> Option<&Origin> {
+        let found = self.origins.binary_search_by_key(&step, |o| o.step);
+        found.ok().map(|i| &self.origins[i])
     }
 
     /// Whether it has pulse outputs.

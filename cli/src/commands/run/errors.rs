@@ -1,16 +1,15 @@
 //! What the PLC would show of errors while a program runs: the operation errors, and what stopped it.
 
 use crate::commands::tell;
-use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_interp::OperationError;
-use rungc_models::{Model, plc_errors};
+use rungc_ir::Module;
+use rungc_models::plc_errors;
 use rungc_rt::{Class, LastError};
-use rungc_syntax::{Device, DeviceClass, Index, Instr, OperandKind, Program};
+use rungc_syntax::{Device, DeviceClass, Index};
 
 /// Reports errors with the instructions that caused them.
 pub struct Errors<'a> {
-    resolved: Resolved<'a>,
-    model: &'static Model,
+    module: &'a Module,
     /// Whether errors are reported as they occur.
     at_once: bool,
     /// How many have been reported.
@@ -18,12 +17,10 @@ pub struct Errors<'a> {
 }
 
 impl<'a> Errors<'a> {
-    /// Those of a program on a model.
-    pub fn new(program: &'a Program, model: &'static Model, at_once: bool) -> Self {
-        let (resolved, _) = resolve(program, model);
+    /// Those of a program.
+    pub fn new(module: &'a Module, at_once: bool) -> Self {
         Errors {
-            resolved,
-            model,
+            module,
             at_once,
             reported: 0,
         }
@@ -49,7 +46,7 @@ impl<'a> Errors<'a> {
             tell(&format!("rungc: {}, {times}", self.describe(error)));
         }
         if let Some(error) = errors.first() {
-            let (code, relay) = (error.code, self.model.error_relay.number());
+            let (code, relay) = (error.code, self.module.model.error_relay.number());
             tell(&format!(
                 "rungc: a PLC reports these errors in M{relay} and D{relay}; for more, run `rungc explain {code}`"
             ));
@@ -68,9 +65,8 @@ impl<'a> Errors<'a> {
     }
 
     fn describe(&self, error: &OperationError) -> String {
-        let missing = self.missing(error);
         let title = plc_errors::title(error.code);
-        let what = match missing {
+        let what = match self.missing(error) {
             Some(device) => format!("{device} does not exist"),
             None => title.to_string(),
         };
@@ -86,40 +82,18 @@ impl<'a> Errors<'a> {
         )
     }
 
-    /// The instruction at a step.
-    fn instr(&self, step: u32) -> Option<&Instr> {
-        let behind = self
-            .resolved
-            .instrs
-            .partition_point(|instr| instr.step <= step);
-        let own = |i: &usize| self.resolved.instrs[*i].inst.is_some();
-        let at = (0..behind).rev().find(own)?;
-        self.resolved.program.instrs.get(at)
-    }
-
     /// The instruction at a step, as it is written.
-    fn text(&self, step: u32) -> String {
-        let source = &self.resolved.program.source.text;
-        let text = self
-            .instr(step)
-            .and_then(|instr| source.get(instr.span.range()));
-        text.map_or(String::new(), |text| {
-            text.split_whitespace().collect::<Vec<_>>().join(" ")
-        })
+    fn text(&self, step: u32) -> &str {
+        self.module.origin(step).map_or("", |origin| &origin.text)
     }
 
     /// A device of the instruction that an index led to and that the model does not have.
     fn missing(&self, error: &OperationError) -> Option<String> {
-        let instr = self.instr(error.step)?;
-        instr.operands.iter().find_map(|operand| {
-            let (device, index) = match operand.kind {
-                OperandKind::Device(device, index)
-                | OperandKind::WordBit(device, _, index)
-                | OperandKind::Nibbles(_, device, index) => (device, index?),
-                _ => return None,
-            };
-            self.led_to(device, index, error)
-        })
+        let indexed = &self.module.origin(error.step)?.indexed;
+        let mut missing = indexed
+            .iter()
+            .filter_map(|&(device, index)| self.led_to(device, index, error));
+        missing.next()
     }
 
     fn led_to(&self, device: Device, index: Index, error: &OperationError) -> Option<String> {
@@ -129,7 +103,7 @@ impl<'a> Errors<'a> {
         };
         let offset = error.index(class, index.number)?;
         let number = i64::from(device.number) + i64::from(offset);
-        let exists = self.model.in_range(device.class, number, 1);
+        let exists = self.module.model.in_range(device.class, number, 1);
         let name = match u32::try_from(number) {
             Ok(number) => device.class.number(number).to_string(),
             Err(_) => format!("{device} with an index of {offset}"),

@@ -17,7 +17,7 @@ use rungc_rt::{Class, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::Plant;
 use rungc_sim::record::Reading;
-use rungc_syntax::{DeviceClass, Program as Source};
+use rungc_syntax::DeviceClass;
 use std::io::{self, Write};
 use std::iter::Peekable;
 use std::slice::Iter;
@@ -47,8 +47,6 @@ pub struct Run<'a> {
     pub args: &'a RunArgs,
     /// The program.
     pub module: &'a Module,
-    /// What it was compiled from.
-    pub program: &'a Source,
     /// Whether operation errors are reported as they occur.
     pub errors_at_once: bool,
     /// What is set, in the order of the times.
@@ -101,7 +99,7 @@ impl Run<'_> {
             recording,
             plotting,
             plant,
-            errors: Errors::new(self.program, module.model, self.errors_at_once),
+            errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model)?,
             lines: Lines::open(&args.serve.serial, module.model)?,
             now_ms: 0,
