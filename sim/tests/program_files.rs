@@ -142,3 +142,25 @@ fn mistakes_have_their_place() {
         failed[0]
     );
 }
+
+/// Bounds of indexes belong to a project's program; a test file that has some is told so, not that it has an unknown key.
+#[test]
+fn bounds_of_indexes_are_refused_in_test_files() {
+    let folder = folder("a.il", LIST, None);
+    let path = folder.path().join("t.plctest.toml");
+    let why = "`[index]` belongs in rungc.toml and applies to its program: test that with `program = { file = \"…\" }`";
+    let cases = CASES.replace("FILE", "a.il");
+    for (text, place) in [
+        (
+            format!("{cases}\n[case.index]\n\"D0Z0\" = \"D0-D9\"\n"),
+            "18:",
+        ),
+        (cases.replace("topic", "index = {}\ntopic"), "2:"),
+    ] {
+        fs::write(&path, text).unwrap();
+        let problems = plctest::load(&path).unwrap_err().to_string();
+        let (_, problem) = problems.split_once(".toml:").unwrap();
+        assert!(problem.starts_with(place), "{problem}");
+        assert!(problem.ends_with(why), "{problem}");
+    }
+}

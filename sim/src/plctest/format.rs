@@ -11,6 +11,7 @@ use rungc_models::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -26,6 +27,7 @@ struct RawFile {
     note: Option<String>,
     program: Option<Spanned<RawProgram>>,
     machine: Option<Spanned<String>>,
+    index: Option<Spanned<IgnoredAny>>,
     case: Vec<Spanned<RawCase>>,
 }
 
@@ -41,6 +43,7 @@ struct RawCase {
     note: String,
     program: Option<Spanned<RawProgram>>,
     machine: Option<Spanned<String>>,
+    index: Option<Spanned<IgnoredAny>>,
     #[serde(default)]
     init: Map<Spanned<Scalar>>,
     #[serde(default)]
@@ -176,6 +179,7 @@ impl Reader<'_> {
         let given = raw.model.as_ref().map(|name| self.model(name));
         let program = raw.program.map(|program| self.program(program));
         let machine = self.machine(raw.machine.as_ref());
+        self.no_index(raw.index.as_ref());
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
             let name = case.get_ref().name.clone();
@@ -220,6 +224,14 @@ impl Reader<'_> {
         read
     }
 
+    /// Refuses bounds of operands with an index, which belong to the settings of a program file.
+    fn no_index(&mut self, index: Option<&Spanned<IgnoredAny>>) {
+        if let Some(index) = index {
+            let message = "`[index]` belongs in rungc.toml and applies to its program: test that with `program = { file = \"…\" }`";
+            self.report(index.span().start, message.to_string());
+        }
+    }
+
     /// The machine that a file beside the test file describes.
     fn machine(&mut self, name: Option<&Spanned<String>>) -> Option<Arc<Description>> {
         let name = name?;
@@ -257,6 +269,7 @@ impl Reader<'_> {
             self.report(at, message);
             ModelId::Fx3u
         });
+        self.no_index(raw.index.as_ref());
         let others = self.others(raw.plc, model);
         let wires = raw.wire.iter();
         let wires = wires.map(|line| line.iter().filter_map(|port| self.port(port)).collect());
