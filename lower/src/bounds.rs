@@ -8,7 +8,7 @@ use rungc_ir::ranges::Bound;
 use rungc_ir::reach::Access;
 use rungc_models::Model;
 use rungc_models::runs::is_counter32;
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Index, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, Span, codes};
 use std::collections::BTreeMap;
 
 /// From how many bytes on it is worth knowing what an operand makes a program store.
@@ -48,9 +48,7 @@ pub(super) fn check(resolved: &Resolved, bounds: &[Bound], diagnostics: &mut Dia
         let mut named = operands.filter(|o| indexed(&o.kind) == Some((bound.device, bound.index)));
         let operand = format!("{}{}", bound.device, bound.index);
         let Some(first) = named.next() else {
-            let message = format!("`{operand}` has a bound, but no instruction has this operand");
-            let help = "a bound is for the operand exactly as the program writes it";
-            diagnostics.push(codes::BOUND_UNUSED.at(Span::default(), message).help(help));
+            diagnostics.push(unused(resolved, bound, &operand));
             continue;
         };
         let class = bound.device.class;
@@ -69,6 +67,34 @@ pub(super) fn check(resolved: &Resolved, bounds: &[Bound], diagnostics: &mut Dia
             diagnostics.push(diagnostic.help(format!("there are {}", runs.join(" and "))));
         }
     }
+}
+
+/// The warning about a bound for an operand that no instruction has, at the operand that is most like it: with the same index register
+/// rather than another, then the one with the closest number.
+fn unused(resolved: &Resolved, bound: &Bound, operand: &str) -> Diagnostic {
+    let operands = resolved.program.instrs.iter().flat_map(|i| &i.operands);
+    let alike = operands
+        .filter_map(|o| Some((o.span, indexed(&o.kind)?)))
+        .filter(|(_, (device, _))| device.class == bound.device.class)
+        .min_by_key(|(_, (device, index))| {
+            let distance = device.number.abs_diff(bound.device.number);
+            (*index != bound.index, distance)
+        });
+    let message = format!("`{operand}` has a bound, but no instruction has this operand");
+    let (span, label) = match alike {
+        Some((span, (device, index))) => (span, format!("this operand is `{device}{index}`")),
+        None => {
+            let label = format!(
+                "no device {} has an index here",
+                bound.device.class.prefix()
+            );
+            (Span::default(), label)
+        }
+    };
+    codes::BOUND_UNUSED
+        .at(span, message)
+        .label(label)
+        .help("a bound is for the operand exactly as the program writes it")
 }
 
 /// Reports operands that make a program store many devices because little is known about their index.

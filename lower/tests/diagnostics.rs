@@ -7,6 +7,7 @@ use rendered::{findings, render, shown};
 use rungc_frontend::read_text;
 use rungc_lower::compile::CompileOptions;
 use rungc_models::ModelId;
+use rungc_syntax::diag::apply;
 use rungc_syntax::{Severity, codes};
 use std::fmt::Write;
 
@@ -77,6 +78,8 @@ DMOV K8M3060 D0
 OUT T0
 OUT Y0 K1
 OUT C0 K32768
+OUT T1 K-5
+OUT C1 K-1
 OUT C200 K32768
 SET T0
 MC N8 M100
@@ -142,6 +145,43 @@ LD X7
 END
 ";
     insta::assert_snapshot!(shown(ModelId::Fx3u, text));
+}
+
+/// What is certain about a branch or a label is a fix, and the program is right after it.
+#[test]
+fn certain_fixes_make_branches_and_labels_right() {
+    let mut pages = String::new();
+    for text in [
+        "LD X0\nMPS\nAND X1\nOUT Y0\nMRD\nAND X2\nOUT Y1\nMRD\nOUT Y2\nLD X3\nOUT Y3\nEND\n",
+        "LD X0\nMPS\nAND X1\nOUT Y0\nMPP\nAND X2\nOUT Y1\nMPP\nAND X3\nOUT Y2\nMPP\nOUT Y3\nEND\n",
+        "LD X0\nCJ P63\nLD X1\nOUT Y0\nP63\nEND\n",
+    ] {
+        let (source, diagnostics) = findings(ModelId::Fx3u, text);
+        let fixes = diagnostics.iter().filter_map(|d| d.fix.as_ref());
+        let certain: Vec<_> = fixes.filter(|fix| fix.certain).collect();
+        let (fixed, _) = apply(text, &certain);
+        let (again, left) = findings(ModelId::Fx3u, &fixed);
+        let errors = left.iter().any(|d| d.severity == Severity::Error);
+        assert!(!errors, "{fixed}{}", render(&again, &left));
+        write!(
+            pages,
+            "{text}---\n{}---\n{fixed}\n",
+            render(&source, &diagnostics)
+        )
+        .expect("a string");
+    }
+    insta::assert_snapshot!(pages);
+}
+
+/// An MPP without MPS in another rung says nothing about the branch before.
+#[test]
+fn a_return_in_another_rung_has_no_fix() {
+    let text = "LD X0\nMPS\nAND X1\nOUT Y0\nMPP\nOUT Y1\nLD X2\nMPP\nOUT Y2\nEND\n";
+    let (_, diagnostics) = findings(ModelId::Fx3u, text);
+    let [only] = &diagnostics[..] else {
+        panic!("one finding: {diagnostics:?}");
+    };
+    assert_eq!((only.code, &only.fix), (codes::NO_BRANCH.id, &None));
 }
 
 #[test]

@@ -224,7 +224,9 @@ fn bounds_say_what_is_not_known() {
     ] {
         let compiled = compiled(text, with(&bounds));
         for found in compiled.diagnostics.iter() {
+            let at = text.get(found.span.range()).expect("a place");
             writeln!(shown, "{} {}", found.code, found.message).expect("a string");
+            writeln!(shown, "    `{at}` {}", found.label).expect("a string");
             writeln!(shown, "    {}", found.help.as_deref().unwrap_or("")).expect("a string");
         }
     }

@@ -5,15 +5,12 @@
 
 use super::{Code, Part};
 use rungc_catalogue::Basic;
-use rungc_syntax::{Diagnostic, Diagnostics, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Fix, codes};
 
 /// How many blocks may wait to be joined.
 const MAX_BLOCKS: usize = 8;
 /// How many results MPS can store.
 const MAX_BRANCHES: usize = 11;
-
-/// What to do about an MPS without MPP.
-const CLOSE_BRANCH: &str = "put MPP before the last coil of the branch, or delete this MPS";
 
 /// A block of contacts.
 struct Block {
@@ -29,6 +26,8 @@ struct Branch {
     at: usize,
     /// How many blocks there were, the stored one included.
     blocks: usize,
+    /// The last MRD that returned to it.
+    read: Option<usize>,
 }
 
 struct Rungs<'a, 'p> {
@@ -37,6 +36,8 @@ struct Rungs<'a, 'p> {
     /// The blocks of the rung; the last one is the current result.
     blocks: Vec<Block>,
     branches: Vec<Branch>,
+    /// The MPP that closed the last open branch of the rung.
+    closed: Option<usize>,
     /// Whether coils may stand directly on the bus, because it is the sub-bus of a state.
     in_state: bool,
     /// After an instruction that could not be resolved, nothing is certain until a new rung starts.
@@ -58,6 +59,7 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
         out,
         blocks: Vec::new(),
         branches: Vec::new(),
+        closed: None,
         in_state: false,
         unsure: None,
     };
@@ -68,6 +70,9 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
             rungs.unknown();
         }
         rungs.instr(i);
+    }
+    if unread.next().is_some() {
+        rungs.unknown();
     }
     rungs.finish(None);
 }
@@ -123,6 +128,7 @@ impl Rungs<'_, '_> {
 
     fn start(&mut self, i: usize) {
         let spent = false;
+        self.closed = None;
         self.blocks.push(Block { start: i, spent });
         let unspent = self.blocks.iter().rev().take(MAX_BLOCKS + 2);
         let waiting = unspent.take_while(|block| !block.spent).count();
@@ -190,7 +196,12 @@ impl Rungs<'_, '_> {
             self.start(i);
         }
         let blocks = self.blocks.len();
-        self.branches.push(Branch { at: i, blocks });
+        self.branches.push(Branch {
+            at: i,
+            blocks,
+            read: None,
+        });
+        self.closed = None;
         if self.branches.len() == MAX_BRANCHES + 1 {
             let first = self.branches[0].at;
             let diagnostic = codes::TOO_MANY_BRANCHES
@@ -204,20 +215,33 @@ impl Rungs<'_, '_> {
 
     fn go_back(&mut self, i: usize, part: Part) {
         let name = &self.code.instr(i).mnemonic;
-        let Some(branch) = self.branches.last() else {
+        let Some(branch) = self.branches.last_mut() else {
             let diagnostic = codes::NO_BRANCH
                 .at(self.code.span(i), format!("`{name}` without MPS"))
                 .label("no result is stored here");
-            let help = format!("delete this {name}, or put MPS where the branch starts");
-            self.report(diagnostic.help(help));
+            let diagnostic = match self.closed.filter(|_| part == Part::Pop) {
+                // The branch is there; it was closed too early.
+                Some(closed) => diagnostic
+                    .other(self.code.span(closed), "this MPP closed the branch")
+                    .help("write MRD to return to a branch that continues")
+                    .fix(self.write("MRD", closed)),
+                None => diagnostic.help(format!(
+                    "delete this {name}, or put MPS where the branch starts"
+                )),
+            };
+            self.report(diagnostic);
+            let closed = self.closed.map(|_| i).filter(|_| part == Part::Pop);
             if self.blocks.is_empty() {
                 self.start(i);
             }
+            self.closed = closed;
             return;
         };
         let (at, blocks) = (branch.at, branch.blocks);
+        branch.read = Some(i);
         if part == Part::Pop {
             self.branches.pop();
+            self.closed = Some(i).filter(|_| self.branches.is_empty());
         }
         let open = self.blocks.get(blocks).map(|block| block.start);
         if let Some(open) = open {
@@ -288,13 +312,32 @@ impl Rungs<'_, '_> {
                 self.branches.push(branch);
                 continue;
             }
-            let diagnostic = codes::OPEN_BRANCH
-                .at(self.code.span(branch.at), "no MPP closes this branch")
-                .label("stored here")
-                .other(self.code.span(i), "a new rung started before this")
-                .help(CLOSE_BRANCH);
-            self.out.push(diagnostic);
+            let diagnostic = self.open_branch(&branch);
+            let started = (self.code.span(i), "a new rung started before this");
+            self.report(diagnostic.other(started.0, started.1));
         }
+    }
+
+    /// The error about a branch without MPP. Where MRD returns to it last, MPP there does the same and closes it.
+    fn open_branch(&self, branch: &Branch) -> Diagnostic {
+        let diagnostic = codes::OPEN_BRANCH
+            .at(self.code.span(branch.at), "no MPP closes this branch")
+            .label("stored here");
+        match branch.read {
+            Some(last) => diagnostic
+                .other(self.code.span(last), "the last return to it")
+                .help("write MPP for the last return to a branch")
+                .fix(self.write("MPP", last)),
+            None => {
+                diagnostic.help("put MPP before the last coil of the branch, or delete this MPS")
+            }
+        }
+    }
+
+    /// The fix that writes another mnemonic for an instruction without operands.
+    fn write(&self, mnemonic: &'static str, i: usize) -> Fix {
+        Fix::certain(format!("write {mnemonic}"))
+            .replace(self.code.instr(i).mnemonic_span, mnemonic)
     }
 
     fn alone(&mut self, i: usize) {
@@ -314,11 +357,8 @@ impl Rungs<'_, '_> {
     /// Ends the rung before an instruction without contacts, or at the end of the program.
     fn finish(&mut self, before: Option<usize>) {
         for branch in std::mem::take(&mut self.branches) {
-            let diagnostic = codes::OPEN_BRANCH
-                .at(self.code.span(branch.at), "no MPP closes this branch")
-                .label("stored here")
-                .help(CLOSE_BRANCH);
-            self.out.push(diagnostic);
+            let diagnostic = self.open_branch(&branch);
+            self.report(diagnostic);
         }
         let unspent = self
             .blocks

@@ -3,7 +3,7 @@
 use super::pointers::{Pointer, Pointers};
 use super::structure::{NONE, Nesting, Routine};
 use super::{Basic, Code};
-use rungc_syntax::{Device, DeviceClass, Diagnostics, Operand, OperandKind, Span, codes};
+use rungc_syntax::{Device, DeviceClass, Diagnostics, Fix, Operand, OperandKind, Span, codes};
 use rustc_hash::FxHashMap;
 
 /// Checks all pointers of a program.
@@ -56,9 +56,14 @@ fn end_pointer(code: &Code, pointer: &Pointer, out: &mut Diagnostics) {
     for &label in &pointer.labels {
         let diagnostic = codes::P63
             .at(code.span(label), "`P63` must not be defined")
-            .label("P63 is the end of the program")
-            .help("use another number for this label");
-        out.push(diagnostic);
+            .label("P63 is the end of the program");
+        // Right before END it leads where P63 leads anyway.
+        out.push(match code.basic(label + 1) == Some(Basic::End) {
+            true => diagnostic
+                .help("delete this label: jumps to P63 end the scan without it")
+                .fix(Fix::certain("delete the label").replace(code.span(label), "")),
+            false => diagnostic.help("use another number for this label"),
+        });
     }
     for &call in &pointer.calls {
         let diagnostic = codes::P63

@@ -269,12 +269,7 @@ impl<'l> Reader<'l> {
                     instr.remarks_mut().note = Some(text);
                 }
             }
-            Some(Token::Prefix(prefix)) => {
-                if !self.prefixes.add(prefix) {
-                    let what = "a second prefix of its kind";
-                    self.broken_operand(&codes::DAMAGED, at, body, what);
-                }
-            }
+            Some(Token::Prefix(prefix)) => self.prefixes.add(prefix),
             Some(Token::Operand(operand)) => self.operand(operand, body, at),
             Some(Token::Label) => {
                 self.next_instruction();
@@ -414,7 +409,7 @@ impl<'l> Reader<'l> {
         match kind {
             Some(kind) => self.whole_operand(kind, body, at),
             None => {
-                let what = "an operand that does not match its prefix";
+                let what = "an operand that does not match its prefixes";
                 self.broken_operand(&codes::DAMAGED, at, body, what);
             }
         }
@@ -464,7 +459,7 @@ impl<'l> Reader<'l> {
                 Some(unproven) => (&mut unproven.span, &mut unproven.operands),
                 None => return,
             },
-            Current::Label(_) => return self.give_up(),
+            Current::Label(_) => return self.give_up_label(),
             Current::None | Current::Labelled | Current::Unread => return,
         };
         *whole = whole.to(span);
@@ -481,7 +476,7 @@ impl<'l> Reader<'l> {
         }
     }
 
-    /// An operand cannot be read.
+    /// An operand cannot be read: its instruction keeps it as such.
     fn broken_operand(&mut self, code: &'static codes::Code, at: usize, body: &[u8], what: &str) {
         self.prefixes = Prefixes::default();
         if self.current == Current::Unread && code.id == codes::DAMAGED.id {
@@ -489,28 +484,15 @@ impl<'l> Reader<'l> {
             self.listing.word(&format!("?? {}", hex(body)));
             return;
         }
-        self.give_up();
-        self.report(code, at, body, what);
+        let span = self.report(code, at, body, what);
+        self.add_operand(span, OperandKind::Unreadable(None));
     }
 
-    /// Takes back the open instruction: one of its operands cannot be read. Its further operands are passed over.
-    fn give_up(&mut self) {
-        match self.current {
-            Current::Instr => {
-                if let Some(instr) = self.program.instrs.pop() {
-                    self.statement = instr.statement().map(SmolStr::from);
-                }
-                let count = self.program.instrs.len();
-                self.unproven
-                    .retain(|unproven| unproven.at < count || !unproven.is_read());
-                self.unread();
-            }
-            Current::Label(steps) => {
-                self.unread();
-                self.advance(steps);
-            }
-            Current::Unknown => self.close_unknown(),
-            Current::None | Current::Labelled | Current::Unread => {}
+    /// Takes back a label whose pointer cannot be read.
+    fn give_up_label(&mut self) {
+        if let Current::Label(steps) = self.current {
+            self.unread();
+            self.advance(steps);
         }
     }
 
@@ -523,13 +505,8 @@ impl<'l> Reader<'l> {
     /// Reports bytes in which no token stands.
     fn damage(&mut self, rest: &[u8], at: usize, damage: &Damage) {
         self.prefixes = Prefixes::default();
-        if rest.get(1).is_some_and(|&code| code >= 0x90) {
-            self.give_up();
-        }
-        self.close_unknown();
-        self.unread();
-        self.step = None;
-        self.listing.next_line();
+        // It begins within the operands of an instruction.
+        let of_instruction = rest.get(1).is_some_and(|&code| code >= 0x90);
         let (code, what) = match damage {
             Damage::Hole => (&codes::DAMAGED, "bytes that are not part of a program"),
             Damage::Cut => (
@@ -541,7 +518,18 @@ impl<'l> Reader<'l> {
                 "the end of the readable data, without `END`",
             ),
         };
-        self.report(code, at, rest, what);
+        if of_instruction && self.current == Current::Instr {
+            let span = self.report(code, at, rest, what);
+            self.add_operand(span, OperandKind::Unreadable(None));
+        } else {
+            if of_instruction {
+                self.give_up_label();
+            }
+            self.next_instruction();
+            self.report(code, at, rest, what);
+        }
+        self.unread();
+        self.step = None;
     }
 
     /// Adds an error about bytes of the file, which it writes into the listing.

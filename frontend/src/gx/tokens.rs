@@ -157,17 +157,19 @@ pub(super) struct Prefixes {
     digits: Option<u8>,
     index: Option<Index>,
     bit: Option<u8>,
+    /// Whether there are two of one kind, which do not go together with any operand.
+    twice: bool,
 }
 
 impl Prefixes {
-    /// Adds one; false if there is one of its kind already.
-    pub fn add(&mut self, prefix: Prefix) -> bool {
-        match prefix {
-            Prefix::Module(module) => self.module.replace(module).is_none(),
-            Prefix::Digits(digits) => self.digits.replace(digits).is_none(),
-            Prefix::Index(index) => self.index.replace(index).is_none(),
-            Prefix::Bit(bit) => self.bit.replace(bit).is_none(),
-        }
+    /// Adds one.
+    pub fn add(&mut self, prefix: Prefix) {
+        self.twice |= match prefix {
+            Prefix::Module(module) => self.module.replace(module).is_some(),
+            Prefix::Digits(digits) => self.digits.replace(digits).is_some(),
+            Prefix::Index(index) => self.index.replace(index).is_some(),
+            Prefix::Bit(bit) => self.bit.replace(bit).is_some(),
+        };
     }
 
     /// Whether there are none.
@@ -178,7 +180,8 @@ impl Prefixes {
                 module: None,
                 digits: None,
                 index: None,
-                bit: None
+                bit: None,
+                twice: false,
             }
         )
     }
@@ -187,7 +190,7 @@ impl Prefixes {
     pub fn join(self, kind: OperandKind) -> Option<OperandKind> {
         use DeviceClass::{M, S, X, Y};
         let index = self.index;
-        if self.module.is_some() {
+        if self.module.is_some() || self.twice {
             return None;
         }
         match (kind, self.digits, self.bit) {
@@ -212,7 +215,7 @@ impl Prefixes {
 
     /// An address with them; nothing if no module is named, or they do not go together.
     pub fn buffer(self, address: u32) -> Option<OperandKind> {
-        let (None, None) = (self.digits, self.bit) else {
+        let (None, None, false) = (self.digits, self.bit, self.twice) else {
             return None;
         };
         Some(OperandKind::Buffer {
