@@ -22,7 +22,7 @@ impl Lowerer<'_> {
             .last()
             .and_then(|operand| operand.kind.constant());
         let named = named.and_then(|number| i32::try_from(number).ok());
-        let masters = ports.all().iter().filter(|wiring| wiring.sends != 0);
+        let masters = ports.all().iter().filter(|wiring| wiring.sends.is_some());
         let masters = masters.map(|wiring| wiring.number);
         let all = ports.all().iter().map(|wiring| wiring.number);
         let all = all.filter(|&number| number != CAN_PORT);
@@ -62,8 +62,8 @@ impl Lowerer<'_> {
             let Some(wiring) = self.model.ports.get(*number) else {
                 continue;
             };
-            flags.extend(wiring.registers().map(|n| (DeviceClass::D, n)));
-            flags.extend(wiring.relays().map(|n| (DeviceClass::M, n)));
+            flags.extend(wiring.registers().map(|n| (DeviceClass::D, n.number())));
+            flags.extend(wiring.relays().map(|n| (DeviceClass::M, n.number())));
         }
         flags.extend(ERRORS.map(|n| (DeviceClass::D, n)));
         flags.extend(ERRORS.map(|n| (DeviceClass::M, n)));
@@ -75,10 +75,12 @@ impl Lowerer<'_> {
     fn sets_up(&self, wiring: &PortWiring) -> bool {
         let chooses = |device: Device| {
             let register = device.class == DeviceClass::D
-                && wiring.setup_registers().any(|n| n == device.number);
+                && wiring
+                    .setup_registers()
+                    .any(|n| n.number() == device.number);
             register
                 || device.class == DeviceClass::M
-                    && wiring.setup_relays().any(|n| n == device.number)
+                    && wiring.setup_relays().any(|n| n.number() == device.number)
         };
         let operands = self.resolved.program.instrs.iter();
         let mut operands = operands.flat_map(|instr| &instr.operands);

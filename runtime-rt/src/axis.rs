@@ -126,27 +126,27 @@ impl Axis {
 
 /// Value of a pair of registers D.
 pub(crate) fn long(plc: &dyn Plc, low: Register) -> i32 {
-    let word = |register: Register| plc.word(Class::D, register.number()).unwrap_or(0);
+    let word = |register: Register| register.value(plc) as i16;
     pair(word(low), word(low.after(1)))
 }
 
 /// Sets a pair of registers D, as far as the program looks at them.
 pub(crate) fn set_long(plc: &mut dyn Plc, low: Register, value: i32) {
     for (register, word) in low.run::<2>().into_iter().zip(words(value)) {
-        let _ = plc.set_word(Class::D, register.number(), word);
+        register.set(plc, word as u16);
     }
 }
 
 /// Whether one of these relays is on.
-pub(crate) fn is_on(plc: &dyn Plc, relays: &[Option<Relay>]) -> bool {
+pub(crate) fn any_is_on(plc: &dyn Plc, relays: &[Option<Relay>]) -> bool {
     let mut relays = relays.iter().flatten();
-    relays.any(|relay| plc.bit(Class::M, relay.number()) == Some(true))
+    relays.any(|relay| relay.is_on(plc))
 }
 
 /// Sets these relays, as far as the program looks at them.
 pub(crate) fn set_relays(plc: &mut dyn Plc, relays: &[Option<Relay>], on: bool) {
     for relay in relays.iter().flatten() {
-        let _ = plc.set_bit(Class::M, relay.number(), on);
+        relay.set(plc, on);
     }
 }
 
@@ -158,8 +158,8 @@ pub fn advance(plc: &mut dyn Plc, now_us: u32) {
         ..
     } = *plc.sys();
     for (output, wiring) in (0..).zip(plc.pulses().outputs()) {
-        let stops = !running || first_scan || is_on(plc, &wiring.stop);
-        let inverts = is_on(plc, &[wiring.inverts]);
+        let stops = !running || first_scan || any_is_on(plc, &wiring.stop);
+        let inverts = any_is_on(plc, &[wiring.inverts]);
         let Some(axis) = plc.axis(output) else {
             continue;
         };

@@ -3,6 +3,8 @@
 //! Every such number is here and nowhere else. The tables of the models say what a number means on which model; they
 //! know many more of them.
 
+use crate::plc::{Class, Plc};
+
 /// A special relay M, by its number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
 pub struct Relay(pub u16);
@@ -39,6 +41,30 @@ macro_rules! numbered {
     )*};
 }
 numbered!(Relay Register);
+
+impl Relay {
+    /// Whether it is on; one that the program does not use is off.
+    pub(crate) fn is_on(self, plc: &dyn Plc) -> bool {
+        plc.bit(Class::M, self.number()) == Some(true)
+    }
+
+    /// Sets it, if the program uses it.
+    pub(crate) fn set(self, plc: &mut dyn Plc, on: bool) {
+        let _ = plc.set_bit(Class::M, self.number(), on);
+    }
+}
+
+impl Register {
+    /// Its value; 0 of one that the program does not use.
+    pub(crate) fn value(self, plc: &dyn Plc) -> u16 {
+        plc.word(Class::D, self.number()).unwrap_or(0) as u16
+    }
+
+    /// Sets it, if the program uses it.
+    pub(crate) fn set(self, plc: &mut dyn Plc, value: u16) {
+        let _ = plc.set_word(Class::D, self.number(), value as i16);
+    }
+}
 
 // What the scan maintains.
 

@@ -6,6 +6,7 @@ use super::port::{Session, has_come};
 use super::wiring::{Choice, is_on, set, set_value, value};
 use crate::plc::{Class, Plc};
 use crate::runs::FIRST_SPECIAL;
+use crate::special::Register;
 
 /// Bits of the format word: RS sends and waits for a character before the data, and after it.
 const START: u16 = 1 << 8;
@@ -234,8 +235,9 @@ impl Session<'_> {
     /// The characters that the format word puts before and after data.
     fn marks(&self) -> [Option<u8>; 2] {
         let format = value(self.plc, self.wiring.format);
-        let of = |bit: u16, register: u32| {
-            (format & bit != 0 && register != 0).then(|| value(self.plc, register) as u8)
+        let of = |bit: u16, register: Option<Register>| {
+            let register = register.filter(|_| format & bit != 0)?;
+            Some(register.value(self.plc) as u8)
         };
         [of(START, self.wiring.start), of(END, self.wiring.end)]
     }
@@ -322,11 +324,11 @@ impl Session<'_> {
 impl Session<'_> {
     /// A word of the work area.
     fn work(&self, word: u32) -> u16 {
-        value(self.plc, u32::from(self.status.uinit[2]) + word)
+        area_word(self.plc, u32::from(self.status.uinit[2]) + word)
     }
 
     fn set_work(&mut self, word: u32, value: u16) {
-        set_value(self.plc, u32::from(self.status.uinit[2]) + word, value);
+        set_area_word(self.plc, u32::from(self.status.uinit[2]) + word, value);
     }
 
     fn raise(&mut self, flags: u16) {
@@ -442,8 +444,8 @@ pub(crate) fn usend(plc: &mut dyn Plc, area: u32, first: u16, count: u16) {
     if !fits(first, count) {
         return change_flags(plc, area, 0, flag::RANGE);
     }
-    set_value(plc, area + work::SEND, first);
-    set_value(plc, area + work::SEND_COUNT, count);
+    set_area_word(plc, area + work::SEND, first);
+    set_area_word(plc, area + work::SEND_COUNT, count);
     change_flags(plc, area, flag::SENT, flag::SEND);
 }
 
@@ -452,17 +454,26 @@ pub(crate) fn urcv(plc: &mut dyn Plc, area: u32, first: u16, count: u16) {
     if !fits(first, count) {
         return change_flags(plc, area, 0, flag::RANGE);
     }
-    set_value(plc, area + work::RECEIVE, first);
-    set_value(plc, area + work::RECEIVE_COUNT, count);
+    set_area_word(plc, area + work::RECEIVE, first);
+    set_area_word(plc, area + work::RECEIVE_COUNT, count);
     change_flags(plc, area, flag::RECEIVED, flag::RECEIVE);
 }
 
 /// UINIT finds fault with a work area whose receive area lies beyond the registers.
 pub(crate) fn check_area(plc: &mut dyn Plc, area: u32) {
-    let first = value(plc, area + work::RECEIVE);
-    if !fits(first, value(plc, area + work::RECEIVE_COUNT)) {
+    let first = area_word(plc, area + work::RECEIVE);
+    if !fits(first, area_word(plc, area + work::RECEIVE_COUNT)) {
         change_flags(plc, area, 0, flag::RANGE);
     }
+}
+
+/// A register of a work area; 0 of one that the model does not have.
+fn area_word(plc: &dyn Plc, register: u32) -> u16 {
+    plc.word(Class::D, register).unwrap_or(0) as u16
+}
+
+fn set_area_word(plc: &mut dyn Plc, register: u32, value: u16) {
+    let _ = plc.set_word(Class::D, register, value as i16);
 }
 
 fn fits(first: u16, count: u16) -> bool {
@@ -470,6 +481,6 @@ fn fits(first: u16, count: u16) -> bool {
 }
 
 fn change_flags(plc: &mut dyn Plc, area: u32, clear: u16, raise: u16) {
-    let flags = value(plc, area + work::FLAGS);
-    set_value(plc, area + work::FLAGS, flags & !clear | raise);
+    let flags = area_word(plc, area + work::FLAGS);
+    set_area_word(plc, area + work::FLAGS, flags & !clear | raise);
 }

@@ -4,13 +4,12 @@ use super::computer_link::on_demand::{self, Devices};
 use super::link::Role;
 use super::port::{FRAME, Session};
 use super::slaves;
-use super::wiring::{Ports, Protocol, is_on, set};
+use super::wiring::{M_PARALLEL_MASTER, M_PARALLEL_SLAVE, Ports, Protocol};
 use super::{Frame, Memory, Served};
+use crate::special::Relay;
 
 /// The parallel link is set up wrongly: M8070 and M8071 are both on.
-const M_SET_UP_WRONGLY: u32 = 8073;
-/// Master and slave of a parallel link.
-const M_PARALLEL: [u32; 2] = [8070, 8071];
+const M_SET_UP_WRONGLY: Relay = Relay(8073);
 
 impl Session<'_> {
     /// What the port is on a link.
@@ -42,8 +41,8 @@ impl Session<'_> {
     /// Sends what the link has to send.
     pub(super) fn advance_link(&mut self) {
         if self.plc.ports() == Ports::Inovance && self.wiring.number == 1 {
-            let both = M_PARALLEL.iter().all(|&relay| is_on(self.plc, relay));
-            set(self.plc, M_SET_UP_WRONGLY, both);
+            let both = M_PARALLEL_MASTER.is_on(self.plc) && M_PARALLEL_SLAVE.is_on(self.plc);
+            M_SET_UP_WRONGLY.set(self.plc, both);
         }
         let Some(role) = self.role() else {
             return;
@@ -69,7 +68,7 @@ impl Session<'_> {
     fn on_demand(&self) -> Option<Devices> {
         let has = self.status.protocol == Protocol::ComputerLink
             && matches!(self.plc.ports(), Ports::Inovance | Ports::Fx);
-        has.then(|| Devices::of_block(self.wiring.format))
+        self.wiring.format.filter(|_| has).map(Devices::of_block)
     }
 
     /// Sends what the program asks to be sent on demand.

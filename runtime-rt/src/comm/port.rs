@@ -347,11 +347,8 @@ impl Session<'_> {
     pub(super) fn slave(&self) -> Slave {
         let uinit = self.status.uinit;
         let (station, format) = match self.wiring.station {
-            0 => (uinit[0] & 0xff, uinit[1]),
-            register => (
-                value(self.plc, register),
-                value(self.plc, self.wiring.format),
-            ),
+            None => (uinit[0] & 0xff, uinit[1]),
+            Some(station) => (station.value(self.plc), value(self.plc, self.wiring.format)),
         };
         Slave {
             protocol: self.status.protocol,

@@ -3,7 +3,8 @@
 use super::LineFault;
 use super::can::CAN_PORT;
 use super::line::LineFormat;
-use crate::plc::{Class, Plc};
+use crate::plc::Plc;
+use crate::special::{Register, Relay};
 
 /// What a port speaks. The numbers are part of the C ABI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -122,7 +123,7 @@ pub enum Choice {
     Board,
 }
 
-/// The special devices of one port. A 0 stands for none.
+/// The special devices of one port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PortWiring {
     /// Its number in the model's manual.
@@ -130,50 +131,65 @@ pub struct PortWiring {
     /// What chooses its protocol.
     pub choice: Choice,
     /// Register: format word.
-    pub format: u32,
+    pub format: Option<Register>,
     /// Register: own station number.
-    pub station: u32,
+    pub station: Option<Register>,
     /// Register: protocol number or mode.
-    pub protocol: u32,
+    pub protocol: Option<Register>,
     /// Register: characters left to send.
-    pub left: u32,
+    pub left: Option<Register>,
     /// Register: characters received.
-    pub received: u32,
+    pub received: Option<Register>,
     /// Register: character before the data of RS.
-    pub start: u32,
+    pub start: Option<Register>,
     /// Register: character after the data of RS.
-    pub end: u32,
+    pub end: Option<Register>,
     /// Register: time-out.
-    pub time_out: u32,
+    pub time_out: Option<Register>,
     /// Unit of the time-out, in microseconds.
     pub time_out_unit_us: u32,
     /// The first of the three registers that show what UINIT has set up.
-    pub uinit: u32,
+    pub uinit: Option<Register>,
     /// Relay: RS waits to send.
-    pub waits: u32,
+    pub waits: Option<Relay>,
     /// Relay: RS is to send; a master's instruction is in work.
-    pub sends: u32,
+    pub sends: Option<Relay>,
     /// Relay: RS has received; a master's exchange has failed.
-    pub done: u32,
+    pub done: Option<Relay>,
     /// Relay: RS is receiving.
-    pub receives: u32,
+    pub receives: Option<Relay>,
     /// Relay: time-out.
-    pub late: u32,
+    pub late: Option<Relay>,
     /// Relay: the answer to RD3A or WR3A has come (L01S).
-    pub answered: u32,
+    pub answered: Option<Relay>,
     /// Register: scans between two requests of RD3A and WR3A (L01S).
-    pub gap: u32,
-    /// Relay and register with the code of an error.
-    pub error: u32,
+    pub gap: Option<Register>,
+    /// Where an error shows.
+    pub error: Option<ErrorPlace>,
     /// The lowest code of an error of Modbus; 0: errors of Modbus have no separate codes.
     pub modbus_errors: u16,
     /// It has one pair of wires whatever the format word says.
     pub one_pair: bool,
 }
 
-/// Registers of an error of a programming port, and of any other port.
-const PROGRAMMING_PORT_ERROR: u32 = 8062;
-const SERIAL_ERROR: u32 = 8063;
+/// The relay that shows an error of communication, and the register with its code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ErrorPlace {
+    /// On after an error, until the program resets it.
+    pub relay: Relay,
+    /// The code of the last error.
+    pub register: Register,
+}
+
+/// Errors of a programming port, and of any other port.
+const PROGRAMMING_PORT_ERROR: ErrorPlace = ErrorPlace {
+    relay: Relay(8062),
+    register: Register(8062),
+};
+const SERIAL_ERROR: ErrorPlace = ErrorPlace {
+    relay: Relay(8063),
+    register: Register(8063),
+};
 
 /// Lowest codes of the errors of programming ports and of other ports (h1u-h2u-programming §8.1).
 const PROGRAMMING_PORT_CODES: u16 = 6200;
@@ -187,55 +203,64 @@ const fn bare(number: u8, choice: Choice) -> PortWiring {
     PortWiring {
         number,
         choice,
-        format: 0,
-        station: 0,
-        protocol: 0,
-        left: 0,
-        received: 0,
-        start: 0,
-        end: 0,
-        time_out: 0,
+        format: None,
+        station: None,
+        protocol: None,
+        left: None,
+        received: None,
+        start: None,
+        end: None,
+        time_out: None,
         time_out_unit_us: 10_000,
-        uinit: 0,
-        waits: 0,
-        sends: 0,
-        done: 0,
-        receives: 0,
-        late: 0,
-        answered: 0,
-        gap: 0,
-        error: SERIAL_ERROR,
+        uinit: None,
+        waits: None,
+        sends: None,
+        done: None,
+        receives: None,
+        late: None,
+        answered: None,
+        gap: None,
+        error: Some(SERIAL_ERROR),
         modbus_errors: 0,
         one_pair: false,
     }
 }
 
 /// A port with ten registers and relays from `base` on (h1u-h2u-programming §5.1, tables of D8110 to D8279).
-const fn block(number: u8, choice: Choice, base: u32) -> PortWiring {
+const fn block(number: u8, choice: Choice, base: u16) -> PortWiring {
     PortWiring {
-        format: base,
-        station: base + 1,
-        protocol: base + 6,
-        left: base + 2,
-        received: base + 3,
-        start: base + 4,
-        end: base + 5,
-        time_out: base + 9,
-        waits: base + 1,
-        sends: base + 2,
-        done: base + 3,
-        receives: base + 4,
-        late: base + 9,
+        format: Some(Register(base)),
+        station: Some(Register(base + 1)),
+        protocol: Some(Register(base + 6)),
+        left: Some(Register(base + 2)),
+        received: Some(Register(base + 3)),
+        start: Some(Register(base + 4)),
+        end: Some(Register(base + 5)),
+        time_out: Some(Register(base + 9)),
+        waits: Some(Relay(base + 1)),
+        sends: Some(Relay(base + 2)),
+        done: Some(Relay(base + 3)),
+        receives: Some(Relay(base + 4)),
+        late: Some(Relay(base + 9)),
         modbus_errors: 6330 + 10 * number as u16,
         ..bare(number, choice)
     }
 }
 
 /// Register with the type of the extension card, and the type of the CAN card.
-const D_CARD: u32 = 8199;
+const D_CARD: Register = Register(8199);
 const CAN_CARD: u16 = 7;
 /// Types of H1U begin so (h1u-h2u-programming §8.3, D8001).
 const H1U: u16 = 26;
+
+/// Master and slave of a parallel link, on COM1 (h1u-h2u-programming §5.4).
+pub(super) const M_PARALLEL_MASTER: Relay = Relay(8070);
+pub(super) const M_PARALLEL_SLAVE: Relay = Relay(8071);
+/// Ports 2 and 3 of L01S are set up by their registers rather than programming ports (l01s-programming §9).
+const M_PORT_2_SET_UP: Relay = Relay(8196);
+const M_PORT_3_SET_UP: Relay = Relay(8192);
+/// Port 2 of L01S speaks Modbus.
+const M_PORT_2_MODBUS: Relay = Relay(8125);
 
 /// How characters stand on the way to a CAN adapter; USB adapters ignore it.
 const ADAPTER: LineFormat = LineFormat {
@@ -249,7 +274,7 @@ const INOVANCE: [PortWiring; 5] = [
     block(2, Choice::Number, 8260),
     block(3, Choice::Number, 8270),
     PortWiring {
-        error: 0,
+        error: None,
         ..bare(CAN_PORT, Choice::Can)
     },
 ];
@@ -258,29 +283,29 @@ const INOVANCE: [PortWiring; 5] = [
 const L01S: [PortWiring; 3] = [
     bare(1, Choice::ProgrammingPort),
     PortWiring {
-        protocol: 0,
+        protocol: None,
         time_out_unit_us: 1000,
         modbus_errors: 0,
         one_pair: true,
-        answered: 8128,
-        gap: 8126,
+        answered: Some(Relay(8128)),
+        gap: Some(Register(8126)),
         ..block(2, Choice::L01sPort2, 8120)
     },
     PortWiring {
-        format: 8400,
-        protocol: 8401,
-        left: 8402,
-        received: 8403,
-        station: 8414,
-        time_out: 8409,
+        format: Some(Register(8400)),
+        protocol: Some(Register(8401)),
+        left: Some(Register(8402)),
+        received: Some(Register(8403)),
+        station: Some(Register(8414)),
+        time_out: Some(Register(8409)),
         time_out_unit_us: 1000,
-        waits: 8401,
-        sends: 8402,
-        done: 8403,
-        receives: 8404,
-        late: 8409,
-        answered: 8408,
-        gap: 8406,
+        waits: Some(Relay(8401)),
+        sends: Some(Relay(8402)),
+        done: Some(Relay(8403)),
+        receives: Some(Relay(8404)),
+        late: Some(Relay(8409)),
+        answered: Some(Relay(8408)),
+        gap: Some(Register(8406)),
         one_pair: true,
         ..bare(3, Choice::L01sPort3)
     },
@@ -289,13 +314,13 @@ const L01S: [PortWiring; 3] = [
 /// hm-motion-controller §6.2: COM0 is RS-232, COM1 RS-485.
 const HM: [PortWiring; 2] = [
     PortWiring {
-        error: 0,
-        uinit: 8120,
+        error: None,
+        uinit: Some(Register(8120)),
         ..bare(0, Choice::Uinit)
     },
     PortWiring {
-        error: 0,
-        uinit: 8123,
+        error: None,
+        uinit: Some(Register(8123)),
         one_pair: true,
         ..bare(1, Choice::Uinit)
     },
@@ -305,7 +330,7 @@ const fn fx(choice: Choice) -> [PortWiring; 2] {
     [
         bare(0, Choice::ProgrammingPort),
         PortWiring {
-            protocol: 0,
+            protocol: None,
             modbus_errors: 0,
             ..block(1, choice, 8120)
         },
@@ -373,30 +398,35 @@ impl Ports {
     }
 }
 
-/// State of a special relay, if there is one.
-pub(crate) fn is_on(plc: &dyn Plc, relay: u32) -> bool {
-    relay != 0 && plc.bit(Class::M, relay) == Some(true)
+/// Whether a relay is on; off where there is none.
+pub(crate) fn is_on(plc: &dyn Plc, relay: Option<Relay>) -> bool {
+    relay.is_some_and(|relay| relay.is_on(plc))
 }
 
-/// Sets a special relay, if there is one and the program looks at it.
-pub(crate) fn set(plc: &mut dyn Plc, relay: u32, on: bool) {
-    if relay != 0 {
-        let _ = plc.set_bit(Class::M, relay, on);
+/// Sets a relay, if there is one.
+pub(crate) fn set(plc: &mut dyn Plc, relay: Option<Relay>, on: bool) {
+    if let Some(relay) = relay {
+        relay.set(plc, on);
     }
 }
 
-/// Value of a special register; 0 if there is none.
-pub(crate) fn value(plc: &dyn Plc, register: u32) -> u16 {
-    if register == 0 {
-        return 0;
-    }
-    plc.word(Class::D, register).unwrap_or(0) as u16
+/// Value of a register; 0 where there is none.
+pub(crate) fn value(plc: &dyn Plc, register: Option<Register>) -> u16 {
+    register.map_or(0, |register| register.value(plc))
 }
 
-/// Sets a special register, if there is one and the program looks at it.
-pub(crate) fn set_value(plc: &mut dyn Plc, register: u32, value: u16) {
-    if register != 0 {
-        let _ = plc.set_word(Class::D, register, value as i16);
+/// Sets a register, if there is one.
+pub(crate) fn set_value(plc: &mut dyn Plc, register: Option<Register>, value: u16) {
+    if let Some(register) = register {
+        register.set(plc, value);
+    }
+}
+
+impl ErrorPlace {
+    /// Shows an error, until the program clears it.
+    fn show(self, plc: &mut dyn Plc, code: u16) {
+        self.relay.set(plc, true);
+        self.register.set(plc, code);
     }
 }
 
@@ -412,7 +442,7 @@ impl PortWiring {
         let number = value(plc, self.protocol);
         match self.choice {
             Choice::ProgrammingPort => Protocol::ProgrammingPort,
-            Choice::Can => match (plc.type_code() / 1000, value(plc, D_CARD)) {
+            Choice::Can => match (plc.type_code() / 1000, D_CARD.value(plc)) {
                 (H1U, card) if card != CAN_CARD => Protocol::Off,
                 _ => Protocol::Can,
             },
@@ -421,7 +451,7 @@ impl PortWiring {
                 3 if plc.sys().running => Protocol::ModbusAscii,
                 _ => Protocol::ProgrammingPort,
             },
-            Choice::Com1 => match (is_on(plc, 8070), is_on(plc, 8071)) {
+            Choice::Com1 => match (M_PARALLEL_MASTER.is_on(plc), M_PARALLEL_SLAVE.is_on(plc)) {
                 (true, true) => Protocol::Off,
                 (true, false) => Protocol::ParallelMaster,
                 (false, true) => Protocol::ParallelSlave,
@@ -429,7 +459,7 @@ impl PortWiring {
             },
             Choice::Number => by_number(number, format),
             Choice::L01sPort2 => self.l01s_port2(plc, format),
-            Choice::L01sPort3 if !is_on(plc, 8192) => Protocol::ProgrammingPort,
+            Choice::L01sPort3 if !M_PORT_3_SET_UP.is_on(plc) => Protocol::ProgrammingPort,
             Choice::L01sPort3 => match number {
                 0x000 => Protocol::Free,
                 0x001 => Protocol::MasterRtu,
@@ -458,9 +488,9 @@ impl PortWiring {
     fn l01s_port2(&self, plc: &dyn Plc, format: u16) -> Protocol {
         const MASTER: u16 = 255;
         let ascii = format & 1 << 12 != 0;
-        if !is_on(plc, 8196) {
+        if !M_PORT_2_SET_UP.is_on(plc) {
             Protocol::ProgrammingPort
-        } else if !is_on(plc, 8125) {
+        } else if !M_PORT_2_MODBUS.is_on(plc) {
             match format >> 13 & 3 {
                 3 => Protocol::ComputerLink,
                 _ => Protocol::Free,
@@ -546,9 +576,10 @@ impl PortWiring {
             _ => 14,
         };
         let (place, code) = match (protocol, fault.of_modbus()) {
-            (Protocol::ProgrammingPort, _) => {
-                (PROGRAMMING_PORT_ERROR, PROGRAMMING_PORT_CODES + general)
-            }
+            (Protocol::ProgrammingPort, _) => (
+                Some(PROGRAMMING_PORT_ERROR),
+                PROGRAMMING_PORT_CODES + general,
+            ),
             (_, Some(kind))
                 if self.modbus_errors != 0
                     && (protocol.is_modbus() || fault == LineFault::Protocol) =>
@@ -560,12 +591,13 @@ impl PortWiring {
             }
             _ => (self.error, SERIAL_CODES + general),
         };
-        set(plc, place, true);
-        set_value(plc, place, code);
+        if let Some(place) = place {
+            place.show(plc, code);
+        }
     }
 
     /// Registers of the port, which are stored where a program uses it.
-    pub fn registers(&self) -> impl Iterator<Item = u32> {
+    pub fn registers(&self) -> impl Iterator<Item = Register> {
         let registers = [
             self.format,
             self.station,
@@ -577,28 +609,28 @@ impl PortWiring {
             self.time_out,
             self.gap,
         ];
-        registers.into_iter().filter(|&register| register != 0)
+        registers.into_iter().flatten()
     }
 
     /// Registers that choose what the port speaks.
-    pub fn setup_registers(&self) -> impl Iterator<Item = u32> {
+    pub fn setup_registers(&self) -> impl Iterator<Item = Register> {
         let registers = [self.format, self.protocol];
-        registers.into_iter().filter(|&register| register != 0)
+        registers.into_iter().flatten()
     }
 
     /// Relays that choose what the port speaks.
-    pub fn setup_relays(&self) -> impl Iterator<Item = u32> {
-        let relays = match self.choice {
-            Choice::Com1 => [8070, 8071],
-            Choice::L01sPort2 => [8196, 8125],
-            Choice::L01sPort3 => [8192, 0],
-            _ => [0, 0],
+    pub fn setup_relays(&self) -> impl Iterator<Item = Relay> {
+        let relays: &[Relay] = match self.choice {
+            Choice::Com1 => &[M_PARALLEL_MASTER, M_PARALLEL_SLAVE],
+            Choice::L01sPort2 => &[M_PORT_2_SET_UP, M_PORT_2_MODBUS],
+            Choice::L01sPort3 => &[M_PORT_3_SET_UP],
+            _ => &[],
         };
-        relays.into_iter().filter(|&relay| relay != 0)
+        relays.iter().copied()
     }
 
     /// Relays of the port, which are stored where a program uses it.
-    pub fn relays(&self) -> impl Iterator<Item = u32> {
+    pub fn relays(&self) -> impl Iterator<Item = Relay> {
         let relays = [
             self.waits,
             self.sends,
@@ -607,15 +639,13 @@ impl PortWiring {
             self.late,
             self.answered,
         ];
-        let relays = relays.into_iter().filter(|&relay| relay != 0);
-        relays.chain(self.setup_relays())
+        relays.into_iter().flatten().chain(self.setup_relays())
     }
 }
 
 /// Shows that an instruction names a port that is not there.
 pub(crate) fn note_missing(plc: &mut dyn Plc) {
-    set(plc, SERIAL_ERROR, true);
-    set_value(plc, SERIAL_ERROR, NO_PORT);
+    SERIAL_ERROR.show(plc, NO_PORT);
 }
 
 /// Computer link by bit 14 of the format word, else the protocol of a number.

@@ -23,7 +23,7 @@ fn identifier(cx: &Cx) -> Result<u32, Fault> {
 }
 
 /// Whether the program has a CAN card that is on.
-fn is_on(cx: &mut Cx) -> bool {
+fn has_card(cx: &mut Cx) -> bool {
     let port = cx.plc.port(CAN_PORT);
     port.is_some_and(|port| port.status.protocol == Protocol::Can)
 }
@@ -46,7 +46,7 @@ pub fn cantx(cx: &mut Cx) -> Done {
         let [high, low] = (cx.word(2, index as i32 / 2)? as u16).to_be_bytes();
         *byte = if index % 2 == 0 { high } else { low };
     }
-    if !is_on(cx) {
+    if !has_card(cx) {
         return Ok(());
     }
     let mut text = [0; 32];
@@ -67,7 +67,7 @@ pub fn canrx(cx: &mut Cx) -> Done {
     let id = identifier(cx)?;
     let most = cx.count(3, 0..=8)?;
     let (owner, now_us) = (cx.site.step + 1, now_us(cx));
-    if !is_on(cx) {
+    if !has_card(cx) {
         return Ok(());
     }
     let port = cx.plc.port(CAN_PORT);

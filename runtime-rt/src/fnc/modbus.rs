@@ -10,8 +10,8 @@ use crate::comm::{LineFault, PortWiring};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
-use crate::plc::{Class, Sys};
-use crate::special::M_COMPLETE;
+use crate::plc::Sys;
+use crate::special::{M_COMPLETE, Register, Relay};
 
 /// What came of an instruction that the scan has reached.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -73,10 +73,9 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
 }
 
 /// A special relay of a port, by its number there; 0: there is none.
-fn show(cx: &mut Cx, number: u8, relay: fn(&PortWiring) -> u32, on: bool) {
-    let relay = cx.plc.ports().get(number).map_or(0, relay);
-    if relay != 0 {
-        let _ = cx.plc.set_bit(Class::M, relay, on);
+fn show(cx: &mut Cx, number: u8, relay: fn(&PortWiring) -> Option<Relay>, on: bool) {
+    if let Some(relay) = cx.plc.ports().get(number).and_then(relay) {
+        relay.set(cx.plc, on);
     }
 }
 
@@ -186,8 +185,8 @@ fn board(cx: &mut Cx) -> Done {
 /// the next one is executed.
 pub fn adprw(cx: &mut Cx) -> Done {
     /// Which port: 0 for port 2, 1 for port 3.
-    const D_PORT: u32 = 8397;
-    let port = cx.plc.word(Class::D, D_PORT).unwrap_or(0);
+    const D_PORT: Register = Register(8397);
+    let port = D_PORT.value(cx.plc) as i16;
     let Some(number) = l01s_port(cx, port)? else {
         return Ok(());
     };

@@ -4,7 +4,7 @@
 //! whether it has shown that it is driven; words 6 and 7 the output of its clear signal plus one, negative until a scan has seen it on, and
 //! since when that is on.
 
-use crate::axis::{self, Axis, is_on, long, set_relays};
+use crate::axis::{self, Axis, any_is_on, long, set_relays};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
@@ -154,7 +154,7 @@ impl Output {
 
     /// Whether the model has a special relay, and it is on.
     pub fn has_on(self, cx: &Cx, relay: impl Into<Option<Relay>>) -> bool {
-        is_on(cx.plc, &[relay.into()])
+        any_is_on(cx.plc, &[relay.into()])
     }
 
     /// Its position; 0 if it keeps none.
@@ -207,7 +207,7 @@ impl Output {
             self.enter(cx, Phase::Idle);
             cx.set_special(M_COMPLETE, false);
             set_relays(cx.plc, &[self.wiring.aborted], false);
-            if is_on(cx.plc, &self.wiring.stop) {
+            if any_is_on(cx.plc, &self.wiring.stop) {
                 return Ok(Turn::Rest);
             }
             if axis.generator.is_busy() && !restart {
@@ -243,7 +243,7 @@ impl Output {
     }
 
     fn is_at_limit(self, cx: &Cx, reverse: bool) -> bool {
-        is_on(cx.plc, &[self.wiring.limits[usize::from(reverse)]])
+        any_is_on(cx.plc, &[self.wiring.limits[usize::from(reverse)]])
     }
 
     /// The instruction sends a train, whose pulses are counted in the pair of registers `counter`, unless a limit switch forbids it.

@@ -8,7 +8,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::{Operand, OperandKind};
 use crate::plc::{Class, Plc};
-use crate::special::M_BYTE_MODE;
+use crate::special::{M_BYTE_MODE, Register};
 
 /// PRUN S D (FNC 81): copies a group of bits, counting both in octal rows: bits 8 and 9 of each ten of M are left out.
 pub fn prun(cx: &mut Cx) -> Done {
@@ -216,8 +216,9 @@ pub fn uinit(cx: &mut Cx) -> Done {
     port.status.uinit = [protocol as u16, format as u16, area as u16];
     port.status.protocol = Protocol::Off;
     if let Some(wiring) = number.and_then(|number| cx.plc.ports().get(number)) {
-        for (register, word) in (wiring.uinit..).zip([protocol, format, area]) {
-            let _ = cx.plc.set_word(Class::D, register, word);
+        let shown = wiring.uinit.map(Register::run::<3>).into_iter().flatten();
+        for (register, word) in shown.zip([protocol, format, area]) {
+            register.set(cx.plc, word as u16);
         }
     }
     const FREE: u16 = 5;

@@ -3,6 +3,7 @@
 use super::{ETX, STX, Settings, end, head};
 use crate::comm::{Frame, Map};
 use crate::plc::Class;
+use crate::special::{Register, Relay};
 
 /// Registers from this one on are not sent.
 const END_OF_REGISTERS: u32 = 8000;
@@ -13,17 +14,17 @@ const MOST: u32 = 64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Devices {
     /// Register with the number of the first D; the next one holds how many are sent (D8127, D8128).
-    pub first_register: u32,
+    pub first_register: Register,
     /// Relay that is on while the frame is sent; the next one reports a range error, the one after it chooses 8-bit data (M8127 to M8129).
-    pub first_relay: u32,
+    pub first_relay: Relay,
 }
 
 impl Devices {
     /// The devices of a port whose block begins at this number (8120 for COM1).
-    pub const fn of_block(base: u32) -> Self {
+    pub const fn of_block(base: Register) -> Self {
         Devices {
-            first_register: base + 7,
-            first_relay: base + 7,
+            first_register: base.after(7),
+            first_relay: Relay(base.0 + 7),
         }
     }
 }
@@ -35,17 +36,18 @@ impl Devices {
 /// itself.)
 pub fn request(settings: Settings, devices: Devices, map: &mut dyn Map, frame: &mut Frame) {
     frame.clear();
-    let word = |map: &dyn Map, n| map.word(Class::D, n).map_or(0, |w| u32::from(w as u16));
-    let count = word(map, devices.first_register + 1);
+    let (register, relay) = (devices.first_register, devices.first_relay);
+    let word = |map: &dyn Map, n: u32| map.word(Class::D, n).map_or(0, |w| u32::from(w as u16));
+    let count = word(map, register.after(1).number());
     if count == 0 {
         return;
     }
-    let first = word(map, devices.first_register);
-    let bytes = map.bit(Class::M, devices.first_relay + 2) == Some(true);
-    let _ = map.set_word(Class::D, devices.first_register + 1, 0);
+    let first = word(map, register.number());
+    let bytes = map.bit(Class::M, relay.after(2).number()) == Some(true);
+    let _ = map.set_word(Class::D, register.after(1).number(), 0);
     let fits =
         count <= MOST && first + count <= END_OF_REGISTERS && map.has_words(Class::D, first, count);
-    let _ = map.set_bit(Class::M, devices.first_relay + 1, !fits);
+    let _ = map.set_bit(Class::M, relay.after(1).number(), !fits);
     if !fits {
         return;
     }
@@ -55,10 +57,10 @@ pub fn request(settings: Settings, devices: Devices, map: &mut dyn Map, frame: &
     }
     frame.push(ETX);
     end(settings, frame);
-    let _ = map.set_bit(Class::M, devices.first_relay, true);
+    let _ = map.set_bit(Class::M, relay.number(), true);
 }
 
 /// The frame of [`request`] has been sent.
 pub fn sent(devices: Devices, map: &mut dyn Map) {
-    let _ = map.set_bit(Class::M, devices.first_relay, false);
+    let _ = map.set_bit(Class::M, devices.first_relay.number(), false);
 }

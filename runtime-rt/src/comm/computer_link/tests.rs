@@ -5,6 +5,7 @@ use super::on_demand::Devices;
 use super::*;
 use crate::comm::watched::{Watched, reply_of};
 use crate::double::Double;
+use crate::special::Register;
 use proptest::prelude::*;
 use std::string::String;
 use std::vec::Vec;
@@ -230,7 +231,7 @@ fn cuts() {
 #[test]
 fn worked_example_of_on_demand() {
     let mut map = Watched::of(Double::new().with_d(5, &[0x501, 0x602, 0x703]));
-    let devices = Devices::of_block(8120);
+    let devices = Devices::of_block(Register(8120));
     let on_demand = |map: &mut Watched, first, count| {
         map.plc.set_d(8127, &[first, count]);
         let (frame, _) = reply_of(|frame| {
