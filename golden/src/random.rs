@@ -2,6 +2,7 @@
 
 use crate::operands::{BUFFER_WORDS, Candidate, accepted, first_counter32, special_register};
 use crate::rng::Rng;
+use rungc_models::interrupts::Gate;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeMap;
@@ -63,6 +64,18 @@ pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) 
     writer.lines.join("\n") + "\n"
 }
 
+/// Interrupt pointers of a model with what masks them: of one edge of the first input, of one edge of the next, and of two timers.
+fn pointers(model: &Model) -> Vec<(u32, Gate)> {
+    let find = |n: u32| {
+        let found = model.interrupts.find(n)?;
+        let exists = model.has(DeviceClass::I, n) && found.source.is_some();
+        exists.then_some((n, found.gate))
+    };
+    let [first, second] = [[1, 0], [100, 101]].map(|pair| pair.into_iter().find_map(find));
+    let all = [first, second, find(610), find(710)];
+    all.into_iter().flatten().collect()
+}
+
 impl Writer<'_> {
     fn line(&mut self, line: impl Into<String>) {
         self.lines.push(line.into());
@@ -71,19 +84,16 @@ impl Writer<'_> {
     /// EI, and whatever else the pointers need that it gives.
     fn enable_interrupts(&mut self) -> Vec<u32> {
         self.line("EI");
-        let (edges, masks) = if self.model == ModelId::Hm {
-            ([0, 200], [8048, 8052, 8056, 8057])
-        } else {
-            ([1, 100], [8050, 8051, 8056, 8057])
-        };
-        let all = [edges[0], edges[1], 610, 710];
         self.line("LD M8002");
-        for mask in masks {
-            self.line(format!("RST M{mask}"));
+        let all = pointers(Model::get(self.model));
+        for (_, gate) in &all {
+            self.line(match gate {
+                Gate::Forbids(mask) => format!("RST M{}", mask.number()),
+                Gate::Allows(mask) => format!("SET M{}", mask.number()),
+            });
         }
-        let model = Model::get(self.model);
         let drawn = all.into_iter().filter(|_| self.rng.percent(60));
-        drawn.filter(|&n| model.has(DeviceClass::I, n)).collect()
+        drawn.map(|(pointer, _)| pointer).collect()
     }
 
     /// A counter of the first inputs, sometimes, with comparisons at the count and a table.
@@ -91,13 +101,12 @@ impl Writer<'_> {
         if self.rng.percent(75) {
             return;
         }
-        let hm = self.model == ModelId::Hm;
-        let counters = if hm {
-            [235, 239, 241, 244, 248, 250, 254]
-        } else {
-            [235, 241, 244, 246, 247, 251, 254]
+        let model = Model::get(self.model);
+        let mut counters = vec![235, 239, 241, 244, 246, 247, 248, 250, 251, 254];
+        counters.retain(|&counter| model.high_speed.counter(counter).is_some());
+        let Some(counter) = self.rng.pick(&counters) else {
+            return;
         };
-        let counter = counters[self.rng.below(7) as usize];
         self.logic(1);
         let preset = self.rng.below(5);
         self.line(format!("OUT C{counter} K{preset}"));
@@ -105,16 +114,18 @@ impl Writer<'_> {
             if self.rng.percent(60) && self.knows(compare) {
                 self.logic(1);
                 let bit = ["Y000", "M10", "S20"][self.rng.below(3) as usize];
-                let zone = if hm { " K0" } else { "" };
+                let zone = match model.high_speed.crossing_zones {
+                    Some(_) => " K0",
+                    None => "",
+                };
                 self.line(format!("{compare} C{counter} {bit}{zone}"));
             }
         }
         if self.rng.percent(50) && self.knows("DHSZ") {
             self.logic(1);
-            self.line(if hm {
-                format!("DHSCT D1000 K3 C{counter} M16 K6")
-            } else {
-                format!("DHSZ D0 K3 C{counter} M8130")
+            self.line(match model.high_speed.patterns.relay {
+                Some(relay) => format!("DHSZ D0 K3 C{counter} M{}", relay.number()),
+                None => format!("DHSCT D1000 K3 C{counter} M16 K6"),
             });
         }
     }
