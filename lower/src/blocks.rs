@@ -32,8 +32,8 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         RtFn::Fmov => register(1) && count(2, WORDS),
         RtFn::Mean | RtFn::MeanSum => register(0) && count(2, WORDS),
         RtFn::Deco => {
-            let bits = kind(1).and_then(OperandKind::device);
-            register(0) && bits.is_some_and(|first| !is_word(first.class)) && count(2, BITS.ilog2())
+            let source = register(0) || kind(0).and_then(bits).is_some();
+            source && kind(1).and_then(bits).is_some() && count(2, BITS.ilog2())
         }
         RtFn::Zrst => match (
             kind(0).and_then(OperandKind::device),
@@ -53,14 +53,16 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
     }
 }
 
-/// Whether devices of a class are words.
-fn is_word(class: DeviceClass) -> bool {
-    use DeviceClass::*;
-    matches!(class, T | C | D | R | V | Z | ER)
+/// A bit device X, Y, M or S without an index.
+pub(super) fn bits(operand: &OperandKind) -> Option<Device> {
+    use DeviceClass::{M, S, X, Y};
+    operand
+        .device()
+        .filter(|device| matches!(device.class, X | Y | M | S))
 }
 
 /// A data register without an index.
-fn register(operand: &OperandKind) -> Option<Device> {
+pub(super) fn register(operand: &OperandKind) -> Option<Device> {
     operand
         .device()
         .filter(|device| matches!(device.class, DeviceClass::D | DeviceClass::R))
@@ -95,17 +97,17 @@ impl Lowerer<'_> {
     }
 
     /// Operand `i` as a count that the program states.
-    fn stated(&self, i: usize) -> u32 {
+    pub(super) fn stated(&self, i: usize) -> u32 {
         self.operand(i).and_then(constant).map_or(0, |n| n as u32)
     }
 
     /// The device that operand `i` names.
-    fn device_of(&self, i: usize) -> Option<Device> {
+    pub(super) fn device_of(&self, i: usize) -> Option<Device> {
         self.operand(i).and_then(OperandKind::device)
     }
 
     /// A condition that never holds where `count` devices from one on do not all exist.
-    fn demand_block(&mut self, device: Device, count: u32, guards: &mut Guards) {
+    pub(super) fn demand_block(&mut self, device: Device, count: u32, guards: &mut Guards) {
         if !self.exists(device.class, device.number, count) {
             guards.demand(self.bit_const(false));
         }
@@ -133,7 +135,7 @@ impl Lowerer<'_> {
     }
 
     /// Word number `k` from a register on.
-    fn word_at(&mut self, register: Device, k: u32) -> ExprId {
+    pub(super) fn word_at(&mut self, register: Device, k: u32) -> ExprId {
         let (class, number) = self.model.canonical(register.class, register.number + k);
         self.add(Expr::ReadWord(fixed(class, number)))
     }
@@ -181,17 +183,15 @@ impl Lowerer<'_> {
         });
     }
 
-    /// DECO of a register into bits: of 2ⁿ bits the one is on whose number the low n bits of S are.
+    /// DECO into bits: of 2ⁿ bits the one is on whose number the low n bits of S are.
     fn decode(&mut self) {
         let count = 1 << self.stated(2);
         let Some(first) = self.device_of(1) else {
             return;
         };
         let mut guards = Guards::default();
-        let value = self.source(0, &mut guards);
+        let value = self.decoded(self.stated(2), &mut guards);
         self.demand_block(first, count, &mut guards);
-        let mask = self.int(count as i32 - 1, false);
-        let value = self.add(Expr::Bin(BinOp::And, value, mask));
         self.guarded(guards, |this| {
             let value = this.settled(value);
             for k in 0..count {

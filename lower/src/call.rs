@@ -23,7 +23,7 @@ const ANYWHERE: [DeviceClass; 7] = [
 
 impl Lowerer<'_> {
     pub(super) fn call(&mut self, function: RtFn) {
-        if self.inline_words(function) || self.inline_block(function) {
+        if self.inlined(function) {
             return;
         }
         let needs = function.needs();

@@ -1,7 +1,7 @@
 //! Which special relays and registers something looks at. What the scan or an instruction would write to the others is left out.
 
 use super::call::extents;
-use super::{LowerOptions, Lowerer, blocks, words};
+use super::{LowerOptions, Lowerer, inline};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::{Drive, Lower, Role};
 use rungc_ir::ranges::Reached;
@@ -91,8 +91,7 @@ impl Specials {
         let (Some(inst), Some(lower)) = (resolution.inst, resolution.lower) else {
             return;
         };
-        if matches!(lower, Lower::Call(function) if !words::is_inline(function, instr) && !blocks::is_inline(function, instr))
-        {
+        if matches!(lower, Lower::Call(function) if inline::has_flags(function, instr)) {
             for (class, number) in flags_of(inst.flags) {
                 self.mark(class, number, Some(1));
                 if !self.flags.contains(&(class, number)) {

@@ -104,7 +104,7 @@ impl Lowerer<'_> {
     }
 
     /// Where `cond` holds, what `make` emits; elsewhere the instruction faults with `code`.
-    fn checked(&mut self, cond: ExprId, code: u16, make: impl FnOnce(&mut Self)) {
+    pub(super) fn checked(&mut self, cond: ExprId, code: u16, make: impl FnOnce(&mut Self)) {
         let then = self.body(make);
         let step = self.step();
         self.emit(Stmt::If {

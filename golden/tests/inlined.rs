@@ -1,0 +1,144 @@
+//! Instructions that are inline code do what the runtime's functions do.
+//!
+//! Each is compiled twice: as it is written here, which is inline code, and with an index of 0 somewhere, which makes it a call of the
+//! runtime. Both run in the interpreter with the same random data, and all of their devices are compared.
+
+use rungc_golden::rng::Rng;
+use rungc_interp::Machine;
+use rungc_ir::Module;
+use rungc_ir::node::Stmt;
+use rungc_ir::walk::statements;
+use rungc_lower::compile::{CompileOptions, compile};
+use rungc_models::ModelId;
+use rungc_rt::{Class, NoHal, Plc, Program};
+use rungc_syntax::DeviceClass;
+
+/// Instructions, and the same as calls: Z7 stays 0.
+const PAIRS: &[(&str, &str)] = &[
+    ("SMOV D0 K4 K2 D1 K3", "SMOV D0 K4 K2 D1 K3Z7"),
+    ("SMOV D0 K1 K1 D1 K4", "SMOV D0 K1 K1 D1 K4Z7"),
+    ("SMOV D0 K4 K4 D0 K4", "SMOV D0 K4 K4 D0 K4Z7"),
+    ("SMOV K4M0 K3 K2 K3M8 K2", "SMOV K4M0 K3 K2 K3M8 K2Z7"),
+    ("RCR D0 K1", "RCR D0 K1Z7"),
+    ("RCR D0 K7", "RCR D0 K7Z7"),
+    ("RCR D0 K16", "RCR D0 K16Z7"),
+    ("RCL D0 K1", "RCL D0 K1Z7"),
+    ("RCL D0 K15", "RCL D0 K15Z7"),
+    ("RCL D0 K16", "RCL D0 K16Z7"),
+    ("DRCR D0 K5", "DRCR D0 K5Z7"),
+    ("DRCL D0 K16", "DRCL D0 K16Z7"),
+    ("RCL K4M0 K3", "RCL K4M0 K3Z7"),
+    ("DECO D0 D1 K4", "DECO D0 D1 K4Z7"),
+    ("DECO D0 D0 K1", "DECO D0 D0 K1Z7"),
+    ("DECO M0 D0 K3", "DECO M0 D0 K3Z7"),
+    ("DECO M0 M2 K3", "DECO M0 M2 K3Z7"),
+    ("DECO D0 M0 K4", "DECO D0 M0 K4Z7"),
+    ("TCMP D0 K59 D1 D2 M0", "TCMP D0 K59 D1 D2Z7 M0"),
+    ("TCMP K3 K4 K5 D2 D0.E", "TCMP K3 K4 K5 D2Z7 D0.E"),
+    ("TZCP D0 D3 D6 M10", "TZCP D0 D3 D6Z7 M10"),
+    ("BMOV D0 D3 K8", "BMOV D0Z7 D3 K8"),
+    ("BMOV D3 D0 K8", "BMOV D3Z7 D0 K8"),
+    ("FMOV D0 D2 K8", "FMOV D0 D2Z7 K8"),
+    ("DFMOV D0 D2 K8", "DFMOV D0 D2Z7 K8"),
+    ("ZRST M0 M15", "ZRST M0Z7 M15Z7"),
+    ("ZRST D0 D15", "ZRST D0Z7 D15Z7"),
+    ("SFTL M20 M0 K16 K3", "SFTL M20 M0Z7 K16 K3"),
+    ("SFTR M20 M0 K16 K16", "SFTR M20 M0Z7 K16 K16"),
+    ("MEAN D0 D9 K8", "MEAN D0Z7 D9 K8"),
+    ("ROR D0 K3", "ROR D0 K3Z7"),
+];
+
+/// Devices of each class that are set and compared.
+const DEVICES: u32 = 40;
+
+/// Flags of arithmetic.
+const FLAGS: std::ops::RangeInclusive<u32> = 8020..=8022;
+
+/// An instruction that is executed while X0 is on.
+fn compiled(instruction: &str, flags: bool) -> Module {
+    let text = format!("LD X000\n{instruction}\nEND\n");
+    let read = rungc_frontend::read_text("test.il", &text);
+    let mut observe = vec![(DeviceClass::M, 8067), (DeviceClass::D, 8067)];
+    for number in 0..DEVICES {
+        observe.extend([DeviceClass::D, DeviceClass::M].map(|class| (class, number)));
+    }
+    if flags {
+        observe.extend(FLAGS.map(|number| (DeviceClass::M, number)));
+    }
+    let options = CompileOptions {
+        model: Some(ModelId::Fx3u),
+        observe,
+        optimise: true,
+        ..CompileOptions::default()
+    };
+    let compiled = compile(&read.program, &options);
+    let diagnostics = compiled.diagnostics;
+    compiled
+        .module
+        .unwrap_or_else(|| panic!("{instruction}: {diagnostics:?}"))
+}
+
+fn calls(module: &Module) -> bool {
+    let mut calls = false;
+    for function in &module.functions {
+        statements(&function.body, &mut |stmt| {
+            calls |= matches!(stmt, Stmt::Call(_));
+        });
+    }
+    calls
+}
+
+/// Everything that is compared.
+fn picture(machine: &Machine, flags: bool) -> (Vec<Option<i16>>, Vec<Option<bool>>) {
+    let words = (0..DEVICES).chain([8067]);
+    let bits = (0..DEVICES).chain([8067]).chain(FLAGS.filter(|_| flags));
+    (
+        words.map(|n| machine.word(Class::D, n)).collect(),
+        bits.map(|n| machine.bit(Class::M, n)).collect(),
+    )
+}
+
+/// Sets all devices to what is often near a border.
+fn fill(rng: &mut Rng, machines: &mut [Machine; 2]) {
+    for n in 0..DEVICES {
+        let (word, bit) = (rng.value(16) as i16, rng.percent(50));
+        for machine in &mut *machines {
+            machine.set_word(Class::D, n, word);
+            machine.set_bit(Class::M, n, bit);
+        }
+    }
+    for n in FLAGS {
+        let bit = rng.percent(50);
+        for machine in &mut *machines {
+            machine.set_bit(Class::M, n, bit);
+        }
+    }
+}
+
+#[test]
+fn inline_code_does_what_the_runtime_does() {
+    let mut rng = Rng::new(1);
+    for &(inline, call) in PAIRS {
+        for flags in [false, true] {
+            let modules = [compiled(inline, flags), compiled(call, flags)];
+            assert!(!calls(&modules[0]), "{inline} is a call");
+            assert!(calls(&modules[1]), "{call} is inline");
+            let mut machines = modules.each_ref().map(Machine::new);
+            for round in 0..300 {
+                fill(&mut rng, &mut machines);
+                let before = picture(&machines[0], flags);
+                for machine in &mut machines {
+                    machine.set_bit(Class::X, 0, true);
+                    machine.scan(&mut NoHal, 10 * round, 0);
+                }
+                let [a, b] = machines.each_ref().map(|m| picture(m, flags));
+                assert_eq!(a, b, "{inline}, from {before:?}");
+                assert_eq!(
+                    machines[0].last_error(),
+                    machines[1].last_error(),
+                    "{inline}, from {before:?}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! Which instructions that the runtime has functions for are inline code.
+
+use super::{Lowerer, blocks, digits, times, words};
+use rungc_rt::RtFn;
+use rungc_syntax::Instr;
+
+/// Whether an instruction is inline code, judging by its operands. It may still be a call where flags ask for more than the code here does.
+pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
+    words::is_inline(function, instr)
+        || digits::is_inline(function, instr)
+        || times::is_inline(function, instr)
+        || blocks::is_inline(function, instr)
+}
+
+/// Whether the flags of an instruction's row are to be stored: by those that the runtime executes, and by those that read them.
+pub(super) fn has_flags(function: RtFn, instr: &Instr) -> bool {
+    !is_inline(function, instr) || digits::reads_flag(function)
+}
+
+impl Lowerer<'_> {
+    /// Emits an instruction as inline code; false if the runtime has to be called.
+    pub(super) fn inlined(&mut self, function: RtFn) -> bool {
+        self.inline_words(function)
+            || self.inline_digits(function)
+            || self.inline_times(function)
+            || self.inline_block(function)
+    }
+}
