@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::mpsc;
 use std::time::Duration;
-use tools::{cargo, leave_out, no_rust, tools};
+use tools::{cargo, leave_out, no_rust, tools, with_cargo};
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -508,19 +508,6 @@ fn an_image_notes_edges() {
     quiet(&build.output().unwrap());
     let printed = simulated("netduinoplus2", &folder.path().join("edges.elf"));
     assert_eq!(printed, "      0.020 s  Y000 on");
-}
-
-/// The command line with the cargo of [`tools::cargo`].
-fn with_cargo(cargo: &Command) -> Command {
-    let mut rungc = Command::new(env!("CARGO_BIN_EXE_rungc"));
-    for (name, value) in cargo.get_envs() {
-        match value {
-            Some(value) => rungc.env(name, value),
-            None => rungc.env_remove(name),
-        };
-    }
-    rungc.env("CARGO", cargo.get_program());
-    rungc
 }
 
 /// A text without the sizes that another version of a compiler would change.

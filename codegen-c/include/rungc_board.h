@@ -57,6 +57,57 @@ static inline bool rungc_take_edge(rungc_edges *edges, rungc_edge *edge)
     return true;
 }
 
+/* How many characters a queue has room for, plus one. */
+#ifndef RUNGC_CHARACTERS
+#define RUNGC_CHARACTERS 64u
+#endif
+
+/* A queue of characters between the interrupt of a UART and the board's `receive`, on one core. All zero is an empty one. The main loop
+   must take each character within a second. */
+typedef struct rungc_characters {
+    volatile uint32_t slots[RUNGC_CHARACTERS]; /* from the lowest bit: 8 of value, 3 of fault, 21 of time */
+    volatile uint16_t first;                   /* where the oldest character is; the main loop's */
+    volatile uint16_t end;                     /* where the next one goes; the interrupt's */
+    volatile bool lost;                        /* a character found no room, and none came after it; the interrupt's */
+} rungc_characters;
+
+/* Notes a character that is in at `now_us`, in the interrupt. One that finds no room is lost: false says so, and the next one has the
+   fault RUNGC_CHAR_FAULT_OVERRUN. */
+static inline bool rungc_note_character(rungc_characters *characters, uint32_t now_us, uint8_t byte, rungc_char_fault fault)
+{
+    const uint16_t end = characters->end;
+    const uint16_t next = (uint16_t)((end + 1u) % RUNGC_CHARACTERS);
+
+    if (next == characters->first) {
+        characters->lost = true;
+        return false;
+    }
+    if (characters->lost && fault == RUNGC_CHAR_FAULT_NONE) {
+        fault = RUNGC_CHAR_FAULT_OVERRUN;
+    }
+    characters->lost = false;
+    characters->slots[end] = now_us << 11 | (uint32_t)fault << 8 | byte;
+    characters->end = next;
+    return true;
+}
+
+/* Takes the oldest character that was in by `now_us`, in the board's `receive`; false if there is none. */
+static inline bool rungc_take_character(rungc_characters *characters, uint32_t now_us, rungc_received *character)
+{
+    const uint16_t first = characters->first;
+    const uint32_t slot = characters->slots[first];
+    const uint32_t age_us = (now_us - (slot >> 11)) & 0x1FFFFFu;
+
+    if (first == characters->end || age_us > 0xFFFFFu) {
+        return false;
+    }
+    character->at_us = now_us - age_us;
+    character->byte = (uint8_t)slot;
+    character->fault = (rungc_char_fault)((slot >> 8) & 7u);
+    characters->first = (uint16_t)((first + 1u) % RUNGC_CHARACTERS);
+    return true;
+}
+
 /* What a hardware counter has counted: pulses of one input, or quarters of an encoder's cycle. */
 typedef struct rungc_count {
     uint16_t input;   /* the input X; of an encoder that of phase A */

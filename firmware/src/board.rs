@@ -1,5 +1,9 @@
 //! The description of a board, in TOML: docs/src/boards.md.
 
+mod serial;
+
+pub use serial::{Serial, Uart};
+
 use crate::target::{self, Target};
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
@@ -33,6 +37,8 @@ pub struct Board {
     pub inputs: BTreeMap<u32, InputPin>,
     /// Pins of outputs Y.
     pub outputs: BTreeMap<u32, OutputPin>,
+    /// Serial ports of the PLC, and the UARTs that they are.
+    pub serial: Vec<Serial>,
     /// C functions of the user that stand for fields of `rungc_hal` and `rungc_board`, and `init`; by the fields' names.
     pub functions: BTreeMap<String, String>,
     /// C sources and headers with these functions: as named, and where they are.
@@ -136,6 +142,8 @@ struct Format {
     inputs: BTreeMap<toml::Spanned<String>, InputPin>,
     #[serde(default)]
     outputs: BTreeMap<toml::Spanned<String>, toml::Spanned<Output>>,
+    #[serde(default)]
+    serial: Vec<serial::Format>,
     #[serde(default)]
     functions: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
     #[serde(default)]
@@ -347,6 +355,7 @@ impl Reader<'_> {
             setup: format.setup,
             inputs,
             outputs,
+            serial: self.serial(format.serial, clock_hz)?,
             functions: self.functions(format.functions)?,
             sources: self.sources(&format.sources, folder)?,
             interrupts: self.interrupts(format.interrupts)?,
@@ -539,11 +548,12 @@ impl Reader<'_> {
         let both = [
             ("input", !board.inputs.is_empty(), "[inputs]"),
             ("set_output", !board.outputs.is_empty(), "[outputs]"),
+            ("set_line", !board.serial.is_empty(), "[[serial]]"),
         ];
-        for (function, pins, table) in both {
-            if pins && board.functions.contains_key(function) {
+        for (function, described, table) in both {
+            if described && board.functions.contains_key(function) {
                 let what = format!(
-                    "both {table} and the function `{function}` are given: use only one of them for pins"
+                    "both {table} and the function `{function}` are given: use only one of them"
                 );
                 return Err(self.wrong(0, what));
             }
@@ -553,6 +563,12 @@ impl Reader<'_> {
         if named && !code {
             let what = "functions are named, but `sources` is missing";
             return Err(self.wrong(0, what.to_string()));
+        }
+        let ports = board.serial.iter();
+        let mut uarts = ports.flat_map(|serial| &serial.interrupts);
+        if let Some(number) = uarts.find(|number| board.interrupts.contains_key(number)) {
+            let what = format!("interrupt {number} has a handler, and a serial port takes it");
+            return Err(self.wrong(0, what));
         }
         for (region, name) in [(board.flash, "flash"), (board.ram, "ram")] {
             if region.origin.checked_add(region.length).is_none() || region.length == 0 {

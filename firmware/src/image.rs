@@ -3,7 +3,7 @@
 mod c;
 mod rust;
 
-use crate::board::Board;
+use crate::board::{Board, Serial};
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
 use rungc_syntax::DeviceClass;
@@ -52,6 +52,14 @@ impl Image<'_> {
         watched
     }
 
+    /// The ports of the board that the program has.
+    fn serial(&self) -> Vec<&Serial> {
+        let ports = self.board.serial.iter();
+        ports
+            .filter(|serial| self.module.ports.contains(&serial.port))
+            .collect()
+    }
+
     /// Outputs that are printed: number, name, and the text after the state, a comment. Those that send pulses would be printed all
     /// the time.
     fn printed(&self) -> Vec<(u32, String, String)> {
@@ -70,7 +78,7 @@ impl Image<'_> {
             .collect()
     }
 
-    /// Terminals of the program that the board has no pin for and no function either, by their names.
+    /// Terminals and serial ports of the program that the board has no pin or UART for and no function either, by their names.
     pub fn unconnected(&self) -> Vec<String> {
         let has = |function: &str| self.board.functions.contains_key(function);
         let scripted = |n: &u32| self.script.inputs.iter().any(|(_, x, _)| x == n);
@@ -78,10 +86,15 @@ impl Image<'_> {
             .filter(|n| !self.board.inputs.contains_key(n) && !has("input") && !scripted(n));
         let outputs = terminals(self.module, DeviceClass::Y)
             .filter(|n| !self.board.outputs.contains_key(n) && !has("set_output"));
+        let ports = self.module.ports.iter().filter(|port| {
+            let described = self.board.serial.iter().any(|serial| serial.port == **port);
+            !described && !has("set_line")
+        });
         let name = |class: DeviceClass| move |n: u32| class.number(n).to_string();
         inputs
             .map(name(DeviceClass::X))
             .chain(outputs.map(name(DeviceClass::Y)))
+            .chain(ports.map(|port| format!("COM{port}")))
             .collect()
     }
 }

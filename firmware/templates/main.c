@@ -23,7 +23,7 @@ static volatile uint32_t microseconds;
     microseconds += TICK_US;
 /* DUE */}
 
-/* PINS *//* SETUP *//* CONSOLE */static rungc_board board = {
+/* PINS *//* SERIAL *//* SETUP *//* CONSOLE */static rungc_board board = {
 /* HAL */    .period_us = SCAN_US,
 };
 

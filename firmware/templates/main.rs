@@ -6,7 +6,7 @@ use core::mem::MaybeUninit;
 use core::sync::atomic::{AtomicU32, Ordering};
 use rungc_rt::Hal;
 use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt/* EDGE TYPE */, PulseOutput, Setup, Timebase};
-/* USE PROGRAM */use CRATE::TYPE;
+/* USE SERIAL *//* USE PROGRAM */use CRATE::TYPE;
 
 /// The clock that SysTick counts, in Hz.
 const CLOCK_HZ: u32 = /* HZ */;
@@ -76,7 +76,7 @@ fn panic(_: &core::panic::PanicInfo) -> ! {
     hang()
 }
 
-/* SCRIPT *//// The board's pins.
+/* SERIAL *//* SCRIPT *//// The board's pins.
 struct Pins/* FIELDS */
 
 impl Timebase for Pins {

@@ -14,7 +14,7 @@ vectors:
     .word 0, 0
     .word spin                  @ PendSV
     .word systick_handler
-.size vectors, . - vectors
+/* VECTORS */.size vectors, . - vectors
 
 .section .text.reset_handler, "ax", %progbits
 .global reset_handler

@@ -1,6 +1,6 @@
 //! Descriptions of boards: what they may say, and what is wrong with others.
 
-use rungc_firmware::board::{Board, OutputPin, load, parse};
+use rungc_firmware::board::{Board, OutputPin, Uart, load, parse};
 use rungc_syntax::Source;
 use std::path::Path;
 
@@ -46,6 +46,77 @@ fn pins_have_octal_numbers() {
         inverted: true,
     };
     assert_eq!(board.outputs[&9], bit);
+}
+
+#[test]
+fn serial_ports_are_uarts() {
+    let serial = "[[serial]]\nport = \"COM1\"\nuart = \"stm32\"\nat = 0x40004400\ninterrupts = [38]\n\
+                  de = { at = 8, on = 1, off = 2 }\n[[serial]]\nport = \"COM0\"\nuart = \"stm32\"\nat = 0x40011000\n\
+                  interrupts = [37]\nhz = 8_000_000\nalways = true\nreceive = 128\nsend = 16\n";
+    let board = read(&format!("{DESK}{serial}")).unwrap();
+    let [com1, com0] = &board.serial[..] else {
+        panic!("{:?}", board.serial)
+    };
+    assert_eq!((com1.port, com1.uart), (1, Uart::Stm32));
+    assert_eq!((com1.receive, com1.send, com1.always), (64, 256, false));
+    let [on, off] = [(8, 1), (8, 2)];
+    assert_eq!(com1.driver, Some(OutputPin::Words { on, off }));
+    assert_eq!(
+        (com1.clock_hz, com0.clock_hz, com0.receive, com0.send),
+        (25_000_000, 8_000_000, 128, 16)
+    );
+    assert!(com0.always);
+}
+
+/// Each mistake in a description of serial ports is said with its place.
+#[test]
+fn mistakes_in_serial_ports_are_named() {
+    let line = "port = \"COM1\"\nuart = \"cmsdk\"\nat = 0\ninterrupts = [0]\n";
+    let second = |line: &str| format!("[[serial]]\n{line}");
+    for (from, to, said) in [
+        (
+            "COM1",
+            "UART1",
+            "board.toml:12:8: `UART1` is not a serial port",
+        ),
+        ("\"cmsdk\"", "\"z80\"", "unknown variant `z80`"),
+        ("[0]", "[]", "name at least one interrupt"),
+        ("[0]", "[480]", "from 0 to 479"),
+        (
+            "at = 0",
+            "at = 0\nreceive = 1",
+            "board.toml:15:11: a queue has room for 2 to 4096",
+        ),
+        (
+            "at = 0",
+            "at = 0\nde = { at = 0, bit = 1 }",
+            "a CMSDK UART does not say when",
+        ),
+        (
+            "[0]\n",
+            &format!("[0]\n{}", second(line)),
+            "COM1 is listed twice",
+        ),
+        (
+            "[0]\n",
+            &format!("[0]\n{}", second(&line.replace("COM1", "COM2"))),
+            "interrupt 0 belongs to another port",
+        ),
+        (
+            "[0]\n",
+            &format!(
+                "[0]\n{}",
+                second(&line.replace("COM1", "COM2").replace("cmsdk", "stm32"))
+            ),
+            "the UARTs of a board are of one kind",
+        ),
+    ] {
+        let error = read(&format!("{DESK}\n{}", second(&line.replacen(from, to, 1)))).unwrap_err();
+        assert!(error.contains(said), "{error}");
+    }
+    let both = format!("[functions]\nset_line = \"f\"\n{}", second(line));
+    let error = read(&format!("{DESK}{both}")).unwrap_err();
+    assert!(error.contains("use only one of them"), "{error}");
 }
 
 /// Each mistake is said with its place.

@@ -82,6 +82,7 @@
 //! of all outputs each millisecond: some microseconds, however long a scan takes. An edge of an input waits for the running scan to end,
 //! and for [`Driver::poll`]; none is lost as long as the queue has room for those of a scan.
 
+pub use crate::char_queue::CharQueue;
 pub use crate::edge_queue::EdgeQueue;
 use crate::hal::Hal;
 use crate::plc::Class;

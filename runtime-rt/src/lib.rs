@@ -29,6 +29,7 @@ mod capi_panic;
     reason = "C hands over pointers, and the hardware is one for the process"
 )]
 pub mod capi_virtual;
+mod char_queue;
 pub mod comm;
 mod compare;
 mod cx;

@@ -54,6 +54,7 @@ fn build(
     let options = CompileOptions {
         name: Some(name.clone()),
         optimise: !plan.no_opt,
+        ports: image.iter().flat_map(ForImage::ports).collect(),
         ..subject.options()
     };
     let compiled = progress::spin("compiling", || compile::compile(&read.program, &options));
@@ -215,6 +216,12 @@ impl ForImage {
             until_ms: args.duration.map(milliseconds).transpose()?,
         };
         Ok(ForImage { board, script })
+    }
+
+    /// The serial ports that work whatever the program does.
+    fn ports(&self) -> impl Iterator<Item = u8> {
+        let always = self.board.serial.iter().filter(|serial| serial.always);
+        always.map(|serial| serial.port)
     }
 
     fn image<'a>(&'a self, module: &'a Module) -> Image<'a> {

@@ -1,5 +1,6 @@
 //! Tools for another machine that tests need. Without them a test says what is missing and that it did not run; with
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
+#![allow(dead_code, reason = "not every test needs all of it")]
 
 pub use rungc_sim::engines::cortex_m::{cargo, no_rust};
 use std::process::Command;
@@ -20,4 +21,17 @@ pub fn tools(programs: &[&str]) -> bool {
     let missing: Vec<_> = programs.iter().filter(|name| !is_there(name)).collect();
     missing.iter().for_each(|name| leave_out(name));
     missing.is_empty()
+}
+
+/// The command line with the cargo of [`cargo`].
+pub fn with_cargo(cargo: &Command) -> Command {
+    let mut rungc = Command::new(env!("CARGO_BIN_EXE_rungc"));
+    for (name, value) in cargo.get_envs() {
+        match value {
+            Some(value) => rungc.env(name, value),
+            None => rungc.env_remove(name),
+        };
+    }
+    rungc.env("CARGO", cargo.get_program());
+    rungc
 }

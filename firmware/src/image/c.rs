@@ -1,5 +1,7 @@
 //! An image in C.
 
+mod serial;
+
 use super::{Image, comment, linker_script, terminals};
 use crate::board::{FUNCTIONS, OutputPin};
 use rungc_emit::OutFile;
@@ -76,7 +78,8 @@ fn banner(image: &Image, file: &str, what: &str) -> String {
 }
 
 fn startup(image: &Image) -> String {
-    let interrupts = &image.board.interrupts;
+    let mut interrupts = image.board.interrupts.clone();
+    interrupts.extend(serial::handlers(image));
     let mut prototypes = String::new();
     let mut vectors = String::new();
     let last = interrupts.keys().next_back().copied();
@@ -84,7 +87,9 @@ fn startup(image: &Image) -> String {
         let handler = interrupts.get(&number).map_or("hang", String::as_str);
         let _ = writeln!(vectors, "    [{}] = {{.handler = {handler}}},", 16 + number);
     }
-    for handler in interrupts.values() {
+    let mut handlers: Vec<_> = interrupts.values().collect();
+    handlers.dedup();
+    for handler in handlers {
         let _ = writeln!(prototypes, "void {handler}(void);");
     }
     let count = 16 + last.map_or(0, |last| last + 1);
@@ -117,12 +122,14 @@ fn main(image: &Image) -> String {
         (false, _) => String::new(),
     };
     let mut begin = String::new();
+    let sizes = serial::sizes(image);
     if !board.setup.is_empty() {
         begin.push_str("    set_up();\n");
     }
     if let Some(init) = board.functions.get("init") {
         let _ = writeln!(begin, "    {init}();");
     }
+    begin.push_str(&serial::enable(image));
     let mut show = String::new();
     if board.console {
         show.push_str("        show_outputs();\n");
@@ -139,12 +146,13 @@ fn main(image: &Image) -> String {
         .replace("/* NOW */", &format!("{declared}{now}{timers}"))
         .replace("/* PINS */", &pins(image))
         .replace("/* SETUP */", &setup(image))
+        .replace("/* SERIAL */", &serial::drivers(image))
         .replace("/* CONSOLE */", &console(image))
         .replace("/* HAL */", &hal(image, timer))
         .replace("/* BEGIN */", &begin)
         .replace("/* SHOW */", &show)
         .replace("PROGRAM", &image.module.name);
-    banner(image, "main.c", "the program on") + &text
+    banner(image, "main.c", "the program on") + &sizes + &text
 }
 
 /// Prototypes of the user's functions.
@@ -173,7 +181,10 @@ fn pins(image: &Image) -> String {
         text.push_str(&SCRIPT.replace("/* SCRIPT */", &lines));
     }
     let bits = |pin: &OutputPin| matches!(pin, OutputPin::Bit { .. });
-    if !image.board.setup.is_empty() || image.board.outputs.values().any(bits) {
+    let drivers = image.serial().into_iter();
+    let mut drivers = drivers.filter_map(|serial| serial.driver.as_ref());
+    if !image.board.setup.is_empty() || image.board.outputs.values().any(bits) || drivers.any(bits)
+    {
         text.push_str(BITS);
     }
     if let Some(function) = input_function(image) {
@@ -276,30 +287,32 @@ fn outputs(image: &Image) -> String {
             "    case {number}: /* {} */",
             DeviceClass::Y.number(number)
         );
-        let _ = match *pin {
-            OutputPin::Bit { at, bit, inverted } => {
-                let on = if inverted { "!on" } else { "on" };
-                writeln!(
-                    text,
-                    "        set_bits(0x{at:08X}u, 0x{:X}u, {on});",
-                    1u32 << bit
-                )
-            }
-            OutputPin::Words { on, off } if on.0 == off.0 => writeln!(
-                text,
-                "        REGISTER(0x{:08X}u) = on ? 0x{:X}u : 0x{:X}u;",
-                on.0, on.1, off.1
-            ),
-            OutputPin::Words { on, off } => writeln!(
-                text,
-                "        if (on) {{\n            REGISTER(0x{:08X}u) = 0x{:X}u;\n        }} else {{\n            REGISTER(0x{:08X}u) = 0x{:X}u;\n        }}",
-                on.0, on.1, off.0, off.1
-            ),
-        };
+        text.push_str(&switch(pin, "        "));
         text.push_str("        break;\n");
     }
     text.push_str("    default:\n        (void)on;\n        break;\n    }\n}\n\n");
     text
+}
+
+/// The statement that switches a pin, with the state in `on`.
+fn switch(pin: &OutputPin, indent: &str) -> String {
+    match *pin {
+        OutputPin::Bit { at, bit, inverted } => {
+            let on = if inverted { "!on" } else { "on" };
+            format!(
+                "{indent}set_bits(0x{at:08X}u, 0x{:X}u, {on});\n",
+                1u32 << bit
+            )
+        }
+        OutputPin::Words { on, off } if on.0 == off.0 => format!(
+            "{indent}REGISTER(0x{:08X}u) = on ? 0x{:X}u : 0x{:X}u;\n",
+            on.0, on.1, off.1
+        ),
+        OutputPin::Words { on, off } => format!(
+            "{indent}if (on) {{\n{indent}    REGISTER(0x{:08X}u) = 0x{:X}u;\n{indent}}} else {{\n{indent}    REGISTER(0x{:08X}u) = 0x{:X}u;\n{indent}}}\n",
+            on.0, on.1, off.0, off.1
+        ),
+    }
 }
 
 fn setup(image: &Image) -> String {
@@ -368,6 +381,9 @@ fn hal(image: &Image, timer: bool) -> String {
             "now_us" => Some("now_us".to_string()),
             "hold_pulses" | "wake_in" if timer => Some(field.to_string()),
             "next_edge" if edges(image).is_some() => Some(field.to_string()),
+            _ if serial::FIELDS.contains(&field) && !image.serial().is_empty() => {
+                Some(field.to_string())
+            }
             _ => None,
         };
         let users = board.functions.get(field).cloned();

@@ -1,7 +1,9 @@
 //! An image in Rust. Pins are those of the board's description; functions in C are for images in C.
 
+mod serial;
+
 use super::{Image, comment, linker_script, terminals};
-use crate::board::OutputPin;
+use crate::board::{OutputPin, Uart};
 use rungc_emit::OutFile;
 use rungc_runtime_sources::EMITTED_VERSION;
 use rungc_syntax::DeviceClass;
@@ -78,7 +80,12 @@ pub fn project(image: &Image) -> Vec<OutFile> {
         ("Cargo.lock", lock),
         (".cargo/config.toml", config(triple)),
         ("image.ld", linker_script(image.board)),
-        ("src/startup.s", STARTUP.replace("/* FPU */", fpu)),
+        (
+            "src/startup.s",
+            STARTUP
+                .replace("/* FPU */", fpu)
+                .replace("/* VECTORS */", &serial::vectors(image)),
+        ),
         ("src/main.rs", main(image)),
     ];
     files.extend(own.map(|(path, text)| OutFile::new(path, text)));
@@ -123,10 +130,19 @@ fn main(image: &Image) -> String {
         );
     }
     let setup = setup(image);
+    let ports = image.serial();
+    let drivers = ports.iter().filter_map(|serial| serial.driver.as_ref());
     let by_bits = |pin: &OutputPin| matches!(pin, OutputPin::Bit { .. });
-    let bits = match board.outputs.values().any(by_bits) || !setup.is_empty() {
+    let bits = match board.outputs.values().chain(drivers).any(by_bits) || !setup.is_empty() {
         true => BITS,
         false => "",
+    };
+    let uses = match ports.first().map(|serial| serial.uart) {
+        Some(Uart::Stm32 | Uart::Stm32f7) => {
+            &format!("{}use rungc_rt::comm::Parity;\n", serial::USES)
+        }
+        Some(Uart::Cmsdk) => serial::USES,
+        None => "",
     };
     let end = |class| {
         terminals(image.module, class)
@@ -134,10 +150,7 @@ fn main(image: &Image) -> String {
             .max()
             .unwrap_or(0)
     };
-    let (fields, pins) = match (watched.len(), image.script.inputs.is_empty()) {
-        (0, true) => (";".to_string(), "Pins".to_string()),
-        (count, plain) => fields(count, plain),
-    };
+    let (fields, pins) = fields(image);
     let text = MAIN
         .replace(
             "/* EDGE TYPE */",
@@ -164,13 +177,15 @@ fn main(image: &Image) -> String {
         .replace("/* SCRIPT */", &script(image))
         .replace("/* FIELDS */", &fields)
         .replace("/* PINS */", &pins)
-        .replace("/* HAL */", &format!("{}{}", inputs(image), outputs(image)))
+        .replace("/* HAL */", &hal(image))
         .replace(
             "/* EDGES */",
             if watched.is_empty() { "" } else { NEXT_EDGE },
         )
         .replace("/* CONSOLE */", &console(image))
-        .replace("/* SETUP */", &setup)
+        .replace("/* USE SERIAL */", uses)
+        .replace("/* SERIAL */", &serial::drivers(image))
+        .replace("/* SETUP */", &(setup + &serial::enable(image)))
         .replace("/* BEFORE */", &before)
         .replace(
             "/* NOW */",
@@ -192,20 +207,30 @@ fn main(image: &Image) -> String {
 }
 
 /// What pins remember, and how that begins.
-fn fields(watched: usize, plain: bool) -> (String, String) {
-    let mut fields = String::from(" {\n");
-    let mut begin = String::from("Pins {");
-    if !plain {
+fn fields(image: &Image) -> (String, String) {
+    let mut fields = String::new();
+    let mut begin = String::new();
+    if !image.script.inputs.is_empty() {
         fields.push_str(
             "    /// The program's time, for inputs that switch themselves.\n    now_ms: u32,\n",
         );
         begin.push_str(" now_ms: 0,");
     }
-    if watched > 0 {
+    if !image.watched().is_empty() {
         fields.push_str("    /// How watched inputs stood.\n    were: [bool; WATCHED.len()],\n");
         begin.push_str(" were: [false; WATCHED.len()],");
     }
-    (fields + "}", begin.trim_end_matches(',').to_string() + " }")
+    if !image.serial().is_empty() {
+        fields.push_str(
+            "    /// The serial port that was asked for last.\n    line: Option<&'static Uart>,\n",
+        );
+        begin.push_str(" line: None,");
+    }
+    if fields.is_empty() {
+        return (";".to_string(), "Pins".to_string());
+    }
+    let begin = begin.trim_end_matches(',');
+    (format!(" {{\n{fields}}}"), format!("Pins {{{begin} }}"))
 }
 
 fn script(image: &Image) -> String {
@@ -263,19 +288,10 @@ fn outputs(image: &Image) -> String {
         let Some(pin) = image.board.outputs.get(&number) else {
             continue;
         };
-        let call = match *pin {
-            OutputPin::Bit { at, bit, inverted } => {
-                let on = if inverted { "!on" } else { "on" };
-                format!("set_bits(0x{at:08X}, 0x{:X}, {on})", 1u32 << bit)
-            }
-            OutputPin::Words { on, off } => format!(
-                "if on {{ write(0x{:08X}, 0x{:X}) }} else {{ write(0x{:08X}, 0x{:X}) }}",
-                on.0, on.1, off.0, off.1
-            ),
-        };
         let _ = writeln!(
             text,
-            "            {number} => {call}, // {}",
+            "            {number} => {}, // {}",
+            switch(pin),
             DeviceClass::Y.number(number)
         );
     }
@@ -283,6 +299,29 @@ fn outputs(image: &Image) -> String {
     format!(
         "    fn set_output(&mut self, number: u16, {on}: bool) {{\n        match number {{\n{text}            _ => {{}}\n        }}\n    }}\n"
     )
+}
+
+/// The expression that switches a pin, with the state in `on`.
+fn switch(pin: &OutputPin) -> String {
+    match *pin {
+        OutputPin::Bit { at, bit, inverted } => {
+            let on = if inverted { "!on" } else { "on" };
+            format!("set_bits(0x{at:08X}, 0x{:X}, {on})", 1u32 << bit)
+        }
+        OutputPin::Words { on, off } => format!(
+            "if on {{ write(0x{:08X}, 0x{:X}) }} else {{ write(0x{:08X}, 0x{:X}) }}",
+            on.0, on.1, off.0, off.1
+        ),
+    }
+}
+
+/// What instructions and scans ask of the board.
+fn hal(image: &Image) -> String {
+    let serial = match image.serial().is_empty() {
+        true => "",
+        false => serial::SERIAL_PORT,
+    };
+    format!("{}{}{serial}", inputs(image), outputs(image))
 }
 
 fn setup(image: &Image) -> String {

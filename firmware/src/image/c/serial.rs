@@ -1,0 +1,129 @@
+//! Serial ports of an image in C.
+
+use super::{Image, switch};
+use crate::board::{Serial, Uart};
+use std::fmt::Write;
+
+const SERIAL: &str = include_str!("../../../templates/serial.c");
+const FINE_US: &str = include_str!("../../../templates/fine_us.c");
+const STM32: &str = include_str!("../../../templates/uart_stm32.c");
+const CMSDK: &str = include_str!("../../../templates/uart_cmsdk.c");
+
+/// Offsets of the registers of a USART with status and data registers, and the bit that switches it on.
+const STM32_REGISTERS: &str = "STATE = 0x00, IN = 0x04, OUT = 0x04, RATE = 0x08, CONTROL_1 = 0x0C, CONTROL_2 = 0x10, ENABLE = 13";
+
+/// The same of a newer one.
+const STM32F7_REGISTERS: &str = "CONTROL_1 = 0x00, CONTROL_2 = 0x04, RATE = 0x0C, STATE = 0x1C, CLEAR = 0x20, IN = 0x24, OUT = 0x28, ENABLE = 0";
+
+/// How faults are cleared where reading the data does not do that.
+const CLEAR: &str = "    REGISTER(u->at + CLEAR) = 0xFu; /* PE, FE, NF, ORE */\n";
+
+/// Fields of `rungc_hal` that serial ports fill.
+pub(super) const FIELDS: [&str; 4] = ["set_line", "receive", "send", "unsent"];
+
+/// The name of the handler of a port's interrupts.
+fn handler(serial: &Serial) -> String {
+    format!("com{}_handler", serial.port)
+}
+
+/// Interrupts and their handlers.
+pub(super) fn handlers(image: &Image) -> Vec<(u32, String)> {
+    let ports = image.serial().into_iter();
+    ports
+        .flat_map(|serial| {
+            let numbers = serial.interrupts.iter();
+            numbers.map(move |number| (*number, handler(serial)))
+        })
+        .collect()
+}
+
+/// The size of queues of received characters, which the board's header takes.
+pub(super) fn sizes(image: &Image) -> String {
+    let ports = image.serial();
+    match ports.iter().map(|serial| serial.receive).max() {
+        Some(room) => format!("#define RUNGC_CHARACTERS {room}u\n"),
+        None => String::new(),
+    }
+}
+
+/// What drives the UARTs; nothing if the program has no port that the board has.
+pub(super) fn drivers(image: &Image) -> String {
+    let ports = image.serial();
+    let Some(first) = ports.first() else {
+        return String::new();
+    };
+    let stm32 = |kind: &str, registers: &str, clear: &str| {
+        STM32
+            .replace("/* KIND */", kind)
+            .replace("/* REGISTERS */", registers)
+            .replace("/* CLEAR */", clear)
+    };
+    let uart = match first.uart {
+        Uart::Stm32 => stm32("STM32F1, F2, F4 and L1", STM32_REGISTERS, ""),
+        Uart::Stm32f7 => stm32("STM32F7 and similar", STM32F7_REGISTERS, CLEAR),
+        Uart::Cmsdk => CMSDK.to_string(),
+    };
+    // A function of the board's own has the finest resolution.
+    let time = match image.board.functions.get("now_us") {
+        Some(own) => format!("static uint32_t fine_us(void)\n{{\n    return {own}(NULL);\n}}\n\n"),
+        None => FINE_US.to_string(),
+    };
+    let room = ports.iter().map(|serial| serial.send).max();
+    let text = SERIAL
+        .replace("/* TIME */", &time)
+        .replace("/* UART */", &uart)
+        .replace("/* TABLE */", &table(&ports));
+    format!(
+        "/* How many characters wait to be sent, plus one. */\n#define SEND {}u\n\n{text}",
+        room.unwrap_or(first.send)
+    )
+}
+
+/// The ports, what switches their drivers, and their interrupts.
+fn table(ports: &[&Serial]) -> String {
+    let mut text = String::new();
+    let mut rows = String::new();
+    let mut handlers = String::new();
+    for (i, serial) in ports.iter().enumerate() {
+        let port = serial.port;
+        let drive = match &serial.driver {
+            Some(pin) => {
+                let _ = write!(
+                    text,
+                    "static void drive_com{port}(bool on)\n{{\n{}}}\n\n",
+                    switch(pin, "    ")
+                );
+                format!("drive_com{port}")
+            }
+            None => "NULL".to_string(),
+        };
+        let _ = writeln!(
+            rows,
+            "    {{.port = {port}, .at = 0x{:08X}u, .clock_hz = {}u, .drive = {drive}, .waiting = &waiting[{i}]}},",
+            serial.at, serial.clock_hz
+        );
+        let handler = handler(serial);
+        let _ = write!(
+            handlers,
+            "void {handler}(void);\n\nvoid {handler}(void)\n{{\n    serve(&uarts[{i}]);\n}}\n\n"
+        );
+    }
+    let count = ports.len();
+    format!(
+        "{text}static queues waiting[{count}];\n\nstatic const uart uarts[{count}] = {{\n{rows}}};\n\n{handlers}"
+    )
+}
+
+/// What lets the interrupts of the UARTs come.
+pub(super) fn enable(image: &Image) -> String {
+    let mut text = String::new();
+    for (number, handler) in handlers(image) {
+        let _ = writeln!(
+            text,
+            "    REGISTER(0x{:08X}u) = 1u << {}; /* NVIC_ISER: {handler} */",
+            0xE000_E100 + number / 32 * 4,
+            number % 32
+        );
+    }
+    text
+}

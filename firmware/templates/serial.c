@@ -1,0 +1,131 @@
+/* What waits between the interrupt of a UART and the main loop. */
+typedef struct {
+    rungc_characters received;
+    uint8_t to_send[SEND];
+    volatile uint16_t first; /* the next character to be sent; changes where no interrupt comes */
+    volatile uint16_t end;   /* where the next one goes; the main loop's */
+    uint8_t mask;            /* the bits of a character */
+} queues;
+
+/* A serial port: the interrupt of its UART notes what comes in, with its time, and sends. */
+typedef struct {
+    uint8_t port;           /* its number in the PLC's manual */
+    uint32_t at;            /* the first register of its UART */
+    uint32_t clock_hz;      /* what its bit rate is divided from */
+    void (*drive)(bool on); /* switches the driver of an RS-485 line, or NULL */
+    queues *waiting;
+} uart;
+
+static uint32_t mask_interrupts(void)
+{
+    uint32_t masked;
+
+    __asm__ volatile("mrs %0, primask\n\tcpsid i" : "=r"(masked)::"memory");
+    return masked;
+}
+
+static void unmask_interrupts(uint32_t masked)
+{
+    __asm__ volatile("msr primask, %0" ::"r"(masked) : "memory");
+}
+
+/* TIME *//* UART *//* Hands over as many characters as the UART takes, and switches the driver of the line. */
+static void pump(const uart *u)
+{
+    queues *const q = u->waiting;
+    bool sending = q->first != q->end;
+
+    if (sending && u->drive != NULL) {
+        u->drive(true);
+    }
+    while (sending && has_room(u)) {
+        REGISTER(u->at + OUT) = q->to_send[q->first];
+        q->first = (uint16_t)((q->first + 1u) % SEND);
+        sending = q->first != q->end;
+    }
+    const bool last = !sending && !has_sent(u);
+    expect(u, sending, last);
+    if (!sending && !last && u->drive != NULL) {
+        u->drive(false);
+    }
+}
+
+/* The interrupt of a UART. */
+static void serve(const uart *u)
+{
+    rungc_char_fault fault;
+    uint8_t byte;
+
+    while (next_character(u, &byte, &fault)) {
+        rungc_note_character(&u->waiting->received, fine_us(), byte & u->waiting->mask, fault);
+    }
+    pump(u);
+}
+
+/* TABLE */static const uart *uart_of(uint8_t port)
+{
+    for (size_t i = 0; i < sizeof uarts / sizeof uarts[0]; i++) {
+        if (uarts[i].port == port) {
+            return &uarts[i];
+        }
+    }
+    return NULL;
+}
+
+static void set_line(void *context, uint8_t port, const rungc_line_format *format)
+{
+    const uart *const u = uart_of(port);
+
+    (void)context;
+    if (u != NULL && format->bits_per_second != 0u) {
+        u->waiting->mask = format->data_bits == 7u ? 0x7Fu : 0xFFu;
+        set_format(u, format);
+    }
+}
+
+static bool receive(void *context, uint8_t port, uint32_t now_us, rungc_received *received)
+{
+    const uint32_t begin_us = board.millisecond - board.now_ms * 1000u; /* when the program's time began */
+    const uart *const u = uart_of(port);
+
+    (void)context;
+    if (u == NULL || !rungc_take_character(&u->waiting->received, now_us + begin_us, received)) {
+        return false;
+    }
+    received->at_us -= begin_us;
+    return true;
+}
+
+static bool send(void *context, uint8_t port, uint8_t byte, uint32_t now_us)
+{
+    const uart *const u = uart_of(port);
+
+    (void)context;
+    (void)now_us;
+    if (u == NULL || (u->waiting->end + 1u) % SEND == u->waiting->first) {
+        return false;
+    }
+    u->waiting->to_send[u->waiting->end] = byte;
+    u->waiting->end = (uint16_t)((u->waiting->end + 1u) % SEND);
+    const uint32_t masked = mask_interrupts();
+    pump(u);
+    unmask_interrupts(masked);
+    return true;
+}
+
+static uint16_t unsent(void *context, uint8_t port, uint32_t now_us)
+{
+    const uart *const u = uart_of(port);
+
+    (void)context;
+    (void)now_us;
+    if (u == NULL) {
+        return 0;
+    }
+    const uint32_t masked = mask_interrupts();
+    pump(u);
+    const uint32_t waiting = (u->waiting->end + SEND - u->waiting->first) % SEND + (has_sent(u) ? 0u : 1u);
+    unmask_interrupts(masked);
+    return (uint16_t)waiting;
+}
+

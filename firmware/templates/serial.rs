@@ -1,0 +1,138 @@
+/// How many characters of each direction wait, plus one.
+const RECEIVE: usize = /* RECEIVE */;
+const SEND: usize = /* SEND */;
+
+/// A serial port: the interrupt of its UART notes what comes in, with its time, and sends.
+struct Uart {
+    /// Its number in the PLC's manual.
+    port: u8,
+    /// The first register.
+    at: usize,
+    /// What its bit rate is divided from.
+    clock_hz: u32,
+    /// Switches the driver of an RS-485 line.
+    drive: fn(bool),
+    /// The bits of a character.
+    mask: AtomicU8,
+    received: CharQueue<RECEIVE>,
+    to_send: [AtomicU8; SEND],
+    /// The next character to be sent; changes where no interrupt comes.
+    first: AtomicUsize,
+    /// Where the next one goes; the main loop's.
+    end: AtomicUsize,
+}
+
+/* UART */impl Uart {
+    const fn new(port: u8, at: usize, clock_hz: u32, drive: fn(bool)) -> Self {
+        Uart {
+            port,
+            at,
+            clock_hz,
+            drive,
+            mask: AtomicU8::new(0xff),
+            received: CharQueue::new(),
+            to_send: [const { AtomicU8::new(0) }; SEND],
+            first: AtomicUsize::new(0),
+            end: AtomicUsize::new(0),
+        }
+    }
+
+    /// How many characters wait to be sent.
+    fn waiting(&self) -> usize {
+        (self.end.load(Ordering::Relaxed) + SEND - self.first.load(Ordering::Relaxed)) % SEND
+    }
+
+    /// Hands over as many characters as the UART takes, and switches the driver of the line.
+    fn pump(&self) {
+        if self.waiting() > 0 {
+            (self.drive)(true);
+        }
+        while self.waiting() > 0 && self.has_room() {
+            let first = self.first.load(Ordering::Relaxed);
+            write(self.at + OUT, self.to_send[first].load(Ordering::Relaxed).into());
+            self.first.store((first + 1) % SEND, Ordering::Relaxed);
+        }
+        let sending = self.waiting() > 0;
+        let last = !sending && !self.has_sent();
+        self.expect(sending, last);
+        if !sending && !last {
+            (self.drive)(false);
+        }
+    }
+
+    /// The interrupt.
+    fn serve(&self) {
+        while let Some((byte, fault)) = self.next_character() {
+            self.received.note(Received {
+                at_us: fine_us(),
+                byte: byte & self.mask.load(Ordering::Relaxed),
+                fault,
+            });
+        }
+        self.pump();
+    }
+}
+
+impl SerialPort for &'static Uart {
+    fn set_format(&mut self, format: LineFormat) {
+        if format.bits_per_second != 0 {
+            self.mask.store(format.mask(), Ordering::Relaxed);
+            self.set_up(format);
+        }
+    }
+
+    fn receive(&mut self, now_us: u32) -> Option<Received> {
+        self.received.take(now_us)
+    }
+
+    fn send(&mut self, byte: u8, _now_us: u32) -> bool {
+        let end = self.end.load(Ordering::Relaxed);
+        let next = (end + 1) % SEND;
+        if next == self.first.load(Ordering::Relaxed) {
+            return false;
+        }
+        self.to_send[end].store(byte, Ordering::Relaxed);
+        self.end.store(next, Ordering::Relaxed);
+        without_interrupts(|| self.pump());
+        true
+    }
+
+    fn unsent(&mut self, _now_us: u32) -> u16 {
+        without_interrupts(|| {
+            self.pump();
+            (self.waiting() + usize::from(!self.has_sent())) as u16
+        })
+    }
+}
+
+/// Does something while no interrupt comes.
+fn without_interrupts<T>(work: impl FnOnce() -> T) -> T {
+    let masked: u32;
+    // SAFETY: the mask is as it was before when the work is done.
+    unsafe { asm!("mrs {}, primask", "cpsid i", out(reg) masked) };
+    let done = work();
+    // SAFETY: the same.
+    unsafe { asm!("msr primask, {}", in(reg) masked) };
+    done
+}
+
+/// Microseconds since the start, wrapping, with what SysTick has counted since the tick.
+fn fine_us() -> u32 {
+    let (us, left) = without_interrupts(|| {
+        let us = MICROSECONDS.load(Ordering::Relaxed);
+        let left = read(0xE000_E018);
+        // ICSR: the tick waits.
+        match read(0xE000_ED04) & 1 << 26 {
+            0 => (us, left),
+            _ => (us.wrapping_add(TICK_US), read(0xE000_E018)),
+        }
+    });
+    let counted = read(0xE000_E014).wrapping_sub(left);
+    let since = match CLOCK_HZ / 1_000_000 {
+        0 => counted * (1_000_000 / CLOCK_HZ),
+        megahertz => counted / megahertz,
+    };
+    us.wrapping_add(since.min(TICK_US - 1))
+}
+
+/* TABLE */
