@@ -4,7 +4,7 @@ use crate::expr::Around;
 use crate::fields::PrintStorage;
 use crate::helpers::reset_function;
 use crate::writer::Writer;
-use rungc_ir::node::{Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{Access, AccessKind, Expr, ExprId, Place, Stmt};
 use rungc_models::runs::is_counter32;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
@@ -55,16 +55,7 @@ impl Writer<'_, '_> {
                 down,
                 preset,
             } => self.counter(code, "plc_count32_once", number, &[down, preset]),
-            Stmt::WriteBit(place, value) => self.put(code, "bit", &place, value),
-            Stmt::WriteWord(place, value) => self.put(code, "word", &place, value),
-            Stmt::WriteWordBit(place, bit, value) => self.put_word_bit(code, &place, bit, value),
-            Stmt::WritePair(place, value) => self.put_pair(code, &place, value, false),
-            Stmt::WriteFloat(place, value) => self.put_pair(code, &place, value, true),
-            Stmt::WriteNibbles {
-                place,
-                digits,
-                value,
-            } => self.put_nibbles(code, &place, digits, value),
+            Stmt::Write(ref access, value) => self.write(code, access, value),
             Stmt::Reset(place) => self.reset(code, &place),
             Stmt::Network(_)
             | Stmt::Let(..)
@@ -163,7 +154,7 @@ impl Writer<'_, '_> {
             self.module.name,
             place.class.prefix()
         );
-        self.number(code, place, 0);
+        self.number(code, place);
         for argument in [drive, preset] {
             code.push_str(", ");
             self.expr(code, argument, Around::Exact);
@@ -181,6 +172,18 @@ impl Writer<'_, '_> {
         code.push_str(");");
     }
 
+    fn write(&mut self, code: &mut String, access: &Access, value: ExprId) {
+        let place = &access.place;
+        match access.kind {
+            AccessKind::Bit => self.put(code, "bit", place, value),
+            AccessKind::WordBit(bit) => self.put_word_bit(code, place, bit, value),
+            AccessKind::Word => self.put(code, "word", place, value),
+            AccessKind::Pair => self.put_pair(code, place, value, false),
+            AccessKind::Float => self.put_pair(code, place, value, true),
+            AccessKind::Nibbles { .. } => self.put_nibbles(code, place, access.extent(), value),
+        }
+    }
+
     fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
         let of_iteration = self.access_iteration(code, place);
         if place.index.is_some() && !of_iteration {
@@ -191,7 +194,7 @@ impl Writer<'_, '_> {
                 self.module.name,
                 place.class.prefix()
             );
-            self.number(code, place, 0);
+            self.number(code, place);
             code.push_str(", ");
             self.expr(code, value, Around::Exact);
             code.push_str(");");
@@ -218,9 +221,9 @@ impl Writer<'_, '_> {
             self.helpers.put("word", place.class);
             let (name, class) = (&self.module.name, place.class.prefix());
             let _ = write!(code, "{name}_put_word_{class}(plc, ");
-            self.number(code, place, 0);
+            self.number(code, place);
             let _ = write!(code, ", plc_with_bit({name}_word_{class}(plc, ");
-            self.number(code, place, 0);
+            self.number(code, place);
             let _ = write!(code, "), {bit}u, ");
             self.expr(code, value, Around::Exact);
             code.push_str("));");
@@ -254,7 +257,7 @@ impl Writer<'_, '_> {
             }
             return;
         }
-        let (high, plus) = self.high_word(place);
+        let high = place.high_word(self.module.model);
         let part = if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             ".value"
         } else {
@@ -262,11 +265,7 @@ impl Writer<'_, '_> {
         };
         let (mut low_name, mut high_name) = (String::new(), String::new());
         let low = self.fields.access(&mut low_name, place.class, place.number);
-        let high = self.fields.access(
-            &mut high_name,
-            high.class,
-            high.number.saturating_add_signed(plus),
-        );
+        let high = self.fields.access(&mut high_name, high.class, high.number);
         let _ = match (low, high) {
             (true, true) => write!(
                 code,
@@ -286,14 +285,13 @@ impl Writer<'_, '_> {
             self.module.name,
             place.class.prefix()
         );
-        self.number(code, place, 0);
+        self.number(code, place);
         code.push_str(if float { ", plc_float_bits(" } else { ", " });
         self.expr(code, value, Around::Exact);
         code.push_str(if float { "));" } else { ");" });
     }
 
-    fn put_nibbles(&mut self, code: &mut String, place: &Place, digits: u8, value: ExprId) {
-        let count = 4 * u32::from(digits);
+    fn put_nibbles(&mut self, code: &mut String, place: &Place, count: u32, value: ExprId) {
         if place.index.is_some() {
             self.helpers.put_bits(place.class);
             let _ = write!(
@@ -302,7 +300,7 @@ impl Writer<'_, '_> {
                 self.module.name,
                 place.class.prefix()
             );
-            self.number(code, place, 0);
+            self.number(code, place);
             let _ = write!(code, ", {count}u, ");
             self.expr(code, value, Around::Exact);
             code.push_str(");");
@@ -352,7 +350,7 @@ impl Writer<'_, '_> {
                 self.module.name,
                 place.class.prefix()
             );
-            self.number(code, place, 0);
+            self.number(code, place);
             code.push_str(");");
             return;
         }

@@ -167,16 +167,7 @@ impl Writer<'_, '_> {
                 float(out, *value);
             }
             Expr::Temp(temp) => self.temp(out, *temp),
-            Expr::ReadBit(place) => self.read_bit(out, place),
-            Expr::ReadWordBit(place, bit) => self.bit_of_word(out, place, *bit),
-            Expr::ReadWord(place) => self.word(out, place, 0),
-            Expr::ReadPair(place) => self.pair(out, place),
-            Expr::ReadFloat(place) => self.float_pair(out, place),
-            Expr::ReadNibbles {
-                place,
-                digits,
-                wide,
-            } => self.group(out, place, (*digits, *wide), around),
+            Expr::Read(access) => self.read(out, access, around),
             Expr::Cell(cell) => member(out, &module.cells[*cell].name),
             Expr::Entry(table, index) => {
                 let _ = write!(out, "plc->{}[", module.tables[*table].name);
@@ -303,7 +294,7 @@ impl Writer<'_, '_> {
     fn is_number(&self, e: ExprId) -> bool {
         let known = |e: ExprId| {
             let is_named = self.named.contains_key(&e);
-            let Expr::ReadBit(place) = *self.module.expr(e) else {
+            let Some(place) = self.module.expr(e).as_bit() else {
                 return is_named.then_some(false);
             };
             Some(!is_named && self.fields.is_numeric_bit(place.class, place.number))
@@ -319,10 +310,12 @@ impl Writer<'_, '_> {
 
     /// Writes a value for an element of an array of columns.
     pub fn grid_value(&mut self, out: &mut String, value: ExprId) {
-        let small = matches!(
-            self.module.expr(value),
-            Expr::ReadBit(_) | Expr::And(..) | Expr::Or(..) | Expr::Not(_) | Expr::Bit(_)
-        );
+        let expr = self.module.expr(value);
+        let small = expr.as_bit().is_some()
+            || matches!(
+                expr,
+                Expr::And(..) | Expr::Or(..) | Expr::Not(_) | Expr::Bit(_)
+            );
         if !small {
             out.push_str("(uint8_t)");
         }
@@ -487,10 +480,10 @@ impl Writer<'_, '_> {
     }
 
     fn bit_to_int(&mut self, out: &mut String, a: ExprId, around: Around) {
-        let plain = matches!(
-            self.module.expr(a),
-            Expr::ReadBit(_) | Expr::Temp(_) | Expr::Bit(_)
-        ) || self.named.contains_key(&a);
+        let expr = self.module.expr(a);
+        let plain = expr.as_bit().is_some()
+            || matches!(expr, Expr::Temp(_) | Expr::Bit(_))
+            || self.named.contains_key(&a);
         if plain || around != Around::Exact {
             return self.expr(out, a, around.loosely());
         }
@@ -499,8 +492,8 @@ impl Writer<'_, '_> {
     }
 
     /// The number of an indexed device, as an `int32_t`.
-    pub fn number(&mut self, out: &mut String, place: &Place, plus: i32) {
-        let base = i64::from(place.number) + i64::from(plus);
+    pub fn number(&mut self, out: &mut String, place: &Place) {
+        let base = i64::from(place.number);
         let Some(index) = place.index else {
             let _ = write!(out, "{base}");
             return;
@@ -534,7 +527,7 @@ impl Writer<'_, '_> {
             self.module.name,
             place.class.prefix()
         );
-        self.number(out, place, 0);
+        self.number(out, place);
         let _ = write!(out, ", {count})");
     }
 }

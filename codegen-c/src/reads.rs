@@ -3,49 +3,48 @@
 use crate::expr::Around;
 use crate::fields::PrintStorage;
 use crate::writer::Writer;
-use rungc_ir::node::{Expr, Place};
+use rungc_ir::node::{Access, AccessKind, Expr, Place};
 use rungc_models::runs::is_counter32;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 impl Writer<'_, '_> {
-    pub(crate) fn bit_of_word(&mut self, out: &mut String, place: &Place, bit: u8) {
-        self.call_in(out).push_str("plc_bit(");
-        self.word(out, place, 0);
-        let _ = write!(out, ", {bit}u)");
-    }
-
-    pub(crate) fn float_pair(&mut self, out: &mut String, place: &Place) {
-        self.call_in(out).push_str("plc_float(");
-        self.pair(out, place);
-        out.push(')');
-    }
-
-    /// A group of bits as a number: its number of digits, and whether it has 32 bits in any case.
-    pub(crate) fn group(
-        &mut self,
-        out: &mut String,
-        place: &Place,
-        (digits, wide): (u8, bool),
-        around: Around,
-    ) {
-        let narrow = !wide && digits <= 4;
-        if narrow && (digits == 4 || around == Around::Exact) {
-            self.call_in(out).push_str("plc_low(");
-            self.nibbles(out, place, digits);
-            out.push(')');
-        } else {
-            self.nibbles(out, place, digits);
+    /// Writes the value that an access reads.
+    pub(crate) fn read(&mut self, out: &mut String, access: &Access, around: Around) {
+        let place = &access.place;
+        match access.kind {
+            AccessKind::Bit => self.bit(out, place),
+            AccessKind::WordBit(bit) => {
+                self.call_in(out).push_str("plc_bit(");
+                self.word(out, place);
+                let _ = write!(out, ", {bit}u)");
+            }
+            AccessKind::Word => self.word(out, place),
+            AccessKind::Pair => self.pair(out, place),
+            AccessKind::Float => {
+                self.call_in(out).push_str("plc_float(");
+                self.pair(out, place);
+                out.push(')');
+            }
+            // A group of less than 16 bits is what it is as an `int`, too.
+            AccessKind::Nibbles { digits, wide }
+                if !wide && (digits == 4 || around == Around::Exact) =>
+            {
+                self.call_in(out).push_str("plc_low(");
+                self.nibbles(out, place, access.extent());
+                out.push(')');
+            }
+            AccessKind::Nibbles { .. } => self.nibbles(out, place, access.extent()),
         }
     }
 
-    pub(crate) fn read_bit(&mut self, out: &mut String, place: &Place) {
+    fn bit(&mut self, out: &mut String, place: &Place) {
         if self.loop_invariant(out, place) {
             return;
         }
         let of_iteration = self.access_iteration(out, place);
         if place.index.is_some() && !of_iteration {
-            return self.indexed_call(out, "bit", place, 0);
+            return self.indexed_call(out, "bit", place);
         }
         if !of_iteration && !self.fields.access(out, place.class, place.number) {
             out.push_str("false");
@@ -65,52 +64,33 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Reads the word `plus` places after `place`.
-    pub fn word(&mut self, out: &mut String, place: &Place, plus: i32) {
-        let of_iteration = plus == 0 && self.access_iteration(out, place);
+    fn word(&mut self, out: &mut String, place: &Place) {
+        let of_iteration = self.access_iteration(out, place);
         if place.index.is_some() && !of_iteration {
-            return self.indexed_call(out, "word", place, plus);
+            return self.indexed_call(out, "word", place);
         }
-        let number = place.number.saturating_add_signed(plus);
-        if !of_iteration && !self.fields.access(out, place.class, number) {
+        if !of_iteration && !self.fields.access(out, place.class, place.number) {
             out.push('0');
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".value");
         }
     }
 
-    /// Where the high word of a pair is.
-    pub fn high_word(&self, place: &Place) -> (Place, i32) {
-        if place.class == DeviceClass::Z && self.module.model.z_pairs_with_v {
-            (
-                Place {
-                    class: DeviceClass::V,
-                    ..*place
-                },
-                0,
-            )
-        } else {
-            (*place, 1)
-        }
-    }
-
-    pub(crate) fn pair(&mut self, out: &mut String, place: &Place) {
+    fn pair(&mut self, out: &mut String, place: &Place) {
         if place.index.is_some() && place.class == DeviceClass::C {
-            return self.indexed_call(out, "long", place, 0);
+            return self.indexed_call(out, "long", place);
         }
         if is_counter32(place.class, place.number) {
-            return self.word(out, place, 0);
+            return self.word(out, place);
         }
-        let (high, plus) = self.high_word(place);
         self.call_in(out).push_str("plc_join(");
-        self.word(out, &high, plus);
+        self.word(out, &place.high_word(self.module.model));
         out.push_str(", ");
-        self.word(out, place, 0);
+        self.word(out, place);
         out.push(')');
     }
 
-    fn nibbles(&mut self, out: &mut String, place: &Place, digits: u8) {
-        let count = 4 * u32::from(digits);
+    fn nibbles(&mut self, out: &mut String, place: &Place, count: u32) {
         if place.index.is_some() {
             self.helpers.bits(place.class);
             let _ = write!(
@@ -119,7 +99,7 @@ impl Writer<'_, '_> {
                 self.module.name,
                 place.class.prefix()
             );
-            self.number(out, place, 0);
+            self.number(out, place);
             let _ = write!(out, ", {count}u)");
         } else if self
             .fields
@@ -134,7 +114,7 @@ impl Writer<'_, '_> {
             self.call_in(out).push_str("plc_bits((const bool[]){");
             for bit in 0..count {
                 out.push_str(if bit > 0 { ", " } else { "" });
-                self.read_bit(
+                self.bit(
                     out,
                     &Place {
                         number: place.number + bit,
@@ -147,7 +127,7 @@ impl Writer<'_, '_> {
     }
 
     /// A read through the program's function for indexed access.
-    fn indexed_call(&mut self, out: &mut String, what: &'static str, place: &Place, plus: i32) {
+    fn indexed_call(&mut self, out: &mut String, what: &'static str, place: &Place) {
         self.helpers.get(what, place.class);
         let _ = write!(
             self.call_in(out),
@@ -155,7 +135,7 @@ impl Writer<'_, '_> {
             self.module.name,
             place.class.prefix()
         );
-        self.number(out, place, plus);
+        self.number(out, place);
         out.push(')');
     }
 }

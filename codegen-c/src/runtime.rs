@@ -137,7 +137,7 @@ impl Writer<'_, '_> {
                     index: *index,
                 };
                 let _ = write!(code, "rungc_U({module}, ");
-                self.number(code, &place, 0);
+                self.number(code, &place);
                 code.push(')');
             }
             Arg::Text(text) => {
@@ -148,7 +148,7 @@ impl Writer<'_, '_> {
 
     fn device(&mut self, code: &mut String, place: &Place) {
         let _ = write!(code, "rungc_{}(", place.class.prefix());
-        self.number(code, place, 0);
+        self.number(code, place);
         code.push(')');
     }
 

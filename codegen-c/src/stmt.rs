@@ -141,12 +141,7 @@ impl Writer<'_, '_> {
                 let what = if *latched { "latched" } else { "general" };
                 code = format!("{name}_clear_{what}(plc);");
             }
-            Stmt::WriteBit(..)
-            | Stmt::WriteWordBit(..)
-            | Stmt::WriteWord(..)
-            | Stmt::WritePair(..)
-            | Stmt::WriteFloat(..)
-            | Stmt::WriteNibbles { .. }
+            Stmt::Write(..)
             | Stmt::Timer { .. }
             | Stmt::TimerAt { .. }
             | Stmt::TimerGoesOn { .. }

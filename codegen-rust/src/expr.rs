@@ -5,8 +5,8 @@ use crate::storage::{PrintField, PrintStorage, bit_of, word_of};
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use rungc_emit::logic;
-use rungc_emit::storage::{Kind, high_word};
-use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
+use rungc_emit::storage::Kind;
+use rungc_ir::node::{Access, AccessKind, BinOp, Expr, ExprId, Place, SysValue, TempId, Ty};
 use rungc_rt::CmpOp;
 
 /// What kind of Rust expression it is, for parentheses.
@@ -162,16 +162,7 @@ impl Generator<'_> {
             Expr::I32(value) => literal32(value, typed),
             Expr::F32(value) => float_literal(value),
             Expr::Temp(temp) => self.temp(temp),
-            Expr::ReadBit(place) => self.read_bit(place),
-            Expr::ReadWordBit(place, bit) => self.read_word_bit(place, bit),
-            Expr::ReadWord(place) => self.read_word(place),
-            Expr::ReadPair(place) => self.read_pair(place),
-            Expr::ReadFloat(place) => self.read_float(place),
-            Expr::ReadNibbles {
-                place,
-                digits,
-                wide,
-            } => self.read_nibbles(place, digits, wide),
+            Expr::Read(access) => self.read(access),
             Expr::Cell(cell) => {
                 let cell = self.cell(cell);
                 Code::atom(quote!(plc.#cell))
@@ -227,6 +218,17 @@ impl Generator<'_> {
                 Code::atom(quote!(i16::from(#a)))
             }
             Expr::InRange { place, count } => self.in_range(place, count),
+        }
+    }
+
+    fn read(&mut self, Access { place, kind }: Access) -> Code {
+        match kind {
+            AccessKind::Bit => self.read_bit(place),
+            AccessKind::WordBit(bit) => self.read_word_bit(place, bit),
+            AccessKind::Word => self.read_word(place),
+            AccessKind::Pair => self.read_pair(place),
+            AccessKind::Float => self.read_float(place),
+            AccessKind::Nibbles { digits, wide } => self.read_nibbles(place, digits, wide),
         }
     }
 
@@ -396,12 +398,7 @@ impl Generator<'_> {
     }
 
     fn pair_words(&mut self, place: Place) -> (Code, Code) {
-        let (class, number) = high_word(self.module.model, place);
-        let high = Place {
-            class,
-            number,
-            index: None,
-        };
+        let high = place.high_word(self.module.model);
         (self.read_word(place), self.read_word(high))
     }
 

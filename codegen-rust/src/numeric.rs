@@ -18,7 +18,7 @@ impl Generator<'_> {
             if let Expr::Temp(temp) = *self.module.expr(e) {
                 return Some(!is_named && self.numeric_temps.contains(&temp));
             }
-            let Expr::ReadBit(place) = *self.module.expr(e) else {
+            let Some(place) = self.module.expr(e).as_bit() else {
                 return is_named.then_some(false);
             };
             let is_numeric = self.storage.is_numeric_bit(place.class, place.number);
@@ -36,13 +36,13 @@ impl Generator<'_> {
             (Expr::Or(a, b), true) => Code::binary("|", self.numeric(a), self.numeric(b)),
             (Expr::Not(a), true) => Code::binary("^", self.numeric(a), literal(true)),
             (Expr::Temp(temp), true) => Code::atom(self.temp_place(temp)),
-            (Expr::ReadBit(place), true) => {
-                Code::atom(self.numeric_cell(place).unwrap_or_default())
-            }
-            _ => {
-                let bit = self.expr(id);
-                Code::atom(quote!(u8::from(#bit)))
-            }
+            (expr, _) => match expr.as_bit().filter(|_| is_numeric) {
+                Some(place) => Code::atom(self.numeric_cell(place).unwrap_or_default()),
+                None => {
+                    let bit = self.expr(id);
+                    Code::atom(quote!(u8::from(#bit)))
+                }
+            },
         }
     }
 

@@ -145,12 +145,7 @@ impl Generator<'_> {
             }
             Stmt::Clear { latched: false } => quote!(plc.clear_general();),
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
-            Stmt::WriteBit(..)
-            | Stmt::WriteWordBit(..)
-            | Stmt::WriteWord(..)
-            | Stmt::WritePair(..)
-            | Stmt::WriteFloat(..)
-            | Stmt::WriteNibbles { .. }
+            Stmt::Write(..)
             | Stmt::Timer { .. }
             | Stmt::TimerAt { .. }
             | Stmt::TimerGoesOn { .. }
@@ -178,16 +173,7 @@ impl Generator<'_> {
     /// A statement that writes to devices; nothing for any other.
     fn device_statement(&mut self, stmt: &Stmt) -> TokenStream {
         match stmt {
-            Stmt::WriteBit(place, value) => self.write_bit(*place, *value),
-            Stmt::WriteWordBit(place, bit, value) => self.write_word_bit(*place, *bit, *value),
-            Stmt::WriteWord(place, value) => self.write_word(*place, *value),
-            Stmt::WritePair(place, value) => self.write_pair(*place, *value),
-            Stmt::WriteFloat(place, value) => self.write_float(*place, *value),
-            Stmt::WriteNibbles {
-                place,
-                digits,
-                value,
-            } => self.write_nibbles(*place, *digits, *value),
+            Stmt::Write(access, value) => self.write(*access, *value),
             Stmt::TimerGoesOn { number, kind } => {
                 let kind = self.timer_kind(self.coils.kind(*number, *kind));
                 match self.storage.cell(&quote!(plc), DeviceClass::T, *number) {

@@ -5,8 +5,7 @@ use crate::generate::Generator;
 use crate::storage::PrintStorage;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_emit::storage::high_word;
-use rungc_ir::node::{Expr, ExprId, Place, Ty};
+use rungc_ir::node::{Access, AccessKind, Expr, ExprId, Place, Ty};
 
 impl Generator<'_> {
     /// `target = value;`, or `target |= …;` where the value is made of what the place holds.
@@ -45,8 +44,10 @@ impl Generator<'_> {
 
     /// Whether an expression reads this place, and is written so.
     fn is_value_of(&self, e: ExprId, place: Place) -> bool {
-        let (Expr::ReadBit(read) | Expr::ReadWord(read) | Expr::ReadPair(read)) =
-            *self.module.expr(e)
+        let Expr::Read(Access {
+            place: read,
+            kind: AccessKind::Bit | AccessKind::Word | AccessKind::Pair,
+        }) = *self.module.expr(e)
         else {
             return false;
         };
@@ -55,8 +56,20 @@ impl Generator<'_> {
         !self.named.contains_key(&e) && device(read) == device(place) && index(read) == index(place)
     }
 
+    /// Writes a value; nothing where no device is stored.
+    pub fn write(&mut self, Access { place, kind }: Access, value: ExprId) -> TokenStream {
+        match kind {
+            AccessKind::Bit => self.write_bit(place, value),
+            AccessKind::WordBit(bit) => self.write_word_bit(place, bit, value),
+            AccessKind::Word => self.write_word(place, value),
+            AccessKind::Pair => self.write_pair(place, value),
+            AccessKind::Float => self.write_words(place, value, ("float_words", "set_float_at")),
+            AccessKind::Nibbles { digits, .. } => self.write_nibbles(place, digits, value),
+        }
+    }
+
     /// Writes a bit; nothing for a special device that nothing reads, which is not stored.
-    pub fn write_bit(&mut self, place: Place, value: ExprId) -> TokenStream {
+    fn write_bit(&mut self, place: Place, value: ExprId) -> TokenStream {
         match self.bit_cell(place) {
             Some(cell) => {
                 let code = match self.storage.is_numeric_bit(place.class, place.number) {
@@ -74,7 +87,7 @@ impl Generator<'_> {
     }
 
     /// Writes a word likewise.
-    pub fn write_word(&mut self, place: Place, value: ExprId) -> TokenStream {
+    fn write_word(&mut self, place: Place, value: ExprId) -> TokenStream {
         let plc = quote!(plc);
         if let Some(cell) = self.word_cell(place) {
             let code = self.expr(value);
@@ -94,7 +107,7 @@ impl Generator<'_> {
     }
 
     /// Writes a bit of a word.
-    pub fn write_word_bit(&mut self, place: Place, bit: u8, value: ExprId) -> TokenStream {
+    fn write_word_bit(&mut self, place: Place, bit: u8, value: ExprId) -> TokenStream {
         let cell = self.storage.word(&quote!(plc), place.class, place.number);
         let cell = cell.filter(|_| place.index.is_none());
         if cell.is_none() && place.index.is_none() {
@@ -112,7 +125,7 @@ impl Generator<'_> {
     }
 
     /// Writes a pair of words, or a 32-bit counter.
-    pub fn write_pair(&mut self, place: Place, value: ExprId) -> TokenStream {
+    fn write_pair(&mut self, place: Place, value: ExprId) -> TokenStream {
         let counter = self
             .storage
             .counter32(&quote!(plc), place.class, place.number);
@@ -123,11 +136,6 @@ impl Generator<'_> {
             }
             None => self.write_words(place, value, ("words", "set_pair_at")),
         }
-    }
-
-    /// Writes a float.
-    pub fn write_float(&mut self, place: Place, value: ExprId) -> TokenStream {
-        self.write_words(place, value, ("float_words", "set_float_at"))
     }
 
     /// Writes a pair with the function of `rungc_rt::word` that makes words of the value, or with the method for indexed ones.
@@ -142,9 +150,9 @@ impl Generator<'_> {
             return self.set_indexed(method, place, quote!(#value));
         }
         let plc = quote!(plc);
-        let (high_class, high) = high_word(self.module.model, place);
+        let high = place.high_word(self.module.model);
         let low = self.storage.word(&plc, place.class, place.number);
-        let high = self.storage.word(&plc, high_class, high);
+        let high = self.storage.word(&plc, high.class, high.number);
         if low.is_none() && high.is_none() {
             return TokenStream::new();
         }
@@ -154,7 +162,7 @@ impl Generator<'_> {
     }
 
     /// Writes the low bits of a number to relays.
-    pub fn write_nibbles(&mut self, place: Place, digits: u8, value: ExprId) -> TokenStream {
+    fn write_nibbles(&mut self, place: Place, digits: u8, value: ExprId) -> TokenStream {
         let is_narrow = self.module.ty(value) == Ty::I16;
         let value = self.typed(value);
         let value = match is_narrow {

@@ -1,7 +1,7 @@
 //! Bounds of integer expressions that are plain to see.
 
 use rungc_ir::Module;
-use rungc_ir::node::{BinOp, Expr, ExprId, Ty};
+use rungc_ir::node::{AccessKind, BinOp, Expr, ExprId, Ty};
 
 /// The least and the most that a value is.
 pub type Bounds = (i64, i64);
@@ -62,7 +62,15 @@ pub fn of(module: &Module, e: ExprId, depth: u32) -> Bounds {
             (least.max(low.into()), most.min(high.into()))
         }
         Expr::BitToInt(_) => (0, 1),
-        Expr::ReadNibbles { digits, .. } if digits < 4 => (0, (1 << (4 * digits)) - 1),
+        Expr::Read(access) => match access.kind {
+            AccessKind::Nibbles { digits: 1..4, .. } => (0, (1 << access.extent()) - 1),
+            AccessKind::Bit
+            | AccessKind::WordBit(_)
+            | AccessKind::Word
+            | AccessKind::Pair
+            | AccessKind::Float
+            | AccessKind::Nibbles { .. } => of_type,
+        },
         Expr::Bin(BinOp::And, _, mask) if matches!(*module.expr(mask), Expr::I32(0..)) => {
             (0, of(module, mask, 0).1)
         }
@@ -74,12 +82,6 @@ pub fn of(module: &Module, e: ExprId, depth: u32) -> Bounds {
         Expr::Bit(_)
         | Expr::F32(_)
         | Expr::Temp(_)
-        | Expr::ReadBit(_)
-        | Expr::ReadWordBit(..)
-        | Expr::ReadWord(_)
-        | Expr::ReadPair(_)
-        | Expr::ReadFloat(_)
-        | Expr::ReadNibbles { .. }
         | Expr::Sys(_)
         | Expr::Flag(_)
         | Expr::Cell(_)

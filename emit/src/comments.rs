@@ -1,6 +1,6 @@
 //! Comments on emitted code.
 
-use rungc_ir::node::{Network, Stmt};
+use rungc_ir::node::{Access, Network, Stmt};
 use rungc_syntax::DeviceClass;
 
 /// The heading of a network. `clean` makes a user's text safe in a comment.
@@ -29,13 +29,9 @@ pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
         Stmt::Counter16 { number, .. }
         | Stmt::Counter32 { number, .. }
         | Stmt::Count { number, .. } => Some((DeviceClass::C, *number)),
-        Stmt::WriteBit(place, _)
-        | Stmt::WriteWordBit(place, ..)
-        | Stmt::WriteWord(place, _)
-        | Stmt::WritePair(place, _)
-        | Stmt::WriteFloat(place, _)
-        | Stmt::WriteNibbles { place, .. }
-        | Stmt::Reset(place) => place.index.is_none().then_some((place.class, place.number)),
+        Stmt::Write(Access { place, .. }, _) | Stmt::Reset(place) => {
+            place.index.is_none().then_some((place.class, place.number))
+        }
         Stmt::Network(_)
         | Stmt::Let(..)
         | Stmt::Edge { .. }

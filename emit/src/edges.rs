@@ -5,7 +5,7 @@ use crate::plan::{Node, Plan};
 use crate::storage::Storage;
 use crate::temps::Home;
 use rungc_ir::Module;
-use rungc_ir::node::{Expr, ExprId, Stmt, TempId};
+use rungc_ir::node::{AccessKind, Expr, ExprId, Stmt, TempId};
 
 /// Who asks for an edge.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,9 +36,9 @@ pub fn asker(
         Node::If { cond: value, .. } => {
             whole(is_it, *value).or_else(|| operand(module, *value, *out))
         }
-        Node::Stmt(Stmt::WriteBit(place, value))
-            if place.index.is_none() && storage.find(place.class, place.number).is_some() =>
-        {
+        Node::Stmt(Stmt::Write(access, value)) if access.kind == AccessKind::Bit => {
+            let (class, number) = access.device()?;
+            storage.find(class, number)?;
             whole(is_it, *value).or_else(|| operand(module, *value, *out))
         }
         Node::Stmt(

@@ -425,12 +425,7 @@ impl<'m> Builder<'m> {
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
             | Stmt::SetEntry(..)
-            | Stmt::WriteBit(..)
-            | Stmt::WriteWordBit(..)
-            | Stmt::WriteWord(..)
-            | Stmt::WritePair(..)
-            | Stmt::WriteFloat(..)
-            | Stmt::WriteNibbles { .. }
+            | Stmt::Write(..)
             | Stmt::Timer { .. }
             | Stmt::TimerAt { .. }
             | Stmt::TimerGoesOn { .. }

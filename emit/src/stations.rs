@@ -4,7 +4,7 @@ use crate::measure;
 use crate::plan::{Node, Stations};
 use crate::storage::{Kind, Storage};
 use rungc_ir::Module;
-use rungc_ir::node::{Expr, ExprId, Stmt};
+use rungc_ir::node::{AccessKind, ExprId, Stmt};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeSet, HashSet};
 
@@ -21,9 +21,7 @@ pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> BT
     for root in roots {
         measure::below(module, root, &mut below);
         found.extend(below.iter().filter_map(|&id| {
-            let Expr::ReadBit(place) = *module.expr(id) else {
-                return None;
-            };
+            let place = module.expr(id).as_bit()?;
             (place.index.is_none()).then_some((place.class, place.number))
         }));
     }
@@ -38,8 +36,10 @@ pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> BT
 fn collect(nodes: &[Node], roots: &mut Vec<ExprId>, written: &mut HashSet<Device>) {
     for node in nodes {
         roots.extend(node.roots());
-        if let Node::Stmt(Stmt::WriteBit(place, _)) = node {
-            written.insert((place.class, place.number));
+        if let Node::Stmt(Stmt::Write(access, _)) = node
+            && access.kind == AccessKind::Bit
+        {
+            written.insert((access.place.class, access.place.number));
         }
         for body in node.bodies() {
             collect(body, roots, written);

@@ -2,7 +2,6 @@
 
 use rungc_ir::Module;
 use rungc_ir::layout::{Area, Grid};
-use rungc_ir::node::Place;
 use rungc_models::Model;
 use rungc_models::runs::{FIRST_COUNTER32, FIRST_SPECIAL, is_counter32, is_special};
 use rungc_syntax::DeviceClass;
@@ -257,15 +256,6 @@ pub struct Run {
     pub count: u32,
     /// What happens to it.
     pub keep: Keep,
-}
-
-/// Where the high word of a pair is: in the next device, or, of an index register Z of a model that pairs these with V, in V.
-pub fn high_word(model: &Model, place: Place) -> (DeviceClass, u32) {
-    if place.class == DeviceClass::Z && model.z_pairs_with_v {
-        (DeviceClass::V, place.number)
-    } else {
-        (place.class, place.number + 1)
-    }
 }
 
 /// Stands for devices that no field holds.

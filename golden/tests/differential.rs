@@ -7,7 +7,7 @@ use rungc_golden::random::program;
 use rungc_golden::rng::Rng;
 use rungc_golden::stations;
 use rungc_ir::Module;
-use rungc_ir::node::Stmt;
+use rungc_ir::node::{AccessKind, Stmt};
 use rungc_ir::walk::statements;
 use rungc_lower::compile::{Bound, CompileOptions, compile};
 use rungc_models::ModelId;
@@ -267,7 +267,7 @@ fn random_stations_become_loops_with_all_that_loops_may_have() {
             statements(body, &mut |stmt| match stmt {
                 Stmt::TimerAt { .. } => timers += 1,
                 Stmt::Counter16At { .. } => counters += 1,
-                Stmt::WriteWord(..) => registers += 1,
+                Stmt::Write(access, _) if access.kind == AccessKind::Word => registers += 1,
                 Stmt::Edge { .. } => edges += 1,
                 _ => {}
             });

@@ -3,7 +3,7 @@
 use crate::devices::rt_class;
 use crate::logic::{Input, Join, Strided};
 use crate::machine::Machine;
-use rungc_ir::node::{Expr, ExprId, FloatOp, Place, SysValue, Ty, UnOp};
+use rungc_ir::node::{Access, AccessKind, Expr, ExprId, FloatOp, Place, SysValue, Ty, UnOp};
 use rungc_rt::{Class, Plc, word};
 
 /// Value of an expression or temporary.
@@ -83,25 +83,7 @@ impl<'m> Machine<'m> {
             Expr::I32(v) => Value::I32(v),
             Expr::F32(v) => Value::F32(v),
             Expr::Temp(temp) => self.temps[temp],
-            Expr::ReadBit(place) => Value::Bit(self.read_bit(place)),
-            Expr::ReadWordBit(place, bit) => {
-                Value::Bit(self.read_word(place) as u16 >> (bit & 15) & 1 == 1)
-            }
-            Expr::ReadWord(place) => Value::I16(self.read_word(place)),
-            Expr::ReadPair(place) => Value::I32(self.read_pair(place)),
-            Expr::ReadFloat(place) => Value::F32(f32::from_bits(self.read_pair(place) as u32)),
-            Expr::ReadNibbles {
-                place,
-                digits,
-                wide,
-            } => {
-                let value = self.read_nibbles(place, digits);
-                if wide || digits > 4 {
-                    Value::I32(value)
-                } else {
-                    Value::I16(value as i16)
-                }
-            }
+            Expr::Read(access) => self.read(access),
             Expr::Cell(cell) => Value::I32(self.cells[cell]),
             Expr::Stride(iteration, stride) => {
                 Value::I32(int(self.temps[iteration]).wrapping_mul(stride as i32))
@@ -203,6 +185,25 @@ impl<'m> Machine<'m> {
     fn in_range(&self, place: Place, count: u32) -> bool {
         self.number(place)
             .is_some_and(|first| self.module.model.in_range(place.class, first.into(), count))
+    }
+
+    fn read(&self, Access { place, kind }: Access) -> Value {
+        match kind {
+            AccessKind::Bit => Value::Bit(self.read_bit(place)),
+            AccessKind::WordBit(bit) => {
+                Value::Bit(self.read_word(place) as u16 >> (bit & 15) & 1 == 1)
+            }
+            AccessKind::Word => Value::I16(self.read_word(place)),
+            AccessKind::Pair => Value::I32(self.read_pair(place)),
+            AccessKind::Float => Value::F32(f32::from_bits(self.read_pair(place) as u32)),
+            AccessKind::Nibbles { digits, wide: true } => {
+                Value::I32(self.read_nibbles(place, digits))
+            }
+            AccessKind::Nibbles {
+                digits,
+                wide: false,
+            } => Value::I16(self.read_nibbles(place, digits) as i16),
+        }
     }
 
     fn read_bit(&self, place: Place) -> bool {

@@ -3,7 +3,7 @@
 use crate::devices::rt_class;
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
-use rungc_ir::node::{Arg, EdgeId, ExprId, LabelId, Part, Place, Stmt, TempId};
+use rungc_ir::node::{Access, AccessKind, Arg, EdgeId, ExprId, LabelId, Part, Place, Stmt, TempId};
 use rungc_rt::{
     Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report, send,
 };
@@ -63,20 +63,7 @@ impl<'m> Machine<'m> {
                 let index = int(self.eval(index));
                 self.tables[table][index as usize] = int(self.eval(value));
             }
-            &Stmt::WriteBit(place, value) => self.write_bit(place, self.on(value)),
-            &Stmt::WriteWordBit(place, bit, value) => {
-                self.write_word_bit(place, bit, self.on(value));
-            }
-            &Stmt::WriteWord(place, value) => self.write_word(place, int(self.eval(value)) as i16),
-            &Stmt::WritePair(place, value) => self.write_pair(place, int(self.eval(value))),
-            &Stmt::WriteFloat(place, value) => {
-                self.write_pair(place, float(self.eval(value)).to_bits() as i32);
-            }
-            &Stmt::WriteNibbles {
-                place,
-                digits,
-                value,
-            } => self.write_nibbles(place, digits, int(self.eval(value))),
+            &Stmt::Write(access, value) => self.write(access, value),
             &Stmt::Timer {
                 number,
                 kind,
@@ -276,6 +263,21 @@ impl<'m> Machine<'m> {
         let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
         if let Some(counter) = self.devices.counter16(number) {
             counter.run(drive, preset);
+        }
+    }
+
+    fn write(&mut self, Access { place, kind }: Access, value: ExprId) {
+        match kind {
+            AccessKind::Bit => self.write_bit(place, self.on(value)),
+            AccessKind::WordBit(bit) => self.write_word_bit(place, bit, self.on(value)),
+            AccessKind::Word => self.write_word(place, int(self.eval(value)) as i16),
+            AccessKind::Pair => self.write_pair(place, int(self.eval(value))),
+            AccessKind::Float => {
+                self.write_pair(place, float(self.eval(value)).to_bits() as i32);
+            }
+            AccessKind::Nibbles { digits, .. } => {
+                self.write_nibbles(place, digits, int(self.eval(value)));
+            }
         }
     }
 

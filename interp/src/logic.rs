@@ -203,7 +203,7 @@ impl Decoder<'_> {
         if let Expr::Temp(temp) = *expr {
             return Input::Temp(temp);
         }
-        if let Expr::ReadBit(place) = *expr
+        if let Some(place) = expr.as_bit()
             && let Some(device) = self.device(place)
         {
             return device;
@@ -238,7 +238,7 @@ mod tests {
     use crate::Machine;
     use crate::devices::Devices;
     use rungc_ir::Module;
-    use rungc_ir::node::{Expr, ExprId, Place, Stmt};
+    use rungc_ir::node::{Access, Expr, ExprId, Place, Stmt};
     use rungc_models::{Model, ModelId};
     use rungc_rt::{Class, NoHal, Plc, Program};
     use rungc_syntax::DeviceClass;
@@ -255,14 +255,14 @@ mod tests {
     fn contacts(count: u32) -> (Module, Vec<ExprId>) {
         let model = Model::get(ModelId::Fx3u);
         let mut module = Module::empty("rung".into(), "rung.il".into(), model);
-        let contact = |n| module.add(Expr::ReadBit(place(DeviceClass::X, n)));
+        let contact = |n| module.add(Expr::Read(Access::bit(place(DeviceClass::X, n))));
         let contacts = (0..count).map(contact).collect();
         (module, contacts)
     }
 
     /// The main program writes the value to Y`number`.
     fn out(module: &mut Module, number: u32, value: ExprId) {
-        let coil = Stmt::WriteBit(place(DeviceClass::Y, number), value);
+        let coil = Stmt::Write(Access::bit(place(DeviceClass::Y, number)), value);
         module.functions[1].body.push(coil);
     }
 

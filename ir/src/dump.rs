@@ -5,8 +5,8 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Arg, BinOp, Body, Call, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Module, Place,
-    Stmt, SysValue, TableId,
+    Access, AccessKind, Arg, BinOp, Body, Call, CellId, Expr, ExprId, FlagId, Function,
+    FunctionKind, Module, Place, Stmt, SysValue, TableId,
 };
 use rungc_rt::{EdgeKind, TimerKind};
 use rungc_syntax::DeviceClass;
@@ -167,19 +167,7 @@ impl Out<'_> {
                 };
                 format!("t{} = {kind} {memory} {}", out.0, e(input))
             }
-            Stmt::WriteBit(place, value) | Stmt::WriteWord(place, value) => {
-                format!("{} := {}", self.place(place), e(value))
-            }
-            Stmt::WriteWordBit(place, bit, value) => {
-                format!("{}.{bit:X} := {}", self.place(place), e(value))
-            }
-            Stmt::WritePair(place, value) => format!("{}:32 := {}", self.place(place), e(value)),
-            Stmt::WriteFloat(place, value) => format!("{}:f := {}", self.place(place), e(value)),
-            Stmt::WriteNibbles {
-                place,
-                digits,
-                value,
-            } => format!("K{digits}{} := {}", self.place(place), e(value)),
+            Stmt::Write(access, value) => format!("{} := {}", self.access(access), e(value)),
             Stmt::Timer {
                 number,
                 kind,
@@ -373,6 +361,20 @@ impl Out<'_> {
         }
     }
 
+    fn access(&self, access: &Access) -> String {
+        let place = self.place(&access.place);
+        match access.kind {
+            AccessKind::Bit | AccessKind::Word => place,
+            AccessKind::WordBit(bit) => format!("{place}.{bit:X}"),
+            AccessKind::Pair => format!("{place}:32"),
+            AccessKind::Float => format!("{place}:f"),
+            AccessKind::Nibbles { digits, wide } => {
+                let wide = if wide { ":32" } else { "" };
+                format!("K{digits}{place}{wide}")
+            }
+        }
+    }
+
     fn expr(&self, id: ExprId) -> String {
         let two = |a: &ExprId, op: &str, b: &ExprId| {
             format!("({} {op} {})", self.expr(*a), self.expr(*b))
@@ -385,18 +387,7 @@ impl Out<'_> {
             Expr::I32(value) => format!("{value}L"),
             Expr::F32(value) => format!("{value:?}f"),
             Expr::Temp(temp) => format!("t{}", temp.0),
-            Expr::ReadBit(place) | Expr::ReadWord(place) => self.place(place),
-            Expr::ReadWordBit(place, bit) => format!("{}.{bit:X}", self.place(place)),
-            Expr::ReadPair(place) => format!("{}:32", self.place(place)),
-            Expr::ReadFloat(place) => format!("{}:f", self.place(place)),
-            Expr::ReadNibbles {
-                place,
-                digits,
-                wide,
-            } => {
-                let wide = if *wide { ":32" } else { "" };
-                format!("K{digits}{}{wide}", self.place(place))
-            }
+            Expr::Read(access) => self.access(access),
             Expr::Cell(cell) => self.cell(*cell),
             Expr::Stride(iteration, by) => format!("{by} * t{}", iteration.0),
             Expr::Entry(table, index) => format!("{}[{}]", self.table(*table), self.expr(*index)),

@@ -4,7 +4,7 @@
 //! runtime function as a run become arrays. Special devices that the program never looks at are not stored.
 
 use crate::node::{Module, Place};
-use crate::reach::{Access, of_expr, of_stmt};
+use crate::reach::{Footprint, of_expr, of_stmt};
 use crate::walk::statements;
 use rungc_models::Model;
 use rungc_models::runs::is_special;
@@ -141,11 +141,11 @@ pub fn build(
     let model = module.model;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            of_stmt(model, stmt, &mut |access| builder.access(access));
+            of_stmt(model, stmt, &mut |used| builder.store(used));
         });
     }
     for expr in &module.exprs {
-        of_expr(model, expr, &mut |access| builder.access(access));
+        of_expr(model, expr, &mut |used| builder.store(used));
     }
     for &(class, number) in wanted.observe.iter().chain(flags) {
         builder.mark(class, number, 1, false);
@@ -208,12 +208,12 @@ impl<'m> Builder<'m> {
     }
 
     /// What is accessed is stored: in an array where an index leads to it, or as a run.
-    fn access(&mut self, access: Access) {
-        let Place { class, number, .. } = access.place;
-        if let (None, Some(count)) = (access.place.index, access.count) {
-            return self.mark(class, number, count, access.in_array);
+    fn store(&mut self, used: Footprint) {
+        let Place { class, number, .. } = used.place;
+        if let (None, Some(count)) = (used.place.index, used.count) {
+            return self.mark(class, number, count, used.in_array);
         }
-        for (first, last) in access.reach(self.module.model, &self.module.exprs) {
+        for (first, last) in used.reach(self.module.model, &self.module.exprs) {
             self.mark(class, first, last - first + 1, true);
         }
     }

@@ -9,6 +9,12 @@
 //! Types are never converted silently: [`Expr::Widen`], [`Expr::Narrow`] and similar expressions say so. An operand stands before the expression
 //! that uses it in the arena, so that one walk from the front meets operands first.
 //!
+//! # Devices
+//!
+//! What a program reads and writes of its devices is one notion, an [`Access`]: a [`Place`], with or without an index, and what of it, from a
+//! bit to several bit devices as a number. [`Expr::Read`] has the access's type, [`Stmt::Write`] takes a value of it. Coils of timers and
+//! counters, [`Stmt::Reset`], and calls of the runtime access devices, too; [`crate::reach`] says for all of them which ones.
+//!
 //! # Order
 //!
 //! Statements are executed in order, and each is over before the next one begins. A statement evaluates all of its expressions when it
@@ -51,12 +57,14 @@
 //! all jumps back, and counts the steps of the program that they repeat. After the last one the function is left, and so is each that
 //! called it, up to `Main`; `End` does nothing. If an interrupt routine is cut short, the scan continues to its end.
 
+mod access;
 mod expr;
 mod handle;
 mod module;
 mod ops;
 mod stmt;
 
+pub use access::*;
 pub use expr::*;
 pub use handle::*;
 pub use module::*;

@@ -5,7 +5,7 @@
 //! exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices together lie in one run ([`Model::runs`]): none
 //! continues from the general devices into the special ones. The range of an index is known from [`Expr::Within`].
 
-use crate::node::{Arg, Expr, ExprId, Module, Place, Stmt};
+use crate::node::{Access, AccessKind, Arg, Expr, ExprId, Module, Place, Stmt};
 use crate::walk::statements;
 use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
@@ -13,9 +13,9 @@ use rungc_rt::RtFn;
 use rungc_syntax::DeviceClass;
 use typed_index_collections::TiSlice;
 
-/// What an expression or a statement does with devices.
+/// Devices that an expression or a statement uses: one, or several in a row.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Access {
+pub struct Footprint {
     /// The first device.
     pub place: Place,
     /// How many; `None`: to the end of the run.
@@ -26,9 +26,9 @@ pub struct Access {
     pub writes: bool,
 }
 
-impl Access {
+impl Footprint {
     fn of(place: Place, writes: bool) -> Self {
-        Access {
+        Footprint {
             place,
             count: Some(1),
             in_array: false,
@@ -37,7 +37,7 @@ impl Access {
     }
 
     fn run(place: Place, count: Option<u32>, writes: bool) -> Self {
-        Access {
+        Footprint {
             place,
             count,
             in_array: count != Some(1),
@@ -71,61 +71,46 @@ impl Access {
     }
 }
 
-/// The words of a pair, each by itself; that of Z is V and Z on some models.
-fn pair(model: &Model, place: Place, writes: bool, found: &mut impl FnMut(Access)) {
-    let with_v = place.class == DeviceClass::Z && model.z_pairs_with_v;
-    if place.index.is_some() {
-        return found(Access::run(place, Some(2), writes));
-    }
-    found(Access::of(place, writes));
-    if with_v {
-        let class = DeviceClass::V;
-        found(Access::of(Place { class, ..place }, writes));
-    } else if !is_counter32(place.class, place.number) {
-        let number = place.number + 1;
-        found(Access::of(Place { number, ..place }, writes));
+/// What an access uses: the words of a pair are each by themselves, since that of Z is V and Z on some models.
+fn of_access(model: &Model, access: Access, writes: bool, found: &mut impl FnMut(Footprint)) {
+    let place = access.place;
+    match access.kind {
+        AccessKind::Bit | AccessKind::WordBit(_) | AccessKind::Word => {
+            found(Footprint::of(place, writes));
+        }
+        AccessKind::Pair | AccessKind::Float if place.index.is_none() => {
+            found(Footprint::of(place, writes));
+            if !is_counter32(place.class, place.number) {
+                found(Footprint::of(place.high_word(model), writes));
+            }
+        }
+        AccessKind::Pair | AccessKind::Float | AccessKind::Nibbles { .. } => {
+            found(Footprint::run(place, Some(access.extent()), writes));
+        }
     }
 }
 
 /// What an expression itself reads.
-pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Access)) {
-    match *expr {
-        Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
-            found(Access::of(place, false));
-        }
-        Expr::ReadPair(place) | Expr::ReadFloat(place) => pair(model, place, false, found),
-        Expr::ReadNibbles { place, digits, .. } => {
-            found(Access::run(place, Some(4 * u32::from(digits)), false));
-        }
-        _ => {}
+pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Footprint)) {
+    if let Expr::Read(access) = *expr {
+        of_access(model, access, false, found);
     }
 }
 
 /// What a statement itself accesses, in addition to what its expressions read. The runtime may write what it is handed.
-pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Access)) {
-    let fixed = |class, number| Place {
-        class,
-        number,
-        index: None,
-    };
+pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
     match *stmt {
-        Stmt::WriteBit(place, _)
-        | Stmt::WriteWordBit(place, ..)
-        | Stmt::WriteWord(place, _)
-        | Stmt::TimerAt { place, .. }
-        | Stmt::Counter16At { place, .. }
-        | Stmt::Reset(place) => found(Access::of(place, true)),
-        Stmt::WritePair(place, _) | Stmt::WriteFloat(place, _) => pair(model, place, true, found),
-        Stmt::WriteNibbles { place, digits, .. } => {
-            found(Access::run(place, Some(4 * u32::from(digits)), true));
+        Stmt::Write(access, _) => of_access(model, access, true, found),
+        Stmt::TimerAt { place, .. } | Stmt::Counter16At { place, .. } | Stmt::Reset(place) => {
+            found(Footprint::of(place, true))
         }
         Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
-            found(Access::of(fixed(DeviceClass::T, number), true));
+            found(Footprint::of(Place::fixed(DeviceClass::T, number), true));
         }
         Stmt::Counter16 { number, .. }
         | Stmt::Counter32 { number, .. }
         | Stmt::Count { number, .. } => {
-            found(Access::of(fixed(DeviceClass::C, number), true));
+            found(Footprint::of(Place::fixed(DeviceClass::C, number), true));
         }
         Stmt::Call(ref call) => {
             let args = call.args.iter();
@@ -133,7 +118,7 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Access)) {
             // These save and restore all index registers, whether the program names them or not.
             if matches!(call.function, RtFn::Zpush | RtFn::Zpop) {
                 for class in [DeviceClass::V, DeviceClass::Z] {
-                    found(Access::run(fixed(class, 0), None, true));
+                    found(Footprint::run(Place::fixed(class, 0), None, true));
                 }
             }
         }
@@ -159,19 +144,19 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Access)) {
     }
 }
 
-fn of_arg(model: &Model, arg: &Arg, wide: bool, found: &mut impl FnMut(Access)) {
+fn of_arg(model: &Model, arg: &Arg, wide: bool, found: &mut impl FnMut(Footprint)) {
     match *arg {
         Arg::Device { place, extent } => {
-            found(Access::run(place, extent, true));
+            found(Footprint::run(place, extent, true));
             if wide && place.class == DeviceClass::Z && model.z_pairs_with_v {
                 let class = DeviceClass::V;
-                found(Access::run(Place { class, ..place }, extent, true));
+                found(Footprint::run(Place { class, ..place }, extent, true));
             }
         }
-        Arg::Nibbles { place, extent, .. } => found(Access::run(place, extent, true)),
+        Arg::Nibbles { place, extent, .. } => found(Footprint::run(place, extent, true)),
         Arg::WordBit { place, bit, extent } => {
             let words = extent.map(|bits| words_of_bits(bit, bits));
-            found(Access::run(place, words, true));
+            found(Footprint::run(place, words, true));
         }
         Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
     }
@@ -181,11 +166,11 @@ fn of_arg(model: &Model, arg: &Arg, wide: bool, found: &mut impl FnMut(Access)) 
 /// names of index registers.
 pub fn by_index(module: &Module, class: DeviceClass) -> Vec<(u32, u32)> {
     let mut runs = Vec::new();
-    let mut note = |access: Access| {
-        let index = access.place.index.map(|index| module.expr(index));
+    let mut note = |used: Footprint| {
+        let index = used.place.index.map(|index| module.expr(index));
         let leads = index.is_some_and(|index| !matches!(index, Expr::Stride(..)));
-        if leads && access.place.class == class {
-            runs.extend(access.reach(module.model, &module.exprs));
+        if leads && used.place.class == class {
+            runs.extend(used.reach(module.model, &module.exprs));
         }
     };
     for expr in &module.exprs {

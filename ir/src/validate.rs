@@ -1,10 +1,10 @@
 //! Holds a module to the rules of [`crate::node`].
 
 use crate::node::{
-    Arg, BinOp, Body, Expr, ExprId, FunctionKind, LabelId, Module, Place, Stmt, SysValue, TempId,
-    Ty,
+    Access, Arg, BinOp, Body, Expr, ExprId, FunctionKind, LabelId, Module, Place, Stmt, SysValue,
+    TempId, Ty,
 };
-use crate::reach::{self, Access};
+use crate::reach::{self, Footprint};
 use crate::walk::{callees, for_exprs, operands};
 use typed_index_collections::TiVec;
 
@@ -64,8 +64,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::Complement(a) | Expr::Neg(a) => integer(a),
         Expr::Widen(a) => ty(a) == Ty::I16,
         Expr::Narrow(a) | Expr::HighWord(a) => ty(a) == Ty::I32,
-        Expr::ReadNibbles { digits, wide, .. } => (1..=if wide { 8 } else { 4 }).contains(&digits),
-        Expr::ReadWordBit(_, bit) => bit < 16,
+        Expr::Read(access) => access.is_well_formed(),
         Expr::InRange { count, .. } => count > 0,
         Expr::Cell(cell) => module.cells.get(cell).is_some(),
         Expr::Within { value, low, high } => ty(value) == Ty::I32 && low <= high,
@@ -79,20 +78,12 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         | Expr::I16(_)
         | Expr::I32(_)
         | Expr::F32(_)
-        | Expr::Temp(_)
-        | Expr::ReadBit(_)
-        | Expr::ReadWord(_)
-        | Expr::ReadPair(_)
-        | Expr::ReadFloat(_) => true,
+        | Expr::Temp(_) => true,
     };
     let indexed_well = match *expr {
-        Expr::ReadBit(place)
-        | Expr::ReadWordBit(place, _)
-        | Expr::ReadWord(place)
-        | Expr::ReadPair(place)
-        | Expr::ReadFloat(place)
-        | Expr::ReadNibbles { place, .. }
-        | Expr::InRange { place, .. } => place.index.is_none_or(|index| ty(index) == Ty::I32),
+        Expr::Read(Access { place, .. }) | Expr::InRange { place, .. } => {
+            place.index.is_none_or(|index| ty(index) == Ty::I32)
+        }
         _ => true,
     };
     if well_typed && indexed_well {
@@ -273,8 +264,8 @@ impl Checker<'_> {
             }
             _ => {
                 let mut missing = None;
-                reach::of_expr(self.module.model, expr, &mut |access| {
-                    missing = missing.take().or_else(|| self.unstored(access));
+                reach::of_expr(self.module.model, expr, &mut |used| {
+                    missing = missing.take().or_else(|| self.unstored(used));
                 });
                 missing
             }
@@ -283,18 +274,18 @@ impl Checker<'_> {
     }
 
     /// The first device that an access may meet and the layout lacks.
-    fn unstored(&self, access: Access) -> Option<String> {
-        let (module, class) = (self.module, access.place.class);
-        let index = access.place.index.map(|index| module.expr(index));
+    fn unstored(&self, used: Footprint) -> Option<String> {
+        let (module, class) = (self.module, used.place.class);
+        let index = used.place.index.map(|index| module.expr(index));
         if let Some(&Expr::Stride(_, by)) = index {
-            return self.no_column(access.place, by);
+            return self.no_column(used.place, by);
         }
-        let runs = match (index, access.count) {
+        let runs = match (index, used.count) {
             (None, Some(count)) => {
-                let first = access.place.number;
+                let first = used.place.number;
                 vec![(first, first + count - 1)]
             }
-            _ => access.reach(module.model, &module.exprs),
+            _ => used.reach(module.model, &module.exprs),
         };
         for (first, last) in runs {
             let mut number = first;
@@ -361,8 +352,8 @@ impl Checker<'_> {
     /// What a statement accesses that the layout lacks.
     fn unstored_target(&self, stmt: &Stmt) -> Option<String> {
         let mut missing = None;
-        reach::of_stmt(self.module.model, stmt, &mut |access| {
-            missing = missing.take().or_else(|| self.unstored(access));
+        reach::of_stmt(self.module.model, stmt, &mut |used| {
+            missing = missing.take().or_else(|| self.unstored(used));
         });
         missing
     }
@@ -385,14 +376,7 @@ impl Checker<'_> {
                 let exist = memories.all(|memory| memory < module.edges);
                 exist && is(input, Ty::Bit) && temp_is(out, Ty::Bit)
             }
-            Stmt::WriteBit(_, value) => is(value, Ty::Bit),
-            Stmt::WriteWordBit(_, bit, value) => bit < 16 && is(value, Ty::Bit),
-            Stmt::WriteWord(_, value) => is(value, Ty::I16),
-            Stmt::WritePair(_, value) => is(value, Ty::I32),
-            Stmt::WriteFloat(_, value) => is(value, Ty::F32),
-            Stmt::WriteNibbles { digits, value, .. } => {
-                (1..=8).contains(&digits) && (is(value, Ty::I16) || is(value, Ty::I32))
-            }
+            Stmt::Write(access, value) => access.is_well_formed() && is(value, access.ty()),
             Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
                 is(drive, Ty::Bit) && is(preset, Ty::I16)
             }

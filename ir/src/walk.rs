@@ -1,6 +1,8 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
-use crate::node::{Arg, Body, Call, Expr, ExprId, FunctionKind, Module, Part, Place, Stmt, TempId};
+use crate::node::{
+    Access, Arg, Body, Call, Expr, ExprId, FunctionKind, Module, Part, Place, Stmt, TempId,
+};
 
 /// The expressions that an expression evaluates.
 pub fn operands(expr: &Expr) -> impl Iterator<Item = ExprId> + use<> {
@@ -32,13 +34,7 @@ macro_rules! operand_slots {
         Expr::And(a, b) | Expr::Or(a, b) | Expr::Cmp(_, a, b)
         | Expr::Bin(_, a, b)
         | Expr::Float(_, a, b) => [Some(a), Some(b)],
-        Expr::ReadBit(place)
-        | Expr::ReadWordBit(place, _)
-        | Expr::ReadWord(place)
-        | Expr::ReadPair(place)
-        | Expr::ReadFloat(place)
-        | Expr::ReadNibbles { place, .. }
-        | Expr::InRange { place, .. } => [place.index.$index(), None],
+        Expr::Read(Access { place, .. }) | Expr::InRange { place, .. } => [place.index.$index(), None],
         Expr::Bit(_)
         | Expr::I16(_)
         | Expr::I32(_)
@@ -73,13 +69,8 @@ macro_rules! for_exprs {
         $(#[$doc])*
         pub fn $name(stmt: &$($mutable)? Stmt, f: &mut impl FnMut(&$($mutable)? ExprId)) {
             match stmt {
-                Stmt::WriteBit(place, value)
-                | Stmt::WriteWord(place, value)
-                | Stmt::WriteWordBit(place, _, value)
-                | Stmt::WritePair(place, value)
-                | Stmt::WriteFloat(place, value)
-                | Stmt::WriteNibbles { place, value, .. } => {
-                    place.index.$iter().for_each(&mut *f);
+                Stmt::Write(access, value) => {
+                    access.place.index.$iter().for_each(&mut *f);
                     f(value);
                 }
                 Stmt::Let(_, value) | Stmt::SetFlag(_, value) | Stmt::SetCell(_, value) => f(value),
@@ -162,12 +153,7 @@ pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
         Arg::Const { .. } | Arg::Float(_) | Arg::Text(_) | Arg::Buffer { .. } => {}
     };
     match stmt {
-        Stmt::WriteBit(place, _)
-        | Stmt::WriteWordBit(place, ..)
-        | Stmt::WriteWord(place, _)
-        | Stmt::WritePair(place, _)
-        | Stmt::WriteFloat(place, _)
-        | Stmt::WriteNibbles { place, .. }
+        Stmt::Write(Access { place, .. }, _)
         | Stmt::TimerAt { place, .. }
         | Stmt::Counter16At { place, .. }
         | Stmt::Reset(place) => f(place),

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::interrupt::{Request, What};
 use super::parts::Item;
-use rungc_ir::node::{CellId, Expr, Stmt};
+use rungc_ir::node::{Access, CellId, Expr, Stmt};
 use rungc_models::interrupts::{Advanced, Gate};
 use rungc_rt::{CmpOp, Relay};
 
@@ -119,7 +119,7 @@ impl Lowerer<'_> {
             return;
         };
         let allowed = self.allowed(Gate::Forbids(interrupt.mask));
-        let relay = |this: &mut Self, relay: Relay| this.add(Expr::ReadBit(relay.into()));
+        let relay = |this: &mut Self, relay: Relay| this.add(Expr::Read(Access::bit(relay)));
         let (request, active) = (interrupt.request, interrupt.active);
         let asked = relay(self, request);
         let is_active = relay(self, active);

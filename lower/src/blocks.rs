@@ -4,7 +4,7 @@
 use super::Lowerer;
 use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{BinOp, Expr, ExprId, Stmt};
+use rungc_ir::node::{Access, BinOp, Expr, ExprId, Stmt};
 use rungc_rt::RtFn;
 use rungc_rt::special::{M_BMOV_REVERSE, M_MEAN_SUM};
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
@@ -129,7 +129,7 @@ impl Lowerer<'_> {
                 let k = if backwards { n - 1 - k } else { k };
                 let value = this.word_at(from, k);
                 let (class, number) = this.model.canonical(to.class, to.number + k);
-                this.emit(Stmt::WriteWord(fixed(class, number), value));
+                this.emit(Stmt::Write(Access::word(fixed(class, number)), value));
             }
         });
     }
@@ -137,7 +137,7 @@ impl Lowerer<'_> {
     /// Word number `k` from a register on.
     pub(super) fn word_at(&mut self, register: Device, k: u32) -> ExprId {
         let (class, number) = self.model.canonical(register.class, register.number + k);
-        self.add(Expr::ReadWord(fixed(class, number)))
+        self.add(Expr::Read(Access::word(fixed(class, number))))
     }
 
     /// FMOV.
@@ -196,7 +196,10 @@ impl Lowerer<'_> {
             let value = this.settled(value);
             for k in 0..count {
                 let on = this.is_int(value, k as i32, false);
-                this.emit(Stmt::WriteBit(fixed(first.class, first.number + k), on));
+                this.emit(Stmt::Write(
+                    Access::bit(fixed(first.class, first.number + k)),
+                    on,
+                ));
             }
         });
     }
@@ -217,7 +220,7 @@ impl Lowerer<'_> {
                     DeviceClass::T | DeviceClass::C => Stmt::Reset(place),
                     DeviceClass::Y | DeviceClass::M | DeviceClass::S | DeviceClass::X => {
                         let off = this.bit_const(false);
-                        Stmt::WriteBit(place, off)
+                        Stmt::Write(Access::bit(place), off)
                     }
                     DeviceClass::D
                     | DeviceClass::R
@@ -228,7 +231,7 @@ impl Lowerer<'_> {
                     | DeviceClass::I
                     | DeviceClass::N => {
                         let zero = this.int(0, false);
-                        Stmt::WriteWord(place, zero)
+                        Stmt::Write(Access::word(place), zero)
                     }
                 };
                 this.emit(reset);
@@ -269,6 +272,6 @@ impl Lowerer<'_> {
         let mut exists = Guards::default();
         let state = self.bit(&OperandKind::Device(nth(from), None), &mut exists);
         let to = nth(to);
-        self.emit(Stmt::WriteBit(fixed(to.class, to.number), state));
+        self.emit(Stmt::Write(Access::bit(fixed(to.class, to.number)), state));
     }
 }

@@ -5,7 +5,7 @@ use super::operand::indexed;
 use rungc_analysis::resolve::Resolved;
 use rungc_ir::node::{ExprId, Module, Place};
 use rungc_ir::ranges::Bound;
-use rungc_ir::reach::Access;
+use rungc_ir::reach::Footprint;
 use rungc_models::Model;
 use rungc_models::runs::is_counter32;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Index, Span, codes};
@@ -101,7 +101,7 @@ fn unused(resolved: &Resolved, bound: &Bound, operand: &str) -> Diagnostic {
 pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagnostics) {
     let mut told: BTreeMap<(DeviceClass, u32, DeviceClass, u32), ()> = BTreeMap::new();
     for used in uses {
-        let access = Access {
+        let footprint = Footprint {
             place: Place {
                 index: Some(used.within),
                 ..used.place
@@ -111,7 +111,7 @@ pub(super) fn costs(module: &Module, uses: &[IndexUse], diagnostics: &mut Diagno
             writes: false,
         };
         let class = used.place.class;
-        let runs = access.reach(module.model, &module.exprs);
+        let runs = footprint.reach(module.model, &module.exprs);
         let bytes: u64 = runs.iter().map(|run| size(module.model, class, *run)).sum();
         let index = used.index;
         let key = (class, used.device.number, index.class, index.number);

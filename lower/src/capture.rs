@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::interrupt::Request;
-use rungc_ir::node::{BinOp, CellId, Expr, ExprId, Stmt, SysValue};
+use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, Stmt, SysValue};
 use rungc_models::interrupts::{Capture, Source};
 use rungc_rt::{CmpOp, EdgeKind};
 
@@ -34,7 +34,7 @@ impl Lowerer<'_> {
     }
 
     fn read_capture(&mut self, capture: &Capture, cell: CellId) {
-        let edges = self.add(Expr::ReadWord(capture.register.into()));
+        let edges = self.add(Expr::Read(Access::word(capture.register)));
         let edges = self.add(Expr::Widen(edges));
         self.emit(Stmt::SetCell(cell, edges));
     }

@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::operand::{BitTarget, Guards, fixed};
 use rungc_catalogue::Basic;
-use rungc_ir::node::{Expr, ExprId, Stmt};
+use rungc_ir::node::{Access, Expr, ExprId, Stmt};
 use rungc_models::high_speed;
 use rungc_models::runs::FIRST_COUNTER32;
 use rungc_rt::special::M_COUNTER_DIRECTION;
@@ -66,7 +66,7 @@ impl Lowerer<'_> {
                 drive,
                 preset,
             };
-            let cond = this.add(Expr::ReadBit(fast.relay.into()));
+            let cond = this.add(Expr::Read(Access::bit(fast.relay)));
             this.emit(Stmt::If {
                 cond,
                 then: vec![timer(fast.unit_ms)],
@@ -92,7 +92,7 @@ impl Lowerer<'_> {
         }
         let direction = M_COUNTER_DIRECTION.after(number);
         let down = if self.specials.has(direction) {
-            self.add(Expr::ReadBit(direction.into()))
+            self.add(Expr::Read(Access::bit(direction)))
         } else {
             self.bit_const(false)
         };

@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::operand::Guards;
-use rungc_ir::node::Expr;
+use rungc_ir::node::{Access, Expr};
 use rungc_rt::special::M_TEXT_OPEN;
 use rungc_syntax::{Device, OperandKind, codes};
 
@@ -48,7 +48,7 @@ impl Lowerer<'_> {
                 this.store(*target, word);
             }
             let open = if this.specials.has(M_TEXT_OPEN) {
-                this.add(Expr::ReadBit(M_TEXT_OPEN.into()))
+                this.add(Expr::Read(Access::bit(M_TEXT_OPEN)))
             } else {
                 this.bit_const(false)
             };

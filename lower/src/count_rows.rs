@@ -6,7 +6,7 @@
 use super::Lowerer;
 use super::interrupt::Request;
 use super::operand::fixed;
-use rungc_ir::node::{BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue};
+use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue};
 use rungc_models::interrupts::{CountRows, Source};
 use rungc_rt::{CmpOp, EdgeKind, Register};
 use rungc_syntax::DeviceClass::{C, D};
@@ -28,7 +28,7 @@ impl Lowerer<'_> {
         let Some((table, row)) = self.interrupts.rows else {
             return;
         };
-        let works = self.add(Expr::ReadBit(table.enable.into()));
+        let works = self.add(Expr::Read(Access::bit(table.enable)));
         let chosen = self.register(table.counter);
         let number = self.add(Expr::I32(counter as i32));
         let is_chosen = self.add(Expr::Cmp(CmpOp::Eq, chosen, number));
@@ -58,8 +58,8 @@ impl Lowerer<'_> {
 
     /// The row that waits requests its interrupt, if the count is its own, and makes way for the next.
     fn row_at_its_count(&mut self, table: &CountRows, row: CellId, place: Place, counter: u32) {
-        let wanted = self.add(Expr::ReadPair(place));
-        let count = self.add(Expr::ReadPair(fixed(C, counter)));
+        let wanted = self.add(Expr::Read(Access::pair(place)));
+        let count = self.add(Expr::Read(Access::pair(fixed(C, counter))));
         let reached = self.add(Expr::Cmp(CmpOp::Eq, count, wanted));
         self.when(reached, |this| {
             let waits = this.add(Expr::Cell(row));
@@ -91,7 +91,7 @@ impl Lowerer<'_> {
         let Some((table, row)) = self.interrupts.rows else {
             return;
         };
-        let works = self.add(Expr::ReadBit(table.enable.into()));
+        let works = self.add(Expr::Read(Access::bit(table.enable)));
         let edge = self.new_edge();
         let went_off = self.edge(edge, EdgeKind::Falling, works);
         let first = self.add(Expr::Sys(SysValue::FirstScan));
@@ -112,7 +112,7 @@ impl Lowerer<'_> {
         if self.specials.has(table.row) {
             let row = self.add(Expr::Cell(row));
             let row = self.add(Expr::Narrow(row));
-            self.emit(Stmt::WriteWord(table.row.into(), row));
+            self.emit(Stmt::Write(Access::word(table.row), row));
         }
     }
 
@@ -128,7 +128,7 @@ impl Lowerer<'_> {
         if !self.specials.has(register) {
             return self.add(Expr::I32(0));
         }
-        let value = self.add(Expr::ReadWord(register.into()));
+        let value = self.add(Expr::Read(Access::word(register)));
         self.add(Expr::Widen(value))
     }
 }

@@ -3,7 +3,9 @@
 use super::Lowerer;
 use super::high_speed::{Action, Compare, Counted};
 use super::operand::{BitTarget, Guards};
-use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, Table, TableId, Ty};
+use rungc_ir::node::{
+    Access, AccessKind, BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, Table, TableId, Ty,
+};
 use rungc_models::high_speed::TableMode;
 use rungc_rt::{CmpOp, Register};
 use rungc_syntax::DeviceClass::Y;
@@ -279,17 +281,17 @@ impl Lowerer<'_> {
     }
 
     fn take_row(&mut self, table: &Rows, at: ExprId, first: Place) {
-        let count = self.add(Expr::ReadPair(first));
+        let count = self.add(Expr::Read(Access::pair(first)));
         self.emit(Stmt::SetEntry(table.counts, at, count));
         let said = Place {
             number: first.number + 2,
             ..first
         };
         let word = if table.mode.words == 3 {
-            let word = self.add(Expr::ReadWord(said));
+            let word = self.add(Expr::Read(Access::word(said)));
             self.add(Expr::Widen(word))
         } else {
-            self.add(Expr::ReadPair(said))
+            self.add(Expr::Read(Access::pair(said)))
         };
         self.emit(Stmt::SetEntry(table.words, at, word));
     }
@@ -367,7 +369,7 @@ impl Lowerer<'_> {
         if let Some(register) = table.mode.row.filter(|&row| self.specials.has(row)) {
             let row = self.add(Expr::Cell(table.row));
             let row = self.add(Expr::Narrow(row));
-            self.emit(Stmt::WriteWord(register.into(), row));
+            self.emit(Stmt::Write(Access::word(register), row));
         }
     }
 
@@ -377,7 +379,7 @@ impl Lowerer<'_> {
             .iter()
             .any(|&word| self.specials.has(word))
         {
-            self.emit(Stmt::WritePair(register.into(), value));
+            self.emit(Stmt::Write(Access::pair(register), value));
         }
     }
 
@@ -403,7 +405,7 @@ impl Lowerer<'_> {
             let state = this.add(Expr::HighWord(word));
             let zero = this.int(0, false);
             let on = this.add(Expr::Cmp(CmpOp::Ne, state, zero));
-            this.emit(Stmt::WriteBit(place, on));
+            this.emit(Stmt::Write(Access::bit(place), on));
         });
     }
 
@@ -424,20 +426,16 @@ impl Lowerer<'_> {
             return;
         };
         let mask = self.add(Expr::Cell(mask));
-        let before = self.add(Expr::ReadNibbles {
-            place,
+        let bits = AccessKind::Nibbles {
             digits: 4,
             wide: true,
-        });
+        };
+        let before = self.add(Expr::Read(bits.at(place)));
         let others = self.add(Expr::Complement(mask));
         let kept = self.add(Expr::Bin(BinOp::And, before, others));
         let written = self.add(Expr::Bin(BinOp::And, word, mask));
         let value = self.add(Expr::Bin(BinOp::Or, kept, written));
-        self.emit(Stmt::WriteNibbles {
-            place,
-            digits: 4,
-            value,
-        });
+        self.emit(Stmt::Write(bits.at(place), value));
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Stmt, SysValue};
+use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, FlagId, Stmt, SysValue};
 use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::{Device, OperandKind};
 
@@ -166,7 +166,7 @@ impl Lowerer<'_> {
         let Some((relay, target)) = shown.per_minute else {
             return windows(self);
         };
-        let cond = self.add(Expr::ReadBit(relay.into()));
+        let cond = self.add(Expr::Read(Access::bit(relay)));
         let then = self.body(|this| {
             let value = this.per_minute(window);
             this.store_number(target, value);

@@ -5,7 +5,7 @@ use super::Lowerer;
 use super::blocks::{bits, register};
 use super::operand::Guards;
 use super::words::constant;
-use rungc_ir::node::{BinOp, Expr, ExprId, UnOp};
+use rungc_ir::node::{Access, BinOp, Expr, ExprId, UnOp};
 use rungc_rt::special::{M_CARRY, M_SMOV_HEX};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{Device, Instr, OperandKind};
@@ -127,7 +127,7 @@ impl Lowerer<'_> {
         let target = self.result(0, &mut guards);
         self.guarded(guards, |this| {
             let value = this.settled(value);
-            let carry = this.add(Expr::ReadBit(M_CARRY.into()));
+            let carry = this.add(Expr::Read(Access::bit(M_CARRY)));
             let carry = this.add(Expr::BitToInt(carry));
             let carry = if wide {
                 this.add(Expr::Widen(carry))

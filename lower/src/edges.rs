@@ -3,7 +3,8 @@
 use super::Lowerer;
 use super::operand::fixed;
 use rungc_ir::node::{
-    BinOp, Body, Cell, CellId, Expr, ExprId, Flag, FlagId, Function, FunctionKind, Stmt, SysValue,
+    Access, BinOp, Body, Cell, CellId, Expr, ExprId, Flag, FlagId, Function, FunctionKind, Stmt,
+    SysValue,
 };
 use rungc_rt::EdgeKind;
 use rungc_syntax::DeviceClass::X;
@@ -98,10 +99,10 @@ impl Lowerer<'_> {
                 continue;
             }
             self.on_edge(input, EdgeKind::Rising, |this| {
-                let count = this.add(Expr::ReadWord(register.into()));
+                let count = this.add(Expr::Read(Access::word(register)));
                 let one = this.int(1, false);
                 let count = this.add(Expr::Bin(BinOp::Add, count, one));
-                this.emit(Stmt::WriteWord(register.into(), count));
+                this.emit(Stmt::Write(Access::word(register), count));
             });
         }
     }
@@ -115,7 +116,7 @@ impl Lowerer<'_> {
         let first = self.add(Expr::Sys(SysValue::FirstScan));
         self.when(first, |this| {
             for (input, flag) in levels {
-                let on = this.add(Expr::ReadBit(fixed(X, input)));
+                let on = this.add(Expr::Read(Access::bit(fixed(X, input))));
                 this.emit(Stmt::SetFlag(flag, on));
             }
         });

@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use rungc_catalogue::{Basic, Comparison, Lower};
-use rungc_ir::node::{BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, SysValue};
+use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, SysValue};
 use rungc_models::high_speed::{self, Axis, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::{M_COMPARE_AT_RESET, M_COUNTER_DIRECTION};
@@ -311,7 +311,7 @@ impl Lowerer<'_> {
     /// What a comparison looks at, now.
     fn count_of(&mut self, compare: &Compare) -> ExprId {
         match compare.counted {
-            Counted::Counter(number) => self.add(Expr::ReadPair(counter_place(number))),
+            Counted::Counter(number) => self.add(Expr::Read(Access::pair(counter_place(number)))),
             Counted::Value(value) => value,
         }
     }
@@ -373,7 +373,7 @@ impl Lowerer<'_> {
     fn count_edges(&mut self, used: &Used, compares: &[&Compare]) {
         let number = used.counter.number;
         let relay = |this: &mut Self, relay: Relay| match this.specials.has(relay) {
-            true => this.add(Expr::ReadBit(relay.into())),
+            true => this.add(Expr::Read(Access::bit(relay))),
             false => this.bit_const(false),
         };
         match (used.counter.kind, used.counter.counts) {
@@ -473,7 +473,7 @@ impl Lowerer<'_> {
         if let Some(relays) = self.model.high_speed.reset_relays {
             for relay in [relays.edge, relays.off] {
                 if self.specials.has(relay) {
-                    let relay = self.add(Expr::ReadBit(relay.into()));
+                    let relay = self.add(Expr::Read(Access::bit(relay)));
                     let relay = self.not(relay);
                     held = self.and(held, relay);
                 }
@@ -487,9 +487,9 @@ impl Lowerer<'_> {
         let Some(axis) = self.axis(counter) else {
             return;
         };
-        let count = self.add(Expr::ReadPair(counter_place(counter.number)));
+        let count = self.add(Expr::Read(Access::pair(counter_place(counter.number))));
         if self.looks_at_pair(axis.count) {
-            self.emit(Stmt::WritePair(axis.count.into(), count));
+            self.emit(Stmt::Write(Access::pair(axis.count), count));
         }
         if self.looks_at_pair(axis.upper) {
             let zero = self.add(Expr::I32(0));
@@ -497,7 +497,7 @@ impl Lowerer<'_> {
             let negative = self.add(Expr::BitToInt(negative));
             let negative = self.add(Expr::Widen(negative));
             let upper = self.add(Expr::Neg(negative));
-            self.emit(Stmt::WritePair(axis.upper.into(), upper));
+            self.emit(Stmt::Write(Access::pair(axis.upper), upper));
         }
     }
 
@@ -529,8 +529,8 @@ impl Lowerer<'_> {
         if let Some(number) = counter.map(|used| used.counter.number)
             && self.looks_at_pair(axis.captured)
         {
-            let count = self.add(Expr::ReadPair(counter_place(number)));
-            self.emit(Stmt::WritePair(axis.captured.into(), count));
+            let count = self.add(Expr::Read(Access::pair(counter_place(number))));
+            self.emit(Stmt::Write(Access::pair(axis.captured), count));
         }
     }
 
@@ -541,7 +541,7 @@ impl Lowerer<'_> {
     fn reset_edge(&mut self, used: &Used, reset: u32, compares: &[&Compare]) {
         let relay = |this: &mut Self, relay: Relay| {
             let known = this.specials.has(relay);
-            known.then(|| this.add(Expr::ReadBit(relay.into())))
+            known.then(|| this.add(Expr::Read(Access::bit(relay))))
         };
         let place = counter_place(used.counter.number);
         self.on_edge(reset, EdgeKind::Rising, |this| {

@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::advanced::Section;
 use rungc_catalogue::Basic;
 use rungc_ir::node::{
-    BinOp, Body, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue, Ty,
+    Access, BinOp, Body, CellId, Expr, ExprId, FlagId, Function, FunctionKind, Stmt, SysValue, Ty,
 };
 use rungc_models::interrupts::{Advanced, Capture, CountRows, Gate, Interrupt, PulseCatch, Source};
 use rungc_rt::special::D_SCOPE_STATE;
@@ -459,7 +459,7 @@ impl Lowerer<'_> {
         let Some(relay) = interrupt.request else {
             return;
         };
-        let asked = self.add(Expr::ReadBit(relay.into()));
+        let asked = self.add(Expr::Read(Access::bit(relay)));
         let allowed = self.allowed(interrupt.gate);
         let runs = self.and(asked, allowed);
         self.when(runs, |this| {
@@ -473,7 +473,7 @@ impl Lowerer<'_> {
     pub(super) fn allowed(&mut self, gate: Gate) -> ExprId {
         let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate;
         let on = if self.specials.has(relay) {
-            self.add(Expr::ReadBit(relay.into()))
+            self.add(Expr::Read(Access::bit(relay)))
         } else {
             let on = self.model.special_bits().any(|bit| bit == relay.number());
             self.bit_const(on)

@@ -2,7 +2,9 @@
 
 use super::Lowerer;
 use super::call::extents;
-use rungc_ir::node::{Arg, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue, Ty};
+use rungc_ir::node::{
+    Access, AccessKind, Arg, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue, Ty,
+};
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::CmpOp;
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind, Span, codes};
@@ -129,9 +131,9 @@ impl Lowerer<'_> {
         let place = fixed(index.class, index.number);
         // FX takes the pair (Vn, Zn), named by its Z, in 32-bit instructions; HM's addresses are 16-bit everywhere.
         if wide && self.model.z_pairs_with_v && index.class == DeviceClass::Z {
-            self.add(Expr::ReadPair(place))
+            self.add(Expr::Read(Access::pair(place)))
         } else {
-            let word = self.add(Expr::ReadWord(place));
+            let word = self.add(Expr::Read(Access::word(place)));
             self.add(Expr::Widen(word))
         }
     }
@@ -232,11 +234,11 @@ impl Lowerer<'_> {
     pub(super) fn constant_index(&mut self, index: Index, wide: bool) -> ExprId {
         let place = fixed(index.class, index.number);
         if !wide {
-            return self.add(Expr::ReadWord(place));
+            return self.add(Expr::Read(Access::word(place)));
         }
         match (index.class, self.model.z_pairs_with_v) {
             (DeviceClass::V, true) => self.index(index, wide),
-            _ => self.add(Expr::ReadPair(place)),
+            _ => self.add(Expr::Read(Access::pair(place))),
         }
     }
 
@@ -295,17 +297,17 @@ impl Lowerer<'_> {
                     Some(state) => state,
                     None => {
                         let place = self.place(device, None, 1, false, guards);
-                        self.add(Expr::ReadBit(place))
+                        self.add(Expr::Read(Access::bit(place)))
                     }
                 }
             }
             OperandKind::Device(device, index) => {
                 let place = self.place(device, index, 1, false, guards);
-                self.add(Expr::ReadBit(place))
+                self.add(Expr::Read(Access::bit(place)))
             }
             OperandKind::WordBit(device, bit, index) => {
                 let place = self.place(device, index, 1, false, guards);
-                self.add(Expr::ReadWordBit(place, bit & 15))
+                self.add(Expr::Read(Access::word_bit(place, bit & 15)))
             }
             OperandKind::Nibbles(..)
             | OperandKind::Decimal(..)
@@ -355,11 +357,8 @@ impl Lowerer<'_> {
                 let digits = digits.clamp(1, if wide { 8 } else { 4 });
                 let bits = 4 * u32::from(digits);
                 let place = self.place(device, index, bits, wide, guards);
-                self.add(Expr::ReadNibbles {
-                    place,
-                    digits,
-                    wide,
-                })
+                let kind = AccessKind::Nibbles { digits, wide };
+                self.add(Expr::Read(kind.at(place)))
             }
             OperandKind::Buffer { .. } => self.fetch(operand, wide, guards),
             OperandKind::WordBit(..) | OperandKind::Text(_) | OperandKind::Unreadable(_) => {
@@ -441,12 +440,12 @@ impl Lowerer<'_> {
         guards: &mut Guards,
     ) -> ExprId {
         match self.word_target(device, index, wide, wide, guards) {
-            Target::Pair(place) if wide => self.add(Expr::ReadPair(place)),
+            Target::Pair(place) if wide => self.add(Expr::Read(Access::pair(place))),
             Target::Pair(place) => {
-                let value = self.add(Expr::ReadPair(place));
+                let value = self.add(Expr::Read(Access::pair(place)));
                 self.add(Expr::Narrow(value))
             }
-            Target::Word(place) => self.add(Expr::ReadWord(place)),
+            Target::Word(place) => self.add(Expr::Read(Access::word(place))),
             Target::Nibbles(..) | Target::Sent(..) | Target::None => self.int(0, wide),
         }
     }
@@ -519,13 +518,13 @@ impl Lowerer<'_> {
     /// Writes an integer of the target's width.
     pub(super) fn store(&mut self, target: Target, value: ExprId) {
         let stmt = match target {
-            Target::Word(place) => Stmt::WriteWord(place, value),
-            Target::Pair(place) => Stmt::WritePair(place, value),
-            Target::Nibbles(place, digits) => Stmt::WriteNibbles {
-                place,
-                digits,
-                value,
-            },
+            Target::Word(place) => Stmt::Write(Access::word(place), value),
+            Target::Pair(place) => Stmt::Write(Access::pair(place), value),
+            Target::Nibbles(place, digits) => {
+                let wide = self.module.ty(value) == Ty::I32;
+                let kind = AccessKind::Nibbles { digits, wide };
+                Stmt::Write(kind.at(place), value)
+            }
             Target::Sent(to, wide) => {
                 let step = self.step();
                 Stmt::Send {
@@ -574,17 +573,20 @@ impl Lowerer<'_> {
     /// Writes the bit `offset` bits after the target.
     pub(super) fn store_bit(&mut self, target: BitTarget, offset: u32, value: ExprId) {
         self.emit(match target {
-            BitTarget::Device(place) => Stmt::WriteBit(
-                Place {
+            BitTarget::Device(place) => Stmt::Write(
+                Access::bit(Place {
                     number: place.number + offset,
                     ..place
-                },
+                }),
                 value,
             ),
             BitTarget::OfWord(place, bit) => {
                 let bit = u32::from(bit) + offset;
                 let number = place.number + bit / 16;
-                Stmt::WriteWordBit(Place { number, ..place }, (bit % 16) as u8, value)
+                Stmt::Write(
+                    Access::word_bit(Place { number, ..place }, (bit % 16) as u8),
+                    value,
+                )
             }
         });
     }

@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::call::output_of;
 use super::operand::fixed;
 use rungc_catalogue::{Lower, Role};
-use rungc_ir::node::{Arg, Call, Expr, ExprId, Function, FunctionKind, Stmt};
+use rungc_ir::node::{Access, Arg, Call, Expr, ExprId, Function, FunctionKind, Stmt};
 use rungc_rt::axis_place::INPUTS;
 use rungc_rt::{CmpOp, EdgeKind, Relay, RtFn, StopInput, Wiring};
 use rungc_syntax::DeviceClass::{D, X, Y};
@@ -143,7 +143,7 @@ impl Lowerer<'_> {
             for kind in [EdgeKind::Rising, EdgeKind::Falling] {
                 self.on_edge(input, kind, |this| {
                     let on = this.bit_const(kind == EdgeKind::Rising);
-                    this.emit(Stmt::WriteBit(fixed(X, input), on));
+                    this.emit(Stmt::Write(Access::bit(fixed(X, input)), on));
                     this.emit(Stmt::CallSub(function));
                 });
             }
@@ -201,8 +201,8 @@ impl Lowerer<'_> {
 
     /// Whether this input stops pulses now.
     fn is_stop_input(&mut self, stop: StopInput, input: u32) -> ExprId {
-        let enabled = self.add(Expr::ReadBit(stop.enable.into()));
-        let chosen = self.add(Expr::ReadWord(stop.register.into()));
+        let enabled = self.add(Expr::Read(Access::bit(stop.enable)));
+        let chosen = self.add(Expr::Read(Access::word(stop.register)));
         let number = self.int(input as i32, false);
         let chosen = self.add(Expr::Cmp(CmpOp::Eq, chosen, number));
         self.and(enabled, chosen)

@@ -8,7 +8,7 @@ use super::operand::fixed;
 use super::{Lowerer, basic_of};
 use rungc_analysis::resolve::Resolved;
 use rungc_catalogue::Basic;
-use rungc_ir::node::{EdgeId, Expr};
+use rungc_ir::node::{Access, EdgeId, Expr};
 use rungc_rt::EdgeKind;
 use rungc_rt::special::M_TRANSFER_OFF;
 use rungc_syntax::{Device, DeviceClass};
@@ -98,7 +98,7 @@ impl Lowerer<'_> {
         }
         let on = states
             .iter()
-            .map(|&state| self.add(Expr::ReadBit(fixed(DeviceClass::S, state))))
+            .map(|&state| self.add(Expr::Read(Access::bit(fixed(DeviceClass::S, state)))))
             .collect::<Vec<_>>()
             .into_iter()
             .reduce(|a, b| self.and(a, b));
@@ -158,7 +158,7 @@ impl Lowerer<'_> {
     pub(super) fn transition(&mut self, target: u32) {
         let mut drive = self.drive_of_form();
         if self.keeps(M_TRANSFER_OFF) {
-            let held = self.add(Expr::ReadBit(M_TRANSFER_OFF.into()));
+            let held = self.add(Expr::Read(Access::bit(M_TRANSFER_OFF)));
             let free = self.not(held);
             drive = self.and(drive, free);
         }

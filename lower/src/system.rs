@@ -4,7 +4,9 @@
 use super::Lowerer;
 use super::operand::fixed;
 use super::stl::ANNUNCIATORS;
-use rungc_ir::node::{Arg, BinOp, Body, Call, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty};
+use rungc_ir::node::{
+    Access, Arg, BinOp, Body, Call, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty,
+};
 use rungc_models::special::SpecialDevice;
 use rungc_rt::special::*;
 use rungc_rt::{CmpOp, RtFn};
@@ -86,7 +88,7 @@ impl Lowerer<'_> {
             this.error_log();
             for (relay, latched) in CLEAR {
                 if this.keeps(relay) {
-                    let asked = this.add(Expr::ReadBit(relay.into()));
+                    let asked = this.add(Expr::Read(Access::bit(relay)));
                     this.when(asked, |this| this.emit(Stmt::Clear { latched }));
                 }
             }
@@ -99,7 +101,7 @@ impl Lowerer<'_> {
         if !self.keeps(M_FORCED_STOP) {
             return;
         }
-        let asked = self.add(Expr::ReadBit(M_FORCED_STOP.into()));
+        let asked = self.add(Expr::Read(Access::bit(M_FORCED_STOP)));
         self.when(asked, |this| {
             let off = this.bit_const(false);
             this.write_relay(M_FORCED_STOP, off);
@@ -172,7 +174,7 @@ impl Lowerer<'_> {
             }
             for register in registers {
                 let none = this.int(0, false);
-                this.emit(Stmt::WriteWord(register.into(), none));
+                this.emit(Stmt::Write(Access::word(register), none));
             }
         };
         let when = if self.model.errors_last_a_scan {
@@ -215,22 +217,22 @@ impl Lowerer<'_> {
         let known = self.add(Expr::Cmp(CmpOp::Gt, time, zero));
         self.when(known, |this| {
             if this.keeps(D_SCAN_TIME) {
-                this.emit(Stmt::WriteWord(D_SCAN_TIME.into(), time));
+                this.emit(Stmt::Write(Access::word(D_SCAN_TIME), time));
             }
             if this.keeps(D_LEAST_SCAN_TIME) {
-                let least = this.add(Expr::ReadWord(D_LEAST_SCAN_TIME.into()));
+                let least = this.add(Expr::Read(Access::word(D_LEAST_SCAN_TIME)));
                 let unset = this.add(Expr::Cmp(CmpOp::Eq, least, zero));
                 let less = this.add(Expr::Cmp(CmpOp::Lt, time, least));
                 let better = this.or(unset, less);
                 this.when(better, |this| {
-                    this.emit(Stmt::WriteWord(D_LEAST_SCAN_TIME.into(), time));
+                    this.emit(Stmt::Write(Access::word(D_LEAST_SCAN_TIME), time));
                 });
             }
             if this.keeps(D_MOST_SCAN_TIME) {
-                let most = this.add(Expr::ReadWord(D_MOST_SCAN_TIME.into()));
+                let most = this.add(Expr::Read(Access::word(D_MOST_SCAN_TIME)));
                 let more = this.add(Expr::Cmp(CmpOp::Gt, time, most));
                 this.when(more, |this| {
-                    this.emit(Stmt::WriteWord(D_MOST_SCAN_TIME.into(), time));
+                    this.emit(Stmt::Write(Access::word(D_MOST_SCAN_TIME), time));
                 });
             }
         });
@@ -243,18 +245,18 @@ impl Lowerer<'_> {
             let units = self.add(Expr::I32(20));
             let now = self.add(Expr::Bin(BinOp::Mul, now, units));
             let word = self.add(Expr::Narrow(now));
-            self.emit(Stmt::WriteWord(D_SHORT_TICK.into(), word));
+            self.emit(Stmt::Write(Access::word(D_SHORT_TICK), word));
         }
         let tick = D_TICK.run();
         let [low, high] = tick.map(|register| self.keeps(register));
         let now = self.add(Expr::Sys(SysValue::NowMs));
         if low {
             let word = self.add(Expr::Narrow(now));
-            self.emit(Stmt::WriteWord(tick[0].into(), word));
+            self.emit(Stmt::Write(Access::word(tick[0]), word));
         }
         if high {
             let word = self.add(Expr::HighWord(now));
-            self.emit(Stmt::WriteWord(tick[1].into(), word));
+            self.emit(Stmt::Write(Access::word(tick[1]), word));
         }
     }
 
@@ -264,15 +266,15 @@ impl Lowerer<'_> {
         if !self.keeps(relay) || !self.keeps(register) {
             return;
         }
-        let counts = self.add(Expr::ReadBit(relay.into()));
+        let counts = self.add(Expr::Read(Access::bit(relay)));
         self.when(counts, |this| {
-            let count = this.add(Expr::ReadWord(register.into()));
+            let count = this.add(Expr::Read(Access::word(register)));
             let passed = this.add(Expr::Sys(SysValue::Scan100us));
             let passed = this.add(Expr::Narrow(passed));
             let count = this.add(Expr::Bin(BinOp::Add, count, passed));
             let mask = this.int(i32::from(i16::MAX), false);
             let count = this.add(Expr::Bin(BinOp::And, count, mask));
-            this.emit(Stmt::WriteWord(register.into(), count));
+            this.emit(Stmt::Write(Access::word(register), count));
         });
     }
 
@@ -286,7 +288,7 @@ impl Lowerer<'_> {
         if !self.model.scan_keeps(relay) {
             count(self);
         } else if self.keeps(relay) {
-            let counts = self.add(Expr::ReadBit(relay.into()));
+            let counts = self.add(Expr::Read(Access::bit(relay)));
             self.when(counts, count);
         }
     }
@@ -371,7 +373,7 @@ impl Lowerer<'_> {
         let (relays, input) = VIRTUAL_INPUTS;
         for (relay, input) in relays.into_iter().zip(input..) {
             if self.keeps(relay) {
-                let on = self.add(Expr::ReadBit(relay.into()));
+                let on = self.add(Expr::Read(Access::bit(relay)));
                 self.write_device(X, input, on);
             }
         }
@@ -396,7 +398,7 @@ impl Lowerer<'_> {
         if !self.keeps(monitor.enable) || !any && registers.iter().all(Option::is_none) {
             return;
         }
-        let enabled = self.add(Expr::ReadBit(monitor.enable.into()));
+        let enabled = self.add(Expr::Read(Access::bit(monitor.enable)));
         let runs = self.monitored(monitor);
         self.when(enabled, |this| {
             let zero = this.add(Expr::I32(0));
@@ -404,7 +406,7 @@ impl Lowerer<'_> {
             this.emit(Stmt::Let(found, zero));
             let none = this.int(0, false);
             for &register in registers.iter().flatten() {
-                this.emit(Stmt::WriteWord(register.into(), none));
+                this.emit(Stmt::Write(Access::word(register), none));
             }
             for (first, last) in runs {
                 this.list_active(first, last, found, &registers);
@@ -466,11 +468,11 @@ impl Lowerer<'_> {
         let index = self.add(Expr::Temp(offset));
         let count = self.int((last - first + 1) as i32, false);
         let body = self.body(|this| {
-            let on = this.add(Expr::ReadBit(Place {
+            let on = this.add(Expr::Read(Access::bit(Place {
                 class: S,
                 number: first,
                 index: Some(index),
-            }));
+            })));
             this.when(on, |this| {
                 let base = this.add(Expr::I32(first as i32));
                 let number = this.add(Expr::Bin(BinOp::Add, base, index));
@@ -495,7 +497,7 @@ impl Lowerer<'_> {
             let n = self.add(Expr::I32(n as i32));
             let here = self.add(Expr::Cmp(CmpOp::Eq, so_far, n));
             self.when(here, |this| {
-                this.emit(Stmt::WriteWord(register.into(), number));
+                this.emit(Stmt::Write(Access::word(register), number));
             });
         }
     }

@@ -135,12 +135,7 @@ impl Watcher<'_> {
                 | Stmt::SetFlag(..)
                 | Stmt::SetCell(..)
                 | Stmt::SetEntry(..)
-                | Stmt::WriteBit(..)
-                | Stmt::WriteWordBit(..)
-                | Stmt::WriteWord(..)
-                | Stmt::WritePair(..)
-                | Stmt::WriteFloat(..)
-                | Stmt::WriteNibbles { .. }
+                | Stmt::Write(..)
                 | Stmt::Timer { .. }
                 | Stmt::TimerAt { .. }
                 | Stmt::TimerGoesOn { .. }

@@ -3,7 +3,7 @@
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
-use rungc_ir::node::{BinOp, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
+use rungc_ir::node::{Access, BinOp, Expr, ExprId, FloatOp, Stmt, Ty, UnOp};
 use rungc_rt::special::{M_BORROW, M_CARRY, M_ZERO};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{DeviceClass, Instr, OperandKind};
@@ -302,7 +302,7 @@ impl Lowerer<'_> {
             Some(&OperandKind::Float(value)) => self.add(Expr::F32(value)),
             Some(operand @ &OperandKind::Device(..)) => {
                 match self.target(operand, 0, true, self.wide(), guards) {
-                    Target::Pair(place) => self.add(Expr::ReadFloat(place)),
+                    Target::Pair(place) => self.add(Expr::Read(Access::float(place))),
                     Target::Word(_) | Target::Nibbles(..) | Target::Sent(..) | Target::None => {
                         self.add(Expr::F32(0.0))
                     }
@@ -322,7 +322,7 @@ impl Lowerer<'_> {
 
     fn store_float(&mut self, target: Target, value: ExprId) {
         if let Target::Pair(place) = target {
-            self.emit(Stmt::WriteFloat(place, value));
+            self.emit(Stmt::Write(Access::float(place), value));
         }
     }
 

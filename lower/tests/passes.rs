@@ -2,7 +2,7 @@
 
 use rungc_ir::Module;
 use rungc_ir::dump::dump;
-use rungc_ir::node::{Expr, ExprId, LabelId, Place, Stmt, TempId};
+use rungc_ir::node::{Access, Expr, ExprId, LabelId, Place, Stmt, TempId};
 use rungc_ir::validate::validate;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_models::ModelId;
@@ -181,7 +181,7 @@ fn a_value_from_one_branch_is_not_enough() {
 fn devices_must_be_stored() {
     let error = with(|module| {
         let on = module.add(Expr::Bit(true));
-        Stmt::WriteBit(relay(5), on)
+        Stmt::Write(Access::bit(relay(5)), on)
     });
     assert!(error.is_err_and(|e| e.contains("M5 is not stored")));
 }

@@ -73,12 +73,12 @@ impl Builder {
 
     pub fn bit(&mut self, class: DeviceClass, number: u32) -> ExprId {
         let place = self.place(class, number);
-        self.module.add(Expr::ReadBit(place))
+        self.module.add(Expr::Read(Access::bit(place)))
     }
 
     pub fn word(&mut self, class: DeviceClass, number: u32) -> ExprId {
         let place = self.place(class, number);
-        self.module.add(Expr::ReadWord(place))
+        self.module.add(Expr::Read(Access::word(place)))
     }
 
     pub fn i16(&mut self, value: i16) -> ExprId {
@@ -111,12 +111,12 @@ impl Builder {
 
     pub fn write_bit(&mut self, class: DeviceClass, number: u32, value: ExprId) {
         let place = self.place(class, number);
-        self.body.push(Stmt::WriteBit(place, value));
+        self.body.push(Stmt::Write(Access::bit(place), value));
     }
 
     pub fn write_word(&mut self, class: DeviceClass, number: u32, value: ExprId) {
         let place = self.place(class, number);
-        self.body.push(Stmt::WriteWord(place, value));
+        self.body.push(Stmt::Write(Access::word(place), value));
     }
 
     pub fn timer(&mut self, number: u32, drive: ExprId, preset: ExprId) {

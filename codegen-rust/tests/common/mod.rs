@@ -65,12 +65,12 @@ impl Build {
 
     /// State of a bit.
     pub fn bit(&mut self, class: DeviceClass, number: u32) -> ExprId {
-        self.expr(Expr::ReadBit(place(class, number)))
+        self.expr(Expr::Read(Access::bit(place(class, number))))
     }
 
     /// Value of a word.
     pub fn word(&mut self, class: DeviceClass, number: u32) -> ExprId {
-        self.expr(Expr::ReadWord(place(class, number)))
+        self.expr(Expr::Read(Access::word(place(class, number))))
     }
 
     /// A new temporary.
@@ -149,7 +149,7 @@ pub fn motor() -> Module {
     let on = b.expr(Expr::Bit(true));
     let body = vec![
         b.network(0, Some("start and stop")),
-        Stmt::WriteBit(place(M, 0), latch),
+        Stmt::Write(Access::bit(place(M, 0)), latch),
         b.network(4, None),
         Stmt::Timer {
             number: 0,
@@ -157,7 +157,7 @@ pub fn motor() -> Module {
             drive: m0,
             preset,
         },
-        Stmt::WriteBit(place(Y, 0), both),
+        Stmt::Write(Access::bit(place(Y, 0)), both),
         b.network(10, None),
         Stmt::Edge {
             edge,
@@ -168,13 +168,13 @@ pub fn motor() -> Module {
         },
         Stmt::If {
             cond: is_rising,
-            then: vec![Stmt::WriteWord(place(D, 0), sum)],
+            then: vec![Stmt::Write(Access::word(place(D, 0)), sum)],
             otherwise: Vec::new(),
         },
         b.network(19, None),
         Stmt::If {
             cond: full,
-            then: vec![Stmt::WriteBit(place(Y, 1), on)],
+            then: vec![Stmt::Write(Access::bit(place(Y, 1)), on)],
             otherwise: Vec::new(),
         },
     ];

@@ -1,8 +1,9 @@
 //! Expressions: values, without effects.
 
-use super::{BinOp, CellId, ExprId, FlagId, FloatOp, TableId, TempId, UnOp};
-use rungc_rt::{CmpOp, Register, Relay};
-use rungc_syntax::DeviceClass;
+use super::{
+    Access, AccessKind, BinOp, CellId, ExprId, FlagId, FloatOp, Place, TableId, TempId, UnOp,
+};
+use rungc_rt::CmpOp;
 use typed_index_collections::TiSlice;
 
 /// Type of an expression or temporary.
@@ -16,40 +17,6 @@ pub enum Ty {
     I32,
     /// Single-precision float.
     F32,
-}
-
-/// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression). A special register that is another name of
-/// an index register is that register, however a place or a run leads to it ([`rungc_models::Model::canonical`]).
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
-pub struct Place {
-    /// Class.
-    pub class: DeviceClass,
-    /// Number without the index.
-    pub number: u32,
-    /// What to add. A place with an index may only be accessed where [`Expr::InRange`] of it is known to hold; that of an
-    /// [`Expr::Stride`] does. Which devices it may lead to says [`crate::reach`]; all of them are stored. An indexed
-    /// access of a word of C200 and up reads the low word, and writes the sign-extended word.
-    pub index: Option<ExprId>,
-}
-
-impl From<Relay> for Place {
-    fn from(relay: Relay) -> Self {
-        Place {
-            class: DeviceClass::M,
-            number: relay.number(),
-            index: None,
-        }
-    }
-}
-
-impl From<Register> for Place {
-    fn from(register: Register) -> Self {
-        Place {
-            class: DeviceClass::D,
-            number: register.number(),
-            index: None,
-        }
-    }
 }
 
 /// What the scan driver knows.
@@ -78,25 +45,8 @@ pub enum Expr {
     F32(f32),
     /// A temporary's value.
     Temp(TempId),
-    /// State of a bit device; for T and C the contact.
-    ReadBit(Place),
-    /// Bit 0–15 of a word device.
-    ReadWordBit(Place, u8),
-    /// `I16`: word device; for T and C0–C199 the current value.
-    ReadWord(Place),
-    /// `I32`: the pair (n+1, n); for C200 and up the current value; for Z on models where `z_pairs_with_v` the pair (Vn, Zn).
-    ReadPair(Place),
-    /// `F32`: the pair's bits as a float.
-    ReadFloat(Place),
-    /// `4 * digits` bits from a bit device as an integer, zero-extended: `I16` if `digits` ≤ 4 and not `wide`, else `I32`.
-    ReadNibbles {
-        /// First bit.
-        place: Place,
-        /// 1 to 8.
-        digits: u8,
-        /// As `I32`.
-        wide: bool,
-    },
+    /// What a device holds, or several of them, as a value of the access's type.
+    Read(Access),
     /// A value of the scan driver.
     Sys(SysValue),
     /// State of a flag.
@@ -151,47 +101,44 @@ pub enum Expr {
     },
 }
 
+impl Expr {
+    /// The place of the bit device whose state it is, if it is that and no more.
+    pub fn as_bit(&self) -> Option<Place> {
+        match *self {
+            Expr::Read(Access {
+                place,
+                kind: AccessKind::Bit,
+            }) => Some(place),
+            _ => None,
+        }
+    }
+}
+
 /// Type of an expression of an arena.
 pub fn type_of(exprs: &TiSlice<ExprId, Expr>, temps: &TiSlice<TempId, Ty>, id: ExprId) -> Ty {
     match exprs[id] {
         Expr::Bit(_)
-        | Expr::ReadBit(_)
-        | Expr::ReadWordBit(..)
         | Expr::Not(_)
         | Expr::And(..)
         | Expr::Or(..)
         | Expr::Cmp(..)
         | Expr::Flag(_)
         | Expr::InRange { .. } => Ty::Bit,
-        Expr::I16(_)
-        | Expr::ReadWord(_)
-        | Expr::Narrow(_)
-        | Expr::HighWord(_)
-        | Expr::BitToInt(_) => Ty::I16,
+        Expr::I16(_) | Expr::Narrow(_) | Expr::HighWord(_) | Expr::BitToInt(_) => Ty::I16,
         Expr::I32(_)
-        | Expr::ReadPair(_)
         | Expr::Widen(_)
         | Expr::Cell(_)
         | Expr::Stride(..)
         | Expr::Within { .. }
         | Expr::Entry(..) => Ty::I32,
-        Expr::F32(_)
-        | Expr::ReadFloat(_)
-        | Expr::Float(..)
-        | Expr::Un(UnOp::ToFloat | UnOp::Negate, _) => Ty::F32,
+        Expr::F32(_) | Expr::Float(..) | Expr::Un(UnOp::ToFloat | UnOp::Negate, _) => Ty::F32,
         Expr::Un(UnOp::IsBcd | UnOp::IsFinite, _) => Ty::Bit,
         Expr::Un(UnOp::Root | UnOp::Truncate, _) => Ty::I32,
         Expr::Un(UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd, a) => {
             type_of(exprs, temps, a)
         }
         Expr::Temp(temp) => temps[temp],
-        Expr::ReadNibbles { wide, .. } => {
-            if wide {
-                Ty::I32
-            } else {
-                Ty::I16
-            }
-        }
+        Expr::Read(access) => access.ty(),
         Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
         Expr::Sys(SysValue::NowMs | SysValue::Scan100us) => Ty::I32,
         Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => type_of(exprs, temps, a),

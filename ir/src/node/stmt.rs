@@ -1,6 +1,6 @@
 //! Statements: what a program does, in order.
 
-use super::{CellId, EdgeId, ExprId, FlagId, LabelId, Place, TableId, TempId};
+use super::{Access, CellId, EdgeId, ExprId, FlagId, LabelId, Place, TableId, TempId};
 use rungc_rt::{EdgeKind, RtFn, TimerKind};
 
 /// Operand of a call of the runtime.
@@ -101,25 +101,8 @@ pub enum Stmt {
     SetCell(CellId, ExprId),
     /// Writes the entry of a table at the index (`I32`, as for [`Expr::Entry`](super::Expr::Entry)) (`I32`).
     SetEntry(TableId, ExprId, ExprId),
-    /// Writes a bit device (Y, M, S, or X by force and at its own edge).
-    WriteBit(Place, ExprId),
-    /// Writes bit 0–15 of a word device.
-    WriteWordBit(Place, u8, ExprId),
-    /// Writes a word (`I16`).
-    WriteWord(Place, ExprId),
-    /// Writes a pair or a 32-bit counter (`I32`).
-    WritePair(Place, ExprId),
-    /// Writes a float pair.
-    WriteFloat(Place, ExprId),
-    /// Writes the low `4 * digits` bits of an integer to bit devices.
-    WriteNibbles {
-        /// First bit.
-        place: Place,
-        /// 1 to 8.
-        digits: u8,
-        /// `I16` or `I32`.
-        value: ExprId,
-    },
+    /// Writes a value of the access's type.
+    Write(Access, ExprId),
     /// OUT T: [`rungc_rt::Timer::run`].
     Timer {
         /// Number.

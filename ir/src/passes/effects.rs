@@ -45,11 +45,7 @@ impl Reads {
             self.collect(arena, operand);
         }
         let (place, count) = match expr {
-            Expr::ReadBit(place) | Expr::ReadWordBit(place, _) | Expr::ReadWord(place) => {
-                (place, 1)
-            }
-            Expr::ReadPair(place) | Expr::ReadFloat(place) => (place, 2),
-            Expr::ReadNibbles { place, digits, .. } => (place, 4 * u32::from(digits)),
+            Expr::Read(access) => (access.place, access.extent()),
             Expr::Flag(_) | Expr::Cell(_) | Expr::Entry(..) => {
                 self.private = true;
                 return;
@@ -111,16 +107,10 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
     };
     match *stmt {
         Stmt::Network(_) | Stmt::Let(..) | Stmt::Edge { .. } => Writes::Nothing,
-        Stmt::WriteBit(at, _)
-        | Stmt::WriteWordBit(at, ..)
-        | Stmt::WriteWord(at, _)
-        | Stmt::TimerAt { place: at, .. }
-        | Stmt::Counter16At { place: at, .. }
-        | Stmt::Reset(at) => place(at, 1),
-        Stmt::WritePair(at, _) | Stmt::WriteFloat(at, _) => place(at, 2),
-        Stmt::WriteNibbles {
-            place: at, digits, ..
-        } => place(at, 4 * u32::from(digits)),
+        Stmt::Write(access, _) => place(access.place, access.extent()),
+        Stmt::TimerAt { place: at, .. } | Stmt::Counter16At { place: at, .. } | Stmt::Reset(at) => {
+            place(at, 1)
+        }
         Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
             Writes::Run(DeviceClass::T, number, number)
         }

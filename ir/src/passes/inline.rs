@@ -3,7 +3,7 @@
 
 use super::effects::{Reads, Writes};
 use super::fold::Arena;
-use crate::node::{Expr, ExprId, TempId};
+use crate::node::{AccessKind, Expr, ExprId, TempId};
 use crate::walk::operands;
 use typed_index_collections::TiVec;
 
@@ -193,10 +193,13 @@ impl Temps {
 /// Whether an expression costs no more than a temporary: a bit or word that is named directly, perhaps inverted.
 fn is_leaf(arena: &Arena, value: ExprId) -> bool {
     match arena.get(value) {
-        Expr::ReadBit(place) | Expr::ReadWord(place) => place.index.is_none(),
+        Expr::Read(access) => {
+            matches!(access.kind, AccessKind::Bit | AccessKind::Word) && access.device().is_some()
+        }
         Expr::Sys(_) => true,
         Expr::Not(inner) => {
-            matches!(arena.get(inner), Expr::ReadBit(place) if place.index.is_none())
+            let bit = arena.get(inner).as_bit();
+            bit.is_some_and(|place| place.index.is_none())
         }
         _ => false,
     }

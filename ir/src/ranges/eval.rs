@@ -2,7 +2,7 @@
 
 use super::interval::Interval;
 use super::state::{Known, Mask, State, Words, join, temp_bit};
-use crate::node::{BinOp, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
+use crate::node::{Access, AccessKind, BinOp, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::walk::{operands, statements};
 use rungc_rt::CmpOp;
 
@@ -24,25 +24,7 @@ impl Eval<'_> {
                 Some(Known::Value(value)) => value,
                 _ => all(),
             },
-            Expr::ReadWord(place) => self.word(state, place),
-            Expr::ReadPair(place) => {
-                let (low, high) = (
-                    self.word(state, place),
-                    self.word(state, self.words.high_word(place)),
-                );
-                // The high word is the sign of a value that fits into the low one.
-                match high.single() {
-                    Some(0) if low.low >= 0 => low,
-                    Some(-1) if low.high < 0 => low,
-                    _ => all(),
-                }
-            }
-            Expr::ReadNibbles { digits, wide, .. } if digits < if wide { 8 } else { 4 } => {
-                Interval {
-                    low: 0,
-                    high: (1 << (4 * digits)) - 1,
-                }
-            }
+            Expr::Read(access) => self.read(state, access),
             Expr::Bin(op, a, b) => {
                 let (a, b) = (self.value(state, a), self.value(state, b));
                 Interval::bin(op, a, b, self.module.ty(id))
@@ -81,6 +63,31 @@ impl Eval<'_> {
         }
     }
 
+    fn read(&self, state: &State, access: Access) -> Interval {
+        let (place, all) = (access.place, Interval::of_type(access.ty()));
+        match access.kind {
+            AccessKind::Word => self.word(state, place),
+            AccessKind::Pair => {
+                let low = self.word(state, place);
+                let high = self.word(state, self.words.high_word(place));
+                // The high word is the sign of a value that fits into the low one.
+                match high.single() {
+                    Some(0) if low.low >= 0 => low,
+                    Some(-1) if low.high < 0 => low,
+                    _ => all,
+                }
+            }
+            AccessKind::Nibbles { digits, wide } if digits < if wide { 8 } else { 4 } => Interval {
+                low: 0,
+                high: (1 << (4 * digits)) - 1,
+            },
+            AccessKind::Bit
+            | AccessKind::WordBit(_)
+            | AccessKind::Float
+            | AccessKind::Nibbles { .. } => all,
+        }
+    }
+
     fn word(&self, state: &State, place: Place) -> Interval {
         let slot = self.words.slot(place);
         slot.map_or(Interval::WORD, |slot| state.words[slot])
@@ -91,8 +98,14 @@ impl Eval<'_> {
         let expr = self.module.expr(id);
         let of = |place: Place| self.words.slot(place).map_or(0, |slot| 1 << slot);
         let (mut words, mut temps) = match *expr {
-            Expr::ReadWord(place) => (of(place), 0),
-            Expr::ReadPair(place) => (of(place) | of(self.words.high_word(place)), 0),
+            Expr::Read(Access { place, kind }) => match kind {
+                AccessKind::Word => (of(place), 0),
+                AccessKind::Pair => (of(place) | of(self.words.high_word(place)), 0),
+                AccessKind::Bit
+                | AccessKind::WordBit(_)
+                | AccessKind::Float
+                | AccessKind::Nibbles { .. } => (0, 0),
+            },
             Expr::Temp(temp) => (0, temp_bit(temp)),
             _ => (0, 0),
         };
@@ -155,7 +168,10 @@ impl Eval<'_> {
     /// An expression's value lies there; `None` if it cannot.
     fn limit(&self, state: &mut State, id: ExprId, limit: Interval) -> Option<()> {
         match *self.module.expr(id) {
-            Expr::ReadWord(place) => {
+            Expr::Read(Access {
+                place,
+                kind: AccessKind::Word,
+            }) => {
                 if let Some(slot) = self.words.slot(place) {
                     state.words[slot] = state.words[slot].meet(limit)?;
                 }
@@ -199,8 +215,9 @@ impl Eval<'_> {
         let mut found = vec![-1, 0, 1];
         for function in &self.module.functions {
             statements(&function.body, &mut |stmt| {
-                if let Stmt::WriteWord(place, value) = *stmt
-                    && self.words.slot(place).is_some()
+                if let Stmt::Write(access, value) = *stmt
+                    && access.kind == AccessKind::Word
+                    && self.words.slot(access.place).is_some()
                     && let Expr::I16(value) = *self.module.expr(value)
                 {
                     found.push(value.into());

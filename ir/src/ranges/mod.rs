@@ -12,8 +12,8 @@ mod state;
 mod walk;
 
 use crate::layout::Wanted;
-use crate::node::{Body, Expr, ExprId, Module, Place};
-use crate::reach::{Access, of_expr, of_stmt};
+use crate::node::{Access, Body, Expr, ExprId, Module, Place};
+use crate::reach::{Footprint, of_expr, of_stmt};
 use crate::walk::{bodies_mut, places_mut, statements};
 use eval::Eval;
 use interval::Interval;
@@ -56,18 +56,18 @@ impl Reached {
         before != (self.special.len(), self.writes_run_flags)
     }
 
-    fn access(&mut self, module: &Module, access: Access) {
-        let Place { class, number, .. } = access.place;
-        if access.place.index.is_none() || !matches!(class, M | D) {
+    fn add_footprint(&mut self, module: &Module, used: Footprint) {
+        let Place { class, number, .. } = used.place;
+        if used.place.index.is_none() || !matches!(class, M | D) {
             return;
         }
         let last = module.model.runs(class).last().map_or(0, |run| run.1);
-        for (first, end) in access.reach(module.model, &module.exprs) {
+        for (first, end) in used.reach(module.model, &module.exprs) {
             let aims = is_special(class, number) || end < last;
             if first >= FIRST_SPECIAL && aims {
                 self.special
                     .extend((first..=end).map(|number| (class, number)));
-                self.writes_run_flags |= access.writes && class == M && first < FIRST_SPECIAL + 4;
+                self.writes_run_flags |= used.writes && class == M && first < FIRST_SPECIAL + 4;
             }
         }
     }
@@ -98,7 +98,7 @@ pub fn find(module: &mut Module, wanted: &Wanted) -> Reached {
         }
     }
     let mut reached = Reached::default();
-    let mut note = |access| reached.access(module, access);
+    let mut note = |used| reached.add_footprint(module, used);
     for expr in &module.exprs {
         of_expr(module.model, expr, &mut note);
     }
@@ -136,18 +136,10 @@ fn name_known(module: &mut Module) {
     };
     for expr in &mut module.exprs {
         // Whether counters are 32-bit ones is known when the place is made.
-        match expr {
-            Expr::ReadBit(place)
-            | Expr::ReadWordBit(place, _)
-            | Expr::ReadWord(place)
-            | Expr::ReadPair(place)
-            | Expr::ReadFloat(place)
-            | Expr::ReadNibbles { place, .. }
-                if place.class != C =>
-            {
-                known(place);
-            }
-            _ => {}
+        if let Expr::Read(Access { place, .. }) = expr
+            && place.class != C
+        {
+            known(place);
         }
     }
     for function in &mut module.functions {

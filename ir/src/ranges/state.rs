@@ -1,7 +1,7 @@
 //! What is known of index registers, and of the words they are made from, at a point of the program.
 
 use super::interval::Interval;
-use crate::node::{Expr, ExprId, Module, Place, Stmt, TempId};
+use crate::node::{Access, AccessKind, Expr, ExprId, Module, Place, Stmt, TempId};
 use crate::walk::{operands, statements};
 use rungc_models::Model;
 use rungc_models::runs::is_special;
@@ -56,9 +56,13 @@ impl Words {
             let before = (self.slots.len(), temps.len());
             for function in &module.functions {
                 statements(&function.body, &mut |stmt| match *stmt {
-                    Stmt::WriteWord(place, value) | Stmt::WritePair(place, value)
-                        if self.slot(place).is_some() =>
-                    {
+                    Stmt::Write(
+                        Access {
+                            place,
+                            kind: AccessKind::Word | AccessKind::Pair,
+                        },
+                        value,
+                    ) if self.slot(place).is_some() => {
                         self.add_read(module, value, &mut temps);
                     }
                     Stmt::Let(temp, value) if temps.contains(&temp) => {
@@ -75,7 +79,10 @@ impl Words {
 
     fn add_read(&mut self, module: &Module, value: ExprId, temps: &mut FxHashSet<TempId>) {
         match *module.expr(value) {
-            Expr::ReadWord(place) | Expr::ReadPair(place) => self.add_register(place),
+            Expr::Read(Access {
+                place,
+                kind: AccessKind::Word | AccessKind::Pair,
+            }) => self.add_register(place),
             Expr::Temp(temp) => {
                 temps.insert(temp);
             }
@@ -125,16 +132,7 @@ impl Words {
 
     /// The high word of the pair at a place.
     pub(super) fn high_word(&self, place: Place) -> Place {
-        match place.class {
-            DeviceClass::Z if self.model.z_pairs_with_v => Place {
-                class: DeviceClass::V,
-                ..place
-            },
-            _ => Place {
-                number: place.number.saturating_add(1),
-                ..place
-            },
-        }
+        place.high_word(self.model)
     }
 
     /// The tracked words among the devices `first` to `last` of a class.

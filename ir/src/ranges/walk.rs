@@ -4,7 +4,8 @@ use super::eval::Eval;
 use super::interval::Interval;
 use super::state::{Known, Mask, State, join};
 use crate::node::{
-    Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt, TempId, Ty,
+    Access, AccessKind, Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt,
+    TempId, Ty,
 };
 use crate::reach;
 use crate::walk::{assigned, bodies, for_exprs, operands, statements};
@@ -201,9 +202,9 @@ impl<'m> Walk<'m> {
             return all;
         }
         let mut written = 0;
-        reach::of_stmt(self.eval.module.model, stmt, &mut |access| {
-            if access.writes {
-                written |= self.devices(access.place, access.count, state);
+        reach::of_stmt(self.eval.module.model, stmt, &mut |used| {
+            if used.writes {
+                written |= self.devices(used.place, used.count, state);
             }
         });
         written
@@ -374,13 +375,24 @@ impl<'m> Walk<'m> {
                 };
                 state.set_temp(temp, known);
             }
-            Stmt::WriteWord(place, value) => {
+            Stmt::Write(
+                Access {
+                    place,
+                    kind: AccessKind::Word,
+                },
+                value,
+            ) => {
                 let value = self.eval.value(&state, value);
                 self.write(&mut state, place, value);
             }
-            Stmt::WritePair(place, value) if place.index.is_none() => {
-                let value = self.eval.value(&state, value);
-                let (low, high) = words_of(value);
+            Stmt::Write(
+                Access {
+                    place,
+                    kind: AccessKind::Pair,
+                },
+                value,
+            ) if place.index.is_none() => {
+                let (low, high) = words_of(self.eval.value(&state, value));
                 self.write(&mut state, place, low);
                 self.write(&mut state, self.eval.words.high_word(place), high);
             }

@@ -1,11 +1,11 @@
 //! Making the body of a loop of its first iteration.
 
 use super::pair::coil;
-use crate::node::{Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
+use crate::node::{Access, AccessKind, Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
 use crate::walk::{operands, operands_mut};
 
 /// The drive of a statement that only sets and resets bits, and what it does to each.
-fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Place, bool)>)> {
+fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Access, bool)>)> {
     let Stmt::If {
         cond,
         then,
@@ -15,8 +15,8 @@ fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Place, bool)>)> {
         return None;
     };
     let writes = then.iter().map(|stmt| match *stmt {
-        Stmt::WriteBit(place, value) => match *module.expr(value) {
-            Expr::Bit(on) => Some((place, on)),
+        Stmt::Write(access, value) if access.kind == AccessKind::Bit => match *module.expr(value) {
+            Expr::Bit(on) => Some((access, on)),
             _ => None,
         },
         _ => None,
@@ -46,16 +46,16 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
     }
 
     /// SET and RST as assignments, `M0 := M0 | drive`: compilers do not vectorise what is done on a condition.
-    fn sets(&mut self, cond: ExprId, writes: Vec<(Place, bool)>, out: &mut Body) {
+    fn sets(&mut self, cond: ExprId, writes: Vec<(Access, bool)>, out: &mut Body) {
         let mut drive = self.expr(cond);
         if writes.len() > 1 {
             let temp = self.module.temps.push_and_get_key(Ty::Bit);
             out.push(Stmt::Let(temp, drive));
             drive = self.module.add(Expr::Temp(temp));
         }
-        for (place, on) in writes {
-            let place = self.place(place);
-            let before = self.module.add(Expr::ReadBit(place));
+        for (access, on) in writes {
+            let access = self.access(access);
+            let before = self.module.add(Expr::Read(access));
             let after = match on {
                 true => Expr::Or(before, drive),
                 false => {
@@ -63,7 +63,7 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
                     Expr::And(before, others)
                 }
             };
-            out.push(Stmt::WriteBit(place, self.module.add(after)));
+            out.push(Stmt::Write(access, self.module.add(after)));
         }
     }
 
@@ -83,13 +83,9 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
                 input: self.expr(input),
                 out,
             },
-            Stmt::WriteBit(place, value) => {
-                let place = self.place(*place);
-                Stmt::WriteBit(place, self.expr(*value))
-            }
-            Stmt::WriteWord(place, value) => {
-                let place = self.place(*place);
-                Stmt::WriteWord(place, self.expr(*value))
+            Stmt::Write(access, value) => {
+                let access = self.access(*access);
+                Stmt::Write(access, self.expr(*value))
             }
             Stmt::Timer { .. } | Stmt::Counter16 { .. } => self.coil(stmt),
             Stmt::Reset(place) => Stmt::Reset(self.place(*place)),
@@ -108,8 +104,8 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
 
     fn expr(&mut self, id: ExprId) -> ExprId {
         let mut expr = *self.module.expr(id);
-        if let Expr::ReadBit(place) | Expr::ReadWord(place) = &mut expr {
-            *place = self.place(*place);
+        if let Expr::Read(access) = &mut expr {
+            *access = self.access(*access);
         } else if operands(&expr).next().is_none() {
             return id;
         } else {
@@ -148,6 +144,11 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
                 preset,
             },
         }
+    }
+
+    fn access(&mut self, access: Access) -> Access {
+        let place = self.place(access.place);
+        Access { place, ..access }
     }
 
     fn place(&mut self, place: Place) -> Place {

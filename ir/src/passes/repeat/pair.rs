@@ -1,6 +1,6 @@
 //! Comparing two iterations, statement by statement.
 
-use crate::node::{Expr, ExprId, Module, Place, Stmt, TempId};
+use crate::node::{Access, Expr, ExprId, Module, Place, Stmt, TempId};
 use crate::walk::{operands, operands_mut};
 use rungc_syntax::DeviceClass;
 use std::collections::HashMap;
@@ -80,9 +80,8 @@ impl<'m> Pair<'m> {
                 self.temps.insert(out, with_out);
                 Some(())
             }
-            (&Stmt::WriteBit(place, value), &Stmt::WriteBit(to, other))
-            | (&Stmt::WriteWord(place, value), &Stmt::WriteWord(to, other)) => {
-                self.place(place, to)?;
+            (&Stmt::Write(access, value), &Stmt::Write(to, other)) => {
+                self.access(access, to)?;
                 self.expr(value, other)
             }
             // A shared timer is driven in several places, which repeated rungs seldom do.
@@ -121,8 +120,7 @@ impl<'m> Pair<'m> {
 
     fn expr(&mut self, one: ExprId, other: ExprId) -> Option<()> {
         match (*self.module.expr(one), *self.module.expr(other)) {
-            (Expr::ReadBit(place), Expr::ReadBit(with))
-            | (Expr::ReadWord(place), Expr::ReadWord(with)) => self.place(place, with),
+            (Expr::Read(access), Expr::Read(with)) => self.access(access, with),
             (Expr::Temp(temp), Expr::Temp(with)) => {
                 (self.temps.get(&temp).copied().unwrap_or(temp) == with).then_some(())
             }
@@ -137,6 +135,11 @@ impl<'m> Pair<'m> {
                 both.try_for_each(|(a, b)| self.expr(a, b))
             }
         }
+    }
+
+    fn access(&mut self, one: Access, other: Access) -> Option<()> {
+        (one.kind == other.kind).then_some(())?;
+        self.place(one.place, other.place)
     }
 
     fn place(&mut self, one: Place, other: Place) -> Option<()> {
@@ -172,10 +175,5 @@ pub(super) fn coil(stmt: &Stmt) -> Option<(Place, ExprId, ExprId)> {
         } => (DeviceClass::C, number, drive, preset),
         _ => return None,
     };
-    let place = Place {
-        class,
-        number,
-        index: None,
-    };
-    Some((place, drive, preset))
+    Some((Place::fixed(class, number), drive, preset))
 }

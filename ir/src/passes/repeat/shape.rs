@@ -1,6 +1,6 @@
 //! What statements have in common that differ in their devices only, as a number to compare them by.
 
-use crate::node::{Expr, ExprId, Module, Place, Stmt};
+use crate::node::{Access, AccessKind, Expr, ExprId, Module, Place, Stmt};
 use crate::walk::operands;
 use rungc_models::runs::is_counter32;
 use rungc_syntax::DeviceClass;
@@ -36,8 +36,8 @@ fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64)
         Stmt::Network(_) => *size -= 1,
         Stmt::Let(_, value) => add_expr(module, *value, hasher, size)?,
         Stmt::Edge { input, .. } => add_expr(module, *input, hasher, size)?,
-        Stmt::WriteBit(place, value) | Stmt::WriteWord(place, value) => {
-            add_place(*place, hasher)?;
+        Stmt::Write(access, value) => {
+            add_access(*access, hasher)?;
             add_expr(module, *value, hasher, size)?;
         }
         Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
@@ -71,7 +71,7 @@ fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) 
         return None;
     }
     match expr {
-        Expr::ReadBit(place) | Expr::ReadWord(place) => add_place(*place, hasher),
+        Expr::Read(access) => add_access(*access, hasher),
         Expr::Bit(_)
         | Expr::I16(_)
         | Expr::I32(_)
@@ -94,16 +94,18 @@ fn add_expr(module: &Module, id: ExprId, hasher: &mut FxHasher, size: &mut u64) 
         Expr::F32(_)
         | Expr::Un(..)
         | Expr::Float(..)
-        | Expr::ReadWordBit(..)
-        | Expr::ReadPair(_)
-        | Expr::ReadFloat(_)
-        | Expr::ReadNibbles { .. }
         | Expr::Cell(_)
         | Expr::Entry(..)
         | Expr::Stride(..)
         | Expr::Within { .. }
         | Expr::InRange { .. } => None,
     }
+}
+
+fn add_access(access: Access, hasher: &mut FxHasher) -> Option<()> {
+    access.kind.hash(hasher);
+    let may = matches!(access.kind, AccessKind::Bit | AccessKind::Word);
+    add_place(access.place, hasher).filter(|()| may)
 }
 
 fn add_place(place: Place, hasher: &mut FxHasher) -> Option<()> {
