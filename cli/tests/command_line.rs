@@ -382,10 +382,10 @@ fn an_executable_goes_on_under_a_flood_of_commands() {
     let outputs = text(&done.stdout);
     assert!(outputs.contains("Y000"), "it scans: {outputs}");
     let errors = text(&done.stderr);
-    let told = errors
+    let line = errors
         .lines()
         .any(|line| line.contains("step 1: DIV D0 D1 D2: error 6706"));
-    assert!(told, "it reports the error: {errors}");
+    assert!(line, "it reports the error: {errors}");
 }
 
 /// Five loops of 32767 rounds, one in the other: the watchdog ends the scan, and the executable says so.
@@ -412,14 +412,14 @@ fn an_executable_stops_a_scan_that_does_not_end() {
         .unwrap();
     assert_eq!(done.status.code(), Some(0), "it ends by itself: {done:?}");
     let errors = text(&done.stderr);
-    let (head, told) = errors.split_once(", ").unwrap_or_default();
+    let (head, line) = errors.split_once(", ").unwrap_or_default();
     assert!(
         head.starts_with("nest: at ") && head.ends_with(" ms"),
         "{errors}"
     );
     let expected =
         "step 12: FOR K32767: error 6105, a scan does not end (watchdog); the PLC is in STOP\n";
-    assert_eq!(told, expected);
+    assert_eq!(line, expected);
 }
 
 /// An executable names the instruction and the device of an error, once, as `rungc run` does.
@@ -444,10 +444,10 @@ fn an_executable_names_what_an_error_is_about() {
         .output()
         .unwrap();
     let errors = text(&done.stderr);
-    let told = "step 6: MOV K1 D500Z0: error 6706, D30500 does not exist";
-    assert_eq!(errors, format!("reach: at 0 ms, {told}\n"));
+    let line = "step 6: MOV K1 D500Z0: error 6706, D30500 does not exist";
+    assert_eq!(errors, format!("reach: at 0 ms, {line}\n"));
     let run = text(&rungc(path, &["run", "reach.il", "--for", "20ms"]).stderr);
-    assert!(run.contains(told), "{run}");
+    assert!(run.contains(line), "{run}");
 }
 
 #[test]

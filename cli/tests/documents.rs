@@ -3,7 +3,13 @@
 //! A fence with a file name (` ```toml lamp.plctest.toml `) is a file of the page's example. In a fence marked `console`, each line
 //! that begins with `$ rungc` is run in a folder with these files and the example programs, and what follows it is compared with
 //! what the command prints: `...` stands for any lines, times are ignored, and a command without output need only succeed.
+//!
+//! A fence marked `sh` is run by a shell in the same folder. If its commands begin with `$`, what the last one prints is compared, too, except for
+//! numbers, which depend on the tools. The line before such a fence may say what it needs, `<!-- needs: TOOL … -->`, or why it is not
+//! run, `<!-- not run: REASON -->`.
 
+use std::env;
+use std::ffi::OsString;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -17,17 +23,21 @@ fn root() -> PathBuf {
 struct Block {
     /// What follows the fence: a language, and the name of a file.
     info: String,
+    /// The comment in the line before it.
+    comment: String,
     text: String,
 }
 
 fn blocks(page: &str) -> Vec<Block> {
     let mut found = Vec::new();
     let mut open: Option<Block> = None;
+    let mut before = "";
     for line in page.lines() {
         match (open.as_mut(), line.strip_prefix("```")) {
             (None, Some(info)) => {
                 open = Some(Block {
                     info: info.to_owned(),
+                    comment: comment(before).to_owned(),
                     text: String::new(),
                 });
             }
@@ -35,9 +45,18 @@ fn blocks(page: &str) -> Vec<Block> {
             (Some(_), Some(_)) => found.extend(open.take()),
             (None, None) => {}
         }
+        before = line;
     }
     assert!(open.is_none(), "a fence is not closed");
     found
+}
+
+/// What a line says that is a comment of HTML.
+fn comment(line: &str) -> &str {
+    let inner = line.strip_prefix("<!-- ");
+    inner
+        .and_then(|rest| rest.strip_suffix(" -->"))
+        .unwrap_or_default()
 }
 
 /// The file of a page's example that has this name.
@@ -101,14 +120,18 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// A folder with the example programs and the files of a page.
+/// A folder with the example programs, a board, and the files of a page.
 fn desk(page: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let examples = folder.path().join(EXAMPLES);
-    fs::create_dir_all(&examples).unwrap();
-    for entry in fs::read_dir(root().join(EXAMPLES)).unwrap() {
-        let entry = entry.unwrap();
-        fs::copy(entry.path(), examples.join(entry.file_name())).unwrap();
+    for part in [EXAMPLES, "examples/firmware/stm32f405"] {
+        let examples = folder.path().join(part);
+        fs::create_dir_all(&examples).unwrap();
+        for entry in fs::read_dir(root().join(part)).unwrap() {
+            let entry = entry.unwrap();
+            if entry.file_type().unwrap().is_file() {
+                fs::copy(entry.path(), examples.join(entry.file_name())).unwrap();
+            }
+        }
     }
     for block in blocks(page) {
         if let Some(name) = block.info.split(' ').nth(1) {
@@ -148,6 +171,144 @@ fn commands_print_what_the_pages_show() {
         }
     }
     assert!(run >= 10, "only {run} commands were found");
+}
+
+/// The search path with rungc in front.
+fn path_with_rungc() -> OsString {
+    let own = Path::new(env!("CARGO_BIN_EXE_rungc")).parent().unwrap();
+    let others = env::var_os("PATH").unwrap_or_default();
+    let folders = std::iter::once(own.to_owned()).chain(env::split_paths(&others));
+    env::join_paths(folders).unwrap()
+}
+
+fn is_installed(tool: &str) -> bool {
+    let path = env::var_os("PATH").unwrap_or_default();
+    env::split_paths(&path).any(|folder| folder.join(tool).is_file())
+}
+
+/// The commands of a block for a shell, and what the last one prints: nothing where only the commands are shown.
+fn script(text: &str) -> (Vec<&str>, &str) {
+    if !text.starts_with("$ ") {
+        return (vec![text], "");
+    }
+    let mut commands = Vec::new();
+    let mut rest = text;
+    while let Some(command) = rest.strip_prefix("$ ") {
+        // A command goes over several lines where each but the last ends in a backslash.
+        let mut lines = command.split_inclusive('\n');
+        let mut end = 0;
+        for line in lines.by_ref() {
+            end += line.len();
+            if !line.ends_with("\\\n") {
+                break;
+            }
+        }
+        commands.push(&command[..end]);
+        rest = &command[end..];
+    }
+    (commands, rest)
+}
+
+/// Runs commands in a folder one after the other, as far as they succeed; what the last one prints, and whether all succeed.
+fn shell(folder: &Path, commands: &[&str]) -> (String, bool) {
+    let mut printed = String::new();
+    for command in commands {
+        let output = Command::new("sh")
+            .args(["-e", "-c", &format!("exec 2>&1\n{command}")])
+            .current_dir(folder)
+            .env("PATH", path_with_rungc())
+            .env("HOME", folder)
+            .output()
+            .unwrap();
+        printed = String::from_utf8_lossy(&output.stdout).into_owned();
+        if !output.status.success() {
+            return (printed, false);
+        }
+    }
+    (printed, true)
+}
+
+/// Lines without their numbers and the spaces that align them.
+fn without_numbers(text: &str) -> Vec<String> {
+    let bare = |line: &str| {
+        let words = line.split_whitespace();
+        let words = words.map(|word| word.replace(|c: char| c.is_ascii_digit(), ""));
+        words
+            .filter(|word| !word.is_empty())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    text.lines()
+        .map(bare)
+        .filter(|line| !line.is_empty())
+        .collect()
+}
+
+#[test]
+fn shell_commands_of_the_pages_run() {
+    let (mut run, mut left_out) = (0, 0);
+    for path in pages() {
+        let page = fs::read_to_string(&path).unwrap();
+        let folder = desk(&page);
+        let page_name = path.display();
+        for block in blocks(&page).into_iter().filter(|block| block.info == "sh") {
+            if let Some(reason) = block.comment.strip_prefix("not run: ") {
+                assert!(reason.len() > 8, "{page_name}: the reason is missing");
+                left_out += 1;
+                continue;
+            }
+            let needs = block.comment.strip_prefix("needs: ").unwrap_or_default();
+            let missing = needs
+                .split(' ')
+                .filter(|tool| !tool.is_empty() && !is_installed(tool));
+            let missing: Vec<_> = missing.collect();
+            if !missing.is_empty() {
+                let required = env::var_os("RUNGC_REQUIRE_EMBEDDED").is_some();
+                assert!(!required, "{page_name}: {missing:?} are not installed");
+                eprintln!("skipped a block of {page_name}: {missing:?} are not installed");
+                continue;
+            }
+            let (commands, expected) = script(&block.text);
+            let (printed, succeeded) = shell(folder.path(), &commands);
+            assert!(succeeded, "{page_name}: {commands:?}\n{printed}");
+            let fits =
+                expected.is_empty() || fits(&without_numbers(&printed), &without_numbers(expected));
+            assert!(fits, "{page_name}: {commands:?}\nprints\n{printed}");
+            run += 1;
+        }
+    }
+    assert!(
+        run >= 1 && left_out <= 8,
+        "{run} blocks were run, {left_out} are left out"
+    );
+}
+
+/// The host in Rust on the page on embedding compiles with the crate that it is about.
+#[test]
+fn the_host_in_rust_compiles() {
+    let page = fs::read_to_string(root().join("docs/src/embedding.md")).unwrap();
+    let block = blocks(&page)
+        .into_iter()
+        .find(|block| block.info.starts_with("rust"));
+    let block = block.expect("a block of Rust").text;
+    let folder = desk(&page);
+    let program = format!("{EXAMPLES}/motor.il");
+    let (printed, succeeded) = rungc(
+        folder.path(),
+        &["build", &program, "--emit", "rust", "-o", "motor"],
+    );
+    assert!(succeeded, "{printed}");
+    let host = folder.path().join("motor/examples");
+    fs::create_dir(&host).unwrap();
+    fs::write(host.join("host.rs"), format!("fn main() {{\n{block}}}\n")).unwrap();
+    let checked = Command::new(env!("CARGO"))
+        .args(["check", "--locked", "--offline", "--example", "host"])
+        .current_dir(folder.path().join("motor"))
+        .env("CARGO_TARGET_DIR", folder.path().join("target"))
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&checked.stderr);
+    assert!(checked.status.success(), "{said}");
 }
 
 #[test]
@@ -198,15 +359,10 @@ fn the_cmake_project_builds() {
     let page = fs::read_to_string(root().join("docs/src/embedding.md")).unwrap();
     let folder = desk(&page);
     let tool = |args: &[&str]| {
-        let own = Path::new(env!("CARGO_BIN_EXE_rungc")).parent().unwrap();
-        let mut path = vec![own.to_owned()];
-        path.extend(std::env::split_paths(
-            &std::env::var_os("PATH").unwrap_or_default(),
-        ));
         Command::new("cmake")
             .args(args)
             .current_dir(folder.path())
-            .env("PATH", std::env::join_paths(path).unwrap())
+            .env("PATH", path_with_rungc())
             .output()
     };
     let Ok(configured) = tool(&["-S", ".", "-B", "build"]) else {

@@ -153,14 +153,28 @@ fn instructions() -> Vec<Page> {
         let (title, name) = (family.title, family.name);
         let _ = writeln!(index, "- [{title}]({name}.md): {}", links.join(", "));
     }
-    index += "\n## Support by model\n\n✓ = works on all three engines; a number refers to a note below; – = not on this model.\n\n{{#include ../../../README.md:support}}\n";
+    index += "\n[Support by model](support.md) shows which model has which.\n";
     let first = Page {
         path: "instructions/index.md".to_owned(),
         title: "Instructions".to_owned(),
         text: index,
     };
     let pages = families().iter().map(family_page);
-    std::iter::once(first).chain(pages).collect()
+    [first, support()].into_iter().chain(pages).collect()
+}
+
+/// Which model has which instruction.
+fn support() -> Page {
+    let text = format!(
+        "# Support by model\n\nEvery instruction of the supported PLCs is read, checked and counted in steps. Instructions not implemented yet are \
+         reported by name.\n✓ = works on all three engines; a number refers to a note below; – = not on this model.\n\n{}\n",
+        rungc_catalogue::support_table()
+    );
+    Page {
+        path: "instructions/support.md".to_owned(),
+        title: "Support by model".to_owned(),
+        text,
+    }
 }
 
 fn family_page(family: &Family) -> Page {

@@ -1,4 +1,4 @@
-//! The parts of README.md and of the book that are generated from the catalogue and the table of codes.
+//! The pages of the book that are generated from the catalogue and the table of codes.
 
 use crate::generate::Made;
 use crate::{Problem, root};
@@ -6,14 +6,10 @@ use rungc_golden::book;
 use std::fs;
 use std::path::Path;
 
-/// What surrounds the support table in README.md.
-const BEGIN: &str = "<!-- Generated from the catalogue. ANCHOR: support -->\n";
-const END: &str = "<!-- ANCHOR_END: support -->\n";
-
-/// The pages, the table of contents, and README.md.
+/// The pages and the table of contents.
 pub fn make() -> Result<Made, Problem> {
     let source = Path::new("docs/src");
-    let mut made = Made::file("README.md", readme()?);
+    let mut made = Made::default();
     for pages in book::chapters() {
         for page in &pages {
             made.files
@@ -29,16 +25,4 @@ pub fn make() -> Result<Made, Problem> {
     let written = fs::read_to_string(root().join(&contents))?;
     made.files.push((contents, book::summary(&written)));
     Ok(made)
-}
-
-/// README.md with the support table of the catalogue.
-fn readme() -> Result<String, Problem> {
-    let readme = fs::read_to_string(root().join("README.md"))?;
-    let parts = readme.split_once(BEGIN).and_then(|(before, rest)| {
-        let (_, after) = rest.split_once(END)?;
-        Some((before, after))
-    });
-    let (before, after) = parts.ok_or("README.md does not mark the place of the support table")?;
-    let table = rungc_catalogue::support_table();
-    Ok(format!("{before}{BEGIN}\n{table}\n{END}{after}"))
 }

@@ -21,7 +21,7 @@ pub struct Args {
 pub enum What {
     /// codegen-c/include/rungc_rt.h, from the runtime's C ABI.
     Header,
-    /// The support table in README.md, and the pages of the book on checks, instructions and special devices.
+    /// The pages of the book on checks, instructions and special devices.
     Book,
     /// docs/src/commands.md, from --help.
     Commands,

@@ -15,7 +15,7 @@ use std::sync::mpsc::Receiver;
 use std::time::Instant;
 use wire::{Chunk, Event, Wire};
 
-/// Characters that wait for a line that does not take them; more are lost, as on a wire that nobody listens to.
+/// Characters that wait for a line that does not take them; more are lost, as on a wire that no one listens to.
 const UNSENT: usize = 4096;
 
 /// The serial lines of a run.
