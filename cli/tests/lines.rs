@@ -1,15 +1,14 @@
-//! `rungc run --serial`: a serial port of the PLC as a pseudo-terminal, with a client of our own and with mbpoll.
+//! `rungc run --serial`: a serial port of the PLC as a pseudo-terminal, with a client of our own.
 #![cfg(unix)]
 
 mod common;
 
+use common::running::Run;
 use common::{folder, rungc, text};
 use serial2::SerialPort;
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::sync::mpsc::{self, Receiver};
+use std::process::{Child, Command};
 use std::thread;
 use std::time::Duration;
 
@@ -23,40 +22,6 @@ LD M8000
 ADD D0 D1 D2
 END
 ";
-
-/// A run with COM1 at a pseudo-terminal, which ends with the test.
-struct Run {
-    child: Child,
-    path: String,
-}
-
-impl Run {
-    fn of(folder: &Path) -> Run {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
-            .args(["run", "p.il", "--model", "h2u", "--serial", "COM1=pty"])
-            .current_dir(folder)
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let errors = child.stderr.take().unwrap();
-        let mut lines = BufReader::new(errors).lines().map(Result::unwrap);
-        let path = lines.find_map(|line| Some(line.strip_prefix("rungc: COM1 at ")?.to_owned()));
-        // The first scans set up the line.
-        std::thread::sleep(Duration::from_millis(500));
-        Run {
-            child,
-            path: path.unwrap(),
-        }
-    }
-}
-
-impl Drop for Run {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
 
 /// Sends a request until it is answered in time: on a loaded machine a request may arrive with a pause in it, which cuts the frame.
 fn ask(port: &SerialPort, request: &[u8], length: usize) -> Vec<u8> {
@@ -74,56 +39,13 @@ fn ask(port: &SerialPort, request: &[u8], length: usize) -> Vec<u8> {
 #[test]
 fn a_client_on_a_pseudo_terminal_reads_and_writes() {
     let folder = folder(&[("p.il", SLAVE.as_bytes())]);
-    let run = Run::of(folder.path());
-    let mut port = SerialPort::open(&run.path, 9600).unwrap();
+    let run = Run::new(folder.path(), "h2u", &[], &["COM1"]);
+    let mut port = SerialPort::open(run.line("COM1"), 9600).unwrap();
     port.set_read_timeout(Duration::from_secs(4)).unwrap();
     let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
     assert_eq!(ask(&port, &write_d0, 8), write_d0);
     let read_d2 = [1, 3, 0, 2, 0, 1, 0x25, 0xca];
     assert_eq!(ask(&port, &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
-}
-
-#[test]
-fn mbpoll_reads_and_writes() {
-    if Command::new("mbpoll").arg("-V").output().is_err() {
-        eprintln!("skipped: there is no mbpoll (apt-get install mbpoll)");
-        return;
-    }
-    let folder = folder(&[("p.il", SLAVE.as_bytes())]);
-    let run = Run::of(folder.path());
-    let poll = |args: &[&str]| {
-        let line = [
-            "-m", "rtu", "-b", "9600", "-P", "none", "-a", "1", "-o", "5", "-r", "1", "-1",
-        ];
-        let mut command = Command::new("mbpoll");
-        let output = command.args(line).args(args).output().unwrap();
-        let shown = text(&output.stdout).to_string();
-        assert!(output.status.success(), "{shown}{}", text(&output.stderr));
-        shown
-    };
-    poll(&["-t", "4", &run.path, "20", "22"]);
-    let shown = poll(&["-t", "4", "-c", "3", &run.path]);
-    assert!(shown.contains("[3]: \t42"), "{shown}");
-}
-
-/// A run whose COM1 is a client of this socket; what it reports goes to the channel.
-fn at_socket(folder: &Path, listener: &TcpListener) -> (Run, Receiver<String>) {
-    let line = format!("COM1=tcp:{}", listener.local_addr().unwrap());
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
-        .args(["run", "p.il", "--model", "h2u", "--serial", &line])
-        .current_dir(folder)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let errors = child.stderr.take().unwrap();
-    let (sender, receiver) = mpsc::channel();
-    thread::spawn(move || {
-        let mut lines = BufReader::new(errors).lines().map_while(Result::ok);
-        lines.try_for_each(|line| sender.send(line))
-    });
-    let path = String::new();
-    (Run { child, path }, receiver)
 }
 
 /// Asks over a connection until it is answered in time.
@@ -147,7 +69,8 @@ fn a_vanished_gateway_is_connected_again() {
     let folder = folder(&[("p.il", SLAVE.as_bytes())]);
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = listener.local_addr().unwrap();
-    let (_run, said) = at_socket(folder.path(), &listener);
+    let line = format!("COM1=tcp:{address}");
+    let run = Run::start(folder.path(), "h2u", &["--serial", &line]);
     let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
     let (mut stream, _) = listener.accept().unwrap();
     assert_eq!(ask_stream(&mut stream, &write_d0, 8), write_d0);
@@ -158,7 +81,7 @@ fn a_vanished_gateway_is_connected_again() {
     let (mut stream, _) = listener.accept().unwrap();
     let read_d2 = [1, 3, 0, 2, 0, 1, 0x25, 0xca];
     assert_eq!(ask_stream(&mut stream, &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
-    let said: Vec<_> = said.try_iter().collect();
+    let said = run.said();
     let name = format!("COM1: tcp:{address}");
     let about = |what: &str| {
         let what = format!("rungc: {name} {what}");
@@ -200,17 +123,7 @@ fn a_vanished_adapter_is_opened_again() {
         port
     };
     let mut adapter = plug();
-    let child = Command::new(env!("CARGO_BIN_EXE_rungc"))
-        .args(["run", "p.il", "--model", "h2u", "--serial", "COM1=adapter"])
-        .current_dir(path)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let _run = Run {
-        child,
-        path: String::new(),
-    };
+    let _run = Run::start(path, "h2u", &["--serial", "COM1=adapter"]);
     let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
     assert_eq!(ask(&open(), &write_d0, 8), write_d0);
     unplug(&mut adapter);

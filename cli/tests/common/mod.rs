@@ -1,6 +1,8 @@
 //! Calling the command line and looking at what it does.
 #![allow(dead_code, reason = "not every test needs all of it")]
 
+pub mod running;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,0 +1,100 @@
+//! A program that runs with servers and serial lines open.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{self, Receiver};
+use std::thread;
+use std::time::Duration;
+
+/// How long a run may take to open what it is told to.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// How long the first scans may take, which set up the lines.
+const FIRST_SCANS: Duration = Duration::from_millis(500);
+
+/// A run, which ends with the test.
+pub struct Run {
+    child: Child,
+    /// What it reports, line by line.
+    said: Receiver<String>,
+    /// What is open, such as `COM1` or `Modbus TCP`, and where.
+    open: Vec<(String, String)>,
+}
+
+impl Run {
+    /// Runs `p.il` of this folder. Servers are named by their options, such as `--modbus-tcp`, each at a free port; lines as `COM1`, each at a
+    /// pseudo-terminal.
+    pub fn new(folder: &Path, model: &str, servers: &[&str], lines: &[&str]) -> Run {
+        let servers_at = servers.iter().flat_map(|server| [server, "0"]);
+        let lines_at: Vec<_> = lines.iter().map(|line| format!("{line}=pty")).collect();
+        let lines_at = lines_at.iter().flat_map(|line| ["--serial", line]);
+        let args: Vec<_> = servers_at.chain(lines_at).collect();
+        let mut run = Run::start(folder, model, &args);
+        while run.open.len() < servers.len() + lines.len() {
+            let line = run.said.recv_timeout(PATIENCE);
+            let line = line.expect("the run opens everything");
+            let told = line.strip_prefix("rungc: ");
+            if let Some((what, place)) = told.and_then(|told| told.split_once(" at ")) {
+                run.open.push((what.to_owned(), place.to_owned()));
+            }
+        }
+        if !lines.is_empty() {
+            thread::sleep(FIRST_SCANS);
+        }
+        run
+    }
+
+    /// Runs `p.il` of this folder with more options, and waits for nothing.
+    pub fn start(folder: &Path, model: &str, args: &[&str]) -> Run {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rungc"))
+            .args(["run", "p.il", "--model", model])
+            .args(args)
+            .current_dir(folder)
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let errors = child.stderr.take().unwrap();
+        let (sender, said) = mpsc::channel();
+        thread::spawn(move || {
+            // Whether or not anybody listens, so that the run can go on writing.
+            for line in BufReader::new(errors).lines().map_while(Result::ok) {
+                let _ = sender.send(line);
+            }
+        });
+        Run {
+            child,
+            said,
+            open: Vec::new(),
+        }
+    }
+
+    fn place(&self, what: &str) -> &str {
+        let found = self.open.iter().find(|(name, _)| name == what);
+        &found.expect("it is open").1
+    }
+
+    /// The TCP port of a server: `Modbus TCP`, `MC protocol` or `programming port`.
+    pub fn port(&self, server: &str) -> u16 {
+        let place = self.place(server);
+        place.rsplit_once(':').unwrap().1.parse().unwrap()
+    }
+
+    /// The path of the terminal that is this port.
+    pub fn line(&self, port: &str) -> &str {
+        self.place(port)
+    }
+
+    /// What it has reported since.
+    pub fn said(&self) -> Vec<String> {
+        self.said.try_iter().collect()
+    }
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
