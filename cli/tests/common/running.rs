@@ -26,10 +26,14 @@ impl Run {
     /// Runs `p.il` of this folder. Servers are named by their options, such as `--modbus-tcp`, each at a free port; lines as `COM1`, each at a
     /// pseudo-terminal.
     pub fn new(folder: &Path, model: &str, servers: &[&str], lines: &[&str]) -> Run {
-        let servers_at = servers.iter().flat_map(|server| [server, "0"]);
-        let lines_at: Vec<_> = lines.iter().map(|line| format!("{line}=pty")).collect();
-        let lines_at = lines_at.iter().flat_map(|line| ["--serial", line]);
-        let args: Vec<_> = servers_at.chain(lines_at).collect();
+        let terminals: Vec<_> = lines.iter().map(|line| format!("{line}=pty")).collect();
+        let mut args = Vec::new();
+        for server in servers {
+            args.extend([server, "0"]);
+        }
+        for terminal in &terminals {
+            args.extend(["--serial", terminal]);
+        }
         let mut run = Run::start(folder, model, &args);
         while run.open.len() < servers.len() + lines.len() {
             let line = run.said.recv_timeout(PATIENCE);
