@@ -1,5 +1,6 @@
 //! Arguments of the command line.
 
+use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::{self, Target};
 use rungc_frontend::{Encoding, ReadOptions};
@@ -26,6 +27,7 @@ const DIAGNOSTICS: usize = 100;
 #[command(after_help = "\
 Examples:
   rungc check machine.gxw                      check a program
+  rungc serve machine.gxw --modbus-tcp 5020    until Ctrl-C, for HMIs and other clients
   rungc run motor.il --set X000=1@200ms --for 5s --watch Y000,T0
   rungc build MAIN.csv --emit c -o firmware/plc
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
@@ -59,6 +61,11 @@ pub enum Command {
     Build(BuildArgs),
     /// Run a program in the interpreter with virtual time.
     Run(RunArgs),
+    /// Run a program in real time with the servers and serial lines of `[serve]` in rungc.toml, until Ctrl-C.
+    ///
+    /// Options add servers to those of rungc.toml; what they say of a protocol or of a serial port takes precedence. At the end, a table shows the
+    /// connections: frames, errors, and the devices that were written.
+    Serve(RunArgs),
     /// Run PLC test files on one or all engines.
     Test(TestArgs),
     /// Rewrite a program as an instruction list or a list export.
@@ -77,7 +84,7 @@ pub enum Command {
 }
 
 /// A program and how to read it.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct Input {
     /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw); recognised
     /// by content, not by name. `-` is standard input. Default: the program of rungc.toml.
@@ -100,7 +107,7 @@ pub struct Inputs {
 }
 
 /// How to read programs, and how to report what is found.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct Reading {
     /// PLC model. Default: that of rungc.toml, else the CPU type that the file names, else fx3u.
     #[arg(long, value_parser = model, value_name = "MODEL")]
@@ -222,8 +229,8 @@ pub struct Plan {
     pub force: bool,
 }
 
-/// Arguments of `run`.
-#[derive(Args, Debug)]
+/// Arguments of `run` and `serve`.
+#[derive(Args, Clone, Debug)]
 pub struct RunArgs {
     #[command(flatten)]
     pub input: Input,
@@ -275,8 +282,8 @@ impl RunArgs {
     }
 }
 
-/// Servers that `run` opens.
-#[derive(Args, Debug)]
+/// Servers that `run` and `serve` open.
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Servers")]
 pub struct ServeArgs {
     /// Serve all devices by Modbus TCP at this address: `127.0.0.1:5020`, or a port of this machine alone (`5020`). Runs in real time. The
@@ -294,6 +301,10 @@ pub struct ServeArgs {
     /// real time. The program sets the line's format and protocol. What vanishes is opened again.
     #[arg(long, value_name = "PORT=DEVICE")]
     pub serial: Vec<Line>,
+    /// Log each frame, decoded and as bytes: to standard error, or to a file, overwriting an existing one; to `*.pcap` or `*.pcapng`
+    /// as a capture for Wireshark (docs/src/serve.md).
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_ERROR)]
+    pub trace_frames: Option<PathBuf>,
 }
 
 impl ServeArgs {

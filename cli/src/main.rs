@@ -21,7 +21,7 @@ fn main() -> ExitCode {
         stdout_in_use: match &cli.command {
             Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
             Command::Convert(args) => args.output.is_none(),
-            Command::Run(_) => true,
+            Command::Run(_) | Command::Serve(_) => true,
             _ => false,
         },
         verbosity: match (cli.quiet, cli.verbose) {
@@ -34,6 +34,7 @@ fn main() -> ExitCode {
         Command::Check(args) => commands::check::run(args, cx),
         Command::Build(args) => commands::build::run(args, cx),
         Command::Run(args) => commands::run::run(args, cx),
+        Command::Serve(args) => commands::serve::run(args, cx),
         Command::Test(args) => commands::test::run(args, cx),
         Command::Convert(args) => commands::convert::run(args, cx),
         Command::Init(args) => commands::init::run(args, cx),

@@ -10,6 +10,7 @@ pub mod init;
 pub mod interruption;
 pub mod learn;
 pub mod run;
+pub mod serve;
 pub mod setting;
 pub mod subject;
 pub mod test;

@@ -1,5 +1,6 @@
 //! `rungc run`.
 
+mod capture;
 mod device;
 mod errors;
 mod lines;
@@ -8,6 +9,7 @@ mod recording;
 mod serving;
 mod simulate;
 mod view;
+mod watch;
 mod wiring;
 
 use super::setting::{Setting, setting, target};
@@ -26,6 +28,7 @@ use rungc_sim::{LoadError, Target};
 use rungc_syntax::{DeviceClass, Program};
 use std::fs;
 use std::path::{Path, PathBuf};
+pub use watch::STANDARD_ERROR;
 
 /// How many devices are shown when none are asked for.
 const DEFAULT_COLUMNS: usize = 12;
@@ -33,8 +36,23 @@ const DEFAULT_COLUMNS: usize = 12;
 /// Special relays and registers have numbers from here on; they are shown only when asked for.
 const SPECIAL_FIRST: u32 = 8000;
 
+/// Which devices a run shows when none are asked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Table {
+    /// What the program writes.
+    Usual,
+    /// None.
+    Asked,
+}
+
 /// Runs a program in the interpreter, showing the watched devices.
 pub fn run(args: &RunArgs, cx: Context) -> Result {
+    let subject = subject::one(&args.input, cx)?;
+    program(args, &subject, Table::Usual, cx)
+}
+
+/// Runs a program.
+pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> Result {
     if args.scan == 0 {
         return Err(Failure::Because(
             "--scan: a scan takes at least 1 ms".to_string(),
@@ -58,10 +76,9 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     if let Some(machine) = &described {
         free_inputs(machine, &settings)?;
     }
-    let subject = subject::one(&args.input, cx)?;
-    spare_inputs(args, &subject)?;
+    spare_inputs(args, subject)?;
     let mut reporter = Reporter::new(&subject.reporting, cx, false);
-    let read = match read(&subject, &mut reporter) {
+    let read = match read(subject, &mut reporter) {
         Ok(read) => read,
         Err(failure) => {
             reporter.finish()?;
@@ -71,7 +88,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
     let wired = described.iter().flat_map(Description::terminals);
     let options = CompileOptions {
-        name: Some(stem(&subject, &read)),
+        name: Some(stem(subject, &read)),
         observe: used.flat_map(observed).chain(wired).collect(),
         // Clients may ask for any device.
         observe_all: args.serve.any(),
@@ -79,7 +96,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         ..subject.options()
     };
     let compiled = compile(&read.program, &options);
-    let findings = findings(&subject, &read, &compiled);
+    let findings = findings(subject, &read, &compiled);
     let module = match compiled.module {
         Some(module) if !findings.failed() => module,
         _ => {
@@ -90,7 +107,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
     };
     reporter.add(&findings)?;
     reporter.finish()?;
-    let shown = if watched.is_empty() {
+    let shown = if watched.is_empty() && table == Table::Usual {
         default_watch(&read.program, &module, &settings, described.as_ref())
     } else {
         watched.clone()
@@ -114,6 +131,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
         settings: &settings,
         shown: &shown,
         watched: &watched,
+        table: table == Table::Usual || !watched.is_empty(),
     };
     run.simulate(plant)
 }
@@ -167,8 +185,16 @@ fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Fa
     let writes = [
         ("--vcd", &args.vcd, "is written by --vcd"),
         ("--plot", &args.plot, "is written by --plot"),
+        (
+            "--trace-frames",
+            &args.serve.trace_frames,
+            "is written by --trace-frames",
+        ),
     ];
     for (option, path, part) in writes {
+        let path = path
+            .as_ref()
+            .filter(|path| *path != Path::new(STANDARD_ERROR));
         let Some(path) = path else { continue };
         let real = real_path(path);
         if let Some((_, part)) = used.iter().find(|(other, _)| *other == real) {

@@ -38,19 +38,20 @@ impl Reader {
         let Some(value) = table.get(key) else {
             return Vec::new();
         };
-        let named = match value.get_ref() {
-            value if value.is_array() => self.list(table, key),
-            _ => {
-                let number = value.get_ref().as_integer();
-                let number = number.filter(|number| number.radix() == 10);
-                let port = number.map(|number| Named {
-                    text: number.as_str().to_string(),
-                    span: span(value.span()),
-                });
-                let text = port.or_else(|| self.text(key, value));
-                text.into_iter().collect()
-            }
+        let values = match value.get_ref().as_array() {
+            Some(values) => values.iter().collect(),
+            None => vec![value],
         };
+        let mut named = Vec::new();
+        for value in values {
+            let number = value.get_ref().as_integer();
+            let port = number.filter(|number| number.radix() == 10);
+            let port = port.map(|number| Named {
+                text: number.as_str().to_string(),
+                span: span(value.span()),
+            });
+            named.extend(port.or_else(|| self.text(key, value)));
+        }
         let mut addresses = Vec::new();
         for named in named {
             match serve::address(&named.text) {

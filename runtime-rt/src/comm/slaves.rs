@@ -27,7 +27,7 @@ const H1U: u16 = 26;
 
 impl Protocol {
     /// Whether silence ends its frames; those of others have an end.
-    pub(super) const fn ends_by_silence(self) -> bool {
+    pub const fn ends_by_silence(self) -> bool {
         matches!(
             self,
             Protocol::ModbusRtu | Protocol::MasterRtu | Protocol::MasterTable

@@ -69,6 +69,29 @@ impl Protocol {
         }
     }
 
+    /// What reports call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Protocol::Off => "off",
+            Protocol::Free => "free protocol",
+            Protocol::ProgrammingPort => "programming port",
+            Protocol::ModbusRtu => "Modbus slave RTU",
+            Protocol::ModbusAscii => "Modbus slave ASCII",
+            Protocol::MasterRtu => "Modbus master RTU",
+            Protocol::MasterAscii => "Modbus master ASCII",
+            Protocol::MasterTable => "Modbus master RTU, table",
+            Protocol::ComputerLink => "computer link",
+            Protocol::ComputerLinkMaster => "master of a computer link",
+            Protocol::ParallelMaster => "master of a parallel link",
+            Protocol::ParallelSlave => "slave of a parallel link",
+            Protocol::NnMaster => "master of an N:N link",
+            Protocol::NnSlave => "slave of an N:N link",
+            Protocol::EnhancedMaster => "master of an enhanced N:N link",
+            Protocol::EnhancedSlave => "slave of an enhanced N:N link",
+            Protocol::Can => "CAN",
+        }
+    }
+
     /// Whether instructions of the program ask by Modbus.
     pub const fn is_master(self) -> bool {
         matches!(

@@ -1,5 +1,6 @@
 //! What one connection has said, and what it is answered.
 
+use super::Speech;
 use rungc_rt::Ports;
 use rungc_rt::comm::modbus::{Profile, tcp};
 use rungc_rt::comm::{Cut, Frame, Map, mc};
@@ -28,6 +29,15 @@ impl Service {
     /// The programming port of a model.
     pub fn programming_port(family: Ports) -> Self {
         Service::ProgrammingPort(family.programming_port())
+    }
+
+    /// What its frames are.
+    pub fn speech(&self) -> Speech {
+        match self {
+            Service::Modbus(_) => Speech::ModbusTcp,
+            Service::Mc => Speech::Mc,
+            Service::ProgrammingPort(_) => Speech::ProgrammingPort,
+        }
     }
 
     /// Whether the characters so far are a request.
@@ -61,6 +71,17 @@ pub struct Reaction {
     pub reply: Vec<u8>,
     /// Whether it closes: what came is not a request.
     pub closes: bool,
+    /// The requests that were carried out or refused.
+    pub exchanges: Vec<Exchange>,
+}
+
+/// A request and its answer.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Exchange {
+    /// What was asked.
+    pub request: Vec<u8>,
+    /// The answer; empty if there is none.
+    pub reply: Vec<u8>,
 }
 
 impl Dialogue {
@@ -87,12 +108,16 @@ impl Dialogue {
             match cut {
                 Cut::More | Cut::Restart => {}
                 Cut::Whole => {
-                    self.answer(map, &mut reaction.reply);
-                    self.received.clear();
+                    let reply = self.answer(map);
+                    reaction.reply.extend_from_slice(&reply);
+                    let request = std::mem::take(&mut self.received);
+                    reaction.exchanges.push(Exchange { request, reply });
                 }
                 Cut::Drop => {
-                    self.received.clear();
+                    let request = std::mem::take(&mut self.received);
                     if self.service.is_lost_after_drop() {
+                        let reply = Vec::new();
+                        reaction.exchanges.push(Exchange { request, reply });
                         reaction.closes = true;
                         return reaction;
                     }
@@ -102,7 +127,7 @@ impl Dialogue {
         reaction
     }
 
-    fn answer(&mut self, map: &mut dyn Map, reply: &mut Vec<u8>) {
+    fn answer(&mut self, map: &mut dyn Map) -> Vec<u8> {
         let mut bytes = [0; LONGEST_REPLY];
         let mut frame = Frame::new(&mut bytes);
         let request = &self.received;
@@ -114,6 +139,6 @@ impl Dialogue {
                 fx_port::answer(settings, &mut self.memory, request, map, &mut frame)
             }
         };
-        reply.extend_from_slice(frame.as_slice());
+        frame.as_slice().to_vec()
     }
 }

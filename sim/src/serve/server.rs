@@ -1,6 +1,6 @@
 //! The connections of one address.
 
-use super::{Dialogue, Service};
+use super::{Dialogue, Exchange, Service, Speech};
 use rungc_rt::comm::Map;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -26,6 +26,7 @@ pub struct Server {
 #[derive(Debug)]
 struct Connection {
     stream: TcpStream,
+    peer: SocketAddr,
     dialogue: Dialogue,
     to_send: Vec<u8>,
     /// What is to be sent ends the connection.
@@ -57,17 +58,24 @@ impl Server {
         self.listener.local_addr()
     }
 
-    /// Takes new connections, and carries out and answers what has come over all of them.
-    pub fn poll(&mut self, map: &mut dyn Map) {
-        // A listener that fails (too many open files) is asked again after the next scan.
-        while let Ok((stream, _)) = self.listener.accept() {
-            self.accept(stream);
-        }
-        self.connections
-            .retain_mut(|connection| connection.poll(map));
+    /// What its frames are.
+    pub fn speech(&self) -> Speech {
+        self.service.speech()
     }
 
-    fn accept(&mut self, stream: TcpStream) {
+    /// Takes new connections, and carries out and answers what has come over all of them. Returns that, with the address of each client.
+    pub fn poll(&mut self, map: &mut dyn Map) -> Vec<(SocketAddr, Exchange)> {
+        // A listener that fails (too many open files) is asked again after the next scan.
+        while let Ok((stream, peer)) = self.listener.accept() {
+            self.accept(stream, peer);
+        }
+        let mut exchanges = Vec::new();
+        self.connections
+            .retain_mut(|connection| connection.poll(map, &mut exchanges));
+        exchanges
+    }
+
+    fn accept(&mut self, stream: TcpStream, peer: SocketAddr) {
         if stream.set_nonblocking(true).is_err() {
             return;
         }
@@ -82,6 +90,7 @@ impl Server {
         }
         self.connections.push(Connection {
             stream,
+            peer,
             dialogue: Dialogue::new(self.service),
             to_send: Vec::new(),
             closes: false,
@@ -92,7 +101,7 @@ impl Server {
 
 impl Connection {
     /// Does what there is to do; false when the connection is over.
-    fn poll(&mut self, map: &mut dyn Map) -> bool {
+    fn poll(&mut self, map: &mut dyn Map, exchanges: &mut Vec<(SocketAddr, Exchange)>) -> bool {
         let mut left = AT_ONCE;
         while left > 0 && !self.closes && self.to_send.len() < UNREAD {
             let mut bytes = [0; 512];
@@ -104,6 +113,8 @@ impl Connection {
                     self.heard = Instant::now();
                     let reaction = self.dialogue.receive(&bytes[..count], map);
                     self.to_send.extend(reaction.reply);
+                    let of_peer = reaction.exchanges.into_iter();
+                    exchanges.extend(of_peer.map(|exchange| (self.peer, exchange)));
                     self.closes |= reaction.closes;
                 }
                 Err(error) if error.kind() == ErrorKind::WouldBlock => break,

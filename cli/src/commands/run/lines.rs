@@ -3,19 +3,24 @@
 //! A thread for each port notes when characters come in. The run is late by at most one scan, so that they reach the program's ports at
 //! their own times, and the end of a frame is where the line was silent.
 
+mod frames;
 mod wire;
 
+use super::watch::{Watch, Way};
 use crate::commands::{Failure, tell};
+use frames::{Frames, Whole};
+use rungc_interp::Machine;
 use rungc_models::Model;
 use rungc_project::serve;
-use rungc_rt::VirtualHal;
-use rungc_rt::comm::{LineFormat, Received};
+use rungc_rt::comm::{LineFormat, Protocol, Received};
+use rungc_rt::{Plc, VirtualHal};
+use rungc_sim::serve::{Direction, Place, Seen, Speech};
 use std::io::ErrorKind;
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
 use wire::{Chunk, Event, Wire};
 
-/// Characters that wait for a line that does not take them; more are lost, as on a wire that no one listens to.
+/// Characters that wait for a line that does not take them; more are lost, as on an open wire.
 const UNSENT: usize = 4096;
 
 /// The serial lines of a run.
@@ -35,8 +40,13 @@ struct Line {
     /// Characters that the other end has not taken.
     unsent: Vec<u8>,
     format: LineFormat,
+    /// What the port speaks.
+    protocol: Protocol,
     /// When the last character was in.
     last_us: u32,
+    /// What is on the wire.
+    frames: Frames,
+    place: Place,
 }
 
 impl Lines {
@@ -44,28 +54,55 @@ impl Lines {
     ///
     /// # Errors
     /// A port that the model does not have, and one that cannot be opened.
-    pub fn open(lines: &[serve::Line], model: &Model) -> Result<Self, Failure> {
-        lines
-            .iter()
-            .map(|line| Line::open(line, model))
-            .collect::<Result<_, _>>()
-            .map(Lines)
+    pub fn open(lines: &[serve::Line], model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
+        let lines = lines.iter().map(|line| {
+            let line = Line::open(line, model)?;
+            watch.open(&line.place, Speech::Serial(line.protocol));
+            Ok(line)
+        });
+        lines.collect::<Result<_, _>>().map(Lines)
     }
 
     /// What has come in since the last call reaches the ports, at its times but not before `from_ms`; the run began at `begin`.
-    pub fn receive(&mut self, hal: &mut VirtualHal, begin: Instant, from_ms: u64) {
+    pub fn receive(
+        &mut self,
+        hal: &mut VirtualHal,
+        begin: Instant,
+        from_ms: u64,
+        watch: &mut Watch,
+    ) {
         for line in &mut self.0 {
             while let Ok(event) = line.events.try_recv() {
-                line.notice(event, hal, begin, from_ms);
+                for whole in line.notice(event, hal, begin, from_ms) {
+                    line.seen(whole, from_ms, watch);
+                }
             }
             line.follow_format(hal);
         }
     }
 
     /// What the ports have sent by now goes out.
-    pub fn send(&mut self, hal: &mut VirtualHal, now_ms: u64) {
+    pub fn send(
+        &mut self,
+        hal: &mut VirtualHal,
+        machine: &mut Machine,
+        now_ms: u64,
+        watch: &mut Watch,
+    ) {
         for line in &mut self.0 {
-            line.send(hal, now_ms);
+            line.follow_protocol(machine, now_ms, watch);
+            for whole in line.send(hal, now_ms) {
+                line.seen(whole, now_ms, watch);
+            }
+        }
+    }
+
+    /// The run is over: what is still on the wires counts as well.
+    pub fn end(&mut self, now_ms: u64, watch: &mut Watch) {
+        for line in &mut self.0 {
+            if let Some(whole) = line.frames.take() {
+                line.seen(whole, now_ms, watch);
+            }
         }
     }
 }
@@ -87,6 +124,10 @@ impl Line {
             Failure::Because(format!("--serial: cannot open {}: {error}", line.end))
         })?;
         tell(&format!("rungc: COM{number} at {name}"));
+        let place = Place {
+            port: format!("COM{number}"),
+            peer: name.clone(),
+        };
         Ok(Line {
             number,
             name,
@@ -95,12 +136,21 @@ impl Line {
             lost: false,
             unsent: Vec::new(),
             format: LineFormat::new(),
+            protocol: Protocol::Off,
             last_us: 0,
+            frames: Frames::default(),
+            place,
         })
     }
 
     /// Takes notice of what has happened to the other end.
-    fn notice(&mut self, event: Event, hal: &mut VirtualHal, begin: Instant, from_ms: u64) {
+    fn notice(
+        &mut self,
+        event: Event,
+        hal: &mut VirtualHal,
+        begin: Instant,
+        from_ms: u64,
+    ) -> Vec<Whole> {
         let Line { number, name, .. } = self;
         match event {
             Event::Up(wire) => {
@@ -122,7 +172,39 @@ impl Line {
                 self.wire = None;
                 self.lost = true;
             }
-            Event::Chunk(chunk) => self.receive(&chunk, hal, begin, from_ms),
+            Event::Chunk(chunk) => return self.receive(&chunk, hal, begin, from_ms),
+        }
+        Vec::new()
+    }
+
+    /// A frame was on the wire.
+    fn seen(&self, whole: Whole, now_ms: u64, watch: &mut Watch) {
+        let now_us = 1000 * now_ms;
+        let since_us = whole.at_us.wrapping_sub(now_us as u32) as i32;
+        let seen = Seen {
+            place: &self.place,
+            speech: Speech::Serial(self.protocol),
+            direction: whole.direction,
+            bytes: &whole.bytes,
+        };
+        watch.frame(
+            now_us.saturating_add_signed(since_us.into()),
+            Way::Serial,
+            seen,
+        );
+    }
+
+    /// Frames are those of the protocol that the port speaks.
+    fn follow_protocol(&mut self, machine: &mut Machine, now_ms: u64, watch: &mut Watch) {
+        let Some(protocol) = machine.port(self.number).map(|port| port.status.protocol) else {
+            return;
+        };
+        if protocol != self.protocol {
+            if let Some(whole) = self.frames.take() {
+                self.seen(whole, now_ms, watch);
+            }
+            self.protocol = protocol;
+            watch.open(&self.place, Speech::Serial(protocol));
         }
     }
 
@@ -145,7 +227,14 @@ impl Line {
     }
 
     /// Characters come to the port one after the other; the system shows when the last of them was in.
-    fn receive(&mut self, chunk: &Chunk, hal: &mut VirtualHal, begin: Instant, from_ms: u64) {
+    fn receive(
+        &mut self,
+        chunk: &Chunk,
+        hal: &mut VirtualHal,
+        begin: Instant,
+        from_ms: u64,
+    ) -> Vec<Whole> {
+        let mut frames = Vec::new();
         let character_us = self.format.character_us();
         let came_us = chunk.at.saturating_duration_since(begin).as_micros() as u32;
         let before = chunk.bytes.len().saturating_sub(1) as u32;
@@ -169,18 +258,35 @@ impl Line {
                 // What does not fit is lost, as in the receiver of a PLC that is not asked in time.
                 let _ = line.feed(character);
             }
+            let line = (self.protocol, self.format);
+            let ended = self.frames.push(Direction::In, at_us, byte, line);
+            frames.extend(ended.into_iter().flatten());
             self.last_us = at_us;
             at_us = at_us.wrapping_add(character_us);
         }
+        frames
     }
 
-    fn send(&mut self, hal: &mut VirtualHal, now_ms: u64) {
+    fn send(&mut self, hal: &mut VirtualHal, now_ms: u64) -> Vec<Whole> {
         let now_us = (now_ms * 1000) as u32;
+        let format = (self.protocol, self.format);
+        let mut frames = Vec::new();
         if let Some(line) = hal.line(self.number) {
             while let Some(sent) = line.take(now_us) {
+                let ended = self
+                    .frames
+                    .push(Direction::Out, sent.at_us, sent.byte, format);
+                frames.extend(ended.into_iter().flatten());
                 self.unsent.push(sent.byte);
             }
         }
+        frames.extend(self.frames.end(now_us, format));
+        self.write();
+        frames
+    }
+
+    /// Hands over what the other end takes.
+    fn write(&mut self) {
         let Some(wire) = &mut self.wire else {
             return self.unsent.clear();
         };

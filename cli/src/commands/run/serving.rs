@@ -1,18 +1,25 @@
 //! `rungc run --modbus-tcp` and similar options: what clients over TCP read and write.
 
+use super::watch::{Watch, Way};
 use crate::args::ServeArgs;
 use crate::commands::{Failure, tell};
 use rungc_interp::Machine;
 use rungc_models::Model;
 use rungc_rt::Program;
 use rungc_rt::comm::Served;
-use rungc_sim::serve::{Server, Service};
+use rungc_sim::serve::{Direction, Place, Seen, Server, Service};
 use std::net::SocketAddr;
 
 /// The servers of a run.
 pub struct Servers {
-    servers: Vec<Server>,
+    servers: Vec<Open>,
     type_code: u16,
+}
+
+/// A server, and where it listens.
+struct Open {
+    server: Server,
+    address: SocketAddr,
 }
 
 impl Servers {
@@ -20,7 +27,7 @@ impl Servers {
     ///
     /// # Errors
     /// An address that cannot be had.
-    pub fn open(args: &ServeArgs, model: &Model) -> Result<Self, Failure> {
+    pub fn open(args: &ServeArgs, model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
         let type_code = model.type_code();
         let services = [
             (
@@ -38,20 +45,38 @@ impl Servers {
         let mut servers = Vec::new();
         for (name, service, addresses) in services {
             for &address in addresses {
-                servers.push(open(name, service, address)?);
+                let open = open(name, service, address)?;
+                watch.open(&open.place(None), service.speech());
+                servers.push(open);
             }
         }
         Ok(Servers { servers, type_code })
     }
 
-    /// Carries out and answers what clients have asked since the last scan.
-    pub fn poll(&mut self, machine: &mut Machine) {
+    /// Carries out and answers what clients have asked since the last scan; `at_us` is the time since the run began, in microseconds.
+    pub fn poll(&mut self, machine: &mut Machine, watch: &mut Watch, at_us: u64) {
         if self.servers.is_empty() {
             return;
         }
         let mut map = Served::new(machine, self.type_code);
-        for server in &mut self.servers {
-            server.poll(&mut map);
+        for open in &mut self.servers {
+            for (client, exchange) in open.server.poll(&mut map) {
+                let server = open.address;
+                let frames = [
+                    (Direction::In, &exchange.request),
+                    (Direction::Out, &exchange.reply),
+                ];
+                let place = open.place(Some(client));
+                for (direction, bytes) in frames.into_iter().filter(|frame| !frame.1.is_empty()) {
+                    let seen = Seen {
+                        place: &place,
+                        speech: open.server.speech(),
+                        direction,
+                        bytes,
+                    };
+                    watch.frame(at_us, Way::Tcp { client, server }, seen);
+                }
+            }
         }
         if let Some(running) = map.take_request() {
             machine.set_running(running);
@@ -59,7 +84,17 @@ impl Servers {
     }
 }
 
-fn open(name: &str, service: Service, address: SocketAddr) -> Result<Server, Failure> {
+impl Open {
+    /// The row of a client in the table of connections; a client that connects again has the same one.
+    fn place(&self, client: Option<SocketAddr>) -> Place {
+        Place {
+            port: self.address.to_string(),
+            peer: client.map_or_else(String::new, |client| client.ip().to_string()),
+        }
+    }
+}
+
+fn open(name: &str, service: Service, address: SocketAddr) -> Result<Open, Failure> {
     let server = Server::bind(address, service)
         .and_then(|server| Ok((server.address()?, server)))
         .map_err(|error| Failure::Because(format!("cannot serve {name} at {address}: {error}")));
@@ -70,5 +105,5 @@ fn open(name: &str, service: Service, address: SocketAddr) -> Result<Server, Fai
             "rungc: whoever reaches this address reads and writes every device: there is no password",
         );
     }
-    Ok(server)
+    Ok(Open { server, address })
 }

@@ -6,10 +6,11 @@ use super::plotting::Plotting;
 use super::recording::Recording;
 use super::serving::Servers;
 use super::view::{Column, Kind, View};
+use super::watch::Watch;
 use super::wiring::Wiring;
 use super::{Setting, device};
 use crate::args::RunArgs;
-use crate::commands::{Failure, Outcome, Result, interruption, tell};
+use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
 use crate::report::visible;
 use rungc_interp::Machine;
 use rungc_ir::Module;
@@ -38,6 +39,7 @@ struct Simulation<'a> {
     errors: Errors<'a>,
     servers: Servers,
     lines: Lines,
+    watch: Watch,
     now_ms: u64,
 }
 
@@ -55,6 +57,8 @@ pub struct Run<'a> {
     pub shown: &'a [Target],
     /// What was asked for with `--watch`.
     pub watched: &'a [Target],
+    /// Whether there is a table.
+    pub table: bool,
 }
 
 impl Run<'_> {
@@ -83,6 +87,7 @@ impl Run<'_> {
             }
             None => None,
         };
+        let mut watch = Watch::new(module.model, args.serve.trace_frames.as_deref())?;
         let mut simulation = Simulation {
             machine,
             hal: VirtualHal::new(),
@@ -93,19 +98,27 @@ impl Run<'_> {
                 args.end_ms().is_some(),
             ),
             out: Table {
-                muted: false,
+                muted: !self.table,
                 optional: recording.is_some() || plotting.is_some(),
             },
             recording,
             plotting,
             plant,
             errors: Errors::new(module, self.errors_at_once),
-            servers: Servers::open(&args.serve, module.model)?,
-            lines: Lines::open(&args.serve.serial, module.model)?,
+            servers: Servers::open(&args.serve, module.model, &mut watch)?,
+            lines: Lines::open(&args.serve.serial, module.model, &mut watch)?,
+            watch,
             now_ms: 0,
         };
         interruption::note();
         let outcome = simulation.run(args)?;
+        simulation
+            .lines
+            .end(simulation.now_ms, &mut simulation.watch);
+        let table = simulation.watch.table();
+        if !table.is_empty() {
+            say(&format!("\n{}\n", table.join("\n")))?;
+        }
         let errors = simulation.machine.errors();
         simulation.errors.summarise(errors);
         let denied = args.deny_errors && !errors.is_empty();
@@ -139,7 +152,8 @@ impl Simulation<'_> {
         }
         let end_ms = args.end_ms().unwrap_or(u64::MAX);
         loop {
-            self.servers.poll(&mut self.machine);
+            self.servers
+                .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
             self.scan(args.scan)?;
             self.errors.notice(self.machine.errors());
             if self.machine.watchdog_tripped() {
@@ -158,7 +172,8 @@ impl Simulation<'_> {
             if args.in_real_time() {
                 let next = Duration::from_millis(self.now_ms + args.scan);
                 thread::sleep(next.saturating_sub(begin.elapsed()));
-                self.lines.receive(&mut self.hal, begin, self.now_ms);
+                self.lines
+                    .receive(&mut self.hal, begin, self.now_ms, &mut self.watch);
             }
             if self.is_idle_between_scans() {
                 self.pass(args.scan)?;
@@ -171,7 +186,8 @@ impl Simulation<'_> {
                     }
                 }
             }
-            self.lines.send(&mut self.hal, self.now_ms);
+            let (hal, machine) = (&mut self.hal, &mut self.machine);
+            self.lines.send(hal, machine, self.now_ms, &mut self.watch);
         }
         self.out
             .line(format!("\n{}", self.view.diagram(end_ms)).trim_end_matches('\n'))?;

@@ -1,0 +1,123 @@
+//! What is seen of the frames of a run: the table of connections at its end, and `--trace-frames`.
+
+use super::capture::Capture;
+use crate::commands::{Failure, tell};
+use crate::report::visible;
+use rungc_models::Model;
+use rungc_sim::serve::{Decoder, Direction, Place, Seen, Speech, Traffic};
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Write as _;
+use std::net::SocketAddr;
+use std::path::Path;
+
+/// Where frames are logged, if not to a file.
+pub const STANDARD_ERROR: &str = "-";
+
+/// Frames and their connections.
+pub struct Watch {
+    traffic: Traffic,
+    log: Log,
+}
+
+/// Where frames are logged.
+enum Log {
+    Nowhere,
+    StandardError,
+    Text(File),
+    Capture(Capture),
+    /// Writing has failed, which was reported.
+    Failed,
+}
+
+/// What a frame went over.
+#[derive(Clone, Copy)]
+pub enum Way {
+    /// A serial port.
+    Serial,
+    /// A connection from a client to a server.
+    Tcp {
+        /// The client.
+        client: SocketAddr,
+        /// The server.
+        server: SocketAddr,
+    },
+}
+
+impl Watch {
+    /// Nothing seen yet. `trace` is where frames are logged.
+    ///
+    /// # Errors
+    /// A file that cannot be created.
+    pub fn new(model: &Model, trace: Option<&Path>) -> Result<Self, Failure> {
+        let log = match trace {
+            None => Log::Nowhere,
+            Some(path) if path == Path::new(STANDARD_ERROR) => Log::StandardError,
+            Some(path) => {
+                let because =
+                    |error| Failure::Because(format!("--trace-frames {}: {error}", path.display()));
+                let file = File::create(path).map_err(because)?;
+                let extension = path.extension().and_then(|extension| extension.to_str());
+                match extension {
+                    Some("pcap" | "pcapng") => Log::Capture(Capture::begin(file).map_err(because)?),
+                    _ => Log::Text(file),
+                }
+            }
+        };
+        let decoder = Decoder::new(model.ports, model.type_code());
+        let traffic = Traffic::new(decoder);
+        Ok(Watch { traffic, log })
+    }
+
+    /// A server or port is open.
+    pub fn open(&mut self, place: &Place, speech: Speech) {
+        self.traffic.open(place, speech);
+    }
+
+    /// A frame was seen `at_us` microseconds after the run began.
+    pub fn frame(&mut self, at_us: u64, way: Way, seen: Seen) {
+        let decoded = self.traffic.frame(seen);
+        let line = || {
+            let Place { port, peer } = seen.place;
+            let seconds = at_us as f64 / 1e6;
+            let arrow = match seen.direction {
+                Direction::In => "<-",
+                Direction::Out => "->",
+            };
+            let mut line = format!("{seconds:12.6} {port} {arrow} {peer}  {}", decoded.text);
+            if let Some(error) = decoded
+                .error
+                .as_ref()
+                .filter(|error| !decoded.text.contains(*error))
+            {
+                let _ = write!(line, " ({error})");
+            }
+            line.push_str("  [");
+            for (n, byte) in seen.bytes.iter().enumerate() {
+                let _ = write!(line, "{}{byte:02X}", if n > 0 { " " } else { "" });
+            }
+            line.push(']');
+            line
+        };
+        let logged = match &mut self.log {
+            Log::Nowhere | Log::Failed => Ok(()),
+            Log::StandardError => {
+                tell(&line());
+                Ok(())
+            }
+            Log::Text(file) => writeln!(file, "{}", visible(&line())),
+            Log::Capture(capture) => capture.frame(at_us, way, seen),
+        };
+        if let Err(error) = logged {
+            tell(&format!(
+                "rungc: --trace-frames: {error}; no more frames are logged"
+            ));
+            self.log = Log::Failed;
+        }
+    }
+
+    /// The table of connections.
+    pub fn table(&self) -> Vec<String> {
+        self.traffic.table()
+    }
+}

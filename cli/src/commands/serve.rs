@@ -1,0 +1,52 @@
+//! `rungc serve`: a run in real time with all servers of `rungc.toml`.
+
+use super::run::{self, Table};
+use super::subject;
+use super::{Context, Failure, Result};
+use crate::args::{RunArgs, ServeArgs};
+use rungc_project::serve::{SerialLine, Serve};
+
+/// Runs a program until it is interrupted, and serves it.
+pub fn run(args: &RunArgs, cx: Context) -> Result {
+    let subject = subject::one(&args.input, cx)?;
+    let project = subject.project.as_ref();
+    let serve = match project {
+        Some(project) => args.serve.or(&project.serve),
+        None => args.serve.clone(),
+    };
+    if !serve.any() {
+        let place = match project {
+            Some(project) => format!("`[serve]` of {}", project.path.display()),
+            None => "`[serve]` of a rungc.toml (`rungc init` writes one)".to_string(),
+        };
+        let why = format!(
+            "nothing to serve: add for example `modbus-tcp = 5020` or `serial = {{ COM1 = \"/dev/ttyUSB0\" }}` to {place}, or use \
+             --modbus-tcp, --mc, --fx or --serial"
+        );
+        return Err(Failure::Because(why));
+    }
+    let args = RunArgs {
+        serve,
+        ..args.clone()
+    };
+    run::program(&args, &subject, Table::Asked, cx)
+}
+
+impl ServeArgs {
+    /// The same completed by settings. What the command line says of a protocol or of a port takes precedence.
+    fn or(&self, settings: &Serve) -> ServeArgs {
+        let given = |own: &[_], usual: &[_]| match own {
+            [] => usual.to_vec(),
+            own => own.to_vec(),
+        };
+        let usual = settings.serial.iter().map(|SerialLine { line, .. }| line);
+        let usual = usual.filter(|line| self.serial.iter().all(|own| own.port != line.port));
+        ServeArgs {
+            modbus_tcp: given(&self.modbus_tcp, &settings.modbus_tcp),
+            mc: given(&self.mc, &settings.mc),
+            fx: given(&self.fx, &settings.fx),
+            serial: self.serial.iter().chain(usual).cloned().collect(),
+            trace_frames: self.trace_frames.clone(),
+        }
+    }
+}

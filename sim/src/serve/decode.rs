@@ -1,0 +1,276 @@
+//! What frames say, in human-readable form: function, address, count, exception, and the devices that a request is about.
+//!
+//! What a request reads and writes is not decoded a second time: the codec that answers it carries it out on a [`Probe`].
+
+mod modbus;
+#[cfg(test)]
+mod tests;
+
+use super::probe::{Devices, Probe, ranges};
+use rungc_rt::Ports;
+use rungc_rt::comm::computer_link::{self, Dialect, Remote};
+use rungc_rt::comm::modbus::Framing;
+use rungc_rt::comm::{Frame, LineFault, Memory, Protocol, fx_port, mc};
+use std::fmt::Write;
+
+/// Control characters of protocols in text, with their names.
+const CONTROLS: [(u8, &str); 9] = [
+    (0x02, "STX"),
+    (0x03, "ETX"),
+    (0x04, "EOT"),
+    (0x05, "ENQ"),
+    (0x06, "ACK"),
+    (0x0a, "LF"),
+    (0x0c, "CL"),
+    (0x0d, "CR"),
+    (0x15, "NAK"),
+];
+
+/// Refuses a request.
+const NAK: u8 = 0x15;
+
+/// What a server or a port speaks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Speech {
+    /// Modbus TCP.
+    ModbusTcp,
+    /// MC protocol over TCP.
+    Mc,
+    /// The programming port's protocol over TCP.
+    ProgrammingPort,
+    /// The protocol of a serial port.
+    Serial(Protocol),
+}
+
+/// Which way a frame goes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Direction {
+    /// To the PLC.
+    In,
+    /// From the PLC.
+    Out,
+}
+
+/// What a frame says.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Decoded {
+    /// In human-readable form.
+    pub text: String,
+    /// It reports an error, or is one.
+    pub error: Option<String>,
+    /// The devices that it writes if it is carried out.
+    pub written: Devices,
+    /// It is for all stations, and not answered.
+    pub broadcast: bool,
+}
+
+/// Reads frames of one PLC.
+#[derive(Clone, Copy, Debug)]
+pub struct Decoder {
+    family: Ports,
+    type_code: u16,
+}
+
+impl Decoder {
+    /// For a model: its family, and what its D8001 shows.
+    pub fn new(family: Ports, type_code: u16) -> Self {
+        Decoder { family, type_code }
+    }
+
+    /// What a frame says; `before` is the last one in the other direction.
+    pub fn decode(
+        &self,
+        speech: Speech,
+        direction: Direction,
+        bytes: &[u8],
+        before: Option<&[u8]>,
+    ) -> Decoded {
+        let asks = direction == Direction::In;
+        match speech {
+            Speech::ModbusTcp => self.modbus_tcp(asks, bytes, before),
+            Speech::Mc if asks => self.mc_request(bytes),
+            Speech::Mc => mc_reply(bytes),
+            Speech::ProgrammingPort => self.programming_port(asks, bytes),
+            Speech::Serial(protocol) => match protocol {
+                Protocol::ModbusRtu => self.modbus(Framing::Rtu, asks, bytes, before),
+                Protocol::ModbusAscii => self.modbus(Framing::Ascii, asks, bytes, before),
+                Protocol::MasterRtu | Protocol::MasterTable => {
+                    modbus::master(Framing::Rtu, !asks, bytes, before)
+                }
+                Protocol::MasterAscii => modbus::master(Framing::Ascii, !asks, bytes, before),
+                Protocol::ProgrammingPort => self.programming_port(asks, bytes),
+                Protocol::ComputerLink if asks => self.computer_link(bytes),
+                _ => plain(bytes),
+            },
+        }
+    }
+
+    fn programming_port(&self, asks: bool, bytes: &[u8]) -> Decoded {
+        if !asks {
+            return plain(bytes);
+        }
+        let settings = self.family.programming_port();
+        let mut memory = Memory::new();
+        self.carried_out(bytes, |map, reply| {
+            fx_port::answer(settings, &mut memory, bytes, map, reply)
+        })
+    }
+
+    fn computer_link(&self, bytes: &[u8]) -> Decoded {
+        let station = bytes
+            .get(1..3)
+            .and_then(|digits| u8::from_str_radix(std::str::from_utf8(digits).ok()?, 16).ok());
+        let settings = |sum| computer_link::Settings {
+            station: station.unwrap_or(u8::MAX),
+            sum,
+            crlf: bytes.ends_with(b"\r\n"),
+            dialect: match self.family {
+                Ports::Hm => Dialect::Hm,
+                _ => Dialect::Fx(*b"9D"),
+            },
+        };
+        // Whether there is a sum, the frame does not say: the way in which it makes sense is the right one.
+        let decoded = [true, false].map(|sum| {
+            self.carried_out(bytes, |map, reply| {
+                computer_link::answer(settings(sum), &mut Remote::new(), bytes, map, reply)
+            })
+        });
+        let [with, without] = decoded;
+        match with.error {
+            None => with,
+            Some(_) => without,
+        }
+    }
+
+    fn mc_request(&self, bytes: &[u8]) -> Decoded {
+        let what = match bytes {
+            [0x50, 0, .., _] if bytes.len() >= 15 => {
+                let word = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
+                format!("3E command {:04X}, subcommand {:04X}", word(11), word(13))
+            }
+            [command, ..] => format!("1E command {command:02X}"),
+            [] => String::new(),
+        };
+        let done = self.carried_out(bytes, |map, reply| mc::answer(bytes, map, reply));
+        let text = match done.text.split_once(": ") {
+            Some((_, devices)) => format!("{what}: {devices}"),
+            None => what,
+        };
+        Decoded { text, ..done }
+    }
+
+    /// Carries a request out where nothing comes of it. The text is the request in characters, and its devices.
+    fn carried_out(
+        &self,
+        request: &[u8],
+        answer: impl FnOnce(&mut Probe, &mut Frame) -> Result<(), LineFault>,
+    ) -> Decoded {
+        let mut probe = Probe::new(self.type_code);
+        let mut bytes = [0; 8192];
+        let mut reply = Frame::new(&mut bytes);
+        let done = answer(&mut probe, &mut reply);
+        let mut text = characters(request);
+        let about = about(&probe);
+        if !about.is_empty() {
+            text = format!("{text}: {about}");
+        }
+        Decoded {
+            text,
+            error: done.err().map(|fault| fault_name(fault).to_string()),
+            written: probe.written,
+            broadcast: false,
+        }
+    }
+}
+
+/// What a request does.
+fn about(probe: &Probe) -> String {
+    let read = probe.read();
+    let mut parts = Vec::new();
+    if !probe.written.is_empty() {
+        parts.push(format!("writes {}", ranges(&probe.written)));
+    } else if !read.is_empty() {
+        parts.push(format!("reads {}", ranges(&read)));
+    }
+    if let Some(running) = probe.request {
+        parts.push(if running { "RUN" } else { "STOP" }.to_string());
+    }
+    parts.join(", ")
+}
+
+/// An answer of MC protocol.
+fn mc_reply(bytes: &[u8]) -> Decoded {
+    let code = match bytes {
+        [0xd0, 0, ..] => bytes
+            .get(9..11)
+            .map(|code| u16::from_le_bytes([code[0], code[1]])),
+        [_, code, ..] => Some(u16::from(*code)),
+        _ => None,
+    };
+    let error = code.filter(|&code| code != 0);
+    let error = error.map(|code| format!("refused with code {code:02X}H"));
+    Decoded {
+        text: error.clone().unwrap_or_else(|| "done".to_string()),
+        error,
+        ..Decoded::default()
+    }
+}
+
+/// A frame of a protocol in text.
+fn plain(bytes: &[u8]) -> Decoded {
+    let error = (bytes.first() == Some(&NAK)).then(|| "refused (NAK)".to_string());
+    Decoded {
+        text: characters(bytes),
+        error,
+        ..Decoded::default()
+    }
+}
+
+/// Bytes as characters, with names for the control characters.
+fn characters(bytes: &[u8]) -> String {
+    let mut text = String::new();
+    for &byte in bytes {
+        let control = CONTROLS.iter().find(|(code, _)| *code == byte);
+        let _ = match (control, byte) {
+            (Some((_, name)), _) => write!(text, "<{name}>"),
+            (None, b' '..=b'~') => write!(text, "{}", char::from(byte)),
+            (None, _) => write!(text, "<{byte:02X}>"),
+        };
+    }
+    text
+}
+
+/// What was wrong with a frame.
+fn fault_name(fault: LineFault) -> &'static str {
+    match fault {
+        LineFault::Station => "wrong station",
+        LineFault::Length => "wrong length",
+        LineFault::Address => "no such device",
+        LineFault::Sum => "wrong check code",
+        LineFault::Command => "unknown command",
+        LineFault::TimeOut => "no answer in time",
+        LineFault::Data => "wrong count or value",
+        LineFault::Overflow => "too long",
+        LineFault::Form => "malformed",
+        LineFault::Protocol => "another protocol",
+        LineFault::Character => "wrong character",
+        LineFault::Unknown => "unexpected character",
+    }
+}
+
+impl Speech {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Speech::ModbusTcp => "Modbus TCP",
+            Speech::Mc => "MC protocol",
+            Speech::ProgrammingPort => "programming port",
+            Speech::Serial(protocol) => protocol.name(),
+        }
+    }
+
+    /// Whether the PLC asks, and the other end answers.
+    pub fn asks(self) -> bool {
+        matches!(self, Speech::Serial(protocol) if protocol.is_master())
+    }
+}

@@ -1,0 +1,125 @@
+//! Frames of each protocol as they are shown.
+
+use super::{Decoder, Direction, Speech};
+use crate::serve::{Place, Seen, Traffic};
+use rungc_rt::Ports;
+use rungc_rt::comm::Protocol;
+use rungc_rt::comm::modbus::crc16;
+use std::fmt::Write;
+
+/// A frame of Modbus RTU.
+fn rtu(body: &[u8]) -> Vec<u8> {
+    [body, &crc16(body).to_le_bytes()].concat()
+}
+
+/// A line of a log: what a frame says, after an earlier one in the other direction.
+fn line(speech: Speech, direction: Direction, bytes: &[u8], before: Option<&[u8]>) -> String {
+    let decoder = Decoder::new(Ports::Inovance, 24120);
+    let decoded = decoder.decode(speech, direction, bytes, before);
+    let mut line = format!("{} {direction:?}: {}", speech.name(), decoded.text);
+    if let Some(error) = decoded.error {
+        let _ = write!(line, " !! {error}");
+    }
+    if decoded.broadcast {
+        line.push_str(" (to all)");
+    }
+    line
+}
+
+#[test]
+fn frames_as_they_are_shown() {
+    use Direction::{In, Out};
+    use Protocol::{ComputerLink, MasterRtu, ModbusAscii, ModbusRtu, NnMaster};
+    let [slave, ascii, master, link, nn] =
+        [ModbusRtu, ModbusAscii, MasterRtu, ComputerLink, NnMaster].map(Speech::Serial);
+    let read_coils = rtu(&[1, 1, 0, 8, 0, 10]);
+    let mut damaged = read_coils.clone();
+    damaged[3] = 9;
+    let many: Vec<u8> = (0..40).collect();
+    let many = [&[1, 3, 40][..], &many].concat();
+    let mc_1e = [1, 0xff, 10, 0, 100, 0, 0, 0, 0x20, 0x44, 2, 0];
+    let shown = [
+        line(slave, In, &read_coils, None),
+        line(slave, Out, &rtu(&[1, 1, 2, 5, 2]), Some(&read_coils)),
+        line(slave, In, &damaged, None),
+        line(slave, In, &[1, 3], None),
+        line(slave, In, &rtu(&[0, 6, 0, 5, 0, 9]), None),
+        line(slave, In, &rtu(&[1, 15, 0, 0, 0, 3, 1, 5]), None),
+        line(slave, In, &rtu(&[1, 0x2b, 14, 1, 0]), None),
+        line(slave, Out, &rtu(&[1, 0xab, 1]), None),
+        line(slave, Out, &rtu(&many), None),
+        line(ascii, In, b":010300640001:", None),
+        line(ascii, In, b":01030064000197\r\n", None),
+        line(master, Out, &rtu(&[2, 3, 0x10, 1, 0, 1]), None),
+        line(master, In, &rtu(&[2, 0x83, 4]), None),
+        line(link, In, b"\x0505FFWR0D01000130\r\n", None),
+        line(link, In, b"\x0505FFBW0M00100210", None),
+        line(link, Out, b"\x1505FF06", None),
+        line(Speech::ProgrammingPort, In, b"\x02110C8023412\x033C", None),
+        line(Speech::ProgrammingPort, In, b"\x020\x0399", None),
+        line(Speech::ProgrammingPort, Out, b"\x15", None),
+        line(Speech::Mc, In, &mc_1e, None),
+        line(Speech::Mc, Out, &[0x81, 0x56], None),
+        line(nn, Out, b"\x02P11100\x0307", None),
+    ];
+    insta::assert_snapshot!("frames", shown.join("\n"));
+}
+
+#[test]
+fn what_is_not_carried_out_is_not_written() {
+    let place = Place {
+        port: "COM1".to_string(),
+        peer: "line".to_string(),
+    };
+    let mut traffic = Traffic::new(Decoder::new(Ports::Inovance, 24120));
+    let mut frame = |direction, bytes: &[u8], protocol| {
+        traffic.frame(Seen {
+            place: &place,
+            speech: Speech::Serial(protocol),
+            direction,
+            bytes,
+        });
+    };
+    let write = |register| rtu(&[1, 6, 0, register, 0, 1]);
+    // Answered, refused, for another station, for all.
+    frame(Direction::In, &write(1), Protocol::ModbusRtu);
+    frame(Direction::Out, &write(1), Protocol::ModbusRtu);
+    frame(Direction::In, &write(2), Protocol::ModbusRtu);
+    frame(Direction::Out, &rtu(&[1, 0x86, 2]), Protocol::ModbusRtu);
+    frame(Direction::In, &write(3), Protocol::ModbusRtu);
+    frame(
+        Direction::In,
+        &rtu(&[0, 6, 0, 4, 0, 1]),
+        Protocol::ModbusRtu,
+    );
+    // A master that is not answered asks again.
+    for _ in 0..2 {
+        frame(Direction::Out, &write(5), Protocol::MasterRtu);
+    }
+    insta::assert_snapshot!("table", traffic.table().join("\n"));
+}
+
+#[test]
+fn any_bytes_are_shown() {
+    let decoder = Decoder::new(Ports::L01s, 24120);
+    let speeches = [Speech::ModbusTcp, Speech::Mc, Speech::ProgrammingPort];
+    let serial = [
+        Protocol::ModbusRtu,
+        Protocol::ModbusAscii,
+        Protocol::ComputerLink,
+    ];
+    let speeches = speeches.into_iter().chain(serial.map(Speech::Serial));
+    let mut state = 1u32;
+    for speech in speeches {
+        for length in (0..64).chain([700, 9000]) {
+            let next = |_| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (state >> 24) as u8
+            };
+            let bytes: Vec<u8> = (0..length).map(next).collect();
+            for direction in [Direction::In, Direction::Out] {
+                decoder.decode(speech, direction, &bytes, Some(&bytes));
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! What has gone over the connections of a run, for the table at its end.
+
+use super::decode::{Decoded, Decoder, Direction, Speech};
+use super::probe::{Devices, ranges};
+use std::collections::BTreeMap;
+
+/// Where a frame was seen.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Place {
+    /// The server or port: `Modbus TCP 127.0.0.1:5020`, `COM1`.
+    pub port: String,
+    /// The other end: the address of a client, the path of a serial port.
+    pub peer: String,
+}
+
+/// A frame on its way.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// Where.
+    pub place: &'a Place,
+    /// What is spoken there.
+    pub speech: Speech,
+    /// Which way it goes.
+    pub direction: Direction,
+    /// The frame.
+    pub bytes: &'a [u8],
+}
+
+/// One row of the table.
+#[derive(Clone, Debug)]
+struct Connection {
+    speech: Speech,
+    received: u64,
+    sent: u64,
+    errors: u64,
+    last_error: Option<String>,
+    written: Devices,
+    /// The last frame, and which way it went.
+    last: Option<(Direction, Vec<u8>)>,
+    /// What the request that is not answered yet writes.
+    pending: Devices,
+}
+
+/// The connections of a run.
+#[derive(Debug)]
+pub struct Traffic {
+    decoder: Decoder,
+    connections: BTreeMap<Place, Connection>,
+}
+
+impl Traffic {
+    /// Nothing seen yet.
+    pub fn new(decoder: Decoder) -> Self {
+        Traffic {
+            decoder,
+            connections: BTreeMap::new(),
+        }
+    }
+
+    /// A server or port that is open: it has a row, whether or not frames come.
+    pub fn open(&mut self, place: &Place, speech: Speech) {
+        self.connection(place, speech);
+    }
+
+    fn connection(&mut self, place: &Place, speech: Speech) -> &mut Connection {
+        let connection = self.connections.entry(place.clone()).or_insert(Connection {
+            speech,
+            received: 0,
+            sent: 0,
+            errors: 0,
+            last_error: None,
+            written: Devices::new(),
+            last: None,
+            pending: Devices::new(),
+        });
+        connection.speech = speech;
+        connection
+    }
+
+    /// Counts a frame; returns what it says.
+    pub fn frame(&mut self, seen: Seen) -> Decoded {
+        let decoder = self.decoder;
+        let connection = self.connection(seen.place, seen.speech);
+        let last = connection.last.take();
+        let before = last
+            .as_ref()
+            .filter(|(direction, _)| *direction != seen.direction);
+        let before = before.map(|(_, bytes)| bytes.as_slice());
+        let decoded = decoder.decode(seen.speech, seen.direction, seen.bytes, before);
+        let asks = (seen.direction == Direction::Out) == seen.speech.asks();
+        match seen.direction {
+            Direction::In => connection.received += 1,
+            Direction::Out => connection.sent += 1,
+        }
+        let unanswered = asks && seen.speech.asks() && last.is_some() && before.is_none();
+        let silence = || "no answer".to_string();
+        for error in decoded
+            .error
+            .iter()
+            .cloned()
+            .chain(unanswered.then(silence))
+        {
+            connection.errors += 1;
+            connection.last_error = Some(error);
+        }
+        if asks {
+            connection.pending = decoded.written.clone();
+        }
+        // A request is carried out if it is answered, and not by an error.
+        let done = decoded.error.is_none() && (!asks || decoded.broadcast);
+        let pending = std::mem::take(&mut connection.pending);
+        match (done, asks) {
+            (true, _) => connection.written.extend(pending),
+            (false, true) => connection.pending = pending,
+            (false, false) => {}
+        }
+        connection.last = Some((seen.direction, seen.bytes.to_vec()));
+        decoded
+    }
+
+    /// Whether a row says something: a server that has had clients has a row for each of them.
+    fn is_shown(&self, place: &Place) -> bool {
+        let mut others = self.connections.keys();
+        !place.peer.is_empty() || !others.any(|other| other.port == place.port && other != place)
+    }
+
+    /// The table, a line for each row; empty if nothing was open.
+    pub fn table(&self) -> Vec<String> {
+        const HEADING: [&str; 8] = [
+            "port",
+            "peer",
+            "protocol",
+            "in",
+            "out",
+            "errors",
+            "last error",
+            "devices written",
+        ];
+        /// Columns of numbers stand at the right.
+        const NUMBERS: std::ops::Range<usize> = 3..6;
+        let or_none = |text: String| {
+            if text.is_empty() {
+                "–".to_string()
+            } else {
+                text
+            }
+        };
+        let row = |(place, connection): (&Place, &Connection)| {
+            [
+                place.port.clone(),
+                or_none(place.peer.clone()),
+                connection.speech.name().to_string(),
+                connection.received.to_string(),
+                connection.sent.to_string(),
+                connection.errors.to_string(),
+                or_none(connection.last_error.clone().unwrap_or_default()),
+                or_none(ranges(&connection.written)),
+            ]
+        };
+        if self.connections.is_empty() {
+            return Vec::new();
+        }
+        let shown = self.connections.iter();
+        let shown = shown.filter(|(place, _)| self.is_shown(place));
+        let rows: Vec<_> = std::iter::once(HEADING.map(str::to_string))
+            .chain(shown.map(row))
+            .collect();
+        let width = |column: usize| {
+            let widths = rows.iter().map(|row| row[column].chars().count());
+            widths.max().unwrap_or(0)
+        };
+        let line = |row: &[String; 8]| {
+            let cells = row.iter().enumerate().map(|(column, text)| {
+                let width = width(column);
+                match NUMBERS.contains(&column) {
+                    true => format!("{text:>width$}"),
+                    false => format!("{text:width$}"),
+                }
+            });
+            let line = cells.collect::<Vec<_>>().join("  ");
+            line.trim_end().to_string()
+        };
+        rows.iter().map(line).collect()
+    }
+}
