@@ -237,9 +237,9 @@ pub struct RunArgs {
     /// Virtual time to run: `200ms`, `5s`, `2min`, `1h`; a bare number is milliseconds. Default: 1s, or with a server until Ctrl-C.
     #[arg(long = "for", value_parser = crate::time::parse, value_name = "TIME")]
     pub duration: Option<u64>,
-    /// Scan period, in virtual time.
-    #[arg(long, default_value = "10ms", value_parser = crate::time::parse, value_name = "TIME")]
-    pub scan: u64,
+    /// How long a scan takes, in virtual time; a longer constant scan time of the program is waited for. Default: its constant scan time, or 10ms.
+    #[arg(long, value_parser = crate::time::parse, value_name = "TIME")]
+    pub scan: Option<u64>,
     /// Set a device at a time: `X000=1@200ms`, `D0=5` (at the start), `D0.f32=1.5`; may be repeated or separated by commas.
     #[arg(long, value_delimiter = ',', value_name = "DEVICE=VALUE[@TIME]")]
     pub set: Vec<String>,

@@ -35,6 +35,7 @@ typedef struct {
     void (*tick)(uint32_t now_ms); /* NULL if it does not follow the time */
     void (*take_interrupts)(void); /* NULL if it has no interrupts */
     rungc_map (*map)(void);
+    uint32_t (*constant_scan_us)(void); /* NULL if it never asks for scans of constant length */
 } program;
 
 #define CASE(n)                                                                                                        \
@@ -82,22 +83,28 @@ typedef struct {
         case##n##_take_interrupts(&memory.case##n);                                                                    \
     }
 
-#define ENTRY(n) {init##n, scan##n, set_running##n, power_cycle##n, output##n, NULL, NULL, NULL, map##n}
+#define CONSTANT_SCAN(n)                                                                                               \
+    static uint32_t constant_scan_us##n(void)                                                                          \
+    {                                                                                                                  \
+        return case##n##_constant_scan_us(&memory.case##n);                                                            \
+    }
 
-#define ENTRY_WITH_EVENTS(n)                                                                                           \
-    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, NULL, NULL, map##n}
+#define ENTRY(n, scan_us) {init##n, scan##n, set_running##n, power_cycle##n, output##n, NULL, NULL, NULL, map##n, scan_us}
 
-#define ENTRY_WITH_TIME(n)                                                                                             \
-    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, NULL, map##n}
+#define ENTRY_WITH_EVENTS(n, scan_us)                                                                                  \
+    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, NULL, NULL, map##n, scan_us}
 
-#define ENTRY_WITH_INTERRUPTS(n)                                                                                       \
-    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, take_interrupts##n, map##n}
+#define ENTRY_WITH_TIME(n, scan_us)                                                                                    \
+    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, NULL, map##n, scan_us}
+
+#define ENTRY_WITH_INTERRUPTS(n, scan_us)                                                                              \
+    {init##n, scan##n, set_running##n, power_cycle##n, output##n, input_edge##n, tick##n, take_interrupts##n, map##n, scan_us}
 
 /* CASES */
 
 static const program programs[] = {
     /* ENTRIES */
-    {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL},
+    {NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL},
 };
 
 /* The class that a name means. */
@@ -177,6 +184,8 @@ static bool machine_request(const program *program, const char *verb, const long
         rungc_virtual_advance((uint32_t)number[0]);
         program->scan((uint32_t)number[0], (uint32_t)number[1]);
         done(true);
+    } else if (strcmp(verb, "constant") == 0) {
+        value(true, program->constant_scan_us == NULL ? 0 : (long)(program->constant_scan_us() / 1000u));
     } else if (strcmp(verb, "out") == 0) {
         value(true, program->output((unsigned)number[0]));
     } else if (strcmp(verb, "pulses") == 0) {

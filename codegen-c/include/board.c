@@ -36,7 +36,7 @@ static void scan(PROGRAM_plc *plc, rungc_board *board)
 
     PROGRAM_scan(plc, board->now_ms, board->scan_us);
     board->scan_us = board->now_us(board->hal.context) - begin;
-}
+/* CONSTANT */}
 
 /* Sets the pins of outputs, which a scan has changed, or a comparison at its count. The timer has those that send pulses. */
 static void write_outputs(const PROGRAM_plc *plc, const rungc_board *board)

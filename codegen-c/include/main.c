@@ -177,6 +177,8 @@ static void print_outputs(const PROGRAM_plc *plc, uint32_t now_ms)
     }
 }
 
+/* CLOCK */
+/* OVERRUN */
 int main(void)
 {
     PROGRAM_plc *const plc = &plc_memory;
@@ -190,6 +192,7 @@ int main(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     PROGRAM_init(plc);
+    /* HAL */
     while (!stopped) {
         const uint64_t begin = microseconds();
         const uint32_t now_ms = (uint32_t)((begin - start) / 1000u);
@@ -200,7 +203,7 @@ int main(void)
         print_stop(plc, now_ms);
         scan_us = (uint32_t)(microseconds() - begin);
 
-        next += SCAN_MS * 1000u;
+        /* PERIOD */
         /* WAIT */
     }
     return 0;

@@ -187,6 +187,18 @@ static inline bool rungc_board_scans(rungc_board *board, uint32_t now_us)
     return true;
 }
 
+/* After a scan: if the program asks for scans of constant length (`constant_us` is not 0), the next one begins that long after the start of
+   this one, or at once if this one took longer. */
+static inline void rungc_board_waits(rungc_board *board, uint32_t constant_us)
+{
+    if (constant_us != 0u && board->scan_us <= constant_us) {
+        board->next_scan += constant_us - board->period_us;
+        board->scan_us = constant_us;
+    } else if (constant_us != 0u) {
+        board->next_scan = board->now_us(board->hal.context);
+    }
+}
+
 /* Keeps the timer's interrupt from coming, or lets it come again. */
 static inline void rungc_board_hold(const rungc_board *board, bool hold)
 {

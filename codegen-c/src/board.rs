@@ -91,7 +91,12 @@ pub fn source(module: &Module, runtime: bool) -> String {
         true => (EVENTS_C, TAKE_EVENTS, "scans || edges || counts"),
         false => ("", "", "scans"),
     };
+    let constant = match rungc_emit::cycle::constant_scan(module, &fields) {
+        Some(_) => "    rungc_board_waits(board, PROGRAM_constant_scan_us(plc));\n",
+        None => "",
+    };
     let mut text = BOARD_C
+        .replace("/* CONSTANT */", constant)
         .replace("/* EVENTS */\n", events)
         .replace("/* TAKE */\n", take)
         .replace("/* CHANGES */", changes)

@@ -2,6 +2,7 @@
 
 use crate::unit::{self, Unit};
 use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, board, header, text};
+use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::walk::has_many_timers;
@@ -284,7 +285,14 @@ fn batch_entry(i: usize, module: &Module, functions: &mut String, entries: &mut 
         let _ = writeln!(functions, "{function}({i})");
         entry = with;
     }
-    let _ = writeln!(entries, "    {entry}({i}),");
+    let scan = match cycle::constant_scan(module, &Storage::new(module)) {
+        Some(_) => {
+            let _ = writeln!(functions, "CONSTANT_SCAN({i})");
+            format!("constant_scan_us{i}")
+        }
+        None => "NULL".to_string(),
+    };
+    let _ = writeln!(entries, "    {entry}({i}, {scan}),");
 }
 
 /// The files of a program that holds all modules, for tests.

@@ -4,6 +4,7 @@ use crate::fields::{self, PrintField};
 use crate::unit::uses_runtime;
 use crate::writer::c_type;
 use crate::{events, text};
+use rungc_emit::cycle;
 use rungc_emit::plan::Plan;
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_emit::temps::Home;
@@ -17,6 +18,13 @@ const COMMENT_COLUMN: usize = 36;
 
 /// For this many input edges, the header explains one by one how they get in.
 const MOST_EDGES: usize = 4;
+
+/// The prototype for programs that may ask for scans of constant length.
+const CONSTANT_SCAN: &str = "\
+/* How long a scan is to last at least, from its start to that of the next one, in microseconds; 0: as the host likes. A scan that takes
+   longer is followed at once by the next. The next scan's `scan_us` includes the time in which it waited. */
+uint32_t NAME_constant_scan_us(const NAME_plc *plc);
+";
 
 /// Heading of a section of the struct.
 fn heading(section: Section) -> &'static str {
@@ -52,6 +60,9 @@ pub fn api(module: &Module, fields: &Storage, plan: &Plan, runtime: bool) -> Str
         size.total()
     );
     prototypes(&mut out, name);
+    if cycle::constant_scan(module, fields).is_some() {
+        let _ = write!(out, "\n{}", CONSTANT_SCAN.replace("NAME", name));
+    }
     if module.takes_events() {
         out.push_str(&events::prototypes(module));
     }

@@ -18,6 +18,88 @@ for (uint64_t now = microseconds(); now < next && !stopped; now = microseconds()
             PROGRAM_tick(plc, (uint32_t)((microseconds() - start) / 1000u));
 /* INTERRUPTS */        }";
 
+/// When the next scan begins.
+const PERIOD: &str = "next += SCAN_MS * 1000u;";
+
+/// When it begins after a scan that may ask for a constant length.
+const CONSTANT_PERIOD: &str = "\
+const uint32_t constant_us = PROGRAM_constant_scan_us(plc);
+        if (constant_us == 0u) {
+            next += SCAN_MS * 1000u;
+        } else if (scan_us <= constant_us) {
+            next += constant_us;
+            scan_us = constant_us;
+        } else {
+            next = microseconds();
+            print_overrun(scan_us, constant_us);
+        }";
+
+/// The real-time clock of a host.
+const CLOCK: &str = "\
+/* How many seconds the program's clock is ahead of this computer's, since the program has set it. */
+static time_t ahead;
+
+/* The real-time clock: the local time. */
+static bool read_clock(void *context, rungc_clock *clock)
+{
+    const time_t now = time(NULL) + ahead;
+    struct tm local;
+
+    (void)context;
+    if (localtime_r(&now, &local) == NULL) {
+        return false;
+    }
+    clock->year = (uint16_t)(local.tm_year + 1900);
+    clock->month = (uint8_t)(local.tm_mon + 1);
+    clock->day = (uint8_t)local.tm_mday;
+    clock->hour = (uint8_t)local.tm_hour;
+    clock->minute = (uint8_t)local.tm_min;
+    clock->second = (uint8_t)(local.tm_sec < 60 ? local.tm_sec : 59);
+    clock->weekday = (uint8_t)local.tm_wday;
+    return true;
+}
+
+/* Sets the program's clock; this computer's stays as it is. The weekday follows the date. */
+static bool set_clock(void *context, const rungc_clock *clock)
+{
+    struct tm local = {.tm_year = clock->year - 1900,
+                       .tm_mon = clock->month - 1,
+                       .tm_mday = clock->day,
+                       .tm_hour = clock->hour,
+                       .tm_min = clock->minute,
+                       .tm_sec = clock->second,
+                       .tm_isdst = -1};
+    const time_t then = mktime(&local);
+
+    (void)context;
+    if (then == (time_t)-1) {
+        return false;
+    }
+    ahead = then - time(NULL);
+    return true;
+}
+
+/* The hardware that the program asks: a clock. */
+static const rungc_hal hardware = {.clock = read_clock, .set_clock = set_clock};
+
+";
+
+/// What a host says of a scan that takes longer than the constant length.
+const OVERRUN: &str = "\
+/* Reports once that a scan takes longer than the program wants. */
+static void print_overrun(uint32_t scan_us, uint32_t constant_us)
+{
+    static bool told;
+
+    if (!told) {
+        fprintf(stderr, \"PROGRAM: a scan took %lu us, longer than the constant scan time of %lu us\\n\", (unsigned long)scan_us,
+                (unsigned long)constant_us);
+    }
+    told = true;
+}
+
+";
+
 /// `main.c` for a program.
 pub fn main_file(module: &Module) -> String {
     let fields = Storage::new(module);
@@ -67,10 +149,22 @@ pub fn main_file(module: &Module) -> String {
             format!("    case {}u:\n        return {title};\n", error.code)
         })
         .collect();
+    let (period, overrun) = match rungc_emit::cycle::constant_scan(module, &fields) {
+        Some(_) => (CONSTANT_PERIOD, OVERRUN),
+        None => (PERIOD, ""),
+    };
+    let (clock, hal) = match rungc_emit::cycle::asks_clock(module) {
+        true => (CLOCK, "    plc->hal = &hardware;\n"),
+        false => ("", ""),
+    };
     MAIN_C
         .replace("    /* ERRORS */\n", &errors)
         .replace("    /* INSTRUCTIONS */\n", &instructions(module))
         .replace("/* MISSING */\n", &missing_device(module, &fields))
+        .replace("/* CLOCK */\n", clock)
+        .replace("    /* HAL */\n", hal)
+        .replace("/* PERIOD */", period)
+        .replace("/* OVERRUN */\n", overrun)
         .replace("/* WAIT */", wait)
         .replace("/* INTERRUPTS */", interrupts)
         .replace("    /* INPUTS */\n", &inputs)

@@ -23,6 +23,7 @@ mod host;
 mod members;
 mod page;
 mod reads;
+mod run_control;
 mod runtime;
 mod stations;
 mod stmt;

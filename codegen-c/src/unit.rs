@@ -149,12 +149,12 @@ pub struct Printer<'a> {
 }
 
 impl Printer<'_> {
-    fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.module.name
     }
 
     /// `plc->M8067`, if it is stored.
-    fn stored(&self, class: DeviceClass, number: u32) -> Option<String> {
+    pub(crate) fn stored(&self, class: DeviceClass, number: u32) -> Option<String> {
         let mut name = String::new();
         self.fields.access(&mut name, class, number).then_some(name)
     }
@@ -325,6 +325,7 @@ impl Printer<'_> {
         self.power_cycle(out, forget);
         self.set_running(out, forget);
         self.scan(out);
+        self.constant_scan(out);
         self.output(out);
         self.error(out);
     }
@@ -396,6 +397,7 @@ impl Printer<'_> {
             Some(hold) => format!(" if (!{hold})"),
             None => String::new(),
         };
+        let forget_command = self.forget_run_command();
         let begin_run = match forget {
             true => format!("    if (running) {{\n        {name}_forget(plc);\n    }} else"),
             false => "    if (!running)".to_string(),
@@ -403,7 +405,7 @@ impl Printer<'_> {
         let _ = write!(
             out,
             "void {name}_set_running({name}_plc *plc, bool running)\n{{\n    if (running == plc->sys.running) {{\n        return;\n    }}\n    \
-             plc->sys.running = running;\n    plc->sys.first_scan = running;\n{begin_run}{hold} {{\n        {name}_clear_general(plc);\n    }}\n}}\n\n"
+             plc->sys.running = running;\n    plc->sys.first_scan = running;\n{forget_command}{begin_run}{hold} {{\n        {name}_clear_general(plc);\n    }}\n}}\n\n"
         );
     }
 
@@ -426,11 +428,12 @@ impl Printer<'_> {
             true => format!("    {name}_advance_ports(plc, now_ms * 1000u);\n"),
             false => String::new(),
         };
+        let obey = self.obey_run_command();
         let steps = self.watchdog_begins();
         let (begin, main, end) = (call(0, "    "), call(1, "        "), call(2, "        "));
         let _ = write!(
             out,
-            "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n    \
+            "void {name}_scan({name}_plc *plc, uint32_t now_ms, uint32_t scan_us)\n{{\n{obey}    \
              plc_begin_scan(&plc->sys, now_ms, scan_us);\n{pulses}{ports}{steps}{begin}    if (plc->sys.running) {{\n{main}{end}    }}\n    \
              plc->sys.first_scan = false;\n{ports}}}\n\n"
         );

@@ -3,6 +3,7 @@
 use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
 use crate::{Options, OutFile, Runtime};
+use rungc_emit::cycle;
 use rungc_ir::Module;
 use rungc_ir::node::Origin;
 use rungc_models::plc_errors;
@@ -408,7 +409,20 @@ fn host(generator: &Generator, crate_name: &str) -> String {
         .iter()
         .map(|error| format!("\n    ({}, {:?}),", error.code, error.title))
         .collect();
+    let (period, overrun) = match cycle::constant_scan(generator.module, &generator.storage) {
+        Some(_) => (CONSTANT_PERIOD, "    let mut overrun = false;\n"),
+        None => (PERIOD, ""),
+    };
+    let (uses, set, local) = match cycle::asks_clock(generator.module) {
+        true => ("Class, Clock, Hal", SET_CLOCK, LOCAL_TIME),
+        false => ("Class", "", ""),
+    };
     include_str!("../templates/host.rs")
+        .replace("        PERIOD;\n", period)
+        .replace("    OVERRUN;\n", overrun)
+        .replace("CLOCK_USES", uses)
+        .replace("    CLOCK;\n", set)
+        .replace("LOCAL_TIME;\n", local)
         .replace("ERROR_TABLE", &errors)
         .replace("INSTRUCTION_TABLE", &instructions(generator.module))
         .replace("OUTPUT_TABLE", &table)
@@ -444,6 +458,47 @@ fn instructions(module: &Module) -> String {
     }
     rows
 }
+
+/// When the next scan begins.
+const PERIOD: &str = "        next += SCAN;\n";
+
+/// When it begins after a scan that may ask for a constant length.
+const CONSTANT_PERIOD: &str = "        let constant_us = plc.constant_scan_ms().map(|ms| u32::from(ms) * 1000);
+        next = match constant_us {
+            None => next + SCAN,
+            Some(us) if scan_us <= us => {
+                scan_us = us;
+                next + Duration::from_micros(us.into())
+            }
+            Some(us) => {
+                if !overrun {
+                    eprintln!(\"a scan took {scan_us} us, longer than the constant scan time of {us} us\");
+                }
+                overrun = true;
+                Instant::now()
+            }
+        };
+";
+
+/// The program's clock starts with that of the computer.
+const SET_CLOCK: &str = "    if let Some(clock) = local_time() {
+        let _ = hal.set_clock(clock);
+    }
+";
+
+/// Where a host takes its clock from: the standard library knows no local time.
+const LOCAL_TIME: &str = "
+/// The local time, as the command `date` gives it; `None` where there is no such command.
+fn local_time() -> Option<Clock> {
+    let date = std::process::Command::new(\"date\").arg(\"+%Y %m %d %H %M %S\").output().ok()?;
+    let text = String::from_utf8(date.stdout).ok()?;
+    let mut fields = text.split_whitespace().map(|field| field.parse::<u16>().ok());
+    let mut next = || fields.next().flatten();
+    let year = next()?;
+    let mut next = || u8::try_from(next()?).ok();
+    Clock::new(year, next()?, next()?, next()?, next()?, next()?)
+}
+";
 
 /// How a host waits for the next scan.
 const WAIT: &str = "        std::thread::sleep(next.saturating_duration_since(Instant::now()));\n";

@@ -3,7 +3,7 @@
 //! Type `X0=1` or `X0=0` and Enter to switch an input (in octal, as on the PLC); outputs are printed when they change.
 
 use CRATE::TYPE;
-use rungc_rt::{Class, LastError, Plc, Program, Stop, VirtualHal};
+use rungc_rt::{CLOCK_USES, LastError, Plc, Program, Stop, VirtualHal};
 use std::collections::BTreeSet;
 use std::io::{self, BufRead};
 use std::sync::mpsc::{self, Receiver};
@@ -30,12 +30,14 @@ const INSTRUCTIONS: &[(u16, &str, &[Indexed])] = &[INSTRUCTION_TABLE];
 fn main() {
     let mut plc = TYPE::new();
     let mut hal = VirtualHal::new();
+    CLOCK;
     let mut shown = [false; OUTPUTS.len()];
     let commands = commands();
     let start = Instant::now();
     let mut next = start;
     let mut scan_us = 0;
     let mut reported = Reported::default();
+    OVERRUN;
     loop {
         let begin = Instant::now();
         let now_ms = (begin - start).as_millis() as u32;
@@ -57,7 +59,7 @@ fn main() {
         }
         reported.add(&plc, now_ms);
         scan_us = begin.elapsed().as_micros() as u32;
-        next += SCAN;
+        PERIOD;
         WAIT;
     }
 }
@@ -148,3 +150,4 @@ fn set_input(plc: &mut TYPE, hal: &mut VirtualHal, line: &str) -> Option<()> {
     plc.input_edge(hal, number, on);
     Some(())
 }
+LOCAL_TIME;

@@ -5,10 +5,12 @@ use crate::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::node::Stmt;
 use rungc_models::Model;
+use rungc_models::special::{ConstantScan, RunCommand, SpecialDevice};
+use rungc_rt::RtFn;
 use rungc_rt::special::{
-    D_ANY_ERROR, D_ERROR_STEP, D_FIRST_ERROR_STEP, D_WATCHDOG, D_WATCHDOG_MS, M_ANY_ERROR,
-    M_FIRST_ERROR, M_OPERATION_ERROR, M_WATCHDOG, OPERATION_ERROR_BCD, Relay, WATCHDOG_BCD,
-    WATCHDOG_CODE,
+    D_ANY_ERROR, D_ERROR_STEP, D_FIRST_ERROR_STEP, D_REMOTE, D_WATCHDOG, D_WATCHDOG_MS,
+    M_ANY_ERROR, M_FIRST_ERROR, M_FORCE_ENABLE, M_FORCED_RUN, M_LOCAL_CONTROL, M_OPERATION_ERROR,
+    M_REMOTE_RUN, M_WATCHDOG, OPERATION_ERROR_BCD, Relay, WATCHDOG_BCD, WATCHDOG_CODE,
 };
 use rungc_syntax::DeviceClass;
 
@@ -40,9 +42,53 @@ impl Asked {
 
 /// Whether a special relay is stored and means on the model what it means on most.
 pub fn keeps(module: &Module, storage: &Storage, relay: Relay) -> bool {
-    let is_stored = storage.find(DeviceClass::M, relay.number()).is_some();
-    is_stored && module.model.scan_keeps(relay)
+    is_stored(storage, relay) && module.model.scan_keeps(relay)
 }
+
+/// What asks for scans of constant length, if all of it is stored.
+pub fn constant_scan(module: &Module, storage: &Storage) -> Option<ConstantScan> {
+    let asks = module.model.constant_scan()?;
+    let relay = asks.relay.is_none_or(|relay| is_stored(storage, relay));
+    (relay && is_stored(storage, asks.register)).then_some(asks)
+}
+
+/// What puts the PLC in RUN and STOP other than its switch, if all of it is stored.
+pub fn run_command(module: &Module, storage: &Storage) -> Option<RunCommand> {
+    let command = module.model.run_command()?;
+    let stored = match command {
+        RunCommand::Forced => [M_FORCE_ENABLE, M_FORCED_RUN].map(|m| is_stored(storage, m)),
+        RunCommand::Remote => [
+            is_stored(storage, M_REMOTE_RUN) && is_stored(storage, M_LOCAL_CONTROL),
+            is_stored(storage, D_REMOTE),
+        ],
+    };
+    (stored == [true; 2]).then_some(command)
+}
+
+fn is_stored<D: SpecialDevice>(storage: &Storage, device: D) -> bool {
+    storage.find(D::CLASS, device.number()).is_some()
+}
+
+/// Whether a program reads or sets the real-time clock.
+pub fn asks_clock(module: &Module) -> bool {
+    let mut asks = false;
+    for function in &module.functions {
+        rungc_ir::walk::statements(&function.body, &mut |stmt| {
+            asks |= matches!(stmt, Stmt::Call(call) if CLOCK_FUNCTIONS.contains(&call.function));
+        });
+    }
+    asks
+}
+
+/// Functions that read or set the real-time clock.
+const CLOCK_FUNCTIONS: [RtFn; 6] = [
+    RtFn::Trd,
+    RtFn::TrdShort,
+    RtFn::Twr,
+    RtFn::TwrShort,
+    RtFn::ClockRefresh,
+    RtFn::ClockRefreshShort,
+];
 
 /// What becomes of latched devices at power-on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -9,7 +9,11 @@ use crate::eval::Value;
 use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::{CellId, EdgeId, FlagId, FunctionKind, TableId, TempId};
-use rungc_rt::special::{D_WATCHDOG_MS, M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
+use rungc_models::special::RunCommand;
+use rungc_rt::special::{
+    D_REMOTE, D_WATCHDOG_MS, M_FORCE_ENABLE, M_FORCED_RUN, M_KEEP_IN_STOP, M_LOCAL_CONTROL,
+    M_OUTPUTS_OFF, M_REMOTE_RUN, REMOTE_KEY, Relay,
+};
 use rungc_rt::{
     Axis, Class, EdgeKind, Hal, LastError, Operand, Plc, Port, Ports, Program, Pulses, State, Stop,
     Sys,
@@ -209,6 +213,29 @@ impl<'m> Machine<'m> {
             && self.devices.bit(Class::M, relay.number()).unwrap_or(false)
     }
 
+    /// Obeys what puts the PLC in RUN and STOP other than its switch.
+    fn obey_run_command(&mut self) {
+        let bit = |devices: &Devices, m: Relay| devices.bit(Class::M, m.number()) == Some(true);
+        let running = match self.module.model.run_command() {
+            Some(RunCommand::Forced)
+                if !self.sys.running
+                    && bit(&self.devices, M_FORCE_ENABLE)
+                    && bit(&self.devices, M_FORCED_RUN) =>
+            {
+                let _ = self.set_bit(Class::M, M_FORCED_RUN.number(), false);
+                true
+            }
+            Some(RunCommand::Remote)
+                if self.word(Class::D, D_REMOTE.number()) == Some(REMOTE_KEY)
+                    && !bit(&self.devices, M_LOCAL_CONTROL) =>
+            {
+                bit(&self.devices, M_REMOTE_RUN)
+            }
+            Some(RunCommand::Forced | RunCommand::Remote) | None => return,
+        };
+        self.set_running(running);
+    }
+
     /// Runs a function, if there is one.
     fn run_function(&mut self, hal: &mut dyn Hal, function: Option<usize>) {
         if let Some(function) = function.and_then(|i| self.module.functions.get(i)) {
@@ -240,6 +267,7 @@ impl<'m> Machine<'m> {
 
 impl Program for Machine<'_> {
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32) {
+        self.obey_run_command();
         self.sys.begin_scan(now_ms, scan_us);
         let now_us = now_ms.wrapping_mul(1000);
         self.count_pulses(hal, now_us);
@@ -253,6 +281,13 @@ impl Program for Machine<'_> {
         }
         self.sys.end_scan();
         self.advance_ports(hal, now_us);
+    }
+
+    fn constant_scan_ms(&self) -> Option<u16> {
+        let asks = self.module.model.constant_scan()?;
+        let on = asks.relay.is_none_or(|relay| self.special(relay));
+        let ms = self.word(Class::D, asks.register.number()).unwrap_or(0);
+        u16::try_from(ms).ok().filter(|&ms| on && ms > 0)
     }
 
     fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
@@ -295,7 +330,12 @@ impl Program for Machine<'_> {
         }
         if running {
             self.begin_run();
-        } else if !self.special(M_KEEP_IN_STOP) {
+            return;
+        }
+        if self.module.model.run_command() == Some(RunCommand::Forced) {
+            let _ = self.set_bit(Class::M, M_FORCED_RUN.number(), false);
+        }
+        if !self.special(M_KEEP_IN_STOP) {
             self.devices.clear(false);
         }
     }

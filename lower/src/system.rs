@@ -7,7 +7,7 @@ use super::stl::ANNUNCIATORS;
 use rungc_ir::node::{
     Access, Arg, BinOp, Body, Call, Expr, ExprId, Place, Stmt, SysValue, TempId, Ty,
 };
-use rungc_models::special::SpecialDevice;
+use rungc_models::special::{RunCommand, SpecialDevice};
 use rungc_rt::special::*;
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::DeviceClass::{D, S, X};
@@ -54,6 +54,7 @@ impl Lowerer<'_> {
     pub(super) fn begin_function(&mut self) -> Body {
         self.body(|this| {
             this.run_flags();
+            this.show_run();
             this.first_levels();
             this.begin_clock();
             this.forget_comparisons();
@@ -151,15 +152,41 @@ impl Lowerer<'_> {
         }
     }
 
+    /// M8004 of HM shows RUN, unless it decides on it ([`RunCommand::Remote`]).
+    fn show_run(&mut self) {
+        let remote = self.model.run_command() == Some(RunCommand::Remote);
+        if !remote || !self.keeps(M_REMOTE_RUN) {
+            return;
+        }
+        let show = |this: &mut Self| {
+            let running = this.add(Expr::Sys(SysValue::Running));
+            this.write_relay(M_REMOTE_RUN, running);
+        };
+        if !self.keeps(D_REMOTE) || !self.keeps(M_LOCAL_CONTROL) {
+            return show(self);
+        }
+        let register = self.add(Expr::Read(Access::word(D_REMOTE)));
+        let key = self.int(REMOTE_KEY.into(), false);
+        let locked = self.add(Expr::Cmp(CmpOp::Ne, register, key));
+        let local = self.add(Expr::Read(Access::bit(M_LOCAL_CONTROL)));
+        let shows = self.or(locked, local);
+        self.when(shows, show);
+    }
+
     /// The errors of the last run are forgotten when RUN begins; their latches are not.
     fn forget_errors(&mut self) {
-        let errors: Vec<Relay> = [M_ANY_ERROR, self.model.error_relay]
+        // On HM, M8004 and D8004 are something else.
+        let sums_up = self.model.error_relay == M_OPERATION_ERROR;
+        let any = sums_up.then_some(M_ANY_ERROR);
+        let errors: Vec<Relay> = [any, Some(self.model.error_relay)]
             .into_iter()
+            .flatten()
             .filter(|&relay| self.keeps(relay))
             .collect();
         // The code of FX shows the last error as long as there was no other.
         let code = (!self.model.errors_last_a_scan).then_some(D_OPERATION_ERROR);
-        let registers: Vec<Register> = [Some(D_ANY_ERROR), code]
+        let any = sums_up.then_some(D_ANY_ERROR);
+        let registers: Vec<Register> = [any, code]
             .into_iter()
             .flatten()
             .filter(|&register| self.keeps(register))

@@ -3,7 +3,10 @@
 //! A number that a table does not hold has no meaning on the model (the manual calls it reserved, or says nothing).
 
 use crate::Model;
-use rungc_rt::special::D_TYPE;
+use rungc_rt::special::{
+    D_CONSTANT_SCAN, D_REMOTE, D_SHORTEST_SCAN, D_TYPE, M_CONSTANT_SCAN, M_FORCE_ENABLE,
+    M_FORCED_RUN, M_LOCAL_CONTROL, M_REMOTE_RUN,
+};
 use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
 use std::ops::RangeInclusive;
@@ -73,6 +76,24 @@ pub enum Missed {
     ByAll,
 }
 
+/// What asks for scans of constant length.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ConstantScan {
+    /// While it is on; `None`: always.
+    pub relay: Option<Relay>,
+    /// The shortest time of a scan in milliseconds; 0 or less: none.
+    pub register: Register,
+}
+
+/// What puts the PLC in RUN and STOP, other than its switch. It acts when a scan begins, in RUN or in STOP.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum RunCommand {
+    /// M8036 puts it in RUN while M8035 is on, and goes off (h1u-h2u-programming §8.9).
+    Forced,
+    /// While D8004 holds [`REMOTE_KEY`](rungc_rt::special::REMOTE_KEY) and M8005 is off, M8004 decides on RUN and STOP (hm-motion-controller §5.7).
+    Remote,
+}
+
 /// Special devices `first` to `last` of one class.
 #[derive(Clone, Copy, Debug)]
 pub struct Special {
@@ -132,6 +153,32 @@ impl Model {
         row.is_some_and(Special::is_kept_by_scan)
     }
 
+    /// What asks for scans of constant length on this model.
+    pub fn constant_scan(&self) -> Option<ConstantScan> {
+        let (relay, register) = (M_CONSTANT_SCAN, D_CONSTANT_SCAN);
+        if self.scan_keeps(relay) && self.scan_keeps(register) {
+            return Some(ConstantScan {
+                relay: Some(relay),
+                register,
+            });
+        }
+        self.scan_keeps(D_SHORTEST_SCAN).then_some(ConstantScan {
+            relay: None,
+            register: D_SHORTEST_SCAN,
+        })
+    }
+
+    /// What puts the PLC in RUN and STOP on this model, other than its switch.
+    pub fn run_command(&self) -> Option<RunCommand> {
+        let forced = self.scan_keeps(M_FORCE_ENABLE) && self.scan_keeps(M_FORCED_RUN);
+        let remote = self.scan_keeps(D_REMOTE) && self.scan_keeps(M_REMOTE_RUN);
+        match (forced, remote) {
+            (true, _) => Some(RunCommand::Forced),
+            (false, true) if self.scan_keeps(M_LOCAL_CONTROL) => Some(RunCommand::Remote),
+            _ => None,
+        }
+    }
+
     /// Special registers that start with a value other than 0, e.g. D8000 = 200.
     pub fn special_words(&self) -> impl Iterator<Item = (u32, i16)> + use<> {
         self.specials()
@@ -176,10 +223,6 @@ pub(crate) const HARDWARE: Reason = because(
 pub(crate) const CHECKED: Reason = because(
     Missed::Never,
     "errors of this kind are found before the program runs",
-);
-pub(crate) const HOST: Reason = because(
-    Missed::ByWriters,
-    "the host decides when scans start and whether the PLC is in RUN",
 );
 pub(crate) const FAST: Reason = because(
     Missed::ByWriters,
@@ -258,7 +301,7 @@ pub(crate) use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, CAN, CARDS, MODULES, POWER, Special, Status};
+    use super::{Access, CAN, CARDS, MODULES, POWER, RunCommand, Special, Status};
     use crate::{Model, ModelId};
     use rungc_syntax::DeviceClass::{self, D, M};
     use std::collections::BTreeSet;
@@ -339,6 +382,32 @@ mod tests {
         assert_eq!([300, 599, 97].map(|n| of(ModelId::Hm, D, n)), [axis; 3]);
         assert_eq!(of(ModelId::Hm, D, 7142), Some(Status::Inert(MODULES)));
         assert_eq!(of(ModelId::Hm, D, 1000), None);
+    }
+
+    #[test]
+    fn scans_of_constant_length_are_asked_for() {
+        let of = |id| {
+            let asks = Model::get(id).constant_scan()?;
+            Some((
+                asks.relay.map(|relay| relay.number()),
+                asks.register.number(),
+            ))
+        };
+        assert_eq!(of(ModelId::H2u), Some((Some(8039), 8039)));
+        assert_eq!(of(ModelId::Fx1n), Some((Some(8039), 8039)));
+        assert_eq!(of(ModelId::L01s), Some((None, 8059)));
+        assert_eq!(of(ModelId::Hm), None);
+    }
+
+    #[test]
+    fn every_model_can_be_put_in_run() {
+        for id in ModelId::ALL {
+            let expected = match id {
+                ModelId::Hm => RunCommand::Remote,
+                _ => RunCommand::Forced,
+            };
+            assert_eq!(Model::get(id).run_command(), Some(expected), "{id:?}");
+        }
     }
 
     #[test]

@@ -182,7 +182,8 @@ pub struct Setup {
     pub inputs: u16,
     /// Outputs Y from 0 on that a scan sets with [`Hal::set_output`].
     pub outputs: u16,
-    /// Scan period, start to start, in microseconds, below 2^31; 0: a scan at each [`Driver::poll`].
+    /// Scan period, start to start, in microseconds, below 2^31; 0: a scan at each [`Driver::poll`]. While the program asks for scans of
+    /// constant length ([`Program::constant_scan_ms`]), that length is the period.
     pub scan_us: u32,
 }
 
@@ -248,9 +249,11 @@ impl<P: Program, B: Board> Driver<P, B> {
         self.program.take_interrupts(&mut self.board);
         let scans = has_come(self.next_scan, now_us);
         if scans {
-            self.next_scan = following(self.next_scan, self.setup.scan_us, now_us);
+            let begin = beginning(self.next_scan, self.setup.scan_us, now_us);
+            self.next_scan = begin.wrapping_add(self.setup.scan_us);
             self.refresh_inputs(false);
             self.scan();
+            self.wait_constant_time(begin);
         }
         if scans || edges || counts {
             self.write_outputs();
@@ -361,6 +364,21 @@ impl<P: Program, B: Board> Driver<P, B> {
         self.scan_us = self.board.now_us().wrapping_sub(begin);
     }
 
+    /// If the program asks for scans of constant length, the next one begins that long after the beginning of the last, or at once if
+    /// that took longer.
+    fn wait_constant_time(&mut self, begin: u32) {
+        let Some(ms) = self.program.constant_scan_ms() else {
+            return;
+        };
+        let constant_us = u32::from(ms) * 1000;
+        if self.scan_us <= constant_us {
+            self.next_scan = begin.wrapping_add(constant_us);
+            self.scan_us = constant_us;
+        } else {
+            self.next_scan = self.board.now_us();
+        }
+    }
+
     /// Sets the pins of outputs, which a scan has changed, or a comparison at its count. The timer has those that send pulses.
     fn write_outputs(&mut self) {
         for number in 0..self.setup.outputs {
@@ -382,11 +400,11 @@ fn has_come(moment: u32, now_us: u32) -> bool {
     now_us.wrapping_sub(moment) <= u32::MAX / 2
 }
 
-/// The moment one period after another; missed ones are skipped.
-fn following(moment: u32, period: u32, now_us: u32) -> u32 {
+/// When the scan of this moment begins: then, even if it is a little late, or now if others were missed.
+fn beginning(moment: u32, period: u32, now_us: u32) -> u32 {
     if now_us.wrapping_sub(moment) < period {
-        moment.wrapping_add(period)
+        moment
     } else {
-        now_us.wrapping_add(period)
+        now_us
     }
 }

@@ -11,6 +11,13 @@ pub trait Program: Plc {
     /// special relays that run from power-on (the clocks) are brought up to date.
     fn scan(&mut self, hal: &mut dyn Hal, now_ms: u32, scan_us: u32);
 
+    /// How many milliseconds a scan is to last at least, from its start to the start of the next one, if the program asks for scans of constant
+    /// length: M8039 and D8039, or D8059 on L01S. A scan that takes longer is followed at once by the next. The `scan_us` of the next
+    /// scan includes the time in which it waited (h1u-h2u-programming §8.9).
+    fn constant_scan_ms(&self) -> Option<u16> {
+        None
+    }
+
     /// Input terminal X `number` turns on or off. Only programs react to it that have interrupts, pulse catch, high-speed counters, or
     /// positioning that looks at inputs; others see their inputs as X shows them to a scan. Interrupts that it requests run in the next scan, or in [`Program::take_interrupts`].
     fn input_edge(&mut self, hal: &mut dyn Hal, number: u32, level: bool) {
@@ -46,7 +53,7 @@ pub trait Program: Plc {
         crate::pulse_millihertz(self, number)
     }
 
-    /// The RUN/STOP switch. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;
+    /// The RUN/STOP switch, which M8035 and M8036 can override in STOP. Going to STOP clears every device that is neither latched, special nor an input, unless M8033 is on;
     /// going to RUN makes the next scan the first one (M8002) and forgets all edges, the coils of timers and counters and the
     /// private memories of instructions included.
     /// Setting the mode that it is in changes nothing. A program is in RUN at power-on.

@@ -92,6 +92,20 @@ pub const M_FORCE_ENABLE: Relay = Relay(8035);
 pub const M_FORCED_RUN: Relay = Relay(8036);
 /// Puts the PLC in STOP.
 pub const M_FORCED_STOP: Relay = Relay(8037);
+/// Scans last at least [`D_CONSTANT_SCAN`].
+pub const M_CONSTANT_SCAN: Relay = Relay(8039);
+/// Shortest time of a scan in milliseconds, with [`M_CONSTANT_SCAN`].
+pub const D_CONSTANT_SCAN: Register = Register(8039);
+/// The same on L01S, where no relay enables it.
+pub const D_SHORTEST_SCAN: Register = Register(8059);
+/// Puts HM in RUN and STOP under remote control ([`D_REMOTE`]); otherwise shows which it is in.
+pub const M_REMOTE_RUN: Relay = Relay(8004);
+/// On: the switch of HM decides on RUN and STOP, even with [`D_REMOTE`].
+pub const M_LOCAL_CONTROL: Relay = Relay(8005);
+/// HM is under remote control while it holds [`REMOTE_KEY`] (hm-motion-controller §5.7).
+pub const D_REMOTE: Register = Register(8004);
+/// See [`D_REMOTE`].
+pub const REMOTE_KEY: i16 = 0xFAC0_u16 as i16;
 /// Longest time that a scan may take, in milliseconds.
 pub const D_WATCHDOG_MS: Register = Register(8000);
 /// Type and version of the PLC.

@@ -36,6 +36,8 @@ pub enum Request {
         /// Duration of the scan before, in microseconds.
         scan_us: u32,
     },
+    /// Asks how many milliseconds a scan is to last at least; 0 if the program does not ask for scans of constant length.
+    ConstantScan,
     /// An input terminal turns on or off.
     Edge(u32, bool),
     /// This many milliseconds have passed since power-on.
@@ -134,6 +136,7 @@ impl fmt::Display for Request {
             Request::Word(c, n) => write!(f, "getword {} {n}", letters(c)),
             Request::Double(c, n) => write!(f, "getdword {} {n}", letters(c)),
             Request::Scan { now_ms, scan_us } => write!(f, "scan {now_ms} {scan_us}"),
+            Request::ConstantScan => write!(f, "constant"),
             Request::Edge(n, level) => write!(f, "edge {n} {}", u8::from(level)),
             Request::Tick(now_ms) => write!(f, "tick {now_ms}"),
             Request::Interrupts => write!(f, "interrupts"),

@@ -53,7 +53,7 @@ pub fn run(args: &RunArgs, cx: Context) -> Result {
 
 /// Runs a program.
 pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> Result {
-    if args.scan == 0 {
+    if args.scan == Some(0) {
         return Err(Failure::Because(
             "--scan: a scan takes at least 1 ms".to_string(),
         ));

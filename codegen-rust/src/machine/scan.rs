@@ -3,11 +3,15 @@
 use crate::events::hal_parameter;
 use crate::generate::{Generator, Item};
 use crate::storage::PrintStorage;
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use rungc_emit::cycle;
 use rungc_ir::node::FunctionKind;
-use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
+use rungc_models::special::RunCommand;
+use rungc_rt::special::{
+    D_REMOTE, M_FORCE_ENABLE, M_FORCED_RUN, M_KEEP_IN_STOP, M_LOCAL_CONTROL, M_OUTPUTS_OFF,
+    M_REMOTE_RUN, REMOTE_KEY, Register, Relay,
+};
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
@@ -30,9 +34,11 @@ impl Generator<'_> {
         let hal_name = hal_parameter(self.module.has_ports() || (0..3).any(asks));
         let in_run =
             (main.is_some() || end.is_some()).then(|| quote!(if self.sys.running { #main #end }));
+        let (obey, forget_command) = self.run_command();
         let stop = match self.special_relay(M_KEEP_IN_STOP) {
-            Some(keep) => quote!({ if !#keep { self.clear_general(); } }),
+            Some(keep) => quote!({ #forget_command if !#keep { self.clear_general(); } }),
             None => quote!({
+                #forget_command
                 self.clear_general();
             }),
         };
@@ -42,6 +48,7 @@ impl Generator<'_> {
             .module
             .sends_pulses()
             .then(|| quote!(self.count_pulses(hal, now_ms.wrapping_mul(1000));));
+        let constant_scan = self.constant_scan();
         let ports = self.ports_advance();
         let watchdog = self.watchdog_begins();
         let last_error = self.last_error();
@@ -51,6 +58,7 @@ impl Generator<'_> {
         self.item_of(quote! {
             impl #program for #name {
                 fn scan(&mut self, #hal_name: &mut dyn #hal, now_ms: u32, scan_us: u32) {
+                    #obey
                     self.sys.begin_scan(now_ms, scan_us);
                     #count_pulses
                     #ports
@@ -60,6 +68,7 @@ impl Generator<'_> {
                     self.sys.end_scan();
                     #ports
                 }
+                #constant_scan
                 #events
                 fn set_running(&mut self, running: bool) {
                     if !self.sys.set_running(running) { return; }
@@ -71,6 +80,65 @@ impl Generator<'_> {
                 #output
             }
         })
+    }
+
+    /// What obeys M8035 and M8036 or their likes when a scan begins, and what forgets them in STOP.
+    fn run_command(&mut self) -> (Option<TokenStream>, Option<TokenStream>) {
+        let program = self.rt("Program");
+        let obeyed = match cycle::run_command(self.module, &self.storage) {
+            Some(RunCommand::Forced) => self
+                .special_relay(M_FORCE_ENABLE)
+                .zip(self.special_relay(M_FORCED_RUN))
+                .map(|(enable, run)| {
+                    let obey = quote! {
+                        if !self.sys.running & #enable & #run {
+                            #run = false;
+                            #program::set_running(self, true);
+                        }
+                    };
+                    (obey, Some(quote!(#run = false;)))
+                }),
+            Some(RunCommand::Remote) => self.remote_control().map(|(remote, run)| {
+                let obey = quote!(if #remote { #program::set_running(self, #run); });
+                (obey, None)
+            }),
+            None => None,
+        };
+        match obeyed {
+            Some((obey, forget)) => (Some(obey), forget),
+            None => (None, None),
+        }
+    }
+
+    /// Whether HM is under remote control, and whether that puts it in RUN.
+    fn remote_control(&self) -> Option<(TokenStream, TokenStream)> {
+        let key = self.special_register(D_REMOTE)?;
+        let local = self.special_relay(M_LOCAL_CONTROL)?;
+        let run = self.special_relay(M_REMOTE_RUN)?;
+        let value = Literal::i16_unsuffixed(REMOTE_KEY);
+        Some((quote!((#key == #value) & !#local), quote!(#run)))
+    }
+
+    /// The method that asks for scans of constant length.
+    fn constant_scan(&self) -> Option<TokenStream> {
+        let asks = cycle::constant_scan(self.module, &self.storage)?;
+        let ms = self.special_register(asks.register)?;
+        let on = match asks.relay {
+            Some(relay) => Some(self.special_relay(relay)?),
+            None => None,
+        };
+        let on = on.map(|on| quote!(#on &&));
+        Some(quote! {
+            fn constant_scan_ms(&self) -> Option<u16> {
+                (#on #ms > 0).then_some(#ms as u16)
+            }
+        })
+    }
+
+    /// A special register, if it is stored.
+    fn special_register(&self, register: Register) -> Option<TokenStream> {
+        self.storage
+            .word(&quote!(self), DeviceClass::D, register.number())
     }
 
     /// A special relay, if it is stored and means on the model what it means on most.

@@ -151,6 +151,7 @@ fn answer(
             hal.advance_to(now_ms);
             program.scan(hal, now_ms, next(words)?);
         }
+        "constant" => return value(program.constant_scan_ms().unwrap_or(0)),
         "edge" => program.input_edge(hal, next(words)?, next::<i64>(words)? != 0),
         "tick" => program.tick(hal, next(words)?),
         "interrupts" => program.take_interrupts(hal),

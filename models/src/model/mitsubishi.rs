@@ -1,7 +1,7 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use crate::special::{
-    CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LINK, POWER, SERIAL, Special, TRACE, specials,
+    CHECKED, FAST, HARDWARE, INTERRUPTS, LINK, POWER, SERIAL, Special, TRACE, specials,
 };
 
 /// What all have.
@@ -30,10 +30,10 @@ pub(super) const ALL: &[Special] = specials! {
     M 8032 rw 0 scan "clears what is latched";
     M 8033 rw 0 scan "devices keep their values in STOP";
     M 8034 rw 0 scan "all outputs are off; their images are still updated";
-    M 8035-8036 rw 0 inert(HOST) "both on: RUN is forced";
+    M 8035-8036 rw 0 scan "both on: RUN is forced, and M8036 goes off";
     M 8037 rw 0 scan "STOP is forced";
     M 8038 rw 0 inert(SERIAL) "communication parameters are set";
-    M 8039 rw 0 inert(HOST) "scans last at least D8039";
+    M 8039 rw 0 scan "scans last at least D8039";
     M 8040 rw 0 scan "steps do not change";
     M 8041 rw 0 by("IST") "a step program may start";
     M 8042 rw 0 by("IST") "pulse of the start input";
@@ -75,7 +75,7 @@ pub(super) const ALL: &[Special] = specials! {
     D 8020 rw 10 by("REFF") "filter time of the first inputs in ms";
     D 8028 rw 0 scan "Z0";
     D 8029 rw 0 scan "V0";
-    D 8039 rw 0 inert(HOST) "constant time of a scan in ms (with M8039)";
+    D 8039 rw 0 scan "constant time of a scan in ms (with M8039)";
     D 8040-8047 r 0 scan "the lowest eight steps that are on (with M8047)";
     D 8061 r 0 scan "code of the hardware error: 6105 of the watchdog";
     D 8062-8063 r 0 by("serial ports") "code of the communication error";

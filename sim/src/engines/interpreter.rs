@@ -76,6 +76,7 @@ impl Engine for Interpreter<'_> {
                 machine.scan(hal, now_ms, scan_us);
                 Answer::Ok
             }
+            Request::ConstantScan => Answer::value(Some(machine.constant_scan_ms().unwrap_or(0))),
             Request::Edge(n, level) => {
                 machine.input_edge(hal, n, level);
                 Answer::Ok

@@ -138,6 +138,7 @@ fn asks_for_value(request: Request) -> bool {
             | Request::Output(_)
             | Request::Pulses(_)
             | Request::Frequency(_)
+            | Request::ConstantScan
             | Request::Bfm(..)
             | Request::Sent(..)
             | Request::Line(_)

@@ -100,6 +100,8 @@ pub(super) struct PlcInfo {
     module: usize,
     /// Whether the program takes notice of what happens outside its scan.
     takes_events: bool,
+    /// Whether the program may ask for scans of constant length.
+    asks_constant_scan: bool,
     /// Its serial ports.
     pub(super) ports: Vec<u8>,
 }
@@ -110,9 +112,22 @@ impl PlcInfo {
         PlcInfo {
             module,
             takes_events: program.is_some_and(Module::takes_events),
+            asks_constant_scan: program.is_some_and(asks_constant_scan),
             ports: program.map_or(Vec::new(), |program| program.ports.clone()),
         }
     }
+}
+
+/// Whether the module stores what asks for scans of constant length.
+fn asks_constant_scan(module: &Module) -> bool {
+    let Some(asks) = module.model.constant_scan() else {
+        return false;
+    };
+    let mut areas = module.layout.areas.iter();
+    let register = asks.register.number();
+    areas.any(|area| {
+        area.class == DeviceClass::D && (area.first..area.first + area.count).contains(&register)
+    })
 }
 
 /// A case while it runs.
@@ -131,6 +146,8 @@ pub(super) struct Running<'e> {
     names: Vec<String>,
     /// Whether a scan has run since power-on.
     scanned: bool,
+    /// How many milliseconds scans are to last at least, as the last one asked.
+    constant_ms: u32,
     /// The machine around the PLC.
     pub(super) plant: Option<Plant>,
     /// The serial lines.
@@ -157,6 +174,7 @@ fn run_case(
         current: 0,
         names: case.others.iter().map(|other| other.name.clone()).collect(),
         scanned: false,
+        constant_ms: 0,
         plant: case.machine.as_deref().map(Description::plant),
         lines: Lines::new(&case.wires),
         servers,
@@ -252,6 +270,7 @@ impl Running<'_> {
     fn power_cycle(&mut self) -> Result<(), Failure> {
         self.now_ms = 0;
         self.scanned = false;
+        self.constant_ms = 0;
         self.plant.iter_mut().for_each(Plant::power_cycle);
         self.lines.power_cycle();
         self.stopped.clear();
@@ -306,16 +325,15 @@ impl Running<'_> {
         let changes = wire::changes(&step.signals);
         let mut changes = changes.iter().peekable();
         let begin_ms = self.now_ms;
-        for _ in 0..scans {
-            for plc in 0..self.plcs.len() {
-                self.select(plc)?;
-                self.ask(Request::Scan {
-                    now_ms: self.now_ms,
-                    scan_us: step.scan_ms.saturating_mul(1000),
-                })?;
-            }
-            self.scanned = true;
-            for _ in 0..step.scan_ms {
+        let needed_ms = scans.saturating_mul(step.scan_ms);
+        let mut done = 0;
+        while match step.run {
+            Run::Scans(_) => done < scans,
+            Run::Ms(_) => self.now_ms.wrapping_sub(begin_ms) < needed_ms,
+        } {
+            let scan_ms = self.scan(step.scan_ms)?;
+            done += 1;
+            for _ in 0..scan_ms {
                 self.now_ms = self.now_ms.wrapping_add(1);
                 self.select(0)?;
                 let now_us = u64::from(self.now_ms.wrapping_sub(begin_ms)) * 1000;
@@ -330,6 +348,26 @@ impl Running<'_> {
             }
         }
         self.check(step)
+    }
+
+    /// A scan of all PLCs; how many milliseconds it lasts. They scan together, so the longest constant scan time holds for all.
+    fn scan(&mut self, scan_ms: u32) -> Result<u32, Failure> {
+        let scan_us = scan_ms.max(self.constant_ms).saturating_mul(1000);
+        self.constant_ms = 0;
+        for plc in 0..self.plcs.len() {
+            self.select(plc)?;
+            self.ask(Request::Scan {
+                now_ms: self.now_ms,
+                scan_us,
+            })?;
+            if self.plcs[plc].asks_constant_scan
+                && let Answer::Value(ms) = self.ask(Request::ConstantScan)?
+            {
+                self.constant_ms = self.constant_ms.max(ms.try_into().unwrap_or(0));
+            }
+        }
+        self.scanned = true;
+        Ok(scan_ms.max(self.constant_ms))
     }
 
     /// A millisecond has passed.

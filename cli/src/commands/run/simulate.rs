@@ -14,7 +14,7 @@ use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
 use crate::report::visible;
 use rungc_interp::Machine;
 use rungc_ir::Module;
-use rungc_rt::{Class, Plc, Program, VirtualHal};
+use rungc_rt::{Class, Clock, Hal, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::Plant;
 use rungc_sim::record::Reading;
@@ -41,7 +41,12 @@ struct Simulation<'a> {
     lines: Lines,
     watch: Watch,
     now_ms: u64,
+    /// A scan has taken longer than the constant scan time.
+    overrun: bool,
 }
+
+/// How many milliseconds a scan takes if nothing says so.
+const USUAL_SCAN_MS: u64 = 10;
 
 /// What is to be run, and how.
 pub struct Run<'a> {
@@ -90,7 +95,7 @@ impl Run<'_> {
         let mut watch = Watch::new(module.model, args.serve.trace_frames.as_deref())?;
         let mut simulation = Simulation {
             machine,
-            hal: VirtualHal::new(),
+            hal: hardware(args.in_real_time()),
             pending: self.settings.iter().peekable(),
             shown: self.shown,
             view: View::new(
@@ -109,6 +114,7 @@ impl Run<'_> {
             lines: Lines::open(&args.serve.serial, module.model, &mut watch)?,
             watch,
             now_ms: 0,
+            overrun: false,
         };
         interruption::note();
         let outcome = simulation.run(args)?;
@@ -154,7 +160,7 @@ impl Simulation<'_> {
         loop {
             self.servers
                 .poll(&mut self.machine, &mut self.watch, 1000 * self.now_ms);
-            self.scan(args.scan)?;
+            let scan_ms = self.scan(args.scan)?;
             self.errors.notice(self.machine.errors());
             if self.machine.watchdog_tripped() {
                 let error = self.machine.last_error();
@@ -166,19 +172,19 @@ impl Simulation<'_> {
                 tell(&format!("rungc: interrupted at {} ms", self.now_ms));
                 return Ok(Outcome::Interrupted);
             }
-            if self.now_ms.saturating_add(args.scan) > end_ms {
+            if self.now_ms.saturating_add(scan_ms) > end_ms {
                 break;
             }
             if args.in_real_time() {
-                let next = Duration::from_millis(self.now_ms + args.scan);
+                let next = Duration::from_millis(self.now_ms + scan_ms);
                 thread::sleep(next.saturating_sub(begin.elapsed()));
                 self.lines
                     .receive(&mut self.hal, begin, self.now_ms, &mut self.watch);
             }
             if self.is_idle_between_scans() {
-                self.pass(args.scan)?;
+                self.pass(scan_ms)?;
             } else {
-                for left in (0..args.scan).rev() {
+                for left in (0..scan_ms).rev() {
                     self.millisecond()?;
                     // What a scan begins with is recorded as it leaves it.
                     if left > 0 {
@@ -208,9 +214,10 @@ impl Simulation<'_> {
         }
     }
 
-    fn scan(&mut self, scan_ms: u64) -> std::result::Result<(), Failure> {
+    /// A scan; how many milliseconds it lasts, if one takes `given_ms`.
+    fn scan(&mut self, given_ms: Option<u64>) -> std::result::Result<u64, Failure> {
         self.hal.advance_to(self.now_ms as u32);
-        let scan_us = (scan_ms * 1000).min(u64::from(u32::MAX)) as u32;
+        let scan_us = (self.scan_ms(given_ms) * 1000).min(u64::from(u32::MAX)) as u32;
         self.machine
             .scan(&mut self.hal, self.now_ms as u32, scan_us);
         let values = self
@@ -221,7 +228,28 @@ impl Simulation<'_> {
         if let Some(row) = self.view.scan(self.now_ms, &values) {
             self.out.line(&row)?;
         }
-        self.record()
+        self.record()?;
+        let scan_ms = self.scan_ms(given_ms);
+        match self.machine.constant_scan_ms() {
+            Some(constant_ms) if u64::from(constant_ms) < scan_ms && !self.overrun => {
+                self.overrun = true;
+                tell(&format!(
+                    "rungc: at {} ms: a scan takes {scan_ms} ms, longer than the constant scan time of {constant_ms} ms",
+                    self.now_ms
+                ));
+            }
+            _ => {}
+        }
+        Ok(scan_ms)
+    }
+
+    /// How many milliseconds a scan lasts: what one takes, and the wait for the constant scan time.
+    fn scan_ms(&self, given_ms: Option<u64>) -> u64 {
+        let constant_ms = self.machine.constant_scan_ms().map(u64::from);
+        match (given_ms, constant_ms) {
+            (Some(given), Some(constant)) => given.max(constant),
+            (given, constant) => given.or(constant).unwrap_or(USUAL_SCAN_MS),
+        }
     }
 
     /// Whether nothing happens between two scans but what is set.
@@ -301,6 +329,25 @@ impl Simulation<'_> {
             None => Ok(()),
         }
     }
+}
+
+/// Hardware whose real-time clock shows the local time in a run that keeps step with it.
+fn hardware(in_real_time: bool) -> VirtualHal {
+    let mut hal = VirtualHal::new();
+    if in_real_time {
+        let now = jiff::Zoned::now();
+        let clock = Clock::new(
+            now.year().unsigned_abs(),
+            now.month().unsigned_abs(),
+            now.day().unsigned_abs(),
+            now.hour().unsigned_abs(),
+            now.minute().unsigned_abs(),
+            now.second().unsigned_abs(),
+        );
+        // There is always such a moment.
+        let _ = clock.and_then(|clock| hal.set_clock(clock));
+    }
+    hal
 }
 
 /// Standard output.

@@ -1,6 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers mean something else than on the other models.
 
-use crate::special::{AXES, HOST, MAKER, MODES, MODULES, POWER, SERIAL, Special, specials};
+use crate::special::{AXES, MAKER, MODES, MODULES, POWER, SERIAL, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -8,8 +8,8 @@ pub(super) const HM: &[Special] = specials! {
     M 8001 r 0 scan "off while the PLC runs, otherwise on";
     M 8002 r 0 scan "on in the first scan after start only";
     M 8003 r 0 scan "off in the first ladder scan after start, on in the others";
-    M 8004 rw 0 inert(HOST) "run state: on = run, off = stop; writable only with D8004 = HFAC0 and M8005 = off";
-    M 8005 rw 0 inert(HOST) "run control source: on = physical switch, off = remote (by M8004)";
+    M 8004 rw 0 scan "run state: on = run, off = stop; writable only with D8004 = HFAC0 and M8005 = off";
+    M 8005 rw 0 scan "run control source: on = physical switch, off = remote (by M8004)";
     M 8006 r 0 scan "on when the ladder has a run error";
     M 8007 r 0 inert(POWER) "external RAM check: on = present and working";
     M 8008 r 0 inert(POWER) "power failure detection: on = a power failure happened since power-on";
@@ -58,7 +58,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8001 r 0 inert(MAKER) "series number of the instruction set";
     D 8002 r 12 scan "program capacity";
     D 8003 r 0 inert(MAKER) "drive series number";
-    D 8004 rw 0 inert(HOST) "HFAC0 = the PLC is under remote control";
+    D 8004 rw 0 scan "HFAC0 = the PLC is under remote control";
     D 8005 rw 0 inert(MAKER) "file write password, internal";
     D 8006 r 0 scan "step number of the ladder error";
     D 8007 r 0 scan "50 us timer";

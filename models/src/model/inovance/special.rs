@@ -1,7 +1,7 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use crate::special::{
-    CAN, CARDS, CHECKED, HARDWARE, HOST, LATCHES, NETWORK, POWER, SERIAL, SUMMED, Special, TRACE,
+    CAN, CARDS, CHECKED, HARDWARE, LATCHES, NETWORK, POWER, SERIAL, SUMMED, Special, TRACE,
     UNCLEAR, specials,
 };
 
@@ -39,11 +39,11 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8032 rw 0 scan "on: clears all latched memory (latched M, S, accumulating T, latched and high-speed C, latched D)";
     M 8033 rw 0 scan "on: all devices keep their state in STOP (Y, M, S, T, C, D)";
     M 8034 rw 0 scan "on: all external outputs off";
-    M 8035 rw 0 inert(HOST) "forced RUN mode command 1 (enables forced RUN)";
-    M 8036 rw 0 inert(HOST) "forced RUN command 2: with M8035 on starts the PLC";
+    M 8035 rw 0 scan "forced RUN mode command 1 (enables forced RUN)";
+    M 8036 rw 0 scan "forced RUN command 2: with M8035 on starts the PLC, and goes off";
     M 8037 rw 0 scan "forced STOP: on stops the PLC";
     M 8038 rw 0 inert(SERIAL) "communication parameter setting flag";
-    M 8039 rw 0 inert(HOST) "constant scan mode: a scan lasts at least D8039 ms";
+    M 8039 rw 0 scan "constant scan mode: a scan lasts at least D8039 ms";
     M 8040 rw 0 scan "STL transfer inhibited: states do not transfer, outputs of the active state stay driven";
     M 8041 rw 0 by("IST") "transfer start (IST)";
     M 8042 rw 0 by("IST") "start pulse: pulse output for the start input (IST)";
@@ -218,7 +218,7 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8028 rw 0 scan "same memory as Z0";
     D 8029 rw 0 scan "same memory as V0";
     D 8034-8036 rw 100 by("DRVI, DRVA") "DRVI/DRVA bias speed of Y0–2, used when M8135–8137 is on";
-    D 8039 rw 0 inert(HOST) "constant scan time in ms";
+    D 8039 rw 0 scan "constant scan time in ms";
     D 8040 r 0 scan "with M8047 on: lowest active state number of S0-S899";
     D 8041 r 0 scan "second lowest active state number";
     D 8042 r 0 scan "third lowest active state number";

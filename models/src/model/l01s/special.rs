@@ -1,8 +1,8 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use crate::special::{
-    CAN, CHECKED, FAST, HARDWARE, HOST, INTERRUPTS, LATER, MAKER, MODULES, RAW, SERIAL, Special,
-    TRACE, specials,
+    CAN, CHECKED, FAST, HARDWARE, INTERRUPTS, LATER, MAKER, MODULES, RAW, SERIAL, Special, TRACE,
+    specials,
 };
 
 /// Its special devices.
@@ -24,8 +24,8 @@ pub(super) const L01S: &[Special] = specials! {
     M 8032 rw 0 scan "write on: clear all latched memory";
     M 8033 rw 0 scan "on: memory contents are held on the change from RUN to STOP";
     M 8034 rw 0 scan "on: all outputs disabled (output memory runs on, physical outputs off)";
-    M 8035 rw 0 inert(HOST) "forced RUN mode enable";
-    M 8036 rw 0 inert(HOST) "forced RUN command";
+    M 8035 rw 0 scan "forced RUN mode enable";
+    M 8036 rw 0 scan "forced RUN command: with M8035 on starts the PLC, and goes off";
     M 8037 rw 0 scan "forced STOP command";
     M 8045 rw 0 by("IST") "on: suppress reset of all outputs (when the operation mode is switched)";
     M 8046 r 0 scan "on while any STL state is active (with M8047)";
@@ -153,7 +153,7 @@ pub(super) const L01S: &[Special] = specials! {
     D 8030-8045 r 0 scan "analog input AD0–15 value";
     D 8050-8057 rw 0 by("TO") "analog output DA0–7 value 0..4000; nonzero starts the conversion, 0 stops it";
     D 8058 rw 0 inert(RAW) "current range of the analog outputs";
-    D 8059 rw 0 inert(HOST) "constant scan time (ms)";
+    D 8059 rw 0 scan "constant scan time in ms; 0: none";
     D 8073 rw 7 inert(RAW) "analog input sampling period in scans, 0..7; change takes effect after restart; =1 samples once per scan";
     D 8074 r 0 scan "X000: rising-edge ring counter value, low word [1/6 us]";
     D 8075 r 0 scan "X000: rising-edge ring counter value, high word [1/6 us]";
