@@ -221,6 +221,9 @@ pub struct Plan {
     /// Add a main program for a host that scans in real time.
     #[arg(long)]
     pub main: bool,
+    /// Add functions that read and write devices by number and by name to emitted C (docs/src/embedding.md).
+    #[arg(long)]
+    pub device_access: bool,
     /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,

@@ -567,3 +567,28 @@ fn certain_fixes_are_applied() {
     assert!(text(&refused.stderr).contains("not UTF-8"));
     assert_eq!(std::fs::read(folder.path().join("gbk.il")).unwrap(), gbk);
 }
+
+/// `access` of rungc.toml counts where C is emitted; on the command line it goes with C alone.
+#[test]
+fn device_access_is_for_emitted_c() {
+    let settings = "[build]\naccess = true\n";
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("rungc.toml", settings.as_bytes()),
+    ]);
+    let path = folder.path();
+    assert_eq!(
+        code(path, &["build", "motor.il", "--emit", "c", "-o", "c"]),
+        0
+    );
+    assert!(path.join("c/motor_access.h").is_file());
+    assert_eq!(
+        code(path, &["build", "motor.il", "--emit", "rust", "-o", "rust"]),
+        0
+    );
+    let args = ["build", "motor.il", "--emit", "rust", "--device-access"];
+    insta::assert_snapshot!(
+        text(&rungc(path, &args).stderr),
+        @"rungc: --device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this"
+    );
+}

@@ -375,3 +375,26 @@ fn the_cmake_project_builds() {
     let run = Command::new(folder.path().join("build/firmware")).status();
     assert!(run.unwrap().success());
 }
+
+/// The example on access to devices builds without warnings and finds what it says.
+#[test]
+fn the_panel_finds_devices_by_name() {
+    let page = fs::read_to_string(root().join("docs/src/embedding.md")).unwrap();
+    let folder = desk(&page);
+    let built = Command::new(env!("CARGO_BIN_EXE_rungc"))
+        .args(["build", "machine.il", "--emit", "c", "-o", "plc"])
+        .arg("--device-access")
+        .current_dir(folder.path())
+        .status();
+    assert!(built.unwrap().success());
+    let compiled = Command::new("cc")
+        .args(["-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Werror"])
+        .args(["-Iplc", "-o", "panel", "panel.c"])
+        .args(["plc/machine.c", "plc/machine_access.c"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(compiled.status.success(), "{compiled:?}");
+    let run = Command::new(folder.path().join("panel")).status();
+    assert_eq!(run.unwrap().code(), Some(0));
+}

@@ -1,7 +1,10 @@
 //! Puts units into files.
 
 use crate::unit::{self, Unit};
-use crate::{Options, OutFile, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, board, header, text};
+use crate::{
+    Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, access, board, header,
+    text,
+};
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
 use rungc_ir::Module;
@@ -60,14 +63,21 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         files.push(OutFile::new(path, text));
     }
     let wired = options.board || module.takes_events();
+    let named = |path: &str, text: String| {
+        let banner = banner(module, path);
+        OutFile::new(path, format!("/* {banner} */\n{text}"))
+    };
     if wired {
-        let named = |path: &str, text: String| {
-            let banner = banner(module, path);
-            OutFile::new(path, format!("/* {banner} */\n{text}"))
-        };
         let path = format!("{name}_board.c");
         files.push(named(&format!("{name}_board.h"), board::header(module)));
         files.push(named(&path, board::source(module, unit.runtime)));
+        sources.push(path);
+    }
+    if options.access {
+        let path = format!("{name}_access.c");
+        files.push(named(&format!("{name}_access.h"), access::header(module)));
+        files.push(named(&path, access::source(module)));
+        files.push(OutFile::new("rungc_access.h", RUNGC_ACCESS_H));
         sources.push(path);
     }
     files.extend(shared(unit.runtime, wired));
@@ -81,6 +91,9 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
     }
     if wired {
         let _ = write!(headers, " {name}_board.h rungc_board.h");
+    }
+    if options.access {
+        let _ = write!(headers, " {name}_access.h rungc_access.h");
     }
     if several {
         let _ = write!(headers, " {name}_internal.h");

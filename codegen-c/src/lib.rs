@@ -11,6 +11,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod access;
 mod board;
 mod devices;
 mod events;
@@ -44,6 +45,8 @@ pub struct Options {
     pub main: bool,
     /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that does always has it.
     pub board: bool,
+    /// Also `NAME_access.h`, which reads and writes devices by number and by name.
+    pub access: bool,
 }
 
 /// The header that all programs share.
@@ -54,6 +57,9 @@ const RUNGC_RT_H: &str = include_str!("../include/rungc_rt.h");
 
 /// The header that describes a board.
 const RUNGC_BOARD_H: &str = include_str!("../include/rungc_board.h");
+
+/// The header of access to devices by number.
+const RUNGC_ACCESS_H: &str = include_str!("../include/rungc_access.h");
 
 /// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make` builds it as
 /// `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.

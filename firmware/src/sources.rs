@@ -1,17 +1,14 @@
 //! Emitted sources that build for a target as they are.
 
 use crate::target::Target;
+pub use rungc_codegen_c::Options;
 use rungc_emit::OutFile;
 use rungc_ir::Module;
 use rungc_runtime_sources::library::Optimise;
 
 /// A folder of C whose `make` builds for the target.
-pub fn c(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
-    let options = rungc_codegen_c::Options {
-        main,
-        ..Default::default()
-    };
-    let files = rungc_codegen_c::emit(module, &options).into_iter();
+pub fn c(module: &Module, target: &Target, options: &Options) -> Vec<OutFile> {
+    let files = rungc_codegen_c::emit(module, options).into_iter();
     files
         .map(|f| match (f.path.as_str(), target.rustc_name()) {
             ("Makefile", Some(triple)) => {

@@ -83,6 +83,8 @@ pub struct Build {
     pub emit: Option<Named>,
     /// Where to write it.
     pub output: Option<PathBuf>,
+    /// Whether emitted C reads and writes devices by number and by name.
+    pub access: bool,
 }
 
 /// What `test` runs.

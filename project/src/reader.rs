@@ -17,7 +17,7 @@ use toml::de::{DeTable, DeValue};
 const TABLES: [(&str, &[&str]); 9] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
-    ("build", &["target", "board", "emit", "output"]),
+    ("build", &["target", "board", "emit", "output", "access"]),
     ("test", &["files", "engine"]),
     ("tokens", &[]),
     ("index", &[]),
@@ -219,6 +219,18 @@ impl Reader {
         self.text(key, value)
     }
 
+    /// Whether something is wanted; `false` if the table does not say it.
+    fn flag(&mut self, table: &DeTable<'_>, key: &str) -> bool {
+        let Some(value) = table.get(key) else {
+            return false;
+        };
+        value.get_ref().as_bool().unwrap_or_else(|| {
+            let message = format!("`{key}` must be true or false");
+            self.wrong(span(value.span()), message, "");
+            false
+        })
+    }
+
     fn path(&mut self, table: &DeTable<'_>, key: &str) -> Option<PathBuf> {
         self.get(table, key).map(|named| PathBuf::from(named.text))
     }
@@ -332,6 +344,7 @@ impl Reader {
         project.build.board = self.path(table, "board");
         project.build.emit = self.get(table, "emit");
         project.build.output = self.path(table, "output");
+        project.build.access = self.flag(table, "access");
     }
 
     fn test(&mut self, table: &DeTable<'_>, project: &mut Project) {

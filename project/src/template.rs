@@ -44,6 +44,8 @@ deny = []
 # output = "firmware/plc"
 # target = "thumbv7em-none-eabihf"
 # board = "board.toml"
+# Whether emitted C reads and writes devices by number and by name.
+# access = true
 
 [test]
 # The files that `rungc test` runs, and on which engine: interp, c, rust or all.

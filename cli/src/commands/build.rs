@@ -172,6 +172,12 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         Emit::Elf if args.board.is_none() => {
             wrong("--emit elf needs --board, a description of the board (docs/src/boards.md)")
         }
+        Emit::Bin | Emit::Elf | Emit::Ir | Emit::Rust if args.device_access => wrong(
+            "--device-access only applies to --emit c and --emit lib; emitted Rust has the trait `Plc` for this",
+        ),
+        Emit::C if args.device_access && args.board.is_some() => wrong(
+            "--device-access does not apply to the sources of an image; emit the program without --board",
+        ),
         Emit::Bin if target.is_bare() => {
             wrong("--emit bin: the target has no operating system; use --emit elf for an image")
         }
@@ -288,6 +294,15 @@ impl Job<'_> {
         self.image.map_or(self.target, |image| image.board.target)
     }
 
+    /// What to emit in C.
+    fn options(&self, main: bool) -> sources::Options {
+        sources::Options {
+            main,
+            access: self.plan.device_access,
+            ..sources::Options::default()
+        }
+    }
+
     fn tools(&self) -> Tools {
         let tools = Tools::new(self.target(), &self.plan.cargo_arg);
         if self.cx.verbosity == Verbosity::Quiet {
@@ -314,7 +329,7 @@ impl Job<'_> {
             Emit::C => {
                 let files = match self.image {
                     Some(image) => image.sources(module, Backend::C)?,
-                    None => sources::c(module, self.target, main),
+                    None => sources::c(module, self.target, &self.options(main)),
                 };
                 self.folder(what, || Ok(bytes(files)))?
             }
@@ -327,7 +342,7 @@ impl Job<'_> {
             }
             Emit::Lib => self.folder(what, || self.library())?,
             Emit::Bin => self.program(what, || {
-                let files = sources::c(module, self.target, true);
+                let files = sources::c(module, self.target, &self.options(true));
                 let built = progress::spin("building", || self.tools().c_program(&files, name));
                 built.map_err(because)
             })?,
@@ -366,7 +381,7 @@ impl Job<'_> {
     }
 
     fn library(&self) -> Built<Vec<OutFile<Vec<u8>>>> {
-        let files = sources::c(self.module, self.target, false);
+        let files = sources::c(self.module, self.target, &self.options(false));
         let name = &self.module.name;
         progress::spin("building", || self.tools().c_library(&files, name)).map_err(because)
     }
@@ -396,7 +411,7 @@ impl Job<'_> {
             return firmware::of_image(module, target, Some(&image.board), &data).map_err(because);
         }
         if target.is_bare() {
-            let files = sources::c(module, target, false);
+            let files = sources::c(module, target, &self.options(false));
             let data = progress::spin("building", || self.tools().c_probe(&files, module));
             let data = data.map_err(because)?;
             return firmware::of_image(module, target, None, &data).map_err(because);

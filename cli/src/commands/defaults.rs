@@ -74,6 +74,9 @@ pub fn plan(plan: &Plan, subject: &Subject) -> Result<Plan, Failure> {
             let board = project.build.board.as_deref();
             plan.board = board.map(|board| project.at(board));
         }
+        plan.device_access |= project.build.access
+            && plan.board.is_none()
+            && matches!(plan.emit, Some(Emit::C | Emit::Lib));
         if plan.target.is_none() && plan.emit != Some(Emit::Ir) {
             plan.target = machine(project).map_err(because)?;
         }

@@ -168,7 +168,7 @@ impl Builder {
     }
 }
 
-const STRICT: [&str; 6] = [
+pub const STRICT: [&str; 6] = [
     "-std=c99",
     "-Wall",
     "-Wextra",
