@@ -139,7 +139,7 @@ impl Lowerer<'_> {
             let mut rotated = this.rotated(carry, seam, wide);
             if seam > 0 {
                 let low = this.rotated(value, -places, wide);
-                let low = this.masked(low, (1i64 << seam) as i32 - 1, wide);
+                let low = this.masked(low, ((1i64 << seam) - 1) as i32, wide);
                 rotated = this.add(Expr::Bin(BinOp::Or, rotated, low));
             }
             if places > 1 {

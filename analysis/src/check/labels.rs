@@ -58,7 +58,8 @@ fn end_pointer(code: &Code, pointer: &Pointer, out: &mut Diagnostics) {
             .at(code.span(label), "`P63` must not be defined")
             .label("P63 is the end of the program");
         // Right before END it leads where P63 leads anyway.
-        out.push(match code.basic(label + 1) == Some(Basic::End) {
+        let ends = label + 1 < code.len && code.basic(label + 1) == Some(Basic::End);
+        out.push(match ends {
             true => diagnostic
                 .help("delete this label: jumps to P63 end the scan without it")
                 .fix(Fix::certain("delete the label").replace(code.span(label), "")),
