@@ -4,93 +4,26 @@ use crate::expr::Around;
 use crate::fields::PrintStorage;
 use crate::helpers::reset_function;
 use crate::writer::Writer;
-use rungc_ir::node::{Access, AccessKind, Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{Access, AccessKind, Expr, ExprId, IndexedCoil, Place, TimerCoil};
 use rungc_models::runs::is_counter32;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 impl Writer<'_, '_> {
-    /// Writes a statement that writes to devices; nothing for any other.
-    pub fn device_stmt(&mut self, code: &mut String, stmt: &Stmt) {
-        match *stmt {
-            Stmt::Timer {
-                number,
-                kind,
-                drive,
-                preset,
-            } => self.timer(code, (number, kind), drive, preset),
-            Stmt::TimerAt {
-                place,
-                drive,
-                preset,
-            }
-            | Stmt::Counter16At {
-                place,
-                drive,
-                preset,
-            } => self.indexed_coil(code, &place, drive, preset),
-            Stmt::TimerGoesOn { number, kind } => {
-                code.push_str("plc_timer_go_on(&");
-                self.fields.access(code, DeviceClass::T, number);
-                let _ = write!(code, ", &plc->sys, {}u, ", kind.unit_ms.max(1));
-                timer_options(code, self.coils.kind(number, kind));
-                code.push_str(");");
-            }
-            Stmt::Counter16 {
-                number,
-                drive,
-                preset,
-            } => self.counter(code, "plc_count16", number, &[drive, preset]),
-            Stmt::Counter32 {
-                number,
-                drive,
-                down,
-                preset,
-            } => {
-                self.counter(code, "plc_count32", number, &[drive, down, preset]);
-            }
-            Stmt::Count {
-                number,
-                down,
-                preset,
-            } => self.counter(code, "plc_count32_once", number, &[down, preset]),
-            Stmt::Write(ref access, value) => self.write(code, access, value),
-            Stmt::Reset(place) => self.reset(code, &place),
-            Stmt::Network(_)
-            | Stmt::Let(..)
-            | Stmt::Edge { .. }
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
-            | Stmt::If { .. }
-            | Stmt::For { .. }
-            | Stmt::Repeat { .. }
-            | Stmt::CallSub(_)
-            | Stmt::Return
-            | Stmt::Parts(_)
-            | Stmt::Goto(_)
-            | Stmt::Call(_)
-            | Stmt::Fetch { .. }
-            | Stmt::Send { .. }
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. } => {}
-        }
+    pub(crate) fn timer_goes_on(&mut self, code: &mut String, number: u32, kind: TimerKind) {
+        code.push_str("plc_timer_go_on(&");
+        self.fields.access(code, DeviceClass::T, number);
+        let _ = write!(code, ", &plc->sys, {}u, ", kind.unit_ms.max(1));
+        timer_options(code, self.coils.kind(number, kind));
+        code.push_str(");");
     }
 
-    fn timer(
-        &mut self,
-        code: &mut String,
-        (number, kind): (u32, TimerKind),
-        drive: ExprId,
-        preset: ExprId,
-    ) {
-        let kind = self.coils.kind(number, kind);
+    pub(crate) fn timer(&mut self, code: &mut String, coil: &TimerCoil) {
+        let kind = self.coils.kind(coil.number, coil.kind);
         let mut timer = String::new();
-        self.fields.access(&mut timer, DeviceClass::T, number);
-        self.run_timer(code, (&timer, kind), drive, preset);
+        self.fields.access(&mut timer, DeviceClass::T, coil.number);
+        self.run_timer(code, (&timer, kind), coil.drive, coil.preset);
     }
 
     fn run_timer(
@@ -109,13 +42,12 @@ impl Writer<'_, '_> {
     }
 
     /// A coil of the timer or counter of a loop's current iteration; false for any other.
-    fn coil_of_iteration(
-        &mut self,
-        code: &mut String,
-        place: &Place,
-        drive: ExprId,
-        preset: ExprId,
-    ) -> bool {
+    fn coil_of_iteration(&mut self, code: &mut String, coil: &IndexedCoil) -> bool {
+        let IndexedCoil {
+            ref place,
+            drive,
+            preset,
+        } = *coil;
         let mut device = String::new();
         if !self.access_iteration(&mut device, place) {
             return false;
@@ -143,10 +75,11 @@ impl Writer<'_, '_> {
     }
 
     /// A coil of a timer or counter that an index leads to.
-    fn indexed_coil(&mut self, code: &mut String, place: &Place, drive: ExprId, preset: ExprId) {
-        if self.coil_of_iteration(code, place, drive, preset) {
+    pub(crate) fn indexed_coil(&mut self, code: &mut String, coil: &IndexedCoil) {
+        if self.coil_of_iteration(code, coil) {
             return;
         }
+        let place = &coil.place;
         self.helpers.out(place.class);
         let _ = write!(
             code,
@@ -155,14 +88,21 @@ impl Writer<'_, '_> {
             place.class.prefix()
         );
         self.number(code, place);
-        for argument in [drive, preset] {
+        for argument in [coil.drive, coil.preset] {
             code.push_str(", ");
             self.expr(code, argument, Around::Exact);
         }
         code.push_str(");");
     }
 
-    fn counter(&mut self, code: &mut String, function: &str, number: u32, arguments: &[ExprId]) {
+    /// Writes a call that counts: a coil's, or that of a high-speed counter.
+    pub(crate) fn counter(
+        &mut self,
+        code: &mut String,
+        function: &str,
+        number: u32,
+        arguments: &[ExprId],
+    ) {
         let _ = write!(code, "{function}(&");
         self.fields.access(code, DeviceClass::C, number);
         for &argument in arguments {
@@ -172,7 +112,7 @@ impl Writer<'_, '_> {
         code.push_str(");");
     }
 
-    fn write(&mut self, code: &mut String, access: &Access, value: ExprId) {
+    pub(crate) fn write(&mut self, code: &mut String, access: &Access, value: ExprId) {
         let place = &access.place;
         match access.kind {
             AccessKind::Bit => self.put(code, "bit", place, value),
@@ -339,7 +279,7 @@ impl Writer<'_, '_> {
         code.push_str(");");
     }
 
-    fn reset(&mut self, code: &mut String, place: &Place) {
+    pub(crate) fn reset(&mut self, code: &mut String, place: &Place) {
         let mut name = String::new();
         let of_iteration = self.access_iteration(&mut name, place);
         if place.index.is_some() && !of_iteration {

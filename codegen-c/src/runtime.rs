@@ -2,7 +2,7 @@
 
 use crate::expr::{Around, float, integer};
 use crate::writer::Writer;
-use rungc_ir::node::{Arg, Call, CellId, Expr, ExprId, Place};
+use rungc_ir::node::{Arg, Call, Expr, ExprId, Fetch, Place, Send};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -39,17 +39,17 @@ impl Writer<'_, '_> {
     }
 
     /// Writes a [`Stmt::Fetch`](rungc_ir::node::Stmt::Fetch), without what it assigns.
-    pub fn fetch(&mut self, code: &mut String, from: &Arg, form: (bool, u32), value: CellId) {
-        self.operand_call(code, "fetch", form, from);
-        let cell = &self.module.cells[value].name;
+    pub fn fetch(&mut self, code: &mut String, fetch: &Fetch) {
+        self.operand_call(code, "fetch", (fetch.wide, fetch.step), &fetch.from);
+        let cell = &self.module.cells[fetch.value].name;
         let _ = write!(code, ", &plc->{cell});");
     }
 
     /// Writes a [`Stmt::Send`](rungc_ir::node::Stmt::Send).
-    pub fn send(&mut self, code: &mut String, to: &Arg, form: (bool, u32), value: ExprId) {
-        self.operand_call(code, "send", form, to);
+    pub fn send(&mut self, code: &mut String, send: &Send) {
+        self.operand_call(code, "send", (send.wide, send.step), &send.to);
         code.push_str(", ");
-        self.expr(code, value, Around::Exact);
+        self.expr(code, send.value, Around::Exact);
         code.push_str(");");
     }
 

@@ -3,11 +3,10 @@
 use crate::expr::Around;
 use crate::page::Page;
 use crate::text;
-use crate::writer::{Memory, Writer, c_type, function_name};
+use crate::writer::{Writer, c_type, function_name};
 use rungc_emit::comments;
 use rungc_emit::temps::Home;
-use rungc_ir::node::{ExprId, LabelId, Stmt, TempId};
-use rungc_rt::EdgeKind;
+use rungc_ir::node::{Edge, ExprId, LabelId, Stmt, TableId, TempId};
 use std::fmt::Write;
 
 impl Writer<'_, '_> {
@@ -28,13 +27,33 @@ impl Writer<'_, '_> {
         code.push(';');
     }
 
-    fn edge(&mut self, code: &mut String, edge: (Memory, EdgeKind, ExprId), out: TempId) {
-        if self.plan.temp(out).used == 0 {
-            self.edge_memory(code, edge.0);
-            code.push_str(" = ");
-            return self.value(code, edge.2);
+    fn let_temp(&mut self, code: &mut String, temp: TempId, value: ExprId) {
+        if self.plan.temp(temp).used > 0 {
+            code.push_str(&self.assigned_temp(temp));
+            self.value(code, value);
         }
-        code.push_str(&self.assigned_temp(out));
+    }
+
+    /// Writes an assignment to a private field.
+    fn set(&mut self, code: &mut String, name: &str, value: ExprId) {
+        let _ = write!(code, "plc->{name} = ");
+        self.value(code, value);
+    }
+
+    fn set_entry(&mut self, code: &mut String, table: TableId, index: ExprId, value: ExprId) {
+        let _ = write!(code, "plc->{}[", self.module.tables[table].name);
+        self.expr(code, index, Around::Exact);
+        code.push_str("] = ");
+        self.value(code, value);
+    }
+
+    fn edge(&mut self, code: &mut String, edge: &Edge) {
+        if self.plan.temp(edge.out).used == 0 {
+            self.edge_memory(code, edge);
+            code.push_str(" = ");
+            return self.value(code, edge.input);
+        }
+        code.push_str(&self.assigned_temp(edge.out));
         self.edge_call(code, edge);
         code.push(';');
     }
@@ -74,87 +93,64 @@ impl Writer<'_, '_> {
 
     /// The last line of a statement; those before it are written.
     fn code(&mut self, page: &mut Page, stmt: &Stmt) -> String {
-        let name = &self.module.name;
+        let module = self.module;
         let mut code = String::with_capacity(text::WIDTH);
         match stmt {
-            Stmt::Let(temp, value) => {
-                if self.plan.temp(*temp).used > 0 {
-                    code = self.assigned_temp(*temp);
-                    self.value(&mut code, *value);
-                }
-            }
-            Stmt::Edge {
-                edge,
-                index,
-                kind,
-                input,
-                out,
-            } => self.edge(&mut code, ((*edge, *index), *kind, *input), *out),
-            Stmt::SetCell(cell, value) => {
-                code = format!("plc->{} = ", self.module.cells[*cell].name);
-                self.value(&mut code, *value);
-            }
+            Stmt::Let(temp, value) => self.let_temp(&mut code, *temp, *value),
+            Stmt::Edge(edge) => self.edge(&mut code, edge),
+            Stmt::SetFlag(flag, on) => self.set(&mut code, &module.flags[*flag].name, *on),
+            Stmt::SetCell(cell, value) => self.set(&mut code, &module.cells[*cell].name, *value),
             Stmt::SetEntry(table, index, value) => {
-                code = format!("plc->{}[", self.module.tables[*table].name);
-                self.expr(&mut code, *index, Around::Exact);
-                code.push_str("] = ");
-                self.value(&mut code, *value);
+                self.set_entry(&mut code, *table, *index, *value);
             }
-            Stmt::SetFlag(flag, on) => {
-                code = format!("plc->{} = ", self.module.flags[*flag].name);
-                self.value(&mut code, *on);
+            Stmt::Write(access, value) => self.write(&mut code, access, *value),
+            Stmt::Timer(coil) => self.timer(&mut code, coil),
+            Stmt::TimerAt(coil) | Stmt::Counter16At(coil) => self.indexed_coil(&mut code, coil),
+            Stmt::TimerGoesOn { number, kind } => self.timer_goes_on(&mut code, *number, *kind),
+            Stmt::Counter16(coil) => {
+                let arguments = [coil.drive, coil.preset];
+                self.counter(&mut code, "plc_count16", coil.number, &arguments);
             }
+            Stmt::Counter32(coil) => {
+                let arguments = [coil.drive, coil.down, coil.preset];
+                self.counter(&mut code, "plc_count32", coil.number, &arguments);
+            }
+            Stmt::Count(count) => {
+                let arguments = [count.down, count.preset];
+                self.counter(&mut code, "plc_count32_once", count.number, &arguments);
+            }
+            Stmt::Reset(place) => self.reset(&mut code, place),
             Stmt::CallSub(function) => {
-                function_name(&mut code, self.module, *function as usize);
+                function_name(&mut code, module, *function as usize);
                 code.push_str("(plc);");
             }
             Stmt::Return => code.push_str(self.leave()),
-            Stmt::Watch { steps, at } => self.watch(page, *steps, *at),
             Stmt::Goto(label) => code = self.goto(*label),
-            Stmt::Fetch {
-                from,
-                wide,
-                value,
-                there,
-                step,
-            } => {
-                if self.plan.temp(*there).used > 0 {
-                    code = self.assigned_temp(*there);
-                }
-                self.fetch(&mut code, from, (*wide, *step), *value);
-            }
-            Stmt::Send {
-                to,
-                wide,
-                value,
-                step,
-            } => self.send(&mut code, to, (*wide, *step), *value),
             Stmt::Call(call) => self.runtime_call(&mut code, call),
-            Stmt::Fault { code: fault, step } => {
-                code = format!("{name}_fault(plc, {fault}, {});", *step as u16);
+            Stmt::Fetch(fetch) => {
+                if self.plan.temp(fetch.there).used > 0 {
+                    code = self.assigned_temp(fetch.there);
+                }
+                self.fetch(&mut code, fetch);
             }
+            Stmt::Send(send) => self.send(&mut code, send),
+            Stmt::Fault { code: fault, step } => {
+                code = format!("{}_fault(plc, {fault}, {});", module.name, *step as u16);
+            }
+            Stmt::Watch { steps, at } => self.watch(page, *steps, *at),
             Stmt::Stop => {
                 page.line("plc->error.stop = PLC_STOP_M8037;");
-                code = format!("{name}_set_running(plc, false);");
+                code = format!("{}_set_running(plc, false);", module.name);
             }
             Stmt::Clear { latched } => {
                 let what = if *latched { "latched" } else { "general" };
-                code = format!("{name}_clear_{what}(plc);");
+                code = format!("{}_clear_{what}(plc);", module.name);
             }
-            Stmt::Write(..)
-            | Stmt::Timer { .. }
-            | Stmt::TimerAt { .. }
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16 { .. }
-            | Stmt::Counter16At { .. }
-            | Stmt::Counter32 { .. }
-            | Stmt::Count { .. }
-            | Stmt::Reset(_) => self.device_stmt(&mut code, stmt),
             // Written as nodes.
             Stmt::Network(_)
             | Stmt::If { .. }
             | Stmt::For { .. }
-            | Stmt::Repeat { .. }
+            | Stmt::Repeat(_)
             | Stmt::Parts(_) => {}
         }
         code

@@ -13,7 +13,7 @@ use rungc_emit::storage::Storage;
 use rungc_emit::temps::Home;
 use rungc_emit::timers::Coils;
 use rungc_ir::Module;
-use rungc_ir::node::{EdgeId, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
+use rungc_ir::node::{Edge, Expr, ExprId, FunctionKind, Stmt, TempId, Ty};
 use rungc_rt::EdgeKind;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -25,9 +25,6 @@ const LIMITS: Limits = Limits {
     shared: 8,
     plain: 256,
 };
-
-/// The memory of an edge, and the offset from it to that of a loop's current iteration.
-pub(crate) type Memory = (EdgeId, Option<ExprId>);
 
 /// What stands for an expression in the statement being written.
 pub(crate) struct Named {
@@ -159,22 +156,13 @@ impl<'a, 'm> Writer<'a, 'm> {
                 continue;
             }
             // An edge within an expression would be a call whose result `&` joins, for which compilers warn.
-            if let (
-                Node::Stmt(Stmt::Edge {
-                    edge,
-                    index,
-                    kind,
-                    input,
-                    ..
-                }),
-                Some(next),
-            ) = (node, nodes.get(i))
+            if let (Node::Stmt(Stmt::Edge(edge)), Some(next)) = (node, nodes.get(i))
                 && let Some(Asker::Whole(asker)) =
-                    asker(self.module, self.plan, self.fields, node, next)
+                    asker(self.module, self.plan, self.fields, edge, next)
             {
-                self.name_parts(page, &[*input]);
+                self.name_parts(page, &[edge.input]);
                 let mut text = String::new();
-                self.edge_call(&mut text, ((*edge, *index), *kind, *input));
+                self.edge_call(&mut text, edge);
                 self.named.clear();
                 self.named.insert(asker, Named { text, calls: true });
                 self.node_with_names(page, next);
@@ -185,32 +173,28 @@ impl<'a, 'm> Writer<'a, 'm> {
         }
     }
 
-    pub(crate) fn edge_call(
-        &mut self,
-        out: &mut String,
-        (memory, kind, input): (Memory, EdgeKind, ExprId),
-    ) {
-        if kind == EdgeKind::Falling && *self.module.expr(input) == Expr::Bit(false) {
+    pub(crate) fn edge_call(&mut self, out: &mut String, edge: &Edge) {
+        if edge.kind == EdgeKind::Falling && *self.module.expr(edge.input) == Expr::Bit(false) {
             out.push_str("plc_take(&");
-            self.edge_memory(out, memory);
+            self.edge_memory(out, edge);
             out.push(')');
             return;
         }
-        let function = match kind {
+        let function = match edge.kind {
             EdgeKind::Rising => "plc_rising",
             EdgeKind::Falling => "plc_falling",
         };
         let _ = write!(out, "{function}(&");
-        self.edge_memory(out, memory);
+        self.edge_memory(out, edge);
         out.push_str(", ");
-        self.expr(out, input, Around::Exact);
+        self.expr(out, edge.input, Around::Exact);
         out.push(')');
     }
 
     /// Writes where the memory of an edge is: `plc->edge[3]`, `plc->edge[3 + 2 * i]`.
-    pub(crate) fn edge_memory(&self, out: &mut String, (edge, index): Memory) {
-        let first = edge.0;
-        let _ = match (index.map(|index| self.module.expr(index)), first) {
+    pub(crate) fn edge_memory(&self, out: &mut String, edge: &Edge) {
+        let first = edge.memory.0;
+        let _ = match (edge.index.map(|index| self.module.expr(index)), first) {
             (Some(Expr::Stride(_, 1)), 0) => write!(out, "plc->edge[{}]", self.iteration),
             (Some(Expr::Stride(_, 1)), _) => write!(out, "plc->edge[{first} + {}]", self.iteration),
             (Some(Expr::Stride(_, by)), 0) => write!(out, "plc->edge[{by} * {}]", self.iteration),

@@ -4,7 +4,7 @@ use crate::expr::literal32;
 use crate::generate::Generator;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
-use rungc_ir::node::{Arg, Call, CellId, ExprId, Place, TempId};
+use rungc_ir::node::{Arg, Call, Fetch, Place, Send};
 
 impl Generator<'_> {
     /// A call of an instruction's function.
@@ -47,30 +47,24 @@ impl Generator<'_> {
     }
 
     /// Reads an operand that only the runtime can read.
-    pub fn fetch(
-        &mut self,
-        from: &Arg,
-        (wide, step): (bool, u32),
-        value: CellId,
-        there: TempId,
-    ) -> TokenStream {
-        let (fetch, site) = (self.rt("fetch"), self.site(step, wide));
-        let (from, cell) = (self.argument(from), self.cell(value));
+    pub fn fetch(&mut self, fetch: &Fetch) -> TokenStream {
+        let (function, site) = (self.rt("fetch"), self.site(fetch.step, fetch.wide));
+        let (from, cell) = (self.argument(&fetch.from), self.cell(fetch.value));
         let fetched = quote! {
-            #fetch(#site, #from, plc, hal).map(|value| plc.#cell = value).is_some()
+            #function(#site, #from, plc, hal).map(|value| plc.#cell = value).is_some()
         };
-        self.bind(there, fetched)
+        self.bind(fetch.there, fetched)
     }
 
     /// Writes such an operand.
-    pub fn send(&mut self, to: &Arg, (wide, step): (bool, u32), value: ExprId) -> TokenStream {
-        let (send, site) = (self.rt("send"), self.site(step, wide));
-        let (to, value) = (self.argument(to), self.typed(value));
-        let value = match wide {
+    pub fn send(&mut self, send: &Send) -> TokenStream {
+        let (function, site) = (self.rt("send"), self.site(send.step, send.wide));
+        let (to, value) = (self.argument(&send.to), self.typed(send.value));
+        let value = match send.wide {
             true => value.tokens,
             false => quote!(i32::from(#value)),
         };
-        quote!(#send(#site, #to, #value, plc, hal);)
+        quote!(#function(#site, #to, #value, plc, hal);)
     }
 
     fn argument(&mut self, arg: &Arg) -> TokenStream {

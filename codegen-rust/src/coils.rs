@@ -5,7 +5,9 @@ use crate::storage::{PrintField, PrintStorage};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::storage::{Field, Kind};
-use rungc_ir::node::{Expr, ExprId, Place, Stmt};
+use rungc_ir::node::{
+    Count, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Place, Stmt, TimerCoil,
+};
 use rungc_ir::reach;
 use rungc_ir::walk::has_many_timers;
 use rungc_rt::TimerKind;
@@ -21,46 +23,44 @@ const SHORT_DRIVE: u64 = 5;
 
 impl Generator<'_> {
     /// OUT T.
-    pub fn timer(
-        &mut self,
-        number: u32,
-        kind: TimerKind,
-        drive: ExprId,
-        preset: ExprId,
-    ) -> TokenStream {
+    pub fn timer(&mut self, coil: &TimerCoil) -> TokenStream {
+        let TimerCoil { number, kind, .. } = *coil;
         let Some(cell) = self.storage.cell(&quote!(plc), DeviceClass::T, number) else {
             return TokenStream::new();
         };
         let kind = self.coils.kind(number, kind);
-        self.timer_coil(cell, kind, drive, preset)
+        self.timer_coil(cell, kind, coil.drive, coil.preset)
+    }
+
+    /// END processing of a timer that continues.
+    pub fn timer_goes_on(&mut self, number: u32, kind: TimerKind) -> TokenStream {
+        let kind = self.timer_kind(self.coils.kind(number, kind));
+        match self.storage.cell(&quote!(plc), DeviceClass::T, number) {
+            Some(cell) => quote!(#cell.go_on(#kind, &plc.sys);),
+            None => TokenStream::new(),
+        }
     }
 
     /// OUT C of a 16-bit counter.
-    pub fn counter16(&mut self, number: u32, drive: ExprId, preset: ExprId) -> TokenStream {
-        let (before, arguments) = self.drive_and_preset(drive, preset);
-        let call = self.counter_call(number, "run", &arguments);
+    pub fn counter16(&mut self, coil: &Counter16Coil) -> TokenStream {
+        let (before, arguments) = self.drive_and_preset(coil.drive, coil.preset);
+        let call = self.counter_call(coil.number, "run", &arguments);
         quote!(#before #call)
     }
 
     /// OUT C of a 32-bit counter.
-    pub fn counter32(
-        &mut self,
-        number: u32,
-        drive: ExprId,
-        down: ExprId,
-        preset: ExprId,
-    ) -> TokenStream {
+    pub fn counter32(&mut self, coil: &Counter32Coil) -> TokenStream {
         let mut before = TokenStream::new();
-        let drive = self.drive(drive, &mut before);
-        let (down, preset) = (self.expr(down), self.expr(preset));
-        let call = self.counter_call(number, "run", &quote!(#drive, #down, #preset));
+        let drive = self.drive(coil.drive, &mut before);
+        let (down, preset) = (self.expr(coil.down), self.expr(coil.preset));
+        let call = self.counter_call(coil.number, "run", &quote!(#drive, #down, #preset));
         quote!(#before #call)
     }
 
     /// A count of a high-speed counter.
-    pub fn count(&mut self, number: u32, down: ExprId, preset: ExprId) -> TokenStream {
-        let (down, preset) = (self.expr(down), self.expr(preset));
-        self.counter_call(number, "count", &quote!(#down, #preset))
+    pub fn count(&mut self, count: &Count) -> TokenStream {
+        let (down, preset) = (self.expr(count.down), self.expr(count.preset));
+        self.counter_call(count.number, "count", &quote!(#down, #preset))
     }
 
     fn counter_call(&self, number: u32, method: &str, arguments: &TokenStream) -> TokenStream {
@@ -91,30 +91,23 @@ impl Generator<'_> {
     }
 
     /// A coil of a timer or counter that an index leads to.
-    pub fn indexed_coil(
-        &mut self,
-        function: &str,
-        place: Place,
-        drive: ExprId,
-        preset: ExprId,
-    ) -> TokenStream {
-        if let Some(cell) = self.cell_of_iteration(place) {
-            return self.coil_of_iteration(cell, place, drive, preset);
+    pub fn indexed_coil(&mut self, function: &str, coil: &IndexedCoil) -> TokenStream {
+        if let Some(cell) = self.cell_of_iteration(coil.place) {
+            return self.coil_of_iteration(cell, coil);
         }
         let function = format_ident!("{function}");
-        let (_, number) = self.operand_place(place);
-        let (before, arguments) = self.drive_and_preset(drive, preset);
+        let (_, number) = self.operand_place(coil.place);
+        let (before, arguments) = self.drive_and_preset(coil.drive, coil.preset);
         quote!(#before #function(plc, #number, #arguments);)
     }
 
     /// A coil of the timer or counter of a loop's current iteration.
-    fn coil_of_iteration(
-        &mut self,
-        cell: TokenStream,
-        place: Place,
-        drive: ExprId,
-        preset: ExprId,
-    ) -> TokenStream {
+    fn coil_of_iteration(&mut self, cell: TokenStream, coil: &IndexedCoil) -> TokenStream {
+        let IndexedCoil {
+            place,
+            drive,
+            preset,
+        } = *coil;
         if let (DeviceClass::T, Some(kind)) = (place.class, self.module.model.timer(place.number)) {
             let by = match place.index.map(|index| self.module.expr(index)) {
                 Some(&Expr::Stride(_, by)) => by,
@@ -191,9 +184,8 @@ impl Generator<'_> {
         let (mut timers, mut counters) = (false, false);
         for function in &self.module.functions {
             rungc_ir::walk::statements(&function.body, &mut |stmt| {
-                timers |= matches!(stmt, Stmt::TimerAt { place, .. } if self.is_indexed(*place));
-                counters |=
-                    matches!(stmt, Stmt::Counter16At { place, .. } if self.is_indexed(*place));
+                timers |= matches!(stmt, Stmt::TimerAt(coil) if self.is_indexed(coil.place));
+                counters |= matches!(stmt, Stmt::Counter16At(coil) if self.is_indexed(coil.place));
             });
         }
         if timers {

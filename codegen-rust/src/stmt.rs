@@ -4,16 +4,14 @@ use crate::coils::{OUT_COUNTER, OUT_TIMER};
 use crate::expr::literal32;
 use crate::format::Body;
 use crate::generate::Generator;
-use crate::storage::PrintStorage;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::comments;
 use rungc_emit::edges::{Asker, asker};
 use rungc_emit::plan::{Flow, Node, Plan, Stations};
 use rungc_emit::stations;
-use rungc_ir::node::{Expr, ExprId, LabelId, Stmt};
+use rungc_ir::node::{Edge, Expr, ExprId, LabelId, Stmt};
 use rungc_rt::EdgeKind;
-use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
 use std::rc::Rc;
 
@@ -30,19 +28,20 @@ impl Generator<'_> {
             }
             self.named.clear();
             body.code(self.name_parts(&node.roots()));
-            let asker = next.and_then(|next| asker(self.module, &plan, &self.storage, node, next));
-            let Some(Asker::Whole(asker) | Asker::Operand(asker)) = asker else {
-                self.node(&mut body, node);
-                continue;
-            };
-            // The edge stands in what asks for it: `if plc.edges[0].rising(plc.x2) { … }`.
-            let edge = self.edge(node);
-            self.named.clear();
-            self.named.insert(asker, edge);
-            if let Some(next) = nodes.next() {
+            if let (Node::Stmt(Stmt::Edge(edge)), Some(next)) = (node, next)
+                && let Some(Asker::Whole(asker) | Asker::Operand(asker)) =
+                    asker(self.module, &plan, &self.storage, edge, next)
+            {
+                // The edge stands in what asks for it: `if plc.edges[0].rising(plc.x2) { … }`.
+                let edge = self.edge(edge);
+                self.named.clear();
+                self.named.insert(asker, edge);
                 body.code(self.name_parts(&next.roots()));
                 self.node(&mut body, next);
+                nodes.next();
+                continue;
             }
+            self.node(&mut body, node);
         }
         body
     }
@@ -88,9 +87,13 @@ impl Generator<'_> {
     fn statement(&mut self, stmt: &Stmt) -> TokenStream {
         match stmt {
             Stmt::Let(temp, value) => self.assign_temp(*temp, *value),
-            Stmt::Edge { out, .. } => {
-                let edge = self.edge(&Node::Stmt(stmt));
-                self.bind(*out, edge)
+            Stmt::Edge(edge) => {
+                let changed = self.edge(edge);
+                self.bind(edge.out, changed)
+            }
+            Stmt::SetFlag(flag, value) => {
+                let (flag, value) = (self.flag(*flag), self.expr(*value));
+                quote!(plc.#flag = #value;)
             }
             Stmt::SetCell(cell, value) => {
                 let (cell, value) = (self.cell(*cell), self.expr(*value));
@@ -101,10 +104,15 @@ impl Generator<'_> {
                 let value = self.expr(*value);
                 quote!(plc.#table[#index as usize] = #value;)
             }
-            Stmt::SetFlag(flag, value) => {
-                let (flag, value) = (self.flag(*flag), self.expr(*value));
-                quote!(plc.#flag = #value;)
-            }
+            Stmt::Write(access, value) => self.write(*access, *value),
+            Stmt::Timer(coil) => self.timer(coil),
+            Stmt::TimerAt(coil) => self.indexed_coil(OUT_TIMER, coil),
+            Stmt::TimerGoesOn { number, kind } => self.timer_goes_on(*number, *kind),
+            Stmt::Counter16(coil) => self.counter16(coil),
+            Stmt::Counter16At(coil) => self.indexed_coil(OUT_COUNTER, coil),
+            Stmt::Counter32(coil) => self.counter32(coil),
+            Stmt::Count(count) => self.count(count),
+            Stmt::Reset(place) => self.reset(*place),
             Stmt::CallSub(root) => self.call_sub(*root as usize),
             Stmt::Return => self.return_statement(),
             Stmt::Goto(label) => {
@@ -112,55 +120,36 @@ impl Generator<'_> {
                 quote!(return Some(#state);)
             }
             Stmt::Call(call) => self.call(call),
-            Stmt::Fetch {
-                from,
-                wide,
-                value,
-                there,
-                step,
-            } => self.fetch(from, (*wide, *step), *value, *there),
-            Stmt::Send {
-                to,
-                wide,
-                value,
-                step,
-            } => self.send(to, (*wide, *step), *value),
-            Stmt::Fault { code, step } => {
-                let (report, fault) = (self.rt("report"), self.rt("Fault"));
-                let (code, step) = (
-                    Literal::u16_unsuffixed(*code),
-                    Literal::u32_unsuffixed(*step),
-                );
-                quote!(#report(plc, #fault(#code), #step);)
-            }
-            Stmt::Watch { steps, at } => {
-                let steps = Literal::u32_unsuffixed(*steps);
-                let at = Literal::u16_unsuffixed(*at as u16);
-                let leave = self.return_statement();
-                quote!(if plc.out_of_time(#steps, #at) { #leave })
-            }
+            Stmt::Fetch(fetch) => self.fetch(fetch),
+            Stmt::Send(send) => self.send(send),
+            Stmt::Fault { code, step } => self.fault(*code, *step),
+            Stmt::Watch { steps, at } => self.watch(*steps, *at),
             Stmt::Stop => {
                 let (program, stop) = (self.rt("Program"), self.rt("Stop"));
                 quote!(plc.error.stop = #stop::Program; #program::set_running(plc, false);)
             }
             Stmt::Clear { latched: false } => quote!(plc.clear_general();),
             Stmt::Clear { latched: true } => quote!(plc.clear_latched();),
-            Stmt::Write(..)
-            | Stmt::Timer { .. }
-            | Stmt::TimerAt { .. }
-            | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16 { .. }
-            | Stmt::Counter16At { .. }
-            | Stmt::Counter32 { .. }
-            | Stmt::Count { .. }
-            | Stmt::Reset(_) => self.device_statement(stmt),
             // Written as nodes.
             Stmt::Network(_)
             | Stmt::If { .. }
             | Stmt::For { .. }
-            | Stmt::Repeat { .. }
+            | Stmt::Repeat(_)
             | Stmt::Parts(_) => TokenStream::new(),
         }
+    }
+
+    fn fault(&mut self, code: u16, step: u32) -> TokenStream {
+        let (report, fault) = (self.rt("report"), self.rt("Fault"));
+        let (code, step) = (Literal::u16_unsuffixed(code), Literal::u32_unsuffixed(step));
+        quote!(#report(plc, #fault(#code), #step);)
+    }
+
+    fn watch(&mut self, steps: u32, at: u32) -> TokenStream {
+        let steps = Literal::u32_unsuffixed(steps);
+        let at = Literal::u16_unsuffixed(at as u16);
+        let leave = self.return_statement();
+        quote!(if plc.out_of_time(#steps, #at) { #leave })
     }
 
     /// The constant that stands for the part with this label.
@@ -170,87 +159,10 @@ impl Generator<'_> {
         Some(self.state_name(root, state))
     }
 
-    /// A statement that writes to devices; nothing for any other.
-    fn device_statement(&mut self, stmt: &Stmt) -> TokenStream {
-        match stmt {
-            Stmt::Write(access, value) => self.write(*access, *value),
-            Stmt::TimerGoesOn { number, kind } => {
-                let kind = self.timer_kind(self.coils.kind(*number, *kind));
-                match self.storage.cell(&quote!(plc), DeviceClass::T, *number) {
-                    Some(cell) => quote!(#cell.go_on(#kind, &plc.sys);),
-                    None => TokenStream::new(),
-                }
-            }
-            Stmt::Timer {
-                number,
-                kind,
-                drive,
-                preset,
-            } => self.timer(*number, *kind, *drive, *preset),
-            Stmt::Counter16 {
-                number,
-                drive,
-                preset,
-            } => self.counter16(*number, *drive, *preset),
-            Stmt::Counter32 {
-                number,
-                drive,
-                down,
-                preset,
-            } => self.counter32(*number, *drive, *down, *preset),
-            Stmt::Count {
-                number,
-                down,
-                preset,
-            } => self.count(*number, *down, *preset),
-            Stmt::TimerAt {
-                place,
-                drive,
-                preset,
-            } => self.indexed_coil(OUT_TIMER, *place, *drive, *preset),
-            Stmt::Counter16At {
-                place,
-                drive,
-                preset,
-            } => self.indexed_coil(OUT_COUNTER, *place, *drive, *preset),
-            Stmt::Reset(place) => self.reset(*place),
-            Stmt::Network(_)
-            | Stmt::Let(..)
-            | Stmt::Edge { .. }
-            | Stmt::SetFlag(..)
-            | Stmt::SetCell(..)
-            | Stmt::SetEntry(..)
-            | Stmt::If { .. }
-            | Stmt::For { .. }
-            | Stmt::Repeat { .. }
-            | Stmt::CallSub(_)
-            | Stmt::Return
-            | Stmt::Parts(_)
-            | Stmt::Goto(_)
-            | Stmt::Call { .. }
-            | Stmt::Fetch { .. }
-            | Stmt::Send { .. }
-            | Stmt::Fault { .. }
-            | Stmt::Watch { .. }
-            | Stmt::Stop
-            | Stmt::Clear { .. } => TokenStream::new(),
-        }
-    }
-
     /// `plc.edges[0].rising(plc.x2)`.
-    fn edge(&mut self, node: &Node) -> TokenStream {
-        let Node::Stmt(Stmt::Edge {
-            edge,
-            index,
-            kind,
-            input,
-            ..
-        }) = node
-        else {
-            return TokenStream::new();
-        };
-        let first = Literal::u32_unsuffixed(edge.0);
-        let further = match index.map(|index| self.module.expr(index)) {
+    fn edge(&mut self, edge: &Edge) -> TokenStream {
+        let first = Literal::u32_unsuffixed(edge.memory.0);
+        let further = match edge.index.map(|index| self.module.expr(index)) {
             Some(&Expr::Stride(_, 1)) => Some(quote!(i)),
             Some(&Expr::Stride(_, by)) => {
                 let by = Literal::u32_unsuffixed(by);
@@ -259,15 +171,15 @@ impl Generator<'_> {
             _ => None,
         };
         let i = match further {
-            Some(further) if edge.0 == 0 => further,
+            Some(further) if edge.memory.0 == 0 => further,
             Some(further) => quote!(#first + #further),
             None => quote!(#first),
         };
-        let method = match kind {
+        let method = match edge.kind {
             EdgeKind::Rising => format_ident!("rising"),
             EdgeKind::Falling => format_ident!("falling"),
         };
-        let input = self.expr(*input);
+        let input = self.expr(edge.input);
         quote!(plc.edges[#i].#method(#input))
     }
 

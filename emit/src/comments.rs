@@ -1,6 +1,6 @@
 //! Comments on emitted code.
 
-use rungc_ir::node::{Access, Network, Stmt};
+use rungc_ir::node::{Access, Count, Counter16Coil, Counter32Coil, Network, Stmt, TimerCoil};
 use rungc_syntax::DeviceClass;
 
 /// The heading of a network. `clean` makes a user's text safe in a comment.
@@ -23,33 +23,33 @@ pub const ONE_PART: &str = "A jump back repeats it.";
 /// The device that a statement writes, if it is known: its comment stands beside the statement.
 pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
     match stmt {
-        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+        Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
             Some((DeviceClass::T, *number))
         }
-        Stmt::Counter16 { number, .. }
-        | Stmt::Counter32 { number, .. }
-        | Stmt::Count { number, .. } => Some((DeviceClass::C, *number)),
+        Stmt::Counter16(Counter16Coil { number, .. })
+        | Stmt::Counter32(Counter32Coil { number, .. })
+        | Stmt::Count(Count { number, .. }) => Some((DeviceClass::C, *number)),
         Stmt::Write(Access { place, .. }, _) | Stmt::Reset(place) => {
             place.index.is_none().then_some((place.class, place.number))
         }
         Stmt::Network(_)
         | Stmt::Let(..)
-        | Stmt::Edge { .. }
+        | Stmt::Edge(_)
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
         | Stmt::SetEntry(..)
-        | Stmt::TimerAt { .. }
-        | Stmt::Counter16At { .. }
+        | Stmt::TimerAt(_)
+        | Stmt::Counter16At(_)
         | Stmt::If { .. }
         | Stmt::For { .. }
-        | Stmt::Repeat { .. }
+        | Stmt::Repeat(_)
         | Stmt::CallSub(_)
         | Stmt::Return
         | Stmt::Parts(_)
         | Stmt::Goto(_)
         | Stmt::Call(_)
-        | Stmt::Fetch { .. }
-        | Stmt::Send { .. }
+        | Stmt::Fetch(_)
+        | Stmt::Send(_)
         | Stmt::Fault { .. }
         | Stmt::Watch { .. }
         | Stmt::Stop

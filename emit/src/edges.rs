@@ -5,7 +5,9 @@ use crate::plan::{Node, Plan};
 use crate::storage::Storage;
 use crate::temps::Home;
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, Expr, ExprId, Stmt, TempId};
+use rungc_ir::node::{
+    AccessKind, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Stmt, TempId, TimerCoil,
+};
 
 /// Who asks for an edge.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -16,35 +18,32 @@ pub enum Asker {
     Operand(ExprId),
 }
 
-/// What of `next` asks for the edge that `node` finds, if nothing else does and `next` evaluates it exactly once.
+/// What of `next` asks for the edge before it, if nothing else does and `next` evaluates it exactly once.
 pub fn asker(
     module: &Module,
     plan: &Plan,
     storage: &Storage,
-    node: &Node,
+    edge: &Edge,
     next: &Node,
 ) -> Option<Asker> {
-    let Node::Stmt(Stmt::Edge { out, .. }) = node else {
-        return None;
-    };
-    let temp = plan.temp(*out);
+    let temp = plan.temp(edge.out);
     if temp.used != 1 || temp.home() == Home::Field {
         return None;
     }
-    let is_it = |e: ExprId| *module.expr(e) == Expr::Temp(*out);
+    let is_it = |e: ExprId| *module.expr(e) == Expr::Temp(edge.out);
     match next {
         Node::If { cond: value, .. } => {
-            whole(is_it, *value).or_else(|| operand(module, *value, *out))
+            whole(is_it, *value).or_else(|| operand(module, *value, edge.out))
         }
         Node::Stmt(Stmt::Write(access, value)) if access.kind == AccessKind::Bit => {
             let (class, number) = access.device()?;
             storage.find(class, number)?;
-            whole(is_it, *value).or_else(|| operand(module, *value, *out))
+            whole(is_it, *value).or_else(|| operand(module, *value, edge.out))
         }
         Node::Stmt(
-            Stmt::Timer { drive, .. }
-            | Stmt::Counter16 { drive, .. }
-            | Stmt::Counter32 { drive, .. },
+            Stmt::Timer(TimerCoil { drive, .. })
+            | Stmt::Counter16(Counter16Coil { drive, .. })
+            | Stmt::Counter32(Counter32Coil { drive, .. }),
         ) => whole(is_it, *drive),
         Node::Stmt(_)
         | Node::For { .. }

@@ -400,12 +400,10 @@ impl<'m> Builder<'m> {
                 count: *count,
                 body: inner(body),
             },
-            Stmt::Repeat {
-                count, body, steps, ..
-            } => Node::Repeat(Stations {
-                count: *count,
-                body: inner(body),
-                steps: *steps,
+            Stmt::Repeat(repeat) => Node::Repeat(Stations {
+                count: repeat.count,
+                body: inner(&repeat.body),
+                steps: repeat.steps,
             }),
             Stmt::Parts(parts) => {
                 weight += 2 * parts.len() as u64;
@@ -421,23 +419,23 @@ impl<'m> Builder<'m> {
             }
             Stmt::Network(_)
             | Stmt::Let(..)
-            | Stmt::Edge { .. }
+            | Stmt::Edge(_)
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
             | Stmt::SetEntry(..)
             | Stmt::Write(..)
-            | Stmt::Timer { .. }
-            | Stmt::TimerAt { .. }
+            | Stmt::Timer(_)
+            | Stmt::TimerAt(_)
             | Stmt::TimerGoesOn { .. }
-            | Stmt::Counter16 { .. }
-            | Stmt::Counter16At { .. }
-            | Stmt::Counter32 { .. }
-            | Stmt::Count { .. }
+            | Stmt::Counter16(_)
+            | Stmt::Counter16At(_)
+            | Stmt::Counter32(_)
+            | Stmt::Count(_)
             | Stmt::Reset(_)
             | Stmt::CallSub(_)
             | Stmt::Call(_)
-            | Stmt::Fetch { .. }
-            | Stmt::Send { .. }
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
             | Stmt::Fault { .. }
             | Stmt::Stop
             | Stmt::Clear { .. } => Node::Stmt(stmt),

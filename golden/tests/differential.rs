@@ -7,7 +7,7 @@ use rungc_golden::random::program;
 use rungc_golden::rng::Rng;
 use rungc_golden::stations;
 use rungc_ir::Module;
-use rungc_ir::node::{AccessKind, Stmt};
+use rungc_ir::node::{AccessKind, Repeat, Stmt};
 use rungc_ir::walk::statements;
 use rungc_lower::compile::{Bound, CompileOptions, compile};
 use rungc_models::ModelId;
@@ -261,14 +261,14 @@ fn random_stations_become_loops_with_all_that_loops_may_have() {
         let module = compiled(&stations::program(seed), seed, ModelId::Fx3u, true);
         let module = module.unwrap_or_else(|e| panic!("{e}"));
         statements(&module.functions[1].body, &mut |stmt| {
-            let Stmt::Repeat { body, .. } = stmt else {
+            let Stmt::Repeat(Repeat { body, .. }) = stmt else {
                 return;
             };
             statements(body, &mut |stmt| match stmt {
-                Stmt::TimerAt { .. } => timers += 1,
-                Stmt::Counter16At { .. } => counters += 1,
+                Stmt::TimerAt(_) => timers += 1,
+                Stmt::Counter16At(_) => counters += 1,
                 Stmt::Write(access, _) if access.kind == AccessKind::Word => registers += 1,
-                Stmt::Edge { .. } => edges += 1,
+                Stmt::Edge(_) => edges += 1,
                 _ => {}
             });
         });

@@ -3,9 +3,12 @@
 use crate::devices::rt_class;
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
-use rungc_ir::node::{Access, AccessKind, Arg, EdgeId, ExprId, LabelId, Part, Place, Stmt, TempId};
+use rungc_ir::node::{
+    Access, AccessKind, Arg, Call, Count, Counter32Coil, Edge, EdgeId, ExprId, Fetch, IndexedCoil,
+    LabelId, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
+};
 use rungc_rt::{
-    Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, RtFn, Site, Stop, TimerKind, fetch, report, send,
+    Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, Site, Stop, TimerKind, fetch, report, send,
 };
 
 /// How a body ended.
@@ -45,18 +48,7 @@ impl<'m> Machine<'m> {
         match stmt {
             Stmt::Network(_) => {}
             &Stmt::Let(temp, value) => self.temps[temp] = self.eval(value),
-            &Stmt::Edge {
-                edge,
-                index,
-                kind,
-                input,
-                out,
-            } => {
-                let further = index.map_or(0, |index| int(self.eval(index)) as u32);
-                let memory = EdgeId(edge.0 + further);
-                let changed = self.edge(memory, kind, input);
-                self.temps[out] = Value::Bit(changed);
-            }
+            Stmt::Edge(edge) => self.edge(edge),
             &Stmt::SetFlag(flag, value) => self.flags[flag] = self.on(value),
             &Stmt::SetCell(cell, value) => self.cells[cell] = int(self.eval(value)),
             &Stmt::SetEntry(table, index, value) => {
@@ -64,57 +56,21 @@ impl<'m> Machine<'m> {
                 self.tables[table][index as usize] = int(self.eval(value));
             }
             &Stmt::Write(access, value) => self.write(access, value),
-            &Stmt::Timer {
-                number,
-                kind,
-                drive,
-                preset,
-            } => self.timer(number, kind, drive, preset),
-            &Stmt::TimerAt {
-                place,
-                drive,
-                preset,
-            } => self.timer_at(place, drive, preset),
+            Stmt::Timer(coil) => self.timer(coil),
+            Stmt::TimerAt(coil) => self.timer_at(coil),
             &Stmt::TimerGoesOn { number, kind } => {
                 if let Some(timer) = self.devices.timer(number) {
                     timer.go_on(kind, &self.sys);
                 }
             }
-            &Stmt::Counter16 {
-                number,
-                drive,
-                preset,
-            } => self.counter16(number, drive, preset),
-            &Stmt::Counter16At {
-                place,
-                drive,
-                preset,
-            } => {
-                if let Some((_, number)) = self.device(place) {
-                    self.counter16(number, drive, preset);
+            Stmt::Counter16(coil) => self.counter16(coil.number, coil.drive, coil.preset),
+            Stmt::Counter16At(coil) => {
+                if let Some((_, number)) = self.device(coil.place) {
+                    self.counter16(number, coil.drive, coil.preset);
                 }
             }
-            &Stmt::Counter32 {
-                number,
-                drive,
-                down,
-                preset,
-            } => {
-                let (drive, down, preset) = (self.on(drive), self.on(down), int(self.eval(preset)));
-                if let Some(counter) = self.devices.counter32_mut(number) {
-                    counter.run(drive, down, preset);
-                }
-            }
-            &Stmt::Count {
-                number,
-                down,
-                preset,
-            } => {
-                let (down, preset) = (self.on(down), int(self.eval(preset)));
-                if let Some(counter) = self.devices.counter32_mut(number) {
-                    counter.count(down, preset);
-                }
-            }
+            Stmt::Counter32(coil) => self.counter32(coil),
+            Stmt::Count(count) => self.count(count),
             &Stmt::Reset(place) => {
                 if let Some((class, number)) = self.device(place) {
                     let _ = self.reset(class, number);
@@ -132,53 +88,19 @@ impl<'m> Machine<'m> {
                 let count = int(self.eval(*count)).max(1);
                 return self.run_loop(count as u32, None, body, hal);
             }
-            Stmt::Repeat {
+            Stmt::Repeat(Repeat {
                 count,
                 iteration,
                 body,
                 ..
-            } => return self.run_loop(*count, Some(*iteration), body, hal),
-            Stmt::CallSub(n) => {
-                let module = self.module;
-                if let Some(function) = module.functions.get(*n as usize) {
-                    self.run(&function.body, hal);
-                }
-            }
+            }) => return self.run_loop(*count, Some(*iteration), body, hal),
+            Stmt::CallSub(n) => self.call_sub(*n, hal),
             Stmt::Return => return Flow::Return,
             Stmt::Parts(parts) => return self.run_parts(parts, hal),
             Stmt::Goto(label) => return Flow::Goto(*label),
-            Stmt::Call(call) => {
-                let site = Site {
-                    step: call.step,
-                    slot: call.slot,
-                    wide: call.wide,
-                    drive: call.drive.is_none_or(|drive| self.on(drive)),
-                    signal: call.signal,
-                };
-                self.call(call.function, &call.args, site, hal);
-            }
-            Stmt::Fetch {
-                from,
-                wide,
-                value,
-                there,
-                step,
-            } => {
-                let fetched = fetch(site_of_form(*step, *wide), self.operand(from), self, hal);
-                if let Some(fetched) = fetched {
-                    self.cells[*value] = fetched;
-                }
-                self.temps[*there] = Value::Bit(fetched.is_some());
-            }
-            Stmt::Send {
-                to,
-                wide,
-                value,
-                step,
-            } => {
-                let (to, value) = (self.operand(to), int(self.eval(*value)));
-                send(site_of_form(*step, *wide), to, value, self, hal);
-            }
+            Stmt::Call(call) => self.call(call, hal),
+            Stmt::Fetch(fetch) => self.fetch(fetch, hal),
+            Stmt::Send(send) => self.send(send, hal),
             Stmt::Fault { code, step } => report(self, Fault(*code), *step),
             Stmt::Watch { steps, at } => {
                 if self.out_of_time(*steps, *at) {
@@ -229,33 +151,45 @@ impl<'m> Machine<'m> {
         Flow::Next
     }
 
-    /// Whether an input has changed since its memory was last written; writes the memory.
-    fn edge(&mut self, memory: EdgeId, kind: EdgeKind, input: ExprId) -> bool {
-        let now = self.on(input);
-        let before = std::mem::replace(&mut self.edges[memory], now);
-        match kind {
+    fn call_sub(&mut self, function: u32, hal: &mut dyn Hal) {
+        let module = self.module;
+        if let Some(function) = module.functions.get(function as usize) {
+            self.run(&function.body, hal);
+        }
+    }
+
+    fn edge(&mut self, edge: &Edge) {
+        let further = edge.index.map_or(0, |index| int(self.eval(index)) as u32);
+        let now = self.on(edge.input);
+        let memory = &mut self.edges[EdgeId(edge.memory.0 + further)];
+        let before = std::mem::replace(memory, now);
+        self.temps[edge.out] = Value::Bit(match edge.kind {
             EdgeKind::Rising => now && !before,
             EdgeKind::Falling => before && !now,
-        }
+        });
     }
 
     /// OUT T with an index.
-    fn timer_at(&mut self, place: Place, drive: ExprId, preset: ExprId) {
-        if let Some((_, number)) = self.device(place)
+    fn timer_at(&mut self, coil: &IndexedCoil) {
+        if let Some((_, number)) = self.device(coil.place)
             && let Some(kind) = self.module.model.timer(number)
         {
-            let kind = TimerKind {
-                shared: true,
-                ..kind
-            };
-            self.timer(number, kind, drive, preset);
+            self.timer(&TimerCoil {
+                number,
+                kind: TimerKind {
+                    shared: true,
+                    ..kind
+                },
+                drive: coil.drive,
+                preset: coil.preset,
+            });
         }
     }
 
-    fn timer(&mut self, number: u32, kind: TimerKind, drive: ExprId, preset: ExprId) {
-        let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
-        if let Some(timer) = self.devices.timer(number) {
-            timer.run(kind, drive, preset, &self.sys);
+    fn timer(&mut self, coil: &TimerCoil) {
+        let (drive, preset) = (self.on(coil.drive), int(self.eval(coil.preset)) as i16);
+        if let Some(timer) = self.devices.timer(coil.number) {
+            timer.run(coil.kind, drive, preset, &self.sys);
         }
     }
 
@@ -263,6 +197,21 @@ impl<'m> Machine<'m> {
         let (drive, preset) = (self.on(drive), int(self.eval(preset)) as i16);
         if let Some(counter) = self.devices.counter16(number) {
             counter.run(drive, preset);
+        }
+    }
+
+    fn counter32(&mut self, coil: &Counter32Coil) {
+        let (drive, down) = (self.on(coil.drive), self.on(coil.down));
+        let preset = int(self.eval(coil.preset));
+        if let Some(counter) = self.devices.counter32_mut(coil.number) {
+            counter.run(drive, down, preset);
+        }
+    }
+
+    fn count(&mut self, count: &Count) {
+        let (down, preset) = (self.on(count.down), int(self.eval(count.preset)));
+        if let Some(counter) = self.devices.counter32_mut(count.number) {
+            counter.count(down, preset);
         }
     }
 
@@ -322,15 +271,45 @@ impl<'m> Machine<'m> {
         }
     }
 
-    fn call(&mut self, function: RtFn, args: &[Arg], site: Site, hal: &mut dyn Hal) {
+    fn call(&mut self, call: &Call, hal: &mut dyn Hal) {
+        let site = Site {
+            step: call.step,
+            slot: call.slot,
+            wide: call.wide,
+            drive: call.drive.is_none_or(|drive| self.on(drive)),
+            signal: call.signal,
+        };
         let mut ops = std::mem::take(&mut self.operands);
         ops.clear();
-        ops.extend(args.iter().map(|arg| self.operand(arg)));
-        let done = function.call(&mut Cx::new(self, hal, &ops, site));
+        ops.extend(call.args.iter().map(|arg| self.operand(arg)));
+        let done = call.function.call(&mut Cx::new(self, hal, &ops, site));
         self.operands = ops;
         if let Err(fault) = done {
-            report(self, fault, site.step);
+            report(self, fault, call.step);
         }
+    }
+
+    fn fetch(&mut self, operand: &Fetch, hal: &mut dyn Hal) {
+        let (site, from) = (
+            site_of_form(operand.step, operand.wide),
+            self.operand(&operand.from),
+        );
+        let fetched = fetch(site, from, self, hal);
+        if let Some(fetched) = fetched {
+            self.cells[operand.value] = fetched;
+        }
+        self.temps[operand.there] = Value::Bit(fetched.is_some());
+    }
+
+    fn send(&mut self, operand: &Send, hal: &mut dyn Hal) {
+        let (to, value) = (self.operand(&operand.to), int(self.eval(operand.value)));
+        send(
+            site_of_form(operand.step, operand.wide),
+            to,
+            value,
+            self,
+            hal,
+        );
     }
 
     /// An operand with its index added.

@@ -5,8 +5,9 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Access, AccessKind, Arg, BinOp, Body, Call, CellId, Expr, ExprId, FlagId, Function,
-    FunctionKind, Module, Place, Stmt, SysValue, TableId,
+    Access, AccessKind, Arg, BinOp, Body, Call, CellId, Count, Counter16Coil, Counter32Coil, Edge,
+    Expr, ExprId, Fetch, FlagId, Function, FunctionKind, IndexedCoil, Module, Part, Place, Repeat,
+    Send, Stmt, SysValue, TableId, TimerCoil,
 };
 use rungc_rt::{EdgeKind, TimerKind};
 use rungc_syntax::DeviceClass;
@@ -103,169 +104,154 @@ impl Out<'_> {
     }
 
     fn stmt(&mut self, stmt: &Stmt) {
-        match stmt {
-            Stmt::Network(n) => {
-                let network = &self.module.networks[*n as usize];
-                let mut line = format!("# step {}", network.step);
-                for text in [&network.statement, &network.note].into_iter().flatten() {
-                    let _ = write!(line, " {text:?}");
-                }
-                self.line(&line);
+        let line = match stmt {
+            Stmt::Network(n) => self.network(*n),
+            Stmt::Let(temp, value) => format!("t{} = {}", temp.0, self.expr(*value)),
+            Stmt::Edge(edge) => self.edge(edge),
+            Stmt::SetFlag(flag, value) => self.assignment(self.flag(*flag), *value),
+            Stmt::SetCell(cell, value) => self.assignment(self.cell(*cell), *value),
+            Stmt::SetEntry(table, index, value) => {
+                self.assignment(self.entry(*table, *index), *value)
             }
+            Stmt::Write(access, value) => self.assignment(self.access(access), *value),
+            Stmt::Timer(coil) => self.timer(coil),
+            Stmt::TimerAt(coil) => self.coil_at("timer", coil),
+            Stmt::TimerGoesOn { number, kind } => {
+                format!("timer T{number} {} continues", timer_text(kind))
+            }
+            Stmt::Counter16(coil) => self.counter16(coil),
+            Stmt::Counter16At(coil) => self.coil_at("counter", coil),
+            Stmt::Counter32(coil) => self.counter32(coil),
+            Stmt::Count(count) => self.count(count),
+            Stmt::Reset(place) => format!("reset {}", self.place(place)),
             Stmt::If {
                 cond,
                 then,
                 otherwise,
-            } => {
-                self.block(&format!("if {}", self.expr(*cond)), then);
-                if !otherwise.is_empty() {
-                    self.block("else", otherwise);
-                }
+            } => return self.branches(*cond, then, otherwise),
+            Stmt::For { count, body } => {
+                return self.block(&format!("for {}", self.expr(*count)), body);
             }
-            Stmt::For { count, body } => self.block(&format!("for {}", self.expr(*count)), body),
-            Stmt::Repeat {
-                count,
-                iteration,
-                body,
-                ..
-            } => self.block(&format!("repeat {count} times: t{}", iteration.0), body),
-            Stmt::Parts(parts) => {
-                self.line("parts {");
-                self.indent += 1;
-                for part in parts {
-                    let label = part.label.map(|label| format!("L{}", label.0));
-                    self.block(label.as_deref().unwrap_or("first"), &part.body);
-                }
-                self.indent -= 1;
-                self.line("}");
-            }
-            _ => {
-                let line = self.simple(stmt);
-                self.line(&line);
-            }
-        }
-    }
-
-    fn simple(&self, stmt: &Stmt) -> String {
-        let e = |id: &ExprId| self.expr(*id);
-        match stmt {
-            Stmt::Let(temp, value) => format!("t{} = {}", temp.0, e(value)),
-            Stmt::Edge {
-                edge,
-                index,
-                kind,
-                input,
-                out,
-            } => {
-                let kind = match kind {
-                    EdgeKind::Rising => "rising",
-                    EdgeKind::Falling => "falling",
-                };
-                let memory = match index {
-                    Some(index) => format!("e[{} + {}]", edge.0, e(index)),
-                    None => format!("e{}", edge.0),
-                };
-                format!("t{} = {kind} {memory} {}", out.0, e(input))
-            }
-            Stmt::Write(access, value) => format!("{} := {}", self.access(access), e(value)),
-            Stmt::Timer {
-                number,
-                kind,
-                drive,
-                preset,
-            } => format!(
-                "timer T{number} {} drive {} preset {}",
-                timer_text(kind),
-                e(drive),
-                e(preset)
-            ),
-            Stmt::TimerAt {
-                place,
-                drive,
-                preset,
-            } => self.coil_at("timer", place, *drive, *preset),
-            Stmt::Counter16At {
-                place,
-                drive,
-                preset,
-            } => self.coil_at("counter", place, *drive, *preset),
-            Stmt::TimerGoesOn { number, kind } => {
-                format!("timer T{number} {} continues", timer_text(kind))
-            }
-            Stmt::Counter16 {
-                number,
-                drive,
-                preset,
-            } => format!("counter C{number} drive {} preset {}", e(drive), e(preset)),
-            Stmt::Counter32 {
-                number,
-                drive,
-                down,
-                preset,
-            } => format!(
-                "counter C{number} drive {} down {} preset {}",
-                e(drive),
-                e(down),
-                e(preset)
-            ),
-            Stmt::Reset(place) => format!("reset {}", self.place(place)),
-            Stmt::CallSub(n) => match self.module.functions.get(*n as usize).map(|f| &f.kind) {
-                Some(FunctionKind::Subroutine(pointer)) => format!("call P{pointer}"),
-                Some(FunctionKind::Interrupt(pointer)) => format!("call I{pointer:03}"),
-                Some(FunctionKind::TakeInterrupts) => "take interrupts".into(),
-                Some(FunctionKind::Signals) => "call signals".into(),
-                _ => format!("call function {n}"),
-            },
+            Stmt::Repeat(repeat) => return self.repeat(repeat),
+            Stmt::CallSub(n) => self.call_sub(*n),
             Stmt::Return => "return".into(),
+            Stmt::Parts(parts) => return self.parts(parts),
             Stmt::Goto(label) => format!("goto L{}", label.0),
             Stmt::Call(call) => self.call(call),
-            Stmt::Fetch {
-                from,
-                wide,
-                value,
-                there,
-                ..
-            } => format!(
-                "t{} = fetch {}{} to {}",
-                there.0,
-                self.arg(from),
-                if *wide { ":32" } else { "" },
-                self.cell(*value)
-            ),
-            Stmt::Send {
-                to, wide, value, ..
-            } => format!(
-                "send {}{} := {}",
-                self.arg(to),
-                if *wide { ":32" } else { "" },
-                e(value)
-            ),
+            Stmt::Fetch(fetch) => self.fetch(fetch),
+            Stmt::Send(send) => self.send(send),
             Stmt::Fault { code, step } => format!("fault {code} at step {step}"),
-            Stmt::SetCell(cell, value) => format!("{} := {}", self.cell(*cell), e(value)),
-            Stmt::SetEntry(table, index, value) => {
-                format!("{}[{}] := {}", self.table(*table), e(index), e(value))
-            }
-            Stmt::Count {
-                number,
-                down,
-                preset,
-            } => format!("count C{number} down {} preset {}", e(down), e(preset)),
-            Stmt::SetFlag(flag, value) => format!("{} := {}", self.flag(*flag), e(value)),
             Stmt::Watch { steps, at } => format!("watch {steps} steps at {at}"),
             Stmt::Stop => "stop".into(),
             Stmt::Clear { latched: true } => "clear latched".into(),
             Stmt::Clear { latched: false } => "clear general".into(),
-            Stmt::Network(_)
-            | Stmt::If { .. }
-            | Stmt::For { .. }
-            | Stmt::Repeat { .. }
-            | Stmt::Parts(_) => String::new(),
+        };
+        self.line(&line);
+    }
+
+    fn branches(&mut self, cond: ExprId, then: &Body, otherwise: &Body) {
+        self.block(&format!("if {}", self.expr(cond)), then);
+        if !otherwise.is_empty() {
+            self.block("else", otherwise);
         }
     }
 
-    fn coil_at(&self, what: &str, place: &Place, drive: ExprId, preset: ExprId) -> String {
-        let (place, drive, preset) = (self.place(place), self.expr(drive), self.expr(preset));
+    fn repeat(&mut self, repeat: &Repeat) {
+        let (count, iteration) = (repeat.count, repeat.iteration.0);
+        self.block(&format!("repeat {count} times: t{iteration}"), &repeat.body);
+    }
+
+    fn parts(&mut self, parts: &[Part]) {
+        self.line("parts {");
+        self.indent += 1;
+        for part in parts {
+            let label = part.label.map(|label| format!("L{}", label.0));
+            self.block(label.as_deref().unwrap_or("first"), &part.body);
+        }
+        self.indent -= 1;
+        self.line("}");
+    }
+
+    fn network(&self, n: u32) -> String {
+        let network = &self.module.networks[n as usize];
+        let mut line = format!("# step {}", network.step);
+        for text in [&network.statement, &network.note].into_iter().flatten() {
+            let _ = write!(line, " {text:?}");
+        }
+        line
+    }
+
+    fn assignment(&self, target: String, value: ExprId) -> String {
+        format!("{target} := {}", self.expr(value))
+    }
+
+    fn edge(&self, edge: &Edge) -> String {
+        let kind = match edge.kind {
+            EdgeKind::Rising => "rising",
+            EdgeKind::Falling => "falling",
+        };
+        let memory = match edge.index {
+            Some(index) => format!("e[{} + {}]", edge.memory.0, self.expr(index)),
+            None => format!("e{}", edge.memory.0),
+        };
+        let (out, input) = (edge.out.0, self.expr(edge.input));
+        format!("t{out} = {kind} {memory} {input}")
+    }
+
+    fn timer(&self, coil: &TimerCoil) -> String {
+        let (number, kind) = (coil.number, timer_text(&coil.kind));
+        let (drive, preset) = (self.expr(coil.drive), self.expr(coil.preset));
+        format!("timer T{number} {kind} drive {drive} preset {preset}")
+    }
+
+    fn coil_at(&self, what: &str, coil: &IndexedCoil) -> String {
+        let place = self.place(&coil.place);
+        let (drive, preset) = (self.expr(coil.drive), self.expr(coil.preset));
         format!("{what} {place} drive {drive} preset {preset}")
+    }
+
+    fn counter16(&self, coil: &Counter16Coil) -> String {
+        let (drive, preset) = (self.expr(coil.drive), self.expr(coil.preset));
+        format!("counter C{} drive {drive} preset {preset}", coil.number)
+    }
+
+    fn counter32(&self, coil: &Counter32Coil) -> String {
+        let [drive, down, preset] = [coil.drive, coil.down, coil.preset].map(|e| self.expr(e));
+        let number = coil.number;
+        format!("counter C{number} drive {drive} down {down} preset {preset}")
+    }
+
+    fn count(&self, count: &Count) -> String {
+        let (down, preset) = (self.expr(count.down), self.expr(count.preset));
+        format!("count C{} down {down} preset {preset}", count.number)
+    }
+
+    fn call_sub(&self, n: u32) -> String {
+        let function = self.module.functions.get(n as usize);
+        match function.map(|function| &function.kind) {
+            Some(FunctionKind::Subroutine(pointer)) => format!("call P{pointer}"),
+            Some(FunctionKind::Interrupt(pointer)) => format!("call I{pointer:03}"),
+            Some(FunctionKind::TakeInterrupts) => "take interrupts".into(),
+            Some(FunctionKind::Signals) => "call signals".into(),
+            Some(
+                FunctionKind::Begin
+                | FunctionKind::Main
+                | FunctionKind::End
+                | FunctionKind::InputEdge { .. },
+            )
+            | None => format!("call function {n}"),
+        }
+    }
+
+    fn fetch(&self, fetch: &Fetch) -> String {
+        let (from, wide) = (self.arg(&fetch.from), if fetch.wide { ":32" } else { "" });
+        let (there, cell) = (fetch.there.0, self.cell(fetch.value));
+        format!("t{there} = fetch {from}{wide} to {cell}")
+    }
+
+    fn send(&self, send: &Send) -> String {
+        let (to, wide) = (self.arg(&send.to), if send.wide { ":32" } else { "" });
+        format!("send {to}{wide} := {}", self.expr(send.value))
     }
 
     fn cell(&self, cell: CellId) -> String {
@@ -274,10 +260,10 @@ impl Out<'_> {
         format!("cell {name}")
     }
 
-    fn table(&self, table: TableId) -> String {
+    fn entry(&self, table: TableId, index: ExprId) -> String {
         let tables = &self.module.tables;
         let name = tables.get(table).map_or("?", |table| &table.name);
-        format!("table {name}")
+        format!("table {name}[{}]", self.expr(index))
     }
 
     fn flag(&self, flag: FlagId) -> String {
@@ -390,7 +376,7 @@ impl Out<'_> {
             Expr::Read(access) => self.access(access),
             Expr::Cell(cell) => self.cell(*cell),
             Expr::Stride(iteration, by) => format!("{by} * t{}", iteration.0),
-            Expr::Entry(table, index) => format!("{}[{}]", self.table(*table), self.expr(*index)),
+            Expr::Entry(table, index) => self.entry(*table, *index),
             Expr::Flag(flag) => self.flag(*flag),
             Expr::Sys(SysValue::Running) => "running".into(),
             Expr::Sys(SysValue::FirstScan) => "first_scan".into(),

@@ -5,7 +5,10 @@
 //! exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices together lie in one run ([`Model::runs`]): none
 //! continues from the general devices into the special ones. The range of an index is known from [`Expr::Within`].
 
-use crate::node::{Access, AccessKind, Arg, Expr, ExprId, Module, Place, Stmt};
+use crate::node::{
+    Access, AccessKind, Arg, Count, Counter16Coil, Counter32Coil, Expr, ExprId, Fetch, IndexedCoil,
+    Module, Place, Send, Stmt, TimerCoil,
+};
 use crate::walk::statements;
 use rungc_models::Model;
 use rungc_models::runs::{is_counter32, words_of_bits};
@@ -101,15 +104,15 @@ pub fn of_expr(model: &Model, expr: &Expr, found: &mut impl FnMut(Footprint)) {
 pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
     match *stmt {
         Stmt::Write(access, _) => of_access(model, access, true, found),
-        Stmt::TimerAt { place, .. } | Stmt::Counter16At { place, .. } | Stmt::Reset(place) => {
-            found(Footprint::of(place, true))
-        }
-        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+        Stmt::TimerAt(IndexedCoil { place, .. })
+        | Stmt::Counter16At(IndexedCoil { place, .. })
+        | Stmt::Reset(place) => found(Footprint::of(place, true)),
+        Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
             found(Footprint::of(Place::fixed(DeviceClass::T, number), true));
         }
-        Stmt::Counter16 { number, .. }
-        | Stmt::Counter32 { number, .. }
-        | Stmt::Count { number, .. } => {
+        Stmt::Counter16(Counter16Coil { number, .. })
+        | Stmt::Counter32(Counter32Coil { number, .. })
+        | Stmt::Count(Count { number, .. }) => {
             found(Footprint::of(Place::fixed(DeviceClass::C, number), true));
         }
         Stmt::Call(ref call) => {
@@ -122,17 +125,17 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
                 }
             }
         }
-        Stmt::Fetch { ref from, wide, .. } => of_arg(model, from, wide, found),
-        Stmt::Send { ref to, wide, .. } => of_arg(model, to, wide, found),
+        Stmt::Fetch(Fetch { ref from, wide, .. }) => of_arg(model, from, wide, found),
+        Stmt::Send(Send { ref to, wide, .. }) => of_arg(model, to, wide, found),
         Stmt::Network(_)
         | Stmt::Let(..)
-        | Stmt::Edge { .. }
+        | Stmt::Edge(_)
         | Stmt::SetFlag(..)
         | Stmt::SetCell(..)
         | Stmt::SetEntry(..)
         | Stmt::If { .. }
         | Stmt::For { .. }
-        | Stmt::Repeat { .. }
+        | Stmt::Repeat(_)
         | Stmt::CallSub(_)
         | Stmt::Return
         | Stmt::Parts(_)

@@ -1,8 +1,8 @@
 //! Holds a module to the rules of [`crate::node`].
 
 use crate::node::{
-    Access, Arg, BinOp, Body, Expr, ExprId, FunctionKind, LabelId, Module, Place, Stmt, SysValue,
-    TempId, Ty,
+    Access, Arg, BinOp, Body, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId,
+    Module, Place, Stmt, SysValue, TempId, Ty,
 };
 use crate::reach::{self, Footprint};
 use crate::walk::{callees, for_exprs, operands};
@@ -160,7 +160,9 @@ impl Checker<'_> {
         }
         self.typed(stmt)?;
         match stmt {
-            Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } | Stmt::Fetch { there: temp, .. } => {
+            Stmt::Let(temp, _)
+            | Stmt::Edge(Edge { out: temp, .. })
+            | Stmt::Fetch(Fetch { there: temp, .. }) => {
                 self.assign(*temp);
                 Ok(true)
             }
@@ -171,16 +173,11 @@ impl Checker<'_> {
                 self.body(body)?;
                 Ok(true)
             }
-            Stmt::Repeat {
-                count,
-                iteration,
-                body,
-                ..
-            } => {
+            Stmt::Repeat(repeat) => {
                 let begin = self.log.len();
-                self.assign(*iteration);
-                self.iterations = *count;
-                self.body(body)?;
+                self.assign(repeat.iteration);
+                self.iterations = repeat.count;
+                self.body(&repeat.body)?;
                 self.iterations = 1;
                 self.forget(begin);
                 Ok(true)
@@ -365,61 +362,35 @@ impl Checker<'_> {
         match *stmt {
             Stmt::Network(n) => (n as usize) < module.networks.len(),
             Stmt::Let(temp, value) => temp_is(temp, module.ty(value)),
-            Stmt::Edge {
-                edge,
-                index,
-                input,
-                out,
-                ..
-            } => {
-                let mut memories = self.in_iterations(edge.0, index);
+            Stmt::Edge(edge) => {
+                let mut memories = self.in_iterations(edge.memory.0, edge.index);
                 let exist = memories.all(|memory| memory < module.edges);
-                exist && is(input, Ty::Bit) && temp_is(out, Ty::Bit)
+                exist && is(edge.input, Ty::Bit) && temp_is(edge.out, Ty::Bit)
             }
             Stmt::Write(access, value) => access.is_well_formed() && is(value, access.ty()),
-            Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
-                is(drive, Ty::Bit) && is(preset, Ty::I16)
+            Stmt::Timer(coil) => is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16),
+            Stmt::TimerAt(coil) => self.leads_to_one_kind(coil.place) && self.indexed_coil(&coil),
+            Stmt::Counter16(coil) => is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16),
+            Stmt::Counter16At(coil) => self.indexed_coil(&coil),
+            Stmt::Counter32(coil) => {
+                is(coil.drive, Ty::Bit) && is(coil.down, Ty::Bit) && is(coil.preset, Ty::I32)
             }
-            Stmt::TimerAt { place, .. } if !self.leads_to_one_kind(place) => false,
-            Stmt::TimerAt {
-                place,
-                drive,
-                preset,
-            }
-            | Stmt::Counter16At {
-                place,
-                drive,
-                preset,
-            } => place.index.is_some() && is(drive, Ty::Bit) && is(preset, Ty::I16),
-            Stmt::Counter32 {
-                drive,
-                down,
-                preset,
-                ..
-            } => is(drive, Ty::Bit) && is(down, Ty::Bit) && is(preset, Ty::I32),
-            Stmt::Count { down, preset, .. } => is(down, Ty::Bit) && is(preset, Ty::I32),
+            Stmt::Count(count) => is(count.down, Ty::Bit) && is(count.preset, Ty::I32),
             Stmt::If { cond, .. } => is(cond, Ty::Bit),
             Stmt::For { count, .. } => is(count, Ty::I16),
-            Stmt::Repeat {
-                count, iteration, ..
-            } => count > 1 && temp_is(iteration, Ty::I32),
+            Stmt::Repeat(ref repeat) => repeat.count > 1 && temp_is(repeat.iteration, Ty::I32),
             Stmt::Call(ref call) => {
                 call.slot <= module.states
                     && call.drive.is_none_or(|drive| is(drive, Ty::Bit))
                     && call.args.iter().all(|arg| self.arg(arg))
             }
-            Stmt::Fetch {
-                ref from,
-                value,
-                there,
-                ..
-            } => module.cells.get(value).is_some() && temp_is(there, Ty::Bit) && self.arg(from),
-            Stmt::Send {
-                ref to,
-                wide,
-                value,
-                ..
-            } => is(value, if wide { Ty::I32 } else { Ty::I16 }) && self.arg(to),
+            Stmt::Fetch(fetch) => {
+                let cell = module.cells.get(fetch.value);
+                cell.is_some() && temp_is(fetch.there, Ty::Bit) && self.arg(&fetch.from)
+            }
+            Stmt::Send(send) => {
+                is(send.value, if send.wide { Ty::I32 } else { Ty::I16 }) && self.arg(&send.to)
+            }
             Stmt::SetCell(cell, value) => module.cells.get(cell).is_some() && is(value, Ty::I32),
             Stmt::SetEntry(table, index, value) => {
                 module.tables.get(table).is_some() && is(index, Ty::I32) && is(value, Ty::I32)
@@ -436,6 +407,11 @@ impl Checker<'_> {
             | Stmt::Stop
             | Stmt::Clear { .. } => true,
         }
+    }
+
+    fn indexed_coil(&self, coil: &IndexedCoil) -> bool {
+        let is = |id: ExprId, ty: Ty| self.module.ty(id) == ty;
+        coil.place.index.is_some() && is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16)
     }
 
     fn arg(&self, arg: &Arg) -> bool {

@@ -1,7 +1,8 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
 use crate::node::{
-    Access, Arg, Body, Call, Expr, ExprId, FunctionKind, Module, Part, Place, Stmt, TempId,
+    Access, Arg, Body, Call, Count, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Fetch,
+    FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
 };
 
 /// The expressions that an expression evaluates.
@@ -78,25 +79,25 @@ macro_rules! for_exprs {
                     f(index);
                     f(value);
                 }
-                Stmt::Count { down, preset, .. } => {
+                Stmt::Count(Count { down, preset, .. }) => {
                     f(down);
                     f(preset);
                 }
-                Stmt::Edge { index, input, .. } => {
+                Stmt::Edge(Edge { index, input, .. }) => {
                     index.$iter().for_each(&mut *f);
                     f(input);
                 }
-                Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+                Stmt::Timer(TimerCoil { drive, preset, .. }) | Stmt::Counter16(Counter16Coil { drive, preset, .. }) => {
                     f(drive);
                     f(preset);
                 }
-                Stmt::TimerAt { place, drive, preset }
-                | Stmt::Counter16At { place, drive, preset } => {
+                Stmt::TimerAt(IndexedCoil { place, drive, preset })
+                | Stmt::Counter16At(IndexedCoil { place, drive, preset }) => {
                     place.index.$iter().for_each(&mut *f);
                     f(drive);
                     f(preset);
                 }
-                Stmt::Counter32 { drive, down, preset, .. } => {
+                Stmt::Counter32(Counter32Coil { drive, down, preset, .. }) => {
                     f(drive);
                     f(down);
                     f(preset);
@@ -112,15 +113,15 @@ macro_rules! for_exprs {
                     }
                     drive.$iter().for_each(f);
                 }
-                Stmt::Fetch { from, .. } => $index_of(from).into_iter().for_each(f),
-                Stmt::Send { to, value, .. } => {
+                Stmt::Fetch(Fetch { from, .. }) => $index_of(from).into_iter().for_each(f),
+                Stmt::Send(Send { to, value, .. }) => {
                     if let Some(index) = $index_of(to) {
                         f(index);
                     }
                     f(value);
                 }
                 Stmt::Network(_)
-                | Stmt::Repeat { .. }
+                | Stmt::Repeat(_)
                 | Stmt::CallSub(_)
                 | Stmt::Return
                 | Stmt::TimerGoesOn { .. }
@@ -154,11 +155,11 @@ pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
     };
     match stmt {
         Stmt::Write(Access { place, .. }, _)
-        | Stmt::TimerAt { place, .. }
-        | Stmt::Counter16At { place, .. }
+        | Stmt::TimerAt(IndexedCoil { place, .. })
+        | Stmt::Counter16At(IndexedCoil { place, .. })
         | Stmt::Reset(place) => f(place),
         Stmt::Call(Call { args, .. }) => args.iter_mut().for_each(|arg| of_arg(arg, f)),
-        Stmt::Fetch { from: arg, .. } | Stmt::Send { to: arg, .. } => of_arg(arg, f),
+        Stmt::Fetch(Fetch { from: arg, .. }) | Stmt::Send(Send { to: arg, .. }) => of_arg(arg, f),
         _ => {}
     }
 }
@@ -166,24 +167,24 @@ pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
 /// The temporary that a statement gives a value.
 pub fn assigned(stmt: &Stmt) -> Option<TempId> {
     match stmt {
-        Stmt::Let(temp, _) | Stmt::Edge { out: temp, .. } | Stmt::Fetch { there: temp, .. } => {
-            Some(*temp)
-        }
+        Stmt::Let(temp, _)
+        | Stmt::Edge(Edge { out: temp, .. })
+        | Stmt::Fetch(Fetch { there: temp, .. }) => Some(*temp),
         _ => None,
     }
 }
 
 /// Whether a statement itself calls the runtime.
 pub fn calls_runtime(stmt: &Stmt) -> bool {
-    matches!(stmt, Stmt::Call(_) | Stmt::Fetch { .. } | Stmt::Send { .. })
+    matches!(stmt, Stmt::Call(_) | Stmt::Fetch(_) | Stmt::Send(_))
 }
 
 /// The step at which a statement reports a fault, if it can.
 pub fn fault_step(stmt: &Stmt) -> Option<u32> {
     match *stmt {
         Stmt::Call(Call { step, .. })
-        | Stmt::Fetch { step, .. }
-        | Stmt::Send { step, .. }
+        | Stmt::Fetch(Fetch { step, .. })
+        | Stmt::Send(Send { step, .. })
         | Stmt::Fault { step, .. }
         | Stmt::Watch { at: step, .. } => Some(step),
         _ => None,
@@ -196,7 +197,7 @@ pub fn bodies(stmt: &Stmt) -> impl Iterator<Item = &Body> {
         Stmt::If {
             then, otherwise, ..
         } => ([Some(then), Some(otherwise)], &[]),
-        Stmt::For { body, .. } | Stmt::Repeat { body, .. } => ([Some(body), None], &[]),
+        Stmt::For { body, .. } | Stmt::Repeat(Repeat { body, .. }) => ([Some(body), None], &[]),
         Stmt::Parts(parts) => ([None, None], parts),
         _ => ([None, None], &[]),
     };
@@ -210,7 +211,7 @@ pub fn bodies_mut(stmt: &mut Stmt) -> impl Iterator<Item = &mut Body> {
         Stmt::If {
             then, otherwise, ..
         } => ([Some(then), Some(otherwise)], &mut []),
-        Stmt::For { body, .. } | Stmt::Repeat { body, .. } => ([Some(body), None], &mut []),
+        Stmt::For { body, .. } | Stmt::Repeat(Repeat { body, .. }) => ([Some(body), None], &mut []),
         Stmt::Parts(parts) => ([None, None], parts),
         _ => ([None, None], &mut []),
     };
@@ -236,7 +237,7 @@ pub fn has_many_timers(module: &Module) -> bool {
     let mut coils = 0;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| {
-            coils += usize::from(matches!(stmt, Stmt::Timer { .. }));
+            coils += usize::from(matches!(stmt, Stmt::Timer(_)));
         });
     }
     coils > MANY_TIMERS

@@ -3,7 +3,7 @@
 //! What is counted are PLC steps of the networks that are passed and operations of the IR (a statement, an operator, a read of a device). Of two
 //! branches the longer one counts, a loop counts as often as it runs, a call with all that it calls.
 
-use crate::node::{Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Stmt};
+use crate::node::{Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt};
 use crate::walk::{for_exprs, operands, statements};
 use std::collections::BTreeMap;
 use typed_index_collections::TiVec;
@@ -191,7 +191,7 @@ impl<'m> Finder<'m> {
                     }
                 }
             }
-            Stmt::Repeat { count, body, .. } => {
+            Stmt::Repeat(Repeat { count, body, .. }) => {
                 let iteration = self.body(body);
                 cost.plus(iteration.times(u64::from(*count)))
             }

@@ -2,7 +2,7 @@
 
 use super::Lowerer;
 use super::parts::Item;
-use rungc_ir::node::{Body, EdgeId, Expr, ExprId, Stmt, TempId, Ty};
+use rungc_ir::node::{Body, Edge, EdgeId, Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::operands;
 use rungc_rt::EdgeKind;
 
@@ -101,13 +101,13 @@ impl Lowerer<'_> {
     /// Detects an edge here; the result.
     pub(super) fn edge(&mut self, edge: EdgeId, kind: EdgeKind, input: ExprId) -> ExprId {
         let out = self.temp(Ty::Bit);
-        self.emit(Stmt::Edge {
-            edge,
+        self.emit(Stmt::Edge(Edge {
+            memory: edge,
             index: None,
             kind,
             input,
             out,
-        });
+        }));
         self.add(Expr::Temp(out))
     }
 

@@ -3,7 +3,9 @@
 use super::Lowerer;
 use super::operand::{BitTarget, Guards, fixed};
 use rungc_catalogue::Basic;
-use rungc_ir::node::{Access, Expr, ExprId, Stmt};
+use rungc_ir::node::{
+    Access, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Stmt, TimerCoil,
+};
 use rungc_models::high_speed;
 use rungc_models::runs::FIRST_COUNTER32;
 use rungc_rt::special::M_COUNTER_DIRECTION;
@@ -52,19 +54,21 @@ impl Lowerer<'_> {
         let fast = fast.filter(|fast| self.specials.has(fast.relay));
         self.with_preset(false, Guards::default(), |this, preset| {
             let Some(fast) = fast else {
-                return this.emit(Stmt::Timer {
+                return this.emit(Stmt::Timer(TimerCoil {
                     number,
                     kind,
                     drive,
                     preset,
-                });
+                }));
             };
             let (drive, preset) = (this.settled(drive), this.settled(preset));
-            let timer = |unit_ms| Stmt::Timer {
-                number,
-                kind: TimerKind { unit_ms, ..kind },
-                drive,
-                preset,
+            let timer = |unit_ms| {
+                Stmt::Timer(TimerCoil {
+                    number,
+                    kind: TimerKind { unit_ms, ..kind },
+                    drive,
+                    preset,
+                })
             };
             let cond = this.add(Expr::Read(Access::bit(fast.relay)));
             this.emit(Stmt::If {
@@ -83,11 +87,11 @@ impl Lowerer<'_> {
         let drive = self.drive();
         if number < FIRST_COUNTER32 {
             return self.with_preset(false, Guards::default(), |this, preset| {
-                this.emit(Stmt::Counter16 {
+                this.emit(Stmt::Counter16(Counter16Coil {
                     number,
                     drive,
                     preset,
-                });
+                }));
             });
         }
         let direction = M_COUNTER_DIRECTION.after(number);
@@ -97,12 +101,12 @@ impl Lowerer<'_> {
             self.bit_const(false)
         };
         self.with_preset(true, Guards::default(), |this, preset| {
-            this.emit(Stmt::Counter32 {
+            this.emit(Stmt::Counter32(Counter32Coil {
                 number,
                 drive,
                 down,
                 preset,
-            });
+            }));
         });
     }
 
@@ -127,16 +131,16 @@ impl Lowerer<'_> {
         }
         self.with_preset(false, guards, |this, preset| {
             this.emit(match timer {
-                true => Stmt::TimerAt {
+                true => Stmt::TimerAt(IndexedCoil {
                     place,
                     drive,
                     preset,
-                },
-                false => Stmt::Counter16At {
+                }),
+                false => Stmt::Counter16At(IndexedCoil {
                     place,
                     drive,
                     preset,
-                },
+                }),
             });
         });
     }

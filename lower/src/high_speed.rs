@@ -4,7 +4,7 @@ use super::Lowerer;
 use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use rungc_catalogue::{Basic, Comparison, Lower};
-use rungc_ir::node::{Access, BinOp, CellId, Expr, ExprId, FlagId, Place, Stmt, SysValue};
+use rungc_ir::node::{Access, BinOp, CellId, Count, Expr, ExprId, FlagId, Place, Stmt, SysValue};
 use rungc_models::high_speed::{self, Axis, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::{M_COMPARE_AT_RESET, M_COUNTER_DIRECTION};
@@ -447,11 +447,11 @@ impl Lowerer<'_> {
         }
         self.when(counts, |this| {
             let preset = this.add(Expr::Cell(used.preset));
-            this.emit(Stmt::Count {
+            this.emit(Stmt::Count(Count {
                 number,
                 down,
                 preset,
-            });
+            }));
             this.show_on_axis(used.counter);
             let shown = M_COUNTER_DIRECTION.after(number);
             if used.counter.kind != Kind::One && this.specials.has(shown) {

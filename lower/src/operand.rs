@@ -3,7 +3,7 @@
 use super::Lowerer;
 use super::call::extents;
 use rungc_ir::node::{
-    Access, AccessKind, Arg, BinOp, CellId, Expr, ExprId, Place, Stmt, SysValue, Ty,
+    Access, AccessKind, Arg, BinOp, CellId, Expr, ExprId, Fetch, Place, Send, Stmt, SysValue, Ty,
 };
 use rungc_models::runs::{is_counter32, words_of_bits};
 use rungc_rt::CmpOp;
@@ -376,13 +376,13 @@ impl Lowerer<'_> {
         let value = self.fetch_cell(operand);
         let there = self.temp(Ty::Bit);
         let step = self.step();
-        self.emit(Stmt::Fetch {
+        self.emit(Stmt::Fetch(Fetch {
             from,
             wide,
             value,
             there,
             step,
-        });
+        }));
         guards.fetched.push(self.add(Expr::Temp(there)));
         let value = self.add(Expr::Cell(value));
         match wide {
@@ -527,12 +527,12 @@ impl Lowerer<'_> {
             }
             Target::Sent(to, wide) => {
                 let step = self.step();
-                Stmt::Send {
+                Stmt::Send(Send {
                     to,
                     wide,
                     value,
                     step,
-                }
+                })
             }
             Target::None => return,
         };

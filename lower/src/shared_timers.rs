@@ -3,7 +3,7 @@
 //!
 //! A coil that stands once, in code that a scan passes at most once, needs no memory of the scan in which it was executed.
 
-use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt};
+use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt, TimerCoil};
 use rungc_ir::walk::{bodies, bodies_mut, statements};
 use std::collections::BTreeSet;
 
@@ -34,7 +34,7 @@ impl Times {
 
 /// Marks the coils of timers that share the time of a scan.
 pub(super) fn mark(module: &mut Module) {
-    let has_timers = |stmt: &Stmt| matches!(stmt, Stmt::Timer { .. } | Stmt::TimerAt { .. });
+    let has_timers = |stmt: &Stmt| matches!(stmt, Stmt::Timer(_) | Stmt::TimerAt(_));
     let mut any = false;
     for function in &module.functions {
         statements(&function.body, &mut |stmt| any |= has_timers(stmt));
@@ -46,13 +46,13 @@ pub(super) fn mark(module: &mut Module) {
     let (mut seen, mut shared, mut indexed) = (BTreeSet::new(), BTreeSet::new(), false);
     for (function, &times) in module.functions.iter().zip(&times) {
         executed(&function.body, times, &mut |stmt, times| {
-            if let Stmt::Timer { number, .. } = *stmt
+            if let Stmt::Timer(TimerCoil { number, .. }) = *stmt
                 && (!seen.insert(number) || times == Times::Often)
             {
                 shared.insert(number);
             }
             // It may lead to any timer.
-            indexed |= matches!(stmt, Stmt::TimerAt { .. });
+            indexed |= matches!(stmt, Stmt::TimerAt(_));
         });
     }
     if indexed || !shared.is_empty() {
@@ -66,7 +66,7 @@ pub(super) fn mark(module: &mut Module) {
 
 fn mark_body(body: &mut [Stmt], is_shared: &impl Fn(u32) -> bool) {
     for stmt in body {
-        if let Stmt::Timer { number, kind, .. } = stmt {
+        if let Stmt::Timer(TimerCoil { number, kind, .. }) = stmt {
             kind.shared = is_shared(*number);
         }
         for inner in bodies_mut(stmt) {

@@ -131,25 +131,25 @@ impl Watcher<'_> {
                     }
                 }
                 stmt @ (Stmt::Let(..)
-                | Stmt::Edge { .. }
+                | Stmt::Edge(_)
                 | Stmt::SetFlag(..)
                 | Stmt::SetCell(..)
                 | Stmt::SetEntry(..)
                 | Stmt::Write(..)
-                | Stmt::Timer { .. }
-                | Stmt::TimerAt { .. }
+                | Stmt::Timer(_)
+                | Stmt::TimerAt(_)
                 | Stmt::TimerGoesOn { .. }
-                | Stmt::Counter16 { .. }
-                | Stmt::Counter16At { .. }
-                | Stmt::Counter32 { .. }
-                | Stmt::Count { .. }
+                | Stmt::Counter16(_)
+                | Stmt::Counter16At(_)
+                | Stmt::Counter32(_)
+                | Stmt::Count(_)
                 | Stmt::Reset(_)
-                | Stmt::Repeat { .. }
+                | Stmt::Repeat(_)
                 | Stmt::Return
                 | Stmt::Goto(_)
                 | Stmt::Call(_)
-                | Stmt::Fetch { .. }
-                | Stmt::Send { .. }
+                | Stmt::Fetch(_)
+                | Stmt::Send(_)
                 | Stmt::Fault { .. }
                 | Stmt::Watch { .. }
                 | Stmt::Stop

@@ -130,12 +130,12 @@ impl Builder {
             stepwise: false,
             shared: false,
         };
-        self.body.push(Stmt::Timer {
+        self.body.push(Stmt::Timer(TimerCoil {
             number,
             kind,
             drive,
             preset,
-        });
+        }));
     }
 
     pub fn when(&mut self, cond: ExprId, then: impl FnOnce(&mut Self)) {
@@ -156,13 +156,13 @@ impl Builder {
         );
         self.module.edges += 1;
         self.module.temps.push(Ty::Bit);
-        self.body.push(Stmt::Edge {
-            edge,
+        self.body.push(Stmt::Edge(Edge {
+            memory: edge,
             index: None,
             kind: EdgeKind::Rising,
             input,
             out,
-        });
+        }));
         let cond = self.module.add(Expr::Temp(out));
         self.when(cond, then);
     }

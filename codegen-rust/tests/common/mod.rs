@@ -151,21 +151,21 @@ pub fn motor() -> Module {
         b.network(0, Some("start and stop")),
         Stmt::Write(Access::bit(place(M, 0)), latch),
         b.network(4, None),
-        Stmt::Timer {
+        Stmt::Timer(TimerCoil {
             number: 0,
             kind: TIMER,
             drive: m0,
             preset,
-        },
+        }),
         Stmt::Write(Access::bit(place(Y, 0)), both),
         b.network(10, None),
-        Stmt::Edge {
-            edge,
+        Stmt::Edge(Edge {
+            memory: edge,
             index: None,
             kind: EdgeKind::Rising,
             input: x2,
             out: rising,
-        },
+        }),
         Stmt::If {
             cond: is_rising,
             then: vec![Stmt::Write(Access::word(place(D, 0)), sum)],

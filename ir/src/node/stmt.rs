@@ -75,26 +75,132 @@ pub struct Call {
     pub step: u32,
 }
 
-/// A statement.
+/// Sets `out` to whether `input` changed as `kind` says since this statement was last executed, and stores `input` in the memory.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Edge {
+    /// Memory.
+    pub memory: EdgeId,
+    /// The distance in memories to this one's: an [`Expr::Stride`](super::Expr::Stride), in the body of a [`Stmt::Repeat`].
+    pub index: Option<ExprId>,
+    /// Which change.
+    pub kind: EdgeKind,
+    /// What is watched.
+    pub input: ExprId,
+    /// Receives the result.
+    pub out: TempId,
+}
+
+/// The coil of a timer.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TimerCoil {
+    /// Number.
+    pub number: u32,
+    /// Behaviour.
+    pub kind: TimerKind,
+    /// `Bit`.
+    pub drive: ExprId,
+    /// `I16`.
+    pub preset: ExprId,
+}
+
+/// The coil of a counter C0–C199.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Counter16Coil {
+    /// Number.
+    pub number: u32,
+    /// `Bit`.
+    pub drive: ExprId,
+    /// `I16`.
+    pub preset: ExprId,
+}
+
+/// The coil of a timer or counter that an index leads to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct IndexedCoil {
+    /// The timer or counter, which has an index.
+    pub place: Place,
+    /// `Bit`.
+    pub drive: ExprId,
+    /// `I16`.
+    pub preset: ExprId,
+}
+
+/// The coil of a counter C200–C234.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Counter32Coil {
+    /// Number.
+    pub number: u32,
+    /// `Bit`.
+    pub drive: ExprId,
+    /// `Bit`: counts down.
+    pub down: ExprId,
+    /// `I32`.
+    pub preset: ExprId,
+}
+
+/// A count of a high-speed counter.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Count {
+    /// Number.
+    pub number: u32,
+    /// `Bit`: counts down.
+    pub down: ExprId,
+    /// `I32`.
+    pub preset: ExprId,
+}
+
+/// Executes the body `count` times, for rungs that the program repeats with other devices. `iteration` (`I32`) is 0, 1, 2 …, and leads to the
+/// devices of each iteration ([`Expr::Stride`](super::Expr::Stride)), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
+/// apart. The timers of a [`Stmt::TimerAt`] are of one kind. The body has neither loops nor jumps.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Repeat {
+    /// How often, at least 2.
+    pub count: u32,
+    /// Number of the iteration.
+    pub iteration: TempId,
+    /// What.
+    pub body: Body,
+    /// Steps of the first and the last of its networks in the program, for a comment.
+    pub steps: (u32, u32),
+}
+
+/// A read of buffer memory.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Fetch {
+    /// What is read.
+    pub from: Arg,
+    /// 32 bits of it.
+    pub wide: bool,
+    /// Receives the value, sign-extended; stays as it is after a fault.
+    pub value: CellId,
+    /// Receives whether there was no fault.
+    pub there: TempId,
+    /// Step number.
+    pub step: u32,
+}
+
+/// A write of buffer memory.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Send {
+    /// What is written.
+    pub to: Arg,
+    /// 32 bits of it.
+    pub wide: bool,
+    /// `I32` if `wide`, else `I16`.
+    pub value: ExprId,
+    /// Step number.
+    pub step: u32,
+}
+
+/// A statement. What has three fields or more, except for branches, is a separate struct.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Stmt {
     /// Here begins the code of a network (rung); no effect.
     Network(u32),
     /// Gives a temporary its value.
     Let(TempId, ExprId),
-    /// Sets `out` to whether `input` changed as `kind` says since this statement was last executed, and stores `input` in the memory.
-    Edge {
-        /// Memory.
-        edge: EdgeId,
-        /// The distance in memories to this one's: an [`Expr::Stride`](super::Expr::Stride), in the body of a [`Stmt::Repeat`].
-        index: Option<ExprId>,
-        /// Which change.
-        kind: EdgeKind,
-        /// What is watched.
-        input: ExprId,
-        /// Receives the result.
-        out: TempId,
-    },
+    /// Finds a change of a bit.
+    Edge(Edge),
     /// Writes a flag (`Bit`).
     SetFlag(FlagId, ExprId),
     /// Writes a cell (`I32`).
@@ -104,26 +210,10 @@ pub enum Stmt {
     /// Writes a value of the access's type.
     Write(Access, ExprId),
     /// OUT T: [`rungc_rt::Timer::run`].
-    Timer {
-        /// Number.
-        number: u32,
-        /// Behaviour.
-        kind: TimerKind,
-        /// `Bit`.
-        drive: ExprId,
-        /// `I16`.
-        preset: ExprId,
-    },
+    Timer(TimerCoil),
     /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
     /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the iterations of a [`Stmt::Repeat`].
-    TimerAt {
-        /// The timer, which has an index.
-        place: Place,
-        /// `Bit`.
-        drive: ExprId,
-        /// `I16`.
-        preset: ExprId,
-    },
+    TimerAt(IndexedCoil),
     /// END processing of a timer that continues in scans that jump over its coil: [`rungc_rt::Timer::go_on`].
     TimerGoesOn {
         /// Number.
@@ -132,43 +222,13 @@ pub enum Stmt {
         kind: TimerKind,
     },
     /// OUT C0–C199: [`rungc_rt::Counter16::run`].
-    Counter16 {
-        /// Number.
-        number: u32,
-        /// `Bit`.
-        drive: ExprId,
-        /// `I16`.
-        preset: ExprId,
-    },
+    Counter16(Counter16Coil),
     /// OUT C0–C199 with an index: as [`Stmt::Counter16`] of the counter that the place names.
-    Counter16At {
-        /// The counter, which has an index.
-        place: Place,
-        /// `Bit`.
-        drive: ExprId,
-        /// `I16`.
-        preset: ExprId,
-    },
+    Counter16At(IndexedCoil),
     /// OUT C200–C234: [`rungc_rt::Counter32::run`].
-    Counter32 {
-        /// Number.
-        number: u32,
-        /// `Bit`.
-        drive: ExprId,
-        /// `Bit`: counts down.
-        down: ExprId,
-        /// `I32`.
-        preset: ExprId,
-    },
+    Counter32(Counter32Coil),
     /// A count of a high-speed counter: [`rungc_rt::Counter32::count`].
-    Count {
-        /// Number.
-        number: u32,
-        /// `Bit`: counts down.
-        down: ExprId,
-        /// `I32`.
-        preset: ExprId,
-    },
+    Count(Count),
     /// RST of a timer or counter: value 0, contact off; a counter's and timer's coil memory stays as it is.
     Reset(Place),
     /// Executes one branch.
@@ -187,19 +247,8 @@ pub enum Stmt {
         /// What.
         body: Body,
     },
-    /// Executes the body `count` times, for rungs that the program repeats with other devices. `iteration` (`I32`) is 0, 1, 2 …, and leads to the
-    /// devices of each iteration ([`Expr::Stride`](super::Expr::Stride)), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
-    /// apart. The timers of a [`Stmt::TimerAt`] are of one kind. The body has neither loops nor jumps.
-    Repeat {
-        /// How often, at least 2.
-        count: u32,
-        /// Number of the iteration.
-        iteration: TempId,
-        /// What.
-        body: Body,
-        /// Steps of the first and the last of its networks in the program, for a comment.
-        steps: (u32, u32),
-    },
+    /// Executes a body for each of several equal sets of devices.
+    Repeat(Repeat),
     /// Calls [`Module::functions`](super::Module::functions)`[n]`.
     CallSub(u32),
     /// Leaves the function (SRET reached by a jump, CJ to P63 in a subroutine, …).
@@ -211,30 +260,10 @@ pub enum Stmt {
     Goto(LabelId),
     /// Calls the runtime. A fault is reported with its step ([`rungc_rt::report`]).
     Call(Call),
-    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with `step`.
-    Fetch {
-        /// What is read.
-        from: Arg,
-        /// 32 bits of it.
-        wide: bool,
-        /// Receives the value, sign-extended; stays as it is after a fault.
-        value: CellId,
-        /// Receives whether there was no fault.
-        there: TempId,
-        /// Step number.
-        step: u32,
-    },
-    /// Writes an operand that only the runtime can ([`rungc_rt::send`]). A fault is reported with `step`.
-    Send {
-        /// What is written.
-        to: Arg,
-        /// 32 bits of it.
-        wide: bool,
-        /// `I32` if `wide`, else `I16`.
-        value: ExprId,
-        /// Step number.
-        step: u32,
-    },
+    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with its step.
+    Fetch(Fetch),
+    /// Writes an operand that only the runtime can ([`rungc_rt::send`]). A fault is reported with its step.
+    Send(Send),
     /// Reports an operation error found inline.
     Fault {
         /// PLC's code.

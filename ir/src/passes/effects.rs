@@ -1,7 +1,9 @@
 //! What expressions read and statements write, and whether a read may be moved after a write.
 
 use super::fold::Arena;
-use crate::node::{Expr, ExprId, Place, Stmt};
+use crate::node::{
+    Count, Counter16Coil, Counter32Coil, Expr, ExprId, IndexedCoil, Place, Stmt, TimerCoil,
+};
 use crate::walk::operands;
 use rungc_models::Model;
 use rungc_syntax::DeviceClass;
@@ -106,24 +108,24 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
         Writes::Run(place.class, first, last)
     };
     match *stmt {
-        Stmt::Network(_) | Stmt::Let(..) | Stmt::Edge { .. } => Writes::Nothing,
+        Stmt::Network(_) | Stmt::Let(..) | Stmt::Edge(_) => Writes::Nothing,
         Stmt::Write(access, _) => place(access.place, access.extent()),
-        Stmt::TimerAt { place: at, .. } | Stmt::Counter16At { place: at, .. } | Stmt::Reset(at) => {
-            place(at, 1)
-        }
-        Stmt::Timer { number, .. } | Stmt::TimerGoesOn { number, .. } => {
+        Stmt::TimerAt(IndexedCoil { place: at, .. })
+        | Stmt::Counter16At(IndexedCoil { place: at, .. })
+        | Stmt::Reset(at) => place(at, 1),
+        Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
             Writes::Run(DeviceClass::T, number, number)
         }
-        Stmt::Counter16 { number, .. }
-        | Stmt::Counter32 { number, .. }
-        | Stmt::Count { number, .. } => Writes::Run(DeviceClass::C, number, number),
+        Stmt::Counter16(Counter16Coil { number, .. })
+        | Stmt::Counter32(Counter32Coil { number, .. })
+        | Stmt::Count(Count { number, .. }) => Writes::Run(DeviceClass::C, number, number),
         Stmt::If { .. }
         | Stmt::For { .. }
-        | Stmt::Repeat { .. }
+        | Stmt::Repeat(_)
         | Stmt::Parts(_)
         | Stmt::Call(_)
-        | Stmt::Fetch { .. }
-        | Stmt::Send { .. }
+        | Stmt::Fetch(_)
+        | Stmt::Send(_)
         | Stmt::CallSub(_)
         | Stmt::Return
         | Stmt::Goto(_)

@@ -3,7 +3,7 @@
 use super::effects::writes;
 use super::fold::Arena;
 use super::inline::{Counts, Temps};
-use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Stmt, TempId};
+use crate::node::{Body, Expr, ExprId, LabelId, Module, Part, Repeat, Stmt, TempId};
 use crate::walk::{assigned, bodies, for_exprs, for_exprs_mut, operands, operands_mut, statements};
 use rustc_hash::FxHashSet;
 use typed_index_collections::{TiSlice, TiVec};
@@ -133,22 +133,12 @@ impl Rewriter<'_> {
                 self.temps.set_available(Vec::new());
                 out.push(Stmt::For { count, body });
             }
-            Stmt::Repeat {
-                count,
-                iteration,
-                body,
-                steps,
-            } => {
+            Stmt::Repeat(repeat) => {
                 self.settle(out);
                 self.temps.set_available(Vec::new());
-                let body = self.body(body);
+                let body = self.body(repeat.body);
                 self.temps.set_available(Vec::new());
-                out.push(Stmt::Repeat {
-                    count,
-                    iteration,
-                    body,
-                    steps,
-                });
+                out.push(Stmt::Repeat(Repeat { body, ..repeat }));
             }
             Stmt::Parts(parts) => {
                 self.settle(out);

@@ -1,8 +1,11 @@
 //! Making the body of a loop of its first iteration.
 
-use super::pair::coil;
-use crate::node::{Access, AccessKind, Body, Expr, ExprId, Module, Place, Stmt, TempId, Ty};
+use crate::node::{
+    Access, AccessKind, Body, Counter16Coil, Edge, Expr, ExprId, IndexedCoil, Module, Place, Stmt,
+    TempId, TimerCoil, Ty,
+};
 use crate::walk::{operands, operands_mut};
+use rungc_syntax::DeviceClass;
 
 /// The drive of a statement that only sets and resets bits, and what it does to each.
 fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Access, bool)>)> {
@@ -70,24 +73,17 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
     fn stmt(&mut self, stmt: &Stmt) -> Stmt {
         match stmt {
             Stmt::Let(temp, value) => Stmt::Let(*temp, self.expr(*value)),
-            &Stmt::Edge {
-                edge,
-                kind,
-                input,
-                out,
-                ..
-            } => Stmt::Edge {
-                edge,
+            &Stmt::Edge(edge) => Stmt::Edge(Edge {
                 index: self.index(),
-                kind,
-                input: self.expr(input),
-                out,
-            },
+                input: self.expr(edge.input),
+                ..edge
+            }),
             Stmt::Write(access, value) => {
                 let access = self.access(*access);
                 Stmt::Write(access, self.expr(*value))
             }
-            Stmt::Timer { .. } | Stmt::Counter16 { .. } => self.coil(stmt),
+            Stmt::Timer(coil) => self.timer(*coil),
+            Stmt::Counter16(coil) => self.counter16(*coil),
             Stmt::Reset(place) => Stmt::Reset(self.place(*place)),
             Stmt::If {
                 cond,
@@ -114,35 +110,40 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
         self.module.add(expr)
     }
 
-    /// A coil of a timer or counter. All iterations have one kind of timers, so its number decides it.
-    fn coil(&mut self, stmt: &Stmt) -> Stmt {
-        let Some((place, drive, preset)) = coil(stmt) else {
-            return stmt.clone();
-        };
-        let place = self.place(place);
-        let (drive, preset) = (self.expr(drive), self.expr(preset));
-        match (stmt, place.index) {
-            (Stmt::Timer { .. }, Some(_)) => Stmt::TimerAt {
+    /// The coil of a timer. All iterations have one kind of timers, so its number decides it.
+    fn timer(&mut self, coil: TimerCoil) -> Stmt {
+        let place = self.place(Place::fixed(DeviceClass::T, coil.number));
+        let (drive, preset) = (self.expr(coil.drive), self.expr(coil.preset));
+        if place.index.is_some() {
+            Stmt::TimerAt(IndexedCoil {
                 place,
                 drive,
                 preset,
-            },
-            (&Stmt::Timer { number, kind, .. }, None) => Stmt::Timer {
-                number,
-                kind,
+            })
+        } else {
+            Stmt::Timer(TimerCoil {
                 drive,
                 preset,
-            },
-            (_, Some(_)) => Stmt::Counter16At {
+                ..coil
+            })
+        }
+    }
+
+    fn counter16(&mut self, coil: Counter16Coil) -> Stmt {
+        let place = self.place(Place::fixed(DeviceClass::C, coil.number));
+        let (drive, preset) = (self.expr(coil.drive), self.expr(coil.preset));
+        if place.index.is_some() {
+            Stmt::Counter16At(IndexedCoil {
                 place,
                 drive,
                 preset,
-            },
-            (_, None) => Stmt::Counter16 {
-                number: place.number,
+            })
+        } else {
+            Stmt::Counter16(Counter16Coil {
                 drive,
                 preset,
-            },
+                ..coil
+            })
         }
     }
 

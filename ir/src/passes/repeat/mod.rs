@@ -8,7 +8,7 @@ mod runs;
 mod shape;
 
 use super::grids::{self, Arrays, meets_other_grid, spread};
-use crate::node::{Body, Module, Stmt, Ty};
+use crate::node::{Body, Module, Repeat, Stmt, Ty};
 use maker::Maker;
 use pair::{Kind, Named};
 use rungc_syntax::DeviceClass;
@@ -131,11 +131,11 @@ impl Group {
         });
         let first = steps.next().unwrap_or_default();
         let last = steps.next_back().unwrap_or(first);
-        Stmt::Repeat {
+        Stmt::Repeat(Repeat {
             count: self.iterations as u32,
             iteration,
             body: inner,
             steps: (first, last),
-        }
+        })
     }
 }

@@ -58,44 +58,28 @@ impl<'m> Pair<'m> {
                 self.temps.insert(temp, with);
                 Some(())
             }
-            (
-                &Stmt::Edge {
-                    edge,
-                    kind,
-                    input,
-                    out,
-                    ..
-                },
-                &Stmt::Edge {
-                    edge: with_edge,
-                    kind: with_kind,
-                    input: with_input,
-                    out: with_out,
-                    ..
-                },
-            ) => {
-                (kind == with_kind).then_some(())?;
-                self.named(Kind::Edge, edge.0, with_edge.0)?;
-                self.expr(input, with_input)?;
-                self.temps.insert(out, with_out);
+            (Stmt::Edge(edge), Stmt::Edge(with)) => {
+                (edge.kind == with.kind).then_some(())?;
+                self.named(Kind::Edge, edge.memory.0, with.memory.0)?;
+                self.expr(edge.input, with.input)?;
+                self.temps.insert(edge.out, with.out);
                 Some(())
             }
             (&Stmt::Write(access, value), &Stmt::Write(to, other)) => {
                 self.access(access, to)?;
                 self.expr(value, other)
             }
-            // A shared timer is driven in several places, which repeated rungs seldom do.
-            (&Stmt::Timer { kind, .. }, &Stmt::Timer { kind: other, .. })
-                if kind != other || kind.shared =>
-            {
-                None
+            (Stmt::Timer(coil), Stmt::Timer(with)) => {
+                // A shared timer is driven in several places, which repeated rungs seldom do.
+                (coil.kind == with.kind && !coil.kind.shared).then_some(())?;
+                self.named(Kind::Device(DeviceClass::T), coil.number, with.number)?;
+                self.expr(coil.drive, with.drive)?;
+                self.expr(coil.preset, with.preset)
             }
-            (Stmt::Timer { .. }, Stmt::Timer { .. })
-            | (Stmt::Counter16 { .. }, Stmt::Counter16 { .. }) => {
-                let (one, other) = (coil(one)?, coil(other)?);
-                self.place(one.0, other.0)?;
-                self.expr(one.1, other.1)?;
-                self.expr(one.2, other.2)
+            (Stmt::Counter16(coil), Stmt::Counter16(with)) => {
+                self.named(Kind::Device(DeviceClass::C), coil.number, with.number)?;
+                self.expr(coil.drive, with.drive)?;
+                self.expr(coil.preset, with.preset)
             }
             (&Stmt::Reset(place), &Stmt::Reset(with)) => self.place(place, with),
             (
@@ -157,23 +141,4 @@ impl<'m> Pair<'m> {
         });
         Some(())
     }
-}
-
-/// The device of a coil of a timer or counter, its drive and its preset.
-pub(super) fn coil(stmt: &Stmt) -> Option<(Place, ExprId, ExprId)> {
-    let (class, number, drive, preset) = match *stmt {
-        Stmt::Timer {
-            number,
-            drive,
-            preset,
-            ..
-        } => (DeviceClass::T, number, drive, preset),
-        Stmt::Counter16 {
-            number,
-            drive,
-            preset,
-        } => (DeviceClass::C, number, drive, preset),
-        _ => return None,
-    };
-    Some((Place::fixed(class, number), drive, preset))
 }

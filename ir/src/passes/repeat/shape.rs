@@ -1,6 +1,8 @@
 //! What statements have in common that differ in their devices only, as a number to compare them by.
 
-use crate::node::{Access, AccessKind, Expr, ExprId, Module, Place, Stmt};
+use crate::node::{
+    Access, AccessKind, Counter16Coil, Edge, Expr, ExprId, Module, Place, Stmt, TimerCoil,
+};
 use crate::walk::operands;
 use rungc_models::runs::is_counter32;
 use rungc_syntax::DeviceClass;
@@ -35,12 +37,13 @@ fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64)
     match stmt {
         Stmt::Network(_) => *size -= 1,
         Stmt::Let(_, value) => add_expr(module, *value, hasher, size)?,
-        Stmt::Edge { input, .. } => add_expr(module, *input, hasher, size)?,
+        Stmt::Edge(Edge { input, .. }) => add_expr(module, *input, hasher, size)?,
         Stmt::Write(access, value) => {
             add_access(*access, hasher)?;
             add_expr(module, *value, hasher, size)?;
         }
-        Stmt::Timer { drive, preset, .. } | Stmt::Counter16 { drive, preset, .. } => {
+        Stmt::Timer(TimerCoil { drive, preset, .. })
+        | Stmt::Counter16(Counter16Coil { drive, preset, .. }) => {
             add_expr(module, *drive, hasher, size)?;
             add_expr(module, *preset, hasher, size)?;
         }
