@@ -252,8 +252,7 @@ pub(super) const ROWS: &[Inst] = &[
         .flags(&["M8122", "M8123", "M8262", "M8263", "M8272", "M8273"])
         .errors(&[6376, 6377])
         .call(RtFn::Rs2)
-        .lower_on(&[(FX3, Lower::Todo(SERIAL))])
-        .text("As RS, on port n1."),
+        .text("As RS, on port n1. On FX3 and L01S a header, a terminator and a sum may stand around the data."),
     serial("PID", 88, "PID control")
         .takes(PID)
         .variants(&[on(FX).takes(PID_FX), on(L01S).takes(PID_L01S)])
@@ -368,8 +367,16 @@ pub(super) const ROWS: &[Inst] = &[
             any("S3"),
             mixed_out("D", BITS.or(DATA)).per(3).changed(),
         ])
+        // FX3U MODBUS manual §8.3: 05, 06, 0F and 10 write constants, too.
+        .variants(&[on(FX3).takes(&[
+            any("S"),
+            any("S1"),
+            any("S2"),
+            any("S3"),
+            mixed_out("D", BITS.or(DATA).or(CONSTANTS)).per(3).changed(),
+        ])])
         .flags(&["M8029"])
-        .todo(SERIAL)
+        .call(RtFn::AdprwFx3)
         .lower_on(&[(L01S, Lower::Call(RtFn::Adprw))]),
     cassette("LOADR", 290, "Load from extension file registers", "Copies n words from ER to R, from number S on.")
         .takes(&[dst("S", Classes::R).per(1), number("n", 32767)])

@@ -192,13 +192,25 @@ enum rungc_ports
      */
     RUNGC_PORTS_HM = 3,
     /**
-     * FX: the programming port, and the communication board.
+     * FX1S, FX1N, FX2N: the programming port, and the communication board.
      */
     RUNGC_PORTS_FX = 4,
     /**
-     * Boards that are compatible with FX2N and FX3U.
+     * Boards that are compatible with FX3U.
      */
-    RUNGC_PORTS_BOARD = 5,
+    RUNGC_PORTS_BOARD3U = 5,
+    /**
+     * FX3S, FX3U: the programming port, and two channels.
+     */
+    RUNGC_PORTS_FX3 = 6,
+    /**
+     * FX3G: the same, and RS2 on the programming port.
+     */
+    RUNGC_PORTS_FX3G = 7,
+    /**
+     * Boards that are compatible with FX2N.
+     */
+    RUNGC_PORTS_BOARD2N = 8,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L

@@ -62,8 +62,10 @@ impl Lowerer<'_> {
             let Some(wiring) = self.model.ports.get(*number) else {
                 continue;
             };
-            flags.extend(wiring.registers().map(|n| (DeviceClass::D, n.number())));
-            flags.extend(wiring.relays().map(|n| (DeviceClass::M, n.number())));
+            for set in wiring.sets() {
+                flags.extend(set.registers().map(|n| (DeviceClass::D, n.number())));
+                flags.extend(set.relays().map(|n| (DeviceClass::M, n.number())));
+            }
         }
         flags.extend(ERRORS.map(|n| (DeviceClass::D, n)));
         flags.extend(ERRORS.map(|n| (DeviceClass::M, n)));
@@ -72,15 +74,14 @@ impl Lowerer<'_> {
     }
 
     /// Whether the program names a device that chooses what the port speaks.
-    fn sets_up(&self, wiring: &PortWiring) -> bool {
+    fn sets_up(&self, wiring: &'static PortWiring) -> bool {
         let chooses = |device: Device| {
-            let register = device.class == DeviceClass::D
-                && wiring
-                    .setup_registers()
-                    .any(|n| n.number() == device.number);
-            register
-                || device.class == DeviceClass::M
-                    && wiring.setup_relays().any(|n| n.number() == device.number)
+            wiring.sets().any(|set| {
+                device.class == DeviceClass::D
+                    && set.setup_registers().any(|n| n.number() == device.number)
+                    || device.class == DeviceClass::M
+                        && set.setup_relays().any(|n| n.number() == device.number)
+            })
         };
         let operands = self.resolved.program.instrs.iter();
         let mut operands = operands.flat_map(|instr| &instr.operands);

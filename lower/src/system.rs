@@ -132,7 +132,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// M8000 to M8003.
+    /// M8000 to M8003, M8038, M8411.
     fn run_flags(&mut self) {
         let running = Expr::Sys(SysValue::Running);
         let first = Expr::Sys(SysValue::FirstScan);
@@ -140,6 +140,8 @@ impl Lowerer<'_> {
             (M_RUNNING, running, false),
             (M_STOPPED, running, true),
             (M_FIRST_SCAN, first, false),
+            (M_LINK_SET_UP, first, false),
+            (M_MODBUS_SET_UP, first, false),
             (M_LATER_SCANS, first, true),
         ] {
             if self.keeps(relay) {

@@ -236,9 +236,36 @@ pub(crate) const LATER: Reason = because(
     Missed::ByWriters,
     "according to its manual, the model does not support this yet",
 );
-pub(crate) const SERIAL: Reason = because(
+pub(crate) const CONTROL_LINES: Reason =
+    because(Missed::ByAll, "serial ports here have no control lines");
+pub(crate) const NO_PORT: Reason = because(
     Missed::ByAll,
-    "this part of serial communication is not implemented yet",
+    "the manual lists it, but the model has no such port",
+);
+pub(crate) const NO_CAN: Reason = because(
+    Missed::ByAll,
+    "the manual lists it, but the model has no CAN",
+);
+pub(crate) const NO_LINK: Reason = because(
+    Missed::ByWriters,
+    "COM0 speaks the programming port's protocol and Modbus, not a computer link",
+);
+pub(crate) const FORBIDDEN: Reason = because(Missed::ByWriters, "the manual forbids to use it");
+pub(crate) const BOARDS: Reason = because(
+    Missed::Never,
+    "a port works here with any board or without one",
+);
+pub(crate) const SHOWN: Reason = because(
+    Missed::Never,
+    "it repeats for the editor what other registers say",
+);
+pub(crate) const DELIMITER: Reason = because(
+    Missed::ByWriters,
+    "messages of Modbus ASCII end with CR and LF, as its specification says",
+);
+pub(crate) const INVERTERS: Reason = because(
+    Missed::ByAll,
+    "the instructions for Mitsubishi inverters cannot be compiled; RS2 and ADPRW reach inverters, too",
 );
 pub(crate) const SUMMED: Reason = because(
     Missed::Never,
@@ -247,15 +274,16 @@ pub(crate) const SUMMED: Reason = because(
 pub(crate) const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
 pub(crate) const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
 pub(crate) const AXES: Reason = because(Missed::Never, "input axes do not show this yet");
-pub(crate) const LINK: Reason =
-    because(Missed::ByAll, "links between PLCs are not implemented yet");
 pub(crate) const TRACE: Reason =
     because(Missed::Never, "sampling traces are a matter of the editor");
 pub(crate) const INTERRUPTS: Reason = because(
     Missed::Never,
     "interrupts of this kind are not implemented yet",
 );
-pub(crate) const NETWORK: Reason = because(Missed::ByAll, "network cards are not implemented");
+pub(crate) const NETWORK: Reason = because(
+    Missed::ByAll,
+    "there is no network card; the host serves Modbus TCP itself",
+);
 pub(crate) const RAW: Reason = because(
     Missed::ByWriters,
     "analog channels show the raw values of the host, each scan",

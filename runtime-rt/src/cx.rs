@@ -510,7 +510,7 @@ impl<'a> Cx<'a> {
             None => return,
         };
         if let Some(wiring) = self.plc.ports().get(number) {
-            wiring.note(self.plc, protocol, fault);
+            wiring.chosen(self.plc).note(self.plc, protocol, fault);
         }
     }
 

@@ -218,6 +218,7 @@ registry! {
     Rd3aModbus = modbus::rd3a_modbus(m1, m2, d) [always, any_port];
     Wr3aModbus = modbus::wr3a_modbus(m1, m2, s) [always, any_port];
     Adprw = modbus::adprw(s, s1, s2, s3, d) [always, any_port];
+    AdprwFx3 = modbus::adprw_fx3(s, s1, s2, s3, d) [always, any_port];
     Ivrd = modbus::ivrd(s1, s2, d, n) [always, port];
     Ivwr = modbus::ivwr(s1, s2, s3, n) [always, port];
     Mrdc = modbus::mrdc(s1, s2, s3, d1, d2) [state, always, names_port];

@@ -74,6 +74,10 @@ pub const M_RUNNING: Relay = Relay(8000);
 pub const M_STOPPED: Relay = Relay(8001);
 /// On in the first scan of RUN.
 pub const M_FIRST_SCAN: Relay = Relay(8002);
+/// The same, for programs that set links between PLCs up.
+pub const M_LINK_SET_UP: Relay = Relay(8038);
+/// The same, for programs that set Modbus up (FX3).
+pub const M_MODBUS_SET_UP: Relay = Relay(8411);
 /// Off in the first scan of RUN.
 pub const M_LATER_SCANS: Relay = Relay(8003);
 /// Clock of 10 ms; those of 100 ms, 1 s and 1 min follow.

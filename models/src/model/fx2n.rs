@@ -79,7 +79,7 @@ pub(super) const FX2N_COMPATIBLE: Model = Model {
     cpus: &[],
     nearest: &[],
     pulses: Pulses::Board2n,
-    ports: Ports::Board,
+    ports: Ports::Board2n,
     pulse_outputs: &[(Y, 0, 7)],
     ..FX2N
 };

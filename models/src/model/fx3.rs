@@ -26,6 +26,7 @@ pub(super) const FX3S: Model = Model {
     timers: FX3S_TIMERS,
     fast_timers: Some(M8028),
     max_steps: 4000,
+    ports: Ports::Fx3,
     pulse_outputs: &[(Y, 0, 1)],
     position_outputs: &[(Y, 0, 1)],
     notations: Classes::E,
@@ -55,6 +56,7 @@ pub(super) const FX3G: Model = Model {
     latch_choices: &[],
     max_steps: 32000,
     pulses: Pulses::Fx3,
+    ports: Ports::Fx3g,
     pulse_outputs: &[(Y, 0, 2)],
     position_outputs: &[(Y, 0, 2)],
     notations: Classes::E.or(Classes::TEXT),
@@ -90,6 +92,7 @@ pub(super) const FX3U: Model = Model {
     timers: FX3U_TIMERS,
     max_steps: 64000,
     pulses: Pulses::Fx3,
+    ports: Ports::Fx3,
     pulse_outputs: &[(Y, 0, 3)],
     position_outputs: &[(Y, 0, 3)],
     notations: Classes::E
@@ -129,7 +132,7 @@ pub(super) const FX3U_COMPATIBLE: Model = Model {
     cpus: &[],
     nearest: &[],
     pulses: Pulses::Board3u,
-    ports: Ports::Board,
+    ports: Ports::Board3u,
     pulse_outputs: &[(Y, 0, 7)],
     ..FX3U
 };

@@ -1,7 +1,8 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use crate::special::{
-    CHECKED, FAST, HARDWARE, INTERRUPTS, LINK, POWER, SERIAL, Special, TRACE, specials,
+    CHECKED, CONTROL_LINES, DELIMITER, FAST, HARDWARE, INTERRUPTS, INVERTERS, POWER, SHOWN,
+    Special, TRACE, specials,
 };
 
 /// What all have.
@@ -32,7 +33,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8034 rw 0 scan "all outputs are off; their images are still updated";
     M 8035-8036 rw 0 scan "both on: RUN is forced, and M8036 goes off";
     M 8037 rw 0 scan "STOP is forced";
-    M 8038 rw 0 inert(SERIAL) "communication parameters are set";
+    M 8038 rw 0 scan "on in the first scan of RUN, in which a program sets an N:N link up";
     M 8039 rw 0 scan "scans last at least D8039";
     M 8040 rw 0 scan "steps do not change";
     M 8041 rw 0 by("IST") "a step program may start";
@@ -50,7 +51,8 @@ pub(super) const ALL: &[Special] = specials! {
     M 8066 r 0 inert(CHECKED) "circuit error, code in D8066";
     M 8067 r 0 scan "operation error, code in D8067";
     M 8068 rw 0 scan "operation error, kept; its step in D8068";
-    M 8070-8073 rw 0 inert(LINK) "parallel link";
+    M 8070-8071 rw 0 by("serial ports") "master, slave of a parallel link";
+    M 8072-8073 r 0 by("serial ports") "the parallel link is running, is set up wrongly";
     M 8121 r 0 by("serial ports") "RS waits to send";
     M 8122 rw 0 by("serial ports") "RS sends";
     M 8123 rw 0 by("serial ports") "RS has received";
@@ -59,7 +61,7 @@ pub(super) const ALL: &[Special] = specials! {
     M 8145-8146 rw 0 by("pulse outputs") "stop the pulses of Y000, of Y001";
     M 8147-8148 r 0 by("pulse outputs") "pulses are sent at Y000, at Y001";
     M 8161 rw 0 by("ASC, ASCI, HEX, CCD, CRC, RS") "one character or byte a word";
-    M 8162 rw 0 inert(LINK) "fast mode of the parallel link";
+    M 8162 rw 0 by("serial ports") "fast mode of the parallel link";
     M 8170-8175 rw 0 scan "a pulse came at X000–X005";
     M 8235-8245 rw 0 by("OUT C") "C235–C245 count down";
     M 8246-8255 r 0 by("OUT C") "C246–C255 are counting down";
@@ -85,11 +87,12 @@ pub(super) const ALL: &[Special] = specials! {
     D 8067 r 0 scan "code of the operation error";
     D 8068 rw 0 scan "step of the operation error, kept";
     D 8069 r 0 scan "step of the error of M8065–M8067";
-    D 8070 rw 500 inert(LINK) "error time of the parallel link in ms";
+    D 8070 rw 500 by("serial ports") "error time of the parallel link in ms";
     D 8120-8129 rw 0 by("serial ports") "communication format, counts and characters of RS";
     D 8136-8137 rw 0 by("pulse outputs") "pulses sent at Y000 and Y001";
     D 8140-8143 rw 0 by("pulse outputs") "pulses sent at Y000, at Y001";
-    D 8173-8180 rw 0 inert(LINK) "N:N link: settings";
+    D 8173-8175 r 0 by("serial ports") "N:N link: own station, number of slaves and mode, as accepted";
+    D 8176-8180 rw 0 by("serial ports") "N:N link: own station; in the master number of slaves, mode, retries, time-out in 10 ms";
     D 8182 rw 0 scan "Z1";
     D 8183 rw 0 scan "V1";
     D 8184 rw 0 scan "Z2";
@@ -108,9 +111,9 @@ pub(super) const ALL: &[Special] = specials! {
 
 /// What all but FX1S have in addition.
 pub(super) const FROM_FX1N: &[Special] = specials! {
-    M 8183-8191 r 0 inert(LINK) "N:N link";
+    M 8183-8191 r 0 by("serial ports") "N:N link: stations 0 to 7 have an error, data is sent";
     M 8200-8234 rw 0 by("OUT C") "C200–C234 count down";
-    D 8201-8218 r 0 inert(LINK) "N:N link: times and errors";
+    D 8201-8218 r 0 by("serial ports") "N:N link: times and errors";
 };
 
 /// What FX2N and FX3 have in addition.
@@ -198,8 +201,9 @@ pub(super) const FX2N: &[Special] = specials! {
 /// What FX3S, FX3G and FX3U have in addition.
 pub(super) const FX3: &[Special] = specials! {
     M 8138 r 0 by("HSCT") "on for a scan when the last row of the table was reached";
-    M 8151-8159 r 0 inert(SERIAL) "inverter communication";
+    M 8151-8159 r 0 inert(INVERTERS) "inverter communication";
     M 8176-8177 rw 0 scan "a pulse came at X006, X007";
+    M 8178-8179 rw 0 by("serial ports") "the parallel link, the N:N link is on channel 2";
     M 8198-8199 rw 0 by("OUT C") "four counts a cycle for C251, C252 and C253–C255";
     M 8304 r 0 by("MUL, DIV") "zero flag of multiplication and division";
     M 8306 r 0 by("DIV") "carry flag of division";
@@ -219,7 +223,23 @@ pub(super) const FX3: &[Special] = specials! {
     M 8358 r 0 by("pulse outputs") "Y001: an instruction is driven";
     M 8359 rw 0 by("pulse outputs") "stops the pulses of Y001";
     M 8398 rw 0 scan "starts the ring counter D8398";
-    M 8401-8429 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
+    M 8401 r 0 by("serial ports") "channel 1: RS2 waits to send; ADPRW is in work";
+    M 8402 rw 0 by("serial ports") "channel 1: RS2 sends; the last exchange of Modbus has failed";
+    M 8403 rw 0 by("serial ports") "channel 1: RS2 has received; an exchange of Modbus has failed";
+    M 8404 r 0 by("serial ports") "channel 1: RS2 receives";
+    M 8405 r 0 inert(CONTROL_LINES) "channel 1: DSR is on";
+    M 8408 r 0 by("serial ports") "channel 1: ADPRW has sent its request again";
+    M 8409 rw 0 by("serial ports") "channel 1: time-out of RS2 or ADPRW";
+    M 8411 rw 0 scan "on in the first scan of RUN, in which a program sets Modbus up";
+    M 8421 r 0 by("serial ports") "channel 2: RS2 waits to send; ADPRW is in work";
+    M 8422 rw 0 by("serial ports") "channel 2: RS2 sends; the last exchange of Modbus has failed";
+    M 8423 rw 0 by("serial ports") "channel 2: RS2 has received; an exchange of Modbus has failed";
+    M 8424 r 0 by("serial ports") "channel 2: RS2 receives";
+    M 8425 r 0 inert(CONTROL_LINES) "channel 2: DSR is on";
+    M 8426-8427 r 0 by("serial ports") "channel 2: computer link: global signal, on-demand data is being sent";
+    M 8428 rw 0 by("serial ports") "channel 2: on-demand data is wrong; ADPRW has sent its request again";
+    M 8429 rw 0 by("serial ports") "channel 2: time-out of RS2 or ADPRW; bytes of on-demand data";
+    M 8438 r 0 by("serial ports") "channel 2: communication error, code in D8438";
     M 8464-8467 rw 0 by("ZRN, DSZR") "D8464–D8467 hold the outputs of clear signals";
     D 8340-8341 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: position";
     D 8342 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y000: base speed in Hz";
@@ -239,7 +259,43 @@ pub(super) const FX3: &[Special] = specials! {
     D 8358-8359 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y001: times of acceleration and deceleration in ms";
     D 8393 rw 0 inert(FAST) "delay time of input interrupts in ms";
     D 8398-8399 rw 0 scan "ring counter of 1 ms, 0 to 2147483647";
-    D 8400-8439 rw 0 inert(SERIAL) "serial communication on ports 1 and 2";
+    D 8400 rw 0 by("serial ports") "channel 1: communication format; another value than 0 chooses these registers instead of those of RS";
+    D 8401 rw 0 by("serial ports") "channel 1: bit 0 Modbus, bit 4 slave, bit 8 ASCII";
+    D 8402 r 0 by("serial ports") "channel 1: characters that RS2 has yet to send; code of the last error of Modbus";
+    D 8403 r 0 by("serial ports") "channel 1: characters that RS2 has received; details of the last error of Modbus";
+    D 8404 r 0 by("serial ports") "channel 1: step of the first ADPRW that failed";
+    D 8405 r 0 inert(SHOWN) "channel 1: communication format";
+    D 8406 rw 0 inert(DELIMITER) "channel 1: last character of Modbus ASCII";
+    D 8407 r 0 by("serial ports") "channel 1: step of the last ADPRW";
+    D 8408 r 0 by("serial ports") "channel 1: how often ADPRW has sent its request again";
+    D 8409 rw 0 by("serial ports") "channel 1: time-out, of RS2 in 10 ms, of ADPRW in ms";
+    D 8410 rw 2 by("serial ports") "channel 1: header of RS2, characters 1 and 2; how long slaves work on a broadcast in ms";
+    D 8411 rw 0 by("serial ports") "channel 1: header of RS2, characters 3 and 4; silence between messages of Modbus in ms";
+    D 8412 rw 3 by("serial ports") "channel 1: terminator of RS2, characters 1 and 2; retries of ADPRW";
+    D 8413 rw 0 by("serial ports") "channel 1: terminator of RS2, characters 3 and 4";
+    D 8414 rw 0 by("serial ports") "channel 1: sum that RS2 has received; station of a Modbus slave";
+    D 8415 r 0 by("serial ports") "channel 1: sum of what RS2 has received";
+    D 8416 r 0 by("serial ports") "channel 1: sum of what RS2 has sent";
+    D 8419 r 0 inert(SHOWN) "channel 1: mode of operation";
+    D 8420 rw 0 by("serial ports") "channel 2: communication format; another value than 0 chooses these registers instead of those of RS";
+    D 8421 rw 0 by("serial ports") "channel 2: bit 0 Modbus, bit 4 slave, bit 8 ASCII; station of a computer link";
+    D 8422 r 0 by("serial ports") "channel 2: characters that RS2 has yet to send; code of the last error of Modbus";
+    D 8423 r 0 by("serial ports") "channel 2: characters that RS2 has received; details of the last error of Modbus";
+    D 8424 r 0 by("serial ports") "channel 2: step of the first ADPRW that failed";
+    D 8425 r 0 inert(SHOWN) "channel 2: communication format";
+    D 8426 rw 0 inert(DELIMITER) "channel 2: last character of Modbus ASCII";
+    D 8427 r 0 by("serial ports") "channel 2: step of the last ADPRW; first register of on-demand data";
+    D 8428 r 0 by("serial ports") "channel 2: how often ADPRW has sent its request again; number of on-demand data";
+    D 8429 rw 0 by("serial ports") "channel 2: time-out, of RS2 in 10 ms, of ADPRW in ms";
+    D 8430 rw 2 by("serial ports") "channel 2: header of RS2, characters 1 and 2; how long slaves work on a broadcast in ms";
+    D 8431 rw 0 by("serial ports") "channel 2: header of RS2, characters 3 and 4; silence between messages of Modbus in ms";
+    D 8432 rw 3 by("serial ports") "channel 2: terminator of RS2, characters 1 and 2; retries of ADPRW";
+    D 8433 rw 0 by("serial ports") "channel 2: terminator of RS2, characters 3 and 4";
+    D 8434 rw 0 by("serial ports") "channel 2: sum that RS2 has received; station of a Modbus slave";
+    D 8435 r 0 by("serial ports") "channel 2: sum of what RS2 has received";
+    D 8436 r 0 by("serial ports") "channel 2: sum of what RS2 has sent";
+    D 8438 r 0 by("serial ports") "channel 2: code of the communication error";
+    D 8439 r 0 inert(SHOWN) "channel 2: mode of operation";
     D 8464-8467 rw 0 by("ZRN, DSZR") "outputs for the clear signal of positioning";
 };
 
@@ -252,13 +308,6 @@ pub(super) const FX3GU: &[Special] = specials! {
     M 8365-8366 rw 0 by("DSZR") "Y002: DOG, zero signal inverted";
     M 8368 r 0 by("pulse outputs") "Y002: an instruction is driven";
     M 8369 rw 0 by("pulse outputs") "stops the pulses of Y002";
-    M 8370 r 0 by("pulse outputs") "pulses are sent at Y003";
-    M 8371 rw 0 by("ZRN, DSZR") "Y003: clear signal";
-    M 8372 rw 0 by("DSZR") "Y003: returns forward";
-    M 8373-8374 rw 0 by("pulse outputs") "Y003: forward and reverse limit";
-    M 8375-8376 rw 0 by("DSZR") "Y003: DOG, zero signal inverted";
-    M 8378 r 0 by("pulse outputs") "Y003: an instruction is driven";
-    M 8379 rw 0 by("pulse outputs") "stops the pulses of Y003";
     D 8360-8361 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: position";
     D 8362 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: base speed in Hz";
     D 8363 rw -31072 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: highest speed in Hz, low word";
@@ -267,14 +316,6 @@ pub(super) const FX3GU: &[Special] = specials! {
     D 8366 rw -15536 by("DSZR") "Y002: speed of the return in Hz, low word";
     D 8367 rw 0 by("DSZR") "Y002: high word of that";
     D 8368-8369 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y002: times of acceleration and deceleration in ms";
-    D 8370-8371 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: position";
-    D 8372 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: base speed in Hz";
-    D 8373 rw -31072 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: highest speed in Hz, low word";
-    D 8374 rw 1 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: high word of that";
-    D 8375 rw 1000 by("DSZR") "Y003: creep speed in Hz";
-    D 8376 rw -15536 by("DSZR") "Y003: speed of the return in Hz, low word";
-    D 8377 rw 0 by("DSZR") "Y003: high word of that";
-    D 8378-8379 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: times of acceleration and deceleration in ms";
 };
 
 /// What FX3S and FX3G have in addition.
@@ -298,12 +339,28 @@ pub(super) const FX3S: &[Special] = specials! {
     D 8102 r 4 scan "program capacity in k steps";
 };
 
-/// FX3G: version 2.00, 32 k steps.
+/// FX3G: version 2.00, 32 k steps; RS2 on the programming port.
 pub(super) const FX3G: &[Special] = specials! {
+    M 8371 r 0 by("serial ports") "programming port: RS2 waits to send";
+    M 8372 rw 0 by("serial ports") "programming port: RS2 sends";
+    M 8373 rw 0 by("serial ports") "programming port: RS2 has received";
+    M 8374 r 0 by("serial ports") "programming port: RS2 receives";
+    M 8379 rw 0 by("serial ports") "programming port: time-out of RS2";
     D 8001 r 26200 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";
     D 8101 r 26200 scan "model and version";
     D 8102 r 32 scan "program capacity in k steps";
+    D 8370 rw 0 by("serial ports") "programming port: format of RS2, which takes the port over where it is not 0";
+    D 8372 r 0 by("serial ports") "programming port: characters that RS2 has yet to send";
+    D 8373 r 0 by("serial ports") "programming port: characters that RS2 has received";
+    D 8379 rw 0 by("serial ports") "programming port: time-out of RS2 in 10 ms";
+    D 8380 rw 2 by("serial ports") "programming port: header of RS2, characters 1 and 2";
+    D 8381 rw 0 by("serial ports") "programming port: header of RS2, characters 3 and 4";
+    D 8382 rw 3 by("serial ports") "programming port: terminator of RS2, characters 1 and 2";
+    D 8383 rw 0 by("serial ports") "programming port: terminator of RS2, characters 3 and 4";
+    D 8384 r 0 by("serial ports") "programming port: sum that RS2 has received";
+    D 8385 r 0 by("serial ports") "programming port: sum of what RS2 has received";
+    D 8386 r 0 by("serial ports") "programming port: sum of what RS2 has sent";
 };
 
 /// FX3U: version 3.20, 64 k steps.
@@ -318,7 +375,14 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8347 rw 0 by("DVIT") "Y000: interrupt signal inverted";
     M 8357 rw 0 by("DVIT") "Y001: interrupt signal inverted";
     M 8367 rw 0 by("DVIT") "Y002: interrupt signal inverted";
+    M 8370 r 0 by("pulse outputs") "pulses are sent at Y003";
+    M 8371 rw 0 by("ZRN, DSZR") "Y003: clear signal";
+    M 8372 rw 0 by("DSZR") "Y003: returns forward";
+    M 8373-8374 rw 0 by("pulse outputs") "Y003: forward and reverse limit";
+    M 8375-8376 rw 0 by("DSZR") "Y003: DOG, zero signal inverted";
     M 8377 rw 0 by("DVIT") "Y003: interrupt signal inverted";
+    M 8378 r 0 by("pulse outputs") "Y003: an instruction is driven";
+    M 8379 rw 0 by("pulse outputs") "stops the pulses of Y003";
     M 8380-8392 rw 0 inert(FAST) "inputs and modes of high-speed counters";
     M 8460-8463 rw 0 by("DVIT") "Y000–003: interrupt signals that the program gives, where D8336 says 8";
     D 8001 r 24320 scan "model and version";
@@ -330,4 +394,12 @@ pub(super) const FX3U: &[Special] = specials! {
     D 8311 rw 0 by("RND") "state of RND, high word";
     D 8330-8334 r 0 by("DUTY") "scans counted by DUTY";
     D 8336 rw 0 by("DVIT") "a hexadecimal digit for each output, that of Y000 the lowest: 0 to 7 for X000 to X007, 8 for M8460 to M8463";
+    D 8370-8371 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: position";
+    D 8372 rw 0 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: base speed in Hz";
+    D 8373 rw -31072 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: highest speed in Hz, low word";
+    D 8374 rw 1 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: high word of that";
+    D 8375 rw 1000 by("DSZR") "Y003: creep speed in Hz";
+    D 8376 rw -15536 by("DSZR") "Y003: speed of the return in Hz, low word";
+    D 8377 rw 0 by("DSZR") "Y003: high word of that";
+    D 8378-8379 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y003: times of acceleration and deceleration in ms";
 };

@@ -1,16 +1,14 @@
 //! Protocols of the program's own: RS, RS2 (h1u-h2u-programming §5.6, l01s-programming §9), USEND and URCV (hm-motion-controller §6.5).
 
+mod rs;
+
 use super::LineFault;
 use super::line::{CharFault, Received};
 use super::port::{Session, has_come};
-use super::wiring::{Choice, is_on, set, set_value, value};
+use super::wiring::Choice;
 use crate::plc::{Class, Plc};
 use crate::runs::FIRST_SPECIAL;
-use crate::special::Register;
-
-/// Bits of the format word: RS sends and waits for a character before the data, and after it.
-const START: u16 = 1 << 8;
-const END: u16 = 1 << 9;
+use rs::Marks;
 
 /// Words of HM's work area, counted from its first register.
 mod work {
@@ -76,8 +74,6 @@ pub struct Free {
     pub owner: u32,
     /// Characters are being received, or may come.
     listens: bool,
-    /// The character before the data has come.
-    begun: bool,
     /// All of them have been received, and the program has not taken notice yet.
     complete: bool,
     /// An answer is expected, and nothing of it has come.
@@ -90,6 +86,15 @@ pub struct Free {
     received: u16,
     /// When the last character was in.
     last_us: u32,
+    /// The last four characters received, the last one the lowest.
+    window: u32,
+    /// The sum of the characters sent, and of those received.
+    sent_sum: u16,
+    sum: u16,
+    /// The sum that has come; above 255, digits of it were wrong.
+    claimed: u16,
+    /// How many characters are still to come after the end of the data: a sum, CR and LF.
+    tail: u8,
 }
 
 impl Free {
@@ -107,13 +112,17 @@ impl Free {
             },
             owner: 0,
             listens: false,
-            begun: false,
             complete: false,
             awaits: false,
             total: 0,
             taken: 0,
             received: 0,
             last_us: 0,
+            window: 0,
+            sent_sum: 0,
+            sum: 0,
+            claimed: 0,
+            tail: 0,
         }
     }
 }
@@ -156,29 +165,41 @@ impl Session<'_> {
         }
     }
 
-    /// Sends data characters with the characters before and after them; returns how many are not out yet.
-    fn send_data(&mut self, before: Option<u8>, after: Option<u8>) -> u16 {
-        let free = self.status.free;
-        let head = u16::from(before.is_some());
-        let mut taken = free.taken;
-        while taken < free.total {
-            let byte = match taken.checked_sub(head) {
-                None => before,
-                Some(i) if i < free.transfer.send => self.data(i),
-                Some(_) => after,
-            };
-            let byte = byte.unwrap_or(0);
+    /// Hands data characters, with what stands around them, to the hardware; returns how many of all are not out yet.
+    fn send_data(&mut self, marks: &Marks) -> u16 {
+        while self.status.free.taken < self.status.free.total {
+            let (byte, summed) = self.next_character(marks);
             if !self
                 .serial()
                 .is_some_and(|(port, now)| port.send(byte, now))
             {
                 break;
             }
-            taken += 1;
+            self.status.free.taken += 1;
+            if summed {
+                let sum = &mut self.status.free.sent_sum;
+                *sum = sum.wrapping_add(byte.into());
+            }
         }
-        self.status.free.taken = taken;
         let unsent = self.serial().map_or(0, |(port, now)| port.unsent(now));
-        (free.total - taken).saturating_add(unsent)
+        let free = self.status.free;
+        (free.total - free.taken).saturating_add(unsent)
+    }
+
+    /// The character that is to be sent next, and whether the sum counts it: the data and what ends it.
+    fn next_character(&self, marks: &Marks) -> (u8, bool) {
+        let free = self.status.free;
+        let at = free.taken;
+        let Some(at) = at.checked_sub(marks.before.length.into()) else {
+            return (marks.before.at(at), false);
+        };
+        let Some(at) = at.checked_sub(free.transfer.send) else {
+            return (self.data(at).unwrap_or(0), true);
+        };
+        match at.checked_sub(marks.after.length.into()) {
+            None => (marks.after.at(at), true),
+            Some(at) => (marks.tail(at, free.sent_sum as u8), false),
+        }
     }
 
     /// Data character number `index` to send.
@@ -210,7 +231,7 @@ impl Session<'_> {
     /// The next character begins another reception.
     fn end_reception(&mut self) {
         self.status.free.listens = false;
-        self.status.free.begun = false;
+        self.status.free.window = 0;
     }
 
     /// When a character began.
@@ -227,96 +248,6 @@ impl Session<'_> {
         }
         self.note(LineFault::Character);
         character.fault != CharFault::Overrun
-    }
-}
-
-/// RS and RS2.
-impl Session<'_> {
-    /// The characters that the format word puts before and after data.
-    fn marks(&self) -> [Option<u8>; 2] {
-        let format = value(self.plc, self.wiring.format);
-        let of = |bit: u16, register: Option<Register>| {
-            let register = register.filter(|_| format & bit != 0)?;
-            Some(register.value(self.plc) as u8)
-        };
-        [of(START, self.wiring.start), of(END, self.wiring.end)]
-    }
-
-    fn take_rs(&mut self, character: Received) {
-        self.close_rs(self.begin_of(character));
-        let transfer = self.status.free.transfer;
-        let wants = self.status.free.owner != 0 && transfer.receive > 0;
-        if !wants || is_on(self.plc, self.wiring.done) || self.is_wrong(character) {
-            return;
-        }
-        let byte = character.byte & self.status.format.mask();
-        let [start, end] = self.marks();
-        if !self.status.free.listens {
-            if start.is_some_and(|start| start != byte) {
-                return;
-            }
-            self.status.free.listens = true;
-            self.status.free.received = 0;
-        }
-        let begins = start.is_some() && !core::mem::replace(&mut self.status.free.begun, true);
-        self.status.free.last_us = character.at_us;
-        let ends = end == Some(byte);
-        if begins {
-            return;
-        }
-        if !ends {
-            self.store_data(self.status.free.received, byte);
-            self.status.free.received += 1;
-        }
-        if ends || self.status.free.received >= transfer.receive {
-            self.end_reception();
-            self.status.free.complete = true;
-            set(self.plc, self.wiring.done, true);
-        }
-    }
-
-    /// An answer that does not continue in time is over.
-    fn close_rs(&mut self, at_us: u32) {
-        let free = self.status.free;
-        let quiet_us = at_us.wrapping_sub(free.last_us);
-        let late = has_come(at_us, free.last_us) && quiet_us > self.wiring.time_out_us(self.plc);
-        if free.listens && late {
-            self.end_reception();
-            set(self.plc, self.wiring.late, true);
-        }
-    }
-
-    fn advance_rs(&mut self) {
-        let wiring = self.wiring;
-        self.close_rs(self.now_us);
-        let free = self.status.free;
-        let asked = free.owner != 0 && is_on(self.plc, wiring.sends);
-        let busy = free.listens && self.status.format.half_duplex;
-        let [start, end] = self.marks();
-        if asked && !self.status.sending && !busy {
-            let marks = u16::from(start.is_some()) + u16::from(end.is_some());
-            self.status.free.total = free.transfer.send + marks;
-            self.status.free.taken = 0;
-            self.status.sending = true;
-        }
-        if self.status.sending {
-            let left = self.send_data(start, end);
-            set_value(self.plc, wiring.left, left);
-            if left == 0 {
-                self.status.sending = false;
-                set(self.plc, wiring.sends, false);
-            }
-        }
-        let waits = asked && busy && !self.status.sending;
-        set(self.plc, wiring.waits, waits);
-        // The program's reset of the flag opens the next reception.
-        if self.status.free.complete && !is_on(self.plc, wiring.done) {
-            self.status.free.complete = false;
-            self.status.free.received = 0;
-        }
-        let free = self.status.free;
-        set_value(self.plc, wiring.received, free.received);
-        set(self.plc, wiring.receives, free.listens);
     }
 }
 
@@ -424,7 +355,7 @@ impl Session<'_> {
             self.status.free.taken = 0;
             self.status.sending = true;
         }
-        if !self.status.sending || self.send_data(None, None) > 0 {
+        if !self.status.sending || self.send_data(&Marks::NONE) > 0 {
             return;
         }
         self.status.sending = false;

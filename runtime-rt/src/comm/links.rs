@@ -67,7 +67,10 @@ impl Session<'_> {
     /// The devices of on-demand transmission, if the port has them.
     fn on_demand(&self) -> Option<Devices> {
         let has = self.status.protocol == Protocol::ComputerLink
-            && matches!(self.plc.ports(), Ports::Inovance | Ports::Fx);
+            && matches!(
+                self.plc.ports(),
+                Ports::Inovance | Ports::L01s | Ports::Fx | Ports::Fx3 | Ports::Fx3g
+            );
         self.wiring.format.filter(|_| has).map(Devices::of_block)
     }
 

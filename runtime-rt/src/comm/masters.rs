@@ -1,7 +1,7 @@
 //! A port as a Modbus master: it sends the request of the instruction in work, and takes the answer.
 
 use super::modbus::{self, Framing, Limits};
-use super::port::{FRAME, Session};
+use super::port::{FRAME, Session, has_come};
 use super::wiring::{Ports, Protocol};
 use super::{Frame, LineFault, Served};
 
@@ -24,12 +24,17 @@ impl Session<'_> {
 
     /// Sends what is to be sent, and takes notice of time.
     pub(super) fn advance_master(&mut self) {
+        self.forget_errors();
         if self.status.exchange.is_sending() && !self.status.sending {
             self.status.exchange.sent(self.now_us);
         }
         let receiving = self.status.open;
+        let tries = self.status.exchange.tries();
         if self.status.exchange.is_late(self.now_us, receiving) {
-            self.note(LineFault::TimeOut);
+            self.note_exchange(LineFault::TimeOut, None);
+        }
+        if self.status.exchange.tries() != tries {
+            self.show_tries();
         }
         let free = !self.status.sending && !receiving;
         let Some(job) = self.status.exchange.to_send().filter(|_| free) else {
@@ -44,12 +49,53 @@ impl Session<'_> {
                 let length = frame.len();
                 self.status.exchange.sending();
                 self.begin_sending(&bytes[..length], 0);
-                self.status.due_us = self.now_us;
+                let modbus = self.wiring.modbus;
+                let silence_us = modbus.map_or(0, |modbus| modbus.silence_us(self.plc));
+                let due_us = self.status.last_us.wrapping_add(silence_us);
+                let waits = silence_us > 0 && !has_come(self.now_us, due_us);
+                self.status.due_us = if waits { due_us } else { self.now_us };
             }
             Err(fault) => {
                 self.status.exchange.fail();
-                self.note(fault);
+                self.note_exchange(fault, None);
             }
+        }
+    }
+
+    /// Shows how often the request has been sent again (FX3).
+    fn show_tries(&mut self) {
+        if let Some(modbus) = self.wiring.modbus {
+            modbus.tried().set(self.plc, true);
+            let tries = self.status.exchange.tries();
+            modbus.tries().set(self.plc, tries.into());
+        }
+    }
+
+    /// The beginning of RUN clears errors (FX3).
+    fn forget_errors(&mut self) {
+        let begins = self.plc.sys().running && self.plc.sys().first_scan;
+        if let Some(modbus) = self.wiring.modbus
+            && begins
+            && self.status.exchange.is_free()
+        {
+            modbus.clear(self.plc);
+        }
+    }
+
+    /// Shows why an exchange has failed; `refusal` is the function and the code of an answer that refuses it.
+    fn note_exchange(&mut self, fault: LineFault, refusal: Option<[u8; 2]>) {
+        /// The answer refuses the request (FX3).
+        const REFUSED: u16 = 212;
+        let Some(modbus) = self.wiring.modbus else {
+            return self.note(fault);
+        };
+        if !modbus.kept().is_on(self.plc) {
+            let step = self.status.exchange.owner().wrapping_sub(1);
+            modbus.failed_step().set(self.plc, step as u16);
+        }
+        match refusal.map(u16::from_be_bytes) {
+            Some(details) => self.wiring.note_modbus(self.plc, REFUSED, details),
+            None => self.note(fault),
         }
     }
 
@@ -60,13 +106,14 @@ impl Session<'_> {
             return;
         };
         let buffer = port.buffer;
+        let refusal = modbus::refusal(framing, self.status.exchange.job(), &buffer[..received]);
         let mut map = Served::new(self.plc, 0);
         let taken = self
             .status
             .exchange
             .receive(framing, &buffer[..received], &mut map);
         if let Err(fault) = taken {
-            self.note(fault);
+            self.note_exchange(fault, refusal);
         }
     }
 }

@@ -136,6 +136,7 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
         let Some(status) = plc.port(wiring.number).map(|port| port.status) else {
             continue;
         };
+        let wiring = wiring.chosen(plc);
         let mut session = Session {
             plc,
             hal,
@@ -227,7 +228,9 @@ impl Session<'_> {
     /// After how much silence a frame ends or is given up. Characters come with times in whole microseconds.
     fn silence_us(&self) -> u32 {
         if self.status.protocol.ends_by_silence() {
-            self.status.format.silence_us() - 2
+            let modbus = self.wiring.modbus;
+            let asked_us = modbus.map_or(0, |modbus| modbus.silence_us(self.plc));
+            self.status.format.silence_us().max(asked_us) - 2
         } else if self.role().is_some() {
             LINK_GIVEN_UP_US
         } else {
@@ -348,7 +351,10 @@ impl Session<'_> {
         let uinit = self.status.uinit;
         let (station, format) = match self.wiring.station {
             None => (uinit[0] & 0xff, uinit[1]),
-            Some(station) => (station.value(self.plc), value(self.plc, self.wiring.format)),
+            Some(_) => (
+                value(self.plc, self.wiring.station_of(self.status.protocol)),
+                value(self.plc, self.wiring.format),
+            ),
         };
         Slave {
             protocol: self.status.protocol,

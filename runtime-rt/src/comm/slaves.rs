@@ -152,7 +152,7 @@ impl Ports {
             Ports::Inovance | Ports::Without => &modbus::H2U,
             Ports::L01s => &modbus::L01S,
             Ports::Hm => &modbus::HM,
-            Ports::Fx | Ports::Board => &modbus::FX3U,
+            Ports::Fx | Ports::Fx3 | Ports::Fx3g | Ports::Board2n | Ports::Board3u => &modbus::FX3U,
         }
     }
 
@@ -160,8 +160,10 @@ impl Ports {
     pub fn programming_port(self) -> fx_port::Settings {
         fx_port::Settings {
             space: match self {
-                Ports::L01s | Ports::Fx | Ports::Board => Space::Fx3,
-                Ports::Without | Ports::Inovance | Ports::Hm => Space::Fx2n,
+                Ports::L01s | Ports::Fx3 | Ports::Fx3g | Ports::Board3u => Space::Fx3,
+                Ports::Without | Ports::Inovance | Ports::Hm | Ports::Fx | Ports::Board2n => {
+                    Space::Fx2n
+                }
             },
             fx_relays: self != Ports::Hm,
         }

@@ -1,10 +1,14 @@
 //! The special devices of serial ports, by family of models, and the protocol that they choose.
 
+mod fx;
+mod tables;
+
 use super::LineFault;
 use super::can::CAN_PORT;
 use super::line::LineFormat;
 use crate::plc::Plc;
 use crate::special::{Register, Relay};
+pub(crate) use fx::ModbusWiring;
 
 /// What a port speaks. The numbers are part of the C ABI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -140,8 +144,12 @@ pub enum Choice {
     L01sPort3,
     /// UINIT (HM).
     Uinit,
-    /// The format word alone: computer link by bit 14, else RS (FX).
+    /// The format word: computer link by bit 14, else RS; before it, N:N links by D8176 and D8177, parallel links by M8070 and M8071 (FX).
     Format,
+    /// The registers of RS2 and ADPRW (FX3).
+    Channel,
+    /// The programming port of FX3G: RS2 if D8370 has a format.
+    Channel0,
     /// The format word of compatible boards: Modbus master by bit 15, slave by bit 14, else RS.
     Board,
 }
@@ -187,12 +195,35 @@ pub struct PortWiring {
     pub answered: Option<Relay>,
     /// Register: scans between two requests of RD3A and WR3A (L01S).
     pub gap: Option<Register>,
+    /// Registers of what RS2 puts around data.
+    pub envelope: Option<Envelope>,
+    /// Registers and relays of Modbus on FX3.
+    pub modbus: Option<ModbusWiring>,
     /// Where an error shows.
     pub error: Option<ErrorPlace>,
+    /// What the codes are counted from: 6200, 6300, or 3800.
+    pub codes: u16,
     /// The lowest code of an error of Modbus; 0: errors of Modbus have no separate codes.
     pub modbus_errors: u16,
     /// It has one pair of wires whatever the format word says.
     pub one_pair: bool,
+    /// The special devices that the port has instead where these name a format: those of RS2 and ADPRW rather than RS (FX3).
+    pub instead: Option<&'static PortWiring>,
+}
+
+/// Registers of what RS2 puts around data, two characters to a register, the low byte first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Envelope {
+    /// The first of two registers: characters before the data.
+    pub headers: Register,
+    /// The first of two registers: characters after it.
+    pub terminators: Register,
+    /// The sum that has come.
+    pub received_sum: Option<Register>,
+    /// The sum of what has come.
+    pub computed_sum: Register,
+    /// The sum of what has been sent.
+    pub sent_sum: Register,
 }
 
 /// The relay that shows an error of communication, and the register with its code.
@@ -221,55 +252,6 @@ const SERIAL_CODES: u16 = 6300;
 /// Code of a port that is not there.
 const NO_PORT: u16 = SERIAL_CODES + 77;
 
-/// A port without registers.
-const fn bare(number: u8, choice: Choice) -> PortWiring {
-    PortWiring {
-        number,
-        choice,
-        format: None,
-        station: None,
-        protocol: None,
-        left: None,
-        received: None,
-        start: None,
-        end: None,
-        time_out: None,
-        time_out_unit_us: 10_000,
-        uinit: None,
-        waits: None,
-        sends: None,
-        done: None,
-        receives: None,
-        late: None,
-        answered: None,
-        gap: None,
-        error: Some(SERIAL_ERROR),
-        modbus_errors: 0,
-        one_pair: false,
-    }
-}
-
-/// A port with ten registers and relays from `base` on (h1u-h2u-programming §5.1, tables of D8110 to D8279).
-const fn block(number: u8, choice: Choice, base: u16) -> PortWiring {
-    PortWiring {
-        format: Some(Register(base)),
-        station: Some(Register(base + 1)),
-        protocol: Some(Register(base + 6)),
-        left: Some(Register(base + 2)),
-        received: Some(Register(base + 3)),
-        start: Some(Register(base + 4)),
-        end: Some(Register(base + 5)),
-        time_out: Some(Register(base + 9)),
-        waits: Some(Relay(base + 1)),
-        sends: Some(Relay(base + 2)),
-        done: Some(Relay(base + 3)),
-        receives: Some(Relay(base + 4)),
-        late: Some(Relay(base + 9)),
-        modbus_errors: 6330 + 10 * number as u16,
-        ..bare(number, choice)
-    }
-}
-
 /// Register with the type of the extension card, and the type of the CAN card.
 const D_CARD: Register = Register(8199);
 const CAN_CARD: u16 = 7;
@@ -291,78 +273,6 @@ const ADAPTER: LineFormat = LineFormat {
     ..LineFormat::new()
 };
 
-const INOVANCE: [PortWiring; 5] = [
-    block(0, Choice::Com0, 8110),
-    block(1, Choice::Com1, 8120),
-    block(2, Choice::Number, 8260),
-    block(3, Choice::Number, 8270),
-    PortWiring {
-        error: None,
-        ..bare(CAN_PORT, Choice::Can)
-    },
-];
-
-/// l01s-programming §9: port 1 is the programming port, ports 2 and 3 are RS-485.
-const L01S: [PortWiring; 3] = [
-    bare(1, Choice::ProgrammingPort),
-    PortWiring {
-        protocol: None,
-        time_out_unit_us: 1000,
-        modbus_errors: 0,
-        one_pair: true,
-        answered: Some(Relay(8128)),
-        gap: Some(Register(8126)),
-        ..block(2, Choice::L01sPort2, 8120)
-    },
-    PortWiring {
-        format: Some(Register(8400)),
-        protocol: Some(Register(8401)),
-        left: Some(Register(8402)),
-        received: Some(Register(8403)),
-        station: Some(Register(8414)),
-        time_out: Some(Register(8409)),
-        time_out_unit_us: 1000,
-        waits: Some(Relay(8401)),
-        sends: Some(Relay(8402)),
-        done: Some(Relay(8403)),
-        receives: Some(Relay(8404)),
-        late: Some(Relay(8409)),
-        answered: Some(Relay(8408)),
-        gap: Some(Register(8406)),
-        one_pair: true,
-        ..bare(3, Choice::L01sPort3)
-    },
-];
-
-/// hm-motion-controller §6.2: COM0 is RS-232, COM1 RS-485.
-const HM: [PortWiring; 2] = [
-    PortWiring {
-        error: None,
-        uinit: Some(Register(8120)),
-        ..bare(0, Choice::Uinit)
-    },
-    PortWiring {
-        error: None,
-        uinit: Some(Register(8123)),
-        one_pair: true,
-        ..bare(1, Choice::Uinit)
-    },
-];
-
-const fn fx(choice: Choice) -> [PortWiring; 2] {
-    [
-        bare(0, Choice::ProgrammingPort),
-        PortWiring {
-            protocol: None,
-            modbus_errors: 0,
-            ..block(1, choice, 8120)
-        },
-    ]
-}
-
-const FX: [PortWiring; 2] = fx(Choice::Format);
-const BOARD: [PortWiring; 2] = fx(Choice::Board);
-
 /// The serial ports that a family of models has. The numbers are part of the C ABI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
@@ -376,10 +286,16 @@ pub enum Ports {
     L01s = 2,
     /// HM: COM0 and COM1.
     Hm = 3,
-    /// FX: the programming port, and the communication board.
+    /// FX1S, FX1N, FX2N: the programming port, and the communication board.
     Fx = 4,
-    /// Boards that are compatible with FX2N and FX3U.
-    Board = 5,
+    /// Boards that are compatible with FX3U.
+    Board3u = 5,
+    /// FX3S, FX3U: the programming port, and two channels.
+    Fx3 = 6,
+    /// FX3G: the same, and RS2 on the programming port.
+    Fx3g = 7,
+    /// Boards that are compatible with FX2N.
+    Board2n = 8,
 }
 
 impl Ports {
@@ -387,12 +303,20 @@ impl Ports {
     pub const fn all(self) -> &'static [PortWiring] {
         match self {
             Ports::Without => &[],
-            Ports::Inovance => &INOVANCE,
-            Ports::L01s => &L01S,
-            Ports::Hm => &HM,
-            Ports::Fx => &FX,
-            Ports::Board => &BOARD,
+            Ports::Inovance => &tables::INOVANCE,
+            Ports::L01s => &tables::L01S,
+            Ports::Hm => &tables::HM,
+            Ports::Fx => &tables::FX,
+            Ports::Fx3 => &tables::FX3,
+            Ports::Fx3g => &tables::FX3G,
+            Ports::Board2n => &tables::BOARD_2N,
+            Ports::Board3u => &tables::BOARD_3U,
         }
+    }
+
+    /// Whether it is FX3 or a board that takes its programs.
+    pub const fn is_fx3(self) -> bool {
+        matches!(self, Ports::Fx3 | Ports::Fx3g | Ports::Board3u)
     }
 
     /// The port on which RS works.
@@ -406,7 +330,9 @@ impl Ports {
     /// The port that an operand of an instruction names: n1 of RS2 and MODBUS2, D2 of UINIT and similar instructions.
     pub fn named(self, operand: i32) -> Option<u8> {
         let number = match (self, operand) {
-            (Ports::Inovance | Ports::Fx | Ports::Board, 0) => return None,
+            (Ports::Inovance | Ports::Fx | Ports::Fx3 | Ports::Board2n | Ports::Board3u, 0) => {
+                return None;
+            }
             (Ports::Inovance, operand) if operand == i32::from(CAN_PORT) => return None,
             (Ports::L01s, 0..=1) => 2 + operand,
             _ => operand,
@@ -454,6 +380,25 @@ impl ErrorPlace {
 }
 
 impl PortWiring {
+    /// The special devices that the port has now: those that its registers choose.
+    pub(crate) fn chosen(&'static self, plc: &dyn Plc) -> &'static PortWiring {
+        let instead = self.instead.filter(|other| value(plc, other.format) != 0);
+        instead.unwrap_or(self)
+    }
+
+    /// The register of the own station number: that of computer links is another one than that of Modbus on channel 2 of FX3.
+    pub(crate) fn station_of(&self, protocol: Protocol) -> Option<Register> {
+        match (self.choice, protocol) {
+            (Choice::Channel, Protocol::ComputerLink) => self.protocol,
+            _ => self.station,
+        }
+    }
+
+    /// All sets of special devices that the port may have.
+    pub fn sets(&'static self) -> impl Iterator<Item = &'static PortWiring> {
+        core::iter::once(self).chain(self.instead)
+    }
+
     /// Whether the end of the first scan in RUN binds the choice; elsewhere the registers choose at any time.
     pub(crate) const fn binds(&self) -> bool {
         matches!(self.choice, Choice::Com0 | Choice::Com1 | Choice::Number)
@@ -500,6 +445,12 @@ impl PortWiring {
                 (5, _) => Protocol::Free,
                 _ => Protocol::Off,
             },
+            Choice::Channel0 if format == 0 => Protocol::ProgrammingPort,
+            Choice::Channel0 => Protocol::Free,
+            Choice::Channel => self.channel(plc, number, format),
+            Choice::Format if self.fx_link(plc).is_some() => {
+                self.fx_link(plc).unwrap_or(Protocol::Off)
+            }
             Choice::Format if format & 1 << 14 != 0 => Protocol::ComputerLink,
             Choice::Board if format & 1 << 15 != 0 => Protocol::MasterRtu,
             Choice::Board if format & 1 << 14 != 0 => Protocol::ModbusRtu,
@@ -568,10 +519,12 @@ impl PortWiring {
         }
     }
 
-    /// How long a Modbus master waits for an answer, in microseconds. Compatible boards count milliseconds here, but tens of them for RS.
+    /// How long a Modbus master waits for an answer, in microseconds. Compatible boards and FX3 count milliseconds here, but tens of them for
+    /// RS and RS2; on FX3, 0 is 3 s.
     pub(crate) fn answer_time_out_us(&self, plc: &dyn Plc) -> u32 {
         match (self.choice, value(plc, self.time_out)) {
-            (Choice::Board, ms @ 1..) => u32::from(ms) * 1000,
+            (Choice::Channel, 0) => 3_000_000,
+            (Choice::Board | Choice::Channel, ms @ 1..) => u32::from(ms) * 1000,
             _ => self.time_out_us(plc),
         }
     }
@@ -603,6 +556,9 @@ impl PortWiring {
                 Some(PROGRAMMING_PORT_ERROR),
                 PROGRAMMING_PORT_CODES + general,
             ),
+            _ if self.modbus.is_some() && protocol.is_modbus() => {
+                return self.note_modbus(plc, fault.of_fx3(protocol.is_master()), 0);
+            }
             (_, Some(kind))
                 if self.modbus_errors != 0
                     && (protocol.is_modbus() || fault == LineFault::Protocol) =>
@@ -610,9 +566,9 @@ impl PortWiring {
                 (self.error, self.modbus_errors + kind)
             }
             (Protocol::ParallelMaster | Protocol::ParallelSlave, _) => {
-                (self.error, SERIAL_CODES + of_parallel)
+                (self.error, self.codes + of_parallel)
             }
-            _ => (self.error, SERIAL_CODES + general),
+            _ => (self.error, self.codes + general),
         };
         if let Some(place) = place {
             place.show(plc, code);
@@ -631,20 +587,39 @@ impl PortWiring {
             self.end,
             self.time_out,
             self.gap,
+            self.error.map(|error| error.register),
         ];
-        registers.into_iter().flatten()
+        let envelope = self.envelope.map(|of| {
+            let [a, b] = of.headers.run();
+            let [c, d] = of.terminators.run();
+            let sums = [of.received_sum, Some(of.computed_sum), Some(of.sent_sum)];
+            [a, b, c, d].map(Some).into_iter().chain(sums).flatten()
+        });
+        let modbus = self.modbus.map(ModbusWiring::registers);
+        let all = registers.into_iter().flatten();
+        let all = all.chain(envelope.into_iter().flatten());
+        all.chain(modbus.into_iter().flatten()).chain(self.links())
+    }
+
+    /// Registers that set up links of FX on this port.
+    fn links(&self) -> impl Iterator<Item = Register> {
+        let links: &[Register] = match self.choice {
+            Choice::Format => &fx::LINKS,
+            _ => &[],
+        };
+        links.iter().copied()
     }
 
     /// Registers that choose what the port speaks.
     pub fn setup_registers(&self) -> impl Iterator<Item = Register> {
         let registers = [self.format, self.protocol];
-        registers.into_iter().flatten()
+        registers.into_iter().flatten().chain(self.links())
     }
 
     /// Relays that choose what the port speaks.
     pub fn setup_relays(&self) -> impl Iterator<Item = Relay> {
         let relays: &[Relay] = match self.choice {
-            Choice::Com1 => &[M_PARALLEL_MASTER, M_PARALLEL_SLAVE],
+            Choice::Com1 | Choice::Format => &[M_PARALLEL_MASTER, M_PARALLEL_SLAVE],
             Choice::L01sPort2 => &[M_PORT_2_SET_UP, M_PORT_2_MODBUS],
             Choice::L01sPort3 => &[M_PORT_3_SET_UP],
             _ => &[],
@@ -661,6 +636,8 @@ impl PortWiring {
             self.receives,
             self.late,
             self.answered,
+            self.error.map(|error| error.relay),
+            self.modbus.map(ModbusWiring::tried),
         ];
         relays.into_iter().flatten().chain(self.setup_relays())
     }

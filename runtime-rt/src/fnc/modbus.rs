@@ -54,7 +54,7 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
         }
         Visit::Turn => {
             let told = exchange.told;
-            let Some(wiring) = cx.plc.ports().get(number) else {
+            let Some(wiring) = wiring(cx, number) else {
                 return Ok(Turn::None);
             };
             let gap = wiring.gap_scans(cx.plc);
@@ -63,18 +63,30 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
                 return Ok(Turn::None);
             }
             let job = job(cx)?;
-            let time_out_us = wiring.answer_time_out_us(cx.plc);
+            let modbus = wiring.modbus;
+            let time_out_us = match job.is_answered() {
+                true => wiring.answer_time_out_us(cx.plc),
+                false => modbus.map_or(0, |modbus| modbus.after_broadcast_us(cx.plc)),
+            };
+            let retries = modbus.map_or(0, |modbus| modbus.retries(cx.plc));
             if let Some(port) = cx.plc.port(number) {
-                port.status.exchange.begin(owner, job, time_out_us);
+                let exchange = &mut port.status.exchange;
+                exchange.begin(owner, job, time_out_us, retries);
             }
             Ok(Turn::Begun)
         }
     }
 }
 
+/// The special devices that a port has now.
+fn wiring(cx: &Cx, number: u8) -> Option<&'static PortWiring> {
+    let wiring = cx.plc.ports().get(number)?;
+    Some(wiring.chosen(cx.plc))
+}
+
 /// A special relay of a port, by its number there; 0: there is none.
 fn show(cx: &mut Cx, number: u8, relay: fn(&PortWiring) -> Option<Relay>, on: bool) {
-    if let Some(relay) = cx.plc.ports().get(number).and_then(relay) {
+    if let Some(relay) = wiring(cx, number).and_then(relay) {
         relay.set(cx.plc, on);
     }
 }
@@ -181,6 +193,17 @@ fn board(cx: &mut Cx) -> Done {
     Ok(())
 }
 
+/// Station, function, address, number and data are in an operand each.
+fn adprw_job(cx: &Cx) -> Result<Job, Fault> {
+    Ok(Job {
+        station: byte(cx, 0)?,
+        function: byte(cx, 1)?,
+        address: unsigned(cx, 2)?,
+        count: unsigned(cx, 3)?,
+        buffer: buffer(cx, 4)?,
+    })
+}
+
 /// ADPRW S S1 S2 S3 D (FNC 276) of L01S, on the port that D8397 names. M8029 is on when it has ended, until the program resets it or
 /// the next one is executed.
 pub fn adprw(cx: &mut Cx) -> Done {
@@ -190,20 +213,71 @@ pub fn adprw(cx: &mut Cx) -> Done {
     let Some(number) = l01s_port(cx, port)? else {
         return Ok(());
     };
-    let turn = work(cx, number, |cx| {
-        Ok(Job {
-            station: byte(cx, 0)?,
-            function: byte(cx, 1)?,
-            address: unsigned(cx, 2)?,
-            count: unsigned(cx, 3)?,
-            buffer: buffer(cx, 4)?,
-        })
-    })?;
+    let turn = work(cx, number, adprw_job)?;
     let over = matches!(turn, Turn::Over(_));
     if over || cx.drive() {
         cx.set_special(M_COMPLETE, over);
     }
     Ok(())
+}
+
+/// ADPRW S S1 S2 S3 D (FNC 276) of FX3, on the channel that D8401 or D8421 makes a master. M8029 is on for
+/// a scan when it has ended, well or not.
+pub fn adprw_fx3(cx: &mut Cx) -> Done {
+    let number = match master(cx) {
+        Some(number) => number,
+        None => return Ok(()),
+    };
+    let turn = work(cx, number, adprw_job)?;
+    let modbus = wiring(cx, number).and_then(|wiring| wiring.modbus);
+    let Some(modbus) = modbus else {
+        return Ok(());
+    };
+    let step = cx.site.step as u16;
+    match turn {
+        Turn::Begun => {
+            modbus.busy().set(cx.plc, true);
+            for relay in [modbus.failed(), modbus.tried(), modbus.late()] {
+                relay.set(cx.plc, false);
+            }
+            modbus.tries().set(cx.plc, 0);
+            modbus.step().set(cx.plc, step);
+        }
+        Turn::Over(end) => {
+            modbus.busy().set(cx.plc, false);
+            modbus.late().set(cx.plc, end == End::Late);
+        }
+        Turn::None => {}
+    }
+    let scan = cx.plc.sys().scan;
+    let port = cx.plc.port(number);
+    let told = port.map_or(0, |port| port.status.exchange.told);
+    // Scans are numbered by odd numbers.
+    let ended_before = told != 0 && scan.wrapping_sub(told) == 2;
+    match turn {
+        Turn::Over(_) => cx.set_special(M_COMPLETE, true),
+        _ if ended_before || cx.drive() && told != scan => cx.set_special(M_COMPLETE, false),
+        _ => {}
+    }
+    Ok(())
+}
+
+/// The channel of FX3 that is a master of Modbus; the first one if none is.
+fn master(cx: &mut Cx) -> Option<u8> {
+    let channels = cx.plc.ports().all().iter();
+    let mut channels = channels.filter(|wiring| wiring.sets().any(|set| set.modbus.is_some()));
+    let numbers = [channels.next(), channels.next()];
+    let mut numbers = numbers.into_iter().flatten().map(|wiring| wiring.number);
+    let first = numbers.next()?;
+    let is_master = |cx: &mut Cx, number: u8| {
+        let port = cx.plc.port(number);
+        port.is_some_and(|port| port.status.protocol.is_master())
+    };
+    if is_master(cx, first) {
+        return Some(first);
+    }
+    let other = numbers.find(|&number| is_master(cx, number));
+    Some(other.unwrap_or(first))
 }
 
 /// The port that a register names: 0 for port 2, 1 for port 3. Another value is an error of an instruction that is driven.

@@ -1,6 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers mean something else than on the other models.
 
-use crate::special::{AXES, MAKER, MODES, MODULES, POWER, SERIAL, Special, specials};
+use crate::special::{AXES, MAKER, MODES, MODULES, POWER, Special, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -95,7 +95,7 @@ pub(super) const HM: &[Special] = specials! {
     D 8123 rw 0 by("UINIT") "UART1 protocol control word";
     D 8124 rw 0 by("UINIT") "UART1 byte control word";
     D 8125 rw 7020 by("UINIT") "UART1: first D register it occupies";
-    D 8129 rw 7100 inert(SERIAL) "first D register occupied by extensions";
+    D 8129 rw 7100 inert(MODULES) "first D register occupied by extensions";
     D 8160-8167 r 0 scan "count of rising edges of X000–007 (up to 5 kHz)";
     D 8180-8185 rw 0 inert(MODES) "output mode of Y000..Y005: 0 PLC, 1 high-speed event output, 2 motion axis pulse/direction";
     D 8188-8195 rw 0 inert(MODES) "output mode of Y010..Y017, values as D8180";

@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use crate::special::{
-    CAN, CARDS, CHECKED, HARDWARE, LATCHES, NETWORK, POWER, SERIAL, SUMMED, Special, TRACE,
-    UNCLEAR, specials,
+    BOARDS, CAN, CARDS, CHECKED, HARDWARE, LATCHES, NETWORK, NO_LINK, POWER, SUMMED, Special,
+    TRACE, UNCLEAR, specials,
 };
 
 /// What both have.
@@ -42,7 +42,7 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8035 rw 0 scan "forced RUN mode command 1 (enables forced RUN)";
     M 8036 rw 0 scan "forced RUN command 2: with M8035 on starts the PLC, and goes off";
     M 8037 rw 0 scan "forced STOP: on stops the PLC";
-    M 8038 rw 0 inert(SERIAL) "communication parameter setting flag";
+    M 8038 rw 0 scan "on in the first scan of RUN, in which a program sets communication up";
     M 8039 rw 0 scan "constant scan mode: a scan lasts at least D8039 ms";
     M 8040 rw 0 scan "STL transfer inhibited: states do not transfer, outputs of the active state stay driven";
     M 8041 rw 0 by("IST") "transfer start (IST)";
@@ -132,13 +132,13 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8262 rw 0 by("serial ports") "COM2: send flag (RS2); instruction executing (MODBUS2)";
     M 8263 rw 0 by("serial ports") "COM2: receive finished (RS2); communication error (MODBUS2)";
     M 8264 r 0 by("serial ports") "COM2: receiving (RS2 only)";
-    M 8266 r 0 inert(CARDS) "COM2: on when the 485BD card is effective";
+    M 8266 r 0 inert(BOARDS) "COM2: on when the 485BD card is effective";
     M 8269 r 0 by("serial ports") "COM2: time-out";
     M 8271 r 0 by("serial ports") "COM3: waiting to send (RS2)";
     M 8272 rw 0 by("serial ports") "COM3: send flag (RS2); instruction executing (MODBUS2)";
     M 8273 rw 0 by("serial ports") "COM3: receive finished (RS2); communication error (MODBUS2)";
     M 8274 r 0 by("serial ports") "COM3: receiving (RS2 only)";
-    M 8276 r 0 inert(CARDS) "COM3: on when the 485BD card is effective";
+    M 8276 r 0 inert(BOARDS) "COM3: on when the 485BD card is effective";
     M 8279 r 0 by("serial ports") "COM3: time-out";
     M 8280 rw 0 inert(CAN) "CANlink 3.0: 0 protocol 3.00, 1 protocol 1.00";
     M 8281 r 0 inert(CAN) "no CAN card found: CANlink not usable";
@@ -266,8 +266,8 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8114 rw 0 by("serial ports") "COM0: start character STX (RS)";
     D 8115 rw 0 by("serial ports") "COM0: end character ETX (RS)";
     D 8116 rw 0 by("serial ports") "COM0: protocol selection";
-    D 8117 rw 0 inert(SERIAL) "COM0: computer link on-demand: first data number";
-    D 8118 rw 0 inert(SERIAL) "COM0: computer link on-demand: number of data";
+    D 8117 rw 0 inert(NO_LINK) "COM0: computer link on-demand: first data number";
+    D 8118 rw 0 inert(NO_LINK) "COM0: computer link on-demand: number of data";
     D 8119 rw 10 by("serial ports") "COM0: time-out, unit 10 ms (10 = 100 ms)";
     D 8120 rw 0 by("serial ports") "COM1: communication format";
     D 8121 rw 1 by("serial ports") "COM1: station number";

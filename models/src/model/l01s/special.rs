@@ -1,8 +1,8 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use crate::special::{
-    CAN, CHECKED, FAST, HARDWARE, INTERRUPTS, LATER, MAKER, MODULES, RAW, SERIAL, Special, TRACE,
-    specials,
+    CHECKED, CONTROL_LINES, FAST, FORBIDDEN, HARDWARE, INTERRUPTS, LATER, MAKER, MODULES, NO_CAN,
+    NO_PORT, RAW, Special, TRACE, specials,
 };
 
 /// Its special devices.
@@ -49,7 +49,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8077 r 0 inert(TRACE) "sampling trace executing";
     M 8078 r 0 inert(TRACE) "sampling trace finished";
     M 8079 r 0 inert(TRACE) "sampling trace system area";
-    M 8120 rw 0 inert(SERIAL) "must not be used";
+    M 8120 rw 0 inert(FORBIDDEN) "must not be used";
     M 8121 r 0 by("serial ports") "port 2: RS/RS2 waiting to send";
     M 8122 rw 0 by("serial ports") "port 2: RS send request; program sets it on, PLC resets it automatically when sending ends";
     M 8123 rw 0 by("serial ports") "port 2: RS reception complete; must be reset by program";
@@ -117,18 +117,18 @@ pub(super) const L01S: &[Special] = specials! {
     M 8402 rw 0 by("serial ports") "port 3: RS2 send request: program sets it on";
     M 8403 rw 0 by("serial ports") "port 3: RS2 reception complete; must be reset by program";
     M 8404 r 0 by("serial ports") "port 3: data being received";
-    M 8405 r 0 inert(SERIAL) "port 3: RS2 data-set ready (DSR) flag";
+    M 8405 r 0 inert(CONTROL_LINES) "port 3: RS2 data-set ready (DSR) flag";
     M 8408 r 0 by("serial ports") "port 3: RD3A/WR3A receive complete/correct (resets itself)";
     M 8409 r 0 by("serial ports") "port 3: RD3A/WR3A timeout (resets itself)";
-    M 8421 rw 0 inert(SERIAL) "RS2 waiting to send";
-    M 8422 rw 0 inert(SERIAL) "RS2 send request";
-    M 8423 rw 0 inert(SERIAL) "RS2 reception complete";
-    M 8424 rw 0 inert(SERIAL) "RS2 data being received";
-    M 8425 rw 0 inert(SERIAL) "RS2 data sent";
-    M 8426 rw 0 inert(SERIAL) "RS master/slave and multi-drop mode";
-    M 8427 rw 0 inert(CAN) "CAN standard/extended frame";
-    M 8428 rw 0 inert(CAN) "CAN Modbus reply correct";
-    M 8429 rw 0 inert(SERIAL) "communication timeout";
+    M 8421 rw 0 inert(NO_PORT) "RS2 waiting to send";
+    M 8422 rw 0 inert(NO_PORT) "RS2 send request";
+    M 8423 rw 0 inert(NO_PORT) "RS2 reception complete";
+    M 8424 rw 0 inert(NO_PORT) "RS2 data being received";
+    M 8425 rw 0 inert(NO_PORT) "RS2 data sent";
+    M 8426 rw 0 inert(NO_PORT) "RS master/slave and multi-drop mode";
+    M 8427 rw 0 inert(NO_CAN) "CAN standard/extended frame";
+    M 8428 rw 0 inert(NO_CAN) "CAN Modbus reply correct";
+    M 8429 rw 0 inert(NO_PORT) "communication timeout";
     M 8432-8433 rw 0 inert(LATER) "interpolation mode";
     M 8434 rw 0 inert(LATER) "interpolation relative/absolute";
     M 8435 rw 0 inert(LATER) "interpolation clockwise/counter-clockwise";
@@ -192,8 +192,8 @@ pub(super) const L01S: &[Special] = specials! {
     D 8124 rw 2 by("serial ports") "port 2: RS header";
     D 8125 rw 3 by("serial ports") "port 2: RS terminator";
     D 8126 rw 10 by("serial ports") "port 2: gap in scans between RD3A/WR3A telegrams; with ADPRW it must be 0";
-    D 8127 rw 0 inert(SERIAL) "start number for slave-side communication request";
-    D 8128 rw 0 inert(SERIAL) "data count for slave-side communication request";
+    D 8127 rw 0 by("serial ports") "start number for slave-side communication request";
+    D 8128 rw 0 by("serial ports") "data count for slave-side communication request";
     D 8129 rw 0 by("serial ports") "port 2 timeout [ms] for RD3A/WR3A; recommended 10..20 at >= 9600 baud, 20..50 below";
     D 8140 r 0 inert(LATER) "axis 5 position, low/high (pair)";
     D 8141 rw 0 inert(LATER) "axis 6 position";
@@ -262,7 +262,7 @@ pub(super) const L01S: &[Special] = specials! {
     D 8377 rw 0 by("DSZR") "Y003: home-return speed in Hz, high word; DSZR";
     D 8378 rw 100 by("ZRN, DRVI, DRVA, DSZR") "Y003: acceleration time in ms, range 50..5000";
     D 8379 rw 100 by("ZRN, DRVI, DRVA, DSZR") "Y003: deceleration time in ms, range 50..5000";
-    D 8395 rw 0 inert(SERIAL) "network function flag";
+    D 8395 rw 0 inert(NO_PORT) "network function flag";
     D 8397 rw 0 by("serial ports") "serial port of ADPRW: 0 = port 2, 1 = port 3";
     D 8398 rw 0 scan "32-bit ring counter 0..2147483647, 1 ms steps, low word";
     D 8399 rw 0 scan "32-bit ring counter 1 ms, high word";
@@ -270,24 +270,24 @@ pub(super) const L01S: &[Special] = specials! {
     D 8401 rw 0 by("serial ports") "port 3 mode: H0 RS2 free; H11 Modbus RTU slave";
     D 8406 rw 12 by("serial ports") "port 3 gap in scans between RD3A/WR3A telegrams";
     D 8409 rw 0 by("serial ports") "port 3 timeout [ms] of RD3A/WR3A; same recommendation as D8129";
-    D 8410 rw 2 inert(SERIAL) "port 3 RS2 headers 1, 2";
-    D 8411 rw 0 inert(SERIAL) "port 3 RS2 headers 3, 4";
-    D 8412 rw 3 inert(SERIAL) "port 3 RS2 terminators 1, 2";
-    D 8413 rw 0 inert(SERIAL) "port 3 RS2 terminators 3, 4";
+    D 8410 rw 2 by("serial ports") "port 3 RS2 headers 1, 2";
+    D 8411 rw 0 by("serial ports") "port 3 RS2 headers 3, 4";
+    D 8412 rw 3 by("serial ports") "port 3 RS2 terminators 1, 2";
+    D 8413 rw 0 by("serial ports") "port 3 RS2 terminators 3, 4";
     D 8414 rw 0 by("serial ports") "port 3 own station number; as master must be 255";
-    D 8415 r 0 inert(SERIAL) "port 3 RS2: computed receive checksum";
-    D 8416 r 0 inert(SERIAL) "port 3 RS2: sent checksum";
-    D 8420 rw 0 inert(SERIAL) "communication parameters";
-    D 8421 rw 0 inert(SERIAL) "communication mode";
-    D 8426 rw 0 inert(SERIAL) "gap in scans";
-    D 8429 rw 0 inert(SERIAL) "timeout";
-    D 8430 rw 2 inert(SERIAL) "RS2 headers 1, 2";
-    D 8431 rw 0 inert(SERIAL) "RS2 headers 3, 4";
-    D 8432 rw 3 inert(SERIAL) "RS2 terminators 1, 2";
-    D 8433 rw 0 inert(SERIAL) "RS2 terminators 3, 4";
-    D 8434 rw 0 inert(SERIAL) "RS2 received checksum";
-    D 8435 rw 0 inert(SERIAL) "RS2 computed checksum";
-    D 8436 rw 0 inert(SERIAL) "RS2 sent checksum";
+    D 8415 r 0 by("serial ports") "port 3 RS2: computed receive checksum";
+    D 8416 r 0 by("serial ports") "port 3 RS2: sent checksum";
+    D 8420 rw 0 inert(NO_PORT) "communication parameters";
+    D 8421 rw 0 inert(NO_PORT) "communication mode";
+    D 8426 rw 0 inert(NO_PORT) "gap in scans";
+    D 8429 rw 0 inert(NO_PORT) "timeout";
+    D 8430 rw 2 inert(NO_PORT) "RS2 headers 1, 2";
+    D 8431 rw 0 inert(NO_PORT) "RS2 headers 3, 4";
+    D 8432 rw 3 inert(NO_PORT) "RS2 terminators 1, 2";
+    D 8433 rw 0 inert(NO_PORT) "RS2 terminators 3, 4";
+    D 8434 rw 0 inert(NO_PORT) "RS2 received checksum";
+    D 8435 rw 0 inert(NO_PORT) "RS2 computed checksum";
+    D 8436 rw 0 inert(NO_PORT) "RS2 sent checksum";
     D 8464-8467 rw 0 inert(LATER) "Y000–003: clear-signal device number";
     D 8473-8476 rw 2 by("PWM") "PWM: time unit of Y000–003: 0 = 10 us, 1 = 10 us, 2 = 1 ms, 3 = 10 ms";
 };

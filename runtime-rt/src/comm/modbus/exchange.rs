@@ -52,6 +52,10 @@ pub struct Exchange {
     since_us: u32,
     phase: Phase,
     end: End,
+    /// How often the request may still be sent again.
+    retries: u8,
+    /// How often it has been.
+    tries: u8,
     /// The scan in which the instruction has learnt of the last end ([`crate::Sys::scan`]); 0 before.
     pub told: u16,
 }
@@ -89,6 +93,8 @@ impl Exchange {
             since_us: 0,
             phase: Phase::Free,
             end: End::Well,
+            retries: 0,
+            tries: 0,
             told: 0,
         }
     }
@@ -105,8 +111,9 @@ impl Exchange {
         }
     }
 
-    /// The instruction whose turn it is hands over its job. The answer may take `time_out_us` from when the request is out.
-    pub fn begin(&mut self, owner: u32, job: Job, time_out_us: u32) {
+    /// The instruction whose turn it is hands over its job. The answer may take `time_out_us` from when the request is out; without one
+    /// the request is sent `retries` times again. After a broadcast, which has no answer, the port waits so long.
+    pub fn begin(&mut self, owner: u32, job: Job, time_out_us: u32, retries: u8) {
         *self = Exchange {
             job,
             owner,
@@ -114,8 +121,30 @@ impl Exchange {
             since_us: 0,
             phase: Phase::Ready,
             end: End::Well,
+            retries,
+            tries: 0,
             told: self.told,
         };
+    }
+
+    /// The instruction that the port works for: its step, plus 1.
+    pub fn owner(&self) -> u32 {
+        self.owner
+    }
+
+    /// What it asks.
+    pub fn job(&self) -> &Job {
+        &self.job
+    }
+
+    /// Whether the port works for none.
+    pub fn is_free(&self) -> bool {
+        self.phase == Phase::Free
+    }
+
+    /// How often the request has been sent again.
+    pub fn tries(&self) -> u8 {
+        self.tries
     }
 
     /// Whether the port works for another instruction than this one.
@@ -142,9 +171,6 @@ impl Exchange {
     pub fn sent(&mut self, now_us: u32) {
         self.since_us = now_us;
         self.phase = Phase::Waiting;
-        if !self.job.is_answered() {
-            self.end(End::Well);
-        }
     }
 
     /// A frame has come; `Err` says what is wrong with it. An unrequested one is dropped.
@@ -154,7 +180,7 @@ impl Exchange {
         frame: &[u8],
         map: &mut dyn Map,
     ) -> Result<(), LineFault> {
-        if self.phase != Phase::Waiting {
+        if self.phase != Phase::Waiting || !self.job.is_answered() {
             return Ok(());
         }
         let done = accept(framing, &self.job, frame, map);
@@ -169,10 +195,19 @@ impl Exchange {
         }
     }
 
-    /// Lets time pass; returns whether the answer is late. `receiving` says that it has begun: then it is not.
+    /// Lets time pass; returns whether the answer is late for good. `receiving` says that it has begun: then it is not.
     pub fn is_late(&mut self, now_us: u32, receiving: bool) -> bool {
         let waited = now_us.wrapping_sub(self.since_us);
         let late = self.phase == Phase::Waiting && !receiving && waited >= self.time_out_us;
+        if late && !self.job.is_answered() {
+            self.end(End::Well);
+            return false;
+        }
+        if late && self.tries < self.retries {
+            self.tries += 1;
+            self.phase = Phase::Ready;
+            return false;
+        }
         if late {
             self.end(End::Late);
         }
@@ -206,7 +241,7 @@ mod tests {
         [1, 2, 3].map(|owner| {
             let visit = exchange.visit(owner, driven[owner as usize - 1]);
             if visit == Visit::Turn {
-                exchange.begin(owner, job(owner as u8), 100_000);
+                exchange.begin(owner, job(owner as u8), 100_000, 0);
             }
             visit
         })
@@ -248,7 +283,7 @@ mod tests {
     fn an_answer_is_late_from_the_end_of_the_request() {
         let mut exchange = Exchange::new();
         assert_eq!(exchange.visit(7, true), Visit::Turn);
-        exchange.begin(7, job(1), 100_000);
+        exchange.begin(7, job(1), 100_000, 0);
         assert!(!exchange.is_late(1_000_000, false));
         exchange.sending();
         exchange.sent(u32::MAX);
@@ -260,11 +295,33 @@ mod tests {
     }
 
     #[test]
-    fn nobody_answers_a_broadcast() {
+    fn a_request_without_an_answer_is_sent_again() {
         let mut exchange = Exchange::new();
-        exchange.begin(7, job(0), 100_000);
+        exchange.begin(7, job(1), 100_000, 2);
+        for tries in 1..=2 {
+            exchange.sending();
+            exchange.sent(0);
+            assert!(!exchange.is_late(100_000, false));
+            assert_eq!(
+                (exchange.tries(), exchange.to_send()),
+                (tries, Some(job(1)))
+            );
+        }
         exchange.sending();
         exchange.sent(0);
+        assert!(exchange.is_late(100_000, false));
+        assert_eq!(exchange.visit(7, true), Visit::Over(End::Late));
+    }
+
+    #[test]
+    fn nobody_answers_a_broadcast() {
+        let mut exchange = Exchange::new();
+        exchange.begin(7, job(0), 100_000, 2);
+        exchange.sending();
+        exchange.sent(0);
+        assert!(!exchange.is_late(99_999, false));
+        assert_eq!(exchange.visit(7, true), Visit::Pass);
+        assert!(!exchange.is_late(100_000, false));
         assert_eq!(exchange.visit(7, true), Visit::Over(End::Well));
     }
 }

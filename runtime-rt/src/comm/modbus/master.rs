@@ -259,6 +259,14 @@ pub fn accept(
     }
 }
 
+/// The function and the code of an answer that refuses the request of a job.
+pub fn refusal(framing: Framing, job: &Job, reply: &[u8]) -> Option<[u8; 2]> {
+    let body = Body::open(framing, reply).ok()?;
+    let function = body.byte(1)?;
+    let refuses = body.byte(0) == Some(job.station) && function == job.function | REFUSED;
+    Some([function, body.byte(2)?]).filter(|_| refuses)
+}
+
 /// Where the data of an answer begins.
 const DATA: usize = 3;
 

@@ -35,7 +35,7 @@ pub use areas::{Area, FX3U, Fill, H1U, H2U, HM, L01S, Limits};
 pub(super) use areas::{Place, place};
 pub use check::{CRC_START, crc_step, crc16};
 pub use exchange::{End, Exchange, Visit};
-pub use master::{Buffer, Job, Layout, accept, request};
+pub use master::{Buffer, Job, Layout, accept, refusal, request};
 pub use slave::{Settings, answer};
 
 use super::LineFault;
