@@ -1,0 +1,297 @@
+//! Ladders of real and random programs: drawing and reading are inverse, and pictures look right.
+
+use proptest::prelude::*;
+use rungc_analysis::resolve::{Resolved, resolve};
+use rungc_catalogue::{Basic, Join, Lower};
+use rungc_ladder::list::{Entry, Listed, instructions};
+use rungc_ladder::text::{Style, draw};
+use rungc_ladder::{Ladder, Network, NetworkBody, build};
+use rungc_models::{Model, ModelId};
+use rungc_syntax::Program;
+use std::path::{Path, PathBuf};
+
+fn read(list: &str) -> Program {
+    rungc_frontend::read_text("list.il", list).program
+}
+
+fn with<R>(program: &Program, then: impl FnOnce(&Resolved, &Ladder) -> R) -> R {
+    let (resolved, _) = resolve(program, Model::get(ModelId::Fx3u));
+    then(&resolved, &build::ladder(&resolved))
+}
+
+fn numbered(ladder: &Ladder) -> Vec<(usize, &Network)> {
+    (1..).zip(&ladder.networks).collect()
+}
+
+fn picture(list: &str) -> String {
+    with(&read(list), |resolved, ladder| {
+        let style = Style {
+            width: 100,
+            comments: true,
+        };
+        draw(resolved, &numbered(ladder), style)
+    })
+}
+
+/// Whether the list of a ladder is the program.
+fn assert_inverse(program: &Program, name: &str) {
+    with(program, |resolved, ladder| {
+        let list = instructions(ladder);
+        assert_eq!(list.len(), program.instrs.len(), "{name}");
+        for (i, listed) in list.iter().enumerate() {
+            let same = match (*listed, resolved.instrs[i].lower) {
+                (Listed::Other(instr), _) => instr == i,
+                (Listed::Contact(entry, instr), Some(lower)) => {
+                    instr == i && Some(entry) == entry_of(lower)
+                }
+                (Listed::Anb, Some(Lower::Basic(Basic::Anb)))
+                | (Listed::Orb, Some(Lower::Basic(Basic::Orb)))
+                | (Listed::Mps, Some(Lower::Basic(Basic::Mps)))
+                | (Listed::Mrd, Some(Lower::Basic(Basic::Mrd)))
+                | (Listed::Mpp, Some(Lower::Basic(Basic::Mpp))) => true,
+                _ => false,
+            };
+            assert!(
+                same,
+                "{name}: instruction {i}, {}: {listed:?}",
+                program.instrs[i]
+            );
+        }
+    });
+}
+
+fn entry_of(lower: Lower) -> Option<Entry> {
+    use Basic::{And, Andf, Andp, Ani, Ld, Ldf, Ldi, Ldp, Or, Orf, Ori, Orp};
+    match lower {
+        Lower::Basic(Ld | Ldi | Ldp | Ldf) | Lower::Compare(Join::Ld, _) => Some(Entry::Ld),
+        Lower::Basic(And | Ani | Andp | Andf) | Lower::Compare(Join::And, _) => Some(Entry::And),
+        Lower::Basic(Or | Ori | Orp | Orf) | Lower::Compare(Join::Or, _) => Some(Entry::Or),
+        _ => None,
+    }
+}
+
+fn programs_in(folder: &Path, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let path = entry.path();
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .unwrap_or("");
+        if path.is_dir() {
+            programs_in(&path, found);
+        } else if ["il", "csv", "gxw", "wpg"].contains(&ending.to_lowercase().as_str()) {
+            found.push(path);
+        }
+    }
+}
+
+/// Programs of the repository, and of a folder of real ones beside it where there is one.
+#[test]
+fn real_programs_are_drawn_and_read_back() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let mut files = Vec::new();
+    programs_in(&root.join("examples"), &mut files);
+    let own = files.len();
+    programs_in(&root.join("../shared/corpus"), &mut files);
+    programs_in(&root.join("../shared/projects"), &mut files);
+    if files.len() == own {
+        println!("there is no folder of real programs here: only examples were read");
+    }
+    assert!(own >= 8, "{own} examples");
+    let (mut networks, mut lists) = (0, 0);
+    for file in files {
+        let Ok(read) = rungc_frontend::read(&file) else {
+            continue;
+        };
+        assert_inverse(&read.program, &file.display().to_string());
+        with(&read.program, |resolved, ladder| {
+            for network in &ladder.networks {
+                networks += 1;
+                if let NetworkBody::List { why } = network.body {
+                    lists += 1;
+                    let first = &resolved.program.instrs[network.instrs.start];
+                    println!("{}: {first}: {why}", file.display());
+                }
+            }
+            let style = Style {
+                width: 100,
+                comments: true,
+            };
+            let picture = draw(resolved, &numbered(ladder), style);
+            assert_eq!(picture.is_empty(), read.program.instrs.is_empty());
+        });
+    }
+    println!("{networks} networks, {lists} of them lists");
+    assert!(
+        lists * 100 <= networks,
+        "{lists} of {networks} networks are not drawn"
+    );
+}
+
+/// Lines from which random programs are made.
+fn line() -> impl Strategy<Value = String> {
+    let fixed = prop::sample::select(vec![
+        "ANB",
+        "ORB",
+        "MPS",
+        "MRD",
+        "MPP",
+        "INV",
+        "MEP",
+        "NOP",
+        "END",
+        "STL S0",
+        "RET",
+        "P1",
+        "FEND",
+        "SRET",
+        "FOR K2",
+        "NEXT",
+        "QQQ",
+        "LD= D0 K1",
+        "ANDD> D0 K1",
+        "OR<= D0 D1",
+        "CALL P1",
+        "SET M1",
+        "MOV K1 D0",
+        "DMOVP K1 D0",
+    ]);
+    let contact = prop::sample::select(vec![
+        "LD", "LDI", "LDP", "AND", "ANI", "ANDF", "OR", "ORI", "ORP", "OUT", "OUT",
+    ]);
+    prop_oneof![
+        1 => fixed.prop_map(str::to_string),
+        2 => (contact, 0..100_u8).prop_map(|(mnemonic, number)| format!("{mnemonic} M{number}")),
+    ]
+}
+
+/// The list of a random node with contacts, branches and outputs.
+fn node(depth: u32, at_rail: bool) -> BoxedStrategy<Vec<String>> {
+    let outputs = prop::collection::vec(
+        prop::sample::select(vec!["OUT Y0", "SET M1", "MOV K1 D0", "OUT T0 K10"]),
+        1..3,
+    );
+    let outputs =
+        outputs.prop_map(|lines| lines.into_iter().map(str::to_string).collect::<Vec<_>>());
+    let tail = if depth == 0 {
+        outputs.boxed()
+    } else {
+        let branches = prop::collection::vec(node(depth - 1, false), 2..4);
+        let stack = branches.prop_map(|branches| {
+            let last = branches.len() - 1;
+            let starts = |i| match i {
+                0 => "MPS",
+                _ if i == last => "MPP",
+                _ => "MRD",
+            };
+            let parts = branches.into_iter().enumerate();
+            parts
+                .flat_map(|(i, branch)| std::iter::once(starts(i).to_string()).chain(branch))
+                .collect()
+        });
+        let continued =
+            (outputs.clone(), node(depth - 1, false)).prop_map(|(mut outputs, node)| {
+                outputs.extend(node);
+                outputs
+            });
+        prop_oneof![outputs, stack, continued].boxed()
+    };
+    let first = if at_rail {
+        block(2).boxed()
+    } else {
+        prop::collection::vec(Just("AND M3".to_string()), 0..3).boxed()
+    };
+    let more = prop::option::of(block(2));
+    (first, more, tail)
+        .prop_map(|(mut list, more, tail)| {
+            if let Some(block) = more {
+                list.extend(block);
+                list.push("ANB".into());
+            }
+            list.extend(tail);
+            list
+        })
+        .boxed()
+}
+
+/// The list of a random block that starts with LD.
+fn block(depth: u32) -> BoxedStrategy<Vec<String>> {
+    let simple = (
+        0..50_u8,
+        prop::collection::vec(
+            prop::sample::select(vec!["AND M1", "OR M2", "ANI X3", "ORI X4", "INV"]),
+            0..4,
+        ),
+    );
+    let simple = simple.prop_map(|(number, rest)| {
+        let start = std::iter::once(format!("LD X{}", number % 8));
+        start
+            .chain(rest.into_iter().map(str::to_string))
+            .collect::<Vec<_>>()
+    });
+    if depth == 0 {
+        return simple.boxed();
+    }
+    let joined =
+        (block(depth - 1), block(depth - 1), prop::bool::ANY).prop_map(|(mut list, other, orb)| {
+            list.extend(other);
+            list.push(if orb { "ORB" } else { "ANB" }.into());
+            list
+        });
+    prop_oneof![simple, joined].boxed()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn any_list_reads_back(lines in prop::collection::vec(line(), 0..60)) {
+        assert_inverse(&read(&lines.join("\n")), "random");
+    }
+
+    #[test]
+    fn networks_are_drawn_and_read_back(networks in prop::collection::vec(node(3, true), 1..4)) {
+        let list = networks.concat().join("\n") + "\nEND\n";
+        let program = read(&list);
+        assert_inverse(&program, &list);
+        with(&program, |resolved, ladder| {
+            for network in &ladder.networks {
+                prop_assert!(!matches!(network.body, NetworkBody::List { .. }), "{list}: {network:?}");
+            }
+            let style = Style { width: 80, comments: false };
+            prop_assert!(draw(resolved, &numbered(ladder), style).contains("(Y000)") || !list.contains("OUT Y0"));
+            Ok(())
+        })?;
+    }
+}
+
+#[test]
+fn a_latching_motor() {
+    let list = ";! X000 = start button\n;! X001 = stop button\n;! M0 = motor latch\n;! Y000 = main contactor of the conveyor\nLD X0\nOR M0\nANI X1\nOUT M0\nLD M0\nOUT T0 K30\nAND T0\nOUT Y0\nEND\n";
+    insta::assert_snapshot!(picture(list));
+}
+
+#[test]
+fn branches_and_boxes() {
+    let list = "; Heads up: branches\nLD X0\nLD X1\nAND X2\nORB\nMPS\nAND X3\nOUT Y0\nMRD\nLD X4\nORI X5\nANB\nSET M10\nMPP\nMOV K100 D0\nDADD D0 D2 D4\nLD= D0 K5\nOR>= D2 K100\nINV\nOUT C5 K10\nP1\nLDP X7\nANDF X10\nCALLP P2\nEND\n";
+    insta::assert_snapshot!(picture(list));
+}
+
+#[test]
+fn a_wide_network_continues_below() {
+    let contacts: Vec<String> = (1..16).map(|number| format!("AND M{number}")).collect();
+    insta::assert_snapshot!(picture(&format!(
+        "LD M0\nOR M20\n{}\nOUT Y0\nOUT Y1\nEND\n",
+        contacts.join("\n")
+    )));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_a_list() {
+    insta::assert_snapshot!(picture(
+        "LD X0\nOUT Y0\nOR X1\nOUT Y1\nNOP\nLD X2\nANB\nOUT Y2\nQQQ\nEND\n"
+    ));
+}
