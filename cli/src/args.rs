@@ -7,8 +7,9 @@ use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::ModelId;
 use rungc_project::Check;
 use rungc_project::serve::{Line, address};
-use rungc_syntax::{Severity, codes, diag};
+use rungc_syntax::{Device, Severity, codes, diag};
 use std::net::SocketAddr;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -32,6 +33,7 @@ Examples:
   rungc build MAIN.csv --emit c -o firmware/plc
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
   rungc test tests --engine all                all test files in a folder
+  rungc view machine.gxw --device Y000         networks, as ladder
   rungc init machine.gxw                       settings of a project: rungc.toml
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
 
@@ -68,6 +70,8 @@ pub enum Command {
     Serve(RunArgs),
     /// Run PLC test files on one or all engines.
     Test(TestArgs),
+    /// Draw a program as ladder.
+    View(ViewArgs),
     /// Rewrite a program as an instruction list or a list export.
     Convert(ConvertArgs),
     /// Write rungc.toml, the settings of a project, with a comment on each.
@@ -365,6 +369,28 @@ pub struct ConvertArgs {
     pub force: bool,
 }
 
+/// Arguments of `view`.
+#[derive(Args, Debug)]
+pub struct ViewArgs {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// Draw these networks only, by their numbers: `12` or `12..20`. Repeat it for more.
+    #[arg(long, value_parser = networks, value_name = "RANGE")]
+    pub network: Vec<RangeInclusive<usize>>,
+    /// Draw only networks that name this device: `M100`. Repeat it for more.
+    #[arg(long, value_parser = device, value_name = "DEVICE")]
+    pub device: Vec<Device>,
+    /// Draw only networks about which a check reports this code: `E0404`. Repeat it for more.
+    #[arg(long, value_parser = code, value_name = "CODE")]
+    pub around: Vec<&'static str>,
+    /// Characters on a line. Default: the width of the terminal, or 120.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
+    pub width: Option<u16>,
+    /// Omit the comments of devices.
+    #[arg(long)]
+    pub no_comments: bool,
+}
+
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub struct InitArgs {
@@ -562,6 +588,25 @@ fn omissible(name: &str) -> Result<&'static str, String> {
         Severity::Note | Severity::Warning => Ok(code.id),
         Severity::Error => Err("errors cannot be suppressed".to_string()),
     }
+}
+
+fn networks(text: &str) -> Result<RangeInclusive<usize>, String> {
+    let (first, last) = text.split_once("..").unwrap_or((text, text));
+    match (first.parse(), last.parse()) {
+        (Ok(first), Ok(last)) if (1..=last).contains(&first) => Ok(first..=last),
+        _ => Err("networks are written `12` or `12..20`, counted from 1".to_string()),
+    }
+}
+
+fn device(text: &str) -> Result<Device, String> {
+    rungc_project::device::device(&text.to_uppercase())
+        .ok_or_else(|| "a device is written `X010`, `M100` or `D0`".to_string())
+}
+
+fn code(text: &str) -> Result<&'static str, String> {
+    codes::find(&text.to_lowercase())
+        .map(|code| code.id)
+        .ok_or_else(|| format!("`{text}` is not a diagnostic code"))
 }
 
 fn encoding(name: &str) -> Result<&'static Encoding, String> {

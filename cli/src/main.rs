@@ -39,6 +39,7 @@ fn main() -> ExitCode {
         Command::Convert(args) => commands::convert::run(args, cx),
         Command::Init(args) => commands::init::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),
+        Command::View(args) => commands::view::run(args, cx),
         Command::Explain(args) => commands::explain::run(args),
         Command::Completions { shell } => {
             let mut script = Vec::new();

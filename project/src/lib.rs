@@ -6,7 +6,7 @@
 //! This crate must not know output languages. Start reading at [`Project`].
 #![deny(missing_docs)]
 
-mod device;
+pub mod device;
 pub mod modbus;
 mod program;
 mod reader;

@@ -15,6 +15,7 @@ pub mod setting;
 pub mod subject;
 pub mod test;
 mod unproven;
+pub mod view;
 
 use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals, visible};

@@ -1,0 +1,125 @@
+//! `rungc view`.
+
+use super::subject::{self, Subject};
+use super::{Context, Failure, Outcome, Result, say, unread};
+use crate::args::ViewArgs;
+use crate::report::{Findings, Reporter};
+use rungc_analysis::resolve::{Resolved, resolve};
+use rungc_frontend::Read;
+use rungc_ladder::text::{Style, draw};
+use rungc_ladder::{Network, build};
+use rungc_lower::compile;
+use rungc_syntax::{Device, OperandKind, Span};
+use std::fmt::Write;
+use terminal_size::{Width, terminal_size};
+
+/// Characters on a line where nothing says how many there are.
+const USUAL_WIDTH: u16 = 120;
+
+/// Draws programs.
+pub fn run(args: &ViewArgs, cx: Context) -> Result {
+    let terminal = terminal_size().map(|(Width(width), _)| width);
+    let style = Style {
+        width: args.width.or(terminal).unwrap_or(USUAL_WIDTH).into(),
+        comments: !args.no_comments,
+    };
+    subject::each(&args.inputs, cx, |subject, reporter| {
+        view(args, subject, reporter, style)
+    })
+}
+
+fn view(args: &ViewArgs, subject: &Subject, reporter: &mut Reporter, style: Style) -> Result {
+    // As its author drew it: without what the settings add.
+    let read = match subject::source(subject) {
+        Ok(read) => read,
+        Err(error) => return Err(unread(&error, subject, reporter)?),
+    };
+    let findings = Findings::new(
+        &subject.file,
+        &read.program,
+        read.diagnostics.clone(),
+        &subject.reporting,
+    );
+    reporter.add(&findings)?;
+    let options = subject.options();
+    let model = compile::model(&read.program, &options);
+    let (resolved, _) = resolve(&read.program, model);
+    let ladder = build::ladder(&resolved);
+    let places = reported(args, subject, &read);
+    let wanted = |number: usize, network: &Network| {
+        let numbered =
+            args.network.is_empty() || args.network.iter().any(|range| range.contains(&number));
+        let named = args.device.is_empty() || names(&resolved, network, &args.device);
+        let around = args.around.is_empty() || holds(&resolved, network, &places);
+        numbered && named && around
+    };
+    let networks: Vec<(usize, &Network)> = (1..)
+        .zip(&ladder.networks)
+        .filter(|(number, network)| wanted(*number, network))
+        .collect();
+    if networks.is_empty() && !ladder.networks.is_empty() {
+        let count = ladder.networks.len();
+        return Err(Failure::Because(format!(
+            "{}: none of the {count} networks matches",
+            subject.file.display()
+        )));
+    }
+    let mut page = String::new();
+    if reporter.many() {
+        _ = writeln!(page, "; {}", findings.name(true));
+    }
+    page.push_str(&draw(&resolved, &networks, style));
+    say(&page)?;
+    Ok(if findings.failed() {
+        Outcome::Failed
+    } else {
+        Outcome::Success
+    })
+}
+
+/// The places of what a check reports under the codes that were asked for.
+fn reported(args: &ViewArgs, subject: &Subject, read: &Read) -> Vec<Span> {
+    if args.around.is_empty() {
+        return Vec::new();
+    }
+    let checked = compile::check(&read.program, &subject.options());
+    let diagnostics = read.diagnostics.iter().chain(checked.diagnostics.iter());
+    let asked = diagnostics.filter(|diagnostic| args.around.contains(&diagnostic.code));
+    asked
+        .flat_map(|diagnostic| {
+            let others = diagnostic.others.iter().map(|label| label.span);
+            std::iter::once(diagnostic.span).chain(others)
+        })
+        .collect()
+}
+
+/// Whether a network holds one of these places.
+fn holds(resolved: &Resolved, network: &Network, places: &[Span]) -> bool {
+    let instrs = &resolved.program.instrs[network.instrs.clone()];
+    let (Some(first), Some(last)) = (instrs.first(), instrs.last()) else {
+        return false;
+    };
+    let extent = first.span.start..last.span.end;
+    places.iter().any(|place| extent.contains(&place.start))
+}
+
+/// Whether an operand of a network names one of these devices.
+fn names(resolved: &Resolved, network: &Network, devices: &[Device]) -> bool {
+    let instrs = &resolved.program.instrs[network.instrs.clone()];
+    let mut operands = instrs.iter().flat_map(|instr| &instr.operands);
+    operands.any(|operand| match operand.kind {
+        OperandKind::Device(device, _) | OperandKind::WordBit(device, ..) => {
+            devices.contains(&device)
+        }
+        OperandKind::Nibbles(digits, first, _) => devices.iter().any(|device| {
+            let last = first.number.saturating_add(4 * u32::from(digits));
+            device.class == first.class && (first.number..last).contains(&device.number)
+        }),
+        OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => false,
+    })
+}
