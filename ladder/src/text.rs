@@ -107,9 +107,9 @@ impl Measure for Page<'_> {
 }
 
 impl Page<'_> {
-    /// How many columns a text takes, with some wire before it.
+    /// How many columns a text takes, with some wire on both sides.
     fn columns(&self, text: &str) -> usize {
-        (text.width() + 2).div_ceil(self.cell)
+        (text.width() + 3).div_ceil(self.cell)
     }
 
     /// A comparison without the LD, AND or OR that the wires show: `[>= D0 K5]`.
@@ -312,10 +312,9 @@ impl Page<'_> {
     /// The line of a row that holds its wires.
     fn wires(&self, grid: &Grid, row: usize, placed: &[Placed]) -> Line {
         let mut line = Line::new(grid.columns * self.cell + 1);
-        let mut full = vec![false; grid.columns];
-        for column in 0..grid.columns {
-            full[column] = grid.wire(row, column);
-        }
+        let mut full: Vec<bool> = (0..grid.columns)
+            .map(|column| grid.wire(row, column))
+            .collect();
         for placed in placed {
             full[placed.column..placed.column + placed.span].fill(true);
         }

@@ -1,0 +1,46 @@
+//! Programs drawn as ladder.
+
+mod common;
+
+use common::{MOTOR, folder, rungc, shown, text};
+
+#[test]
+fn a_program_is_drawn_with_numbers_steps_and_comments() {
+    let list = format!(";! X000 = start\n;! Y000 = main contactor\n{MOTOR}");
+    let folder = folder(&[("motor.il", list.as_bytes())]);
+    insta::assert_snapshot!(shown(folder.path(), &["view", "motor.il", "--width", "80"]));
+}
+
+#[test]
+fn networks_are_chosen_by_number_device_and_finding() {
+    let list = "LD X0\nOUT Y0\nLD X1\nMOV K2M10 D0\nLD X2\nOUT Y0\nLD X3\nOUT Y3\nEND\n";
+    let folder = folder(&[("list.il", list.as_bytes())]);
+    let drawn = |args: &[&str]| {
+        let out = rungc(folder.path(), &[&["view", "list.il"], args].concat());
+        assert!(out.status.success(), "{args:?}");
+        let page = text(&out.stdout);
+        let numbers = page.lines();
+        let numbers = numbers.filter_map(|line| line.split(' ').next()?.parse().ok());
+        numbers.collect::<Vec<u32>>()
+    };
+    assert_eq!(drawn(&[]), [1, 2, 3, 4, 5]);
+    assert_eq!(drawn(&["--network", "2..3", "--network", "5"]), [2, 3, 5]);
+    assert_eq!(drawn(&["--device", "M17"]), [2]);
+    assert_eq!(drawn(&["--device", "y0", "--network", "2..9"]), [3]);
+    assert_eq!(drawn(&["--around", "W0203"]), [1, 3]);
+}
+
+#[test]
+fn what_cannot_be_chosen_is_said() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let said = |args: &[&str]| {
+        let out = rungc(folder.path(), &[&["view", "motor.il"], args].concat());
+        assert_eq!(out.status.code(), Some(2), "{args:?}");
+        assert!(out.stdout.is_empty());
+        text(&out.stderr)
+    };
+    assert!(said(&["--device", "M99"]).contains("none of the 6 networks matches"));
+    assert!(said(&["--device", "Q1"]).contains("a device is written"));
+    assert!(said(&["--network", "3..1"]).contains("counted from 1"));
+    assert!(said(&["--around", "E9999"]).contains("not a diagnostic code"));
+}
