@@ -29,7 +29,7 @@ fn answer(port: &mut TcpStream) -> Vec<u8> {
     answer
 }
 
-/// Whether an answer is STX, so many digits, ETX and the right sum.
+/// Whether an answer is STX, this many digits, ETX and the right sum.
 fn is_data(answer: &[u8], length: usize) -> bool {
     let [0x02, digits @ .., 0x03, high, low] = answer else {
         return false;

@@ -7,7 +7,7 @@ use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
 
-/// How long a run may take to open what it is told to.
+/// How long a run may take to open its ports.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// How long the first scans may take, which set up the lines.
@@ -62,7 +62,7 @@ impl Run {
         let errors = child.stderr.take().unwrap();
         let (sender, said) = mpsc::channel();
         thread::spawn(move || {
-            // Whether or not anybody listens, so that the run can go on writing.
+            // Whether or not anybody listens, so that the run can keep writing.
             for line in BufReader::new(errors).lines().map_while(Result::ok) {
                 let _ = sender.send(line);
             }
