@@ -90,6 +90,7 @@ impl Writer<'_> {
             self.line(match gate {
                 Gate::Forbids(mask) => format!("RST M{}", mask.number()),
                 Gate::Allows(mask) => format!("SET M{}", mask.number()),
+                Gate::Open => continue,
             });
         }
         let drawn = all.into_iter().filter(|_| self.rng.percent(60));

@@ -5,21 +5,22 @@ use super::count_table::Rows;
 use super::operand::{Guards, fixed};
 use rungc_catalogue::{Basic, Comparison, Lower};
 use rungc_ir::node::{Access, BinOp, CellId, Count, Expr, ExprId, FlagId, Place, Stmt, SysValue};
-use rungc_models::high_speed::{self, Axis, Counter, Kind};
+use rungc_models::high_speed::{self, Counter, Kind};
 use rungc_models::interrupts::Source;
 use rungc_rt::special::{M_COMPARE_AT_RESET, M_COUNTER_DIRECTION};
-use rungc_rt::{CmpOp, EdgeKind, Register, Relay};
+use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::{Device, DeviceClass, OperandKind, codes};
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 /// More comparisons are driven than may be.
 const TOO_MANY_COMPARISONS: u16 = 6760;
 
 /// A counter that the program drives.
-struct Used {
-    counter: &'static Counter,
+pub(super) struct Used {
+    pub(super) counter: &'static Counter,
     /// Its coil is on.
-    on: FlagId,
+    pub(super) on: FlagId,
     preset: CellId,
 }
 
@@ -63,7 +64,9 @@ pub(super) enum Action {
 /// The high-speed counters of a program.
 #[derive(Default)]
 pub(super) struct HighSpeed {
-    used: Vec<Used>,
+    pub(super) used: Vec<Used>,
+    /// Of input axes, by their inputs: the millisecond that it was last, and the count when it began.
+    pub(super) milliseconds: BTreeMap<u32, [CellId; 2]>,
     pub(super) compares: Vec<Compare>,
     /// Tables that begin when a scan ends.
     pub(super) tables: Vec<Rows>,
@@ -446,6 +449,7 @@ impl Lowerer<'_> {
             counts = self.and(counts, free);
         }
         self.when(counts, |this| {
+            this.show_last_millisecond(used.counter);
             let preset = this.add(Expr::Cell(used.preset));
             this.emit(Stmt::Count(Count {
                 number,
@@ -480,62 +484,6 @@ impl Lowerer<'_> {
             }
         }
         Some(held)
-    }
-
-    /// The registers of an input axis show the count, if something looks at them.
-    fn show_on_axis(&mut self, counter: &Counter) {
-        let Some(axis) = self.axis(counter) else {
-            return;
-        };
-        let count = self.add(Expr::Read(Access::pair(counter_place(counter.number))));
-        if self.looks_at_pair(axis.count) {
-            self.emit(Stmt::Write(Access::pair(axis.count), count));
-        }
-        if self.looks_at_pair(axis.upper) {
-            let zero = self.add(Expr::I32(0));
-            let negative = self.add(Expr::Cmp(CmpOp::Lt, count, zero));
-            let negative = self.add(Expr::BitToInt(negative));
-            let negative = self.add(Expr::Widen(negative));
-            let upper = self.add(Expr::Neg(negative));
-            self.emit(Stmt::Write(Access::pair(axis.upper), upper));
-        }
-    }
-
-    /// The input axis of a counter's input.
-    fn axis(&self, counter: &Counter) -> Option<&'static Axis> {
-        let input = counter.counts.first();
-        let mut axes = self.model.high_speed.axes.iter();
-        axes.find(|axis| Some(&axis.input) == input)
-    }
-
-    /// Input axes show what their counters hold before each scan, too.
-    pub(super) fn show_axes(&mut self) {
-        let counters: Vec<&Counter> = self.high_speed.used.iter().map(|u| u.counter).collect();
-        for counter in counters {
-            self.show_on_axis(counter);
-        }
-    }
-
-    /// An edge of an input interrupts: the registers of its axis show the count.
-    pub(super) fn capture_count(&mut self, input: u32) {
-        let mut axes = self.model.high_speed.axes.iter();
-        let Some(axis) = axes.find(|axis| axis.capture.contains(&input)) else {
-            return;
-        };
-        let used = &self.high_speed.used;
-        let counter = used
-            .iter()
-            .find(|used| used.counter.counts.first() == Some(&axis.input));
-        if let Some(number) = counter.map(|used| used.counter.number)
-            && self.looks_at_pair(axis.captured)
-        {
-            let count = self.add(Expr::Read(Access::pair(counter_place(number))));
-            self.emit(Stmt::Write(Access::pair(axis.captured), count));
-        }
-    }
-
-    fn looks_at_pair(&self, register: Register) -> bool {
-        self.looks_at(register) || self.looks_at(register.after(1))
     }
 
     fn reset_edge(&mut self, used: &Used, reset: u32, compares: &[&Compare]) {
@@ -618,10 +566,16 @@ impl Lowerer<'_> {
     fn do_action(&mut self, compare: &Compare) {
         match &compare.action {
             Action::Switch(target, on) => {
+                if *on && self.is_request(target) {
+                    self.capture_at_comparison(compare.counted);
+                }
                 let on = self.bit_const(*on);
                 self.write_bits(target, on);
             }
-            Action::Request(flag) => self.set_flag_to(*flag, true),
+            Action::Request(flag) => {
+                self.capture_at_comparison(compare.counted);
+                self.set_flag_to(*flag, true);
+            }
             Action::Reset => {
                 if let Counted::Counter(number) = compare.counted {
                     self.emit(Stmt::Reset(counter_place(number)));
@@ -655,6 +609,6 @@ fn is_coil(class: DeviceClass) -> bool {
     matches!(class, DeviceClass::Y | DeviceClass::M | DeviceClass::S)
 }
 
-fn counter_place(number: u32) -> Place {
+pub(super) fn counter_place(number: u32) -> Place {
     fixed(DeviceClass::C, number)
 }

@@ -56,10 +56,13 @@ impl What {
     fn heeds(&self, relay: Relay) -> bool {
         match *self {
             What::Routine { interrupt, .. } => {
-                let (Gate::Forbids(gate) | Gate::Allows(gate)) = interrupt.gate;
+                let gate = match interrupt.gate {
+                    Gate::Forbids(gate) | Gate::Allows(gate) => Some(gate),
+                    Gate::Open => None,
+                };
                 interrupt
                     .request
-                    .is_some_and(|request| [request, gate].contains(&relay))
+                    .is_some_and(|request| request == relay || gate == Some(relay))
             }
             What::Process { interrupt, .. } => {
                 [interrupt.request, interrupt.again, interrupt.mask].contains(&relay)
@@ -167,6 +170,7 @@ impl Lowerer<'_> {
             }
             let period = match source {
                 Source::Period { ms } => Some(ms),
+                Source::Interpolation => Some(1),
                 Source::Input { .. }
                 | Source::Comparison { .. }
                 | Source::Row { .. }
@@ -188,7 +192,10 @@ impl Lowerer<'_> {
                 Source::PulsesEnd { output } => {
                     self.module.flags[flag].pulses_end = Some(output);
                 }
-                Source::Period { .. } | Source::Comparison { .. } | Source::Row { .. } => {}
+                Source::Period { .. }
+                | Source::Interpolation
+                | Source::Comparison { .. }
+                | Source::Row { .. } => {}
             }
             flags.push((source, flag));
         }
@@ -471,7 +478,9 @@ impl Lowerer<'_> {
 
     /// Whether a routine may run; a relay that nothing looks at stays as it is at power-on.
     pub(super) fn allowed(&mut self, gate: Gate) -> ExprId {
-        let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate;
+        let (Gate::Forbids(relay) | Gate::Allows(relay)) = gate else {
+            return self.bit_const(true);
+        };
         let on = if self.specials.has(relay) {
             self.add(Expr::Read(Access::bit(relay)))
         } else {
@@ -480,7 +489,7 @@ impl Lowerer<'_> {
         };
         match gate {
             Gate::Forbids(_) => self.not(on),
-            Gate::Allows(_) => on,
+            Gate::Allows(_) | Gate::Open => on,
         }
     }
 }
@@ -514,6 +523,7 @@ fn flag_name(source: Source) -> String {
             format!("x{number:03o}_{what}")
         }
         Source::Period { ms } => format!("passed_{ms}ms"),
+        Source::Interpolation => "interpolation".to_string(),
         Source::Comparison { pointer } | Source::Row { pointer } => {
             format!("i{pointer:03}_requested")
         }

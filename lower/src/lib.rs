@@ -28,6 +28,7 @@ mod edges;
 mod flow;
 mod high_speed;
 mod inline;
+mod input_axes;
 mod interrupt;
 mod logic;
 mod name;

@@ -286,6 +286,12 @@ pub struct Axis {
     pub upper: Register,
     /// Pair for the count at the last interrupt of one of two inputs.
     pub captured: Register,
+    /// Pair for the count when a comparison last requested an interrupt.
+    pub compared: Register,
+    /// How the counter counts: 0 phases, 1 direction, 2 up, 3 down.
+    pub mode: Register,
+    /// Pulses of the last millisecond.
+    pub per_ms: Register,
     /// These inputs.
     pub capture: [u32; 2],
 }

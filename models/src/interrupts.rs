@@ -48,6 +48,8 @@ pub enum Source {
         /// Period, at least 1.
         ms: u32,
     },
+    /// A millisecond of RUN has passed, in which motion is interpolated (I500 of HM).
+    Interpolation,
     /// A comparison of a high-speed counter (HSCS with this pointer).
     Comparison {
         /// Pointer I.
@@ -72,6 +74,8 @@ pub enum Gate {
     Forbids(Relay),
     /// It may while this relay is on.
     Allows(Relay),
+    /// It always may.
+    Open,
 }
 
 /// An interrupt routine's own conditions.
@@ -236,7 +240,7 @@ impl Precedence {
         let kind = match source {
             Source::Comparison { .. } | Source::Row { .. } => Kind::Counter,
             Source::Input { .. } => Kind::Input,
-            Source::Period { .. } => Kind::Timer,
+            Source::Period { .. } | Source::Interpolation => Kind::Timer,
             Source::PulsesEnd { .. } => Kind::Pulses,
         };
         let place = self.kinds.iter().position(|&known| known == kind);

@@ -273,7 +273,10 @@ pub(crate) const SUMMED: Reason = because(
 );
 pub(crate) const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
 pub(crate) const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
-pub(crate) const AXES: Reason = because(Missed::Never, "input axes do not show this yet");
+pub(crate) const AXES: Reason = because(
+    Missed::Never,
+    "the manual does not state which period it means; D212 and D262 show the pulses of a millisecond",
+);
 pub(crate) const TRACE: Reason =
     because(Missed::Never, "sampling traces are a matter of the editor");
 pub(crate) const INTERRUPTS: Reason = because(
@@ -296,9 +299,9 @@ pub(crate) const MODULES: Reason = because(
     Missed::Never,
     "which modules are there is the host's affair",
 );
-pub(crate) const MODES: Reason = because(
+pub(crate) const TIMING: Reason = because(
     Missed::Never,
-    "an output does what the program uses it for, regardless of its mode",
+    "it measures the controller's own processor; `rungc build --report` states what a compiled program needs",
 );
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
@@ -410,6 +413,8 @@ mod tests {
         assert_eq!([300, 599, 97].map(|n| of(ModelId::Hm, D, n)), [axis; 3]);
         assert_eq!(of(ModelId::Hm, D, 7142), Some(Status::Inert(MODULES)));
         assert_eq!(of(ModelId::Hm, D, 1000), None);
+        let modules: Vec<_> = Model::get(ModelId::Hm).special_words().collect();
+        assert!(modules.contains(&(7143, 60)) && modules.contains(&(7144, 60)));
     }
 
     #[test]

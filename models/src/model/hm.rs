@@ -128,6 +128,9 @@ const AXES: &[Axis] = &[
         count: Register(200),
         upper: Register(202),
         captured: Register(206),
+        compared: Register(208),
+        mode: Register(210),
+        per_ms: Register(212),
         capture: [4, 5],
     },
     Axis {
@@ -135,6 +138,9 @@ const AXES: &[Axis] = &[
         count: Register(250),
         upper: Register(252),
         captured: Register(256),
+        compared: Register(258),
+        mode: Register(260),
+        per_ms: Register(262),
         capture: [6, 7],
     },
 ];
@@ -166,11 +172,21 @@ const ADVANCED: AdvancedPointers = AdvancedPointers {
     },
 };
 
+/// The interrupt of the interpolation, each millisecond; the manual names no relay that forbids it (hm-motion-controller §5.1.9).
+const INTERPOLATION: u32 = 500;
+
 /// The other pointers (hm-motion-controller §5.5.5 to §5.5.7).
 fn pointers(number: u32) -> Option<Interrupt> {
     const REQUEST: Relay = Relay(8032);
     const MASK: Relay = Relay(8048);
     let (group, rest) = (number / 100, number % 100);
+    if number == INTERPOLATION {
+        return Some(Interrupt {
+            source: Some(Source::Interpolation),
+            request: None,
+            gate: Gate::Open,
+        });
+    }
     let (source, place) = match (group, rest) {
         // X004 and X006 interrupt with one edge, X005 and X007 with both; I001 and I201 have only their relay.
         (0..=3, 0 | 1) => {

@@ -9,7 +9,7 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::plc::Class;
 use crate::pulse::{Generator, Train};
-use crate::special::{M_MOTION_INPUTS, Register};
+use crate::special::{D_OUTPUT_USE, M_MOTION_INPUTS, Register};
 
 /// States of an axis in its register.
 pub(super) mod state {
@@ -55,6 +55,9 @@ const PULSE_OUTPUTS: i16 = 6;
 const OUTPUTS: i16 = 9;
 /// What the outputs in use share, in millihertz.
 const HIGHEST: u64 = 600_000_000;
+/// What [`D_OUTPUT_USE`] shows of an output for pulses, for the direction.
+const USE_PULSES: i16 = 2;
+const USE_DIRECTION: i16 = 3;
 /// The output of the direction of Y000; those of the others follow.
 const DIRECTION: u32 = 0o10;
 
@@ -289,10 +292,25 @@ impl Registers {
         cx.state().0[PHASE] = RUNS;
         self.set(cx, at::ERROR, 0);
         self.set(cx, at::STATE, state::RUNS);
+        self.show_use(cx);
         let axis = cx.plc.axis(self.axis).ok_or(Fault::DEVICE)?;
         axis.owner = slot;
         axis.output = output;
         Ok(())
+    }
+
+    /// Shows that its outputs, for pulses and for the direction, are no longer the ladder's (hm-motion-controller §5.4.56, §5.7.2).
+    fn show_use(self, cx: &mut Cx) {
+        let output = self.word(cx, at::OUTPUT);
+        if !(0..PULSE_OUTPUTS).contains(&output) {
+            return;
+        }
+        let output = output as u32;
+        cx.set_special_word(D_OUTPUT_USE.after(output), USE_PULSES);
+        if self.has_direction(cx) {
+            let direction = D_OUTPUT_USE.after(DIRECTION + output);
+            cx.set_special_word(direction, USE_DIRECTION);
+        }
     }
 
     /// Takes the axis and sends a train, in reverse if it is asked for and there is an output for the direction.

@@ -1,6 +1,6 @@
 //! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers mean something else than on the other models.
 
-use crate::special::{AXES, MAKER, MODES, MODULES, POWER, Special, specials};
+use crate::special::{AXES, MAKER, MODULES, POWER, Special, TIMING, specials};
 
 /// Its special devices.
 pub(super) const HM: &[Special] = specials! {
@@ -35,24 +35,26 @@ pub(super) const HM: &[Special] = specials! {
     D 200-203 rw 0 by("OUT C") "AXV6: count of X000, 64 bits";
     D 204-205 rw 0 inert(AXES) "AXV6: count of the period";
     D 206-207 rw 0 by("OUT C") "AXV6: count at the input interrupt";
-    D 208-209 rw 0 inert(AXES) "AXV6: count at the counter interrupt";
-    D 210 rw 0 inert(AXES) "AXV6: counting mode, 0 phases, 1 direction, 2 up, 3 down";
+    D 208-209 rw 0 by("DHSCS") "AXV6: count when a comparison last requested an interrupt";
+    D 210 rw 0 by("OUT C") "AXV6: counting mode, 0 phases, 1 direction, 2 up, 3 down";
     D 211 rw 0 by("OUT C") "AXV6: edges that interrupt";
-    D 212 rw 0 inert(AXES) "AXV6: count in 1 ms";
+    D 212 rw 0 by("OUT C") "AXV6: pulses of the last millisecond";
     D 250-253 rw 0 by("OUT C") "AXV7: count of X002, 64 bits";
     D 254-255 rw 0 inert(AXES) "AXV7: count of the period";
     D 256-257 rw 0 by("OUT C") "AXV7: count at the input interrupt";
-    D 258-259 rw 0 inert(AXES) "AXV7: count at the counter interrupt";
-    D 260 rw 0 inert(AXES) "AXV7: counting mode, 0 phases, 1 direction, 2 up, 3 down";
+    D 258-259 rw 0 by("DHSCS") "AXV7: count when a comparison last requested an interrupt";
+    D 260 rw 0 by("OUT C") "AXV7: counting mode, 0 phases, 1 direction, 2 up, 3 down";
     D 261 rw 0 by("OUT C") "AXV7: edges that interrupt";
-    D 262 rw 0 inert(AXES) "AXV7: count in 1 ms";
+    D 262 rw 0 by("OUT C") "AXV7: pulses of the last millisecond";
     D 300-349 rw 0 by("axis motion") "AXV0, with its defaults when RUN starts: +0 output, +1 direction output, +2 time unit in ms (10), +5 highest speed (1000), +6 start speed, +7 acceleration (100), +8 to +11 inputs: DOG, Z, left and right limit, +12 speed of the return, +13 creep speed, +14 input modes, +15 pulses and +16 Z pulses past the DOG, +18 position, +20 state, +21 error, +22 increment, +23 stop inputs, +24 interrupt inputs, +26 position at the interrupt";
     D 350-399 rw 0 by("axis motion") "AXV1: as D300–D349";
     D 400-449 rw 0 by("axis motion") "AXV2: as D300–D349";
     D 450-499 rw 0 by("axis motion") "AXV3: as D300–D349";
     D 500-549 rw 0 by("axis motion") "AXV4: as D300–D349";
     D 550-599 rw 0 by("axis motion") "AXV5: as D300–D349";
-    D 7100-7147 rw 0 inert(MODULES) "extension modules: their addresses, D7142 their number, D7147 their error (from D8129 on)";
+    D 7100-7142 rw 0 inert(MODULES) "extension modules: their addresses, D7142 their number (from D8129 on)";
+    D 7143-7144 rw 60 inert(MODULES) "time in ms between two exchanges with digital, with analog extension modules";
+    D 7145-7147 r 0 inert(MODULES) "extension modules: measured times of the exchanges, D7147 their error";
     D 7200-7583 rw 0 inert(MODULES) "data of analog extension modules";
     D 8000 rw 200 scan "scan watchdog limit in ms; PLC faults and stops when a scan exceeds it";
     D 8001 r 0 inert(MAKER) "series number of the instruction set";
@@ -85,8 +87,8 @@ pub(super) const HM: &[Special] = specials! {
     D 8041 rw 1000 scan "oscilloscope channel A: number of the first D register sampled, 0..7999";
     D 8042 rw 1 scan "oscilloscope channel B, as D8040";
     D 8043 rw 1100 scan "oscilloscope channel B, as D8041";
-    D 8044 r 0 inert(MAKER) "task time position within the 50 us time slice; larger = shorter task; full scale 3999";
-    D 8045 r 0 inert(MAKER) "longest time taken by timer interrupts";
+    D 8044 r 0 inert(TIMING) "task time position within the 50 us time slice; larger = shorter task; full scale 3999";
+    D 8045 r 0 inert(TIMING) "longest time taken by timer interrupts";
     D 8100-8107 rw 0 scan "mirror of index register V0–7";
     D 8108-8115 rw 0 scan "mirror of index register Z0–7";
     D 8120 rw 0 by("UINIT") "UART0 protocol control word";
@@ -97,8 +99,8 @@ pub(super) const HM: &[Special] = specials! {
     D 8125 rw 7020 by("UINIT") "UART1: first D register it occupies";
     D 8129 rw 7100 inert(MODULES) "first D register occupied by extensions";
     D 8160-8167 r 0 scan "count of rising edges of X000–007 (up to 5 kHz)";
-    D 8180-8185 rw 0 inert(MODES) "output mode of Y000..Y005: 0 PLC, 1 high-speed event output, 2 motion axis pulse/direction";
-    D 8188-8195 rw 0 inert(MODES) "output mode of Y010..Y017, values as D8180";
+    D 8180-8185 rw 0 by("axis motion, REF") "use of Y000–Y005: 0 PLC, 2 pulses of an axis, as soon as one moves there; REF leaves an output alone whose use is not 0";
+    D 8188-8195 rw 0 by("axis motion, REF") "use of Y010–Y017: 0 PLC, 1 high-speed event output, 3 direction of an axis, as soon as one moves";
     D 8200 rw 0 inert(MAKER) "internal function number";
     D 8201 rw 0 inert(MAKER) "internal entry parameter address";
     D 8202 rw 0 inert(MAKER) "internal exit parameter address";
