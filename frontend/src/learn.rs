@@ -6,7 +6,7 @@
 use crate::Read;
 use crate::gx::hex;
 use crate::learned::{Reading, Unproven};
-use rungc_syntax::{Instr, OperandKind, SourceKind, codes};
+use rungc_syntax::{Instr, OperandKind, codes};
 use smol_str::SmolStr;
 use std::collections::BTreeMap;
 
@@ -171,7 +171,7 @@ pub fn learn(
 
 /// Whether both are what they should be, and can be read but for codes.
 fn readable(project: &Read, export: &Read) -> Result<(), Mismatch> {
-    let is_list = |read: &Read| matches!(read.program.kind, SourceKind::Csv | SourceKind::Il);
+    let is_list = |read: &Read| !read.program.kind.is_project();
     if is_list(project) {
         return Err(Mismatch::NotAProject);
     }

@@ -15,7 +15,7 @@ pub mod print;
 mod search;
 mod text;
 
-use rungc_syntax::{Diagnostic, Diagnostics, Program, SourceKind, Span, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Program, Span, codes};
 use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
@@ -130,7 +130,7 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Read, ReadError> 
         options.encoding = encoding::of_files(&[&bytes, comments]);
     }
     let mut read = read_bytes_with(&name, &bytes, &options)?;
-    if let (SourceKind::Csv, Some(comments)) = (read.program.kind, &comments) {
+    if let (true, Some(comments)) = (read.program.kind.has_rows(), &comments) {
         let text = encoding::decode(comments, options.encoding);
         read.program.comments = text
             .map(|(text, _)| csv::comments(&text))

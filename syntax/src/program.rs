@@ -87,6 +87,42 @@ pub enum SourceKind {
     GxWorks2,
 }
 
+impl SourceKind {
+    /// What it is called.
+    pub const fn title(self) -> &'static str {
+        match self {
+            SourceKind::Il => "instruction list",
+            SourceKind::Csv => "list export",
+            SourceKind::GxDeveloper => "GX Developer",
+            SourceKind::GxWorks2 => "GX Works2",
+        }
+    }
+
+    /// Whether it is a text that a user writes: places in it are lines and columns, and fixes can change it.
+    pub const fn is_text(self) -> bool {
+        match self {
+            SourceKind::Il => true,
+            SourceKind::Csv | SourceKind::GxDeveloper | SourceKind::GxWorks2 => false,
+        }
+    }
+
+    /// Whether it is a table whose rows places can name.
+    pub const fn has_rows(self) -> bool {
+        match self {
+            SourceKind::Csv => true,
+            SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 => false,
+        }
+    }
+
+    /// Whether it is a project of an editor, which holds instructions by their codes and lengths; else a list of mnemonics.
+    pub const fn is_project(self) -> bool {
+        match self {
+            SourceKind::Il | SourceKind::Csv => false,
+            SourceKind::GxDeveloper | SourceKind::GxWorks2 => true,
+        }
+    }
+}
+
 /// One instruction, or a label (`P0`, `I001`), whose mnemonic is then the pointer itself without operands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instr {

@@ -34,9 +34,7 @@ mod writes;
 use crate::resolve::{Resolved, numbered};
 use rungc_catalogue::{Basic, Drive, Inst, Join, Lower, Param};
 use rungc_models::Model;
-use rungc_syntax::{
-    Classes, Device, Diagnostics, Fix, Instr, OperandKind, SourceKind, Span, codes,
-};
+use rungc_syntax::{Classes, Device, Diagnostics, Fix, Instr, OperandKind, Span, codes};
 
 use std::iter::{Copied, Peekable};
 use std::slice::Iter;
@@ -210,7 +208,7 @@ impl<'a> Code<'a> {
     /// instruction, while a line of a list without a mnemonic is none.
     fn may_lack_structure(&self) -> bool {
         let program = self.resolved.program;
-        program.kind != SourceKind::Il && !program.unread.is_empty()
+        !program.kind.is_text() && !program.unread.is_empty()
     }
 
     /// Whether an operand that could not be read may be any device.

@@ -2,7 +2,7 @@
 
 use rungc_catalogue::Found;
 use rungc_models::{Model, ModelId};
-use rungc_syntax::{Diagnostics, Operand, OperandKind, Program, SourceKind, codes};
+use rungc_syntax::{Diagnostics, Operand, OperandKind, Program, codes};
 
 /// Compares lengths; in sources that are lists there is nothing to compare.
 pub(super) struct Checker<'p> {
@@ -68,9 +68,7 @@ impl<'p> Checker<'p> {
             unread,
             ..
         } = self.program;
-        if matches!(kind, SourceKind::Il | SourceKind::Csv)
-            || unread.binary_search(&(at as u32 + 1)).is_ok()
-        {
+        if !kind.is_project() || unread.binary_search(&(at as u32 + 1)).is_ok() {
             return None;
         }
         instrs.get(at + 1)?.step?.checked_sub(instrs[at].step?)

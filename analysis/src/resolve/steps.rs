@@ -1,7 +1,7 @@
 //! Counts steps, and compares them with the step numbers that the source states.
 
 use rungc_models::Model;
-use rungc_syntax::{Diagnostics, Instr, Parameters, Program, SourceKind, Span, codes};
+use rungc_syntax::{Diagnostics, Instr, Parameters, Program, Span, codes};
 
 /// Counts steps from instruction to instruction.
 #[derive(Default)]
@@ -52,7 +52,7 @@ impl Counter {
     /// Reports what does not fit, and gives the length of the program.
     pub(super) fn finish(self, program: &Program, model: &Model, out: &mut Diagnostics) -> u32 {
         // Of a project, the length that each code states was held to the instruction already.
-        let listed = matches!(program.kind, SourceKind::Il | SourceKind::Csv);
+        let listed = !program.kind.is_project();
         if let Some((span, stated, expected)) = self.first.filter(|_| listed) {
             let more = match self.mismatches {
                 1 => String::new(),

@@ -5,7 +5,7 @@ use super::{Context, Failure, findings, write_file};
 use rungc_frontend::{Read, read_text};
 use rungc_lower::compile;
 use rungc_syntax::diag::{self, Fix};
-use rungc_syntax::{Diagnostic, Severity, SourceKind};
+use rungc_syntax::{Diagnostic, Severity};
 use std::fs;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub fn fix(subject: &Subject, cx: Context) -> Result<(), Failure> {
     let Ok(read) = subject::source(subject) else {
         return Ok(());
     };
-    if read.program.kind != SourceKind::Il {
+    if !read.program.kind.is_text() {
         cx.note(&format!(
             "     Skipped {path}: --fix changes instruction lists; change this one in its editor"
         ));

@@ -155,10 +155,7 @@ fn write(path: &Path, lessons: &[Lesson]) -> std::result::Result<(), Failure> {
 
 /// What others need to know to learn the same.
 fn letter(lessons: &[Lesson], project: &Read) -> String {
-    let editor = match project.program.kind {
-        SourceKind::GxWorks2 => "GX Works2",
-        _ => "GX Developer",
-    };
+    let editor = project.program.kind.title();
     let cpu = project.program.cpu.as_deref().unwrap_or("not named");
     let names: Vec<_> = lessons
         .iter()

@@ -9,7 +9,7 @@ use super::location::{Location, instr_at};
 use super::visible::visible_line;
 use super::window::Window;
 use ariadne::{Color, Config, Label, Report, ReportKind, Source};
-use rungc_syntax::{Diagnostic, Severity, SourceKind, Span};
+use rungc_syntax::{Diagnostic, Severity, Span};
 use std::io::{self, Write};
 use std::ops::Range;
 
@@ -123,7 +123,7 @@ fn rows<'a>(findings: &'a Findings, marks: &'a [Mark<'a>]) -> Vec<Row<'a>> {
     let Some(program) = findings.program else {
         return Vec::new();
     };
-    let list = program.kind == SourceKind::Il;
+    let list = program.kind.is_text();
     let mut rows: Vec<Row> = Vec::new();
     for mark in marks {
         let start = mark.span.start as usize;

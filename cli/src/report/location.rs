@@ -1,7 +1,7 @@
 //! Locations of findings as their reader knows them: lines and columns of a text, steps of a project or an export.
 
 use super::Findings;
-use rungc_syntax::{Program, SourceKind, Span};
+use rungc_syntax::{Program, Span};
 use serde::Serialize;
 use std::path::Path;
 
@@ -39,7 +39,7 @@ impl Location {
     pub fn of(findings: &Findings, span: Span) -> Option<Location> {
         let program = findings.program?;
         let at = instr_at(program, span.start);
-        if program.kind == SourceKind::Il {
+        if program.kind.is_text() {
             let (line, column) = program.source.line_col(span.start);
             let (end_line, end_column) = program.source.line_col(span.end);
             return Some(Location {
@@ -59,7 +59,7 @@ impl Location {
             .instrs
             .partition_point(|instr| instr.span.end < span.start);
         let before = before.checked_sub(1).filter(|_| at.is_none());
-        let row = |offset| (program.kind == SourceKind::Csv).then(|| program.source.line(offset));
+        let row = |offset| program.kind.has_rows().then(|| program.source.line(offset));
         Some(Location {
             line: row(span.start),
             end_line: row(span.end),
@@ -108,9 +108,9 @@ pub fn instr_at(program: &Program, offset: u32) -> Option<usize> {
 /// What the editor calls the program of a project or an export.
 fn name_within(program: &Program) -> String {
     let file = || Path::new(&program.source.name).file_stem();
-    let export = || match program.kind {
-        SourceKind::Csv => file().map(|stem| stem.to_string_lossy().into_owned()),
-        SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 => None,
+    let export = || {
+        let stem = file().filter(|_| program.kind.has_rows())?;
+        Some(stem.to_string_lossy().into_owned())
     };
     let named = program.pou.clone().or_else(export);
     named.unwrap_or_else(|| "MAIN".to_owned())

@@ -13,7 +13,7 @@ use crate::args::{Format, Reporting};
 use crate::commands::Context;
 use rungc_firmware::report::Report as Takes;
 use rungc_lower::compile::Compiled;
-use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, SourceKind, codes};
+use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, codes};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -99,7 +99,7 @@ impl<'a> Findings<'a> {
 
     /// The fix of a diagnostic, if the program is a text that it can change.
     fn fix<'d>(&self, diagnostic: &'d Diagnostic) -> Option<&'d Fix> {
-        let text = self.program?.kind == SourceKind::Il;
+        let text = self.program?.kind.is_text();
         diagnostic.fix.as_ref().filter(|_| text)
     }
 
