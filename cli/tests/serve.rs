@@ -198,6 +198,36 @@ fn nothing_to_serve() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// What a program makes of its ports: in reports, as data, and what an emitted program serves.
+#[test]
+fn ports_in_reports() {
+    let settings = b"[serve]\nD = 'D0-D511'\n";
+    let folder = folder(&[("p.il", PROGRAM.as_bytes()), ("rungc.toml", settings)]);
+    let says = |args: &[&str]| {
+        let output = rungc(folder.path(), &[args, &["p.il", "--model", "h2u"]].concat());
+        assert_eq!(output.status.code(), Some(0));
+        output
+    };
+    let port = "Port COM1: Modbus slave RTU, station 1, 9600 8N1";
+    assert!(text(&says(&["check", "-v"]).stderr).contains(port));
+    assert!(!text(&says(&["check"]).stderr).contains(port));
+    let built = says(&["build", "--emit", "c"]);
+    let built = text(&built.stderr);
+    assert!(built.contains(port), "{built}");
+    let served =
+        "Serves the devices that the program names, D0-D511; requests for others are refused";
+    assert!(built.contains(served), "{built}");
+    let json = says(&["check", "--format", "json"]);
+    let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(
+        json["ports"],
+        serde_json::json!([{
+            "port": "COM1", "protocol": "Modbus slave RTU", "station": 1,
+            "bits_per_second": 9600, "data_bits": 8, "parity": "none", "stop_bits": 1
+        }])
+    );
+}
+
 #[test]
 fn logs_that_cannot_be_written() {
     let folder = folder(&[("p.il", PROGRAM.as_bytes())]);

@@ -1,6 +1,7 @@
 //! The whole way from a program to its module.
 
 use crate::{LowerOptions, lower};
+use rungc_analysis::check::ports::{Setup, setups};
 use rungc_analysis::resolve::resolve;
 use rungc_analysis::{check, latches};
 use rungc_ir::layout::Wanted;
@@ -42,6 +43,8 @@ pub struct Compiled {
     pub model: &'static Model,
     /// Length of the program in steps.
     pub steps: u32,
+    /// The serial ports that the program uses or sets up.
+    pub ports: Vec<Setup>,
     /// The step number of each instruction: as the source counts where it does, else as the model does.
     pub step_numbers: Vec<u32>,
 }
@@ -129,6 +132,7 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
         diagnostics,
         model,
         steps: resolved.steps,
+        ports: setups(&resolved),
         step_numbers: resolved.instrs.iter().map(|instr| instr.step).collect(),
     }
 }

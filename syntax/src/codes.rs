@@ -9,6 +9,7 @@
 //! | W02xx | legal, but causes trouble in practice |
 //! | W03xx | where compiled programs differ from the PLC |
 //! | W05xx | what the source says of itself does not fit |
+//! | W06xx, N06xx | how serial ports are set up |
 //! | N00xx | worth knowing: how the source was read |
 //!
 //! A code never changes its meaning and is never reused.
@@ -19,6 +20,7 @@ use crate::diag::{Diagnostic, Severity};
 mod labels;
 mod logic;
 mod operands;
+mod ports;
 mod practice;
 mod project;
 mod reading;
@@ -28,6 +30,7 @@ mod vendor;
 pub use labels::*;
 pub use logic::*;
 pub use operands::*;
+pub use ports::*;
 pub use practice::*;
 pub use project::*;
 pub use reading::*;
@@ -126,6 +129,7 @@ pub fn all() -> Vec<&'static Code> {
         reading::TABLE,
         project::TABLE,
         operands::TABLE,
+        ports::TABLE,
         logic::TABLE,
         structure::TABLE,
         labels::TABLE,

@@ -20,6 +20,7 @@ mod operation_errors;
 mod overlaps;
 mod pairs;
 mod pointers;
+pub mod ports;
 mod resets;
 mod set_and_out;
 mod skips;
@@ -50,6 +51,7 @@ pub fn check(resolved: &Resolved) -> Diagnostics {
     labels::check(&code, &pointers, &nesting, &mut out);
     fast_inputs::check(&code, &pointers, &mut out);
     once::check(&code, &mut out);
+    ports::check(&code, &mut out);
     unimplemented::check(&code, &mut out);
     unreachable::check(&code, &nesting, &mut out);
     let skips = skips::Skips::new(&code, &pointers);

@@ -4,7 +4,7 @@ use super::setting::setting;
 use super::subject::{self, OutputPaths, Subject};
 use super::{
     Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, file_name, findings,
-    interruption, parent_dir, plain, read, say, stem, tell, write_executable, write_file,
+    interruption, parent_dir, plain, ports, read, say, stem, tell, write_executable, write_file,
 };
 use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
@@ -90,6 +90,11 @@ fn build(
         reporter.leave_output();
         reporter.add(&findings)?;
         return Ok(Outcome::Success);
+    }
+    if reporter.is_for_people() {
+        let lines = compiled.ports.iter().map(ports::line);
+        let served = ports::served(&compiled.ports, plan.emit, subject);
+        lines.chain(served).for_each(|line| cx.note(&line));
     }
     if let (Some(takes), true) = (&findings.takes, reporter.is_for_people()) {
         say(&takes.to_string())?;

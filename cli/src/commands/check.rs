@@ -1,7 +1,7 @@
 //! `rungc check`.
 
 use super::subject::{self, Subject};
-use super::{Context, Result, conclude, counted, findings, fix, grouped, read};
+use super::{Context, Result, conclude, counted, findings, fix, grouped, ports, read};
 use crate::args::CheckArgs;
 use crate::report::Reporter;
 use rungc_lower::compile;
@@ -27,6 +27,9 @@ fn check(subject: &Subject, reporter: &mut Reporter, cx: Context) -> Result {
     let findings = findings(subject, &read, &checked);
     if let Some(parameters) = &read.program.parameters {
         cx.detail(|| parameter_lines(parameters, checked.model));
+    }
+    for port in &checked.ports {
+        cx.detail(|| ports::line(port));
     }
     let elapsed = start.elapsed();
     let name = findings.name(reporter.many());

@@ -9,6 +9,7 @@ mod fix;
 pub mod init;
 pub mod interruption;
 pub mod learn;
+mod ports;
 pub mod run;
 pub mod serve;
 pub mod setting;
@@ -188,6 +189,7 @@ pub fn findings<'a>(subject: &'a Subject, read: &'a Read, compiled: &Compiled) -
     Findings {
         size: Some(compiled.into()),
         step_numbers: compiled.step_numbers.clone(),
+        ports: compiled.ports.clone(),
         ..Findings::new(
             &subject.file,
             &read.program,

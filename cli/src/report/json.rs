@@ -2,7 +2,9 @@
 
 use super::Findings;
 use super::location::Location;
+use rungc_analysis::check::ports::Setup;
 use rungc_firmware::report::Report as Takes;
+use rungc_rt::comm::{Parity, Protocol};
 use rungc_syntax::{Diagnostic, Severity, codes};
 use serde::Serialize;
 use std::borrow::Cow;
@@ -29,8 +31,52 @@ pub struct File {
     warnings: usize,
     notes: usize,
     diagnostics: Vec<Item>,
+    /// The serial ports that the program uses or sets up.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    ports: Vec<Port>,
     #[serde(skip_serializing_if = "Option::is_none")]
     report: Option<Takes>,
+}
+
+/// What is not constant is left out.
+#[derive(Serialize)]
+struct Port {
+    port: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    protocol: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    station: Option<u16>,
+    #[serde(flatten)]
+    line: Option<Line>,
+}
+
+/// How characters stand on a line.
+#[derive(Serialize)]
+struct Line {
+    bits_per_second: u32,
+    data_bits: u8,
+    parity: &'static str,
+    stop_bits: u8,
+}
+
+impl From<&Setup> for Port {
+    fn from(setup: &Setup) -> Self {
+        Port {
+            port: format!("COM{}", setup.port),
+            protocol: setup.protocol.map(Protocol::name),
+            station: setup.station,
+            line: setup.format.map(|format| Line {
+                bits_per_second: format.bits_per_second,
+                data_bits: format.data_bits,
+                parity: match format.parity {
+                    Parity::None => "none",
+                    Parity::Odd => "odd",
+                    Parity::Even => "even",
+                },
+                stop_bits: format.stop_bits,
+            }),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -126,6 +172,7 @@ pub fn file(findings: &Findings) -> File {
                 plc_error: d.plc_error,
             })
             .collect(),
+        ports: findings.ports.iter().map(Port::from).collect(),
         report: findings.takes.clone(),
     }
 }

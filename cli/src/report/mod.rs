@@ -11,6 +11,7 @@ pub use visible::{visible, visible_json};
 
 use crate::args::{Format, Reporting};
 use crate::commands::Context;
+use rungc_analysis::check::ports::Setup;
 use rungc_firmware::report::Report as Takes;
 use rungc_lower::compile::Compiled;
 use rungc_syntax::{Diagnostic, Diagnostics, Fix, Label, Program, Severity, codes};
@@ -29,6 +30,8 @@ pub struct Findings<'a> {
     pub diagnostics: Vec<Diagnostic>,
     /// The step number of each instruction, if it came to counting them.
     pub step_numbers: Vec<u32>,
+    /// The serial ports that the program uses or sets up.
+    pub ports: Vec<Setup>,
     /// What it takes on a machine, if that was asked for.
     pub takes: Option<Takes>,
 }
@@ -73,6 +76,7 @@ impl<'a> Findings<'a> {
             size: None,
             diagnostics,
             step_numbers: Vec::new(),
+            ports: Vec::new(),
             takes: None,
         }
     }
@@ -85,6 +89,7 @@ impl<'a> Findings<'a> {
             size: None,
             diagnostics: vec![why],
             step_numbers: Vec::new(),
+            ports: Vec::new(),
             takes: None,
         }
     }

@@ -82,6 +82,17 @@ impl LineFormat {
         }
     }
 
+    /// Whether a format word names a bit rate.
+    pub fn has_rate(word: u16) -> bool {
+        let digit = word >> 4 & 15;
+        digit == L01S_HIGHEST || RATES[usize::from(digit)] != 0
+    }
+
+    /// Whether the format word of HM's UINIT names a bit rate.
+    pub fn has_uinit_rate(word: u16) -> bool {
+        HM_RATES.get(usize::from(word >> 8)).is_some()
+    }
+
     /// What the format word of HM's UINIT says: 8 data bits and 2 stop bits where the others have 7 and 1.
     pub fn from_uinit(word: u16, half_duplex: bool) -> Self {
         let rate = HM_RATES.get(usize::from(word >> 8));

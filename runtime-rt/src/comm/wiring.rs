@@ -400,12 +400,12 @@ impl PortWiring {
     }
 
     /// Whether the end of the first scan in RUN binds the choice; elsewhere the registers choose at any time.
-    pub(crate) const fn binds(&self) -> bool {
+    pub const fn binds(&self) -> bool {
         matches!(self.choice, Choice::Com0 | Choice::Com1 | Choice::Number)
     }
 
     /// What the registers choose now; `uinit` is what UINIT has set up.
-    pub(crate) fn protocol(&self, plc: &dyn Plc, uinit: [u16; 3]) -> Protocol {
+    pub fn protocol(&self, plc: &dyn Plc, uinit: [u16; 3]) -> Protocol {
         let format = value(plc, self.format);
         let number = value(plc, self.protocol);
         match self.choice {
@@ -480,7 +480,7 @@ impl PortWiring {
     }
 
     /// The format of characters on the line under a protocol.
-    pub(crate) fn line(&self, plc: &dyn Plc, protocol: Protocol, uinit: [u16; 3]) -> LineFormat {
+    pub fn line(&self, plc: &dyn Plc, protocol: Protocol, uinit: [u16; 3]) -> LineFormat {
         let word = value(plc, self.format);
         let format = match protocol {
             Protocol::ProgrammingPort => return LineFormat::seven_even(9600, self.one_pair),

@@ -1,0 +1,143 @@
+//! The serial ports of a program: what each of them will be, as far as its registers are set to constants.
+//!
+//! Which registers choose what is data of the runtime ([`PortWiring`]), and so is what they choose: the state machine of a port and this
+//! analysis ask the same functions.
+
+mod facts;
+mod findings;
+
+use super::Code;
+use crate::resolve::Resolved;
+pub(super) use findings::check;
+use rungc_catalogue::Lower;
+use rungc_rt::comm::{Choice, LineFormat, Parity, PortWiring, Protocol};
+use rungc_rt::{Ports, RtFn};
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// What a program makes of a serial port.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Setup {
+    /// The port's number in the model's manual.
+    pub port: u8,
+    /// What it speaks; `None` if that is chosen at run time.
+    pub protocol: Option<Protocol>,
+    /// Its own station, if the protocol has stations and the number is constant.
+    pub station: Option<u16>,
+    /// How characters stand on the line, if that is constant and the port has a line.
+    pub format: Option<LineFormat>,
+}
+
+impl fmt::Display for Setup {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "COM{}: ", self.port)?;
+        match self.protocol {
+            None => f.write_str("protocol chosen at run time")?,
+            Some(protocol) => f.write_str(protocol.name())?,
+        }
+        if let Some(station) = self.station {
+            write!(f, ", station {station}")?;
+        }
+        if let Some(format) = &self.format {
+            let parity = match format.parity {
+                Parity::None => 'N',
+                Parity::Odd => 'O',
+                Parity::Even => 'E',
+            };
+            let (rate, data, stop) = (format.bits_per_second, format.data_bits, format.stop_bits);
+            write!(f, ", {rate} {data}{parity}{stop}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Setup {
+    /// Whether partners read and write devices by it.
+    pub fn serves(&self) -> bool {
+        use Protocol::{ComputerLink, ModbusAscii, ModbusRtu, ProgrammingPort};
+        let slave = matches!(
+            self.protocol,
+            Some(ModbusRtu | ModbusAscii | ComputerLink | ProgrammingPort)
+        );
+        slave || self.protocol.is_none()
+    }
+}
+
+/// The serial ports that a program uses or sets up, in the order of their numbers.
+pub fn setups(resolved: &Resolved) -> Vec<Setup> {
+    let code = Code::new(resolved);
+    let facts = facts::Facts::new(&code);
+    let ports = code.model().ports;
+    let used: BTreeSet<u8> = (0..code.len)
+        .flat_map(|i| port_of(&code, i, ports))
+        .collect();
+    let wirings = ports.all().iter();
+    let wirings = wirings.filter(|wiring| wiring.choice != Choice::Can);
+    let wirings = wirings.filter(|wiring| used.contains(&wiring.number) || facts.touch(wiring));
+    wirings.map(|wiring| setup(&facts, wiring)).collect()
+}
+
+/// What the facts make of a port.
+fn setup(facts: &facts::Facts, wiring: &'static PortWiring) -> Setup {
+    let protocol = facts.protocol(wiring);
+    let station = match protocol {
+        Some(protocol) if has_station(protocol) => facts.station(wiring),
+        _ => None,
+    };
+    let format = match protocol {
+        Some(Protocol::Off) | None => None,
+        Some(protocol) => facts.format(wiring, protocol),
+    };
+    Setup {
+        port: wiring.number,
+        protocol,
+        station,
+        format,
+    }
+}
+
+/// Whether the port's register holds a station under a protocol.
+fn has_station(protocol: Protocol) -> bool {
+    matches!(
+        protocol,
+        Protocol::ModbusRtu | Protocol::ModbusAscii | Protocol::ComputerLink
+    )
+}
+
+/// What an instruction does with a port.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Use {
+    /// Sends and receives characters of the program's own.
+    Free,
+    /// Asks slaves by Modbus.
+    Master,
+    /// Sets it up.
+    SetUp,
+}
+
+/// What an instruction does with a port, if it does anything.
+fn use_of(code: &Code, i: usize) -> Option<(RtFn, Use)> {
+    let Some(Lower::Call(function)) = code.lower(i).filter(|_| !code.is_meant(i)) else {
+        return None;
+    };
+    let needs = function.needs();
+    let of = match function {
+        RtFn::Rs | RtFn::Rs2 | RtFn::Usend | RtFn::Urcv => Use::Free,
+        RtFn::Uinit => Use::SetUp,
+        _ if needs.port || needs.names_port || needs.any_port => Use::Master,
+        _ => return None,
+    };
+    Some((function, of))
+}
+
+/// The port that an instruction uses, if that is certain.
+fn port_of(code: &Code, i: usize, ports: Ports) -> Option<u8> {
+    let (function, _) = use_of(code, i)?;
+    let needs = function.needs();
+    if needs.port {
+        return Some(ports.of_rs());
+    }
+    let operand = code.instr(i).operands.last()?.kind.constant()?;
+    let named = i32::try_from(operand).ok().filter(|_| needs.names_port)?;
+    ports.named(named)
+}

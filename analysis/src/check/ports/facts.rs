@@ -1,0 +1,419 @@
+//! The constants that a program writes to the registers and relays of its ports.
+
+use super::super::accesses;
+use super::super::pointers::Pointers;
+use super::super::skips::Skips;
+use super::super::{Code, Part};
+use rungc_catalogue::{Basic, Lower};
+use rungc_models::Model;
+use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
+use rungc_rt::{Class, Plc, Ports, Register, Relay, RtFn, State, Sys};
+use rungc_syntax::{Device, DeviceClass};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// One write to a register or relay.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Write {
+    /// The instruction.
+    pub(super) at: usize,
+    /// The value, if it is a constant.
+    pub(super) value: Option<u16>,
+    /// Whether it is carried out in the first scan, whatever the devices of the program hold.
+    pub(super) first_scan: bool,
+}
+
+/// UINIT with constants: protocol and station, format.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Uinit {
+    pub(super) at: usize,
+    pub(super) words: [u16; 2],
+}
+
+/// All that is written.
+pub(super) struct Facts {
+    model: &'static Model,
+    /// By the register's or relay's device, in the order of the program.
+    writes: BTreeMap<Device, Vec<Write>>,
+    /// By port; `None` for one whose operands are not constant.
+    pub(super) uinit: BTreeMap<u8, Vec<Option<Uinit>>>,
+}
+
+/// What a register holds once the program has set it up.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Held {
+    /// The value at power-on.
+    Default(u16),
+    /// A constant.
+    Constant(u16),
+    /// That depends on what happens.
+    Unknown,
+}
+
+impl Held {
+    pub(super) fn known(self) -> Option<u16> {
+        match self {
+            Held::Default(value) | Held::Constant(value) => Some(value),
+            Held::Unknown => None,
+        }
+    }
+}
+
+/// The device that a register is.
+pub(super) fn d(register: Register) -> Device {
+    let (class, number) = (DeviceClass::D, register.number());
+    Device { class, number }
+}
+
+/// The device that a relay is.
+pub(super) fn m(relay: Relay) -> Device {
+    let (class, number) = (DeviceClass::M, relay.number());
+    Device { class, number }
+}
+
+impl Facts {
+    pub(super) fn new(code: &Code) -> Self {
+        let ports = code.model().ports.all().iter();
+        let words = ports
+            .clone()
+            .flat_map(|wiring| wiring.setup_registers().chain(wiring.station).map(d));
+        let relays = ports.flat_map(|wiring| wiring.setup_relays().map(m));
+        let watched: BTreeSet<Device> = words.chain(relays).collect();
+        let mut facts = Facts {
+            model: code.model(),
+            writes: BTreeMap::new(),
+            uinit: BTreeMap::new(),
+        };
+        let mut when = When::new(code);
+        for i in 0..code.len {
+            let first_scan = when.next(code, i);
+            facts.note(code, i, first_scan, &watched);
+        }
+        facts
+    }
+
+    /// Notes what instruction `i` writes.
+    fn note(&mut self, code: &Code, i: usize, first_scan: bool, watched: &BTreeSet<Device>) {
+        if matches!(code.lower(i), Some(Lower::Call(RtFn::Uinit))) {
+            self.note_uinit(code, i);
+        }
+        let constants = constants(code, i);
+        for access in accesses::of(code, i).filter(accesses::Access::writes) {
+            let Device { class, number } = access.first;
+            // What may be any register is not taken for a set-up.
+            let Some(count) = access.count else { continue };
+            let last = Device {
+                class,
+                number: number.saturating_add(count.saturating_sub(1)),
+            };
+            for &device in watched.range(access.first..=last) {
+                let value = constants.get(&device).copied();
+                self.writes.entry(device).or_default().push(Write {
+                    at: i,
+                    value,
+                    first_scan,
+                });
+            }
+        }
+    }
+
+    fn note_uinit(&mut self, code: &Code, i: usize) {
+        let constant = |n: usize| constant(code, i, n).map(|value| value as u16);
+        let port = code.instr(i).operands.last();
+        let port = port.and_then(|operand| operand.kind.constant());
+        let port = port.and_then(|port| code.model().ports.named(i32::try_from(port).ok()?));
+        let Some(port) = port else { return };
+        let words = constant(0).zip(constant(1));
+        let uinit = words.map(|(protocol, format)| Uinit {
+            at: i,
+            words: [protocol, format],
+        });
+        self.uinit.entry(port).or_default().push(uinit);
+    }
+
+    /// What is written to a device.
+    pub(super) fn writes(&self, device: Device) -> &[Write] {
+        self.writes.get(&device).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether the program sets up a port.
+    pub(super) fn touch(&self, wiring: &PortWiring) -> bool {
+        let registers = wiring.setup_registers().map(d);
+        let mut devices = registers.chain(wiring.setup_relays().map(m));
+        devices.any(|device| !self.writes(device).is_empty())
+    }
+
+    /// What a device holds after the set-up; bits are 0 and 1.
+    pub(super) fn held(&self, device: Device) -> Held {
+        let writes = self.writes(device);
+        let Some(last) = writes.last() else {
+            let mut words = self.model.special_words();
+            let default =
+                words.find(|word| (device.class, device.number) == (DeviceClass::D, word.0));
+            return Held::Default(default.map_or(0, |word| word.1 as u16));
+        };
+        let same = writes.iter().all(|write| write.value == last.value);
+        let ordered = writes.iter().all(|write| write.first_scan);
+        match last
+            .value
+            .filter(|_| same || ordered && writes.iter().all(|w| w.value.is_some()))
+        {
+            Some(value) => Held::Constant(value),
+            None => Held::Unknown,
+        }
+    }
+
+    /// What UINIT makes of a port.
+    fn uinit_words(&self, port: u8) -> Option<[u16; 3]> {
+        match self.uinit.get(&port).map(Vec::as_slice) {
+            None => Some([0; 3]),
+            Some([Some(first), rest @ ..]) => {
+                let same = |other: &Option<Uinit>| other.is_some_and(|o| o.words == first.words);
+                let [protocol, format] = first.words;
+                rest.iter().all(same).then_some([protocol, format, 0])
+            }
+            Some(_) => None,
+        }
+    }
+
+    /// What a port speaks, if that is constant.
+    pub(super) fn protocol(&self, wiring: &PortWiring) -> Option<Protocol> {
+        // A format that is computed also chooses, where nothing else does.
+        let number = wiring.protocol;
+        let number = number.filter(|&number| self.held(d(number)).known() != Some(0));
+        let chooses = wiring.setup_registers();
+        let registers = chooses.filter(|&n| number.is_none_or(|number| n == number));
+        let relays = wiring.setup_relays().map(m);
+        let mut devices = registers.map(d).chain(relays);
+        if devices.any(|device| self.held(device) == Held::Unknown) {
+            return None;
+        }
+        let uinit = self.uinit_words(wiring.number)?;
+        Some(wiring.protocol(&self.memory(wiring), uinit))
+    }
+
+    /// The station of a port, if it is constant.
+    pub(super) fn station(&self, wiring: &PortWiring) -> Option<u16> {
+        match wiring.station {
+            Some(register) => self.held(d(register)).known(),
+            None => self.uinit_words(wiring.number).map(|words| words[0] & 0xff),
+        }
+    }
+
+    /// How characters stand on the line of a port, if that is constant.
+    pub(super) fn format(&self, wiring: &PortWiring, protocol: Protocol) -> Option<LineFormat> {
+        if wiring
+            .format
+            .is_some_and(|word| self.held(d(word)) == Held::Unknown)
+        {
+            return None;
+        }
+        let uinit = self.uinit_words(wiring.number)?;
+        Some(wiring.line(&self.memory(wiring), protocol, uinit))
+    }
+
+    /// The devices of a PLC that has been set up.
+    fn memory(&self, wiring: &PortWiring) -> Memory {
+        let words = wiring.setup_registers().chain(wiring.station);
+        let held = |device| self.held(device).known().unwrap_or(0);
+        let relays = wiring.setup_relays().filter(|&n| held(m(n)) != 0);
+        let mut sys = Sys::power_on();
+        sys.running = true;
+        Memory {
+            words: words.map(|n| (n.number(), held(d(n)))).collect(),
+            relays: relays.map(Relay::number).collect(),
+            sys,
+            state: State::new(),
+            ports: self.model.ports,
+            type_code: self.model.type_code(),
+        }
+    }
+}
+
+/// A constant operand.
+fn constant(code: &Code, i: usize, n: usize) -> Option<i64> {
+    code.instr(i).operands.get(n)?.kind.constant()
+}
+
+/// The constants that an instruction writes, by device.
+fn constants(code: &Code, i: usize) -> BTreeMap<Device, u16> {
+    let mut found = BTreeMap::new();
+    let device = |n: usize| code.device(i, n);
+    let bit = |on: bool| device(0).map(|device| (device, u16::from(on)));
+    match code.basic(i) {
+        // A coil that is off again leaves the choice as it was when it was bound.
+        Some(Basic::Out | Basic::Set) => found.extend(bit(true)),
+        Some(Basic::Rst) => found.extend(bit(false)),
+        _ => {}
+    }
+    let name = code.inst(i).map(|inst| inst.name);
+    let count = match name {
+        Some("MOV") => 1,
+        Some("FMOV") => constant(code, i, 2).unwrap_or(0),
+        _ => return found,
+    };
+    let (Some(value), Some(first)) = (constant(code, i, 0), device(1)) else {
+        return found;
+    };
+    let words: &[u16] = match code.wide(i) {
+        true => &[value as u16, (value >> 16) as u16],
+        false => &[value as u16],
+    };
+    let numbers = first.number..;
+    let each = words
+        .iter()
+        .cycle()
+        .take(words.len() * count.clamp(0, 512) as usize);
+    let device = |number| Device {
+        class: first.class,
+        number,
+    };
+    found.extend(numbers.zip(each).map(|(n, &word)| (device(n), word)));
+    found
+}
+
+/// Whether instructions are carried out in the first scan for certain.
+struct When {
+    skips: Skips,
+    stack: Vec<bool>,
+    branches: Vec<bool>,
+    /// In the main program, outside of states and master controls.
+    plain: bool,
+    controls: u32,
+}
+
+impl When {
+    fn new(code: &Code) -> Self {
+        When {
+            skips: Skips::new(code, &Pointers::new(code)),
+            stack: Vec::new(),
+            branches: Vec::new(),
+            plain: true,
+            controls: 0,
+        }
+    }
+
+    /// Takes instruction `i`, the next of the program.
+    fn next(&mut self, code: &Code, i: usize) -> bool {
+        let top = self.stack.last().copied().unwrap_or(true);
+        match code.part(i) {
+            Part::Start => self.stack.push(is_on_first(code, i)),
+            Part::Continue => {
+                let result = match code.basic(i) {
+                    Some(Basic::And | Basic::Ani) => top && is_on_first(code, i),
+                    Some(Basic::Or | Basic::Ori) => top || is_on_first(code, i),
+                    _ => false,
+                };
+                self.replace(result);
+            }
+            part @ (Part::JoinSeries | Part::JoinParallel) => {
+                self.stack.pop();
+                let left = self.stack.last().copied().unwrap_or(true);
+                self.replace(match part {
+                    Part::JoinSeries => left && top,
+                    _ => left || top,
+                });
+            }
+            Part::Push => self.branches.push(top),
+            Part::Read => {
+                let branch = self.branches.last().copied().unwrap_or(true);
+                self.replace(branch);
+            }
+            Part::Pop => {
+                let branch = self.branches.pop().unwrap_or(true);
+                self.replace(branch);
+            }
+            Part::Alone | Part::Unknown => {
+                self.stack.clear();
+                self.branches.clear();
+            }
+            Part::Output | Part::Nothing => {}
+        }
+        match code.basic(i) {
+            Some(Basic::Stl | Basic::Fend | Basic::End) => self.plain = false,
+            Some(Basic::Ret) => self.plain = true,
+            Some(Basic::Mc) => self.controls += 1,
+            Some(Basic::Mcr) => self.controls = self.controls.saturating_sub(1),
+            _ => {}
+        }
+        top && self.plain && self.controls == 0 && self.skips.mark(i) == 0
+    }
+
+    fn replace(&mut self, result: bool) {
+        self.stack.pop();
+        self.stack.push(result);
+    }
+}
+
+/// Whether a contact is on in the first scan.
+fn is_on_first(code: &Code, i: usize) -> bool {
+    let Some(device) = code
+        .device(i, 0)
+        .filter(|device| device.class == DeviceClass::M)
+    else {
+        return false;
+    };
+    match code.basic(i) {
+        Some(Basic::Ld | Basic::And | Basic::Or | Basic::Ldp) => {
+            matches!(device.number, 8000 | 8002)
+        }
+        Some(Basic::Ldi | Basic::Ani | Basic::Ori) => matches!(device.number, 8001 | 8003),
+        _ => false,
+    }
+}
+
+/// The special devices of a port after its set-up; all others are 0.
+struct Memory {
+    words: BTreeMap<u32, u16>,
+    relays: BTreeSet<u32>,
+    sys: Sys,
+    state: State,
+    ports: Ports,
+    type_code: u16,
+}
+
+impl Plc for Memory {
+    fn bit(&self, class: Class, number: u32) -> Option<bool> {
+        Some(class == Class::M && self.relays.contains(&number))
+    }
+
+    fn set_bit(&mut self, _: Class, _: u32, _: bool) -> Option<()> {
+        None
+    }
+
+    fn word(&self, class: Class, number: u32) -> Option<i16> {
+        let word = self.words.get(&number).filter(|_| class == Class::D);
+        Some(word.map_or(0, |&word| word as i16))
+    }
+
+    fn set_word(&mut self, _: Class, _: u32, _: i16) -> Option<()> {
+        None
+    }
+
+    fn counter32(&self, _: u32) -> Option<i32> {
+        None
+    }
+
+    fn set_counter32(&mut self, _: u32, _: i32) -> Option<()> {
+        None
+    }
+
+    fn state(&mut self, _: u16) -> &mut State {
+        &mut self.state
+    }
+
+    fn sys(&self) -> &Sys {
+        &self.sys
+    }
+
+    fn ports(&self) -> Ports {
+        self.ports
+    }
+
+    fn type_code(&self) -> u16 {
+        self.type_code
+    }
+
+    fn reset(&mut self, _: Class, _: u32) -> Option<()> {
+        None
+    }
+}

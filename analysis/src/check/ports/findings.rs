@@ -1,0 +1,327 @@
+//! What is wrong with the set-up of serial ports.
+
+use super::super::Code;
+use super::facts::{Facts, Held, Uinit, Write, d, m};
+use super::{Use, has_station, port_of, use_of};
+use rungc_rt::comm::{Choice, LineFormat, PortWiring, Protocol};
+use rungc_rt::{Ports, RtFn};
+use rungc_syntax::{Device, Diagnostic, Diagnostics, codes};
+use std::ops::RangeInclusive;
+
+/// Checks the ports that a program uses or sets up.
+pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
+    let facts = Facts::new(code);
+    for wiring in code.model().ports.all() {
+        if wiring.choice == Choice::Can {
+            continue;
+        }
+        let port = Port {
+            code,
+            facts: &facts,
+            wiring,
+            protocol: facts.protocol(wiring),
+        };
+        if facts.touch(wiring) || facts.uinit.contains_key(&wiring.number) {
+            port.contradictions(out);
+            port.late(out);
+            port.station(out);
+            port.rate(out);
+            port.own_frames(out);
+            port.instructions(out);
+        }
+    }
+    parallel(code, &facts, out);
+}
+
+/// A port that a program uses or sets up.
+struct Port<'a> {
+    code: &'a Code<'a>,
+    facts: &'a Facts,
+    wiring: &'static PortWiring,
+    protocol: Option<Protocol>,
+}
+
+impl Port<'_> {
+    fn name(&self) -> String {
+        format!("COM{}", self.wiring.number)
+    }
+
+    /// The devices that choose what the port speaks, and its format.
+    fn chooses(&self) -> impl Iterator<Item = Device> {
+        let registers = self.wiring.setup_registers().map(d);
+        registers.chain(self.wiring.setup_relays().map(m))
+    }
+
+    /// Two constants for one register, both written in the first scan. 0 clears a register before it is set up.
+    fn contradictions(&self, out: &mut Diagnostics) {
+        for device in self.wiring.setup_registers().map(d) {
+            let sets = |write: &&Write| write.first_scan && write.value.is_some_and(|v| v != 0);
+            let writes: Vec<_> = self.facts.writes(device).iter().filter(sets).collect();
+            let Some((first, rest)) = writes.split_first() else {
+                continue;
+            };
+            let Some(other) = rest.iter().find(|other| other.value != first.value) else {
+                continue;
+            };
+            let message = format!("`{device}` of {} is set to two values", self.name());
+            let diagnostic = codes::PORT_SET_TWICE
+                .at(self.code.span(other.at), message)
+                .label("this value counts …")
+                .other(self.code.span(first.at), "… this one is overwritten");
+            out.push(diagnostic);
+        }
+        let twice = |uinits: &Vec<Option<Uinit>>| {
+            let mut known = uinits.iter().flatten();
+            let first = *known.next()?;
+            let other = known.find(|other| other.words != first.words)?;
+            Some((first, *other))
+        };
+        let uinits = self.facts.uinit.get(&self.wiring.number);
+        if let Some((first, other)) = uinits.and_then(twice) {
+            let message = format!("{} is set up in two ways", self.name());
+            let diagnostic = codes::PORT_SET_TWICE
+                .at(self.code.span(other.at), message)
+                .label("set up like this here …")
+                .other(self.code.span(first.at), "… and otherwise here");
+            out.push(diagnostic);
+        }
+    }
+
+    /// A choice that is made after the first scan, where that is too late.
+    fn late(&self, out: &mut Diagnostics) {
+        if !self.wiring.binds() {
+            return;
+        }
+        let protocol = self.wiring.protocol.map(d);
+        let relays = self.wiring.setup_relays().map(m);
+        for device in protocol.into_iter().chain(relays) {
+            let writes = self.facts.writes(device);
+            let in_time = writes.iter().any(|write| write.first_scan);
+            let Some(first) = writes.iter().find(|write| write.value != Some(0)) else {
+                continue;
+            };
+            if in_time {
+                continue;
+            }
+            let model = self.code.model().name.to_uppercase();
+            let message = format!(
+                "`{device}` is not always set in the first scan, at whose end {model} fixes the protocol of {}",
+                self.name()
+            );
+            let diagnostic = codes::PORT_SET_LATE
+                .at(self.code.span(first.at), message)
+                .label("may take effect only after the next change from STOP to RUN")
+                .help("set it under `LD M8002` or `LD M8000`");
+            out.push(diagnostic);
+        }
+    }
+
+    /// Where a register, or the station in UINIT, is set last.
+    fn place(&self, device: Option<Device>) -> Option<usize> {
+        let writes = device.map_or(&[][..], |device| self.facts.writes(device));
+        let uinits = self.facts.uinit.get(&self.wiring.number);
+        let uinit = uinits.and_then(|uinits| uinits.iter().flatten().next());
+        writes
+            .last()
+            .map(|write| write.at)
+            .or(uinit.map(|uinit| uinit.at))
+    }
+
+    /// A station that no frame can name.
+    fn station(&self, out: &mut Diagnostics) {
+        let Some(protocol) = self.protocol.filter(|&protocol| has_station(protocol)) else {
+            return;
+        };
+        let stations: RangeInclusive<u16> = match (protocol, self.code.model().ports) {
+            (Protocol::ComputerLink, Ports::Hm) => 1..=63,
+            (Protocol::ComputerLink, _) => 0..=15,
+            _ => 1..=247,
+        };
+        let register = self.wiring.station.map(d);
+        let station = self.facts.station(self.wiring);
+        let Some(station) = station.filter(|station| !stations.contains(station)) else {
+            return;
+        };
+        let place = self.place(register).or_else(|| {
+            let mut choosing = self.chooses().filter_map(|device| self.place(Some(device)));
+            choosing.next()
+        });
+        let Some(place) = place else { return };
+        let (least, most) = (stations.start(), stations.end());
+        let message = format!(
+            "{} is a {} with station {station}; stations are {least} to {most}",
+            self.name(),
+            noun(protocol)
+        );
+        let diagnostic = codes::PORT_STATION
+            .at(self.code.span(place), message)
+            .label("no frame can be for this station");
+        out.push(match register {
+            Some(register) => diagnostic.help(format!("set `{register}` to its station")),
+            None => diagnostic,
+        });
+    }
+
+    /// A format word that names no bit rate.
+    fn rate(&self, out: &mut Diagnostics) {
+        use Protocol::{EnhancedMaster, EnhancedSlave, NnMaster, NnSlave};
+        use Protocol::{Off, ParallelMaster, ParallelSlave, ProgrammingPort};
+        let usual = matches!(
+            self.protocol,
+            None | Some(
+                Off | ProgrammingPort
+                    | NnMaster
+                    | NnSlave
+                    | EnhancedMaster
+                    | EnhancedSlave
+                    | ParallelMaster
+                    | ParallelSlave
+            )
+        );
+        if usual {
+            return;
+        }
+        let register = self.wiring.format.map(d);
+        let word = match register.map(|register| self.facts.held(register)) {
+            // 0 takes a format away.
+            Some(Held::Constant(word)) => {
+                (word != 0 && !LineFormat::has_rate(word)).then_some(word)
+            }
+            Some(Held::Default(_) | Held::Unknown) => None,
+            None => {
+                let uinits = self.facts.uinit.get(&self.wiring.number);
+                let uinits = uinits.into_iter().flatten().flatten();
+                let words = uinits.map(|uinit| uinit.words[1]);
+                words
+                    .into_iter()
+                    .find(|&word| !LineFormat::has_uinit_rate(word))
+            }
+        };
+        let (Some(word), Some(place)) = (word, self.place(register)) else {
+            return;
+        };
+        let message = format!(
+            "the format word H{word:X} of {} names no bit rate",
+            self.name()
+        );
+        let diagnostic = codes::PORT_RATE
+            .at(self.code.span(place), message)
+            .label("the port runs at 9600 bit/s");
+        out.push(diagnostic);
+    }
+
+    /// A link whose frames the manuals do not print.
+    fn own_frames(&self, out: &mut Diagnostics) {
+        use Protocol::{EnhancedMaster, EnhancedSlave, NnMaster, NnSlave};
+        use Protocol::{ParallelMaster, ParallelSlave};
+        let own = |protocol: &Protocol| {
+            matches!(
+                protocol,
+                EnhancedMaster
+                    | EnhancedSlave
+                    | NnMaster
+                    | NnSlave
+                    | ParallelMaster
+                    | ParallelSlave
+            )
+        };
+        let Some(protocol) = self.protocol.filter(own) else {
+            return;
+        };
+        let mut places = self.chooses().filter_map(|device| self.place(Some(device)));
+        let Some(place) = places.next() else { return };
+        let message = format!(
+            "{} is the {}: its partners have to run programs of rungc, too",
+            self.name(),
+            protocol.name()
+        );
+        let note = codes::OWN_FRAMES
+            .at(self.code.span(place), message)
+            .label("the manuals do not print the frames of this link")
+            .help("docs/src/links.md describes the frames");
+        out.push(note);
+    }
+
+    /// Instructions that the protocol of the port does not serve; the first of each kind is reported.
+    fn instructions(&self, out: &mut Diagnostics) {
+        let Some(protocol) = self.protocol else {
+            return;
+        };
+        let mut reported = [false; 2];
+        for i in 0..self.code.len {
+            if port_of(self.code, i, self.code.model().ports) != Some(self.wiring.number) {
+                continue;
+            }
+            let Some((function, of)) = use_of(self.code, i) else {
+                continue;
+            };
+            // RS also asks by Modbus where the port is a master (h1u-h2u-programming §5.7).
+            let asks = protocol.is_master() && function == RtFn::Rs;
+            let (served, kind, code) = match of {
+                Use::Free => (protocol == Protocol::Free || asks, 0, &codes::PORT_NOT_FREE),
+                Use::Master => (protocol.is_master(), 1, &codes::PORT_NOT_MASTER),
+                Use::SetUp => continue,
+            };
+            if served || std::mem::replace(&mut reported[kind], true) {
+                continue;
+            }
+            let mnemonic = &self.code.instr(i).mnemonic;
+            let name = self.name();
+            let message = match protocol {
+                Protocol::Off => format!("`{mnemonic}` works on {name}, which has no protocol"),
+                _ => format!(
+                    "`{mnemonic}` works on {name}, which is a {}",
+                    noun(protocol)
+                ),
+            };
+            let diagnostic = code
+                .at(self.code.span(i), message)
+                .label("nothing is sent or received");
+            out.push(self.with_choice(diagnostic));
+        }
+    }
+
+    /// With the place where the protocol is chosen.
+    fn with_choice(&self, diagnostic: Diagnostic) -> Diagnostic {
+        let mut places = self.chooses().filter_map(|device| self.place(Some(device)));
+        match places.next() {
+            Some(place) => diagnostic.other(self.code.span(place), "the port is set up here"),
+            None => diagnostic,
+        }
+    }
+}
+
+/// What a port is under a protocol, after "a".
+fn noun(protocol: Protocol) -> &'static str {
+    match protocol {
+        Protocol::Free => "port with a free protocol",
+        Protocol::ModbusRtu => "Modbus RTU slave",
+        Protocol::ModbusAscii => "Modbus ASCII slave",
+        Protocol::MasterRtu | Protocol::MasterTable => "Modbus RTU master",
+        Protocol::MasterAscii => "Modbus ASCII master",
+        Protocol::ComputerLink => "slave of a computer link",
+        other => other.name(),
+    }
+}
+
+/// A parallel link whose master and slave this PLC is both.
+fn parallel(code: &Code, facts: &Facts, out: &mut Diagnostics) {
+    let mut ports = code.model().ports.all().iter();
+    // Its relays are those of the master and of the slave.
+    let Some(port) = ports.find(|wiring| wiring.choice == Choice::Com1) else {
+        return;
+    };
+    let on = |write: &&Write| write.first_scan && write.value == Some(1);
+    let ends = port.setup_relays().map(m);
+    let ends: Vec<_> = ends
+        .filter_map(|relay| facts.writes(relay).iter().find(on))
+        .collect();
+    if let [master, slave] = ends[..] {
+        let message = "the PLC is both master and slave of a parallel link";
+        let diagnostic = codes::LINK_BOTH_ENDS
+            .at(code.span(slave.at), message)
+            .label("slave")
+            .other(code.span(master.at), "master");
+        out.push(diagnostic);
+    }
+}

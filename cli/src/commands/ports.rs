@@ -1,0 +1,33 @@
+//! What is said of a program's serial ports.
+
+use super::subject::Subject;
+use crate::args::Emit;
+use rungc_analysis::check::ports::Setup;
+use rungc_project::Range;
+
+/// What a program makes of a serial port, as a line.
+pub fn line(port: &Setup) -> String {
+    format!("        Port {port}")
+}
+
+/// What the ports of an emitted program serve, as a line; `None` if none of them serves devices, or if the form of output has no ports of
+/// its own.
+pub fn served(ports: &[Setup], emit: Option<Emit>, subject: &Subject) -> Option<String> {
+    let emits = emit.is_some_and(|emit| emit != Emit::Ir);
+    if !emits || !ports.iter().any(Setup::serves) {
+        return None;
+    }
+    let ranges = subject.project.iter();
+    let ranges = ranges
+        .flat_map(|project| &project.serve.devices)
+        .map(|range| {
+            let Range {
+                class, first, last, ..
+            } = *range;
+            format!(", {}-{}", class.number(first), class.number(last))
+        });
+    let ranges: String = ranges.collect();
+    Some(format!(
+        "      Serves the devices that the program names{ranges}; requests for others are refused (`[serve]` of rungc.toml adds ranges)"
+    ))
+}

@@ -1,0 +1,73 @@
+//! What is known of a program's serial ports before it runs.
+
+use rungc_frontend::read_text;
+use rungc_lower::compile::{CompileOptions, check};
+use rungc_models::ModelId;
+
+/// The ports of a program, a line each.
+fn ports(model: ModelId, text: &str) -> String {
+    let program = read_text("program", text).program;
+    let options = CompileOptions {
+        model: Some(model),
+        ..CompileOptions::default()
+    };
+    let checked = check(&program, &options);
+    assert!(!checked.diagnostics.has_errors(), "{text}");
+    let lines = checked.ports.iter().map(ToString::to_string);
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn constants_say_what_a_port_will_be() {
+    use ModelId::{Fx3u, H2u, Hm, L01s};
+    let shown = |model, text: &str| format!("{text}=> {}\n", ports(model, text));
+    insta::assert_snapshot!(
+        [
+            "Modbus slave",
+            &shown(
+                H2u,
+                "LD M8002\nMOV H2 D8126\nMOV H89 D8120\nMOV K3 D8121\nEND\n"
+            ),
+            "a station that the program computes",
+            &shown(H2u, "LD M8002\nMOV H3 D8126\nMOV K2X0 D8121\nEND\n"),
+            "a format that the program computes",
+            &shown(H2u, "LD M8002\nMOV H2 D8126\nMOV D0 D8120\nEND\n"),
+            "a protocol that the program computes",
+            &shown(H2u, "LD M8002\nMOV D0 D8126\nMOV H81 D8120\nEND\n"),
+            "a protocol that an input chooses",
+            &shown(H2u, "LD X0\nMOV H2 D8126\nLDI X0\nMOV H6 D8126\nEND\n"),
+            "two ports; COM0 stays what it is",
+            &shown(H2u, "LD M8002\nMOV H40 D8126\nMOV H60 D8266\nEND\n"),
+            "registers cleared before they are set",
+            &shown(
+                H2u,
+                "LD M8002\nFMOV K0 D8120 K10\nMOV H20 D8126\nMOV HC1 D8120\nEND\n"
+            ),
+            "32 bits at once: format and station",
+            &shown(H2u, "LD M8002\nDMOV H50081 D8120\nMOV H2 D8126\nEND\n"),
+            "an instruction alone",
+            &shown(H2u, "LD X0\nRS D0 K8 D100 K8\nEND\n"),
+            "a parallel link by its relay",
+            &shown(H2u, "LD M8000\nOUT M8070\nEND\n"),
+            "no port",
+            &shown(H2u, "LD X0\nOUT Y0\nEND\n"),
+            "port 2 of L01S as a master",
+            &shown(
+                L01s,
+                "LD M8000\nOUT M8196\nOUT M8125\nLD M8002\nMOV K255 D8121\nMOV HA1 D8120\nEND\n"
+            ),
+            "port 3 of L01S as a slave",
+            &shown(
+                L01s,
+                "LD M8000\nOUT M8192\nLD M8002\nMOV H111 D8401\nMOV K7 D8414\nMOV H97 D8400\nEND\n"
+            ),
+            "HM",
+            &shown(Hm, "LD M8002\nUINIT H0305 H0108 K100 K1\nEND\n"),
+            "HM, by registers",
+            &shown(Hm, "LD M8002\nUINIT D0 H0108 K100 K1\nEND\n"),
+            "computer link of FX3U",
+            &shown(Fx3u, "LD M8002\nMOV H6086 D8120\nEND\n"),
+        ]
+        .join("\n")
+    );
+}

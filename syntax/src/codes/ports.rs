@@ -1,0 +1,59 @@
+//! Serial ports: how a program sets them up.
+
+super::codes! {
+    PORT_SET_TWICE = "W0601" "port-set-twice" Warning None,
+    "a serial port that is set up in two ways",
+    "The program sets a register of the port to two different values in the same scan, so the last one decides; it wants two protocols or two formats on one port. Setting a register to 0 first is not reported.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H2 D8126\nLD M8000\nMOV H20 D8126\nEND\n",
+    right: "LD M8002\nMOV H20 D8126\nEND\n";
+
+    PORT_NOT_MASTER = "W0602" "port-not-master" Warning None,
+    "a Modbus master's instruction on a port that is not a master",
+    "The instruction asks slaves by Modbus, but the registers of its port choose another protocol, so nothing is sent. `D8126` = H20 makes COM1 of H1U and H2U an RTU master.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H2 D8126\nLD X0\nMODBUS H0203 H100 K1 D20\nEND\n",
+    right: "LD M8002\nMOV H20 D8126\nLD X0\nMODBUS H0203 H100 K1 D20\nEND\n";
+
+    PORT_NOT_FREE = "W0603" "port-not-free" Warning None,
+    "RS on a port that serves another protocol",
+    "RS and similar instructions send and receive characters of the program's own, but the registers of the port choose another protocol, so they do nothing.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H2 D8126\nLD X0\nRS D0 K8 D100 K8\nEND\n",
+    right: "LD M8002\nMOV H0 D8126\nLD X0\nRS D0 K8 D100 K8\nEND\n";
+
+    LINK_BOTH_ENDS = "W0604" "link-both-ends" Warning None,
+    "master and slave of a parallel link in one PLC",
+    "M8070 makes the PLC the master of a parallel link, M8071 the slave. With both on, the link does not run, and M8073 comes on.",
+    model: "h2u",
+    wrong: "LD M8000\nOUT M8070\nOUT M8071\nEND\n",
+    right: "LD M8000\nOUT M8070\nEND\n";
+
+    PORT_STATION = "W0605" "port-station" Warning None,
+    "a station number that no frame can name",
+    "A Modbus slave has a station of 1 to 247, a slave of a computer link one of 0 to 15 (HM: 1 to 63). With another number the port answers no request.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H2 D8126\nMOV K250 D8121\nEND\n",
+    right: "LD M8002\nMOV H2 D8126\nMOV K25 D8121\nEND\n";
+
+    PORT_SET_LATE = "W0606" "port-set-late" Warning None,
+    "a protocol that is chosen after it is fixed",
+    "H1U and H2U fix the protocol of each port at the end of the first scan in RUN. A register that is set only under some condition may be set too late, and then takes effect only after the PLC has been stopped and started again.",
+    model: "h2u",
+    wrong: "LD X0\nMOV H2 D8126\nEND\n",
+    right: "LD M8002\nMOV H2 D8126\nEND\n";
+
+    PORT_RATE = "W0607" "port-rate" Warning None,
+    "a format word that names no bit rate",
+    "Bits 4 to 7 of a format word stand for the bit rate: 3 is 300 bit/s, 8 is 9600 bit/s, 12 is 115,200 bit/s. This word has a value there that stands for none, so the port runs at 9600 bit/s.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H2 D8126\nMOV H1 D8120\nEND\n",
+    right: "LD M8002\nMOV H2 D8126\nMOV H81 D8120\nEND\n";
+
+    OWN_FRAMES = "N0601" "own-frames" Note None,
+    "a link whose frames the manuals do not print",
+    "The manuals describe the registers and the effect of this link, but not its frames. rungc uses its own frames, so all partners have to run programs of rungc: a compiled program cannot replace one PLC among others. docs/src/links.md describes the frames.",
+    model: "h2u",
+    wrong: "LD M8002\nMOV H4 D8126\nMOV K1 D8176\nEND\n",
+    right: "LD M8002\nMOV H2 D8126\nMOV K1 D8121\nEND\n";
+}
