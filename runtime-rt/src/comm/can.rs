@@ -81,6 +81,8 @@ impl CanFrame {
 /// Whether the characters received so far are a frame. Answers of the adapter are dropped.
 pub(super) fn cut(received: &[u8]) -> Cut {
     match received {
+        // Neither letter is a digit: what came before was cut.
+        [_, .., b't' | b'T'] => Cut::Restart,
         [b't' | b'T', .., b'\r'] => Cut::Whole,
         // A time stamp has four digits more.
         [b't' | b'T', ..] if received.len() < LONGEST + 4 => Cut::More,
@@ -181,6 +183,7 @@ mod tests {
         assert_eq!(CanFrame::parse(b"t2009112233445566778899\r"), None);
         assert_eq!(cut(b"t2003123456\r"), Cut::Whole);
         assert_eq!(cut(b"z\r"), Cut::Drop);
+        assert_eq!(cut(b"t2003t"), Cut::Restart);
     }
 
     #[test]

@@ -288,9 +288,14 @@ impl Session<'_> {
                 self.status.received += 1;
                 true
             }
-            None => {
+            // No frame is as long. One that silence ends goes on until then; else this character may begin another.
+            None if at == 0 || self.status.protocol.ends_by_silence() => {
                 self.status.spoiled = true;
                 false
+            }
+            None => {
+                self.drop_frame();
+                self.store(character)
             }
         }
     }

@@ -47,6 +47,21 @@ fn pass(plc: &mut Double, from_us: u32, to_us: u32) {
     }
 }
 
+/// A request of a computer link that never ends fills the port; the one after it is answered.
+#[test]
+fn a_frame_without_an_end_hides_no_other() {
+    let mut plc = plc(6, 0x2086);
+    let mut flood = b"\x0501FFWW0C20099".to_vec();
+    flood.resize(super::FRAME, b'0');
+    let end_us = feed(&mut plc, 0, &flood);
+    let begin_us = end_us + 5000;
+    pass(&mut plc, 0, begin_us);
+    let end_us = feed(&mut plc, begin_us, b"\x0501FFWW0D0100011234FB");
+    pass(&mut plc, begin_us, end_us + 20_000);
+    assert_eq!(sent(&mut plc, end_us + 20_000), b"\x0601FF");
+    assert_eq!(plc.d(100, 1), [0x1234]);
+}
+
 #[test]
 fn a_slave_answers_after_silence_and_takes_the_next_frame() {
     let mut plc = plc(2, 0x81);
