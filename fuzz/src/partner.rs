@@ -3,6 +3,7 @@
 mod masters;
 mod slaves;
 
+use crate::plc::Plc;
 use crate::random::Random;
 use crate::text::Bytes;
 use rungc_models::ModelId;
@@ -46,13 +47,33 @@ pub struct Good {
 pub struct Registers(pub Vec<u16>);
 
 impl Registers {
+    /// Those of a PLC as they are.
+    pub fn of(plc: &Plc) -> Self {
+        Registers((0..8000).map_while(|number| plc.d(number)).collect())
+    }
+
+    /// The PLC's registers are like these.
+    ///
+    /// # Panics
+    /// They are not.
+    pub fn check(&self, partner: &Partner, plc: &Plc) {
+        for (number, (now, wanted)) in Registers::of(plc).0.iter().zip(&self.0).enumerate() {
+            let own = partner.own.contains(&(number as u32));
+            assert!(
+                own || now == wanted,
+                "{}: D{number} is {now}, not {wanted}",
+                partner.name
+            );
+        }
+    }
+
     /// Writes registers.
     fn set(&mut self, first: usize, words: &[u16]) {
         self.0[first..first + words.len()].copy_from_slice(words);
     }
 }
 
-/// Registers that good frames of slaves read and write: D100 and so many.
+/// Good frames of slaves read and write this number of registers, from D100 on.
 const COUNT: usize = 50;
 
 /// Writes one of the registers, or reads it; returns its number and value, and whether it is written.

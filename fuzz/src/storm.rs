@@ -39,11 +39,6 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// The registers as they are.
-fn registers(plc: &Plc) -> Registers {
-    Registers((0..8000).map_while(|number| plc.d(number)).collect())
-}
-
 /// A frame that is not one, in pieces with a pause after each.
 fn bad(
     partner: &Partner,
@@ -88,7 +83,7 @@ fn bad(
     vec![(frame, 5000)]
 }
 
-/// Sends so many frames.
+/// Sends this number of frames.
 ///
 /// # Panics
 /// A good frame was not answered as it should be, or something was written that no good frame has written.
@@ -99,7 +94,7 @@ pub fn run(partner: &Partner, frames: usize, seed: u64) -> Outcome {
     );
     plc.longest_ns = 0;
     let mut random = Random::new(seed);
-    let mut wanted = registers(&plc);
+    let mut wanted = Registers::of(&plc);
     let bits = plc.bits();
     let mut outcome = Outcome {
         frames,
@@ -156,13 +151,6 @@ pub fn run(partner: &Partner, frames: usize, seed: u64) -> Outcome {
 
 /// All devices hold what good frames have written, and otherwise what they held before.
 fn check(partner: &Partner, n: usize, plc: &Plc, wanted: &Registers, bits: &[bool]) {
-    for (number, (now, wanted)) in registers(plc).0.iter().zip(&wanted.0).enumerate() {
-        let own = partner.own.contains(&(number as u32));
-        assert!(
-            own || now == wanted,
-            "{}: after frame {n} D{number} is {now}, not {wanted}",
-            partner.name
-        );
-    }
+    wanted.check(partner, plc);
     assert_eq!(plc.bits(), bits, "{}: after frame {n}", partner.name);
 }

@@ -192,15 +192,7 @@ pub(super) const SLAVES: &[Partner] = &[
             }
         },
         wrong: |_, random| {
-            const TEXTS: [&str; 7] = [
-                "t2018",
-                "T000002008",
-                "t2009",
-                "t200",
-                "z",
-                "t2008XYZ",
-                "V1013",
-            ];
+            const TEXTS: [&str; 6] = ["t2018", "T000002008", "t2009", "z", "t2008XYZ", "V1013"];
             let digits = words(&[random.word(), random.word(), random.word(), random.word()]);
             format!("{}{digits}\r", TEXTS[random.below(TEXTS.len())]).into_bytes()
         },

@@ -288,7 +288,7 @@ impl Session<'_> {
                 self.status.received += 1;
                 true
             }
-            // No frame is as long. One that silence ends goes on until then; else this character may begin another.
+            // No frame is as long. One that silence ends continues until then; else this character may begin another.
             None if at == 0 || self.status.protocol.ends_by_silence() => {
                 self.status.spoiled = true;
                 false
