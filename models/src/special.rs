@@ -224,9 +224,13 @@ pub(crate) const CHECKED: Reason = because(
     Missed::Never,
     "errors of this kind are found before the program runs",
 );
-pub(crate) const FAST: Reason = because(
+pub(crate) const COUNTER_INPUTS: Reason = because(
     Missed::ByWriters,
-    "this use of high-speed inputs is not implemented yet",
+    "high-speed counters always have their usual inputs and modes",
+);
+pub(crate) const INPUT_DELAY: Reason = because(
+    Missed::ByWriters,
+    "input interrupts are requested at once, without a delay",
 );
 pub(crate) const UNCLEAR: Reason = because(
     Missed::ByWriters,
@@ -271,7 +275,24 @@ pub(crate) const SUMMED: Reason = because(
     Missed::Never,
     "frames of links between PLCs always have a sum",
 );
-pub(crate) const CAN: Reason = because(Missed::ByAll, "CAN communication is not implemented yet");
+pub(crate) const CANLINK: Reason = because(
+    Missed::ByAll,
+    "CANlink is not implemented: the manual does not describe its frames",
+);
+pub(crate) const CAN_STATE: Reason = because(
+    Missed::ByAll,
+    "CANTX and CANRX work, but do not show their state here",
+);
+pub(crate) const CAN_FREE: Reason = because(
+    Missed::Never,
+    "CANTX and CANRX work with any setting; CANlink is not implemented",
+);
+pub(crate) const CAN_RATE: Reason =
+    because(Missed::ByWriters, "the CAN adapter determines the bit rate");
+pub(crate) const CAN_TIME_OUT: Reason = because(
+    Missed::ByWriters,
+    "CANRX waits 100 ms for its frame, whatever is set here",
+);
 pub(crate) const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
 pub(crate) const AXES: Reason = because(
     Missed::Never,
@@ -281,7 +302,7 @@ pub(crate) const TRACE: Reason =
     because(Missed::Never, "sampling traces are a matter of the editor");
 pub(crate) const INTERRUPTS: Reason = because(
     Missed::Never,
-    "interrupts of this kind are not implemented yet",
+    "an interrupt routine never runs in the middle of an instruction",
 );
 pub(crate) const NETWORK: Reason = because(
     Missed::ByAll,
@@ -332,7 +353,7 @@ pub(crate) use specials;
 
 #[cfg(test)]
 mod tests {
-    use super::{Access, CAN, CARDS, MODULES, POWER, RunCommand, Special, Status};
+    use super::{Access, CANLINK, CARDS, MODULES, POWER, RunCommand, Special, Status};
     use crate::{Model, ModelId};
     use rungc_syntax::DeviceClass::{self, D, M};
     use std::collections::BTreeSet;
@@ -402,7 +423,7 @@ mod tests {
         let ports = Some(Status::Instructions("serial ports"));
         assert_eq!(of(ModelId::H1u, M, 8128), ports);
         for number in [8282, 8307, 8308] {
-            assert_eq!(of(ModelId::H2u, D, number), Some(Status::Inert(CAN)));
+            assert_eq!(of(ModelId::H2u, D, number), Some(Status::Inert(CANLINK)));
         }
         for number in [8220, 8239] {
             assert_eq!(of(ModelId::H1u, D, number), Some(Status::Inert(CARDS)));

@@ -1,8 +1,8 @@
 //! Special devices of the Mitsubishi models (FX1S/FX1N/FX2N programming manual II §6, FX3 programming manual §37).
 
 use crate::special::{
-    CHECKED, CONTROL_LINES, DELIMITER, FAST, HARDWARE, INTERRUPTS, INVERTERS, POWER, SHOWN,
-    Special, TRACE, specials,
+    CHECKED, CONTROL_LINES, COUNTER_INPUTS, DELIMITER, HARDWARE, INPUT_DELAY, INTERRUPTS,
+    INVERTERS, POWER, SHOWN, Special, TRACE, specials,
 };
 
 /// What all have.
@@ -257,7 +257,7 @@ pub(super) const FX3: &[Special] = specials! {
     D 8356 rw -15536 by("DSZR") "Y001: speed of the return in Hz, low word";
     D 8357 rw 0 by("DSZR") "Y001: high word of that";
     D 8358-8359 rw 100 by("ZRN, PLSV, DRVI, DRVA, DSZR") "Y001: times of acceleration and deceleration in ms";
-    D 8393 rw 0 inert(FAST) "delay time of input interrupts in ms";
+    D 8393 rw 0 inert(INPUT_DELAY) "delay time of input interrupts in ms";
     D 8398-8399 rw 0 scan "ring counter of 1 ms, 0 to 2147483647";
     D 8400 rw 0 by("serial ports") "channel 1: communication format; another value than 0 chooses these registers instead of those of RS";
     D 8401 rw 0 by("serial ports") "channel 1: bit 0 Modbus, bit 4 slave, bit 8 ASCII";
@@ -383,7 +383,7 @@ pub(super) const FX3U: &[Special] = specials! {
     M 8377 rw 0 by("DVIT") "Y003: interrupt signal inverted";
     M 8378 r 0 by("pulse outputs") "Y003: an instruction is driven";
     M 8379 rw 0 by("pulse outputs") "stops the pulses of Y003";
-    M 8380-8392 rw 0 inert(FAST) "inputs and modes of high-speed counters";
+    M 8380-8392 rw 0 inert(COUNTER_INPUTS) "inputs and modes of high-speed counters";
     M 8460-8463 rw 0 by("DVIT") "Y000–003: interrupt signals that the program gives, where D8336 says 8";
     D 8001 r 24320 scan "model and version";
     D 8002 r 8 scan "program capacity in k steps; 8 also where it is more";

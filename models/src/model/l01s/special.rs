@@ -1,8 +1,8 @@
 //! Special devices of L01S (l01s-programming §3.3).
 
 use crate::special::{
-    CHECKED, CONTROL_LINES, FAST, FORBIDDEN, HARDWARE, INTERRUPTS, LATER, MAKER, MODULES, NO_CAN,
-    NO_PORT, RAW, Special, TRACE, specials,
+    CHECKED, CONTROL_LINES, COUNTER_INPUTS, FORBIDDEN, HARDWARE, INTERRUPTS, LATER, MAKER, MODULES,
+    NO_CAN, NO_PORT, RAW, Special, TRACE, specials,
 };
 
 /// Its special devices.
@@ -112,7 +112,7 @@ pub(super) const L01S: &[Special] = specials! {
     M 8377 rw 0 inert(LATER) "Y003: interrupt signal logic inverted";
     M 8378 r 0 by("pulse outputs") "Y003: positioning instruction being driven";
     M 8379 rw 0 by("pulse outputs") "Y003: pulse stop command: on stops pulse output";
-    M 8396 rw 0 inert(FAST) "phase of the inputs assigned to C254";
+    M 8396 rw 0 inert(COUNTER_INPUTS) "phase of the inputs assigned to C254";
     M 8401 r 0 by("serial ports") "port 3: RS2 waiting to send";
     M 8402 rw 0 by("serial ports") "port 3: RS2 send request: program sets it on";
     M 8403 rw 0 by("serial ports") "port 3: RS2 reception complete; must be reset by program";
