@@ -4,7 +4,7 @@ use crate::{Problem, root, tools};
 use std::fs;
 use std::process::Command;
 
-/// Check that every crate that is published builds from its package alone, or publish them.
+/// Publish all crates that are meant for it; without `--publish`, do everything but upload: each crate must build from its package alone.
 #[derive(clap::Args, Debug)]
 pub struct Args {
     /// Upload the packages, in the order of their dependencies.
@@ -15,7 +15,7 @@ pub struct Args {
     no_verify: bool,
 }
 
-/// Packs or publishes all crates but those with `publish = false`.
+/// Publishes all crates, or does so but for the upload, except those with `publish = false`.
 pub fn run(args: &Args) -> Result<(), Problem> {
     // Cargo would count the packed sources below, which git ignores, as a change that is not committed.
     let changes = tools::output(
@@ -29,8 +29,10 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     // The runtime's sources lie beside the crate that embeds them, and packages have no neighbours.
     let packed = root().join("runtime-sources/sources.bin");
     fs::write(&packed, rungc_runtime_sources::PACKED)?;
-    let command = if args.publish { "publish" } else { "package" };
-    let mut cargo = tools::cargo(&[command, "--workspace", "--locked", "--allow-dirty"]);
+    let mut cargo = tools::cargo(&["publish", "--workspace", "--locked", "--allow-dirty"]);
+    if !args.publish {
+        cargo.arg("--dry-run");
+    }
     for private in tools::private_packages()? {
         cargo.args(["--exclude", &private]);
     }
