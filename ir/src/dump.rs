@@ -10,7 +10,6 @@ use crate::node::{
     Send, Stmt, SysValue, TableId, TimerCoil,
 };
 use rungc_rt::{EdgeKind, TimerKind};
-use rungc_syntax::DeviceClass;
 use std::fmt::Write as _;
 
 /// The text of a module.
@@ -338,9 +337,10 @@ impl Out<'_> {
         match place.index {
             None => place.class.number(place.number).to_string(),
             Some(index) => {
-                let number = match place.class {
-                    DeviceClass::X | DeviceClass::Y => format!("0o{:o}", place.number),
-                    _ => place.number.to_string(),
+                let number = if place.class.is_octal() {
+                    format!("0o{:o}", place.number)
+                } else {
+                    place.number.to_string()
                 };
                 format!("{}[{number} + {}]", place.class.prefix(), self.expr(index))
             }

@@ -3,6 +3,8 @@
 //! The IR is the contract between lowering, the interpreter and both backends. It knows the PLC models, but no instructions, no
 //! programs and no diagnostics. Start reading at [`node`], whose docs specify what every engine does.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 pub mod dump;
 pub mod layout;
 pub mod node;

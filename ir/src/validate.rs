@@ -1,8 +1,8 @@
 //! Holds a module to the rules of [`crate::node`].
 
 use crate::node::{
-    Access, Arg, BinOp, Body, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId,
-    Module, Place, Stmt, SysValue, TempId, Ty,
+    Arg, BinOp, Body, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId, Module, Place,
+    Stmt, SysValue, TempId, Ty,
 };
 use crate::reach::{self, Footprint};
 use crate::walk::{callees, for_exprs, operands};
@@ -53,6 +53,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
     }
     let ty = |id: ExprId| module.ty(id);
     let integer = |id: ExprId| matches!(ty(id), Ty::I16 | Ty::I32);
+    let indexed = |place: Place| place.index.is_none_or(|index| ty(index) == Ty::I32);
     let well_typed = match *expr {
         Expr::Not(a) | Expr::BitToInt(a) => ty(a) == Ty::Bit,
         Expr::And(a, b) | Expr::Or(a, b) => ty(a) == Ty::Bit && ty(b) == Ty::Bit,
@@ -64,8 +65,8 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::Complement(a) | Expr::Neg(a) => integer(a),
         Expr::Widen(a) => ty(a) == Ty::I16,
         Expr::Narrow(a) | Expr::HighWord(a) => ty(a) == Ty::I32,
-        Expr::Read(access) => access.is_well_formed(),
-        Expr::InRange { count, .. } => count > 0,
+        Expr::Read(access) => access.is_well_formed() && indexed(access.place),
+        Expr::InRange { place, count } => count > 0 && indexed(place),
         Expr::Cell(cell) => module.cells.get(cell).is_some(),
         Expr::Within { value, low, high } => ty(value) == Ty::I32 && low <= high,
         Expr::Stride(iteration, by) => by > 0 && module.temps.get(iteration) == Some(&Ty::I32),
@@ -80,13 +81,7 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         | Expr::F32(_)
         | Expr::Temp(_) => true,
     };
-    let indexed_well = match *expr {
-        Expr::Read(Access { place, .. }) | Expr::InRange { place, .. } => {
-            place.index.is_none_or(|index| ty(index) == Ty::I32)
-        }
-        _ => true,
-    };
-    if well_typed && indexed_well {
+    if well_typed {
         Ok(())
     } else {
         Err(format!("expression {at} ({expr:?}) is ill typed"))
@@ -201,7 +196,26 @@ impl Checker<'_> {
                 Err(format!("{label:?} is not around the jump to it"))
             }
             Stmt::Goto(_) | Stmt::Return => Ok(false),
-            _ => Ok(true),
+            Stmt::Network(_)
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::Write(..)
+            | Stmt::Timer(_)
+            | Stmt::TimerAt(_)
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16(_)
+            | Stmt::Counter16At(_)
+            | Stmt::Counter32(_)
+            | Stmt::Count(_)
+            | Stmt::Reset(_)
+            | Stmt::CallSub(_)
+            | Stmt::Call(_)
+            | Stmt::Send(_)
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. } => Ok(true),
         }
     }
 
@@ -255,19 +269,16 @@ impl Checker<'_> {
         let Some(expr) = self.module.exprs.get(id) else {
             return Some(format!("{id:?} does not exist"));
         };
-        let here = match *expr {
-            Expr::Temp(temp) | Expr::Stride(temp, _) if !self.assigned[temp] => {
-                Some(format!("{temp:?} is not assigned on every path"))
-            }
-            _ => {
-                let mut missing = None;
-                reach::of_expr(self.module.model, expr, &mut |used| {
-                    missing = missing.take().or_else(|| self.unstored(used));
-                });
-                missing
-            }
-        };
-        here.or_else(|| operands(expr).find_map(|operand| self.fault_in(operand)))
+        if let Expr::Temp(temp) | Expr::Stride(temp, _) = *expr
+            && !self.assigned[temp]
+        {
+            return Some(format!("{temp:?} is not assigned on every path"));
+        }
+        let mut missing = None;
+        reach::of_expr(self.module.model, expr, &mut |used| {
+            missing = missing.take().or_else(|| self.unstored(used));
+        });
+        missing.or_else(|| operands(expr).find_map(|operand| self.fault_in(operand)))
     }
 
     /// The first device that an access may meet and the layout lacks.

@@ -160,7 +160,28 @@ pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
         | Stmt::Reset(place) => f(place),
         Stmt::Call(Call { args, .. }) => args.iter_mut().for_each(|arg| of_arg(arg, f)),
         Stmt::Fetch(Fetch { from: arg, .. }) | Stmt::Send(Send { to: arg, .. }) => of_arg(arg, f),
-        _ => {}
+        Stmt::Network(_)
+        | Stmt::Let(..)
+        | Stmt::Edge(_)
+        | Stmt::SetFlag(..)
+        | Stmt::SetCell(..)
+        | Stmt::SetEntry(..)
+        | Stmt::Timer(_)
+        | Stmt::TimerGoesOn { .. }
+        | Stmt::Counter16(_)
+        | Stmt::Counter32(_)
+        | Stmt::Count(_)
+        | Stmt::If { .. }
+        | Stmt::For { .. }
+        | Stmt::Repeat(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Fault { .. }
+        | Stmt::Watch { .. }
+        | Stmt::Stop
+        | Stmt::Clear { .. } => {}
     }
 }
 
@@ -170,7 +191,32 @@ pub fn assigned(stmt: &Stmt) -> Option<TempId> {
         Stmt::Let(temp, _)
         | Stmt::Edge(Edge { out: temp, .. })
         | Stmt::Fetch(Fetch { there: temp, .. }) => Some(*temp),
-        _ => None,
+        Stmt::Network(_)
+        | Stmt::SetFlag(..)
+        | Stmt::SetCell(..)
+        | Stmt::SetEntry(..)
+        | Stmt::Write(..)
+        | Stmt::Timer(_)
+        | Stmt::TimerAt(_)
+        | Stmt::TimerGoesOn { .. }
+        | Stmt::Counter16(_)
+        | Stmt::Counter16At(_)
+        | Stmt::Counter32(_)
+        | Stmt::Count(_)
+        | Stmt::Reset(_)
+        | Stmt::If { .. }
+        | Stmt::For { .. }
+        | Stmt::Repeat(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Call(_)
+        | Stmt::Send(_)
+        | Stmt::Fault { .. }
+        | Stmt::Watch { .. }
+        | Stmt::Stop
+        | Stmt::Clear { .. } => None,
     }
 }
 
@@ -187,36 +233,83 @@ pub fn fault_step(stmt: &Stmt) -> Option<u32> {
         | Stmt::Send(Send { step, .. })
         | Stmt::Fault { step, .. }
         | Stmt::Watch { at: step, .. } => Some(step),
-        _ => None,
+        Stmt::Network(_)
+        | Stmt::Let(..)
+        | Stmt::Edge(_)
+        | Stmt::SetFlag(..)
+        | Stmt::SetCell(..)
+        | Stmt::SetEntry(..)
+        | Stmt::Write(..)
+        | Stmt::Timer(_)
+        | Stmt::TimerAt(_)
+        | Stmt::TimerGoesOn { .. }
+        | Stmt::Counter16(_)
+        | Stmt::Counter16At(_)
+        | Stmt::Counter32(_)
+        | Stmt::Count(_)
+        | Stmt::Reset(_)
+        | Stmt::If { .. }
+        | Stmt::For { .. }
+        | Stmt::Repeat(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Stop
+        | Stmt::Clear { .. } => None,
     }
 }
 
-/// The bodies directly inside a statement.
-pub fn bodies(stmt: &Stmt) -> impl Iterator<Item = &Body> {
-    let (own, parts): ([Option<&Body>; 2], &[Part]) = match stmt {
-        Stmt::If {
-            then, otherwise, ..
-        } => ([Some(then), Some(otherwise)], &[]),
-        Stmt::For { body, .. } | Stmt::Repeat(Repeat { body, .. }) => ([Some(body), None], &[]),
-        Stmt::Parts(parts) => ([None, None], parts),
-        _ => ([None, None], &[]),
+/// A function that finds the bodies inside a statement, to look at them or to change them.
+macro_rules! bodies {
+    ($(#[$doc:meta])* $name:ident, $iter:ident $(, $mutable:tt)?) => {
+        $(#[$doc])*
+        pub fn $name(stmt: &$($mutable)? Stmt) -> impl Iterator<Item = &$($mutable)? Body> {
+            let (own, parts): ([Option<&$($mutable)? Body>; 2], &$($mutable)? [Part]) = match stmt {
+                Stmt::If { then, otherwise, .. } => ([Some(then), Some(otherwise)], &$($mutable)? []),
+                Stmt::For { body, .. } | Stmt::Repeat(Repeat { body, .. }) => {
+                    ([Some(body), None], &$($mutable)? [])
+                }
+                Stmt::Parts(parts) => ([None, None], parts),
+                Stmt::Network(_)
+                | Stmt::Let(..)
+                | Stmt::Edge(_)
+                | Stmt::SetFlag(..)
+                | Stmt::SetCell(..)
+                | Stmt::SetEntry(..)
+                | Stmt::Write(..)
+                | Stmt::Timer(_)
+                | Stmt::TimerAt(_)
+                | Stmt::TimerGoesOn { .. }
+                | Stmt::Counter16(_)
+                | Stmt::Counter16At(_)
+                | Stmt::Counter32(_)
+                | Stmt::Count(_)
+                | Stmt::Reset(_)
+                | Stmt::CallSub(_)
+                | Stmt::Return
+                | Stmt::Goto(_)
+                | Stmt::Call(_)
+                | Stmt::Fetch(_)
+                | Stmt::Send(_)
+                | Stmt::Fault { .. }
+                | Stmt::Watch { .. }
+                | Stmt::Stop
+                | Stmt::Clear { .. } => ([None, None], &$($mutable)? []),
+            };
+            let parts = parts.$iter().map(|part| &$($mutable)? part.body);
+            own.into_iter().flatten().chain(parts)
+        }
     };
-    let parts = parts.iter().map(|part| &part.body);
-    own.into_iter().flatten().chain(parts)
 }
 
-/// The bodies directly inside a statement, to change them.
-pub fn bodies_mut(stmt: &mut Stmt) -> impl Iterator<Item = &mut Body> {
-    let (own, parts): ([Option<&mut Body>; 2], &mut [Part]) = match stmt {
-        Stmt::If {
-            then, otherwise, ..
-        } => ([Some(then), Some(otherwise)], &mut []),
-        Stmt::For { body, .. } | Stmt::Repeat(Repeat { body, .. }) => ([Some(body), None], &mut []),
-        Stmt::Parts(parts) => ([None, None], parts),
-        _ => ([None, None], &mut []),
-    };
-    let parts = parts.iter_mut().map(|part| &mut part.body);
-    own.into_iter().flatten().chain(parts)
+bodies! {
+    /// The bodies directly inside a statement.
+    bodies, iter
+}
+bodies! {
+    /// The bodies directly inside a statement, to change them.
+    bodies_mut, iter_mut, mut
 }
 
 /// Calls `visit` with every statement, those of the bodies inside it after it.

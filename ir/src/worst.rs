@@ -91,7 +91,11 @@ pub fn worst(module: &Module) -> Worst {
             FunctionKind::Interrupt(pointer) => Event::Interrupt(pointer),
             FunctionKind::TakeInterrupts => Event::Interrupts,
             FunctionKind::InputEdge { input, .. } => Event::Edge(input),
-            _ => continue,
+            FunctionKind::Begin
+            | FunctionKind::Main
+            | FunctionKind::End
+            | FunctionKind::Subroutine(_)
+            | FunctionKind::Signals => continue,
         };
         let cost = finder.function(number);
         match worst.events.iter_mut().find(|(known, _)| *known == event) {
@@ -183,12 +187,11 @@ impl<'m> Finder<'m> {
             Stmt::For { count, body } => {
                 let step = self.step;
                 let iteration = self.body(body);
-                match *self.module.expr(*count) {
-                    Expr::I16(count) => cost.plus(iteration.times(count.max(1) as u64)),
-                    _ => {
-                        self.open_loops.insert(step, iteration);
-                        cost.plus(iteration)
-                    }
+                if let Expr::I16(count) = *self.module.expr(*count) {
+                    cost.plus(iteration.times(count.max(1) as u64))
+                } else {
+                    self.open_loops.insert(step, iteration);
+                    cost.plus(iteration)
                 }
             }
             Stmt::Repeat(Repeat { count, body, .. }) => {
@@ -198,13 +201,36 @@ impl<'m> Finder<'m> {
             Stmt::CallSub(number) => {
                 let number = *number as usize;
                 let kind = self.module.functions.get(number).map(|f| &f.kind);
-                match kind {
-                    Some(FunctionKind::TakeInterrupts) if self.aside => cost,
-                    _ => cost.plus(self.function(number)),
+                if self.aside && kind == Some(&FunctionKind::TakeInterrupts) {
+                    cost
+                } else {
+                    cost.plus(self.function(number))
                 }
             }
             Stmt::Parts(parts) => cost.plus(self.parts(parts)),
-            _ => cost,
+            Stmt::Let(..)
+            | Stmt::Edge(_)
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::Write(..)
+            | Stmt::Timer(_)
+            | Stmt::TimerAt(_)
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16(_)
+            | Stmt::Counter16At(_)
+            | Stmt::Counter32(_)
+            | Stmt::Count(_)
+            | Stmt::Reset(_)
+            | Stmt::Return
+            | Stmt::Goto(_)
+            | Stmt::Call(_)
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. } => cost,
         }
     }
 
@@ -241,17 +267,17 @@ impl<'m> Finder<'m> {
     fn ahead(&mut self, parts: &[Part], from: usize, mut step: u32) -> Vec<usize> {
         let at = |label: LabelId| parts.iter().position(|part| part.label == Some(label));
         let mut ahead = Vec::new();
-        statements(&parts[from].body, &mut |stmt| match stmt {
-            Stmt::Network(number) => {
+        statements(&parts[from].body, &mut |stmt| {
+            if let Stmt::Network(number) = stmt {
                 let network = self.module.networks.get(*number as usize);
                 step = network.map_or(step, |network| network.step);
+            } else if let Stmt::Goto(label) = stmt {
+                match at(*label) {
+                    Some(target) if target > from => ahead.push(target),
+                    Some(_) => self.jumps_back.push(step),
+                    None => {}
+                }
             }
-            Stmt::Goto(label) => match at(*label) {
-                Some(target) if target > from => ahead.push(target),
-                Some(_) => self.jumps_back.push(step),
-                None => {}
-            },
-            _ => {}
         });
         ahead
     }
@@ -259,10 +285,11 @@ impl<'m> Finder<'m> {
 
 /// What an expression does in addition to its operands: a constant or an existing temporary does nothing.
 fn own(expr: &Expr) -> u64 {
-    match expr {
-        Expr::Bit(_) | Expr::I16(_) | Expr::I32(_) | Expr::F32(_) | Expr::Temp(_) => 0,
-        _ => 1,
-    }
+    let nothing = matches!(
+        expr,
+        Expr::Bit(_) | Expr::I16(_) | Expr::I32(_) | Expr::F32(_) | Expr::Temp(_)
+    );
+    u64::from(!nothing)
 }
 
 /// The lengths of all networks: each ends where the next one starts.

@@ -104,12 +104,23 @@ pub enum Expr {
 impl Expr {
     /// The place of the bit device whose state it is, if it is that and no more.
     pub fn as_bit(&self) -> Option<Place> {
-        match *self {
-            Expr::Read(Access {
-                place,
-                kind: AccessKind::Bit,
-            }) => Some(place),
-            _ => None,
+        if let Expr::Read(access) = self
+            && access.kind == AccessKind::Bit
+        {
+            Some(access.place)
+        } else {
+            None
+        }
+    }
+
+    /// The value of an integer constant.
+    pub fn as_int(&self) -> Option<i32> {
+        if let Expr::I16(value) = *self {
+            Some(value.into())
+        } else if let Expr::I32(value) = *self {
+            Some(value)
+        } else {
+            None
         }
     }
 }

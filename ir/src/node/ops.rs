@@ -40,7 +40,14 @@ impl BinOp {
             BinOp::RotateLeft => Some(a.rotate_left(b as u32 % 16)),
             BinOp::SatAdd => Some(a.saturating_add(b)),
             BinOp::SatSub => Some(a.saturating_sub(b)),
-            _ => self.of_i32(a.into(), b.into()).map(|wide| wide as i16),
+            BinOp::Add
+            | BinOp::Sub
+            | BinOp::Mul
+            | BinOp::Div
+            | BinOp::Rem
+            | BinOp::And
+            | BinOp::Or
+            | BinOp::Xor => self.of_i32(a.into(), b.into()).map(|wide| wide as i16),
         }
     }
 

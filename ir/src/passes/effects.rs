@@ -46,17 +46,13 @@ impl Reads {
         for operand in operands(&expr) {
             self.collect(arena, operand);
         }
-        let (place, count) = match expr {
-            Expr::Read(access) => (access.place, access.extent()),
-            Expr::Flag(_) | Expr::Cell(_) | Expr::Entry(..) => {
-                self.private = true;
-                return;
-            }
-            _ => return,
-        };
-        let (first, last) = run(&arena.exprs, place, count);
-        self.devices.push((place.class, first, last));
-        self.index |= arena.model.has_alias(place.class, first, last);
+        if let Expr::Read(access) = expr {
+            let class = access.place.class;
+            let (first, last) = run(&arena.exprs, access.place, access.extent());
+            self.devices.push((class, first, last));
+            self.index |= arena.model.has_alias(class, first, last);
+        }
+        self.private |= matches!(expr, Expr::Flag(_) | Expr::Cell(_) | Expr::Entry(..));
     }
 
     /// Whether the value may differ after the write.

@@ -1,6 +1,6 @@
 //! Makes expressions in their simplest form.
 
-use crate::node::{BinOp, Expr, ExprId, TempId, Ty};
+use crate::node::{BinOp, Expr, ExprId, Place, TempId, Ty};
 use crate::walk::operands;
 use rungc_models::Model;
 use rungc_rt::CmpOp;
@@ -52,9 +52,10 @@ impl<'m> Arena<'m> {
     }
 
     pub(super) fn temp(&self, id: ExprId) -> Option<TempId> {
-        match self.get(id) {
-            Expr::Temp(temp) => Some(temp),
-            _ => None,
+        if let Expr::Temp(temp) = self.get(id) {
+            Some(temp)
+        } else {
+            None
         }
     }
 
@@ -74,79 +75,123 @@ impl<'m> Arena<'m> {
             Expr::Or(a, b) => self.join(a, b, false),
             Expr::Cmp(op, a, b) => self.cmp(op, a, b),
             Expr::Bin(op, a, b) => self.bin(op, a, b),
-            Expr::InRange { place, count } => {
-                let (low, high) = match place.index.map(|index| self.get(index)) {
-                    None => (0, 0),
-                    Some(Expr::I32(index)) => (index, index),
-                    Some(Expr::Within { low, high, .. }) => (low, high),
-                    _ => return self.push(expr),
-                };
-                let first = i64::from(place.number) + i64::from(low);
-                let span = u32::try_from(i64::from(high) - i64::from(low)).unwrap_or(u32::MAX);
-                let holds = self
-                    .model
-                    .in_range(place.class, first, count.saturating_add(span));
-                self.push(if holds || low == high {
-                    Expr::Bit(holds)
-                } else {
-                    expr
-                })
-            }
-            _ => self.one(expr),
+            Expr::Widen(a) => self.widen(a),
+            Expr::Narrow(a) => self.narrow(a),
+            Expr::HighWord(a) => self.of_long(a, expr, |value| Expr::I16((value >> 16) as i16)),
+            Expr::BitToInt(a) => match self.bit(a) {
+                Some(value) => self.push(Expr::I16(value.into())),
+                None => self.push(expr),
+            },
+            Expr::Complement(a) => self.complement(a),
+            Expr::Neg(a) => self.neg(a),
+            Expr::Within { value, .. } => match self.get(value).as_int() {
+                Some(_) => value,
+                None => self.push(expr),
+            },
+            Expr::InRange { place, count } => self.in_range(place, count),
+            Expr::Bit(_)
+            | Expr::I16(_)
+            | Expr::I32(_)
+            | Expr::F32(_)
+            | Expr::Temp(_)
+            | Expr::Read(_)
+            | Expr::Sys(_)
+            | Expr::Flag(_)
+            | Expr::Cell(_)
+            | Expr::Entry(..)
+            | Expr::Stride(..)
+            | Expr::Un(..)
+            | Expr::Float(..) => self.push(expr),
         }
     }
 
-    fn one(&mut self, expr: Expr) -> ExprId {
-        let get = |id: ExprId| self.get(id);
-        let simple = match expr {
-            Expr::Widen(a) => match get(a) {
-                Expr::I16(value) => Expr::I32(i32::from(value)),
-                _ => expr,
-            },
-            Expr::Within { value, .. } => match get(value) {
-                Expr::I32(_) => return value,
-                _ => expr,
-            },
-            Expr::Narrow(a) => match get(a) {
-                Expr::I32(value) => Expr::I16(value as i16),
-                Expr::Widen(inner) => return inner,
-                _ => expr,
-            },
-            Expr::HighWord(a) => match get(a) {
-                Expr::I32(value) => Expr::I16((value >> 16) as i16),
-                _ => expr,
-            },
-            Expr::BitToInt(a) => match get(a) {
-                Expr::Bit(value) => Expr::I16(i16::from(value)),
-                _ => expr,
-            },
-            Expr::Complement(a) => match get(a) {
-                Expr::I16(value) => Expr::I16(!value),
-                Expr::I32(value) => Expr::I32(!value),
-                Expr::Complement(inner) => return inner,
-                _ => expr,
-            },
-            Expr::Neg(a) => match get(a) {
-                Expr::I16(value) => Expr::I16(value.wrapping_neg()),
-                Expr::I32(value) => Expr::I32(value.wrapping_neg()),
-                Expr::Neg(inner) => return inner,
-                _ => expr,
-            },
-            _ => expr,
+    /// The value of a constant bit.
+    fn bit(&self, id: ExprId) -> Option<bool> {
+        if let Expr::Bit(value) = self.get(id) {
+            Some(value)
+        } else {
+            None
+        }
+    }
+
+    /// What an `I32` becomes, if it is a constant; else the expression of it.
+    fn of_long(&mut self, a: ExprId, expr: Expr, folded: impl Fn(i32) -> Expr) -> ExprId {
+        if let Expr::I32(value) = self.get(a) {
+            self.push(folded(value))
+        } else {
+            self.push(expr)
+        }
+    }
+
+    fn widen(&mut self, a: ExprId) -> ExprId {
+        if let Expr::I16(value) = self.get(a) {
+            self.push(Expr::I32(value.into()))
+        } else {
+            self.push(Expr::Widen(a))
+        }
+    }
+
+    fn narrow(&mut self, a: ExprId) -> ExprId {
+        if let Expr::Widen(inner) = self.get(a) {
+            return inner;
+        }
+        self.of_long(a, Expr::Narrow(a), |value| Expr::I16(value as i16))
+    }
+
+    fn complement(&mut self, a: ExprId) -> ExprId {
+        if let Expr::Complement(inner) = self.get(a) {
+            inner
+        } else if let Expr::I16(value) = self.get(a) {
+            self.push(Expr::I16(!value))
+        } else {
+            self.of_long(a, Expr::Complement(a), |value| Expr::I32(!value))
+        }
+    }
+
+    fn neg(&mut self, a: ExprId) -> ExprId {
+        if let Expr::Neg(inner) = self.get(a) {
+            inner
+        } else if let Expr::I16(value) = self.get(a) {
+            self.push(Expr::I16(value.wrapping_neg()))
+        } else {
+            self.of_long(a, Expr::Neg(a), |value| Expr::I32(value.wrapping_neg()))
+        }
+    }
+
+    fn in_range(&mut self, place: Place, count: u32) -> ExprId {
+        let expr = Expr::InRange { place, count };
+        let (low, high) = match place.index.map(|index| self.get(index)) {
+            None => (0, 0),
+            Some(Expr::I32(index)) => (index, index),
+            Some(Expr::Within { low, high, .. }) => (low, high),
+            Some(_) => return self.push(expr),
         };
-        self.push(simple)
+        let first = i64::from(place.number) + i64::from(low);
+        let span = u32::try_from(i64::from(high) - i64::from(low)).unwrap_or(u32::MAX);
+        let holds = self
+            .model
+            .in_range(place.class, first, count.saturating_add(span));
+        self.push(if holds || low == high {
+            Expr::Bit(holds)
+        } else {
+            expr
+        })
     }
 
     pub(super) fn not(&mut self, a: ExprId) -> ExprId {
-        match self.get(a) {
-            Expr::Bit(value) => self.push(Expr::Bit(!value)),
-            Expr::Not(inner) => inner,
-            // A comparison of floats with NaN is false both ways.
-            Expr::Cmp(op, x, y) if self.ty(x) != Ty::F32 => {
-                self.push(Expr::Cmp(op.opposite(), x, y))
-            }
-            _ => self.push(Expr::Not(a)),
+        if let Expr::Bit(value) = self.get(a) {
+            return self.push(Expr::Bit(!value));
         }
+        if let Expr::Not(inner) = self.get(a) {
+            return inner;
+        }
+        // A comparison of floats with NaN is false both ways.
+        if let Expr::Cmp(op, x, y) = self.get(a)
+            && self.ty(x) != Ty::F32
+        {
+            return self.push(Expr::Cmp(op.opposite(), x, y));
+        }
+        self.push(Expr::Not(a))
     }
 
     /// And (`all`) or or.
@@ -220,16 +265,18 @@ impl<'m> Arena<'m> {
 
 /// What every value compares to a constant at the end of its type's range, if that is always the same.
 fn at_border(op: CmpOp, constant: Expr) -> Option<bool> {
-    let (lowest, highest) = match constant {
-        Expr::I16(v) => (v == i16::MIN, v == i16::MAX),
-        Expr::I32(v) => (v == i32::MIN, v == i32::MAX),
-        _ => (false, false),
+    let (lowest, highest) = if let Expr::I16(v) = constant {
+        (v == i16::MIN, v == i16::MAX)
+    } else if let Expr::I32(v) = constant {
+        (v == i32::MIN, v == i32::MAX)
+    } else {
+        (false, false)
     };
     match op {
-        CmpOp::Ge if lowest => Some(true),
-        CmpOp::Lt if lowest => Some(false),
-        CmpOp::Le if highest => Some(true),
-        CmpOp::Gt if highest => Some(false),
-        _ => None,
+        CmpOp::Ge => lowest.then_some(true),
+        CmpOp::Lt => lowest.then_some(false),
+        CmpOp::Le => highest.then_some(true),
+        CmpOp::Gt => highest.then_some(false),
+        CmpOp::Eq | CmpOp::Ne => None,
     }
 }

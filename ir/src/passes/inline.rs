@@ -192,15 +192,14 @@ impl Temps {
 
 /// Whether an expression costs no more than a temporary: a bit or word that is named directly, perhaps inverted.
 fn is_leaf(arena: &Arena, value: ExprId) -> bool {
-    match arena.get(value) {
-        Expr::Read(access) => {
-            matches!(access.kind, AccessKind::Bit | AccessKind::Word) && access.device().is_some()
-        }
-        Expr::Sys(_) => true,
-        Expr::Not(inner) => {
-            let bit = arena.get(inner).as_bit();
-            bit.is_some_and(|place| place.index.is_none())
-        }
-        _ => false,
+    let expr = arena.get(value);
+    if let Expr::Not(inner) = expr {
+        let bit = arena.get(inner).as_bit();
+        return bit.is_some_and(|place| place.index.is_none());
     }
+    if let Expr::Read(access) = expr {
+        let one = matches!(access.kind, AccessKind::Bit | AccessKind::Word);
+        return one && access.device().is_some();
+    }
+    matches!(expr, Expr::Sys(_))
 }

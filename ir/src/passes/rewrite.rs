@@ -149,7 +149,29 @@ impl Rewriter<'_> {
                 self.settle(out);
                 out.push(stmt);
             }
-            mut stmt => {
+            mut stmt @ (Stmt::Network(_)
+            | Stmt::Edge(_)
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::Write(..)
+            | Stmt::Timer(_)
+            | Stmt::TimerAt(_)
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16(_)
+            | Stmt::Counter16At(_)
+            | Stmt::Counter32(_)
+            | Stmt::Count(_)
+            | Stmt::Reset(_)
+            | Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Call(_)
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. }) => {
                 let writes = writes(self.arena.model, self.old, &stmt);
                 let shared = self.temps.shared_before(writes);
                 assign(shared, out);
@@ -176,10 +198,8 @@ impl Rewriter<'_> {
         let shared = self.temps.before_condition();
         assign(shared, out);
         let mut cond = self.expr(cond);
-        match self.arena.get(cond) {
-            Expr::Bit(true) => return self.into(then, out),
-            Expr::Bit(false) => return self.into(otherwise, out),
-            _ => {}
+        if let Expr::Bit(on) = self.arena.get(cond) {
+            return self.into(if on { then } else { otherwise }, out);
         }
         self.settle(out);
         let available = self.temps.available();

@@ -59,7 +59,21 @@ impl Eval<'_> {
                 let value = self.value(state, value);
                 value.meet(Interval { low, high }).unwrap_or(value)
             }
-            _ => all(),
+            Expr::Bit(_)
+            | Expr::F32(_)
+            | Expr::Sys(_)
+            | Expr::Flag(_)
+            | Expr::Cell(_)
+            | Expr::Entry(..)
+            | Expr::Stride(..)
+            | Expr::Not(_)
+            | Expr::And(..)
+            | Expr::Or(..)
+            | Expr::Cmp(..)
+            | Expr::Un(..)
+            | Expr::Float(..)
+            | Expr::BitToInt(_)
+            | Expr::InRange { .. } => all(),
         }
     }
 
@@ -97,18 +111,19 @@ impl Eval<'_> {
     pub(super) fn reads(&self, id: ExprId) -> (Mask, u64) {
         let expr = self.module.expr(id);
         let of = |place: Place| self.words.slot(place).map_or(0, |slot| 1 << slot);
-        let (mut words, mut temps) = match *expr {
-            Expr::Read(Access { place, kind }) => match kind {
-                AccessKind::Word => (of(place), 0),
-                AccessKind::Pair => (of(place) | of(self.words.high_word(place)), 0),
+        let (mut words, mut temps) = (0, 0);
+        if let Expr::Read(Access { place, kind }) = *expr {
+            words = match kind {
+                AccessKind::Word => of(place),
+                AccessKind::Pair => of(place) | of(self.words.high_word(place)),
                 AccessKind::Bit
                 | AccessKind::WordBit(_)
                 | AccessKind::Float
-                | AccessKind::Nibbles { .. } => (0, 0),
-            },
-            Expr::Temp(temp) => (0, temp_bit(temp)),
-            _ => (0, 0),
-        };
+                | AccessKind::Nibbles { .. } => 0,
+            };
+        } else if let Expr::Temp(temp) = *expr {
+            temps = temp_bit(temp);
+        }
         for operand in operands(expr) {
             let (more, more_temps) = self.reads(operand);
             words |= more;
@@ -149,7 +164,27 @@ impl Eval<'_> {
                 }
                 Some(state)
             }
-            _ => Some(state),
+            Expr::I16(_)
+            | Expr::I32(_)
+            | Expr::F32(_)
+            | Expr::Read(_)
+            | Expr::Sys(_)
+            | Expr::Flag(_)
+            | Expr::Cell(_)
+            | Expr::Entry(..)
+            | Expr::Stride(..)
+            | Expr::Cmp(..)
+            | Expr::Bin(..)
+            | Expr::Un(..)
+            | Expr::Float(..)
+            | Expr::Complement(_)
+            | Expr::Neg(_)
+            | Expr::Widen(_)
+            | Expr::Narrow(_)
+            | Expr::HighWord(_)
+            | Expr::BitToInt(_)
+            | Expr::Within { .. }
+            | Expr::InRange { .. } => Some(state),
         }
     }
 
@@ -199,7 +234,29 @@ impl Eval<'_> {
                     self.limit(state, a, limit)?;
                 }
             }
-            _ => {}
+            Expr::Bit(_)
+            | Expr::I16(_)
+            | Expr::I32(_)
+            | Expr::F32(_)
+            | Expr::Read(_)
+            | Expr::Sys(_)
+            | Expr::Flag(_)
+            | Expr::Cell(_)
+            | Expr::Entry(..)
+            | Expr::Stride(..)
+            | Expr::Not(_)
+            | Expr::And(..)
+            | Expr::Or(..)
+            | Expr::Cmp(..)
+            | Expr::Bin(..)
+            | Expr::Un(..)
+            | Expr::Float(..)
+            | Expr::Complement(_)
+            | Expr::Neg(_)
+            | Expr::Narrow(_)
+            | Expr::HighWord(_)
+            | Expr::BitToInt(_)
+            | Expr::InRange { .. } => {}
         }
         Some(())
     }
@@ -232,10 +289,8 @@ impl Eval<'_> {
                 continue;
             }
             for (id, other) in [(a, b), (b, a)] {
-                let value = match *self.module.expr(id) {
-                    Expr::I16(value) => i32::from(value),
-                    Expr::I32(value) => value,
-                    _ => continue,
+                let Some(value) = self.module.expr(id).as_int() else {
+                    continue;
                 };
                 let (words, temps) = self.reads(other);
                 if (words != 0 || temps != 0) && i16::try_from(value).is_ok() {

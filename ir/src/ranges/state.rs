@@ -1,7 +1,7 @@
 //! What is known of index registers, and of the words they are made from, at a point of the program.
 
 use super::interval::Interval;
-use crate::node::{Access, AccessKind, Expr, ExprId, Module, Place, Stmt, TempId};
+use crate::node::{AccessKind, Expr, ExprId, Module, Place, Stmt, TempId};
 use crate::walk::{operands, statements};
 use rungc_models::Model;
 use rungc_models::runs::is_special;
@@ -55,20 +55,17 @@ impl Words {
         for _ in 0..MOST_ROUNDS {
             let before = (self.slots.len(), temps.len());
             for function in &module.functions {
-                statements(&function.body, &mut |stmt| match *stmt {
-                    Stmt::Write(
-                        Access {
-                            place,
-                            kind: AccessKind::Word | AccessKind::Pair,
-                        },
-                        value,
-                    ) if self.slot(place).is_some() => {
+                statements(&function.body, &mut |stmt| {
+                    if let Stmt::Write(access, value) = *stmt
+                        && matches!(access.kind, AccessKind::Word | AccessKind::Pair)
+                        && self.slot(access.place).is_some()
+                    {
+                        self.add_read(module, value, &mut temps);
+                    } else if let Stmt::Let(temp, value) = *stmt
+                        && temps.contains(&temp)
+                    {
                         self.add_read(module, value, &mut temps);
                     }
-                    Stmt::Let(temp, value) if temps.contains(&temp) => {
-                        self.add_read(module, value, &mut temps);
-                    }
-                    _ => {}
                 });
             }
             if before == (self.slots.len(), temps.len()) {
@@ -78,15 +75,12 @@ impl Words {
     }
 
     fn add_read(&mut self, module: &Module, value: ExprId, temps: &mut FxHashSet<TempId>) {
-        match *module.expr(value) {
-            Expr::Read(Access {
-                place,
-                kind: AccessKind::Word | AccessKind::Pair,
-            }) => self.add_register(place),
-            Expr::Temp(temp) => {
-                temps.insert(temp);
-            }
-            _ => {}
+        if let Expr::Read(access) = *module.expr(value)
+            && matches!(access.kind, AccessKind::Word | AccessKind::Pair)
+        {
+            self.add_register(access.place);
+        } else if let Expr::Temp(temp) = *module.expr(value) {
+            temps.insert(temp);
         }
         for operand in operands(module.expr(value)) {
             self.add_read(module, operand, temps);

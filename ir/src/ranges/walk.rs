@@ -127,9 +127,10 @@ impl<'m> Walk<'m> {
             let before = writes.clone();
             for (i, function) in functions.iter().enumerate() {
                 statements(&function.body, &mut |stmt| {
-                    writes[i] |= match stmt {
-                        Stmt::CallSub(n) => before.get(*n as usize).copied().unwrap_or(0),
-                        stmt => self.writes_of(stmt, None),
+                    writes[i] |= if let Stmt::CallSub(n) = stmt {
+                        before.get(*n as usize).copied().unwrap_or(0)
+                    } else {
+                        self.writes_of(stmt, None)
                     };
                 });
             }
@@ -179,13 +180,9 @@ impl<'m> Walk<'m> {
 
     /// Whether a statement itself changes what is known.
     fn matters(&self, stmt: &Stmt) -> bool {
-        match stmt {
-            Stmt::CallSub(_) | Stmt::Return | Stmt::Goto(_) => true,
-            stmt => {
-                let told = assigned(stmt).is_some_and(|temp| self.told.contains(&temp));
-                told || self.writes_of(stmt, None) != 0
-            }
-        }
+        let leaves = matches!(stmt, Stmt::CallSub(_) | Stmt::Return | Stmt::Goto(_));
+        let told = assigned(stmt).is_some_and(|temp| self.told.contains(&temp));
+        leaves || told || self.writes_of(stmt, None) != 0
     }
 
     fn has_within(&self, id: ExprId) -> bool {
@@ -237,9 +234,10 @@ impl<'m> Walk<'m> {
             None => u32::MAX,
         };
         // A run of ordinary registers does not continue into special ones.
-        let end = match place.class {
-            D if last < FIRST_SPECIAL => end.min(FIRST_SPECIAL - 1),
-            _ => end,
+        let end = if place.class == D && last < FIRST_SPECIAL {
+            end.min(FIRST_SPECIAL - 1)
+        } else {
+            end
         };
         words.within(place.class, first, end)
     }
@@ -289,16 +287,17 @@ impl<'m> Walk<'m> {
         let mut at = 0;
         while let Some(stmt) = body.get(at) {
             let before = state?;
-            let (after, next) = match *stmt {
-                Stmt::If { cond, .. } if self.is_due(stmt) => {
-                    let together = self.with_one_condition(cond, &body[at..]);
-                    let group = &body[at..at + together];
-                    (self.branches(cond, group, before), at + together)
-                }
-                _ => (self.stmt(stmt, before), at + 1),
-            };
-            state = after;
-            at = next;
+            if let Stmt::If { cond, .. } = *stmt
+                && self.is_due(stmt)
+            {
+                let together = self.with_one_condition(cond, &body[at..]);
+                let group = &body[at..at + together];
+                state = self.branches(cond, group, before);
+                at += together;
+            } else {
+                state = self.stmt(stmt, before);
+                at += 1;
+            }
         }
         state
     }
@@ -315,11 +314,9 @@ impl<'m> Walk<'m> {
         let Expr::Temp(temp) = *self.eval.module.expr(cond) else {
             return 1;
         };
-        let same = |stmt: &&Stmt| match stmt {
-            Stmt::If { cond, .. } if self.is_due(stmt) => {
-                *self.eval.module.expr(*cond) == Expr::Temp(temp)
-            }
-            stmt => !self.is_due(stmt),
+        let same = |stmt: &&Stmt| {
+            let is_it = |cond: ExprId| *self.eval.module.expr(cond) == Expr::Temp(temp);
+            !self.is_due(stmt) || matches!(**stmt, Stmt::If { cond, .. } if is_it(cond))
         };
         let mut count = 0;
         for stmt in body.iter().take_while(same) {
@@ -371,7 +368,7 @@ impl<'m> Walk<'m> {
                         tells.then_some(Known::Condition(value, words, temps))
                     }
                     Ty::F32 => None,
-                    _ => Some(Known::Value(self.eval.value(&state, value))),
+                    Ty::I16 | Ty::I32 => Some(Known::Value(self.eval.value(&state, value))),
                 };
                 state.set_temp(temp, known);
             }
@@ -415,7 +412,27 @@ impl<'m> Walk<'m> {
                 let all = self.writes_of(stmt, None);
                 state.may_become(all, Interval::of(0));
             }
-            ref stmt => {
+            Stmt::Network(_)
+            | Stmt::Edge(_)
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::Write(..)
+            | Stmt::Timer(_)
+            | Stmt::TimerAt(_)
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16(_)
+            | Stmt::Counter16At(_)
+            | Stmt::Counter32(_)
+            | Stmt::Count(_)
+            | Stmt::Reset(_)
+            | Stmt::Repeat(_)
+            | Stmt::Call(_)
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop => {
                 if let Some(temp) = assigned(stmt) {
                     state.set_temp(temp, None);
                 }

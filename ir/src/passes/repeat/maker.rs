@@ -17,12 +17,15 @@ fn sets(module: &Module, stmt: &Stmt) -> Option<(ExprId, Vec<(Access, bool)>)> {
     else {
         return None;
     };
-    let writes = then.iter().map(|stmt| match *stmt {
-        Stmt::Write(access, value) if access.kind == AccessKind::Bit => match *module.expr(value) {
-            Expr::Bit(on) => Some((access, on)),
-            _ => None,
-        },
-        _ => None,
+    let writes = then.iter().map(|stmt| {
+        if let Stmt::Write(access, value) = *stmt
+            && access.kind == AccessKind::Bit
+            && let Expr::Bit(on) = *module.expr(value)
+        {
+            Some((access, on))
+        } else {
+            None
+        }
     });
     let writes: Vec<_> = writes.collect::<Option<_>>()?;
     (otherwise.is_empty() && !writes.is_empty()).then_some((*cond, writes))
@@ -94,7 +97,29 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
                 then: self.body(then),
                 otherwise: self.body(otherwise),
             },
-            other => other.clone(),
+            // Those without anything of an iteration, and those that no shape admits.
+            other @ (Stmt::Network(_)
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::TimerAt(_)
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16At(_)
+            | Stmt::Counter32(_)
+            | Stmt::Count(_)
+            | Stmt::For { .. }
+            | Stmt::Repeat(_)
+            | Stmt::CallSub(_)
+            | Stmt::Return
+            | Stmt::Parts(_)
+            | Stmt::Goto(_)
+            | Stmt::Call(_)
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
+            | Stmt::Fault { .. }
+            | Stmt::Watch { .. }
+            | Stmt::Stop
+            | Stmt::Clear { .. }) => other.clone(),
         }
     }
 

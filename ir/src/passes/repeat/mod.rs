@@ -125,9 +125,11 @@ impl Group {
         let statements = &body[self.first..self.first + self.length];
         let inner = maker.body(statements);
         let all = &body[self.first..self.first + self.iterations * self.length];
-        let mut steps = all.iter().filter_map(|stmt| match stmt {
-            Stmt::Network(network) => Some(maker.module.networks.get(*network as usize)?.step),
-            _ => None,
+        let mut steps = all.iter().filter_map(|stmt| {
+            let Stmt::Network(network) = stmt else {
+                return None;
+            };
+            Some(maker.module.networks.get(*network as usize)?.step)
         });
         let first = steps.next().unwrap_or_default();
         let last = steps.next_back().unwrap_or(first);

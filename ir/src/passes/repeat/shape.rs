@@ -61,7 +61,27 @@ fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64)
                 }
             }
         }
-        _ => return None,
+        Stmt::SetFlag(..)
+        | Stmt::SetCell(..)
+        | Stmt::SetEntry(..)
+        | Stmt::TimerAt(_)
+        | Stmt::TimerGoesOn { .. }
+        | Stmt::Counter16At(_)
+        | Stmt::Counter32(_)
+        | Stmt::Count(_)
+        | Stmt::For { .. }
+        | Stmt::Repeat(_)
+        | Stmt::CallSub(_)
+        | Stmt::Return
+        | Stmt::Parts(_)
+        | Stmt::Goto(_)
+        | Stmt::Call(_)
+        | Stmt::Fetch(_)
+        | Stmt::Send(_)
+        | Stmt::Fault { .. }
+        | Stmt::Watch { .. }
+        | Stmt::Stop
+        | Stmt::Clear { .. } => return None,
     }
     Some(())
 }
@@ -114,10 +134,7 @@ fn add_access(access: Access, hasher: &mut FxHasher) -> Option<()> {
 fn add_place(place: Place, hasher: &mut FxHasher) -> Option<()> {
     use DeviceClass::{C, D, M, R, S, T, X, Y};
     place.class.hash(hasher);
-    let may = match place.class {
-        X | Y | M | S | T | D | R => true,
-        C => !is_counter32(place.class, place.number),
-        _ => false,
-    };
-    (place.index.is_none() && may).then_some(())
+    let may = matches!(place.class, X | Y | M | S | T | C | D | R);
+    let counter32 = is_counter32(place.class, place.number);
+    (place.index.is_none() && may && !counter32).then_some(())
 }
