@@ -75,7 +75,12 @@ impl Footprint {
 }
 
 /// What an access uses: the words of a pair are each by themselves, since that of Z is V and Z on some models.
-fn of_access(model: &Model, access: Access, writes: bool, found: &mut impl FnMut(Footprint)) {
+pub(crate) fn of_access(
+    model: &Model,
+    access: Access,
+    writes: bool,
+    found: &mut impl FnMut(Footprint),
+) {
     let place = access.place;
     match access.kind {
         AccessKind::Bit | AccessKind::WordBit(_) | AccessKind::Word => {

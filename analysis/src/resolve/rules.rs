@@ -54,35 +54,9 @@ pub(super) fn broken(
             let differ = digits(operand)? != digits(other)?;
             differ.then(|| disagree(operand, other, "must have as many digits as"))
         }
-        Rule::GroupLike(other) => {
-            let other = operands.get(other)?;
-            device_of(&operand.kind).and(device_of(&other.kind))?;
-            let differ = digits(operand).is_some() != digits(other).is_some();
-            differ.then(|| disagree(operand, other, "does not match"))
-        }
-        Rule::GroupAtMost(other, max) => {
-            digits(operands.get(other)?)?;
-            let value = operand.kind.constant()?;
-            (value > max).then(|| {
-                let message = format!("`{}` is too many groups of bits", operand.kind);
-                codes::LIMITS
-                    .at(operand.span, message)
-                    .label(format!("at most K{max} with a group"))
-            })
-        }
-        Rule::NotBefore(other) => {
-            let other = operands.get(other)?;
-            let (last, first) = (unindexed(&operand.kind)?, unindexed(&other.kind)?);
-            let apart =
-                is_special(first.class, first.number) != is_special(last.class, last.number);
-            (first.class == last.class && (apart || last.number < first.number)).then(|| {
-                disagree(
-                    operand,
-                    other,
-                    "must be in the same range as, and not before,",
-                )
-            })
-        }
+        Rule::GroupLike(other) => unlike_group(operand, operands.get(other)?),
+        Rule::GroupAtMost(other, max) => too_many_groups(operand, operands.get(other)?, max),
+        Rule::NotBefore(other) => before(operand, operands.get(other)?),
         Rule::WideCounter => {
             let device = device_of(&operand.kind)?;
             let narrow = device.class == DeviceClass::C && device.number < FIRST_COUNTER32;
@@ -94,14 +68,48 @@ pub(super) fn broken(
                 .at(operand.span, message)
                 .label(demand)
         }),
-        Rule::ClassLike(other) => {
-            let other = operands.get(other)?;
-            let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
-            differ.then(|| {
-                disagree(operand, other, "must be of the same class as")
-                    .help("name the first and the last device of one class")
-            })
-        }
+        Rule::ClassLike(other) => unlike_class(operand, operands.get(other)?),
+    })
+}
+
+/// Of two devices, one is a group of bits and the other is not.
+fn unlike_group(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
+    device_of(&operand.kind).and(device_of(&other.kind))?;
+    let differ = digits(operand).is_some() != digits(other).is_some();
+    differ.then(|| disagree(operand, other, "does not match"))
+}
+
+/// A number of values is greater than `max`, and the other operand is a group of bits.
+fn too_many_groups(operand: &Operand, other: &Operand, max: i64) -> Option<Diagnostic> {
+    digits(other)?;
+    let value = operand.kind.constant()?;
+    (value > max).then(|| {
+        let message = format!("`{}` is too many groups of bits", operand.kind);
+        codes::LIMITS
+            .at(operand.span, message)
+            .label(format!("at most K{max} with a group"))
+    })
+}
+
+/// A last device comes before the first one, or in another range of its class.
+fn before(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
+    let (last, first) = (unindexed(&operand.kind)?, unindexed(&other.kind)?);
+    let apart = is_special(first.class, first.number) != is_special(last.class, last.number);
+    (first.class == last.class && (apart || last.number < first.number)).then(|| {
+        disagree(
+            operand,
+            other,
+            "must be in the same range as, and not before,",
+        )
+    })
+}
+
+/// Two operands are of different classes.
+fn unlike_class(operand: &Operand, other: &Operand) -> Option<Diagnostic> {
+    let differ = Classes::of(&operand.kind) != Classes::of(&other.kind);
+    differ.then(|| {
+        disagree(operand, other, "must be of the same class as")
+            .help("name the first and the last device of one class")
     })
 }
 

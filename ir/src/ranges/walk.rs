@@ -7,7 +7,7 @@ use crate::node::{
     Access, AccessKind, Body, Expr, ExprId, Function, FunctionKind, LabelId, Part, Place, Stmt,
     TempId, Ty,
 };
-use crate::reach;
+use crate::reach::{self, of_access};
 use crate::walk::{assigned, bodies, for_exprs, operands, statements};
 use rungc_models::runs::FIRST_SPECIAL;
 use rungc_syntax::DeviceClass;
@@ -360,38 +360,12 @@ impl<'m> Walk<'m> {
         self.note(stmt, &state);
         match *stmt {
             Stmt::Let(temp, value) => {
-                let known = match self.eval.module.ty(value) {
-                    Ty::Bit => {
-                        let (words, temps) = self.eval.reads(value);
-                        let of_itself = temps & super::state::temp_bit(temp) != 0;
-                        let tells = (words, temps) != (0, 0) && !of_itself;
-                        tells.then_some(Known::Condition(value, words, temps))
-                    }
-                    Ty::F32 => None,
-                    Ty::I16 | Ty::I32 => Some(Known::Value(self.eval.value(&state, value))),
-                };
+                let known = self.known(&state, temp, value);
                 state.set_temp(temp, known);
             }
-            Stmt::Write(
-                Access {
-                    place,
-                    kind: AccessKind::Word,
-                },
-                value,
-            ) => {
+            Stmt::Write(access, value) => {
                 let value = self.eval.value(&state, value);
-                self.write(&mut state, place, value);
-            }
-            Stmt::Write(
-                Access {
-                    place,
-                    kind: AccessKind::Pair,
-                },
-                value,
-            ) if place.index.is_none() => {
-                let (low, high) = words_of(self.eval.value(&state, value));
-                self.write(&mut state, place, low);
-                self.write(&mut state, self.eval.words.high_word(place), high);
+                self.write(&mut state, access, value);
             }
             Stmt::If { .. } => return Some(state),
             Stmt::For { count, ref body } => return self.repeat(count, body, state),
@@ -417,7 +391,6 @@ impl<'m> Walk<'m> {
             | Stmt::SetFlag(..)
             | Stmt::SetCell(..)
             | Stmt::SetEntry(..)
-            | Stmt::Write(..)
             | Stmt::Timer(_)
             | Stmt::TimerAt(_)
             | Stmt::TimerGoesOn { .. }
@@ -443,7 +416,44 @@ impl<'m> Walk<'m> {
         Some(state)
     }
 
-    fn write(&self, state: &mut State, place: Place, value: Interval) {
+    /// What is known of a temporary that is given a value.
+    fn known(&self, state: &State, temp: TempId, value: ExprId) -> Option<Known> {
+        match self.eval.module.ty(value) {
+            Ty::Bit => {
+                let (words, temps) = self.eval.reads(value);
+                let of_itself = temps & super::state::temp_bit(temp) != 0;
+                let tells = (words, temps) != (0, 0) && !of_itself;
+                tells.then_some(Known::Condition(value, words, temps))
+            }
+            Ty::F32 => None,
+            Ty::I16 | Ty::I32 => Some(Known::Value(self.eval.value(state, value))),
+        }
+    }
+
+    fn write(&self, state: &mut State, access: Access, value: Interval) {
+        let place = access.place;
+        match access.kind {
+            AccessKind::Word => self.write_word(state, place, value),
+            AccessKind::Pair if place.index.is_none() => {
+                let (low, high) = words_of(value);
+                self.write_word(state, place, low);
+                self.write_word(state, self.eval.words.high_word(place), high);
+            }
+            AccessKind::Bit
+            | AccessKind::WordBit(_)
+            | AccessKind::Pair
+            | AccessKind::Float
+            | AccessKind::Nibbles { .. } => {
+                let mut written = 0;
+                of_access(self.eval.module.model, access, true, &mut |used| {
+                    written |= self.devices(used.place, used.count, Some(state));
+                });
+                state.may_become(written, Interval::WORD);
+            }
+        }
+    }
+
+    fn write_word(&self, state: &mut State, place: Place, value: Interval) {
         match self.eval.words.slot(place) {
             Some(slot) => state.set(slot, value),
             None => {
