@@ -386,9 +386,16 @@ pub struct ViewArgs {
     /// Characters on a line. Default: the width of the terminal, or 120.
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
     pub width: Option<u16>,
-    /// Omit the comments of devices.
+    /// Omit the comments of devices, in the terminal.
     #[arg(long)]
     pub no_comments: bool,
+    /// Write a file: a page (.html) of the whole program, or a picture (.svg) of the networks that are drawn. With several programs, a folder for
+    /// their pages.
+    #[arg(short, long, value_name = "PATH")]
+    pub output: Option<PathBuf>,
+    /// Overwrite an existing file.
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// Arguments of `init`.

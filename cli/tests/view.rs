@@ -44,3 +44,29 @@ fn what_cannot_be_chosen_is_said() {
     assert!(said(&["--network", "3..1"]).contains("counted from 1"));
     assert!(said(&["--around", "E9999"]).contains("not a diagnostic code"));
 }
+
+#[test]
+fn a_page_and_a_picture_are_files() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    for (name, start) in [("motor.html", "<!DOCTYPE html>"), ("motor.svg", "<svg")] {
+        let write = |more: &[&str]| {
+            let out = rungc(
+                folder.path(),
+                &[&["view", "motor.il", "-o", name], more].concat(),
+            );
+            (out.status.code(), text(&out.stderr))
+        };
+        assert_eq!(write(&[]).0, Some(0));
+        let written = std::fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(written.starts_with(start), "{written}");
+        assert!(written.contains("T0 K3"));
+        let (code, said) = write(&[]);
+        assert_eq!(code, Some(2));
+        assert!(said.contains("already exists"), "{said}");
+        assert_eq!(write(&["--force"]).0, Some(0));
+    }
+    let out = rungc(folder.path(), &["view", "motor.il", "-o", "motor.bmp"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("ends in .html or .svg"));
+    assert!(!folder.path().join("motor.bmp").exists());
+}

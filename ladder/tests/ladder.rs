@@ -4,8 +4,9 @@ use proptest::prelude::*;
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_catalogue::{Basic, Join, Lower};
 use rungc_ladder::list::{Entry, Listed, instructions};
+use rungc_ladder::svg::Painter;
 use rungc_ladder::text::{Style, draw};
-use rungc_ladder::{Ladder, Network, NetworkBody, build};
+use rungc_ladder::{Ladder, Network, NetworkBody, build, html};
 use rungc_models::{Model, ModelId};
 use rungc_syntax::Program;
 use std::path::{Path, PathBuf};
@@ -268,10 +269,49 @@ proptest! {
     }
 }
 
+const MOTOR: &str = ";! X000 = start button\n;! X001 = stop button\n;! M0 = motor latch\n;! Y000 = main contactor of the conveyor\nLD X0\nOR M0\nANI X1\nOUT M0\nLD M0\nOUT T0 K30\nAND T0\nOUT Y0\nEND\n";
+
+#[test]
+fn a_picture_of_a_motor() {
+    let program = read(MOTOR);
+    let picture = with(&program, |resolved, ladder| {
+        let networks = numbered(ladder);
+        let painter = Painter::new(resolved, &networks, 60);
+        painter.sheet(&networks).to_string()
+    });
+    insta::assert_snapshot!(picture);
+}
+
+#[test]
+fn a_page_holds_hostile_texts_as_texts() {
+    let program = read(
+        ";! X000 = </script><img src=x onerror=alert(1)>\n;! Y000 = a\u{202e}b\n; </p><b>\nLD X0\nOUT Y0\nEND\n",
+    );
+    let page = with(&program, |resolved, ladder| {
+        html::page("<i>title</i>", resolved, ladder)
+    });
+    for hostile in ["<img", "<i>", "<b></b>", "</p><b>", "\u{202e}"] {
+        assert!(!page.contains(hostile), "{hostile}");
+    }
+    assert!(page.contains("&lt;i&gt;title&lt;/i&gt;"));
+    assert!(page.contains("&lt;/script&gt;&lt;img src=x"));
+    assert_eq!(
+        page.matches("<script").count(),
+        page.matches("</script>").count()
+    );
+}
+
+#[test]
+fn every_label_of_a_network_is_drawn() {
+    let drawn = picture("P0\nP1\nP2\nLD X0\nOUT Y0\nEND\n");
+    for label in ["P0", "P1", "P2"] {
+        assert!(drawn.contains(label), "{drawn}");
+    }
+}
+
 #[test]
 fn a_latching_motor() {
-    let list = ";! X000 = start button\n;! X001 = stop button\n;! M0 = motor latch\n;! Y000 = main contactor of the conveyor\nLD X0\nOR M0\nANI X1\nOUT M0\nLD M0\nOUT T0 K30\nAND T0\nOUT Y0\nEND\n";
-    insta::assert_snapshot!(picture(list));
+    insta::assert_snapshot!(picture(MOTOR));
 }
 
 #[test]

@@ -1,13 +1,14 @@
 //! `rungc view`.
 
-use super::subject::{self, Subject};
-use super::{Context, Failure, Outcome, Result, say, unread};
+use super::subject::{self, OutputPaths, Subject};
+use super::{Context, Failure, Outcome, Result, say, stem, unread, write_file};
 use crate::args::ViewArgs;
 use crate::report::{Findings, Reporter};
 use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_frontend::Read;
+use rungc_ladder::svg::Painter;
 use rungc_ladder::text::{Style, draw};
-use rungc_ladder::{Network, build};
+use rungc_ladder::{Network, build, html};
 use rungc_lower::compile;
 use rungc_syntax::{Device, OperandKind, Span};
 use std::fmt::Write;
@@ -16,6 +17,9 @@ use terminal_size::{Width, terminal_size};
 /// Characters on a line where nothing says how many there are.
 const USUAL_WIDTH: u16 = 120;
 
+/// Characters on a line of a picture.
+const PICTURE_WIDTH: usize = 104;
+
 /// Draws programs.
 pub fn run(args: &ViewArgs, cx: Context) -> Result {
     let terminal = terminal_size().map(|(Width(width), _)| width);
@@ -23,12 +27,19 @@ pub fn run(args: &ViewArgs, cx: Context) -> Result {
         width: args.width.or(terminal).unwrap_or(USUAL_WIDTH).into(),
         comments: !args.no_comments,
     };
+    let mut outputs = OutputPaths::default();
     subject::each(&args.inputs, cx, |subject, reporter| {
-        view(args, subject, reporter, style)
+        view(args, subject, reporter, style, &mut outputs)
     })
 }
 
-fn view(args: &ViewArgs, subject: &Subject, reporter: &mut Reporter, style: Style) -> Result {
+fn view(
+    args: &ViewArgs,
+    subject: &Subject,
+    reporter: &mut Reporter,
+    style: Style,
+    outputs: &mut OutputPaths,
+) -> Result {
     // As its author drew it: without what the settings add.
     let read = match subject::source(subject) {
         Ok(read) => read,
@@ -64,16 +75,56 @@ fn view(args: &ViewArgs, subject: &Subject, reporter: &mut Reporter, style: Styl
             subject.file.display()
         )));
     }
-    let mut page = String::new();
-    if reporter.many() {
-        _ = writeln!(page, "; {}", findings.name(true));
+    match &args.output {
+        Some(path) => {
+            let path = match reporter.many() {
+                true => {
+                    outputs.claim(path.join(format!("{}.html", stem(subject, &read))), subject)?
+                }
+                false => path.clone(),
+            };
+            let ending = path.extension().and_then(|ending| ending.to_str());
+            let picture = match ending {
+                Some("html") => html::page(&title(subject, &read), &resolved, &ladder),
+                Some("svg") => Painter::new(&resolved, &networks, PICTURE_WIDTH)
+                    .sheet(&networks)
+                    .to_string(),
+                _ => {
+                    let why = "-o: name a file that ends in .html or .svg";
+                    return Err(Failure::Because(why.to_string()));
+                }
+            };
+            write_file(&path, picture.as_bytes(), args.force)?;
+        }
+        None => {
+            let mut page = String::new();
+            if reporter.many() {
+                _ = writeln!(page, "; {}", findings.name(true));
+            }
+            page.push_str(&draw(&resolved, &networks, style));
+            say(&page)?;
+        }
     }
-    page.push_str(&draw(&resolved, &networks, style));
-    say(&page)?;
     Ok(if findings.failed() {
         Outcome::Failed
     } else {
         Outcome::Success
+    })
+}
+
+/// What a page is headed: the project's title, or the name of its file.
+fn title(subject: &Subject, read: &Read) -> String {
+    let title = read
+        .program
+        .title
+        .clone()
+        .filter(|title| !title.trim().is_empty());
+    title.unwrap_or_else(|| {
+        let name = subject.file.file_name();
+        name.map_or_else(
+            || "program".to_string(),
+            |name| name.to_string_lossy().into_owned(),
+        )
     })
 }
 
