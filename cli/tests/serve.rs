@@ -80,16 +80,25 @@ impl Serving {
         assert!(kill.success());
         let mut stderr = Vec::new();
         self.errors.read_to_end(&mut stderr).unwrap();
-        let output = self.child.wait_with_output().unwrap();
-        let mut stdout = text(&output.stdout).to_string();
+        let mut stdout = String::new();
+        let table = self.child.stdout.as_mut().unwrap();
+        table.read_to_string(&mut stdout).unwrap();
+        let status = self.child.wait().unwrap();
         for (n, port) in self.ports.iter().enumerate() {
             stdout = stdout.replace(&port.to_string(), &format!("port{n}"));
         }
         Output {
             stdout: stdout.into_bytes(),
             stderr,
-            ..output
+            status,
         }
+    }
+}
+
+impl Drop for Serving {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
@@ -162,6 +171,21 @@ fn the_table_of_connections() {
     ] {
         assert!(log.contains(said), "{said} is not in\n{log}");
     }
+}
+
+/// A client that has gone without a word, such as one behind a broken cable, does not keep the next one out.
+#[test]
+fn the_latest_client_is_the_other_end_of_a_line() {
+    let folder = folder(&[
+        ("p.il", PROGRAM.as_bytes()),
+        ("rungc.toml", SETTINGS.as_bytes()),
+    ]);
+    let serving = Serving::start(folder.path(), 4, &[]);
+    let mut silent = serving.connect(3);
+    assert_eq!(ask(&mut silent, &RTU_WRITE_D0, 8), RTU_WRITE_D0);
+    let mut line = serving.connect(3);
+    assert_eq!(ask(&mut line, &RTU_WRITE_D0, 8), RTU_WRITE_D0);
+    drop(silent);
 }
 
 /// What the command line says of a protocol takes precedence, and so does what it says of a port.

@@ -23,6 +23,10 @@ use wire::{Chunk, Event, Wire};
 /// Characters that wait for a line that does not take them; more are lost, as on an open wire.
 const UNSENT: usize = 4096;
 
+/// How far ahead of their times characters are handed over: a frame goes out as a whole, because pauses between its parts would tear it. The
+/// other end sends them one after the other.
+const AHEAD_US: u32 = 1 << 30;
+
 /// The serial lines of a run.
 #[derive(Default)]
 pub struct Lines(Vec<Line>);
@@ -42,8 +46,9 @@ struct Line {
     format: LineFormat,
     /// What the port speaks.
     protocol: Protocol,
-    /// When the last character was in.
-    last_us: u32,
+    /// When the last character was in, and when the last one is out, in microseconds since the run began.
+    last_us: u64,
+    sent_us: u64,
     /// What is on the wire.
     frames: Frames,
     place: Place,
@@ -81,7 +86,7 @@ impl Lines {
         }
     }
 
-    /// What the ports have sent by now goes out.
+    /// What the ports have sent goes out.
     pub fn send(
         &mut self,
         hal: &mut VirtualHal,
@@ -138,6 +143,7 @@ impl Line {
             format: LineFormat::new(),
             protocol: Protocol::Off,
             last_us: 0,
+            sent_us: 0,
             frames: Frames::default(),
             place,
         })
@@ -166,8 +172,12 @@ impl Line {
                     ErrorKind::UnexpectedEof => "it was closed".to_string(),
                     _ => error.to_string(),
                 };
+                let what = match self.wire {
+                    Some(_) => "is gone",
+                    None => "is not there",
+                };
                 tell(&format!(
-                    "rungc: COM{number}: {name} is gone ({why}); waiting for it to come back"
+                    "rungc: COM{number}: {name} {what} ({why}); waiting for it"
                 ));
                 self.wire = None;
                 self.lost = true;
@@ -179,19 +189,13 @@ impl Line {
 
     /// A frame was on the wire.
     fn seen(&self, whole: Whole, now_ms: u64, watch: &mut Watch) {
-        let now_us = 1000 * now_ms;
-        let since_us = whole.at_us.wrapping_sub(now_us as u32) as i32;
         let seen = Seen {
             place: &self.place,
             speech: Speech::Serial(self.protocol),
             direction: whole.direction,
             bytes: &whole.bytes,
         };
-        watch.frame(
-            now_us.saturating_add_signed(since_us.into()),
-            Way::Serial,
-            seen,
-        );
+        watch.frame(since_begin(whole.at_us, now_ms), Way::Serial, seen);
     }
 
     /// Frames are those of the protocol that the port speaks.
@@ -235,22 +239,19 @@ impl Line {
         from_ms: u64,
     ) -> Vec<Whole> {
         let mut frames = Vec::new();
-        let character_us = self.format.character_us();
-        let came_us = chunk.at.saturating_duration_since(begin).as_micros() as u32;
-        let before = chunk.bytes.len().saturating_sub(1) as u32;
-        let mut at_us = came_us.wrapping_sub(character_us.wrapping_mul(before));
+        let character_us = u64::from(self.format.character_us());
+        let came_us = chunk.at.saturating_duration_since(begin).as_micros() as u64;
+        let before = chunk.bytes.len().saturating_sub(1) as u64;
+        let mut at_us = came_us.saturating_sub(character_us * before);
         for &byte in &chunk.bytes {
+            // What came before the port was done sending answers what a faster line has shown already.
             let earliest = [
-                (from_ms * 1000) as u32,
-                self.last_us.wrapping_add(character_us),
+                1000 * from_ms,
+                self.last_us.max(self.sent_us) + character_us,
             ];
-            for earliest in earliest {
-                if (at_us.wrapping_sub(earliest) as i32) < 0 {
-                    at_us = earliest;
-                }
-            }
+            at_us = earliest.into_iter().fold(at_us, u64::max);
             let character = Received {
-                at_us,
+                at_us: at_us as u32,
                 byte,
                 ..Received::new()
             };
@@ -259,10 +260,10 @@ impl Line {
                 let _ = line.feed(character);
             }
             let line = (self.protocol, self.format);
-            let ended = self.frames.push(Direction::In, at_us, byte, line);
+            let ended = self.frames.push(Direction::In, at_us as u32, byte, line);
             frames.extend(ended.into_iter().flatten());
             self.last_us = at_us;
-            at_us = at_us.wrapping_add(character_us);
+            at_us += character_us;
         }
         frames
     }
@@ -272,12 +273,13 @@ impl Line {
         let format = (self.protocol, self.format);
         let mut frames = Vec::new();
         if let Some(line) = hal.line(self.number) {
-            while let Some(sent) = line.take(now_us) {
+            while let Some(sent) = line.take(now_us.wrapping_add(AHEAD_US)) {
                 let ended = self
                     .frames
                     .push(Direction::Out, sent.at_us, sent.byte, format);
                 frames.extend(ended.into_iter().flatten());
                 self.unsent.push(sent.byte);
+                self.sent_us = since_begin(sent.at_us, now_ms);
             }
         }
         frames.extend(self.frames.end(now_us, format));
@@ -300,4 +302,11 @@ impl Line {
             self.unsent.clear();
         }
     }
+}
+
+/// A wrapping time near `now_ms` in microseconds since the run began.
+fn since_begin(at_us: u32, now_ms: u64) -> u64 {
+    let now_us = 1000 * now_ms;
+    let later_us = at_us.wrapping_sub(now_us as u32) as i32;
+    now_us.saturating_add_signed(later_us.into())
 }

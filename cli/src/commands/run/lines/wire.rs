@@ -75,6 +75,7 @@ pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
         LineEnd::Tcp(_) => (end.to_string(), Source::Known(end.clone()), None),
         LineEnd::TcpListen(address) => {
             let listener = TcpListener::bind(address)?;
+            listener.set_nonblocking(true)?;
             let name = LineEnd::TcpListen(listener.local_addr()?).to_string();
             (name, Source::Clients(listener), None)
         }
@@ -92,49 +93,73 @@ pub fn keep(end: &LineEnd) -> io::Result<(String, mpsc::Receiver<Event>)> {
 /// The run no longer wants to know.
 struct Over;
 
+/// Why a thread no longer listens to a wire.
+enum End {
+    /// It has vanished.
+    Failed(io::Error),
+    /// This one has taken its place.
+    Replaced(Wire),
+}
+
 impl Source {
     /// Reports what happens to the end, until the run no longer wants to know. `wire` is the end if it is open already.
     fn keep(&self, mut wire: Option<Wire>, events: &Sender<Event>) {
         let mut pause = PAUSES[0];
-        let mut reported = false;
+        // That no client has connected yet is not worth a word.
+        let mut reported = matches!(self, Source::Clients(_));
         loop {
             let opened = match wire.take() {
                 Some(wire) => Ok(wire),
                 None => self.open(),
             };
             let error = match opened.and_then(|wire| Ok((wire.try_clone()?, wire))) {
-                Ok((ours, wire)) => {
+                Ok((ours, theirs)) => {
                     reported = false;
                     pause = PAUSES[0];
-                    if events.send(Event::Up(wire)).is_err() {
+                    if events.send(Event::Up(theirs)).is_err() {
                         return;
                     }
-                    match ours.listen(events) {
-                        Ok(error) => error,
+                    match ours.listen(events, || self.newcomer()) {
+                        Ok(End::Failed(error)) => error,
+                        Ok(End::Replaced(newcomer)) => {
+                            wire = Some(newcomer);
+                            continue;
+                        }
                         Err(Over) => return,
                     }
                 }
                 Err(error) => error,
             };
-            // That it is still not there is not worth a word.
+            // That it is still not there has been said.
             if !reported && events.send(Event::Down(error)).is_err() {
                 return;
             }
             reported = true;
-            if !matches!(self, Source::Clients(_)) {
-                thread::sleep(pause);
-                pause = (2 * pause).min(PAUSES[1]);
+            match self {
+                Source::Clients(_) => thread::sleep(PATIENCE),
+                Source::Known(_) | Source::Pty { .. } => {
+                    thread::sleep(pause);
+                    pause = (2 * pause).min(PAUSES[1]);
+                }
             }
+        }
+    }
+
+    /// A client that has connected: the latest is the other end, because the one before it may be dead without having said so.
+    fn newcomer(&self) -> Option<Wire> {
+        match self {
+            Source::Clients(listener) => listener
+                .accept()
+                .and_then(|(stream, _)| connected(stream))
+                .ok(),
+            Source::Known(_) | Source::Pty { .. } => None,
         }
     }
 
     fn open(&self) -> io::Result<Wire> {
         match self {
             Source::Known(end) => open(end),
-            Source::Clients(listener) => {
-                let (stream, _) = listener.accept()?;
-                connected(stream)
-            }
+            Source::Clients(_) => self.newcomer().ok_or_else(|| ErrorKind::WouldBlock.into()),
             Source::Pty { .. } => Err(ErrorKind::NotFound.into()),
         }
     }
@@ -165,6 +190,8 @@ fn prepared(mut port: SerialPort) -> io::Result<Wire> {
 }
 
 fn connected(stream: TcpStream) -> io::Result<Wire> {
+    // Some systems pass on that the socket does not block.
+    stream.set_nonblocking(false)?;
     // A frame is one small packet: waiting for more only delays it.
     stream.set_nodelay(true)?;
     stream.set_read_timeout(Some(PATIENCE))?;
@@ -209,18 +236,25 @@ impl Wire {
         port.set_configuration(&settings)
     }
 
-    /// Reports what comes, until the end fails; returns why.
-    fn listen(mut self, events: &Sender<Event>) -> Result<io::Error, Over> {
+    /// Reports what comes, until the end fails or another takes its place.
+    fn listen(
+        mut self,
+        events: &Sender<Event>,
+        newcomer: impl Fn() -> Option<Wire>,
+    ) -> Result<End, Over> {
         let mut buffer = [0; 1024];
         loop {
+            if let Some(wire) = newcomer() {
+                return Ok(End::Replaced(wire));
+            }
             let event = match self.read(&mut buffer) {
-                Ok(0) => return Ok(ErrorKind::UnexpectedEof.into()),
+                Ok(0) => return Ok(End::Failed(ErrorKind::UnexpectedEof.into())),
                 Ok(count) => Event::Chunk(Chunk {
                     at: Instant::now(),
                     bytes: buffer[..count].to_vec(),
                 }),
                 Err(error) if is_patience(&error) => continue,
-                Err(error) => return Ok(error),
+                Err(error) => return Ok(End::Failed(error)),
             };
             events.send(event).map_err(|_| Over)?;
         }
