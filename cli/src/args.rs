@@ -266,6 +266,10 @@ pub struct RunArgs {
     /// existing file.
     #[arg(long, value_name = "FILE")]
     pub plot: Option<PathBuf>,
+    /// Draw what HM's oscilloscope has sampled last (D8030 to D8043) as an SVG, and write a table of the samples beside it (`.csv`);
+    /// overwrites existing files.
+    #[arg(long, value_name = "FILE")]
+    pub scope: Option<PathBuf>,
     /// Run in real time instead of as fast as possible.
     #[arg(long)]
     pub real_time: bool,

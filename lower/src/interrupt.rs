@@ -136,7 +136,7 @@ impl Lowerer<'_> {
         if let Some(catch) = self.model.interrupts.pulse_catch {
             requests.extend(self.caught(catch));
         }
-        if self.keeps(D_SCOPE_STATE) {
+        if self.model.has_oscilloscope() && self.specials.has(D_SCOPE_STATE) {
             self.clock();
             requests.push(Request {
                 source: Some(Source::Period { ms: 1 }),

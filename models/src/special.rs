@@ -4,8 +4,8 @@
 
 use crate::Model;
 use rungc_rt::special::{
-    D_CONSTANT_SCAN, D_REMOTE, D_SHORTEST_SCAN, D_TYPE, M_CONSTANT_SCAN, M_FORCE_ENABLE,
-    M_FORCED_RUN, M_LOCAL_CONTROL, M_REMOTE_RUN,
+    D_CONSTANT_SCAN, D_REMOTE, D_SCOPE_STATE, D_SHORTEST_SCAN, D_TYPE, M_CONSTANT_SCAN,
+    M_FORCE_ENABLE, M_FORCED_RUN, M_LOCAL_CONTROL, M_REMOTE_RUN,
 };
 use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
@@ -151,6 +151,12 @@ impl Model {
     pub fn scan_keeps<D: SpecialDevice>(&self, device: D) -> bool {
         let row = self.special(D::CLASS, device.number());
         row.is_some_and(Special::is_kept_by_scan)
+    }
+
+    /// Whether its registers from D8030 on are an oscilloscope's (HM). On L01S, they are the values of analog inputs, in one row.
+    pub fn has_oscilloscope(&self) -> bool {
+        let row = self.special(DeviceClass::D, D_SCOPE_STATE.number());
+        row.is_some_and(|row| row.is_kept_by_scan() && row.first == row.last)
     }
 
     /// What asks for scans of constant length on this model.
@@ -451,6 +457,14 @@ mod tests {
         assert_eq!(of(ModelId::Fx1n), Some((Some(8039), 8039)));
         assert_eq!(of(ModelId::L01s), Some((None, 8059)));
         assert_eq!(of(ModelId::Hm), None);
+    }
+
+    #[test]
+    fn one_model_has_an_oscilloscope() {
+        for id in ModelId::ALL {
+            let has = Model::get(id).has_oscilloscope();
+            assert_eq!(has, id == ModelId::Hm, "{id:?}");
+        }
     }
 
     #[test]

@@ -542,6 +542,36 @@ mod tests {
         assert_eq!(sent, i32::MAX as u32);
     }
 
+    /// At 100 kHz, 2³¹ pulses take six hours; ramps of 100 ms add 100 ms to that.
+    #[test]
+    fn two_to_the_31st_pulses_do_not_drift() {
+        let slope = Train::slope(100_000, 100);
+        let mut generator = Generator::new();
+        generator.start(Train {
+            lowest: slope / 4,
+            up: slope,
+            down: slope,
+            ..Train::steady(100_000_000, 1 << 31)
+        });
+        let (mut now_us, mut sent) = (0u64, 0u64);
+        let whole_us = (1u64 << 31) * 10 + 100_000;
+        while generator.is_busy() {
+            now_us += if whole_us.saturating_sub(now_us) < 2_000_000 {
+                10
+            } else {
+                1_000_000
+            };
+            sent += u64::from(generator.advance(now_us as u32));
+            assert!(now_us < whole_us + 2_000, "{sent} pulses");
+        }
+        assert_eq!(sent, 1 << 31);
+        // A ramp from rest is late by a part of its first pulse.
+        assert!(
+            (whole_us..whole_us + 2_000).contains(&now_us),
+            "{now_us} of {whole_us}"
+        );
+    }
+
     #[test]
     fn a_pin_has_every_pulse_however_late_it_is_driven() {
         let mut numbers = Numbers(4);

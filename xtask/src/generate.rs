@@ -25,7 +25,7 @@ pub enum What {
     Book,
     /// docs/src/commands.md, from --help.
     Commands,
-    /// docs/src/drill.svg, drawn by the command in docs/src/machines.md.
+    /// docs/src/drill.svg and docs/src/cam.svg, drawn by the commands in docs/src/machines.md.
     Diagram,
     /// benches/figures.toml, measured with the Arm compiler and QEMU; `cargo test -p rungc-benches` compares.
     Figures,
@@ -71,7 +71,7 @@ pub fn run(args: &Args) -> Result<(), Problem> {
             What::Header => header::make()?,
             What::Book => book::make()?,
             What::Commands => rungc::commands()?,
-            What::Diagram => rungc::diagram()?,
+            What::Diagram => rungc::diagrams()?,
             What::Figures | What::Benchmarks | What::Snapshots if args.check => {
                 return Err(format!(
                     "{} cannot be checked here: cargo test does that where it can be done",

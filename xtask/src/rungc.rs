@@ -9,6 +9,9 @@ use std::process::Command;
 /// The example programs, below the root.
 const EXAMPLES: &str = "examples/programs";
 
+/// Options before the name of a diagram.
+const DRAWING: [&str; 2] = ["--plot", "--scope"];
+
 /// The page on commands: what `rungc help` prints.
 pub fn commands() -> Result<Made, Problem> {
     let rungc = build()?;
@@ -35,14 +38,12 @@ pub fn commands() -> Result<Made, Problem> {
     Ok(Made::file("docs/src/commands.md", page))
 }
 
-/// The diagram of the drill: what the command in the page on machines draws.
-pub fn diagram() -> Result<Made, Problem> {
+/// The diagrams of the page on machines: what its commands draw.
+pub fn diagrams() -> Result<Made, Problem> {
     let page = fs::read_to_string(root().join("docs/src/machines.md"))?;
-    let mut commands = page
+    let commands = page
         .lines()
         .filter_map(|line| line.strip_prefix("$ rungc "));
-    let command = commands.find(|command| command.contains("--plot drill.svg"));
-    let command = command.ok_or("docs/src/machines.md has no command that draws drill.svg")?;
     let folder = tempfile::tempdir()?;
     let examples = folder.path().join(EXAMPLES);
     fs::create_dir_all(&examples)?;
@@ -52,10 +53,22 @@ pub fn diagram() -> Result<Made, Problem> {
             fs::copy(entry.path(), examples.join(entry.file_name()))?;
         }
     }
-    let args: Vec<_> = command.split(' ').collect();
-    run(&build()?, folder.path(), &args)?;
-    let drawn = fs::read_to_string(folder.path().join("drill.svg"))?;
-    Ok(Made::file("docs/src/drill.svg", drawn))
+    let rungc = build()?;
+    let mut made = Made::default();
+    for command in commands {
+        let args: Vec<_> = command.split(' ').collect();
+        let draws = |pair: &&[&str]| DRAWING.contains(&pair[0]);
+        let Some(&[_, file]) = args.windows(2).find(draws) else {
+            continue;
+        };
+        run(&rungc, folder.path(), &args)?;
+        let drawn = fs::read_to_string(folder.path().join(file))?;
+        made.files.push((Path::new("docs/src").join(file), drawn));
+    }
+    match made.files.is_empty() {
+        true => Err("docs/src/machines.md has no command that draws".into()),
+        false => Ok(made),
+    }
 }
 
 /// Builds the command; gives its place.

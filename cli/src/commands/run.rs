@@ -6,6 +6,7 @@ mod errors;
 mod lines;
 mod plotting;
 mod recording;
+mod scope;
 mod serving;
 mod simulate;
 mod view;
@@ -87,9 +88,15 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
     };
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
     let wired = described.iter().flat_map(Description::terminals);
+    let registers = args.scope.iter().flat_map(|_| scope::REGISTERS);
+    let sampled = registers.map(|register| (DeviceClass::D, register.number()));
     let options = CompileOptions {
         name: Some(stem(subject, &read)),
-        observe: used.flat_map(observed).chain(wired).collect(),
+        observe: used
+            .flat_map(observed)
+            .chain(wired)
+            .chain(sampled)
+            .collect(),
         // Clients may ask for any device.
         observe_all: args.serve.any(),
         ports: args.serve.serial.iter().map(|serial| serial.port).collect(),
@@ -182,9 +189,12 @@ fn spare_inputs(args: &RunArgs, subject: &Subject) -> std::result::Result<(), Fa
     if let Some(machine) = &args.machine {
         used.push((real_path(machine), "describes the machine"));
     }
+    let table = args.scope.as_deref().map(scope::table);
     let writes = [
         ("--vcd", &args.vcd, "is written by --vcd"),
         ("--plot", &args.plot, "is written by --plot"),
+        ("--scope", &args.scope, "is written by --scope"),
+        ("--scope", &table, "is written by --scope"),
         (
             "--trace-frames",
             &args.serve.trace_frames,

@@ -4,6 +4,7 @@ use super::errors::Errors;
 use super::lines::Lines;
 use super::plotting::Plotting;
 use super::recording::Recording;
+use super::scope::Scope;
 use super::serving::Servers;
 use super::view::{Column, Kind, View};
 use super::watch::Watch;
@@ -35,6 +36,7 @@ struct Simulation<'a> {
     out: Table,
     recording: Option<Recording>,
     plotting: Option<Plotting>,
+    scope: Option<Scope>,
     plant: Option<Plant>,
     errors: Errors<'a>,
     servers: Servers,
@@ -81,6 +83,10 @@ impl Run<'_> {
             Some(path) => Some(Recording::begin(path, &machine, around, self.shown)?),
             None => None,
         };
+        let scope = match &args.scope {
+            Some(path) => Some(Scope::begin(path, &machine)?),
+            None => None,
+        };
         let plotting = match &args.plot {
             Some(path) => {
                 let duration = args.end_ms().ok_or_else(|| {
@@ -104,10 +110,11 @@ impl Run<'_> {
             ),
             out: Table {
                 muted: !self.table,
-                optional: recording.is_some() || plotting.is_some(),
+                optional: recording.is_some() || plotting.is_some() || scope.is_some(),
             },
             recording,
             plotting,
+            scope,
             plant,
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
@@ -138,6 +145,9 @@ impl Run<'_> {
         }
         if let Some(plotting) = simulation.plotting {
             plotting.keep()?;
+        }
+        if let Some(scope) = simulation.scope {
+            scope.keep(&simulation.machine)?;
         }
         Ok(match denied {
             true => Outcome::Failed,
@@ -257,6 +267,7 @@ impl Simulation<'_> {
         self.plant.is_none()
             && self.recording.is_none()
             && self.plotting.is_none()
+            && self.scope.is_none()
             && !self.machine.module().takes_time()
     }
 
@@ -321,6 +332,9 @@ impl Simulation<'_> {
 
     fn record(&mut self) -> std::result::Result<(), Failure> {
         let plant = self.plant.as_ref();
+        if let Some(scope) = &mut self.scope {
+            scope.sample(&self.machine);
+        }
         if let Some(plotting) = &mut self.plotting {
             plotting.sample(self.now_ms, &self.machine, plant);
         }
