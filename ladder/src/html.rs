@@ -94,7 +94,7 @@ fn write_devices(
 ) -> fmt::Result {
     writeln!(
         out,
-        "<details id=\"devices\">\n<summary>Devices ({})</summary>\n<table>\n<thead><tr><th scope=\"col\">Device</th><th scope=\"col\">Comment</th>\
+        "<aside aria-label=\"Devices\">\n<details id=\"devices\">\n<summary>Devices ({})</summary>\n<table>\n<thead><tr><th scope=\"col\">Device</th><th scope=\"col\">Comment</th>\
          <th scope=\"col\">Networks</th></tr></thead>\n<tbody>",
         uses.len()
     )?;
@@ -106,7 +106,7 @@ fn write_devices(
             .map_or("", String::as_str);
         write!(
             out,
-            "<tr data-device=\"{device}\" data-comment=\"{0}\"><th scope=\"row\">{device}</th><td>{0}</td><td>",
+            "<tr data-device=\"{device}\" data-comment=\"{0}\"><th scope=\"row\"><button type=\"button\">{device}</button></th><td>{0}</td><td>",
             Escaped(comment)
         )?;
         for number in numbers {
@@ -114,7 +114,7 @@ fn write_devices(
         }
         writeln!(out, "</td></tr>")?;
     }
-    writeln!(out, "</tbody>\n</table>\n</details>")
+    writeln!(out, "</tbody>\n</table>\n</details>\n</aside>")
 }
 
 /// The list of networks: number, step, and what each is headed or begins with.

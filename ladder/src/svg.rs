@@ -41,7 +41,7 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// A network as a picture that stands alone or within a page. Its classes are `wire`, `rail`, `name`, `text`, `comment`, `margin` and `box`;
+    /// A network as a picture within a page. Its classes are `wire`, `rail`, `name`, `text`, `comment`, `margin`, `area` and `box`;
     /// what is about a device is a group with the attribute `data-device`.
     pub fn network(&self, number: usize, network: &Network) -> Document {
         self.sized(number, network).0
@@ -239,6 +239,14 @@ impl<'a> Picture<'a> {
         if let Some(device) = self.face.device(placed.cell) {
             group.assign("data-device", device.to_string());
         }
+        // What a pointer hits.
+        let area = Rectangle::new()
+            .set("class", "area")
+            .set("x", round(left))
+            .set("y", round(y - ABOVE + 2.0))
+            .set("width", round(right - left))
+            .set("height", ABOVE + BELOW - 4.0);
+        group.append(area);
         let middle = (left + right) / 2.0;
         match placed.cell {
             Cell::Contact(contact) if contact.shape != Shape::Compare => {
