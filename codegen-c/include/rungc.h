@@ -92,6 +92,36 @@ static inline void plc_clear(void *plc, size_t from, size_t to)
     memset((unsigned char *)plc + from, 0, to - from);
 }
 
+/* ---- Runs of devices ------------------------------------------------------------------------------------------------ */
+
+/* Copies bits, as if all were read before one is written. */
+static inline void plc_copy_bits(bool *to, const bool *from, size_t count)
+{
+    memmove(to, from, count * sizeof *to);
+}
+
+/* Copies words likewise. */
+static inline void plc_copy_words(int16_t *to, const int16_t *from, size_t count)
+{
+    memmove(to, from, count * sizeof *to);
+}
+
+/* Switches bits on or off. */
+static inline void plc_fill_bits(bool *to, size_t count, bool on)
+{
+    for (size_t i = 0; i < count; i++) {
+        to[i] = on;
+    }
+}
+
+/* Writes a value to words. */
+static inline void plc_fill_words(int16_t *to, size_t count, int16_t value)
+{
+    for (size_t i = 0; i < count; i++) {
+        to[i] = value;
+    }
+}
+
 /* ---- Edges ---------------------------------------------------------------------------------------------------------- */
 
 /* Whether `input` went from off to on since the last call with this memory. */
@@ -425,6 +455,43 @@ static inline bool plc_is_finite(float value)
 static inline float plc_negate(float value)
 {
     return plc_float(plc_int32((uint32_t)plc_float_bits(value) ^ 0x80000000u));
+}
+
+/* The square root of a finite value from 0 on, rounded to the nearest float, in integers: no mathematical library is needed. */
+static inline float plc_square_root(float value)
+{
+    const uint32_t bits = (uint32_t)plc_float_bits(value);
+    uint32_t mantissa = bits & 0x007FFFFFu;
+    int32_t exponent = (int32_t)(bits >> 23);
+
+    if ((bits << 1) == 0u) {
+        return value;
+    }
+    if (exponent == 0) {
+        exponent = 1;
+        while (mantissa < 0x00800000u) {
+            mantissa <<= 1;
+            exponent--;
+        }
+    } else {
+        mantissa |= 0x00800000u;
+    }
+    /* The value is mantissa * 2^(exponent - 150); made a square of 25 bits times an even power of 2. */
+    const bool even = ((uint32_t)exponent & 1u) == 0u;
+    uint64_t rest = (uint64_t)mantissa << (even ? 26 : 25);
+    uint64_t root = 0;
+    for (uint64_t bit = UINT64_C(1) << 48; bit != 0u; bit >>= 2) {
+        if (rest >= root + bit) {
+            rest -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+    }
+    /* The lowest bit rounds. A root of 2^24 counts as the next power of 2. */
+    const uint32_t rounded = (uint32_t)((root + 1u) >> 1);
+    const uint32_t power = (uint32_t)(exponent + (even ? 126 : 127)) / 2u;
+    return plc_float(plc_int32((power << 23) + (rounded - 0x00800000u)));
 }
 
 /* The nearest float. */

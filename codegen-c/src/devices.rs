@@ -4,13 +4,43 @@ use crate::expr::Around;
 use crate::fields::PrintStorage;
 use crate::helpers::reset_function;
 use crate::writer::Writer;
-use rungc_ir::node::{Access, AccessKind, Expr, ExprId, IndexedCoil, Place, TimerCoil};
+use rungc_ir::node::{Access, AccessKind, Block, Expr, ExprId, IndexedCoil, Place, TimerCoil};
 use rungc_models::runs::is_counter32;
 use rungc_rt::TimerKind;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
 impl Writer<'_, '_> {
+    /// A run of devices is copied or filled; nothing is written of one that is not stored.
+    pub(crate) fn block(&mut self, code: &mut String, block: Block) {
+        let (to, count) = block.written();
+        let words = matches!(to.class, DeviceClass::D | DeviceClass::R);
+        let kind = if words { "words" } else { "bits" };
+        let Some(target) = self.run(to, count) else {
+            return;
+        };
+        match block {
+            Block::Copy { from, .. } => {
+                if let Some(source) = self.run(from, count) {
+                    let _ = write!(code, "plc_copy_{kind}({target}, {source}, {count});");
+                }
+            }
+            Block::Fill { value, .. } => {
+                let _ = write!(code, "plc_fill_{kind}({target}, {count}, ");
+                self.expr(code, value, Around::Exact);
+                code.push_str(");");
+            }
+        }
+    }
+
+    /// A pointer to the first of some devices that stand side by side.
+    fn run(&self, first: Place, count: u32) -> Option<String> {
+        self.fields.array(first.class, first.number, count)?;
+        let mut element = "&".to_string();
+        self.fields.access(&mut element, first.class, first.number);
+        Some(element)
+    }
+
     pub(crate) fn timer_goes_on(&mut self, code: &mut String, number: u32, kind: TimerKind) {
         code.push_str("plc_timer_go_on(&");
         self.fields.access(code, DeviceClass::T, number);

@@ -120,6 +120,7 @@ impl Writer<'_, '_> {
                 self.counter(&mut code, "plc_count32_once", count.number, &arguments);
             }
             Stmt::Reset(place) => self.reset(&mut code, place),
+            Stmt::Block(block) => self.block(&mut code, *block),
             Stmt::CallSub(function) => {
                 function_name(&mut code, module, *function as usize);
                 code.push_str("(plc);");

@@ -2,7 +2,7 @@
 
 use crate::generate::Generator;
 use crate::storage::{PrintField, PrintStorage, bit_of, word_of};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use rungc_emit::logic;
 use rungc_emit::storage::Kind;
@@ -444,6 +444,14 @@ impl Generator<'_> {
         let from = Literal::u32_unsuffixed(offset);
         let to = Literal::u32_unsuffixed(offset + count);
         Some(quote!(plc.#name[#from..#to]))
+    }
+
+    /// The field of some devices that stand side by side, and their range in it.
+    pub fn run(&self, first: Place, count: u32) -> Option<(Ident, TokenStream)> {
+        let field = self.storage.array(first.class, first.number, count)?;
+        let from = first.number - field.first;
+        let [from, to] = [from, from + count].map(Literal::u32_unsuffixed);
+        Some((field.name(), quote!(#from..#to)))
     }
 
     fn in_range(&mut self, place: Place, count: u32) -> Code {

@@ -33,6 +33,7 @@ pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
             place.index.is_none().then_some((place.class, place.number))
         }
         Stmt::Network(_)
+        | Stmt::Block(_)
         | Stmt::Let(..)
         | Stmt::Edge(_)
         | Stmt::SetFlag(..)

@@ -432,6 +432,7 @@ impl<'m> Builder<'m> {
             | Stmt::Counter32(_)
             | Stmt::Count(_)
             | Stmt::Reset(_)
+            | Stmt::Block(_)
             | Stmt::CallSub(_)
             | Stmt::Call(_)
             | Stmt::Fetch(_)

@@ -211,6 +211,30 @@ fn every_other_project_is_read_emitted_and_run() {
     emit_and_run("projects", &samples);
 }
 
+/// The C of nearly all programs needs a C compiler and nothing else.
+#[test]
+fn c_of_the_corpus_needs_no_runtime() {
+    let Some(root) = folder("corpus") else { return };
+    let samples = samples(&root);
+    let modules = samples
+        .iter()
+        .filter_map(|s| Some((&s.name, s.module.as_ref()?)));
+    let needs: Vec<_> = modules
+        .map(|(name, module)| {
+            let files = rungc_codegen_c::emit(module, &rungc_codegen_c::Options::default());
+            (name, files.iter().any(|f| f.path.starts_with("rungc-rt/")))
+        })
+        .collect();
+    let with: Vec<_> = needs
+        .iter()
+        .filter(|need| need.1)
+        .map(|need| need.0)
+        .collect();
+    let share = 100 * (needs.len() - with.len()) / needs.len();
+    println!("{share} % need no runtime; these do: {with:#?}");
+    assert!(share >= 95, "{share} %, without {with:?}");
+}
+
 /// All programs in a folder, in the order of their paths.
 fn samples(root: &Path) -> Vec<Sample> {
     let mut paths = Vec::new();

@@ -44,6 +44,25 @@ const PAIRS: &[(&str, &str)] = &[
     ("ZRST D0 D15", "ZRST D0Z7 D15Z7"),
     ("SFTL M20 M0 K16 K3", "SFTL M20 M0Z7 K16 K3"),
     ("SFTR M20 M0 K16 K16", "SFTR M20 M0Z7 K16 K16"),
+    ("BMOV D0 D3 K30", "BMOV D0Z7 D3 K30"),
+    ("BMOV D3 D0 K30", "BMOV D3Z7 D0 K30"),
+    ("BMOV D0 R0 K9", "BMOV D0Z7 R0 K9"),
+    ("FMOV D0 D0 K30", "FMOV D0 D0Z7 K30"),
+    ("ZRST M3 M35", "ZRST M3Z7 M35Z7"),
+    ("ZRST D3 D35", "ZRST D3Z7 D35Z7"),
+    ("ZRST D35 D3", "ZRST D35Z7 D3Z7"),
+    ("DECO D0 M3 K5", "DECO D0 M3 K5Z7"),
+    ("DECO M0 M3 K5", "DECO M0 M3 K5Z7"),
+    ("SFTL M38 M0 K38 K2", "SFTL M38 M0Z7 K38 K2"),
+    ("SFTR M38 M0 K38 K2", "SFTR M38 M0Z7 K38 K2"),
+    ("SFTL M0 M5 K30 K7", "SFTL M0 M5Z7 K30 K7"),
+    ("SFTR M20 M0 K38 K18", "SFTR M20 M0Z7 K38 K18"),
+    ("SFTL M2 M2 K30 K30", "SFTL M2 M2Z7 K30 K30"),
+    ("WSFL D0 D10 K4 K2", "WSFL D0 D10Z7 K4 K2"),
+    ("WSFR D0 D1 K30 K3", "WSFR D0 D1Z7 K30 K3"),
+    ("WSFL D0 D1 K30 K3", "WSFL D0 D1Z7 K30 K3"),
+    ("WSFL D10 D10 K30 K20", "WSFL D10 D10Z7 K30 K20"),
+    ("WSFL D0 D2 K8 K5", "WSFL D0 D2Z7 K8 K5"),
     ("MEAN D0 D9 K8", "MEAN D0Z7 D9 K8"),
     ("ROR D0 K3", "ROR D0 K3Z7"),
 ];
@@ -112,6 +131,72 @@ fn fill(rng: &mut Rng, machines: &mut [Machine; 2]) {
         for machine in &mut *machines {
             machine.set_bit(Class::M, n, bit);
         }
+    }
+}
+
+/// Instructions whose emitted C needs a C compiler alone, as programs write them most.
+const WITHOUT_RUNTIME: &str = "
+MOV D0 D1
+SMOV D0 K4 K2 D1 K3
+CML D0 D1
+BMOV D0 D100 K50
+FMOV K0 D100 K200
+XCH D0 D1
+BCD D0 D1
+BIN D0 D1
+ADD D0 D1 D2
+SUB D0 D1 D2
+MUL D0 D1 D2
+DIV D0 D1 D2
+INC D0
+DEC D0
+WAND D0 D1 D2
+WOR D0 D1 D2
+WXOR D0 D1 D2
+NEG D0
+ROR D0 K3
+ROL D0 K3
+RCR D0 K3
+RCL D0 K3
+SFTR X0 M0 K100 K4
+SFTL X0 M0 K100 K4
+WSFR D0 D10 K50 K2
+WSFL D0 D10 K50 K2
+ZRST M0 M499
+ZRST D200 D399
+ZRST C0 C20
+DECO D0 M100 K6
+DECO D0 D1 K4
+SUM D0 D1
+BON D0 M0 K3
+MEAN D0 D10 K4
+SQR D0 D1
+FLT D0 D2
+SWAP D0
+CMP D0 D1 M0
+ZCP K1 K9 D0 M0
+TCMP D0 K30 K0 D10 M0
+TZCP D0 D3 D6 M0
+DECMP D0 D2 M0
+DEZCP D0 D2 D4 M0
+DEMOV D0 D2
+DEADD D0 D2 D4
+DESUB D0 D2 D4
+DEMUL D0 D2 D4
+DEDIV D0 D2 D4
+DESQR D0 D2
+DENEG D0
+DINT D0 D2
+ALT M0
+";
+
+#[test]
+fn common_instructions_need_no_runtime() {
+    for instruction in WITHOUT_RUNTIME.lines().filter(|line| !line.is_empty()) {
+        let module = compiled(instruction, false);
+        let files = rungc_codegen_c::emit(&module, &rungc_codegen_c::Options::default());
+        let runtime = files.iter().any(|file| file.path.starts_with("rungc-rt/"));
+        assert!(!runtime, "{instruction} needs the runtime");
     }
 }
 

@@ -70,6 +70,7 @@ fn function(op: UnOp, value: Value) -> Value {
         (UnOp::ToFloat, v) => Value::F32(word::to_float(int(v))),
         (UnOp::Truncate, v) => Value::I32(word::truncate(float(v))),
         (UnOp::IsFinite, v) => Value::Bit(word::is_finite(float(v))),
+        (UnOp::SquareRoot, v) => Value::F32(word::square_root(float(v))),
         (UnOp::Negate, v) => Value::F32(word::negate(float(v))),
     }
 }
@@ -206,7 +207,7 @@ impl<'m> Machine<'m> {
         }
     }
 
-    fn read_bit(&self, place: Place) -> bool {
+    pub(crate) fn read_bit(&self, place: Place) -> bool {
         self.device(place)
             .and_then(|(class, n)| self.bit(class, n))
             .unwrap_or(false)

@@ -4,12 +4,13 @@ use crate::devices::rt_class;
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
 use rungc_ir::node::{
-    Access, AccessKind, Arg, Call, Count, Counter32Coil, Edge, EdgeId, ExprId, Fetch, IndexedCoil,
-    LabelId, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
+    Access, AccessKind, Arg, Block, Call, Count, Counter32Coil, Edge, EdgeId, ExprId, Fetch,
+    IndexedCoil, LabelId, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
 };
 use rungc_rt::{
     Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, Site, Stop, TimerKind, fetch, report, send,
 };
+use rungc_syntax::DeviceClass;
 
 /// How a body ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,6 +29,12 @@ fn site_of_form(step: u32, wide: bool) -> Site {
         wide,
         ..Site::at(step)
     }
+}
+
+/// The places from one on.
+fn places(first: Place, count: u32) -> impl Iterator<Item = Place> {
+    let numbers = first.number..first.number + count;
+    numbers.map(move |number| Place { number, ..first })
 }
 
 /// Statements.
@@ -76,6 +83,7 @@ impl<'m> Machine<'m> {
                     let _ = self.reset(class, number);
                 }
             }
+            Stmt::Block(block) => self.block(block),
             Stmt::If {
                 cond,
                 then,
@@ -114,6 +122,32 @@ impl<'m> Machine<'m> {
             Stmt::Clear { latched } => self.devices.clear(*latched),
         }
         Flow::Next
+    }
+
+    /// Copies or fills a run of devices.
+    fn block(&mut self, block: &Block) {
+        let (to, count) = block.written();
+        let values: Vec<Value> = match *block {
+            Block::Copy { from, .. } => places(from, count).map(|p| self.device_value(p)).collect(),
+            Block::Fill { value, .. } => vec![self.eval(value); count as usize],
+        };
+        for (to, value) in places(to, count).zip(values) {
+            if let Value::Bit(on) = value {
+                self.write_bit(to, on);
+            } else {
+                self.write_word(to, int(value) as i16);
+            }
+        }
+    }
+
+    /// The state of a bit device, or the value of a word device.
+    fn device_value(&self, place: Place) -> Value {
+        use DeviceClass::{M, S, X, Y};
+        if matches!(place.class, X | Y | M | S) {
+            Value::Bit(self.read_bit(place))
+        } else {
+            Value::I16(self.read_word(place))
+        }
     }
 
     /// Executes a body `count` times, with the number of the iteration in `iteration`.

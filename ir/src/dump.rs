@@ -5,9 +5,9 @@
 
 use crate::layout::Area;
 use crate::node::{
-    Access, AccessKind, Arg, BinOp, Body, Call, CellId, Count, Counter16Coil, Counter32Coil, Edge,
-    Expr, ExprId, Fetch, FlagId, Function, FunctionKind, IndexedCoil, Module, Part, Place, Repeat,
-    Send, Stmt, SysValue, TableId, TimerCoil,
+    Access, AccessKind, Arg, BinOp, Block, Body, Call, CellId, Count, Counter16Coil, Counter32Coil,
+    Edge, Expr, ExprId, Fetch, FlagId, Function, FunctionKind, IndexedCoil, Module, Part, Place,
+    Repeat, Send, Stmt, SysValue, TableId, TimerCoil,
 };
 use rungc_rt::{EdgeKind, TimerKind};
 use std::fmt::Write as _;
@@ -123,6 +123,7 @@ impl Out<'_> {
             Stmt::Counter32(coil) => self.counter32(coil),
             Stmt::Count(count) => self.count(count),
             Stmt::Reset(place) => format!("reset {}", self.place(place)),
+            Stmt::Block(block) => self.run(block),
             Stmt::If {
                 cond,
                 then,
@@ -251,6 +252,21 @@ impl Out<'_> {
     fn send(&self, send: &Send) -> String {
         let (to, wide) = (self.arg(&send.to), if send.wide { ":32" } else { "" });
         format!("send {to}{wide} := {}", self.expr(send.value))
+    }
+
+    fn run(&self, block: &Block) -> String {
+        match block {
+            Block::Copy { from, to, count } => {
+                format!(
+                    "{}[{count}] := {}[{count}]",
+                    self.place(to),
+                    self.place(from)
+                )
+            }
+            Block::Fill { to, count, value } => {
+                format!("{}[{count}] := each {}", self.place(to), self.expr(*value))
+            }
+        }
     }
 
     fn cell(&self, cell: CellId) -> String {

@@ -112,6 +112,13 @@ pub fn of_stmt(model: &Model, stmt: &Stmt, found: &mut impl FnMut(Footprint)) {
         Stmt::TimerAt(IndexedCoil { place, .. })
         | Stmt::Counter16At(IndexedCoil { place, .. })
         | Stmt::Reset(place) => found(Footprint::of(place, true)),
+        Stmt::Block(block) => {
+            let (to, count) = block.written();
+            found(Footprint::run(to, Some(count), true));
+            if let Some(from) = block.source() {
+                found(Footprint::run(from, Some(count), false));
+            }
+        }
         Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
             found(Footprint::of(Place::fixed(DeviceClass::T, number), true));
         }

@@ -1,11 +1,13 @@
 //! Holds a module to the rules of [`crate::node`].
 
 use crate::node::{
-    Arg, BinOp, Body, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId, Module, Place,
-    Stmt, SysValue, TempId, Ty,
+    Arg, BinOp, Block, Body, Edge, Expr, ExprId, Fetch, FunctionKind, IndexedCoil, LabelId, Module,
+    Place, Stmt, SysValue, TempId, Ty,
 };
 use crate::reach::{self, Footprint};
 use crate::walk::{callees, for_exprs, operands};
+use rungc_models::runs::is_special;
+use rungc_syntax::DeviceClass;
 use typed_index_collections::TiVec;
 
 /// Checks every rule; the first one that is broken.
@@ -209,6 +211,7 @@ impl Checker<'_> {
             | Stmt::Counter32(_)
             | Stmt::Count(_)
             | Stmt::Reset(_)
+            | Stmt::Block(_)
             | Stmt::CallSub(_)
             | Stmt::Call(_)
             | Stmt::Send(_)
@@ -407,6 +410,7 @@ impl Checker<'_> {
                 module.tables.get(table).is_some() && is(index, Ty::I32) && is(value, Ty::I32)
             }
             Stmt::SetFlag(flag, value) => module.flags.get(flag).is_some() && is(value, Ty::Bit),
+            Stmt::Block(ref block) => self.block(block),
             Stmt::Reset(_)
             | Stmt::CallSub(_)
             | Stmt::Return
@@ -423,6 +427,32 @@ impl Checker<'_> {
     fn indexed_coil(&self, coil: &IndexedCoil) -> bool {
         let is = |id: ExprId, ty: Ty| self.module.ty(id) == ty;
         coil.place.index.is_some() && is(coil.drive, Ty::Bit) && is(coil.preset, Ty::I16)
+    }
+
+    /// Whether the runs of a block are ordinary devices of one kind, which all exist.
+    fn block(&self, block: &Block) -> bool {
+        use DeviceClass::{D, M, R, S, X, Y};
+        let model = self.module.model;
+        let (to, count) = block.written();
+        let bits = matches!(to.class, X | Y | M | S);
+        let well = |place: Place| {
+            let alike = match place.class {
+                X | Y | M | S => bits,
+                D | R => !bits,
+                _ => false,
+            };
+            alike
+                && place.index.is_none()
+                && !is_special(place.class, place.number)
+                && model.in_range(place.class, place.number.into(), count)
+        };
+        let value = match *block {
+            Block::Fill { value, .. } => {
+                self.module.ty(value) == if bits { Ty::Bit } else { Ty::I16 }
+            }
+            Block::Copy { .. } => true,
+        };
+        count > 0 && value && well(to) && block.source().is_none_or(well)
     }
 
     fn arg(&self, arg: &Arg) -> bool {

@@ -1,7 +1,7 @@
 //! Ways through the IR: operands of expressions, expressions and bodies of statements, calls between functions.
 
 use crate::node::{
-    Access, Arg, Body, Call, Count, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Fetch,
+    Access, Arg, Block, Body, Call, Count, Counter16Coil, Counter32Coil, Edge, Expr, ExprId, Fetch,
     FunctionKind, IndexedCoil, Module, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
 };
 
@@ -103,6 +103,7 @@ macro_rules! for_exprs {
                     f(preset);
                 }
                 Stmt::Reset(place) => place.index.$iter().for_each(f),
+                Stmt::Block(Block::Fill { value, .. }) => f(value),
                 Stmt::If { cond, .. } => f(cond),
                 Stmt::For { count, .. } => f(count),
                 Stmt::Call(Call { args, drive, .. }) => {
@@ -121,6 +122,7 @@ macro_rules! for_exprs {
                     f(value);
                 }
                 Stmt::Network(_)
+                | Stmt::Block(Block::Copy { .. })
                 | Stmt::Repeat(_)
                 | Stmt::CallSub(_)
                 | Stmt::Return
@@ -171,6 +173,7 @@ pub fn places_mut(stmt: &mut Stmt, f: &mut impl FnMut(&mut Place)) {
         | Stmt::Counter16(_)
         | Stmt::Counter32(_)
         | Stmt::Count(_)
+        | Stmt::Block(_)
         | Stmt::If { .. }
         | Stmt::For { .. }
         | Stmt::Repeat(_)
@@ -204,6 +207,7 @@ pub fn assigned(stmt: &Stmt) -> Option<TempId> {
         | Stmt::Counter32(_)
         | Stmt::Count(_)
         | Stmt::Reset(_)
+        | Stmt::Block(_)
         | Stmt::If { .. }
         | Stmt::For { .. }
         | Stmt::Repeat(_)
@@ -248,6 +252,7 @@ pub fn fault_step(stmt: &Stmt) -> Option<u32> {
         | Stmt::Counter32(_)
         | Stmt::Count(_)
         | Stmt::Reset(_)
+        | Stmt::Block(_)
         | Stmt::If { .. }
         | Stmt::For { .. }
         | Stmt::Repeat(_)
@@ -286,6 +291,7 @@ macro_rules! bodies {
                 | Stmt::Counter32(_)
                 | Stmt::Count(_)
                 | Stmt::Reset(_)
+                | Stmt::Block(_)
                 | Stmt::CallSub(_)
                 | Stmt::Return
                 | Stmt::Goto(_)

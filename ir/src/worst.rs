@@ -198,6 +198,13 @@ impl<'m> Finder<'m> {
                 let iteration = self.body(body);
                 cost.plus(iteration.times(u64::from(*count)))
             }
+            Stmt::Block(block) => {
+                let (_, count) = block.written();
+                cost.plus(Cost {
+                    steps: 0,
+                    operations: u64::from(count),
+                })
+            }
             Stmt::CallSub(number) => {
                 let number = *number as usize;
                 let kind = self.module.functions.get(number).map(|f| &f.kind);

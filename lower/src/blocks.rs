@@ -1,18 +1,28 @@
-//! Instructions on a few consecutive devices, which are inline code: each device by name. The runtime is called for longer blocks,
-//! and for those that an index leads to.
+//! Instructions on consecutive devices, which are inline code: of a few, each device by name; longer runs are copied or filled as a whole.
+//! The runtime is called for those that an index leads to.
 
 use super::Lowerer;
 use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{Access, BinOp, Expr, ExprId, Stmt};
+use rungc_ir::node::{Access, BinOp, Block, Expr, ExprId, Place, Stmt};
+use rungc_models::runs::is_special;
 use rungc_rt::RtFn;
 use rungc_rt::special::{M_BMOV_REVERSE, M_MEAN_SUM};
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
 
 /// Words that are moved one by one at most.
 const WORDS: u32 = 8;
-/// Bits and resets that are written one by one at most.
+/// Bits that are written one by one at most.
 const BITS: u32 = 16;
+/// Timers or counters that are reset one by one at most.
+const RESETS: u32 = 64;
+/// The most that BMOV and FMOV move.
+const MOVED: u32 = 512;
+/// The most bits and the most words that are shifted.
+const SHIFTED_BITS: u32 = 1024;
+const SHIFTED_WORDS: u32 = 2048;
+/// Of how many bits DECO takes a number.
+const DECODED: u32 = 8;
 
 /// Whether an instruction on a block that a runtime function implements is inline code, judging by its operands.
 #[expect(
@@ -26,31 +36,58 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
             .and_then(constant)
             .is_some_and(|n| (1..=most as i32).contains(&n))
     };
+    let stated = |i| kind(i).and_then(constant).unwrap_or(0).max(0) as u32;
     let register = |i| kind(i).and_then(register).is_some();
     match function {
-        RtFn::Bmov | RtFn::BmovForward => register(0) && register(1) && count(2, WORDS),
-        RtFn::Fmov => register(1) && count(2, WORDS),
+        RtFn::Bmov | RtFn::BmovForward => register(0) && register(1) && count(2, MOVED),
+        RtFn::Fmov => register(1) && count(2, MOVED),
         RtFn::Mean | RtFn::MeanSum => register(0) && count(2, WORDS),
         RtFn::Deco => {
             let source = register(0) || kind(0).and_then(bits).is_some();
-            source && kind(1).and_then(bits).is_some() && count(2, BITS.ilog2())
+            source && kind(1).and_then(bits).is_some() && count(2, DECODED)
         }
         RtFn::Zrst => match (
             kind(0).and_then(OperandKind::device),
             kind(1).and_then(OperandKind::device),
         ) {
             (Some(first), Some(last)) => {
-                first.class == last.class && last.number.saturating_sub(first.number) < BITS
+                let length = last.number.saturating_sub(first.number) + 1;
+                first.class == last.class && length <= resets(first.class)
             }
             _ => false,
         },
         RtFn::Sftl | RtFn::Sftr => {
-            let bits = |i| kind(i).and_then(OperandKind::device).is_some();
-            let length = kind(2).and_then(constant).unwrap_or(0);
-            bits(0) && bits(1) && count(2, BITS) && count(3, length.max(0) as u32)
+            let bits = |i| kind(i).and_then(bits).is_some();
+            bits(0) && bits(1) && count(2, SHIFTED_BITS) && count(3, stated(2))
+        }
+        RtFn::Wsfl | RtFn::Wsfr => {
+            register(0) && register(1) && count(2, SHIFTED_WORDS) && count(3, stated(2))
         }
         _ => false,
     }
+}
+
+/// How many devices of a class ZRST resets inline.
+fn resets(class: DeviceClass) -> u32 {
+    use DeviceClass::{C, D, ER, I, M, N, P, R, S, T, V, X, Y, Z};
+    match class {
+        X | Y | M | S | D | R => u32::MAX,
+        T | C => RESETS,
+        V | Z | ER | P | I | N => BITS,
+    }
+}
+
+/// How many of these are reset one by one at most.
+fn resets_singly(class: DeviceClass) -> u32 {
+    match resets(class) {
+        u32::MAX => BITS,
+        most => most,
+    }
+}
+
+/// Whether no device of a run is special.
+fn ordinary(first: Device, count: u32) -> bool {
+    !is_special(first.class, first.number) && !is_special(first.class, first.number + count - 1)
 }
 
 /// A bit device X, Y, M or S without an index.
@@ -83,6 +120,8 @@ impl Lowerer<'_> {
             RtFn::Bmov if looked_at(M_BMOV_REVERSE) => return false,
             RtFn::MeanSum if looked_at(M_MEAN_SUM) => return false,
             RtFn::Mean | RtFn::MeanSum if self.wide() => return false,
+            RtFn::Fmov if self.wide() && self.stated(2) > WORDS => return false,
+            _ if self.is_odd(function) => return false,
             RtFn::Bmov | RtFn::BmovForward => Self::move_block,
             RtFn::Fmov => Self::fill_block,
             RtFn::Mean | RtFn::MeanSum => Self::mean,
@@ -90,6 +129,8 @@ impl Lowerer<'_> {
             RtFn::Zrst => Self::reset_block,
             RtFn::Sftl => |this| this.shift_bits(false),
             RtFn::Sftr => |this| this.shift_bits(true),
+            RtFn::Wsfl => |this| this.shift_words(false),
+            RtFn::Wsfr => |this| this.shift_words(true),
             _ => return false,
         };
         self.driven(expand);
@@ -113,25 +154,61 @@ impl Lowerer<'_> {
         }
     }
 
-    /// BMOV. Blocks that overlap are moved from the end on that is not written first.
+    /// BMOV.
     fn move_block(&mut self) {
         let n = self.stated(2);
         let (Some(from), Some(to)) = (self.device_of(0), self.device_of(1)) else {
             return;
         };
-        let mut guards = Guards::default();
-        self.demand_block(from, n, &mut guards);
-        self.demand_block(to, n, &mut guards);
         let backwards =
             from.class == to.class && (from.number + 1..from.number + n).contains(&to.number);
+        self.with_blocks([(from, n), (to, n)], |this| {
+            this.copy_words(from, to, n, backwards);
+        });
+    }
+
+    /// What `make` emits is executed if both runs of devices exist; else the instruction faults.
+    fn with_blocks(&mut self, runs: [(Device, u32); 2], make: impl FnOnce(&mut Self)) {
+        let exist = runs
+            .iter()
+            .all(|&(first, count)| self.exists(first.class, first.number, count));
+        let mut guards = Guards::default();
+        if !exist {
+            guards.demand(self.bit_const(false));
+        }
         self.guarded(guards, |this| {
-            for k in 0..n {
-                let k = if backwards { n - 1 - k } else { k };
-                let value = this.word_at(from, k);
-                let (class, number) = this.model.canonical(to.class, to.number + k);
-                this.emit(Stmt::Write(Access::word(fixed(class, number)), value));
+            if exist {
+                make(this);
             }
         });
+    }
+
+    /// Copies words, a few of them one by one, `backwards` from the last one on.
+    fn copy_words(&mut self, from: Device, to: Device, count: u32, backwards: bool) {
+        if count > WORDS {
+            return self.copy_run(from, to, count);
+        }
+        for k in 0..count {
+            let k = if backwards { count - 1 - k } else { k };
+            let value = self.word_at(from, k);
+            self.put_word(to, k, value);
+        }
+    }
+
+    /// Writes word number `k` from a register on.
+    fn put_word(&mut self, register: Device, k: u32, value: ExprId) {
+        let (class, number) = self.model.canonical(register.class, register.number + k);
+        self.emit(Stmt::Write(Access::word(fixed(class, number)), value));
+    }
+
+    fn copy_run(&mut self, from: Device, to: Device, count: u32) {
+        let [from, to] = [from, to].map(|first| fixed(first.class, first.number));
+        self.emit(Stmt::Block(Block::Copy { from, to, count }));
+    }
+
+    fn fill_run(&mut self, to: Device, count: u32, value: ExprId) {
+        let to = fixed(to.class, to.number);
+        self.emit(Stmt::Block(Block::Fill { to, count, value }));
     }
 
     /// Word number `k` from a register on.
@@ -149,7 +226,14 @@ impl Lowerer<'_> {
         let mut guards = Guards::default();
         let value = self.source(0, &mut guards);
         self.demand_block(to, if wide { 2 * n } else { n }, &mut guards);
+        let exists = self.exists(to.class, to.number, if wide { 2 * n } else { n });
         self.guarded(guards, |this| {
+            if n > WORDS {
+                if exists {
+                    this.fill_run(to, n, value);
+                }
+                return;
+            }
             let value = this.settled(value);
             for k in 0..n {
                 let mut exists = Guards::default();
@@ -192,8 +276,15 @@ impl Lowerer<'_> {
         let mut guards = Guards::default();
         let value = self.decoded(self.stated(2), &mut guards);
         self.demand_block(first, count, &mut guards);
+        let exists = self.exists(first.class, first.number, count);
         self.guarded(guards, |this| {
             let value = this.settled(value);
+            if count > BITS {
+                if exists {
+                    this.decode_into_run(first, count, value);
+                }
+                return;
+            }
             for k in 0..count {
                 let on = this.is_int(value, k as i32, false);
                 this.emit(Stmt::Write(
@@ -204,6 +295,57 @@ impl Lowerer<'_> {
         });
     }
 
+    /// Switches all of some bits off but the one of this number.
+    fn decode_into_run(&mut self, first: Device, count: u32, value: ExprId) {
+        let off = self.bit_const(false);
+        self.fill_run(first, count, off);
+        let index = self.add(Expr::Widen(value));
+        let index = self.within(index, Some((0, count as i32 - 1)));
+        let place = Place {
+            index: Some(index),
+            ..fixed(first.class, first.number)
+        };
+        let on = self.bit_const(true);
+        self.emit(Stmt::Write(Access::bit(place), on));
+    }
+
+    /// Whether an instruction has a long run that is not copied or filled as a whole: some of its devices are special, or those that enter a
+    /// shift overlap so that one by one they enter more than once.
+    #[expect(
+        clippy::wildcard_enum_match_arm,
+        reason = "the other functions of the runtime are called"
+    )]
+    fn is_odd(&self, function: RtFn) -> bool {
+        let (Some(second), n) = (self.device_of(1), self.stated(2)) else {
+            return false;
+        };
+        // The first operand of some may be a constant.
+        let first = self.device_of(0).unwrap_or(second);
+        let runs = match function {
+            RtFn::Bmov | RtFn::BmovForward => [(first, n), (second, n)],
+            RtFn::Fmov => [(second, n); 2],
+            RtFn::Deco => [(second, 1 << n); 2],
+            RtFn::Zrst => {
+                let count = second.number.saturating_sub(first.number) + 1;
+                [(first, count); 2]
+            }
+            RtFn::Sftl | RtFn::Sftr | RtFn::Wsfl | RtFn::Wsfr => {
+                let by = self.stated(3);
+                let right = matches!(function, RtFn::Sftr | RtFn::Wsfr);
+                let enter = second.number + if right { n - by } else { 0 };
+                let again = first.number + 1..first.number + by;
+                if by > WORDS && first.class == second.class && again.contains(&enter) {
+                    return true;
+                }
+                [(first, by), (second, n)]
+            }
+            _ => return false,
+        };
+        let is_long = |(_, count): &(Device, u32)| *count > WORDS;
+        let mut long = runs.into_iter().filter(is_long);
+        long.any(|(first, count)| !ordinary(first, count))
+    }
+
     /// ZRST: where D2 lies below D1, D1 alone.
     fn reset_block(&mut self) {
         let (Some(first), Some(last)) = (self.device_of(0), self.device_of(1)) else {
@@ -211,8 +353,20 @@ impl Lowerer<'_> {
         };
         let last = last.number.max(first.number);
         let mut guards = Guards::default();
-        self.demand_block(first, last - first.number + 1, &mut guards);
+        let count = last - first.number + 1;
+        self.demand_block(first, count, &mut guards);
+        let exists = self.exists(first.class, first.number, count);
         self.guarded(guards, |this| {
+            if count > resets_singly(first.class) {
+                let off = match bits(&OperandKind::Device(first, None)) {
+                    Some(_) => this.bit_const(false),
+                    None => this.int(0, false),
+                };
+                if exists {
+                    this.fill_run(first, count, off);
+                }
+                return;
+            }
             for number in first.number..=last {
                 let (class, number) = this.model.canonical(first.class, number);
                 let place = fixed(class, number);
@@ -241,24 +395,42 @@ impl Lowerer<'_> {
 
     /// SFTR and SFTL: n1 bits move on by n2 places, n2 others enter.
     fn shift_bits(&mut self, right: bool) {
+        self.shift(right, |this, from, to, count, backwards| {
+            if count > BITS {
+                return this.copy_run(from, to, count);
+            }
+            for k in 0..count {
+                let k = if backwards { count - 1 - k } else { k };
+                this.copy_bit((from, k), (to, k));
+            }
+        });
+    }
+
+    /// WSFR and WSFL: the same of words.
+    fn shift_words(&mut self, right: bool) {
+        self.shift(right, |this, from, to, count, backwards| {
+            this.copy_words(from, to, count, backwards);
+        });
+    }
+
+    /// Copies the devices that stay, then those that enter; `copy` is told whether to begin with the last one.
+    fn shift(&mut self, right: bool, copy: impl Fn(&mut Self, Device, Device, u32, bool)) {
         let (length, by) = (self.stated(2), self.stated(3));
         let (Some(from), Some(to)) = (self.device_of(0), self.device_of(1)) else {
             return;
         };
-        let mut guards = Guards::default();
-        self.demand_block(from, by, &mut guards);
-        self.demand_block(to, length, &mut guards);
-        let first = if right { length - by } else { 0 };
-        self.guarded(guards, |this| {
-            for k in 0..length - by {
-                let (source, target) = match right {
-                    true => (k + by, k),
-                    false => (length - 1 - by - k, length - 1 - k),
-                };
-                this.copy_bit((to, source), (to, target));
+        let at = |places: u32| Device {
+            number: to.number + places,
+            ..to
+        };
+        self.with_blocks([(from, by), (to, length)], |this| match right {
+            true => {
+                copy(this, at(by), to, length - by, false);
+                copy(this, from, at(length - by), by, false);
             }
-            for k in 0..by {
-                this.copy_bit((from, k), (to, first + k));
+            false => {
+                copy(this, to, at(by), length - by, true);
+                copy(this, from, to, by, false);
             }
         });
     }

@@ -144,6 +144,7 @@ impl Watcher<'_> {
                 | Stmt::Counter32(_)
                 | Stmt::Count(_)
                 | Stmt::Reset(_)
+                | Stmt::Block(_)
                 | Stmt::Repeat(_)
                 | Stmt::Return
                 | Stmt::Goto(_)

@@ -35,6 +35,7 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         RtFn::Int => floats(0..1),
         RtFn::Emov => floats(0..1) && register(1),
         RtFn::Eneg => register(0),
+        RtFn::Esqr => floats(0..1) && register(1),
         RtFn::Ecmp => floats(0..2),
         RtFn::Ezcp => floats(0..3),
         RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv => floats(0..2) && register(2),
@@ -84,6 +85,7 @@ impl Lowerer<'_> {
             RtFn::Int => self.driven(Self::integer_of_float),
             RtFn::Emov => self.driven(Self::move_float),
             RtFn::Eneg => self.driven(Self::negate_float),
+            RtFn::Esqr => self.driven(Self::float_root),
             RtFn::Ecmp => self.driven(Self::compare_floats),
             RtFn::Ezcp => self.driven(Self::compare_float_zone),
             RtFn::Eadd | RtFn::EaddPlain => self.driven(|this| this.float_op(FloatOp::Add)),
@@ -434,6 +436,27 @@ impl Lowerer<'_> {
         let target = self.float_target(0, &mut guards);
         let value = self.add(Expr::Un(UnOp::Negate, value));
         self.guarded(guards, |this| this.store_float(target, value));
+    }
+
+    /// ESQR: M8020 is on if the root is 0.
+    fn float_root(&mut self) {
+        let mut guards = Guards::default();
+        let value = self.float_source(0, &mut guards);
+        let target = self.float_target(1, &mut guards);
+        self.guarded(guards, |this| {
+            let ([value], finite) = this.finite([value]);
+            let zero = this.add(Expr::F32(0.0));
+            let not_below = this.add(Expr::Cmp(CmpOp::Ge, value, zero));
+            let fits = this.and(finite, not_below);
+            this.checked(fits, DOMAIN, |this| {
+                let root = this.add(Expr::Un(UnOp::SquareRoot, value));
+                let root = this.flagged(root, |this, root| {
+                    let none = this.add(Expr::Cmp(CmpOp::Eq, root, zero));
+                    this.set_flag(M_ZERO, none);
+                });
+                this.store_float(target, root);
+            });
+        });
     }
 
     /// Three bits of which one is on, where all values are finite.

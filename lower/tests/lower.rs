@@ -199,7 +199,7 @@ fn buffer_memory() {
 #[test]
 fn calls_of_the_runtime() {
     insta::assert_snapshot!(lowered(
-        "LD X0\nMOV D9 Z0\nBMOV D0 D10 K10\nFMOVP K0 D20Z0 K3\nLD X1\nRAMP D50 D51 D52 K10\nEND\n"
+        "LD X0\nMOV D9 Z0\nBMOV D0Z0 D10 K10\nFMOVP K0 D20Z0 K3\nLD X1\nRAMP D50 D51 D52 K10\nEND\n"
     ));
 }
 
@@ -319,9 +319,32 @@ fn short_blocks_are_inline() {
     insta::assert_snapshot!(lowered(
         "LD X0\nBMOV D0 D2 K4\nBMOV D20 D10 K3\nFMOV K0 D30 K3\nDFMOV K70000 D40 K2\nZRST M0 M3\nZRST T0 T1\nZRST C235 C235\nZRST D50 D51\nMEAN D0 D60 K4\nSFTLP X0 M10 K4 K1\nSFTR M20 M24 K4 K2\nDECO D70 M30 K2\nEND\n"
     ));
-    let calls = |text: &str| has_call(&module(&on(ModelId::H2u), text));
-    assert!(calls("LD X0\nBMOV D0 D10 K100\nEND\n"));
+    let calls = |text: &str| has_call(&module(&on(ModelId::Fx3u), text));
     assert!(calls("LD X0\nBMOV D0Z0 D10 K2\nEND\n"));
-    assert!(calls("LD X0\nZRST M0 M499\nEND\n"));
+    assert!(calls("LD X0\nBMOV D0 D10 D2\nEND\n"));
+    assert!(calls("LD X0\nZRST M8000 M8100\nEND\n"));
+    assert!(calls("LD X0\nDFMOV K1 D0 K9\nEND\n"));
+    assert!(calls("LD X0\nZRST T0 T64\nEND\n"));
+    // Devices that enter a shift one by one enter again where they overlap.
+    assert!(calls("LD X0\nSFTL M0 M1 K20 K17\nEND\n"));
     assert!(calls("LD X0\nBMOV D0 D10 K2\nLD X1\nOUT M8024\nEND\n"));
+}
+
+#[test]
+fn long_runs_are_copied_and_filled_as_a_whole() {
+    insta::assert_snapshot!(both(
+        &on(ModelId::Fx3u),
+        "LD X0\nBMOV D0 D10 K100\nBMOV D0 R0 K9\nFMOV D0 D0 K50\nZRST M0 M499\nZRST D300 D200\nZRST D200 D300\nSFTLP X0 M10 K400 K1\nSFTR M600 M0 K40 K20\nWSFLP D0 D1 K30 K3\nDECO D70 M100 K6\nEND\n"
+    ));
+}
+
+#[test]
+fn digits_and_times_are_inline() {
+    insta::assert_snapshot!(lowered(
+        "LD X0\nSMOV D0 K4 K2 D1 K3\nRCR D2 K1\nRCL D3 K4\nTCMP D4 K30 K0 D10 M0\nTZCP D4 D7 D10 M3\nDECO D20 D21 K4\nDECO M10 D22 K2\nEND\n"
+    ));
+    let calls = |text: &str| has_call(&module(&on(ModelId::Fx3u), text));
+    assert!(calls("LD X0\nSMOV D0 K4 K2 D1 K3\nLD X1\nOUT M8168\nEND\n"));
+    assert!(calls("LD X0\nRCR D2 D3\nEND\n"));
+    assert!(calls("LD X0\nTZCP D4Z0 D7 D10 M3\nEND\n"));
 }

@@ -121,6 +121,11 @@ pub const fn root(value: i32) -> i32 {
     }
 }
 
+/// The square root of a float that is not below 0, correctly rounded (ESQR).
+pub fn square_root(value: f32) -> f32 {
+    libm::sqrtf(value)
+}
+
 /// The nearest float (FLT).
 pub const fn to_float(value: i32) -> f32 {
     value as f32

@@ -100,6 +100,7 @@ pub fn make() -> Result<Made, Problem> {
         "comm/line.rs",
         "comm/wiring.rs",
         "capi.rs",
+        "capi/exports.rs",
         "capi_virtual.rs",
     ];
     let builder = files

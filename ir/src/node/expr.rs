@@ -142,7 +142,9 @@ pub fn type_of(exprs: &TiSlice<ExprId, Expr>, temps: &TiSlice<TempId, Ty>, id: E
         | Expr::Stride(..)
         | Expr::Within { .. }
         | Expr::Entry(..) => Ty::I32,
-        Expr::F32(_) | Expr::Float(..) | Expr::Un(UnOp::ToFloat | UnOp::Negate, _) => Ty::F32,
+        Expr::F32(_)
+        | Expr::Float(..)
+        | Expr::Un(UnOp::ToFloat | UnOp::Negate | UnOp::SquareRoot, _) => Ty::F32,
         Expr::Un(UnOp::IsBcd | UnOp::IsFinite, _) => Ty::Bit,
         Expr::Un(UnOp::Root | UnOp::Truncate, _) => Ty::I32,
         Expr::Un(UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd, a) => {

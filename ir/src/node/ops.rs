@@ -94,6 +94,8 @@ pub enum UnOp {
     IsFinite,
     /// An `F32` with the other sign.
     Negate,
+    /// The square root of an `F32`, correctly rounded, which must be known to be finite and at least 0.
+    SquareRoot,
 }
 
 impl UnOp {
@@ -116,6 +118,7 @@ impl UnOp {
             UnOp::Truncate => "truncate",
             UnOp::IsFinite => "is_finite",
             UnOp::Negate => "negate",
+            UnOp::SquareRoot => "square_root",
         }
     }
 
@@ -126,7 +129,9 @@ impl UnOp {
                 matches!(ty, Ty::I16 | Ty::I32)
             }
             UnOp::Root | UnOp::ToFloat => matches!(ty, Ty::I32),
-            UnOp::Truncate | UnOp::IsFinite | UnOp::Negate => matches!(ty, Ty::F32),
+            UnOp::Truncate | UnOp::IsFinite | UnOp::Negate | UnOp::SquareRoot => {
+                matches!(ty, Ty::F32)
+            }
         }
     }
 }

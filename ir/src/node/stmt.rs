@@ -192,6 +192,46 @@ pub struct Send {
     pub step: u32,
 }
 
+/// A copy or a fill of a run of devices: bits X, Y, M and S, or words D and R. None is special, none of the places has an index, and all
+/// devices of a run exist, in one run of the model.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Block {
+    /// Copies devices to others of the same kind, as if all were read before one is written.
+    Copy {
+        /// First of those that are read.
+        from: Place,
+        /// First of those that are written.
+        to: Place,
+        /// How many, at least 1.
+        count: u32,
+    },
+    /// Writes one value to all.
+    Fill {
+        /// First of them.
+        to: Place,
+        /// How many, at least 1.
+        count: u32,
+        /// `Bit` or `I16`.
+        value: ExprId,
+    },
+}
+
+impl Block {
+    /// The first device that is written, and how many are.
+    pub fn written(&self) -> (Place, u32) {
+        let (Block::Copy { to, count, .. } | Block::Fill { to, count, .. }) = *self;
+        (to, count)
+    }
+
+    /// The first device that is read, if devices are copied.
+    pub fn source(&self) -> Option<Place> {
+        match *self {
+            Block::Copy { from, .. } => Some(from),
+            Block::Fill { .. } => None,
+        }
+    }
+}
+
 /// A statement. What has three fields or more, except for branches, is a separate struct.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Stmt {
@@ -209,6 +249,8 @@ pub enum Stmt {
     SetEntry(TableId, ExprId, ExprId),
     /// Writes a value of the access's type.
     Write(Access, ExprId),
+    /// Copies or fills a run of devices.
+    Block(Block),
     /// OUT T: [`rungc_rt::Timer::run`].
     Timer(TimerCoil),
     /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it

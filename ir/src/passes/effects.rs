@@ -109,6 +109,10 @@ pub(super) fn writes(model: &Model, exprs: &TiSlice<ExprId, Expr>, stmt: &Stmt) 
         Stmt::TimerAt(IndexedCoil { place: at, .. })
         | Stmt::Counter16At(IndexedCoil { place: at, .. })
         | Stmt::Reset(at) => place(at, 1),
+        Stmt::Block(block) => {
+            let (to, count) = block.written();
+            place(to, count)
+        }
         Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {
             Writes::Run(DeviceClass::T, number, number)
         }

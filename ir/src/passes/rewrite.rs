@@ -163,6 +163,7 @@ impl Rewriter<'_> {
             | Stmt::Counter32(_)
             | Stmt::Count(_)
             | Stmt::Reset(_)
+            | Stmt::Block(_)
             | Stmt::CallSub(_)
             | Stmt::Return
             | Stmt::Call(_)

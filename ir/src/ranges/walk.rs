@@ -399,6 +399,7 @@ impl<'m> Walk<'m> {
             | Stmt::Counter32(_)
             | Stmt::Count(_)
             | Stmt::Reset(_)
+            | Stmt::Block(_)
             | Stmt::Repeat(_)
             | Stmt::Call(_)
             | Stmt::Fetch(_)

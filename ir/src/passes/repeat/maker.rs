@@ -107,6 +107,7 @@ impl<S: Iterator<Item = u32>> Maker<'_, S> {
             | Stmt::Counter16At(_)
             | Stmt::Counter32(_)
             | Stmt::Count(_)
+            | Stmt::Block(_)
             | Stmt::For { .. }
             | Stmt::Repeat(_)
             | Stmt::CallSub(_)

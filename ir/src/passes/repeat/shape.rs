@@ -69,6 +69,7 @@ fn add_stmt(module: &Module, stmt: &Stmt, hasher: &mut FxHasher, size: &mut u64)
         | Stmt::Counter16At(_)
         | Stmt::Counter32(_)
         | Stmt::Count(_)
+        | Stmt::Block(_)
         | Stmt::For { .. }
         | Stmt::Repeat(_)
         | Stmt::CallSub(_)

@@ -1,0 +1,119 @@
+//! The host's hardware, as instructions ask it.
+
+use super::HalTable;
+use crate::comm::{LineFormat, Received};
+use crate::hal::{Clock, Hal, SerialPort};
+
+/// The host's hardware.
+pub(super) struct Board {
+    table: *const HalTable,
+    line: Line,
+}
+
+/// One of its serial ports.
+struct Line {
+    table: *const HalTable,
+    number: u8,
+}
+
+impl Line {
+    fn table(&self) -> Option<&HalTable> {
+        // SAFETY: NULL, or the host's table, which outlives the call.
+        unsafe { self.table.as_ref() }
+    }
+}
+
+impl SerialPort for Line {
+    fn set_format(&mut self, format: LineFormat) {
+        if let Some((table, set)) = self.table().and_then(|t| t.set_line.map(|f| (t, f))) {
+            set(table.context, self.number, &format);
+        }
+    }
+
+    fn receive(&mut self, now_us: u32) -> Option<Received> {
+        let table = self.table()?;
+        let mut received = Received::new();
+        (table.receive?)(table.context, self.number, now_us, &mut received).then_some(received)
+    }
+
+    fn send(&mut self, byte: u8, now_us: u32) -> bool {
+        let table = self.table().and_then(|t| t.send.map(|f| (t, f)));
+        table.is_some_and(|(table, send)| send(table.context, self.number, byte, now_us))
+    }
+
+    fn unsent(&mut self, now_us: u32) -> u16 {
+        let table = self.table().and_then(|t| t.unsent.map(|f| (t, f)));
+        table.map_or(0, |(table, unsent)| {
+            unsent(table.context, self.number, now_us)
+        })
+    }
+}
+
+impl Board {
+    pub(super) fn new(table: *const HalTable) -> Self {
+        Board {
+            table,
+            line: Line { table, number: 0 },
+        }
+    }
+
+    fn table(&self) -> Option<&HalTable> {
+        // SAFETY: NULL, or the host's table, which outlives the call.
+        unsafe { self.table.as_ref() }
+    }
+}
+
+impl Hal for Board {
+    fn clock(&mut self) -> Option<Clock> {
+        let table = self.table()?;
+        let mut clock = Clock::default();
+        (table.clock?)(table.context, &mut clock).then_some(clock)
+    }
+
+    fn set_clock(&mut self, clock: Clock) -> Option<()> {
+        let table = self.table()?;
+        (table.set_clock?)(table.context, &clock).then_some(())
+    }
+
+    fn read_bfm(&mut self, unit: u16, address: u16) -> Option<i16> {
+        let table = self.table()?;
+        let mut value = 0;
+        (table.read_bfm?)(table.context, unit, address, &mut value).then_some(value)
+    }
+
+    fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+        let table = self.table()?;
+        (table.write_bfm?)(table.context, unit, address, value).then_some(())
+    }
+
+    fn analog(&mut self, channel: u8) -> Option<i16> {
+        let table = self.table()?;
+        let mut value = 0;
+        (table.analog?)(table.context, channel, &mut value).then_some(value)
+    }
+
+    fn input(&mut self, number: u16) -> Option<bool> {
+        let table = self.table()?;
+        let mut on = false;
+        (table.input?)(table.context, number, &mut on).then_some(on)
+    }
+
+    fn set_output(&mut self, number: u16, value: bool) {
+        if let Some((table, set_output)) = self.table().and_then(|t| t.set_output.map(|f| (t, f))) {
+            set_output(table.context, number, value);
+        }
+    }
+
+    fn serial_port(&mut self, number: u8) -> Option<&mut dyn SerialPort> {
+        self.table()?.set_line?;
+        self.line.number = number;
+        Some(&mut self.line)
+    }
+
+    fn hold_pulses(&mut self, hold: bool) {
+        if let Some((table, hold_pulses)) = self.table().and_then(|t| t.hold_pulses.map(|f| (t, f)))
+        {
+            hold_pulses(table.context, hold);
+        }
+    }
+}
