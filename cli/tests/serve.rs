@@ -173,7 +173,7 @@ fn the_table_of_connections() {
     }
 }
 
-/// A client that has gone without a word, such as one behind a broken cable, does not keep the next one out.
+/// A client that has gone without a word, such as one whose cable is broken, does not keep the next one out.
 #[test]
 fn the_latest_client_is_the_other_end_of_a_line() {
     let folder = folder(&[
