@@ -17,6 +17,32 @@ fn ports(model: ModelId, text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// Two ways to choose a protocol, used at once.
+#[test]
+fn a_choice_that_another_overrides() {
+    let codes = |text: &str| {
+        let program = read_text("program", text).program;
+        let options = CompileOptions {
+            model: Some(ModelId::H2u),
+            ..CompileOptions::default()
+        };
+        let diagnostics = check(&program, &options).diagnostics.sorted();
+        let own = diagnostics.into_iter().filter(|d| d.code == "W0601");
+        own.map(|d| d.message).collect::<Vec<_>>().join("; ")
+    };
+    let parallel = "LD M8000\nOUT M8070\nLD M8002\nMOV H2 D8126\nEND\n";
+    let link = "LD M8002\nMOV H6086 D8260\nMOV H20 D8266\nEND\n";
+    insta::assert_snapshot!([codes(parallel), codes(link)].join("\n"));
+    for alike in [
+        "LD M8000\nOUT M8070\nLD M8002\nMOV H50 D8126\nEND\n",
+        "LD M8002\nMOV H6086 D8120\nMOV H6 D8126\nEND\n",
+        "LD M8002\nMOV H6086 D8120\nMOV H40 D8126\nEND\n",
+        "LD M8002\nMOV H81 D8120\nMOV H2 D8126\nEND\n",
+    ] {
+        assert_eq!(codes(alike), "", "{alike}");
+    }
+}
+
 #[test]
 fn constants_say_what_a_port_will_be() {
     use ModelId::{Fx3u, H2u, Hm, L01s};

@@ -53,7 +53,7 @@ pub enum Protocol {
 
 impl Protocol {
     /// What a protocol number (D8126 and similar registers) means on H1U and H2U (h1u-h2u-programming §5.1).
-    fn from_number(number: u16) -> Self {
+    pub fn from_number(number: u16) -> Self {
         match number {
             0x00 | 0x10 => Protocol::Free,
             0x01 | 0x81 => Protocol::ProgrammingPort,

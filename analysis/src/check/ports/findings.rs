@@ -23,6 +23,7 @@ pub(in super::super) fn check(code: &Code, out: &mut Diagnostics) {
         };
         if facts.touch(wiring) || facts.uinit.contains_key(&wiring.number) {
             port.contradictions(out);
+            port.overridden(out);
             port.late(out);
             port.station(out);
             port.rate(out);
@@ -85,6 +86,42 @@ impl Port<'_> {
                 .other(self.code.span(first.at), "… and otherwise here");
             out.push(diagnostic);
         }
+    }
+
+    /// A protocol number that a relay of a parallel link, or the bit of the format word that stands for computer link, overrides.
+    fn overridden(&self, out: &mut Diagnostics) {
+        let Some(number) = self.wiring.protocol.map(d) else {
+            return;
+        };
+        let (Held::Constant(chosen @ 1..), Some(protocol)) =
+            (self.facts.held(number), self.protocol)
+        else {
+            return;
+        };
+        let wanted = Protocol::from_number(chosen);
+        let choosing = self.chooses().filter(|&device| device != number);
+        let set = |device: &Device| matches!(self.facts.held(*device), Held::Constant(1..));
+        // On L01S, the relays do not override the number but let it count.
+        let overrides = matches!(self.wiring.choice, Choice::Com1 | Choice::Number);
+        let Some(other) = choosing.filter(set).last().filter(|_| overrides) else {
+            return;
+        };
+        let places = [number, other].map(|device| self.place(Some(device)));
+        let ([Some(at), Some(over)], false) = (places, wanted == protocol) else {
+            return;
+        };
+        let message = format!(
+            "{} is set up in two ways: `{number}` = H{chosen:X} does not count beside `{other}`",
+            self.name()
+        );
+        let diagnostic = codes::PORT_SET_TWICE
+            .at(self.code.span(at), message)
+            .label(format!("{} is wanted here …", wanted.name()))
+            .other(
+                self.code.span(over),
+                format!("… but {} here", protocol.name()),
+            );
+        out.push(diagnostic);
     }
 
     /// A choice that is made after the first scan, where that is too late.
