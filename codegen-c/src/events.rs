@@ -1,38 +1,10 @@
 //! What happens outside the scan: the functions that a host calls for it, and the private fields that they use.
 
 use crate::writer::function_name;
-use rungc_emit::events::{clocks, edges, edges_only_note, follows_time, interrupts, set_outside};
+use rungc_emit::events::{clocks, edges, edges_only_note, follows_time, interrupts};
 use rungc_ir::Module;
 use rungc_rt::EdgeKind;
 use std::fmt::Write;
-
-/// The fields of flags, cells and tables: declaration, comment, size in bytes.
-pub fn fields(module: &Module) -> Vec<(String, String, u32)> {
-    let outside = set_outside(module);
-    let flags = module.flags.iter().enumerate().map(|(i, flag)| {
-        let volatile = if outside.contains(&i) {
-            "volatile "
-        } else {
-            ""
-        };
-        let declaration = format!("{volatile}bool {};", flag.name);
-        (declaration, flag.meaning.to_string(), 1)
-    });
-    let since = module.periods().map(|(flag, _)| {
-        let comment = "when this period began".to_string();
-        (format!("uint32_t {}_since;", flag.name), comment, 4)
-    });
-    let cells = module.cells.iter().map(|cell| {
-        let volatile = if cell.follows_time { "volatile " } else { "" };
-        let declaration = format!("{volatile}int32_t {};", cell.name);
-        (declaration, cell.meaning.to_string(), 4)
-    });
-    let tables = module.tables.iter().map(|table| {
-        let declaration = format!("int32_t {}[{}];", table.name, table.length);
-        (declaration, table.meaning.to_string(), 4 * table.length)
-    });
-    flags.chain(since).chain(cells).chain(tables).collect()
-}
 
 /// The statements that forget what happened, when RUN begins.
 pub fn forget(module: &Module) -> String {

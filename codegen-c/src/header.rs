@@ -6,9 +6,10 @@ use crate::writer::c_type;
 use crate::{events, text};
 use rungc_emit::cycle;
 use rungc_emit::plan::Plan;
+use rungc_emit::private::{self, Private};
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
-use rungc_emit::temps::Home;
 use rungc_ir::Module;
+use rungc_ir::node::Ty;
 use rungc_rt::{Axis, Port};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -98,63 +99,78 @@ fn devices(out: &mut String, size: &mut Size, fields: &Storage) {
 
 /// What the host has no business with.
 fn private(out: &mut String, size: &mut Size, module: &Module, plan: &Plan) {
-    out.push_str("    /* Private: time, and what the program remembers from scan to scan. */\n    plc_sys sys;\n");
-    size.add(16, 4);
-    if module.edges > 0 {
-        let line = format!("    bool edge[{}];", module.edges);
-        push_with_comment(out, &line, "last states of edge contacts, pulses and steps");
-        size.add(module.edges, 1);
+    out.push_str("    /* Private: time, and what the program remembers from scan to scan. */\n");
+    for field in private::fields(module, plan) {
+        private_field(out, size, field);
     }
-    for (line, comment, bytes) in events::fields(module) {
-        push_with_comment(out, &format!("    {line}"), &comment);
-        size.add(bytes, bytes);
-    }
-    if module.may_fail() {
-        push_with_comment(out, "    plc_error error;", "what has gone wrong");
-        size.add(8, 2);
-    }
-    if module.has_watchdog() {
-        push_with_comment(
-            out,
-            "    uint32_t steps_left;",
-            "steps that this scan may still repeat",
-        );
-        size.add(4, 4);
-    }
-    for (i, temp) in plan
-        .temps
-        .iter_enumerated()
-        .filter(|(_, t)| t.home() == Home::Field)
-    {
-        let ty = module.temps[i];
-        let line = format!("    {} {temp};", c_type(ty));
-        push_with_comment(out, &line, "found in one function, used in another");
-        let bytes = match c_type(ty) {
-            "bool" => 1,
-            "int16_t" => 2,
-            _ => 4,
-        };
-        size.add(bytes, bytes);
-    }
-    if module.sends_pulses() {
-        let outputs = module.pulse_outputs.len();
-        let line = format!("    rungc_axis axis[{outputs}];");
-        push_with_comment(out, &line, "what the pulse outputs send");
-        size.add((size_of::<Axis>() * outputs) as u32, 8);
-    }
-    if module.has_ports() {
-        let line = format!("    rungc_port port[{}];", module.ports.len());
-        push_with_comment(out, &line, "the serial ports");
-        size.add((size_of::<Port>() * module.ports.len()) as u32, 4);
-    }
-    if module.states > 0 {
-        let _ = writeln!(
-            out,
-            "    rungc_state state[{}]; /* of instructions that work over several scans */",
-            module.states
-        );
-        size.add(32 * u32::from(module.states), 4);
-    }
+}
+
+fn private_field(out: &mut String, size: &mut Size, field: Private) {
+    let (line, comment, bytes, align) = match field {
+        Private::Sys => {
+            out.push_str("    plc_sys sys;\n");
+            return size.add(16, 4);
+        }
+        Private::Edges(count) => {
+            let comment = "last states of edge contacts, pulses and steps";
+            (format!("bool edge[{count}];"), comment, count, 1)
+        }
+        Private::Flag { flag, outside } => {
+            let volatile = if outside { "volatile " } else { "" };
+            (format!("{volatile}bool {};", flag.name), flag.meaning, 1, 1)
+        }
+        Private::PeriodStart(flag) => {
+            let line = format!("uint32_t {}_since;", flag.name);
+            (line, "when this period began", 4, 4)
+        }
+        Private::Cell(cell) => {
+            let volatile = if cell.follows_time { "volatile " } else { "" };
+            (
+                format!("{volatile}int32_t {};", cell.name),
+                cell.meaning,
+                4,
+                4,
+            )
+        }
+        Private::Table(table) => {
+            let line = format!("int32_t {}[{}];", table.name, table.length);
+            (line, table.meaning, 4 * table.length, 4)
+        }
+        Private::Error => ("plc_error error;".into(), "what has gone wrong", 8, 2),
+        Private::StepsLeft => {
+            let comment = "steps that this scan may still repeat";
+            ("uint32_t steps_left;".into(), comment, 4, 4)
+        }
+        Private::Temp(temp, ty) => {
+            let bytes = match ty {
+                Ty::Bit => 1,
+                Ty::I16 => 2,
+                Ty::I32 | Ty::F32 => 4,
+            };
+            let line = format!("{} {temp};", c_type(ty));
+            (line, "found in one function, used in another", bytes, bytes)
+        }
+        Private::Axes(outputs) => {
+            let line = format!("rungc_axis axis[{}];", outputs.len());
+            let bytes = size_of::<Axis>() * outputs.len();
+            (line, "what the pulse outputs send", bytes as u32, 8)
+        }
+        Private::Ports(ports) => {
+            let line = format!("rungc_port port[{}];", ports.len());
+            let bytes = size_of::<Port>() * ports.len();
+            (line, "the serial ports", bytes as u32, 4)
+        }
+        Private::States(0) => return,
+        Private::States(count) => {
+            let _ = writeln!(
+                out,
+                "    rungc_state state[{count}]; /* of instructions that work over several scans */"
+            );
+            return size.add(32 * u32::from(count), 4);
+        }
+    };
+    push_with_comment(out, &format!("    {line}"), comment);
+    size.add(bytes, align);
 }
 
 /// Size of the struct as it grows.

@@ -1,33 +1,30 @@
 //! What happens outside the scan: flags that a host's interrupts set, and the methods that it calls for that.
 
 use crate::generate::Generator;
-use crate::temps::type_of;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::events;
-use rungc_emit::temps::Home;
 use rungc_ir::node::{CellId, Flag, FlagId, TableId};
 use rungc_rt::EdgeKind;
 use std::rc::Rc;
 
-/// A private field: name, type, value at power-on, meaning.
-pub type Hidden = (Ident, TokenStream, TokenStream, &'static str);
-
-fn flag_field(flag: &Flag) -> Ident {
+/// The field of a flag.
+pub fn flag_field(flag: &Flag) -> Ident {
     format_ident!("{}", flag.name)
 }
 
-/// The field of a pulse output.
-fn port_field(number: u8) -> Ident {
+/// The field of a serial port.
+pub fn port_field(number: u8) -> Ident {
     format_ident!("port_{}", number)
 }
 
-fn axis_field(output: u32) -> Ident {
+/// The field of a pulse output.
+pub fn axis_field(output: u32) -> Ident {
     format_ident!("y{:03o}_pulses", output)
 }
 
 /// The field that holds when a flag's period began.
-fn since_field(flag: &Flag) -> Ident {
+pub fn since_field(flag: &Flag) -> Ident {
     format_ident!("{}_since", flag.name)
 }
 
@@ -50,45 +47,6 @@ impl Generator<'_> {
     /// The field of a table.
     pub fn table(&self, table: TableId) -> Ident {
         format_ident!("{}", self.module.tables[table].name)
-    }
-
-    /// The fields that flags need; RUN begins with them as at power-on.
-    pub fn flag_fields(&self) -> Vec<Hidden> {
-        let flags = self.module.flags.iter();
-        let flags = flags.map(|f| (flag_field(f), quote!(bool), quote!(false), f.meaning));
-        let since = self.module.periods().map(|(flag, _)| {
-            let meaning = "when this period began";
-            (since_field(flag), quote!(u32), quote!(0), meaning)
-        });
-        flags.chain(since).collect()
-    }
-
-    /// The fields of temporaries that several functions use.
-    pub fn temp_fields(&self) -> Vec<Hidden> {
-        let temps = self.plan.temps.iter().zip(&self.module.temps);
-        let fields = temps.filter(|(temp, _)| temp.home() == Home::Field);
-        fields
-            .map(|(temp, &ty)| {
-                let (ty, zero) = type_of(ty);
-                let meaning = "found in one function, used in another";
-                (format_ident!("{}", temp.to_string()), ty, zero, meaning)
-            })
-            .collect()
-    }
-
-    /// The fields of cells and tables.
-    pub fn cell_fields(&self) -> Vec<Hidden> {
-        let cells = self.module.cells.iter().map(|cell| {
-            let name = format_ident!("{}", cell.name);
-            (name, quote!(i32), quote!(0), cell.meaning)
-        });
-        let tables = self.module.tables.iter().map(|table| {
-            let name = format_ident!("{}", table.name);
-            let length = Literal::u32_unsuffixed(table.length);
-            let ty = quote!([i32; #length]);
-            (name, ty, quote!([0; #length]), table.meaning)
-        });
-        cells.chain(tables).collect()
     }
 
     /// Forgets what happened, when RUN begins.
@@ -175,23 +133,6 @@ impl Generator<'_> {
         has_ports.then(|| quote!(self.advance_ports(hal, now_ms.wrapping_mul(1000));))
     }
 
-    /// The fields of serial ports.
-    pub fn port_fields(&mut self) -> Vec<Hidden> {
-        let ports = self.module.ports.iter();
-        ports
-            .map(|&number| {
-                let port = self.rt("Port");
-                let meaning = "What this serial port is doing.";
-                (
-                    port_field(number),
-                    quote!(#port),
-                    quote!(#port::new()),
-                    meaning,
-                )
-            })
-            .collect()
-    }
-
     /// The method that brings serial ports up to date.
     pub fn advance_ports(&mut self) -> Option<TokenStream> {
         if !self.module.has_ports() {
@@ -243,23 +184,6 @@ impl Generator<'_> {
             }
             fn type_code(&self) -> u16 { #type_code }
         })
-    }
-
-    /// The fields of pulse outputs.
-    pub fn axis_fields(&mut self) -> Vec<Hidden> {
-        let outputs = self.module.pulse_outputs.iter();
-        outputs
-            .map(|&output| {
-                let axis = self.rt("Axis");
-                let meaning = "What this output sends.";
-                (
-                    axis_field(output),
-                    quote!(#axis),
-                    quote!(#axis::new()),
-                    meaning,
-                )
-            })
-            .collect()
     }
 
     /// The method that counts pulses.

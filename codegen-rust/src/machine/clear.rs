@@ -4,7 +4,7 @@ use super::access::number_literal;
 use crate::expr::literal32;
 use crate::generate::Generator;
 use crate::storage::{PrintField, PrintStorage};
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::cycle::{self, Latches};
 use rungc_emit::storage::{Keep, Kind, Run};
@@ -148,13 +148,13 @@ impl Generator<'_> {
         let preset = (!preset.is_empty()).then(|| quote!(self.preset();));
         let contacts = (!self.module.model.keeps_contacts)
             .then(|| self.each_timer_and_counter(&quote!(done = false), &quote!(done = false)));
-        let hidden = self.hidden_fields();
-        let forgotten: Vec<Ident> = self.flag_fields().into_iter().map(|f| f.0).collect();
-        let hidden = hidden
-            .iter()
-            .filter(|f| f.0 != "edges" && !forgotten.contains(&f.0))
-            .map(|(name, _, value, _)| quote!(self.#name = #value;));
-        let hidden: TokenStream = hidden.collect();
+        let private = self.private_fields();
+        let private = private.iter().filter(|field| !field.begins_with_run);
+        let private = private.map(|field| {
+            let (name, value) = (&field.name, &field.initial);
+            quote!(self.#name = #value;)
+        });
+        let private: TokenStream = private.collect();
         quote! {
             fn power_cycle(&mut self) {
                 #latched
@@ -162,7 +162,7 @@ impl Generator<'_> {
                 #others
                 #preset
                 #contacts
-                #hidden
+                #private
                 self.forget();
             }
         }

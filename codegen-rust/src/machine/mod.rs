@@ -2,9 +2,9 @@
 
 mod access;
 mod clear;
+mod private;
 mod scan;
 
-use crate::events::Hidden;
 use crate::format;
 use crate::format::documented;
 use crate::generate::{Generator, Item};
@@ -32,16 +32,18 @@ impl Generator<'_> {
             self.module.model.title
         );
         let doc = self.with_comments.then(|| quote!(#[doc = #doc]));
-        let hidden = self.hidden_fields();
-        let hidden_types: Vec<TokenStream> = hidden.iter().map(|f| f.1.clone()).collect();
-        let hidden_names: Vec<Ident> = hidden.iter().map(|f| f.0.clone()).collect();
-        let hidden_docs: Vec<TokenStream> = hidden.iter().map(|f| self.doc(f.3)).collect();
+        let private = self.private_fields();
+        let private = private.iter().map(|field| {
+            let (doc, name, ty) = (self.doc(field.meaning), &field.name, &field.ty);
+            quote!(#doc pub(crate) #name: #ty)
+        });
+        let private: Vec<TokenStream> = private.collect();
         self.item_of(quote! {
             #doc
             #[derive(Clone, Debug)]
             pub struct #name {
                 #(#fields,)*
-                #(#hidden_docs pub(crate) #hidden_names: #hidden_types,)*
+                #(#private,)*
             }
         })
     }
@@ -143,61 +145,6 @@ impl Generator<'_> {
         }
     }
 
-    /// Fields that are not devices: name, type, value at power-on, meaning.
-    fn hidden_fields(&mut self) -> Vec<Hidden> {
-        let (edge, state, sys) = (self.rt("Edge"), self.rt("State"), self.rt("Sys"));
-        let mut fields = Vec::new();
-        if self.module.edges > 0 {
-            let count = Literal::u32_unsuffixed(self.module.edges);
-            fields.push((
-                format_ident!("edges"),
-                quote!([#edge; #count]),
-                quote!([#edge(false); #count]),
-                "What edge contacts and pulse instructions saw last.",
-            ));
-        } else {
-            self.uses.imports.remove("Edge");
-        }
-        // Slot 0 stands for instructions without memory.
-        let count = Literal::u32_unsuffixed(u32::from(self.module.states) + 1);
-        fields.push((
-            format_ident!("states"),
-            quote!([#state; #count]),
-            quote!([#state::new(); #count]),
-            "Private memories of instructions.",
-        ));
-        fields.extend(self.flag_fields());
-        fields.extend(self.cell_fields());
-        fields.extend(self.axis_fields());
-        fields.extend(self.temp_fields());
-        fields.extend(self.port_fields());
-        if self.module.may_fail() {
-            let error = self.rt("LastError");
-            fields.push((
-                format_ident!("error"),
-                quote!(#error),
-                quote!(#error::NONE),
-                "What has gone wrong.",
-            ));
-        }
-        if self.module.has_watchdog() {
-            let steps = self.initial_steps();
-            fields.push((
-                format_ident!("steps_left"),
-                quote!(u32),
-                quote!(#steps),
-                "Steps that this scan may still repeat.",
-            ));
-        }
-        fields.push((
-            format_ident!("sys"),
-            quote!(#sys),
-            quote!(#sys::power_on()),
-            "Time and mode.",
-        ));
-        fields
-    }
-
     /// Power-on, and clearing.
     pub fn machine_impl(&mut self) -> Item {
         self.uses = Default::default();
@@ -205,14 +152,14 @@ impl Generator<'_> {
         let fields = self.storage.fields().to_vec();
         let names: Vec<Ident> = fields.iter().map(PrintField::name).collect();
         let zeros: Vec<TokenStream> = fields.iter().map(|f| self.zero(f)).collect();
-        let hidden = self.hidden_fields();
-        let hidden_names: Vec<&Ident> = hidden.iter().map(|f| &f.0).collect();
-        let hidden_zeros: Vec<&TokenStream> = hidden.iter().map(|f| &f.2).collect();
+        let private = self.private_fields();
+        let private_names = private.iter().map(|field| &field.name);
+        let private_values = private.iter().map(|field| &field.initial);
         let preset = self.preset(&quote!(self), false);
         let first = self.preset(&quote!(plc), true);
         let doc = self.doc("The PLC as it leaves the factory, switched to RUN.");
         let value = quote! {
-            Self { #(#names: #zeros,)* #(#hidden_names: #hidden_zeros,)* }
+            Self { #(#names: #zeros,)* #(#private_names: #private_values,)* }
         };
         let new = if preset.is_empty() && first.is_empty() {
             quote!(#doc pub const fn new() -> Self { #value })

@@ -1,0 +1,147 @@
+//! The private fields of the struct.
+
+use crate::events::{axis_field, flag_field, port_field, since_field};
+use crate::generate::Generator;
+use crate::temps::type_of;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use rungc_emit::private::{self, Private};
+use std::rc::Rc;
+
+/// A private field.
+pub struct PrivateField {
+    /// Its name.
+    pub name: Ident,
+    /// Its type.
+    pub ty: TokenStream,
+    /// Its value at power-on.
+    pub initial: TokenStream,
+    /// What it means, for its documentation.
+    pub meaning: &'static str,
+    /// Whether RUN begins with it as at power-on.
+    pub begins_with_run: bool,
+}
+
+impl Generator<'_> {
+    /// The fields that are not devices.
+    pub fn private_fields(&mut self) -> Vec<PrivateField> {
+        let plan = Rc::clone(&self.plan);
+        let mut fields = Vec::new();
+        for private in private::fields(self.module, &plan) {
+            let begins_with_run = private.begins_with_run();
+            let named = self.named_private(private).into_iter();
+            fields.extend(named.map(|(name, ty, initial, meaning)| PrivateField {
+                name,
+                ty,
+                initial,
+                meaning,
+                begins_with_run,
+            }));
+        }
+        fields
+    }
+
+    /// Names, types, values at power-on and meanings of what is one field, or of the fields of outputs or ports.
+    fn named_private(
+        &mut self,
+        private: Private,
+    ) -> Vec<(Ident, TokenStream, TokenStream, &'static str)> {
+        let one = match private {
+            Private::Sys => {
+                let sys = self.rt("Sys");
+                let power_on = quote!(#sys::power_on());
+                (
+                    format_ident!("sys"),
+                    quote!(#sys),
+                    power_on,
+                    "Time and mode.",
+                )
+            }
+            Private::Edges(count) => {
+                let (edge, count) = (self.rt("Edge"), Literal::u32_unsuffixed(count));
+                let meaning = "What edge contacts and pulse instructions saw last.";
+                let ty = quote!([#edge; #count]);
+                (
+                    format_ident!("edges"),
+                    ty,
+                    quote!([#edge(false); #count]),
+                    meaning,
+                )
+            }
+            Private::Flag { flag, .. } => {
+                (flag_field(flag), quote!(bool), quote!(false), flag.meaning)
+            }
+            Private::PeriodStart(flag) => {
+                let meaning = "when this period began";
+                (since_field(flag), quote!(u32), quote!(0), meaning)
+            }
+            Private::Cell(cell) => {
+                let name = format_ident!("{}", cell.name);
+                (name, quote!(i32), quote!(0), cell.meaning)
+            }
+            Private::Table(table) => {
+                let name = format_ident!("{}", table.name);
+                let length = Literal::u32_unsuffixed(table.length);
+                (
+                    name,
+                    quote!([i32; #length]),
+                    quote!([0; #length]),
+                    table.meaning,
+                )
+            }
+            Private::Error => {
+                let error = self.rt("LastError");
+                let none = quote!(#error::NONE);
+                (
+                    format_ident!("error"),
+                    quote!(#error),
+                    none,
+                    "What has gone wrong.",
+                )
+            }
+            Private::StepsLeft => {
+                let (name, steps) = (format_ident!("steps_left"), self.initial_steps());
+                let meaning = "Steps that this scan may still repeat.";
+                (name, quote!(u32), quote!(#steps), meaning)
+            }
+            Private::Temp(temp, ty) => {
+                let (ty, zero) = type_of(ty);
+                let meaning = "found in one function, used in another";
+                (format_ident!("{}", temp.to_string()), ty, zero, meaning)
+            }
+            Private::Axes(outputs) => {
+                let axis = self.rt("Axis");
+                let (ty, new) = (quote!(#axis), quote!(#axis::new()));
+                let field = |&output: &u32| {
+                    (
+                        axis_field(output),
+                        ty.clone(),
+                        new.clone(),
+                        "What this output sends.",
+                    )
+                };
+                return outputs.iter().map(field).collect();
+            }
+            Private::Ports(ports) => {
+                let port = self.rt("Port");
+                let (ty, new) = (quote!(#port), quote!(#port::new()));
+                let meaning = "What this serial port is doing.";
+                let field = |&number: &u8| (port_field(number), ty.clone(), new.clone(), meaning);
+                return ports.iter().map(field).collect();
+            }
+            Private::States(count) => {
+                // Slot 0 stands for instructions without memory.
+                let count = Literal::u32_unsuffixed(u32::from(count) + 1);
+                let state = self.rt("State");
+                let (ty, new) = (quote!([#state; #count]), quote!([#state::new(); #count]));
+                (
+                    format_ident!("states"),
+                    ty,
+                    new,
+                    "Private memories of instructions.",
+                )
+            }
+        };
+        vec![one]
+    }
+}

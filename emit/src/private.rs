@@ -1,0 +1,87 @@
+//! The private fields of a program's struct: what it remembers from scan to scan in addition to its devices.
+
+use crate::events::set_outside;
+use crate::plan::Plan;
+use crate::temps::{Home, Temp};
+use rungc_ir::Module;
+use rungc_ir::node::{Cell, Flag, Table, Ty};
+
+/// What a private field holds.
+#[derive(Clone, Copy, Debug)]
+pub enum Private<'m> {
+    /// Time and mode: [`rungc_rt::Sys`].
+    Sys,
+    /// The memories of edges: this many, at least 1.
+    Edges(u32),
+    /// A flag.
+    Flag {
+        /// Which.
+        flag: &'m Flag,
+        /// It is set outside the scan, perhaps in an interrupt handler.
+        outside: bool,
+    },
+    /// When the period of this flag began, in milliseconds since power-on.
+    PeriodStart(&'m Flag),
+    /// A cell.
+    Cell(&'m Cell),
+    /// A table.
+    Table(&'m Table),
+    /// The last operation error and the cause of STOP: [`rungc_rt::LastError`].
+    Error,
+    /// The steps that a scan may still repeat.
+    StepsLeft,
+    /// A temporary that is found in one function and used in another.
+    Temp(Temp, Ty),
+    /// The generators of these outputs Y, at least one: [`rungc_rt::Axis`].
+    Axes(&'m [u32]),
+    /// These serial ports, at least one: [`rungc_rt::Port`].
+    Ports(&'m [u8]),
+    /// The memories of instructions that work over several scans: this many, perhaps none.
+    States(u16),
+}
+
+impl Private<'_> {
+    /// Whether RUN begins with it as at power-on, so that what begins RUN clears it.
+    pub fn begins_with_run(self) -> bool {
+        match self {
+            Private::Edges(_) | Private::Flag { .. } | Private::PeriodStart(_) => true,
+            Private::Sys
+            | Private::Cell(_)
+            | Private::Table(_)
+            | Private::Error
+            | Private::StepsLeft
+            | Private::Temp(..)
+            | Private::Axes(_)
+            | Private::Ports(_)
+            | Private::States(_) => false,
+        }
+    }
+}
+
+/// The private fields of a program, in order.
+pub fn fields<'m>(module: &'m Module, plan: &Plan) -> Vec<Private<'m>> {
+    let outside = set_outside(module);
+    let mut fields = vec![Private::Sys];
+    fields.extend((module.edges > 0).then_some(Private::Edges(module.edges)));
+    let flags = module.flags.iter().enumerate();
+    fields.extend(flags.map(|(i, flag)| Private::Flag {
+        flag,
+        outside: outside.contains(&i),
+    }));
+    fields.extend(module.periods().map(|(flag, _)| Private::PeriodStart(flag)));
+    fields.extend(module.cells.iter().map(Private::Cell));
+    fields.extend(module.tables.iter().map(Private::Table));
+    fields.extend(module.may_fail().then_some(Private::Error));
+    fields.extend(module.has_watchdog().then_some(Private::StepsLeft));
+    let temps = plan.temps.iter().zip(&module.temps);
+    let temps = temps.filter(|(temp, _)| temp.home() == Home::Field);
+    fields.extend(temps.map(|(temp, ty)| Private::Temp(*temp, *ty)));
+    if module.sends_pulses() {
+        fields.push(Private::Axes(&module.pulse_outputs));
+    }
+    if module.has_ports() {
+        fields.push(Private::Ports(&module.ports));
+    }
+    fields.push(Private::States(module.states));
+    fields
+}
