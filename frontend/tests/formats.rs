@@ -390,3 +390,17 @@ fn lists_as_people_paste_them() {
     assert!(findings.is_empty(), "{findings:?}");
     insta::assert_snapshot!(print::to_il(&read.program));
 }
+
+#[test]
+fn a_protected_project_of_gx_developer_is_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let body = folder.path().join("Resource/Pou/Body");
+    std::fs::create_dir_all(&body).unwrap();
+    std::fs::write(body.join("MAIN.wpg"), wpg(0x0208, PROGRAM)).unwrap();
+    let parameters = wpa(0x0208, &[(0xFFE4, b"ABCDEF01")]);
+    std::fs::write(folder.path().join("Resource/PARAM.WPA"), parameters).unwrap();
+    let read = read(folder.path()).unwrap();
+    let codes: Vec<_> = read.diagnostics.iter().map(|d| d.code).collect();
+    assert_eq!(codes, ["E0650"]);
+    assert!(read.program.instrs.is_empty());
+}

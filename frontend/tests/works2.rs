@@ -302,3 +302,17 @@ fn a_chosen_encoding_replaces_the_stated_one() {
     let read = read_bytes_with("press.gxw", &bytes, &options).unwrap();
     assert_eq!(read.program.instrs[0].statement(), Some("Nнvel"));
 }
+
+#[test]
+fn a_protected_project_is_not_read() {
+    let mut parts = simple("FX3U/FX3UC", NEW);
+    for (keyword, is_protected) in [(b"        ", false), (b"12345678", true)] {
+        let parameters = wpa(0x0208, &[(0xFFE0, &[16, 0]), (0xFFE4, keyword)]);
+        replace(&mut parts, "Param.wpa", parameters);
+        let found = reported(&parts, &ReadOptions::default());
+        assert_eq!(found.contains("E0650"), is_protected, "{found}");
+        if is_protected {
+            insta::assert_snapshot!("protected", found);
+        }
+    }
+}

@@ -319,8 +319,8 @@ pub(crate) const RAW: Reason = because(
     "analog channels show the raw values of the host, each scan",
 );
 pub(crate) const LATCHES: Reason = because(
-    Missed::ByWriters,
-    "the latched ranges are the manual's and do not change",
+    Missed::Never,
+    "the latched ranges are chosen when the program is compiled, by the project's PLC parameters or `[latched]` in rungc.toml",
 );
 pub(crate) const MODULES: Reason = because(
     Missed::Never,

@@ -43,6 +43,8 @@ pub struct Parameters {
     pub file_register_blocks: u32,
     /// Program files that the PLC runs, in order; empty if nothing is said.
     pub programs: Vec<String>,
+    /// Whether a keyword keeps the program from being read.
+    pub protected: bool,
 }
 
 impl Parameters {

@@ -62,6 +62,10 @@ pub(crate) fn read_wpg(name: &str, bytes: &[u8], beside: &Beside, options: &Read
     if let Some(refused) = cpu.as_ref().and_then(refused) {
         return refused;
     }
+    let parameters = beside.parameters.as_deref().map(parameters::read);
+    if parameters.as_ref().is_some_and(|(set, _)| set.protected) {
+        return protected(name, SourceKind::GxDeveloper, cpu);
+    }
     let bytes = bytes.get(..MAX_DATA).unwrap_or(bytes);
     let chains = program::chains(bytes);
     let begins = program::body(bytes, START).is_some_and(|body| tokens::token(body).is_some());
@@ -84,8 +88,7 @@ pub(crate) fn read_wpg(name: &str, bytes: &[u8], beside: &Beside, options: &Read
     if let (Some(bytes), Some(table)) = (&beside.comments, &table) {
         add_comments(&mut read, bytes, table, encoding);
     }
-    if let Some(bytes) = &beside.parameters {
-        let (parameters, damaged) = parameters::read(bytes);
+    if let (Some(bytes), Some((parameters, damaged))) = (&beside.parameters, parameters) {
         read.program.parameters = Some(parameters);
         let damaged = damaged.map(|at| damaged_part("the PLC parameters", bytes, at));
         read.diagnostics.extend(damaged);
@@ -99,6 +102,20 @@ fn cpu_code(bytes: &[u8]) -> Option<u16> {
         [4, 2, low, high] => Some(u16::from_le_bytes([*low, *high])),
         _ => None,
     }
+}
+
+/// A project with a keyword, which is respected.
+fn protected(name: &str, kind: SourceKind, cpu: Option<String>) -> Read {
+    let mut read = without_program(name, "?? protected", |span| {
+        let message = "the project is protected by a keyword, and its program is not read";
+        codes::PROTECTED_PROJECT
+            .at(span, message)
+            .label("this program")
+            .help("if it is yours, delete the keyword in the editor and save the project again")
+    });
+    read.program.kind = kind;
+    read.program.cpu = cpu;
+    read
 }
 
 /// A project whose program is not read; `line` says what stands for it.

@@ -16,6 +16,8 @@ const CAPACITY: u16 = 0xFFE0;
 const COMMENTS: u16 = 0xFFE1;
 /// Blocks of 500 steps of that memory that hold file registers.
 const FILE_REGISTERS: u16 = 0xFFE2;
+/// The keyword of the PLC, 8 characters; blank if there is none.
+const KEYWORD: u16 = 0xFFE4;
 
 /// What a file of parameters sets; an offset where it cannot be read on.
 pub(super) fn read(bytes: &[u8]) -> (Parameters, Option<usize>) {
@@ -66,6 +68,7 @@ fn set(parameters: &mut Parameters, id: u16, data: &[u8]) -> Option<()> {
             }
         }
         CAPACITY => parameters.capacity = Some(1000 * u32::from(fields.u16()?)),
+        KEYWORD => parameters.protected = data.first().is_some_and(u8::is_ascii_alphanumeric),
         COMMENTS => parameters.comment_blocks = fields.u16()?.into(),
         FILE_REGISTERS => parameters.file_register_blocks = fields.u16()?.into(),
         _ => {}

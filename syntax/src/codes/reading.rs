@@ -145,4 +145,10 @@ super::codes! {
     "The instruction is known, checked and counted, but not implemented yet. The message names the group of instructions that is missing.",
     wrong: "",
     right: "";
+
+    PROTECTED_PROJECT = "E0650" "protected-project" Error None,
+    "the project is protected",
+    "The PLC parameters of the project hold a keyword, with which its author keeps others from reading the program. rungc respects that. The author can delete the keyword in the editor and save the project again.",
+    wrong: "",
+    right: "";
 }

@@ -166,6 +166,9 @@ impl<'o> Works<'o> {
         }
         let mut found = Diagnostics::new();
         let parameters = self.take_parameters(&mut found);
+        if parameters.as_ref().is_some_and(|set| set.protected) {
+            return Ok(super::protected(name, SourceKind::GxWorks2, cpu));
+        }
         let order = parameters.as_ref().map_or(&[][..], |p| &p.programs);
         let file = self.program_file(order, &mut found)?;
         let pous = self.task_pous(file, &mut found);
