@@ -283,22 +283,18 @@ pub(crate) const SUMMED: Reason = because(
 );
 pub(crate) const CANLINK: Reason = because(
     Missed::ByAll,
-    "CANlink is not implemented: the manual does not describe its frames",
+    "no manual prints the frames and the configuration of CANlink; CANTX and CANRX exchange frames of the program's own",
 );
-pub(crate) const CAN_STATE: Reason = because(
+pub(crate) const N_SERIES: Reason = because(
     Missed::ByAll,
-    "CANTX and CANRX work, but do not show their state here",
+    "it belongs to units of the N series, whose CAN is not that of this model",
 );
-pub(crate) const CAN_FREE: Reason = because(
-    Missed::Never,
-    "CANTX and CANRX work with any setting; CANlink is not implemented",
-);
-pub(crate) const CAN_RATE: Reason =
-    because(Missed::ByWriters, "the CAN adapter determines the bit rate");
-pub(crate) const CAN_TIME_OUT: Reason = because(
+pub(crate) const CAN_RATE: Reason = because(
     Missed::ByWriters,
-    "CANRX waits 100 ms for its frame, whatever is set here",
+    "bit rate and address are set where the host opens the bus",
 );
+pub(crate) const CONTROLLER: Reason = because(Missed::Never, "the host watches the CAN controller");
+pub(crate) const CAN_FREE: Reason = because(Missed::Never, "CANTX and CANRX work whatever it says");
 pub(crate) const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
 pub(crate) const AXES: Reason = because(
     Missed::Never,

@@ -4,16 +4,56 @@
 //! tty): `tiiildd…` and `Tiiiiiiiildd…` are frames with identifiers of 11 and 29 bits, in hexadecimal digits with l bytes of data, and a carriage
 //! return ends them. Its bit rate and whether the bus is open are the adapter's.
 //!
-//! As the manual says, instructions that receive are served one after the other, and a frame that the waiting one does not name is lost. The
-//! manual states no time after which the next one waits; here it is [`TURN_US`].
+//! As the manual says, instructions that receive are served one after the other, and a frame that the waiting one does not name is lost. D8299
+//! is the time after which the next one waits; where it is 0, it is [`TURN_US`]. The card's relays and registers show what happens.
 
+use super::port::Session;
 use super::{Cut, Frame, hex_digits};
+use crate::plc::Plc;
+use crate::special::{Register, Relay};
 
 /// Number of the CAN card among the ports of H1U and H2U, after COM3.
 pub const CAN_PORT: u8 = 4;
 
-/// After this many microseconds without its frame, an instruction lets the next one wait.
+/// After this many microseconds without its frame, an instruction lets the next one wait, if D8299 is 0.
 pub const TURN_US: u32 = 100_000;
+
+/// Special devices of the card (h1u-h2u-programming §8.1): CANRX waits; a frame could not be sent; CANRX has received; CANTX sends; CANRX has
+/// waited in vain.
+pub(crate) const M_WAITS: Relay = Relay(8292);
+pub(crate) const M_SEND_FAILED: Relay = Relay(8293);
+pub(crate) const M_RECEIVED: Relay = Relay(8294);
+pub(crate) const M_SENDS: Relay = Relay(8298);
+pub(crate) const M_LATE: Relay = Relay(8299);
+/// There is no card.
+const M_MISSING: Relay = Relay(8281);
+/// Bytes of the last frame received; the frame, its first four bytes in the first two registers, the low word first.
+pub(crate) const D_LENGTH: Register = Register(8292);
+pub(crate) const D_DATA: Register = Register(8295);
+/// How long CANRX waits, in milliseconds.
+const D_TIME_OUT: Register = Register(8299);
+
+/// How long CANRX waits for its frame, in microseconds: 5 to 1000 ms (h1u-h2u-programming §5.9.5).
+pub(crate) fn turn_us(plc: &dyn Plc) -> u32 {
+    match D_TIME_OUT.value(plc) {
+        0 => TURN_US,
+        ms => u32::from(ms.clamp(5, 1000)) * 1000,
+    }
+}
+
+/// All special devices of CANTX and CANRX, which are stored where a program uses them.
+pub(super) const RELAYS: [Relay; 6] = [
+    M_MISSING,
+    M_WAITS,
+    M_SEND_FAILED,
+    M_RECEIVED,
+    M_SENDS,
+    M_LATE,
+];
+pub(super) const REGISTERS: [Register; 6] = {
+    let [a, b, c, d] = D_DATA.run();
+    [D_LENGTH, a, b, c, d, D_TIME_OUT]
+};
 
 /// Most bytes of data.
 pub const MOST: usize = 8;
@@ -78,6 +118,21 @@ impl CanFrame {
     }
 }
 
+/// The CAN card as a port.
+impl Session<'_> {
+    /// Shows whether there is a card, and whether it still sends.
+    pub(super) fn advance_can(&mut self) {
+        if self.wiring.number != CAN_PORT {
+            return;
+        }
+        let unsent = self.serial().map(|(port, now_us)| port.unsent(now_us));
+        M_MISSING.set(self.plc, unsent.is_none());
+        if unsent.unwrap_or(0) == 0 {
+            M_SENDS.set(self.plc, false);
+        }
+    }
+}
+
 /// Whether the characters received so far are a frame. Answers of the adapter are dropped.
 pub(super) fn cut(received: &[u8]) -> Cut {
     match received {
@@ -130,9 +185,20 @@ impl CanTurn {
         }
     }
 
-    /// The scan reaches a driven instruction that waits for this identifier; returns its frame if one has come.
-    pub fn visit(&mut self, owner: u32, id: u32, now_us: u32) -> Option<CanFrame> {
-        let expired = now_us.wrapping_sub(self.since_us) >= TURN_US;
+    /// Whether the instruction that waits has waited for longer than it may.
+    pub fn is_late(&self, now_us: u32, turn_us: u32) -> bool {
+        self.owner != 0 && !self.released && now_us.wrapping_sub(self.since_us) >= turn_us
+    }
+
+    /// Whether an instruction waits for its frame.
+    pub fn waits(&self) -> bool {
+        self.owner != 0 && !self.released && !self.come
+    }
+
+    /// The scan reaches a driven instruction that waits for this identifier; returns its frame if one has come. It lets others wait after
+    /// `turn_us` without one.
+    pub fn visit(&mut self, owner: u32, id: u32, now_us: u32, turn_us: u32) -> Option<CanFrame> {
+        let expired = now_us.wrapping_sub(self.since_us) >= turn_us;
         let frame = if self.owner == owner && self.id == id {
             let come = core::mem::take(&mut self.come).then_some(self.frame);
             self.released = self.released || expired || come.is_some();
@@ -193,24 +259,30 @@ mod tests {
             id,
             ..CanFrame::new()
         };
-        assert_eq!(turn.visit(1, 0x200, 0), None);
-        assert_eq!(turn.visit(2, 0x201, 0), None);
+        assert_eq!(turn.visit(1, 0x200, 0, TURN_US), None);
+        assert_eq!(turn.visit(2, 0x201, 0, TURN_US), None);
         turn.receive(frame(0x201));
         turn.receive(frame(0x200));
-        assert_eq!(turn.visit(1, 0x200, 1000), Some(frame(0x200)));
-        assert_eq!(turn.visit(2, 0x201, 1000), None);
+        assert_eq!(turn.visit(1, 0x200, 1000, TURN_US), Some(frame(0x200)));
+        assert_eq!(turn.visit(2, 0x201, 1000, TURN_US), None);
         turn.receive(frame(0x200));
         turn.receive(frame(0x201));
-        assert_eq!(turn.visit(1, 0x200, 2000), None);
-        assert_eq!(turn.visit(2, 0x201, 2000), Some(frame(0x201)));
+        assert_eq!(turn.visit(1, 0x200, 2000, TURN_US), None);
+        assert_eq!(turn.visit(2, 0x201, 2000, TURN_US), Some(frame(0x201)));
         // One that gets nothing lets the next one wait.
-        assert_eq!(turn.visit(1, 0x200, 3000), None);
-        assert_eq!(turn.visit(2, 0x201, 3000 + TURN_US), None);
+        assert_eq!(turn.visit(1, 0x200, 3000, TURN_US), None);
+        assert_eq!(turn.visit(2, 0x201, 3000 + TURN_US, TURN_US), None);
         turn.receive(frame(0x201));
-        assert_eq!(turn.visit(2, 0x201, 4000 + TURN_US), Some(frame(0x201)));
+        assert_eq!(
+            turn.visit(2, 0x201, 4000 + TURN_US, TURN_US),
+            Some(frame(0x201))
+        );
         // Alone, it keeps waiting.
         turn.receive(frame(0x201));
-        assert_eq!(turn.visit(2, 0x201, 5000 + TURN_US), Some(frame(0x201)));
+        assert_eq!(
+            turn.visit(2, 0x201, 5000 + TURN_US, TURN_US),
+            Some(frame(0x201))
+        );
     }
 
     proptest! {

@@ -48,7 +48,7 @@
 //! | `link.rs` | links between PLCs: parallel link, N:N link; polling by HM as a computer link's master |
 //! | `qlink.rs`, `can.rs` | QLink, CAN |
 
-mod can;
+pub(crate) mod can;
 pub mod computer_link;
 mod frame;
 pub(crate) mod free;

@@ -4,7 +4,7 @@ mod fx;
 mod tables;
 
 use super::LineFault;
-use super::can::CAN_PORT;
+use super::can::{self, CAN_PORT};
 use super::line::LineFormat;
 use crate::plc::Plc;
 use crate::special::{Register, Relay};
@@ -598,22 +598,27 @@ impl PortWiring {
         let modbus = self.modbus.map(ModbusWiring::registers);
         let all = registers.into_iter().flatten();
         let all = all.chain(envelope.into_iter().flatten());
-        all.chain(modbus.into_iter().flatten()).chain(self.links())
+        all.chain(modbus.into_iter().flatten()).chain(self.others())
     }
 
-    /// Registers that set up links of FX on this port.
-    fn links(&self) -> impl Iterator<Item = Register> {
-        let links: &[Register] = match self.choice {
+    /// Registers that set up links of FX on this port, and those of the CAN card.
+    fn others(&self) -> impl Iterator<Item = Register> {
+        let others: &[Register] = match self.choice {
             Choice::Format => &fx::LINKS,
+            Choice::Can => &can::REGISTERS,
             _ => &[],
         };
-        links.iter().copied()
+        others.iter().copied()
     }
 
     /// Registers that choose what the port speaks.
     pub fn setup_registers(&self) -> impl Iterator<Item = Register> {
         let registers = [self.format, self.protocol];
-        registers.into_iter().flatten().chain(self.links())
+        let links: &[Register] = match self.choice {
+            Choice::Format => &fx::LINKS,
+            _ => &[],
+        };
+        registers.into_iter().flatten().chain(links.iter().copied())
     }
 
     /// Relays that choose what the port speaks.
@@ -639,7 +644,12 @@ impl PortWiring {
             self.error.map(|error| error.relay),
             self.modbus.map(ModbusWiring::tried),
         ];
-        relays.into_iter().flatten().chain(self.setup_relays())
+        let of_can: &[Relay] = match self.choice {
+            Choice::Can => &can::RELAYS,
+            _ => &[],
+        };
+        let all = relays.into_iter().flatten().chain(of_can.iter().copied());
+        all.chain(self.setup_relays())
     }
 }
 

@@ -1,5 +1,8 @@
 //! Frames of the program's own on CAN: CANTX and CANRX (h1u-h2u-programming §4.3.9).
 
+use crate::comm::can::{
+    D_DATA, D_LENGTH, M_LATE, M_RECEIVED, M_SEND_FAILED, M_SENDS, M_WAITS, turn_us,
+};
 use crate::comm::{CAN_PORT, CanFrame, Frame, Protocol};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
@@ -53,12 +56,12 @@ pub fn cantx(cx: &mut Cx) -> Done {
     let mut writer = Frame::new(&mut text);
     frame.write(&mut writer);
     let now_us = now_us(cx);
-    let mut hal = cx.hal.borrow_mut();
-    if let Some(port) = hal.serial_port(CAN_PORT) {
-        for &byte in writer.as_slice() {
-            port.send(byte, now_us);
-        }
-    }
+    let sent = cx.hal.borrow_mut().serial_port(CAN_PORT).map(|port| {
+        let mut characters = writer.as_slice().iter();
+        characters.all(|&byte| port.send(byte, now_us))
+    });
+    M_SEND_FAILED.set(cx.plc, sent != Some(true));
+    M_SENDS.set(cx.plc, sent == Some(true));
     Ok(())
 }
 
@@ -70,10 +73,29 @@ pub fn canrx(cx: &mut Cx) -> Done {
     if !has_card(cx) {
         return Ok(());
     }
-    let port = cx.plc.port(CAN_PORT);
-    let Some(frame) = port.and_then(|port| port.status.can.visit(owner, id, now_us)) else {
+    let turn_us = turn_us(cx.plc);
+    let Some(port) = cx.plc.port(CAN_PORT) else {
         return Ok(());
     };
+    let late = port.status.can.is_late(now_us, turn_us);
+    let frame = port.status.can.visit(owner, id, now_us, turn_us);
+    let waits = port.status.can.waits();
+    M_WAITS.set(cx.plc, waits);
+    let Some(frame) = frame else {
+        if late {
+            M_LATE.set(cx.plc, true);
+            M_RECEIVED.set(cx.plc, false);
+        }
+        return Ok(());
+    };
+    M_RECEIVED.set(cx.plc, true);
+    M_LATE.set(cx.plc, false);
+    D_LENGTH.set(cx.plc, frame.len.into());
+    let [a, b, c, d, e, f, g, h] = frame.data;
+    let words = [[c, d], [a, b], [g, h], [e, f]].map(u16::from_be_bytes);
+    for (register, word) in D_DATA.run::<4>().into_iter().zip(words) {
+        register.set(cx.plc, word);
+    }
     for index in 0..most.min(frame.len.into()) {
         let old = cx.word(2, index / 2)? as u16;
         let byte = u16::from(frame.data[index as usize]);

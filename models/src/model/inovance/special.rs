@@ -1,8 +1,8 @@
 //! Special devices of H1U and H2U (h1u-h2u-programming §8.1).
 
 use crate::special::{
-    BOARDS, CAN_FREE, CAN_RATE, CAN_STATE, CAN_TIME_OUT, CANLINK, CARDS, CHECKED, HARDWARE,
-    LATCHES, NETWORK, NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
+    BOARDS, CAN_FREE, CAN_RATE, CANLINK, CARDS, CHECKED, CONTROLLER, HARDWARE, LATCHES, N_SERIES,
+    NETWORK, NO_LINK, POWER, SUMMED, Special, TRACE, UNCLEAR, specials,
 };
 
 /// What both have.
@@ -120,9 +120,9 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8183 r 0 by("serial ports") "N:N link: master transfer error";
     M 8184-8190 r 0 by("serial ports") "N:N link: slave 1–7 transfer error";
     M 8191 r 0 by("serial ports") "N:N link: transfer in progress";
-    M 8192 r 0 inert(CAN_STATE) "CAN receive time-out (N series)";
-    M 8193 r 0 inert(CAN_STATE) "free CAN instruction receive state (N series)";
-    M 8194 r 0 inert(CAN_STATE) "free CAN instruction send failed (N series)";
+    M 8192 r 0 inert(N_SERIES) "CAN receive time-out (N series)";
+    M 8193 r 0 inert(N_SERIES) "free CAN instruction receive state (N series)";
+    M 8194 r 0 inert(N_SERIES) "free CAN instruction send failed (N series)";
     M 8195 rw 0 by("OUT C") "C251: on 4x counting, off 1x";
     M 8196-8199 rw 0 by("OUT C") "C252–255: on 4x counting";
     M 8200-8234 rw 0 by("OUT C") "C200–234 direction: 0 counts up, 1 counts down";
@@ -141,22 +141,22 @@ pub(super) const BOTH: &[Special] = specials! {
     M 8276 r 0 inert(BOARDS) "COM3: on when the 485BD card is effective";
     M 8279 r 0 by("serial ports") "COM3: time-out";
     M 8280 rw 0 inert(CANLINK) "CANlink 3.0: 0 protocol 3.00, 1 protocol 1.00";
-    M 8281 r 0 inert(CANLINK) "no CAN card found: CANlink not usable";
+    M 8281 r 0 by("CANTX, CANRX") "no CAN card found: CANlink not usable";
     M 8282 rw 0 inert(CAN_FREE) "0 CANlink protocol, 1 free CAN protocol";
-    M 8284 rw 0 inert(CANLINK) "0: CANlink address from switches (shown in D8284); 1: set by D8284";
+    M 8284 rw 0 inert(CAN_RATE) "0: CANlink address from switches (shown in D8284); 1: set by D8284";
     M 8285 rw 0 inert(CAN_RATE) "0: baud rate from switches (shown in D8285); 1: chosen by M8286";
     M 8286 rw 0 inert(CAN_RATE) "0: baud rate step from D8286 (shown in D8285); 1: free baud rate from the 32-bit D8285,D8286";
     M 8287 rw 0 inert(CANLINK) "allow saving of network device information";
     M 8289 rw 0 inert(CANLINK) "reconfigure the CANlink network";
     M 8290 rw 0 inert(CANLINK) "network start/stop";
     M 8291 rw 0 inert(CANLINK) "trigger a synchronous send";
-    M 8292 r 0 inert(CAN_STATE) "CANRX: 0 done or idle, 1 receiving";
-    M 8293 r 0 inert(CAN_STATE) "free CAN send failed";
-    M 8294 r 0 inert(CAN_STATE) "free CAN receive succeeded";
-    M 8295 r 0 inert(CAN_STATE) "CAN state abnormal";
-    M 8296 r 0 inert(CAN_STATE) "device address error";
-    M 8298 r 0 inert(CAN_STATE) "CANTX: 0 idle, 1 sending";
-    M 8299 r 0 inert(CAN_STATE) "CAN receive time-out";
+    M 8292 r 0 by("CANTX, CANRX") "CANRX: 0 done or idle, 1 receiving";
+    M 8293 r 0 by("CANTX, CANRX") "free CAN send failed";
+    M 8294 r 0 by("CANTX, CANRX") "free CAN receive succeeded";
+    M 8295 r 0 inert(CONTROLLER) "CAN state abnormal";
+    M 8296 r 0 inert(CANLINK) "device address error";
+    M 8298 r 0 by("CANTX, CANRX") "CANTX: 0 idle, 1 sending";
+    M 8299 r 0 by("CANTX, CANRX") "CAN receive time-out";
     M 8300 r 0 inert(CANLINK) "device communication lost (device number in D8300)";
     M 8301 r 0 inert(CANLINK) "network overload";
     M 8302 r 0 inert(CANLINK) "device sent illegal (non-CANlink) data";
@@ -345,22 +345,22 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8231-8236 r 0 inert(CARDS) "analog card: inputs, then outputs, 0 to 10000";
     D 8237-8238 r 0 inert(CARDS) "extension card: receive buffer";
     D 8239 r 0 inert(CARDS) "extension card: communication error counter, 0 while it answers";
-    D 8240 rw 0 inert(CAN_FREE) "CAN function setting (N series)";
-    D 8241 rw 0 inert(CAN_TIME_OUT) "CAN receive time-out in ms (N series)";
-    D 8242 rw 0 inert(CANLINK) "CANlink address (N series)";
-    D 8243 rw 0 inert(CAN_RATE) "CAN baud rate auxiliary setting, or the baud rate on the switches (N series)";
-    D 8244 rw 0 inert(CAN_RATE) "CAN baud rate (N series)";
-    D 8245 rw 0 inert(CANLINK) "first register in which CANlink device information is saved (N series)";
-    D 8246 rw 0 inert(CAN_STATE) "CAN command and state (N series)";
-    D 8247 r 0 inert(CANLINK) "synchronous clock counter, low word (N series)";
-    D 8248 r 0 inert(CANLINK) "synchronous clock counter, high word (N series)";
-    D 8249 r 0 inert(CANLINK) "number of network devices (N series)";
-    D 8250 r 0 inert(CAN_STATE) "CAN interrupt error (N series)";
-    D 8251 r 0 inert(CAN_STATE) "free CAN instruction: received length MCFL (N series)";
-    D 8252 r 0 inert(CAN_STATE) "free CAN instruction: received MDLL (N series)";
-    D 8253 r 0 inert(CAN_STATE) "free CAN instruction: received MDLH (N series)";
-    D 8254 r 0 inert(CAN_STATE) "free CAN instruction: received MDHL (N series)";
-    D 8255 r 0 inert(CAN_STATE) "free CAN instruction: received MDHH (N series)";
+    D 8240 rw 0 inert(N_SERIES) "CAN function setting (N series)";
+    D 8241 rw 0 inert(N_SERIES) "CAN receive time-out in ms (N series)";
+    D 8242 rw 0 inert(N_SERIES) "CANlink address (N series)";
+    D 8243 rw 0 inert(N_SERIES) "CAN baud rate auxiliary setting, or the baud rate on the switches (N series)";
+    D 8244 rw 0 inert(N_SERIES) "CAN baud rate (N series)";
+    D 8245 rw 0 inert(N_SERIES) "first register in which CANlink device information is saved (N series)";
+    D 8246 rw 0 inert(N_SERIES) "CAN command and state (N series)";
+    D 8247 r 0 inert(N_SERIES) "synchronous clock counter, low word (N series)";
+    D 8248 r 0 inert(N_SERIES) "synchronous clock counter, high word (N series)";
+    D 8249 r 0 inert(N_SERIES) "number of network devices (N series)";
+    D 8250 r 0 inert(N_SERIES) "CAN interrupt error (N series)";
+    D 8251 r 0 inert(N_SERIES) "free CAN instruction: received length MCFL (N series)";
+    D 8252 r 0 inert(N_SERIES) "free CAN instruction: received MDLL (N series)";
+    D 8253 r 0 inert(N_SERIES) "free CAN instruction: received MDLH (N series)";
+    D 8254 r 0 inert(N_SERIES) "free CAN instruction: received MDHL (N series)";
+    D 8255 r 0 inert(N_SERIES) "free CAN instruction: received MDHH (N series)";
     D 8260 rw 0 by("serial ports") "COM2: communication format";
     D 8261 rw 1 by("serial ports") "COM2: station number";
     D 8262 r 0 by("serial ports") "COM2: data left to send (RS2)";
@@ -382,21 +382,21 @@ pub(super) const BOTH: &[Special] = specials! {
     D 8278 rw 0 by("serial ports") "COM3: computer link on-demand number of data; SETEX: buffer display to PLC (19 words)";
     D 8279 rw 10 by("serial ports") "COM3: time-out, unit 10 ms";
     D 8280 r 300 inert(CANLINK) "CAN protocol version of this software";
-    D 8281 rw 0 inert(CAN_FREE) "extension card type, as D8199 (5 = 6A/6B/3A)";
+    D 8281 rw 0 inert(CANLINK) "extension card type, as D8199 (5 = 6A/6B/3A)";
     D 8282 r 0 inert(CANLINK) "CANlink 3.0: heartbeat time in ms";
-    D 8284 rw 0 inert(CANLINK) "CANlink address: set or shown";
+    D 8284 rw 0 inert(CAN_RATE) "CANlink address: set or shown";
     D 8285 rw 0 inert(CAN_RATE) "baud rate: set or shown";
     D 8286 rw 0 inert(CAN_RATE) "baud rate, with M8285=1; CANlink 3.0 (§5.9.5): 20, 50, 100, 125, 250, 500, 800 or 1000 kbit/s, other=500K; older cards (§8.1), with M8286=0: 10 and more in kbit/s, 0=10K, 1=100K, 2=200K, 3=300K, 4=400K, 5=500K, 6=600K, other=800K";
     D 8287 rw 0 inert(CANLINK) "with M8287=1: first device in which network device information is saved";
     D 8291 r 0 inert(CANLINK) "number of network devices";
-    D 8292 r 0 inert(CAN_STATE) "CANRX received length MCFL";
-    D 8293 r 0 inert(CAN_STATE) "CAN interrupt register";
-    D 8294 r 0 inert(CAN_STATE) "CAN state register";
-    D 8295 r 0 inert(CAN_STATE) "CANRX received MDL low 16 bits";
-    D 8296 r 0 inert(CAN_STATE) "CANRX received MDL high 16 bits";
-    D 8297 r 0 inert(CAN_STATE) "CANRX received MDH low 16 bits";
-    D 8298 r 0 inert(CAN_STATE) "CANRX received MDH high 16 bits";
-    D 8299 rw 0 inert(CAN_TIME_OUT) "CAN receive time-out in ms";
+    D 8292 r 0 by("CANTX, CANRX") "CANRX received length MCFL";
+    D 8293 r 0 inert(CONTROLLER) "CAN interrupt register";
+    D 8294 r 0 inert(CONTROLLER) "CAN state register";
+    D 8295 r 0 by("CANTX, CANRX") "CANRX received MDL low 16 bits";
+    D 8296 r 0 by("CANTX, CANRX") "CANRX received MDL high 16 bits";
+    D 8297 r 0 by("CANTX, CANRX") "CANRX received MDH low 16 bits";
+    D 8298 r 0 by("CANTX, CANRX") "CANRX received MDH high 16 bits";
+    D 8299 rw 0 by("CANTX, CANRX") "CAN receive time-out in ms";
     D 8300 r 0 inert(CANLINK) "device number (with M8300)";
     D 8301 r 0 inert(CANLINK) "own fault information (PLC fault code)";
     D 8302-8304 r 0 inert(CANLINK) "device number (with M8302–8304)";
