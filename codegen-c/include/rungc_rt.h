@@ -626,6 +626,24 @@ typedef struct rungc_received {
 } rungc_received;
 
 /**
+ * A frame on a CAN bus.
+ */
+typedef struct rungc_can_frame {
+    /**
+     * The identifier; bit 31 marks one of 29 bits.
+     */
+    uint32_t id;
+    /**
+     * How many bytes of data there are.
+     */
+    uint8_t len;
+    /**
+     * The data; 0 after its end.
+     */
+    uint8_t data[8];
+} rungc_can_frame;
+
+/**
  * The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.
  */
 typedef struct rungc_hal {
@@ -681,6 +699,18 @@ typedef struct rungc_hal {
      * How many characters of those are not out by `now_us`, to the end of their stop bits.
      */
     uint16_t (*unsent)(void *context, uint8_t port, uint32_t now_us);
+    /**
+     * Takes the oldest frame that has come by CAN; false if there is none.
+     */
+    bool (*can_receive)(void *context, struct rungc_can_frame *frame);
+    /**
+     * Takes a frame to be sent by CAN after those before it; false if there is no room for it now.
+     */
+    bool (*can_send)(void *context, const struct rungc_can_frame *frame);
+    /**
+     * Whether frames taken by `can_send` are not on the bus yet; `NULL`: they never are.
+     */
+    bool (*can_is_sending)(void *context);
 } rungc_hal;
 
 /**

@@ -234,7 +234,7 @@ fn bytes<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<u32, D::Error> {
 }
 
 /// Fields of `rungc_hal` and `rungc_board` that a function may stand for, and what the function is.
-pub const FUNCTIONS: [(&str, &str); 17] = [
+pub const FUNCTIONS: [(&str, &str); 20] = [
     ("init", "void NAME(void)"),
     (
         "input",
@@ -278,6 +278,15 @@ pub const FUNCTIONS: [(&str, &str); 17] = [
         "unsent",
         "uint16_t NAME(void *context, uint8_t port, uint32_t now_us)",
     ),
+    (
+        "can_receive",
+        "bool NAME(void *context, rungc_can_frame *frame)",
+    ),
+    (
+        "can_send",
+        "bool NAME(void *context, const rungc_can_frame *frame)",
+    ),
+    ("can_is_sending", "bool NAME(void *context)"),
     ("now_us", "uint32_t NAME(void *context)"),
     ("next_edge", "bool NAME(void *context, rungc_edge *edge)"),
     (

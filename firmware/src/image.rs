@@ -86,15 +86,22 @@ impl Image<'_> {
             .filter(|n| !self.board.inputs.contains_key(n) && !has("input") && !scripted(n));
         let outputs = terminals(self.module, DeviceClass::Y)
             .filter(|n| !self.board.outputs.contains_key(n) && !has("set_output"));
+        let is_can = |port: &u8| {
+            let wiring = self.module.model.ports.get(*port);
+            wiring.is_some_and(|wiring| wiring.is_can())
+        };
         let ports = self.module.ports.iter().filter(|port| {
             let described = self.board.serial.iter().any(|serial| serial.port == **port);
-            !described && !has("set_line")
+            !(described || has("set_line") || is_can(port) && has("can_send"))
         });
         let name = |class: DeviceClass| move |n: u32| class.number(n).to_string();
         inputs
             .map(name(DeviceClass::X))
             .chain(outputs.map(name(DeviceClass::Y)))
-            .chain(ports.map(|port| format!("COM{port}")))
+            .chain(ports.map(|port| match is_can(port) {
+                true => "CAN".to_string(),
+                false => format!("COM{port}"),
+            }))
             .collect()
     }
 }

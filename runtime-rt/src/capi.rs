@@ -16,7 +16,7 @@ mod exports;
 mod hal;
 mod map;
 
-use crate::comm::{LineFormat, Ports, Received};
+use crate::comm::{CanFrame, LineFormat, Ports, Received};
 use crate::cx::Cx;
 use crate::fault::Done;
 use crate::hal::Clock;
@@ -185,6 +185,12 @@ pub struct HalTable {
     pub send: Option<extern "C" fn(context: *mut c_void, port: u8, byte: u8, now_us: u32) -> bool>,
     /// How many characters of those are not out by `now_us`, to the end of their stop bits.
     pub unsent: Option<extern "C" fn(context: *mut c_void, port: u8, now_us: u32) -> u16>,
+    /// Takes the oldest frame that has come by CAN; false if there is none.
+    pub can_receive: Option<extern "C" fn(context: *mut c_void, frame: *mut CanFrame) -> bool>,
+    /// Takes a frame to be sent by CAN after those before it; false if there is no room for it now.
+    pub can_send: Option<extern "C" fn(context: *mut c_void, frame: *const CanFrame) -> bool>,
+    /// Whether frames taken by `can_send` are not on the bus yet; `NULL`: they never are.
+    pub can_is_sending: Option<extern "C" fn(context: *mut c_void) -> bool>,
 }
 
 /// A program's devices: its struct, what it looks like, and the hardware.

@@ -107,6 +107,9 @@ pub extern "C" fn rungc_virtual_hal() -> HalTable {
         receive: Some(receive),
         send: Some(send),
         unsent: Some(unsent),
+        can_receive: None,
+        can_send: None,
+        can_is_sending: None,
     }
 }
 

@@ -64,7 +64,7 @@ impl Double {
             counters: HashMap::new(),
             states: std::vec![State::default(); 8],
             axes: [Axis::new(); 3],
-            ports: std::vec![Port::new(); 4],
+            ports: std::vec![Port::new(); 5],
             family: Ports::Inovance,
             sys: Sys {
                 running: true,

@@ -142,6 +142,30 @@ pub trait SerialPort {
     fn unsent(&mut self, now_us: u32) -> u16;
 }
 
+/// A frame on a CAN bus.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C)]
+pub struct CanFrame {
+    /// The identifier; bit 31 marks one of 29 bits.
+    pub id: u32,
+    /// How many bytes of data there are.
+    pub len: u8,
+    /// The data; 0 after its end.
+    pub data: [u8; 8],
+}
+
+/// A CAN bus: frames in and out.
+///
+/// An implementation buffers both ways: what comes in by interrupts waits until the program takes it, between two scans.
+pub trait CanBus {
+    /// Takes the oldest frame that has come.
+    fn receive(&mut self) -> Option<CanFrame>;
+    /// Takes a frame to be sent after those before it; false if there is no room for it now.
+    fn send(&mut self, frame: &CanFrame) -> bool;
+    /// Whether frames taken by [`CanBus::send`] are not on the bus yet.
+    fn is_sending(&mut self) -> bool;
+}
+
 /// What an instruction may ask of the hardware. Every method has a default that means "not fitted".
 pub trait Hal {
     /// Reads the real-time clock.
@@ -176,6 +200,10 @@ pub trait Hal {
     /// Sets an output terminal now, outside the output refresh: REF, and [`crate::Program::pulse_timer`] for the pins of pulse outputs.
     fn set_output(&mut self, number: u16, value: bool) {
         let _ = (number, value);
+    }
+    /// The CAN bus. Where there is none, frames go to and come from a serial port as SLCAN writes them ([`crate::comm::CAN_PORT`]).
+    fn can_bus(&mut self) -> Option<&mut dyn CanBus> {
+        None
     }
     /// The serial port that the model's manual numbers so.
     fn serial_port(&mut self, number: u8) -> Option<&mut dyn SerialPort> {

@@ -61,7 +61,7 @@ pub use compare::CmpOp;
 pub use cx::{Cx, call, fetch, send};
 pub use edge::{Edge, EdgeKind};
 pub use fault::{Done, Fault, LastError, Stop, report, trip_watchdog};
-pub use hal::{Clock, Hal, NoHal, SerialPort};
+pub use hal::{CanBus, Clock, Hal, NoHal, SerialPort};
 pub use operand::{Operand, OperandKind, d, h, k, kn};
 pub use plc::{Class, Plc, Site, State, Sys};
 pub use program::Program;

@@ -8,7 +8,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 24] = [
+const NAMES: [(&str, &str); 25] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -32,6 +32,7 @@ const NAMES: [(&str, &str); 24] = [
     ("LineFormat", "rungc_line_format"),
     ("CharFault", "rungc_char_fault"),
     ("Received", "rungc_received"),
+    ("CanFrame", "rungc_can_frame"),
     ("Request", "rungc_request"),
 ];
 

@@ -1,13 +1,31 @@
 //! The host's hardware, as instructions ask it.
 
 use super::HalTable;
-use crate::comm::{LineFormat, Received};
-use crate::hal::{Clock, Hal, SerialPort};
+use crate::comm::{CanFrame, LineFormat, Received};
+use crate::hal::{CanBus, Clock, Hal, SerialPort};
 
 /// The host's hardware.
 pub(super) struct Board {
     table: *const HalTable,
     line: Line,
+}
+
+impl CanBus for Board {
+    fn receive(&mut self) -> Option<CanFrame> {
+        let table = self.table()?;
+        let mut frame = CanFrame::new();
+        (table.can_receive?)(table.context, &mut frame).then_some(frame)
+    }
+
+    fn send(&mut self, frame: &CanFrame) -> bool {
+        let table = self.table().and_then(|t| t.can_send.map(|f| (t, f)));
+        table.is_some_and(|(table, send)| send(table.context, frame))
+    }
+
+    fn is_sending(&mut self) -> bool {
+        let table = self.table().and_then(|t| t.can_is_sending.map(|f| (t, f)));
+        table.is_some_and(|(table, is_sending)| is_sending(table.context))
+    }
 }
 
 /// One of its serial ports.
@@ -108,6 +126,11 @@ impl Hal for Board {
         self.table()?.set_line?;
         self.line.number = number;
         Some(&mut self.line)
+    }
+
+    fn can_bus(&mut self) -> Option<&mut dyn CanBus> {
+        self.table()?.can_send?;
+        Some(self)
     }
 
     fn hold_pulses(&mut self, hold: bool) {

@@ -1,14 +1,16 @@
 //! The CAN card of H1U and H2U: frames of the program's own, by CANTX and CANRX (h1u-h2u-programming §4.3.9).
 //!
-//! The card is a separate serial port, [`CAN_PORT`], whose other end speaks SLCAN, as USB adapters do (LAWICEL, CANable; on Linux any of them is a
-//! tty): `tiiildd…` and `Tiiiiiiiildd…` are frames with identifiers of 11 and 29 bits, in hexadecimal digits with l bytes of data, and a carriage
+//! Frames go by the hardware's [`CanBus`](crate::CanBus). Where there is none, the card is a serial port, [`CAN_PORT`], whose other end speaks
+//! SLCAN, as USB adapters do (LAWICEL, CANable; on Linux any of them is a tty): `tiiildd…` and `Tiiiiiiiildd…` are frames with identifiers of 11 and 29 bits, in hexadecimal digits with l bytes of data, and a carriage
 //! return ends them. Its bit rate and whether the bus is open are the adapter's.
 //!
 //! As the manual says, instructions that receive are served one after the other, and a frame that the waiting one does not name is lost. D8299
 //! is the time after which the next one waits; where it is 0, it is [`TURN_US`]. The card's relays and registers show what happens.
 
 use super::port::Session;
-use super::{Cut, Frame, hex_digits};
+use super::{Cut, Frame, Protocol, hex_digits};
+pub use crate::hal::CanFrame;
+use crate::hal::Hal;
 use crate::plc::Plc;
 use crate::special::{Register, Relay};
 
@@ -61,18 +63,6 @@ pub const MOST: usize = 8;
 /// Most characters of a frame.
 const LONGEST: usize = 1 + 8 + 1 + 2 * MOST + 1;
 
-/// A frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(C)]
-pub struct CanFrame {
-    /// The identifier; bit 31 marks one of 29 bits.
-    pub id: u32,
-    /// How many bytes of data there are.
-    pub len: u8,
-    /// The data; 0 after its end.
-    pub data: [u8; MOST],
-}
-
 impl CanFrame {
     /// Marks an identifier of 29 bits.
     pub const EXTENDED: u32 = 1 << 31;
@@ -120,17 +110,49 @@ impl CanFrame {
 
 /// The CAN card as a port.
 impl Session<'_> {
-    /// Shows whether there is a card, and whether it still sends.
-    pub(super) fn advance_can(&mut self) {
+    /// Takes the frames of a CAN bus, and shows whether there is a card, and whether it still sends. True if there is a bus: then there is
+    /// no line.
+    pub(super) fn advance_can(&mut self) -> bool {
         if self.wiring.number != CAN_PORT {
-            return;
+            return false;
         }
-        let unsent = self.serial().map(|(port, now_us)| port.unsent(now_us));
-        M_MISSING.set(self.plc, unsent.is_none());
-        if unsent.unwrap_or(0) == 0 {
+        let mut sends = false;
+        let mut is_there = false;
+        let is_on = self.status.protocol == Protocol::Can;
+        let is_bus = self.hal.can_bus().is_some();
+        if let Some(bus) = self.hal.can_bus() {
+            while let Some(frame) = bus.receive() {
+                if is_on {
+                    self.status.can.receive(frame);
+                }
+            }
+            sends = bus.is_sending();
+            is_there = true;
+        } else if let Some((port, now_us)) = self.serial() {
+            sends = port.unsent(now_us) > 0;
+            is_there = true;
+        }
+        M_MISSING.set(self.plc, !is_there);
+        if !sends {
             M_SENDS.set(self.plc, false);
         }
+        is_bus
     }
+}
+
+/// Sends a frame by the CAN bus, or as SLCAN by the port; false if it is not taken.
+pub(crate) fn send(hal: &mut dyn Hal, frame: &CanFrame, now_us: u32) -> bool {
+    if let Some(bus) = hal.can_bus() {
+        return bus.send(frame);
+    }
+    let Some(port) = hal.serial_port(CAN_PORT) else {
+        return false;
+    };
+    let mut text = [0; LONGEST];
+    let mut writer = Frame::new(&mut text);
+    frame.write(&mut writer);
+    let mut characters = writer.as_slice().iter();
+    characters.all(|&byte| port.send(byte, now_us))
 }
 
 /// Whether the characters received so far are a frame. Answers of the adapter are dropped.
@@ -222,7 +244,9 @@ impl CanTurn {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::CanBus;
     use crate::comm::watched::reply_of;
+    use crate::double::Double;
     use proptest::prelude::*;
     use std::vec::Vec;
 
@@ -283,6 +307,66 @@ mod tests {
             turn.visit(2, 0x201, 5000 + TURN_US, TURN_US),
             Some(frame(0x201))
         );
+    }
+
+    /// A bus that takes one frame at a time.
+    #[derive(Default)]
+    struct Bus {
+        come: Vec<CanFrame>,
+        sent: Option<CanFrame>,
+    }
+
+    impl CanBus for Bus {
+        fn receive(&mut self) -> Option<CanFrame> {
+            self.come.pop()
+        }
+
+        fn send(&mut self, frame: &CanFrame) -> bool {
+            let is_free = self.sent.is_none();
+            self.sent = self.sent.or(Some(*frame));
+            is_free
+        }
+
+        fn is_sending(&mut self) -> bool {
+            self.sent.is_some()
+        }
+    }
+
+    impl Hal for Bus {
+        fn can_bus(&mut self) -> Option<&mut dyn CanBus> {
+            Some(self)
+        }
+    }
+
+    #[test]
+    fn frames_go_by_the_bus() {
+        let mut plc = Double::new();
+        let mut bus = Bus::default();
+        let frame = |id| CanFrame {
+            id,
+            len: 2,
+            data: [1, 2, 0, 0, 0, 0, 0, 0],
+        };
+        assert!(send(&mut bus, &frame(0x200), 0));
+        assert!(!send(&mut bus, &frame(0x201), 0));
+        assert_eq!(bus.sent, Some(frame(0x200)));
+        M_SENDS.set(&mut plc, true);
+        crate::comm::advance(&mut plc, &mut bus, 0);
+        assert!(M_SENDS.is_on(&plc) && !M_MISSING.is_on(&plc));
+        let can = |plc: &mut Double| plc.port(CAN_PORT).unwrap().status.can;
+        let mut turn = can(&mut plc);
+        assert_eq!(turn.visit(1, 0x300, 0, TURN_US), None);
+        plc.port(CAN_PORT).unwrap().status.can = turn;
+        bus.come = std::vec![frame(0x300), frame(0x301)];
+        bus.sent = None;
+        crate::comm::advance(&mut plc, &mut bus, 1000);
+        assert!(!M_SENDS.is_on(&plc));
+        assert_eq!(
+            can(&mut plc).visit(1, 0x300, 1000, TURN_US),
+            Some(frame(0x300))
+        );
+        crate::comm::advance(&mut plc, &mut crate::NoHal, 2000);
+        assert!(M_MISSING.is_on(&plc));
     }
 
     proptest! {

@@ -158,8 +158,7 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
 impl Session<'_> {
     fn run(&mut self) {
         self.choose();
-        self.advance_can();
-        if !self.set_up() {
+        if self.advance_can() || !self.set_up() {
             return;
         }
         self.send();

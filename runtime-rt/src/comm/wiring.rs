@@ -394,6 +394,11 @@ impl PortWiring {
         }
     }
 
+    /// Whether it is the CAN card.
+    pub const fn is_can(&self) -> bool {
+        matches!(self.choice, Choice::Can)
+    }
+
     /// All sets of special devices that the port may have.
     pub fn sets(&'static self) -> impl Iterator<Item = &'static PortWiring> {
         core::iter::once(self).chain(self.instead)

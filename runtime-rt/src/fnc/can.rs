@@ -1,9 +1,9 @@
 //! Frames of the program's own on CAN: CANTX and CANRX (h1u-h2u-programming §4.3.9).
 
 use crate::comm::can::{
-    D_DATA, D_LENGTH, M_LATE, M_RECEIVED, M_SEND_FAILED, M_SENDS, M_WAITS, turn_us,
+    self, D_DATA, D_LENGTH, M_LATE, M_RECEIVED, M_SEND_FAILED, M_SENDS, M_WAITS, turn_us,
 };
-use crate::comm::{CAN_PORT, CanFrame, Frame, Protocol};
+use crate::comm::{CAN_PORT, CanFrame, Protocol};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 
@@ -52,16 +52,10 @@ pub fn cantx(cx: &mut Cx) -> Done {
     if !has_card(cx) {
         return Ok(());
     }
-    let mut text = [0; 32];
-    let mut writer = Frame::new(&mut text);
-    frame.write(&mut writer);
     let now_us = now_us(cx);
-    let sent = cx.hal.borrow_mut().serial_port(CAN_PORT).map(|port| {
-        let mut characters = writer.as_slice().iter();
-        characters.all(|&byte| port.send(byte, now_us))
-    });
-    M_SEND_FAILED.set(cx.plc, sent != Some(true));
-    M_SENDS.set(cx.plc, sent == Some(true));
+    let sent = can::send(cx.hal(), &frame, now_us);
+    M_SEND_FAILED.set(cx.plc, !sent);
+    M_SENDS.set(cx.plc, sent);
     Ok(())
 }
 
