@@ -1,6 +1,6 @@
 //! Gives every instruction of a program its catalogue row, form and step number, and holds its operands to the row.
 //!
-//! What an instruction is on its own is decided here; how instructions stand to each other is the business of
+//! What an instruction is on its own is decided here; how instructions relate to each other is the business of
 //! [`check`](crate::check).
 
 mod lengths;

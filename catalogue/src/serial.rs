@@ -44,7 +44,7 @@ const BOARDS: ModelSet = ModelSet::COMPATIBLE;
 /// How many coils or registers a Modbus request is about: at most 2000 and 125 (Modbus application protocol §6).
 const COUNT: Param = number("n", 2000);
 
-/// Words of a Modbus request's data: coils stand sixteen to a word. The low byte of operand 0 is the function, operand 3 the count.
+/// Words of a Modbus request's data: coils are packed sixteen to a word. The low byte of operand 0 is the function, operand 3 the count.
 fn answer_words(constants: &[Option<i64>]) -> Option<u32> {
     let count = constant(constants, 3)?;
     match constant(constants, 0)? & 0xff {

@@ -4,7 +4,7 @@ mod common;
 
 use common::{folder, rungc, text};
 
-/// `#include <time.h>` finds the system's header where the emitted folder stands on the include path.
+/// `#include <time.h>` finds the system's header where the emitted folder is on the include path.
 #[test]
 fn programs_never_shadow_headers_of_the_system() {
     let program = b"LD X000\nOUT Y000\nEND\n";

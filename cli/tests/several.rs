@@ -200,7 +200,7 @@ fn failures_between_files_leave_the_document_whole() {
     assert!(path.join("out/double/double.c").is_file());
 }
 
-/// An endless source is refused, not read until memory ends.
+/// An endless source is rejected, not read until memory ends.
 #[cfg(unix)]
 #[test]
 fn an_endless_source_is_refused() {

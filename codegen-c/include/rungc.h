@@ -240,7 +240,7 @@ static inline void plc_put_bits(bool *first, unsigned count, int32_t value)
     }
 }
 
-/* The same for relays that do not stand side by side; NULL for one that is not stored. */
+/* The same for relays that are not side by side; NULL for one that is not stored. */
 static inline void plc_scatter(bool *const relays[], unsigned count, int32_t value)
 {
     for (unsigned i = 0; i < count; i++) {

@@ -33,7 +33,7 @@ enum {
     PLC_AREA_COUNTERS32
 };
 
-/* Devices that stand side by side in a program's struct. */
+/* Devices that are side by side in a program's struct. */
 typedef struct plc_area {
     uint8_t device;   /* their plc_class */
     uint8_t kind;     /* what each is: PLC_AREA_... */

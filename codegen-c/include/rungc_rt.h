@@ -361,7 +361,7 @@ typedef uint8_t rungc_request;
 #endif // __cplusplus
 
 /**
- * Devices that stand side by side in the program's struct.
+ * Devices that are side by side in the program's struct.
  */
 typedef struct rungc_area {
     /**
@@ -684,7 +684,7 @@ typedef struct rungc_hal {
      */
     void (*hold_pulses)(void *context, bool hold);
     /**
-     * Sets how characters stand on the line of a serial port, before anything else and when it changes.
+     * Sets the format of characters on the line of a serial port, before anything else and when it changes.
      */
     void (*set_line)(void *context, uint8_t port, const struct rungc_line_format *format);
     /**
@@ -993,7 +993,7 @@ bool rungc_virtual_receive(uint8_t port, uint32_t at_us, uint8_t byte, uint8_t f
 bool rungc_virtual_sent(uint8_t port, uint32_t now_us, int64_t *sent);
 
 /**
- * How characters stand on the line of a serial port.
+ * The format of characters on the line of a serial port.
  */
 bool rungc_virtual_line(uint8_t port, int64_t *format);
 
@@ -1145,7 +1145,7 @@ static inline rungc_operand rungc_ER(int32_t number)
     return rungc_device(RUNGC_CLASS_ER, number);
 }
 
-/* Where a call stands: the step, shown in D8069 if the instruction fails; `wide` for the 32-bit form. */
+/* Where a call is: the step, shown in D8069 if the instruction fails; `wide` for the 32-bit form. */
 static inline rungc_site rungc_at(uint32_t step)
 {
     rungc_site site;

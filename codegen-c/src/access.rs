@@ -7,7 +7,7 @@ use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// What stands around the name of a program in its header.
+/// What surrounds the name of a program in its header.
 const HEADER: &str = "\
 #ifndef GUARD
 #define GUARD

@@ -6,7 +6,7 @@ use rungc_ir::Module;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// What stands around the program's own.
+/// What surrounds the program's own.
 const BOARD_C: &str = include_str!("../include/board.c");
 
 /// What takes edges and counts.

@@ -33,7 +33,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// A pointer to the first of some devices that stand side by side.
+    /// A pointer to the first of some devices that are side by side.
     fn run(&self, first: Place, count: u32) -> Option<String> {
         self.fields.array(first.class, first.number, count)?;
         let mut element = "&".to_string();

@@ -21,7 +21,7 @@ struct Operand {
     calls: bool,
 }
 
-/// What stands around an expression: decides on parentheses and casts.
+/// What surrounds an expression: decides on parentheses and casts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Around {
     /// The whole right-hand side or an argument: an `I16` must have the type `int16_t`.

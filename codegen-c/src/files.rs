@@ -145,7 +145,7 @@ fn stamped(text: &str, guard: &str) -> String {
     text.replacen(&defines, &says, 1)
 }
 
-/// Refuses a shared header of another version of rungc: programs of one firmware share theirs, and the first one on the include path
+/// Rejects a shared header of another version of rungc: programs of one firmware share theirs, and the first one on the include path
 /// serves all.
 fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
     format!(

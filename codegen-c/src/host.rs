@@ -8,7 +8,7 @@ use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// What stands around the tables of terminals.
+/// What surrounds the tables of terminals.
 const MAIN_C: &str = include_str!("../include/main.c");
 
 /// How a program waits for its next scan that follows the time.

@@ -2,7 +2,7 @@
 
 use crate::text;
 
-/// How far the lines of a block stand to the right of those around it.
+/// How far the lines of a block are to the right of those around it.
 const STEP: usize = 4;
 
 /// Lines of C.
@@ -58,14 +58,14 @@ impl Page {
         self.open(between);
     }
 
-    /// Adds a statement that stands inside what the one before it begins: the statements of a `case`.
+    /// Adds a statement that is inside what the one before it begins: the statements of a `case`.
     pub fn inner(&mut self, code: &str) {
         self.indent += STEP;
         self.line(code);
         self.indent -= STEP;
     }
 
-    /// The lines that come now stand as far to the left as the head of the block: the `case`s of a `switch`.
+    /// The lines that come now are as far to the left as the head of the block: the `case`s of a `switch`.
     pub fn back(&mut self) {
         self.indent -= STEP;
     }

@@ -6,7 +6,7 @@ use rungc_ir::node::{Arg, Call, Expr, ExprId, Fetch, Place, Send};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// Where a call stands, and what it is.
+/// Where a call is, and what it is.
 struct Site {
     wide: bool,
     drive: Option<ExprId>,

@@ -72,7 +72,7 @@ pub fn unit(module: &Module, by_number: bool) -> Unit {
     if module.has_watchdog() {
         printer.watchdog(&mut internal);
     }
-    // Where the program itself clears devices the functions stand before it, else with those of the API.
+    // Where the program itself clears devices the functions are before it, else with those of the API.
     let clearing = printer.clear_functions(asked.clears_latched || latches != Latches::Kept);
     if asked.clears_general || asked.clears_latched {
         internal.push_str(&clearing);
@@ -120,7 +120,7 @@ fn states(out: &mut String, writer: &Writer, plan: &Plan) {
     }
 }
 
-/// Prototypes: in one file, of functions that may be called before they stand there; in several files, of all.
+/// Prototypes: in one file, of functions that may be called before they are there; in several files, of all.
 fn prototypes(out: &mut String, writer: &Writer, plan: &Plan, single: bool) {
     let mut any = false;
     for function in &plan.functions {

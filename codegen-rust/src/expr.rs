@@ -446,7 +446,7 @@ impl Generator<'_> {
         Some(quote!(plc.#name[#from..#to]))
     }
 
-    /// The field of some devices that stand side by side, and their range in it.
+    /// The field of some devices that are side by side, and their range in it.
     pub fn run(&self, first: Place, count: u32) -> Option<(Ident, TokenStream)> {
         let field = self.storage.array(first.class, first.number, count)?;
         let from = first.number - field.first;

@@ -166,7 +166,7 @@ fn implementation(out: &mut String, file: &mut syn::File, members: Vec<syn::Impl
         set_members(file, vec![member]);
         let text = prettyplease::unparse(file);
         let lines = lines(&text);
-        // Head and brace stand around the first and the last one.
+        // Head and brace surround the first and the last one.
         let from = if i == 0 { 0 } else { head };
         if i > 0 {
             out.push('\n');

@@ -84,7 +84,7 @@ impl Generator<'_> {
         }
     }
 
-    /// The variables that stand at the top of a function.
+    /// The variables that are at the top of a function.
     fn variables(&self, index: usize) -> TokenStream {
         let temps = self.plan.temps.iter().zip(&self.module.temps);
         let here = temps.filter(|(temp, _)| temp.home() == Home::Variable(index) && temp.used > 0);

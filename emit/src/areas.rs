@@ -11,7 +11,7 @@ fn rank(class: DeviceClass) -> Option<usize> {
     order.iter().position(|&c| c == class)
 }
 
-/// Devices of consecutive numbers that stand side by side in the struct.
+/// Devices of consecutive numbers that are side by side in the struct.
 #[derive(Clone, Copy, Debug)]
 pub struct Area<'a> {
     /// The field that they begin with.

@@ -14,13 +14,13 @@ pub fn heading(network: &Network, clean: impl Fn(&str) -> String) -> String {
     }
 }
 
-/// What stands above the choice between parts.
+/// What is above the choice between parts.
 pub const PARTS: &str = "The jumps here do not nest, so the stretches between labels are functions: each answers which one is next.";
 
-/// What stands above a single part that jumps back to itself.
+/// What is above a single part that jumps back to itself.
 pub const ONE_PART: &str = "A jump back repeats it.";
 
-/// The device that a statement writes, if it is known: its comment stands beside the statement.
+/// The device that a statement writes, if it is known: its comment is beside the statement.
 pub fn written(stmt: &Stmt) -> Option<(DeviceClass, u32)> {
     match stmt {
         Stmt::Timer(TimerCoil { number, .. }) | Stmt::TimerGoesOn { number, .. } => {

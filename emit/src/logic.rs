@@ -37,7 +37,7 @@ pub fn is_number(module: &Module, e: ExprId, known: &dyn Fn(ExprId) -> Option<bo
     })
 }
 
-/// Whether two expressions are alike, so that they have the same value where they stand side by side.
+/// Whether two expressions are alike, so that they have the same value where they are side by side.
 pub fn same(module: &Module, a: ExprId, b: ExprId) -> bool {
     let shell = |e: ExprId| {
         let mut expr = *module.expr(e);

@@ -12,7 +12,7 @@ use std::collections::{BTreeSet, HashSet};
 pub type Device = (DeviceClass, u32);
 
 /// Bits that a loop only reads, and that are the same in all of its iterations. They are read before it: compilers make no vectors if these bits
-/// stand after an array in memory to which the loop writes.
+/// are after an array in memory to which the loop writes.
 pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> BTreeSet<Device> {
     let (mut roots, mut written) = (Vec::new(), HashSet::new());
     collect(&stations.body, &mut roots, &mut written);

@@ -108,7 +108,7 @@ pub enum Keep {
     Record,
 }
 
-/// In which section of the struct a field stands. The order puts together what is cleared together.
+/// In which section of the struct a field is. The order puts together what is cleared together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Section {
     /// [`Keep::Input`].
@@ -152,7 +152,7 @@ pub struct Field {
     pub grid: Option<Grid>,
     /// What each device is.
     pub kind: Kind,
-    /// Where it stands.
+    /// Where it is.
     pub section: Section,
 }
 
@@ -318,7 +318,7 @@ impl<'m> Storage<'m> {
         self.fields.iter().map(bytes).sum()
     }
 
-    /// The fields by sections. Arrays that loops over rungs go through stand side by side: clang makes vectors of two bytes only if few
+    /// The fields by sections. Arrays that loops over rungs go through are side by side: clang makes vectors of two bytes only if few
     /// others lie between what a loop reads and what it writes.
     pub fn in_sections(&self) -> Vec<&Field> {
         let mut fields: Vec<&Field> = self.fields.iter().collect();

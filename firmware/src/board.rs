@@ -404,7 +404,7 @@ impl Reader<'_> {
         Ok((hz, clock.tick_us))
     }
 
-    /// Pins by their terminals, each of which stands once, however it is written.
+    /// Pins by their terminals, each of which occurs once, however it is written.
     fn terminals<T, P>(
         &self,
         pins: BTreeMap<Spanned, T>,

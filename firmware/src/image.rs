@@ -1,4 +1,4 @@
-//! The sources of an image: a program, a board, and what stands between reset and the first scan.
+//! The sources of an image: a program, a board, and what is between reset and the first scan.
 
 mod c;
 mod rust;

@@ -1,7 +1,7 @@
 /* What inputs did whose edges the program takes. */
 static rungc_edges edges;
 
-/* Notes each of them that stands otherwise than it stood. */
+/* Notes each of them whose state has changed. */
 static void note_edges(void)
 {
     static const uint16_t watched[] = {/* WATCHED */};

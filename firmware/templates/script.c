@@ -6,7 +6,7 @@ static const struct {
 } script[] = {
 /* SCRIPT */};
 
-/* Whether an input switches itself, and how it stands now. */
+/* Whether an input switches itself, and its state now. */
 static bool scripted(uint16_t number, bool *on)
 {
     bool any = false;

@@ -40,14 +40,14 @@ const NAMES: [&[&str]; 7] = [
     &["note", "ノート", "注解", "注释"],
 ];
 
-/// How far down the row of headers may stand.
+/// How far down the row of headers may be.
 const HEAD_ROWS: usize = 12;
 
 /// How a text is laid out as a table.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     delimiter: u8,
-    /// For each of [`HEADERS`], where it stands.
+    /// For each of [`HEADERS`], where it is.
     columns: [usize; 7],
     /// The row of headers, from 0.
     header: Option<usize>,
@@ -312,7 +312,7 @@ impl Reader {
         };
         let characters = instr.mnemonic == "ASC" && instr.operands.is_empty();
         let read = il::field::operand(text, span.start, characters, &mut self.diagnostics);
-        // A field in which nothing stands but signs between operands.
+        // A field that holds nothing but signs between operands.
         let operand = read.unwrap_or(Operand {
             span,
             kind: OperandKind::Unreadable(None),

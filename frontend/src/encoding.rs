@@ -151,7 +151,7 @@ fn runs(bytes: &[u8]) -> impl Iterator<Item = (&[u8], bool)> {
         })
 }
 
-/// Whether most letters above 7Fh stand between Latin letters, as in Western and Central European words.
+/// Whether most letters above 7Fh are between Latin letters, as in Western and Central European words.
 fn has_latin_neighbours(bytes: &[u8]) -> bool {
     let (beside, all) = runs(bytes).fold((0, 0), |(beside, all), (run, latin)| {
         (beside + usize::from(latin && run.len() < 3), all + 1)

@@ -58,7 +58,7 @@ impl ReadOptions {
     }
 }
 
-/// Files over this size are refused, in bytes: a list of a million steps takes a tenth of it.
+/// Files over this size are rejected, in bytes: a list of a million steps takes a tenth of it.
 pub const MAX_SIZE: u64 = 128 << 20;
 
 /// Why nothing at all could be read.

@@ -10,7 +10,7 @@ use std::fmt;
 /// How long a PLC may take to answer, or a master to ask, in microseconds: an answer with an end that does not come is given up after a second.
 const PATIENCE_US: u64 = 2_000_000;
 
-/// How long a partner waits after a bad frame whether it is refused: a frame of a computer link says itself how long, up to 150 ms.
+/// How long a partner waits after a bad frame whether it is rejected: a frame of a computer link says itself how long, up to 150 ms.
 const REFUSAL_US: u64 = 200_000;
 
 /// What came of a storm.

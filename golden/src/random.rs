@@ -146,7 +146,7 @@ impl Writer<'_> {
         self.next_label - 1
     }
 
-    /// Rungs and what stands around them; `main` bodies may hold MC zones and calls.
+    /// Rungs and what surrounds them; `main` bodies may hold MC zones and calls.
     fn body(&mut self, rungs: u32, main: bool) {
         for _ in 0..rungs {
             match self.rng.below(20) {

@@ -76,7 +76,7 @@ fn sample(index: usize, root: &Path, path: &Path) -> Sample {
             "{name}: {found:?}"
         );
         return Sample {
-            fate: format!("is refused: {}", found[0].1),
+            fate: format!("is rejected: {}", found[0].1),
             name,
             read,
             module: None,

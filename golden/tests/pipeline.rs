@@ -1,4 +1,4 @@
-//! The whole way from text to execution stands any input: nothing panics, nothing hangs, and what compiles is sound.
+//! The whole way from text to execution withstands any input: nothing panics, nothing hangs, and what compiles is sound.
 //!
 //! Random lines of valid mnemonics with operands of every kind, and conformance programs with random damage, are read, compiled
 //! for the models and, where a module comes of it, validated, printed, emitted in both languages and run. Lines that the compiler

@@ -31,6 +31,15 @@ const PHRASES: &[(&str, &str)] = &[
     ("of their own", "separate, their own …"),
     ("for want of", "without"),
     ("do not do", "are not enough"),
+    ("refuse", "reject"),
+    ("refuses", "rejects"),
+    ("refused", "rejected"),
+    ("where it stands", "where it is"),
+    ("what stands around", "what surrounds"),
+    ("what stands above", "what is above"),
+    ("what stands between", "what is between"),
+    ("stand side by side", "are side by side"),
+    ("characters stand", "the format of characters"),
     ("is no", "is not a"),
     ("are no", "are not"),
     ("was no", "was not a"),
@@ -45,6 +54,8 @@ const MEANT: &[&str] = &[
     "is no longer",
     "are no longer",
     "is no more",
+    // What a system says.
+    "connection refused",
 ];
 
 /// Folders and files without prose of ours.

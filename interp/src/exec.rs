@@ -23,7 +23,7 @@ pub(crate) enum Flow {
     Goto(LabelId),
 }
 
-/// Where a driven instruction stands, in its 16-bit or 32-bit form.
+/// Where a driven instruction is, in its 16-bit or 32-bit form.
 fn site_of_form(step: u32, wide: bool) -> Site {
     Site {
         wide,

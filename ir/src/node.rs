@@ -6,7 +6,7 @@
 //! # Values
 //!
 //! Integers are two's complement and wrap. `I16` values are signed 16-bit, `I32` signed 32-bit, `F32` IEEE single, `Bit` true or false.
-//! Types are never converted silently: [`Expr::Widen`], [`Expr::Narrow`] and similar expressions say so. An operand stands before the expression
+//! Types are never converted silently: [`Expr::Widen`], [`Expr::Narrow`] and similar expressions say so. An operand comes before the expression
 //! that uses it in the arena, so that one walk from the front meets operands first.
 //!
 //! # Devices
@@ -35,13 +35,13 @@
 //! # What lasts
 //!
 //! Devices last from scan to scan, as [`crate::layout`] stores them. So do edge memories, [`Flag`]s, [`Cell`]s, [`Table`]s and the
-//! runtime's private memories ([`Stmt::Call`]); what each of them is when RUN begins stands beside it. Nothing else lasts.
+//! runtime's private memories ([`Stmt::Call`]); what each of them is when RUN begins is beside it. Nothing else lasts.
 //!
 //! # Grids
 //!
 //! Rungs that the program repeats with other devices are one [`Stmt::Repeat`]. In its body a place whose index is an [`Expr::Stride`]
 //! leads to the device of the iteration at hand. These devices lie in a [`crate::layout::Grid`], column by column, so no range check is needed.
-//! The iterations run in order, each to its end, as the rungs would that they stand for.
+//! The iterations run in order, each to its end, as the rungs that they stand for would.
 //!
 //! # Scans and interrupts
 //!

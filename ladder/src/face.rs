@@ -98,7 +98,7 @@ impl<'a> Face<'a> {
         format!("({})", operands.join(" "))
     }
 
-    /// What stands above a cell.
+    /// What is above a cell.
     pub(crate) fn name(&self, cell: Cell) -> String {
         match cell {
             Cell::Contact(Contact {

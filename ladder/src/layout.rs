@@ -22,7 +22,7 @@ pub enum Cell {
     Result(InstrIndex),
     /// A coil or box.
     Output(Output),
-    /// The row continues below, where this number stands again.
+    /// The row continues below, where this number appears again.
     FoldOut(usize),
     /// It continues here.
     FoldIn(usize),

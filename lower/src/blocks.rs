@@ -413,7 +413,7 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Copies the devices that stay, then those that enter; `copy` is told whether to begin with the last one.
+    /// Copies the devices that stay, then those that enter; the argument of `copy` says whether to begin with the last one.
     fn shift(&mut self, right: bool, copy: impl Fn(&mut Self, Device, Device, u32, bool)) {
         let (length, by) = (self.stated(2), self.stated(3));
         let (Some(from), Some(to)) = (self.device_of(0), self.device_of(1)) else {

@@ -255,7 +255,7 @@ impl Lowerer<'_> {
                 self.module.texts.push(text.to_string());
                 Arg::Text(self.module.texts.len() as u32 - 1)
             }
-            // The checks have refused unreadable operands.
+            // The checks have rejected unreadable operands.
             OperandKind::Unreadable(_) => self.constant_arg(0, None, wide),
             // As well as other modules and addresses.
             OperandKind::Buffer { .. } => match self.buffer(&operand.kind, 0, wide) {

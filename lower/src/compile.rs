@@ -88,7 +88,7 @@ fn model_of(program: &Program, options: &CompileOptions) -> (&'static Model, Dia
             out.push(note.help(different));
             id
         }
-        // Of a project that was refused nothing is compiled.
+        // Of a project that was rejected nothing is compiled.
         None if program.instrs.is_empty() => ModelId::Fx3u,
         None => {
             let id = ModelId::Fx3u;

@@ -21,7 +21,7 @@ const WORD: u32 = 16;
 #[derive(Clone)]
 pub(super) struct Rows {
     mode: &'static TableMode,
-    /// Where its rows stand.
+    /// Where its rows are.
     first: Place,
     /// How many there are; `None` if that is known only in a run.
     count: Option<u32>,
@@ -243,7 +243,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The rows as they stand now are those of the table.
+    /// The rows as they are now are those of the table.
     fn take_rows(&mut self, table: &Rows) {
         if let Some(count) = table.count {
             for row in 0..count {

@@ -116,7 +116,7 @@ impl Lowerer<'_> {
         self.add(Expr::Bin(BinOp::And, value, mask))
     }
 
-    /// RCR and RCL: the carry flag stands above the highest bit of the value, and all of them rotate.
+    /// RCR and RCL: the carry flag is above the highest bit of the value, and all of them rotate.
     fn rotate_with_carry(&mut self, right: bool) {
         let wide = self.wide();
         let width = if wide { 32 } else { 16 };

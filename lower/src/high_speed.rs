@@ -161,7 +161,7 @@ impl Lowerer<'_> {
         self.set_flag_to(armed, false);
     }
 
-    /// OUT C235 and up: while the coil is on it counts, outside the scan. The checks refuse one that counts no input.
+    /// OUT C235 and up: while the coil is on it counts, outside the scan. The checks reject one that counts no input.
     pub(super) fn high_speed_coil(&mut self, device: Device) {
         let used = &self.high_speed.used;
         let Some(used) = used.iter().find(|u| u.counter.number == device.number) else {

@@ -165,7 +165,7 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The operand of the instruction at hand to which a place with this index belongs: its device, and where it stands. A result of several
+    /// The operand of the instruction at hand to which a place with this index belongs: its device, and where it is. A result of several
     /// words continues after its operand.
     pub(super) fn indexed_operand(&self, place: Place, written: Index) -> Option<(Device, Span)> {
         let operands = self.instr().operands.iter();

@@ -145,7 +145,7 @@ fn programs_are_rejected_where_the_cases_say_so() {
     );
 }
 
-/// Checking and compiling refuse the same programs, with the same words.
+/// Checking and compiling reject the same programs, with the same words.
 #[test]
 fn checking_refuses_what_compiling_refuses() {
     let refusals = |compiled: compile::Compiled| -> Vec<String> {
@@ -155,7 +155,7 @@ fn checking_refuses_what_compiling_refuses() {
             .map(|diagnostic| format!("{} {}", diagnostic.code, diagnostic.message))
             .collect()
     };
-    let mut refused = 0;
+    let mut rejected = 0;
     for case in cases() {
         let program = read_text("case", &case.program).program;
         let options = CompileOptions {
@@ -170,10 +170,10 @@ fn checking_refuses_what_compiling_refuses() {
             "{}",
             case.name
         );
-        refused += u32::from(compiled.module.is_none());
+        rejected += u32::from(compiled.module.is_none());
         assert_eq!(refusals(checked), refusals(compiled), "{}", case.name);
     }
-    assert!(refused >= 400, "only {refused} programs are refused");
+    assert!(rejected >= 400, "only {rejected} programs are rejected");
 }
 
 /// An instruction without implementation is an error of checking, whatever else is wrong with the program.

@@ -8,7 +8,7 @@ use rungc_models::{Model, ModelId};
 use rungc_syntax::{Severity, codes};
 use std::path::{Path, PathBuf};
 
-/// Projects that the PLC refuses too: the end of the path, the code, and why.
+/// Projects that the PLC rejects too: the end of the path, the code, and why.
 const REFUSED: &[(&str, &str, &str)] = &[
     (
         "DHSCS/Resource/POU/Body/MAIN.wpg",

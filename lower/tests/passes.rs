@@ -1,4 +1,4 @@
-//! What the passes do to lowered programs, and what the validator refuses.
+//! What the passes do to lowered programs, and what the validator rejects.
 
 use rungc_ir::Module;
 use rungc_ir::dump::dump;

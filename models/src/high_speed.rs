@@ -205,7 +205,7 @@ pub struct TableMode {
     pub relay: Option<Relay>,
     /// Words of a row: the count, a pair, and what it says, a word or a pair.
     pub words: u32,
-    /// Its rows are those that stand when the first scan that drives it ends.
+    /// Its rows are those in place when the first scan that drives it ends.
     pub fixed: bool,
     /// A row is reached when this holds between the count and its own.
     pub reached: CmpOp,

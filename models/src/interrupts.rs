@@ -104,7 +104,7 @@ pub struct Advanced {
     pub source: Option<Source>,
 }
 
-/// The advanced interrupts of a model. The devices of the first stand here; those of the others follow.
+/// The advanced interrupts of a model. The devices of the first are here; those of the others follow.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct AdvancedPointers {
     /// Pointer of the first.

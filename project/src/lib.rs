@@ -25,7 +25,7 @@ pub use template::template;
 /// The file's name.
 pub const FILE: &str = "rungc.toml";
 
-/// A larger file, in bytes, is refused.
+/// A larger file, in bytes, is rejected.
 pub const MAX_SIZE: u64 = 1 << 20;
 
 /// The settings of a project. Paths are as the file gives them, from its own folder on.
@@ -101,7 +101,7 @@ pub struct Test {
 pub struct Named {
     /// The name as written.
     pub text: String,
-    /// Where it stands.
+    /// Where it is.
     pub span: Span,
 }
 
@@ -118,7 +118,7 @@ pub struct Bound {
     pub first: u32,
     /// Last number that it reaches, inclusive.
     pub last: u32,
-    /// Where the range stands.
+    /// Where the range is.
     pub span: Span,
 }
 
@@ -131,7 +131,7 @@ pub struct Range {
     pub first: u32,
     /// Last number, inclusive.
     pub last: u32,
-    /// Where the range stands.
+    /// Where the range is.
     pub span: Span,
 }
 
@@ -232,12 +232,12 @@ impl Project {
         }
     }
 
-    /// A path of the file, from where the caller stands.
+    /// A path of the file, as seen from the caller's folder.
     pub fn at(&self, path: &Path) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(path)
     }
 
-    /// The program that the project is about, from where the caller stands.
+    /// The program that the project is about, as seen from the caller's folder.
     pub fn program(&self) -> Option<PathBuf> {
         self.program.as_deref().map(|program| self.at(program))
     }

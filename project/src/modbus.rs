@@ -60,7 +60,7 @@ pub struct Row {
     pub buffer: u32,
     /// It works while this device is on; always if there is none.
     pub trigger: Option<Device>,
-    /// Where the row stands.
+    /// Where the row is.
     pub span: Span,
 }
 
@@ -71,7 +71,7 @@ const ALWAYS: Device = Device {
 };
 
 impl Row {
-    /// The row as instructions that stand at `span` in the program.
+    /// The row as instructions that are at `span` in the program.
     fn instrs(&self, span: Span) -> [Instr; 2] {
         let instr = |mnemonic: &str, operands: &[OperandKind]| Instr {
             mnemonic: mnemonic.into(),

@@ -28,7 +28,7 @@ pub struct Serve {
 pub struct SerialLine {
     /// The port and its other end.
     pub line: Line,
-    /// Where it stands.
+    /// Where it is.
     pub span: Span,
 }
 

@@ -41,7 +41,7 @@ pub enum Kind {
     Counters32 = 4,
 }
 
-/// Devices that stand side by side in the program's struct.
+/// Devices that are side by side in the program's struct.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Area {
@@ -175,7 +175,7 @@ pub struct HalTable {
     pub set_output: Option<extern "C" fn(context: *mut c_void, number: u16, on: bool)>,
     /// Keeps the interrupt from coming that calls the program's `pulse_timer`, or lets it come again.
     pub hold_pulses: Option<extern "C" fn(context: *mut c_void, hold: bool)>,
-    /// Sets how characters stand on the line of a serial port, before anything else and when it changes.
+    /// Sets the format of characters on the line of a serial port, before anything else and when it changes.
     pub set_line: Option<extern "C" fn(context: *mut c_void, port: u8, format: *const LineFormat)>,
     /// Takes the oldest character that was in by `now_us`, microseconds since power-on, wrapping; false if there is none.
     pub receive: Option<

@@ -147,7 +147,7 @@ pub extern "C" fn rungc_virtual_sent(port: u8, now_us: u32, sent: *mut i64) -> b
     give(with(|hal| hal.line(port)?.take_packed(now_us)), sent)
 }
 
-/// How characters stand on the line of a serial port.
+/// The format of characters on the line of a serial port.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_line(port: u8, format: *mut i64) -> bool {
     give(

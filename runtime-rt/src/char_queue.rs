@@ -28,7 +28,7 @@ const TIMES: u32 = 1 << (32 - TIME);
 #[derive(Debug)]
 pub struct CharQueue<const N: usize> {
     slots: [AtomicU32; N],
-    /// Where the oldest character stands; the main loop's.
+    /// Where the oldest character is; the main loop's.
     first: AtomicUsize,
     /// Where the next one goes; the interrupt's.
     end: AtomicUsize,

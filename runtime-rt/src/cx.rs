@@ -18,7 +18,7 @@ pub struct Cx<'a> {
     pub hal: RefCell<&'a mut dyn Hal>,
     /// The operands in order.
     pub ops: &'a [Operand],
-    /// Where the call stands, and its form.
+    /// Where the call is, and its form.
     pub site: Site,
 }
 

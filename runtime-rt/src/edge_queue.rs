@@ -19,7 +19,7 @@ use core::sync::atomic::{AtomicU16, AtomicUsize, Ordering};
 pub struct EdgeQueue<const N: usize> {
     /// An input's number, and in the lowest bit whether it turned on.
     slots: [AtomicU16; N],
-    /// Where the oldest edge stands; the main loop's.
+    /// Where the oldest edge is; the main loop's.
     first: AtomicUsize,
     /// Where the next one goes; the interrupt's.
     end: AtomicUsize,

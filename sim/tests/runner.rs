@@ -65,7 +65,7 @@ fn programs_that_do_not_compile_are_failures() {
         "{HEAD}{}",
         r#"
 [[case]]
-name = "refused"
+name = "rejected"
 program = """
 LD X000
 OUT D0
@@ -108,7 +108,7 @@ set = { D9999 = 1 }
 "#
     );
     insta::assert_snapshot!(outcomes(&text), @"
-    t.plctest.toml:5: refused [interp]: the program does not compile: line 2: `D0` cannot be operand D of `OUT`
+    t.plctest.toml:5: rejected [interp]: the program does not compile: line 2: `D0` cannot be operand D of `OUT`
     t.plctest.toml:13: rejected_as_it_should [interp]: passed
     t.plctest.toml:21: rejected_elsewhere [interp]: expected error 6610 on line 1, found error 6503 on line 2: `D0` cannot be operand D of `OUT`
     t.plctest.toml:29: accepted [interp]: expected an error, but the program compiles

@@ -130,7 +130,7 @@ impl SourceKind {
 pub struct Instr {
     /// Mnemonic in upper case as written, with `D` prefix and `P` suffix, e.g. `DADDP`, `LD>=`, `P12`.
     pub mnemonic: SmolStr,
-    /// Where the mnemonic stands.
+    /// Where the mnemonic is.
     pub mnemonic_span: Span,
     /// The operands in order.
     pub operands: Operands,
@@ -145,7 +145,7 @@ pub struct Instr {
 /// What people have written about an instruction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remarks {
-    /// Line statement (heading) that stands above the instruction.
+    /// Line statement (heading) above the instruction.
     pub statement: Option<SmolStr>,
     /// Comment or note beside the instruction.
     pub note: Option<SmolStr>,
@@ -159,7 +159,7 @@ impl Remarks {
 }
 
 impl Instr {
-    /// Line statement (heading) that stands above the instruction.
+    /// Line statement (heading) above the instruction.
     pub fn statement(&self) -> Option<&str> {
         self.remarks.as_ref()?.statement.as_deref()
     }
@@ -181,7 +181,7 @@ pub type Operands = SmallVec<[Operand; 1]>;
 /// One operand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operand {
-    /// Where it stands.
+    /// Where it is.
     pub span: Span,
     /// What it is.
     pub kind: OperandKind,

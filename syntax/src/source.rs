@@ -66,7 +66,7 @@ fn characters(bytes: &[u8]) -> usize {
 const SHORT_LINE: usize = 8;
 
 impl Source {
-    /// Takes the text over and finds its lines. Texts over 4 GiB must be refused before.
+    /// Takes the text over and finds its lines. Texts over 4 GiB must be rejected before.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
         let mut line_starts = Vec::with_capacity(text.len() / SHORT_LINE + 1);

@@ -15,7 +15,7 @@ pub(super) struct Access {
     pub(super) each: u32,
     /// What is done with them.
     pub(super) role: Role,
-    /// Where the operand stands.
+    /// Where the operand is.
     pub(super) span: Span,
 }
 

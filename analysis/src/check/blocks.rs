@@ -38,7 +38,7 @@ struct Rungs<'a, 'p> {
     branches: Vec<Branch>,
     /// The MPP that closed the last open branch of the rung.
     closed: Option<usize>,
-    /// Whether coils may stand directly on the bus, because it is the sub-bus of a state.
+    /// Whether coils may be directly on the bus, because it is the sub-bus of a state.
     in_state: bool,
     /// After an instruction that could not be resolved, nothing is certain until a new rung starts.
     unsure: Option<Unsure>,
@@ -119,7 +119,7 @@ impl Rungs<'_, '_> {
         self.out.push(diagnostic);
     }
 
-    /// NOP stands where a coil was deleted, too: the contacts before it drive nothing, which the PLC accepts.
+    /// NOP also marks the place of a deleted coil: the contacts before it drive nothing, which the PLC accepts.
     fn nothing(&mut self) {
         if let Some(block) = self.blocks.last_mut() {
             block.spent = true;

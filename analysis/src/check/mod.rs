@@ -1,7 +1,7 @@
 //! Looks at a program as a whole: contact logic, structure, labels, interrupts, and what hurts in practice.
 //!
 //! Each file is one concept and walks the program once, so that checking stays linear in its length. `structure` finds where each
-//! instruction stands (routine, loop, state); what jumps, calls and warns builds on that.
+//! instruction is (routine, loop, state); what jumps, calls and warns builds on that.
 
 mod accesses;
 mod blocks;

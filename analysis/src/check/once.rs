@@ -4,7 +4,7 @@ use super::Code;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use std::collections::BTreeMap;
 
-/// An instruction that may stand only once in a program with some operand.
+/// An instruction that may occur only once in a program with some operand.
 struct Limit {
     /// The instruction, by the name of its row.
     inst: &'static str,

@@ -24,7 +24,7 @@ pub struct Setup {
     pub protocol: Option<Protocol>,
     /// Its own station, if the protocol has stations and the number is constant.
     pub station: Option<u16>,
-    /// How characters stand on the line, if that is constant and the port has a line.
+    /// The format of characters on the line, if that is constant and the port has a line.
     pub format: Option<LineFormat>,
 }
 

@@ -1,4 +1,4 @@
-//! States of step ladders: each stands once, and does not lead to more others than the PLC follows.
+//! States of step ladders: each occurs once, and does not lead to more others than the PLC follows.
 
 use super::structure::{NONE, Nesting};
 use super::{Code, Part};

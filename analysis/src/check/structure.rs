@@ -93,11 +93,11 @@ struct Walk<'a, 'p> {
     /// Open loops, innermost last.
     loops: Vec<u32>,
     outer: Vec<(u32, u32)>,
-    /// Where the instructions before this one stand.
+    /// Where the instructions before this one are.
     enclosing: Vec<Enclosing>,
 }
 
-/// Checks the structure of a program and finds where its instructions stand.
+/// Checks the structure of a program and finds where its instructions are.
 pub(super) fn check(code: &Code, pointers: &Pointers, out: &mut Diagnostics) -> Nesting {
     let mut found = Diagnostics::new();
     let mut walk = Walk {

@@ -21,7 +21,7 @@ pub(super) struct Meant {
     pub(super) instead: Option<(String, bool)>,
 }
 
-/// How many structures of each kind are open where an instruction stands.
+/// How many structures of each kind are open where an instruction is.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Open {
     branches: u32,

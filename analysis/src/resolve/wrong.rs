@@ -172,7 +172,7 @@ fn instead(operand: &Operand, matched: &Matched, classes: Classes) -> Option<Str
         .then(|| format!("`{device}` is a word; write one bit of it as `{device}.F`"))
 }
 
-/// The classes that an operand takes with any of the devices that may stand first.
+/// The classes that an operand takes with any of the devices that may be first.
 fn of_all_variants(inst: &Inst, at: usize, model: &Model) -> Classes {
     let variants = inst.variants.iter();
     let of_model = variants.filter(|variant| variant.models.has(model.id));

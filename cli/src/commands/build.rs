@@ -435,7 +435,7 @@ fn bytes(files: Vec<OutFile>) -> Vec<OutFile<Vec<u8>>> {
     files.into_iter().map(OutFile::from).collect()
 }
 
-/// Refuses a file that is there before a long build, unless it may be replaced.
+/// Rejects a file that is there before a long build, unless it may be replaced.
 fn vacant(path: &Path, force: bool) -> std::result::Result<(), Failure> {
     match path.exists() && !force {
         true => Err(Failure::Because(format!(

@@ -234,7 +234,7 @@ fn counts(totals: &Totals) -> String {
     }
 }
 
-/// Writes a file whole or not at all; refuses to replace one unless `force`.
+/// Writes a file whole or not at all; does not replace one unless `force`.
 pub fn write_file(path: &Path, contents: &[u8], force: bool) -> std::result::Result<(), Failure> {
     write_whole(path, contents, force, 0o666)
 }

@@ -28,6 +28,6 @@ pub fn served(ports: &[Setup], emit: Option<Emit>, subject: &Subject) -> Option<
         });
     let ranges: String = ranges.collect();
     Some(format!(
-        "      Serves the devices that the program names{ranges}; requests for others are refused (`[serve]` of rungc.toml adds ranges)"
+        "      Serves the devices that the program names{ranges}; requests for others are rejected (`[serve]` of rungc.toml adds ranges)"
     ))
 }

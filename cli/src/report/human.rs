@@ -16,7 +16,7 @@ use std::ops::Range;
 /// How many places are drawn in addition to the main one.
 const MAX_PLACES: usize = 6;
 
-/// What stands between the marked lines in the source that is drawn: an empty line, which the library draws as a gap.
+/// What is between the marked lines in the source that is drawn: an empty line, which the library draws as a gap.
 const GAP: &str = "\n\n";
 
 /// The line and column that the library adds to the head of a drawing.

@@ -50,7 +50,7 @@ struct Port {
     line: Option<Line>,
 }
 
-/// How characters stand on a line.
+/// The format of characters on a line.
 #[derive(Serialize)]
 struct Line {
     bits_per_second: u32,

@@ -73,7 +73,7 @@ fn default_send() -> toml::Spanned<u16> {
 }
 
 impl Reader<'_> {
-    /// Serial ports, each of which stands once, on UARTs of one kind. `clock_hz` is the core's clock.
+    /// Serial ports, each of which occurs once, on UARTs of one kind. `clock_hz` is the core's clock.
     pub(super) fn serial(
         &self,
         formats: Vec<Format>,

@@ -33,7 +33,7 @@ fn set_bits(address: usize, bits: u32, on: bool) {
 
 ";
 
-/// What says whether an input switches itself, and how it stands.
+/// What says whether an input switches itself, and its state.
 const SCRIPTED: &str = "/// The scripted state of an input at a time, if it has one.
 fn scripted(number: u16, now_ms: u32) -> Option<bool> {
     let own = SCRIPT.iter().filter(|(_, input, _)| *input == number);

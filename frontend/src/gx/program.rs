@@ -73,7 +73,7 @@ pub(super) fn chains(bytes: &[u8]) -> Vec<Chain> {
 enum Piece<'b> {
     /// A token with this body.
     Token(&'b [u8]),
-    /// Bytes in which no token stands.
+    /// Bytes without a token.
     Damage(&'b [u8], Damage),
 }
 
@@ -135,7 +135,7 @@ fn text<'b>(piece: &Piece<'b>) -> Option<&'b [u8]> {
     }
 }
 
-/// The bodies of the tokens of `code`; where none stands, the next one is looked for.
+/// The bodies of the tokens of `code`; where there is none, the next one is looked for.
 pub(super) fn bodies(code: &[u8]) -> impl Iterator<Item = &[u8]> {
     let mut at = 0;
     std::iter::from_fn(move || {
@@ -502,7 +502,7 @@ impl<'l> Reader<'l> {
         self.program.unread.push(self.program.instrs.len() as u32);
     }
 
-    /// Reports bytes in which no token stands.
+    /// Reports bytes without a token.
     fn damage(&mut self, rest: &[u8], at: usize, damage: &Damage) {
         self.prefixes = Prefixes::default();
         // It begins within the operands of an instruction.

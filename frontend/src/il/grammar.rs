@@ -30,7 +30,7 @@ pub(super) struct Line<'s> {
 pub(super) struct Body<'s> {
     /// In upper case, operator joined.
     pub mnemonic: Cow<'s, str>,
-    /// Where it stands.
+    /// Where it is.
     pub mnemonic_span: Span,
     /// The operands.
     pub operands: Operands,
@@ -438,7 +438,7 @@ fn mnemonic<'s>() -> impl Parser<'s, &'s str, (Cow<'s, str>, Span), Extra> + Cop
         })
 }
 
-/// `ASC ABCDEFGH D300`: the characters stand bare, whatever they look like.
+/// `ASC ABCDEFGH D300`: the characters are bare, whatever they look like.
 fn asc<'s>() -> impl Parser<'s, &'s str, Body<'s>, Extra> + Copy {
     let name = letter('A')
         .then(letter('S'))

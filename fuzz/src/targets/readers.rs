@@ -1,4 +1,4 @@
-//! Files: whatever a file contains, it is read or refused, with places that lie in it.
+//! Files: whatever a file contains, it is read or rejected, with places that lie in it.
 
 use super::Target;
 use rungc_lower::compile::{CompileOptions, compile};

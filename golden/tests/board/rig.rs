@@ -12,7 +12,7 @@ const SCAN_US: u32 = 5_000;
 /// The time of the board wraps while it runs.
 const BEGIN_US: u32 = 0u32.wrapping_sub(300_000);
 
-/// In a run with an interrupt: how long what stands between two instructions takes that send or count pulses.
+/// In a run with an interrupt: how long the code between two instructions that send or count pulses takes.
 const INSTRUCTIONS_US: u32 = 700;
 /// How often such an interrupt can come.
 pub const INTERRUPT_US: u32 = 5;

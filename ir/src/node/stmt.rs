@@ -65,7 +65,7 @@ pub struct Call {
     pub wide: bool,
     /// Operands.
     pub args: Vec<Arg>,
-    /// Drive contact, for functions that are called always; others stand inside an `If`.
+    /// Drive contact, for functions that are called always; others are inside an `If`.
     pub drive: Option<ExprId>,
     /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in [`FunctionKind::Signals`](super::FunctionKind::Signals).
     pub signal: bool,

@@ -11,8 +11,7 @@ use rungc_rt::{Ports, Pulses, special::M_OPERATION_ERROR};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, M, P, S, Y};
 
-const FX2: &str =
-    "it has fewer devices and instructions than fx2n, and what does not exist there is not refused";
+const FX2: &str = "it has fewer devices and instructions than fx2n, and what does not exist there is not reported";
 
 /// Mitsubishi FX2N. What it shares with the others of the FX family, they take from it.
 pub(super) const FX2N: Model = Model {

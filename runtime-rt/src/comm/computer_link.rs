@@ -27,7 +27,7 @@ const ETX: u8 = 0x03;
 const ENQ: u8 = 0x05;
 /// Done.
 const ACK: u8 = 0x06;
-/// Refused; a code follows.
+/// Rejected; a code follows.
 const NAK: u8 = 0x15;
 
 /// Characters from ENQ to the wait digit.
@@ -135,7 +135,7 @@ fn wait_ms(request: &[u8]) -> u16 {
     10 * digit.unwrap_or(0) as u16
 }
 
-/// Why a request is refused: the code that follows NAK.
+/// Why a request is rejected: the code that follows NAK.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Refusal {
     /// 02: the sum is wrong.

@@ -165,7 +165,7 @@ impl Session<'_> {
         }
     }
 
-    /// Hands data characters, with what stands around them, to the hardware; returns how many of all are not out yet.
+    /// Hands data characters, with what surrounds them, to the hardware; returns how many of all are not out yet.
     fn send_data(&mut self, marks: &Marks) -> u16 {
         while self.status.free.taken < self.status.free.total {
             let (byte, summed) = self.next_character(marks);

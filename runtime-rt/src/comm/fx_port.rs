@@ -2,7 +2,7 @@
 //!
 //! The vendors do not publish this protocol (h1u-h2u-programming §5.3.1 names it, no manual prints a frame). This code follows
 //! published recordings between GX Works2 and PLCs and from published drivers. A PLC of this kind has no program memory that could be read
-//! or replaced: commands for that are refused with NAK.
+//! or replaced: commands for that are rejected with NAK.
 //!
 //! The line is 9600 bit/s, 7 data bits, even parity, 1 stop bit. A request is `STX command fields ETX sum`, in hexadecimal digits of upper
 //! case; the sum is the low byte of all characters after STX up to and with ETX. A lone ENQ asks whether somebody is there.
@@ -27,7 +27,7 @@ const ETX: u8 = 0x03;
 const ENQ: u8 = 0x05;
 /// Yes, or done.
 const ACK: u8 = 0x06;
-/// Refused.
+/// Rejected.
 const NAK: u8 = 0x15;
 
 /// Most bytes that the commands `0` and `1` move.
@@ -71,7 +71,7 @@ pub fn cut(received: &[u8]) -> Cut {
     }
 }
 
-/// Answers a request. A refused one is answered by NAK; commands for program memory, which other PLCs have, are refused without a fault.
+/// Answers a request. A rejected one is answered by NAK; commands for program memory, which other PLCs have, are rejected without a fault.
 ///
 /// # Errors
 /// What is wrong with a request that no PLC would take.
@@ -114,7 +114,7 @@ pub fn answer(
     }
 }
 
-/// What stands between STX and ETX, if the sum is right.
+/// What is between STX and ETX, if the sum is right.
 fn text_of(request: &[u8]) -> Result<&[u8], LineFault> {
     let [STX, text @ .., ETX, high, low] = request else {
         return Err(LineFault::Form);

@@ -5,7 +5,7 @@ use crate::plc::{Class, Plc};
 /// The devices of a PLC as its partners on a line see them.
 ///
 /// Numbers are device numbers: X010 is 8. `None` stands for a device that the model does not have or that this PLC does not serve; the
-/// codec refuses the frame as its protocol says. A class that has no state (D) or no 16-bit value (M, C200 and up) gives `None` as well.
+/// codec rejects the frame as its protocol says. A class that has no state (D) or no 16-bit value (M, C200 and up) gives `None` as well.
 pub trait Map {
     /// State of a bit device; for T and C the contact.
     fn bit(&self, class: Class, number: u32) -> Option<bool>;
@@ -66,7 +66,7 @@ impl<'a> Served<'a> {
 }
 
 impl Served<'_> {
-    /// Refuses what is not stored.
+    /// Rejects what is not stored.
     fn stored(&self, class: Class, number: u32) -> Option<()> {
         self.plc.stores(class, number).then_some(())
     }

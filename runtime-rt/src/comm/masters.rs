@@ -82,9 +82,9 @@ impl Session<'_> {
         }
     }
 
-    /// Shows why an exchange has failed; `refusal` is the function and the code of an answer that refuses it.
+    /// Shows why an exchange has failed; `refusal` is the function and the code of an answer that rejects it.
     fn note_exchange(&mut self, fault: LineFault, refusal: Option<[u8; 2]>) {
-        /// The answer refuses the request (FX3).
+        /// The answer rejects the request (FX3).
         const REFUSED: u16 = 212;
         let Some(modbus) = self.wiring.modbus else {
             return self.note(fault);

@@ -46,7 +46,7 @@ pub fn answer(request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<()
     }
 }
 
-/// Why a request is refused; each frame has its own codes.
+/// Why a request is rejected; each frame has its own codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Refusal {
     /// A command that is not served.

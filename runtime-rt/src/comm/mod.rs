@@ -20,7 +20,7 @@
 //! * **Slaves** answer: `fn answer(settings: &Settings, request: &[u8], map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault>`. `request` is one
 //!   frame as [`Cut`] or the silence ended it. The reply is what `reply` holds; an empty one is silence. `Err` says what the port notes in
 //!   the PLC's error register (D8063 and similar registers); the reply is sent all the same. A codec checks a request whole before it writes the first
-//!   device, and writes nothing where it refuses.
+//!   device, and writes nothing where it rejects.
 //! * **Masters** ask: `fn request(job, map: &dyn Map, frame: &mut Frame) -> Result<(), LineFault>` makes the request of a job, and
 //!   `fn accept(job, reply: &[u8], map: &mut dyn Map) -> Result<(), LineFault>` takes the answer; retries, time-outs and whose turn it is are
 //!   the port's.

@@ -17,9 +17,9 @@ const READ: u8 = 0x61;
 /// Added to the function in a refusal.
 const REFUSED: u8 = 0x80;
 
-/// Refused: an address without a device, a block that is not there.
+/// Rejected: an address without a device, a block that is not there.
 const ILLEGAL_ADDRESS: u8 = 2;
-/// Refused: a number of devices, or of a block.
+/// Rejected: a number of devices, or of a block.
 const ILLEGAL_VALUE: u8 = 3;
 
 /// Number that no block has.
@@ -42,7 +42,7 @@ pub(super) fn is_qlink(request: &[u8]) -> bool {
     matches!(request, [_, DEFINE | READ, ..])
 }
 
-/// Why a request is refused: the exception's code, and what the PLC notes.
+/// Why a request is rejected: the exception's code, and what the PLC notes.
 type Refusal = (u8, LineFault);
 
 const NO_DEVICE: Refusal = (ILLEGAL_ADDRESS, LineFault::Address);

@@ -267,7 +267,7 @@ const M_PORT_3_SET_UP: Relay = Relay(8192);
 /// Port 2 of L01S speaks Modbus.
 const M_PORT_2_MODBUS: Relay = Relay(8125);
 
-/// How characters stand on the way to a CAN adapter; USB adapters ignore it.
+/// The format of characters on the way to a CAN adapter; USB adapters ignore it.
 const ADAPTER: LineFormat = LineFormat {
     bits_per_second: 1_000_000,
     ..LineFormat::new()

@@ -270,7 +270,7 @@ pub fn vrsc(cx: &mut Cx) -> Done {
     cx.set_word(1, 0, (position * 10 + 127) / 255)
 }
 
-/// The next words of a divided transfer: where it stands and how many there are. Memory: words moved; whether it is over.
+/// The next words of a divided transfer: where it is and how many there are. Memory: words moved; whether it is over.
 fn portion(cx: &mut Cx) -> Result<Option<(i32, i32, i32)>, Fault> {
     if !cx.drive() {
         cx.state().0 = [0; 8];

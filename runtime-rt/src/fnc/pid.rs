@@ -95,7 +95,7 @@ pub fn pid(cx: &mut Cx) -> Done {
     control(cx)
 }
 
-/// PID S1 S2 S3 D of FX: as [`pid`], with auto-tuning by step response (ACT bit 4). Tuning by limit cycle (bit 6) is refused with 6750.
+/// PID S1 S2 S3 D of FX: as [`pid`], with auto-tuning by step response (ACT bit 4). Tuning by limit cycle (bit 6) is rejected with 6750.
 pub fn pid_tuning(cx: &mut Cx) -> Done {
     let action = cx.word(OPERAND_S3, at::ACT)?;
     if action & act::TUNE_LIMIT_CYCLE != 0 {
@@ -337,7 +337,7 @@ fn finish_tuning(cx: &mut Cx) -> Done {
     cx.set_word(OPERAND_S3, at::STARTED, 0)
 }
 
-/// Offsets of HM's work area; its settings stand where FX has them.
+/// Offsets of HM's work area; its settings are where FX has them.
 mod hm_at {
     pub const DEVIATION: i32 = 7;
     pub const CHANGE: i32 = 9;

@@ -48,7 +48,7 @@ pub enum BuildError {
         /// What the system says.
         error: io::Error,
     },
-    /// A tool refused the emitted code, which is an error of the compiler.
+    /// A tool rejected the emitted code, which is an error of the compiler.
     #[error("{command} failed:\n{output}")]
     Tool {
         /// The command.

@@ -224,7 +224,7 @@ impl Reader<'_> {
         read
     }
 
-    /// Refuses bounds of operands with an index, which belong to the settings of a program file.
+    /// Rejects bounds of operands with an index, which belong to the settings of a program file.
     fn no_index(&mut self, index: Option<&Spanned<IgnoredAny>>) {
         if let Some(index) = index {
             let message = "`[index]` belongs in rungc.toml and applies to its program: test that with `program = { file = \"…\" }`";

@@ -64,7 +64,7 @@ impl Servers {
 }
 
 impl Running<'_> {
-    /// A step begins: clients send. What stands between two pauses arrives together.
+    /// A step begins: clients send. What is between two pauses arrives together.
     pub(super) fn begin_servers(&mut self, step: &Step) -> Result<(), Failure> {
         let now_us = self.now_us();
         for connection in self.servers.connections.values_mut() {

@@ -26,7 +26,7 @@ const CONTROLS: [(u8, &str); 9] = [
     (0x15, "NAK"),
 ];
 
-/// Refuses a request.
+/// Rejects a request.
 const NAK: u8 = 0x15;
 
 /// What a server or a port speaks.
@@ -208,7 +208,7 @@ fn mc_reply(bytes: &[u8]) -> Decoded {
         _ => None,
     };
     let error = code.filter(|&code| code != 0);
-    let error = error.map(|code| format!("refused with code {code:02X}H"));
+    let error = error.map(|code| format!("rejected with code {code:02X}H"));
     Decoded {
         text: error.clone().unwrap_or_else(|| "done".to_string()),
         error,
@@ -218,7 +218,7 @@ fn mc_reply(bytes: &[u8]) -> Decoded {
 
 /// A frame of a protocol in text.
 fn plain(bytes: &[u8]) -> Decoded {
-    let error = (bytes.first() == Some(&NAK)).then(|| "refused (NAK)".to_string());
+    let error = (bytes.first() == Some(&NAK)).then(|| "rejected (NAK)".to_string());
     Decoded {
         text: characters(bytes),
         error,

@@ -71,7 +71,7 @@ pub struct Reaction {
     pub reply: Vec<u8>,
     /// Whether it closes: what came is not a request.
     pub closes: bool,
-    /// The requests that were carried out or refused.
+    /// The requests that were carried out or rejected.
     pub exchanges: Vec<Exchange>,
 }
 

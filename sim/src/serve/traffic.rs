@@ -136,7 +136,7 @@ impl Traffic {
             "last error",
             "devices written",
         ];
-        /// Columns of numbers stand at the right.
+        /// Columns of numbers are at the right.
         const NUMBERS: std::ops::Range<usize> = 3..6;
         let or_none = |text: String| {
             if text.is_empty() {

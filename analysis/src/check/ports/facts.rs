@@ -199,7 +199,7 @@ impl Facts {
         }
     }
 
-    /// How characters stand on the line of a port, if that is constant.
+    /// The format of characters on the line of a port, if that is constant.
     pub(super) fn format(&self, wiring: &PortWiring, protocol: Protocol) -> Option<LineFormat> {
         if wiring
             .format

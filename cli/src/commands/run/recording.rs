@@ -115,7 +115,7 @@ fn targets(module: &Module, watched: &[Target]) -> Vec<Target> {
     targets
 }
 
-/// Signals of a scope stand together.
+/// Signals of a scope are together.
 fn rank(target: Target) -> usize {
     let order = ["inputs", "outputs", "relays", "timers", "counters"];
     let scope = Signal::of(target).scope;

@@ -26,7 +26,7 @@ const STATES: u32 = 12;
 const GOOD: u32 = 16;
 /// Time-outs and bad answers.
 const BAD: u32 = 17;
-/// The kinds of tasks of each level: where their three registers stand, and whether they write.
+/// The kinds of tasks of each level: where their three registers are, and whether they write.
 const KINDS: [[(u32, bool); 2]; 2] = [[(0, false), (3, true)], [(6, false), (9, true)]];
 /// The level of each of three frames.
 const TURNS: [usize; 3] = [0, 0, 1];

@@ -343,7 +343,7 @@ fn levels_share_the_line() {
 }
 
 proptest! {
-    /// Any bytes: no panic, and what is refused writes nothing.
+    /// Any bytes: no panic, and what is rejected writes nothing.
     #[test]
     fn any_bytes(mut request in proptest::collection::vec(any::<u8>(), 1..300)) {
         request[0] = ENQ;

@@ -1,4 +1,4 @@
-//! RS and RS2: data, and what stands around it on the line.
+//! RS and RS2: data, and what surrounds it on the line.
 
 use crate::comm::line::Received;
 use crate::comm::port::{Session, has_come};
@@ -56,7 +56,7 @@ impl Mark {
     }
 }
 
-/// What stands around data.
+/// What surrounds data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Marks {
     pub(super) before: Mark,

@@ -222,7 +222,7 @@ fn refusals() {
 }
 
 proptest! {
-    /// Any bytes: no panic, and what is refused writes nothing.
+    /// Any bytes: no panic, and what is rejected writes nothing.
     #[test]
     fn any_bytes(request in proptest::collection::vec(any::<u8>(), 0..600)) {
         for settings in [H2U, L01S, HM] {

@@ -111,7 +111,7 @@ impl Net {
         }
     }
 
-    /// Kind of frame, a station, and how the stations stand.
+    /// Kind of frame, a station, and the state of the stations.
     fn begin(self, kind: u8, station: u8, frame: &mut Frame) {
         text::begin(kind, frame);
         frame.push_hex(station.into(), 1);

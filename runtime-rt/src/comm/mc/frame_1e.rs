@@ -65,10 +65,10 @@ pub(super) fn length(received: &[u8]) -> Option<usize> {
     Some(HEAD + data)
 }
 
-/// Why a frame is refused, in the codes of this frame.
+/// Why a frame is rejected, in the codes of this frame.
 enum Refused {
     By(Refusal),
-    /// The PLC itself refuses: 5B and a separate code.
+    /// The PLC itself rejects: 5B and a separate code.
     ByPlc(u8, LineFault),
 }
 

@@ -63,7 +63,7 @@ pub(super) fn answer(
         };
         reply.set(data - 2, code as u8);
         reply.set(data - 1, (code >> 8) as u8);
-        // What was refused: route and command.
+        // What was rejected: route and command.
         reply.extend(route);
         reply.extend(request.get(HEAD + 2..HEAD + 6).unwrap_or(&[0; 4]));
     }

@@ -262,7 +262,7 @@ fn is_done(reply: &[u8]) -> bool {
 }
 
 proptest! {
-    /// Any bytes after a head that is right: no panic, and what is refused writes nothing.
+    /// Any bytes after a head that is right: no panic, and what is rejected writes nothing.
     #[test]
     fn any_bytes(
         command in proptest::sample::select(std::vec![

@@ -116,7 +116,7 @@ enum Wrap {
     Tcp(u16),
 }
 
-/// Where the length of a Modbus TCP frame stands.
+/// Where the length of a Modbus TCP frame is.
 const TCP_LENGTH: usize = 4;
 /// Bytes before the unit of a Modbus TCP frame.
 pub(super) const TCP_HEADER: usize = 6;

@@ -15,7 +15,7 @@ use crate::plc::Class;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Layout {
-    /// Words, one for each register; coils stand sixteen to a word, the first the lowest.
+    /// Words, one for each register; coils are packed sixteen to a word, the first the lowest.
     #[default]
     Words = 0,
     /// Words as above, but of coils the first byte is the high one (FX3U-compatible boards).
@@ -259,7 +259,7 @@ pub fn accept(
     }
 }
 
-/// The function and the code of an answer that refuses the request of a job.
+/// The function and the code of an answer that rejects the request of a job.
 pub fn refusal(framing: Framing, job: &Job, reply: &[u8]) -> Option<[u8; 2]> {
     let body = Body::open(framing, reply).ok()?;
     let function = body.byte(1)?;

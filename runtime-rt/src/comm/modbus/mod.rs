@@ -5,8 +5,8 @@
 //!
 //! * The low word of a 32-bit counter comes first, as that of a pair of registers does.
 //! * A broadcast (station 0) is carried out if it writes, and never answered.
-//! * What a frame may not write (inputs; on H1U and H2U C200 and up by function 06) is refused as an address, exception 02.
-//! * A request whose length does not fit its function is refused with exception 03.
+//! * What a frame may not write (inputs; on H1U and H2U C200 and up by function 06) is rejected as an address, exception 02.
+//! * A request whose length does not fit its function is rejected with exception 03.
 //! * A TCP server answers to the units 0, 1 and 255; another unit is a path that is not there, exception 0A.
 //!
 //! | file | what |
@@ -76,7 +76,7 @@ mod function {
 /// What 05 sends to switch on.
 const COIL_ON: u16 = 0xff00;
 
-/// Why a slave refuses a request.
+/// Why a slave rejects a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Exception {
     /// 01: a function that it does not know.

@@ -24,7 +24,7 @@ fn sealed(body: &[u8]) -> Vec<u8> {
 enum Frame {
     /// It is answered like this.
     Good(Vec<u8>),
-    /// It is not answered, or refused.
+    /// It is not answered, or rejected.
     Bad,
 }
 

@@ -12,7 +12,7 @@ use toml::Spanned;
 const CYCLES_PER_PULSE: f64 = 10.0;
 
 impl Reader<'_> {
-    /// An axis; `before` are those that stand above it.
+    /// An axis; `before` are those that are above it.
     pub(super) fn axis(&mut self, at: usize, raw: RawAxis, before: &[Axis]) -> Option<Axis> {
         let (drive, name) = self.drive(at, &raw)?;
         let named = raw.name.as_ref().map(|name| name.get_ref().clone());

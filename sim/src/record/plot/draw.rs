@@ -74,7 +74,7 @@ struct Frame {
 }
 
 impl Frame {
-    /// Where a value stands; the border is a little farther out.
+    /// Where a value is; the border is a little farther out.
     fn y(&self, value: f64) -> f64 {
         let part = (value - self.least) / (self.greatest - self.least);
         self.top + MARGIN + (self.height - 2.0 * MARGIN) * (1.0 - part)

@@ -81,7 +81,7 @@ fn what_is_not_carried_out_is_not_written() {
         });
     };
     let write = |register| rtu(&[1, 6, 0, register, 0, 1]);
-    // Answered, refused, for another station, for all.
+    // Answered, rejected, for another station, for all.
     frame(Direction::In, &write(1), Protocol::ModbusRtu);
     frame(Direction::Out, &write(1), Protocol::ModbusRtu);
     frame(Direction::In, &write(2), Protocol::ModbusRtu);
