@@ -41,7 +41,7 @@ pub struct Plc {
 }
 
 /// What this thread has used of the processor, in nanoseconds.
-fn used_ns() -> u64 {
+pub(crate) fn used_ns() -> u64 {
     let used = clock_gettime(ClockId::ThreadCPUTime);
     used.tv_sec as u64 * 1_000_000_000 + used.tv_nsec as u64
 }

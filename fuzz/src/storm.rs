@@ -1,6 +1,8 @@
 //! Storms: many frames on one line, a tenth of them bad. No good frame may be lost, nothing else may be written, and no call that advances the
 //! ports may take long.
 
+pub mod tcp;
+
 use crate::partner::{Partner, Registers};
 use crate::plc::{Plc, module};
 use crate::random::Random;

@@ -1,5 +1,6 @@
 //! Storms on all kinds of lines: `storm FRAMES [NAME…]`.
 
+use rungc_fuzz::storm::tcp::{self, SERVERS};
 use rungc_fuzz::{partner, storm};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -21,6 +22,11 @@ fn main() -> ExitCode {
                 partner.name,
                 begin.elapsed().as_secs_f64()
             );
+        }
+    }
+    for server in &SERVERS {
+        if names.is_empty() || names.iter().any(|name| name == server.name) {
+            println!("{}: {}", server.name, tcp::run(server, frames, 1));
         }
     }
     ExitCode::SUCCESS
