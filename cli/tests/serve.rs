@@ -239,7 +239,7 @@ fn ports_in_reports() {
     let built = text(&built.stderr);
     assert!(built.contains(port), "{built}");
     let served =
-        "Serves the devices that the program names, D0-D511; requests for others are refused";
+        "Serves the devices that the program names, D0-D511; requests for others are rejected";
     assert!(built.contains(served), "{built}");
     let json = says(&["check", "--format", "json"]);
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
