@@ -436,10 +436,9 @@ impl Checker<'_> {
         let (to, count) = block.written();
         let bits = matches!(to.class, X | Y | M | S);
         let well = |place: Place| {
-            let alike = match place.class {
-                X | Y | M | S => bits,
-                D | R => !bits,
-                _ => false,
+            let alike = match bits {
+                true => matches!(place.class, X | Y | M | S),
+                false => matches!(place.class, D | R),
             };
             alike
                 && place.index.is_none()
