@@ -42,6 +42,8 @@ enum Section {
     Stations,
     /// Time of a scan with timers, counters and arithmetic.
     Mixed,
+    /// Time of a scan with blocks, conversions and floats.
+    Process,
     /// Bytes on a microcontroller.
     Size,
     /// Instructions of a scan on a microcontroller.
@@ -62,6 +64,7 @@ impl Section {
             Section::Contacts => time(Kind::Contacts, quick),
             Section::Stations => time(Kind::Stations, quick),
             Section::Mixed => time(Kind::Mixed, quick),
+            Section::Process => time(Kind::Process, quick),
             Section::Size => Ok(vec![
                 embedded::size_table(embedded_sizes(quick))?,
                 embedded::image_table()?,

@@ -1,7 +1,8 @@
 //! Random programs. The order in which numbers are drawn is part of what a seed means.
 
 use super::{
-    Action, Chain, Contact, Device, FLAGS, Kind, Ladder, Operation, RELAYS, Rung, TERMINALS,
+    Action, Chain, Contact, Device, FLAGS, Kind, Ladder, Operation, Process, RELAYS, Rung,
+    TERMINALS,
 };
 use crate::random::Random;
 use rungc_syntax::DeviceClass::{self, M, X, Y};
@@ -34,7 +35,7 @@ pub fn ladder(kind: Kind, steps: u32, seed: u32) -> Ladder {
     };
     let rungs = match kind {
         Kind::Stations => generator.stations(steps),
-        Kind::Contacts | Kind::Mixed => generator.rungs(kind, steps),
+        Kind::Contacts | Kind::Mixed | Kind::Process => generator.rungs(kind, steps),
     };
     Ladder {
         kind,
@@ -131,6 +132,11 @@ impl Generator {
             let what = self.random.fraction();
             let action = match kind {
                 Kind::Mixed => self.action(what),
+                Kind::Process if what < 0.4 => {
+                    let (steps, process) = Process::random(&mut self.random);
+                    self.steps += steps;
+                    Action::Process(process)
+                }
                 _ => self.coil(),
             };
             rungs.push(Rung {

@@ -2,8 +2,8 @@
 //! for each coil, functions of 200 rungs. It knows nothing of PLCs beyond what the program does, so that does not slow it down: a timer
 //! counts milliseconds and knows no current value in its units, arithmetic sets no flags.
 
-use super::Kind;
 use super::{Action, Chain, Contact, Device, Ladder, Operation, RELAYS, Rung, TERMINALS};
+use super::{Kind, process};
 use std::fmt::Write;
 
 /// Rungs of a function.
@@ -15,6 +15,9 @@ const MIXED_DEVICES: &str = "struct timer T[200]; struct counter C[100]; int16_t
 /// What `mixed` uses.
 const MIXED: &str = include_str!("../../templates/hand_mixed.h");
 
+/// What `process` uses.
+const PROCESS: &str = include_str!("../../templates/hand_process.h");
+
 /// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` also with the milliseconds
 /// since the last scan.
 pub fn header(ladder: &Ladder, prefix: &str) -> String {
@@ -25,6 +28,10 @@ pub fn header(ladder: &Ladder, prefix: &str) -> String {
         let edges = ladder.rungs.iter().filter(|r| has_edge(&r.action)).count();
         // Writing to a String does not fail.
         let _ = write!(devices, " {MIXED_DEVICES} bool edge[{}];", edges.max(1));
+    }
+    if ladder.kind == Kind::Process {
+        out.push_str(PROCESS);
+        let _ = write!(devices, " int16_t D[{}];", process::REGISTERS);
     }
     let _ = writeln!(out, "struct plc {{ {devices} }};");
     let _ = writeln!(out, "void {prefix}_scan(struct plc *p{});", time(ladder).0);
@@ -124,6 +131,7 @@ fn statement(rung: &Rung, edge: u32) -> String {
         Action::Arithmetic(operation, registers) => arithmetic(&on, operation, registers),
         Action::Set(n) => format!("if ({on}) p->M[{n}] = true;"),
         Action::Reset(n) => format!("if ({on}) p->M[{n}] = false;"),
+        Action::Process(process) => process.hand(&on),
     }
 }
 

@@ -68,5 +68,9 @@ fn action(out: &mut String, action: &Action) {
         }
         Action::Set(n) => writeln!(out, "SET M{n}"),
         Action::Reset(n) => writeln!(out, "RST M{n}"),
+        Action::Process(process) => {
+            process.list(out);
+            Ok(())
+        }
     };
 }

@@ -5,12 +5,16 @@
 //! | `contacts` | rungs of series and parallel contacts, each coil driven once; contacts are inputs, outputs, recent relays, a few mode flags, and relays from anywhere |
 //! | `stations` | the same eight rungs again and again, each time with the devices of the next station, as machines of several equal stations are programmed |
 //! | `mixed` | `contacts` with timers, counters, moves, arithmetic, SET and RST |
+//! | `process` | `contacts` with moves of blocks, shifts, conversions and floats |
 //!
 //! [`list`](Ladder::list) is the program as an instruction list, [`hand::source`] the C that an engineer would write for it.
 
 mod generate;
 pub mod hand;
 mod list;
+mod process;
+
+pub use process::Process;
 
 use rungc_syntax::DeviceClass;
 use std::collections::BTreeSet;
@@ -33,11 +37,13 @@ pub enum Kind {
     Stations,
     /// Timers, counters and arithmetic as well.
     Mixed,
+    /// Blocks, shifts, conversions and floats as well.
+    Process,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 3] = [Kind::Contacts, Kind::Stations, Kind::Mixed];
+    pub const ALL: [Kind; 4] = [Kind::Contacts, Kind::Stations, Kind::Mixed, Kind::Process];
 
     /// As written in tables and names of programs.
     pub fn name(self) -> &'static str {
@@ -45,6 +51,7 @@ impl Kind {
             Kind::Contacts => "contacts",
             Kind::Stations => "stations",
             Kind::Mixed => "mixed",
+            Kind::Process => "process",
         }
     }
 }
@@ -99,6 +106,8 @@ pub enum Action {
     Set(u32),
     /// RST M.
     Reset(u32),
+    /// What `process` has in addition.
+    Process(Process),
 }
 
 /// What [`Action::Arithmetic`] does.
@@ -202,6 +211,7 @@ impl Action {
                 .collect(),
             Action::Arithmetic(_, registers) => registers.iter().map(|&n| (D, n)).collect(),
             Action::Set(n) | Action::Reset(n) => vec![(M, n)],
+            Action::Process(process) => process.devices(),
         }
     }
 }
