@@ -22,8 +22,8 @@ pub fn fits(mnemonic: &str, steps: u32, operands: &Operands, model: &'static Mod
     !diagnostics.has_errors() && resolved.steps == steps
 }
 
-/// The instructions of a model that fit all these uses of a code, as the list export spells them, in the order of the catalogue.
-/// Of those with a pulse form only that is named if `pulse`, else only the other.
+/// The instructions of a model that fit all these uses of a code, as the list export spells them, in the order of the
+/// catalogue. Of those with a pulse form only that is named if `pulse`, else only the other.
 pub fn fitting(steps: u32, pulse: bool, uses: &[&Operands], model: &'static Model) -> Vec<String> {
     let forms = [false, true].map(|wide| Form { wide, pulse });
     let spellings =

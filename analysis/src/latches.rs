@@ -15,7 +15,8 @@ const USUAL: [(DeviceClass, u32, u32); 5] = [
     (D, 200, 312),
 ];
 
-/// The devices of the model, with the latched ones that the program's project has chosen among those for which that can be done.
+/// The devices of the model, with the latched ones that the program's project has chosen among those for which that can
+/// be done.
 pub fn ranges(program: &Program, model: &Model) -> Cow<'static, [Range]> {
     let latched = program
         .parameters

@@ -1,8 +1,9 @@
 //! What is known of a program before it is compiled, and everything that is wrong with it.
 //!
-//! [`resolve`] gives every instruction its catalogue row, form and step number, and holds its operands to the row; [`check`] looks at the
-//! program as a whole; [`latches`] applies the project's choice of latched devices; [`fitting`] finds the instructions that an unknown
-//! code may stand for. This crate knows neither the IR nor output languages. Start reading at [`resolve::resolve`].
+//! [`resolve`] gives every instruction its catalogue row, form and step number, and holds its operands to the row;
+//! [`check`] looks at the program as a whole; [`latches`] applies the project's choice of latched devices; [`fitting`]
+//! finds the instructions that an unknown code may stand for. This crate knows neither the IR nor output languages.
+//! Start reading at [`resolve::resolve`].
 
 pub mod check;
 pub mod fitting;

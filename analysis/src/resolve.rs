@@ -21,11 +21,11 @@ use rungc_syntax::{
 /// What is known of one instruction.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolution {
-    /// Its catalogue row; `None` if it is unknown or the model does not have it (which was reported). A form that the row does not
-    /// have was reported too.
+    /// Its catalogue row; `None` if it is unknown or the model does not have it (which was reported). A form that the
+    /// row does not have was reported too.
     pub inst: Option<&'static Inst>,
-    /// Whether `inst` is only what was probably meant, by which the structure of the program is judged; what is wrong with the
-    /// instruction was reported.
+    /// Whether `inst` is only what was probably meant, by which the structure of the program is judged; what is wrong
+    /// with the instruction was reported.
     pub meant: bool,
     /// What implements it on the model; `None` if there is no row.
     pub lower: Option<Lower>,

@@ -9,8 +9,8 @@ use rungc_models::{Model, ModelId};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example; or of a special device
-/// (`M8029`). `None` if nothing is called so.
+/// The page of an instruction, in Markdown: operands, forms, steps, flags, errors, models, an example; or of a special
+/// device (`M8029`). `None` if nothing is called so.
 pub fn explain(name: &str) -> Option<String> {
     let name = name.to_ascii_uppercase();
     let Some(found) = find(&name) else {
@@ -364,7 +364,8 @@ fn support(inst: &Inst, model: ModelId) -> Support {
     }
 }
 
-/// Which instruction works on which model, in Markdown: ✓ works, a number: not yet, for the reason given below, – the model has none.
+/// Which instruction works on which model, in Markdown: ✓ works, a number: not yet, for the reason given below, – the
+/// model has none.
 pub fn support_table() -> String {
     let mut reasons: Vec<&str> = Vec::new();
     let mut text = "| instruction | FNC | |".to_owned();

@@ -1,10 +1,10 @@
-//! The catalogue of instructions: one row each. Parser, checks, step counting, documentation, lowering, the interpreter and both
-//! backends read the row; nothing about an instruction's operands or forms is written anywhere else.
+//! The catalogue of instructions: one row each. Parser, checks, step counting, documentation, lowering, the interpreter
+//! and both backends read the row; nothing about an instruction's operands or forms is written anywhere else.
 //!
 //! To add an instruction: a row in the file of its family, its runtime function (or IR operator), conformance cases.
 //!
-//! The catalogue must not know programs, file formats or the IR. Start reading at [`Inst`], then the rows of a family (`move_.rs`); the
-//! private module `row` is the notation that they are written in.
+//! The catalogue must not know programs, file formats or the IR. Start reading at [`Inst`], then the rows of a family
+//! (`move_.rs`); the private module `row` is the notation that they are written in.
 
 mod arith;
 mod basic;
@@ -57,8 +57,8 @@ pub enum Shape {
     Text,
     /// A pointer, interrupt pointer or nesting level.
     Pointer,
-    /// A bit where the operand is X, Y, M, S or a bit of a word, a 16-bit word elsewhere (DECO, ENCO); RST and ZRST mean with
-    /// T and C both contact and value. An extent other than [`Extent::Through`] counts bits; a word is one.
+    /// A bit where the operand is X, Y, M, S or a bit of a word, a 16-bit word elsewhere (DECO, ENCO); RST and ZRST
+    /// mean with T and C both contact and value. An extent other than [`Extent::Through`] counts bits; a word is one.
     Mixed,
 }
 
@@ -73,7 +73,8 @@ pub enum Role {
     ReadWrite,
 }
 
-/// How many devices an operand occupies from the named one on, in units of its [`Shape`] (a `Value` of the 32-bit form counts 2 words).
+/// How many devices an operand occupies from the named one on, in units of its [`Shape`] (a `Value` of the 32-bit form
+/// counts 2 words).
 #[derive(Clone, Copy, Debug)]
 pub enum Extent {
     /// One.
@@ -89,11 +90,13 @@ pub enum Extent {
     },
     /// Up to the device that operand `i` names, inclusive.
     Through(usize),
-    /// As many as this function of the operands' constants says (`None` for an operand that is none); `None`: to the class's end.
+    /// As many as this function of the operands' constants says (`None` for an operand that is none); `None`: to the
+    /// class's end.
     Of(fn(&[Option<i64>]) -> Option<u32>),
 }
 
-/// Something more that an operand must obey. A rule about constants says nothing of an operand that is none (or is indexed).
+/// Something more that an operand must obey. A rule about constants says nothing of an operand that is none (or is
+/// indexed).
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
     /// In the 32-bit form a constant lies between these instead of those of the parameter.
@@ -179,8 +182,8 @@ impl Param {
         }
     }
 
-    /// What it may be on a model: without the classes that only others accept, and without notations and devices that the model
-    /// does not have at all.
+    /// What it may be on a model: without the classes that only others accept, and without notations and devices that
+    /// the model does not have at all.
     pub fn classes_on(&self, model: &Model) -> Classes {
         self.classes_without(model.missing(), model.id)
     }
@@ -432,8 +435,8 @@ impl Written {
     }
 }
 
-/// What is otherwise than the row says, on some models or with some operands. Of the variants that hold, the first that has
-/// something to say about a thing decides it.
+/// What is otherwise than the row says, on some models or with some operands. Of the variants that hold, the first that
+/// has something to say about a thing decides it.
 #[derive(Clone, Copy, Debug)]
 pub struct Variant {
     /// On these models …
@@ -485,7 +488,8 @@ pub struct Inst {
     pub errors: &'static [u16],
     /// Models that have it.
     pub models: ModelSet,
-    /// A class whose devices with the numbers of the first operand it works on too: the runtime takes them as one more operand.
+    /// A class whose devices with the numbers of the first operand it works on too: the runtime takes them as one more
+    /// operand.
     pub twin: Option<DeviceClass>,
     /// What implements it; see [`Inst::lower_on_model`].
     lower: Lower,

@@ -120,7 +120,8 @@ pub struct Found {
     pub inst: &'static Inst,
     /// The form.
     pub form: Form,
-    /// Written without the D of its only width: `ECMP` for `DECMP`; some models' editors write so ([`Model::bare_names`]).
+    /// Written without the D of its only width: `ECMP` for `DECMP`; some models' editors write so
+    /// ([`Model::bare_names`]).
     ///
     /// [`Model::bare_names`]: rungc_models::Model::bare_names
     pub bare: bool,
@@ -131,8 +132,8 @@ pub fn all() -> impl Iterator<Item = &'static Inst> {
     FAMILIES.iter().flat_map(|family| family.rows)
 }
 
-/// Finds an instruction by any of its spellings, in upper case: `DADDP`, `LDD>=`, `ECMP`. A label (`P12`, `I001`) is found as the
-/// row `P` or `I`.
+/// Finds an instruction by any of its spellings, in upper case: `DADDP`, `LDD>=`, `ECMP`. A label (`P12`, `I001`) is
+/// found as the row `P` or `I`.
 pub fn find(mnemonic: &str) -> Option<Found> {
     static SPELLINGS: OnceLock<FxHashMap<String, Found>> = OnceLock::new();
     let spellings = SPELLINGS.get_or_init(|| {

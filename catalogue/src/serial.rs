@@ -44,7 +44,8 @@ const BOARDS: ModelSet = ModelSet::COMPATIBLE;
 /// How many coils or registers a Modbus request is about: at most 2000 and 125 (Modbus application protocol §6).
 const COUNT: Param = number("n", 2000);
 
-/// Words of a Modbus request's data: coils are packed sixteen to a word. The low byte of operand 0 is the function, operand 3 the count.
+/// Words of a Modbus request's data: coils are packed sixteen to a word. The low byte of operand 0 is the function,
+/// operand 3 the count.
 fn answer_words(constants: &[Option<i64>]) -> Option<u32> {
     let count = constant(constants, 3)?;
     match constant(constants, 0)? & 0xff {
@@ -59,8 +60,8 @@ const SEND: Param = src("S", DATA).per(1);
 const SEND_LENGTH: Param = number("m", 256);
 const RECEIVE: Param = dst("D", DATA).per(3).changed();
 const RECEIVE_LENGTH: Param = number("n", 256);
-/// RS as Modbus master, D8126 = 20h or 30h (h1u-h2u-programming §5.7): what the other models take for lengths and receive registers is the
-/// address, the number, and the data.
+/// RS as Modbus master, D8126 = 20h or 30h (h1u-h2u-programming §5.7): what the other models take for lengths and
+/// receive registers is the address, the number, and the data.
 const RS_MODBUS: &[Param] = &[any("S"), any("m"), any("D"), both("n", DATA).per(2)];
 /// Either form, where a register comes first: the number as a constant shows that it is a Modbus request.
 const RS_INOVANCE: &[Param] = &[

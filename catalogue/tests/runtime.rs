@@ -1,5 +1,5 @@
-//! What the runtime says of an instruction is what its row says. The two cannot share it: the runtime stands alone in emitted code and
-//! does not know the catalogue.
+//! What the runtime says of an instruction is what its row says. The two cannot share it: the runtime stands alone in
+//! emitted code and does not know the catalogue.
 
 use rungc_catalogue::{Inst, Lower, all};
 use rungc_models::ModelId;

@@ -1,4 +1,5 @@
-//! Encodings of text: by byte-order mark, by the shape of the bytes, and by what language the bytes make in each code page.
+//! Encodings of text: by byte-order mark, by the shape of the bytes, and by what language the bytes make in each code
+//! page.
 
 use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
 use encoding_rs::{
@@ -8,8 +9,9 @@ use encoding_rs::{
 /// How many bytes the detector looks at: those of lines that are not ASCII.
 const SAMPLE: usize = 256 << 10;
 
-/// Decodes a text file in this encoding, or in the one that it seems to have; `None` if it is not text. The flag is set if some
-/// bytes had to be replaced. Where lines end with a carriage return alone, they end with a line feed afterwards.
+/// Decodes a text file in this encoding, or in the one that it seems to have; `None` if it is not text. The flag is set
+/// if some bytes had to be replaced. Where lines end with a carriage return alone, they end with a line feed
+/// afterwards.
 pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<(String, bool)> {
     let marked = || Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
     let encoding = chosen
@@ -45,8 +47,8 @@ pub(crate) fn decode(bytes: &[u8], chosen: Option<&'static Encoding>) -> Option<
     }
 }
 
-/// The encoding of short texts that share a code page: the one that `stated` names, if it reads them all, else the one that
-/// they seem to have together.
+/// The encoding of short texts that share a code page: the one that `stated` names, if it reads them all, else the one
+/// that they seem to have together.
 pub(crate) fn of_texts(texts: &[&[u8]], stated: Option<&'static Encoding>) -> &'static Encoding {
     let reads = |encoding: &&'static Encoding| texts.iter().all(|text| reads(encoding, text));
     stated
@@ -124,8 +126,8 @@ fn sample(bytes: &[u8]) -> Vec<u8> {
     sample
 }
 
-/// Whether text that reads as UTF-8 was meant so. Two Chinese characters in GBK can be one of UTF-8 by chance, which is then one
-/// that comments do not hold: a combining mark, a letter of Syriac or of a phonetic alphabet.
+/// Whether text that reads as UTF-8 was meant so. Two Chinese characters in GBK can be one of UTF-8 by chance, which is
+/// then one that comments do not hold: a combining mark, a letter of Syriac or of a phonetic alphabet.
 fn is_plausible(text: &str) -> bool {
     let odd = |c: char| matches!(c, '\u{250}'..='\u{36F}' | '\u{591}'..='\u{5C7}' | '\u{700}'..='\u{7FF}');
     text.contains(|c| c >= '\u{800}') || !text.contains(odd)
@@ -159,8 +161,9 @@ fn has_latin_neighbours(bytes: &[u8]) -> bool {
     2 * beside > all
 }
 
-/// Whether text reads as half-width katakana of Shift-JIS, which the editors' users in Japan write: bytes A6h to DFh with a long
-/// vowel, a voiced consonant or an odd number of letters, or beside kanji, whose first bytes other code pages hardly use.
+/// Whether text reads as half-width katakana of Shift-JIS, which the editors' users in Japan write: bytes A6h to DFh
+/// with a long vowel, a voiced consonant or an odd number of letters, or beside kanji, whose first bytes other code
+/// pages hardly use.
 fn is_half_width(bytes: &[u8]) -> bool {
     let kana = |b: &u8| matches!(b, 0xA6..=0xDF);
     let voiced = |pair: &[u8]| matches!(pair, [0xB6..=0xC4 | 0xCA..=0xCE, 0xDE | 0xDF] | [_, 0xB0]);
@@ -180,7 +183,8 @@ fn is_paired(bytes: &[u8]) -> bool {
     runs(bytes).all(|(run, _)| run.len() % 2 == 0)
 }
 
-/// Whether words read as Cyrillic in Windows-1251: made of its letters alone, with a capital at the beginning or nowhere else.
+/// Whether words read as Cyrillic in Windows-1251: made of its letters alone, with a capital at the beginning or
+/// nowhere else.
 fn is_cyrillic(bytes: &[u8]) -> bool {
     let letter = |b: &u8| {
         matches!(

@@ -50,7 +50,8 @@ pub(crate) fn detect(name: &str, text: &str) -> Option<(Program, Diagnostic)> {
     Some((program, diagnostic))
 }
 
-/// The language of a text, if it is one of these, and what shows it. It must show early or often: a single line may be a mistake.
+/// The language of a text, if it is one of these, and what shows it. It must show early or often: a single line may be
+/// a mistake.
 fn language(text: &str) -> Option<(Language, Span)> {
     let begin = text.len()
         - text

@@ -1,7 +1,7 @@
 //! Learning codes: a project beside the list that the editor exports of it.
 //!
-//! Both hold the same instructions in the same order, so that they are lined up one by one. Each pair is compared, operands and
-//! step numbers too, before anything is learned: a list of another state of the program teaches nothing.
+//! Both hold the same instructions in the same order, so that they are lined up one by one. Each pair is compared,
+//! operands and step numbers too, before anything is learned: a list of another state of the program teaches nothing.
 
 use crate::Read;
 use crate::gx::hex;
@@ -110,8 +110,8 @@ pub enum Mismatch {
     },
 }
 
-/// Learns the codes of a project that nothing proves from the list that was exported of it, in the order of the codes. `same` says
-/// whether two mnemonics are spellings of one instruction.
+/// Learns the codes of a project that nothing proves from the list that was exported of it, in the order of the codes.
+/// `same` says whether two mnemonics are spellings of one instruction.
 ///
 /// # Errors
 /// If they do not line up, or do not agree about a code.
@@ -278,8 +278,8 @@ impl std::fmt::Display for Item<'_> {
     }
 }
 
-/// Whether operands are the same. A list shows a float with the digits that fit its column; an operand that could not be read may
-/// be anything.
+/// Whether operands are the same. A list shows a float with the digits that fit its column; an operand that could not
+/// be read may be anything.
 fn equal(project: &OperandKind, listed: &OperandKind) -> bool {
     match (project, listed) {
         (OperandKind::Unreadable(_), _) => true,

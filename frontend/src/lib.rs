@@ -1,7 +1,8 @@
 //! Readers and writers of instruction lists, list exports and vendor projects.
 //!
-//! Every reader returns a [`Program`] and the diagnostics about its source; it never gives up at the first mistake. No reader knows
-//! what an instruction computes or which models have it. Start reading at [`read`], which detects the format by content.
+//! Every reader returns a [`Program`] and the diagnostics about its source; it never gives up at the first mistake. No
+//! reader knows what an instruction computes or which models have it. Start reading at [`read`], which detects the
+//! format by content.
 
 mod csv;
 mod encoding;
@@ -43,8 +44,8 @@ pub struct Read {
 pub struct ReadOptions {
     /// Codes of instructions that are known here, in addition to the built-in ones.
     pub learned: LearnedCodes,
-    /// The encoding of all texts that are not UTF-16 by their format; `None`: the one that the project states or that the texts
-    /// seem to have.
+    /// The encoding of all texts that are not UTF-16 by their format; `None`: the one that the project states or that
+    /// the texts seem to have.
     pub encoding: Option<&'static Encoding>,
     /// Of a GX Works2 project, read the compiled program rather than its source.
     pub compiled: bool,
@@ -94,8 +95,9 @@ pub enum ReadError {
     },
 }
 
-/// Reads a program of any known format, found by its content: a list as text, a list export with the device comments that lie
-/// beside it, a GX Developer project (its folder or its `MAIN.wpg`, with comments and parameters), a GX Works2 project.
+/// Reads a program of any known format, found by its content: a list as text, a list export with the device comments
+/// that lie beside it, a GX Developer project (its folder or its `MAIN.wpg`, with comments and parameters), a GX Works2
+/// project.
 pub fn read(path: &Path) -> Result<Read, ReadError> {
     read_with(path, &ReadOptions::default())
 }
@@ -251,8 +253,8 @@ fn load(path: &Path) -> Result<Vec<u8>, ReadError> {
         .ok_or_else(|| ReadError::TooLarge { name: name() })
 }
 
-/// All that a source gives; `None` if that is more than a program can be. A pipe or a device has no size that could be asked for
-/// before, and may never end.
+/// All that a source gives; `None` if that is more than a program can be. A pipe or a device has no size that could be
+/// asked for before, and may never end.
 fn limited(source: impl io::Read) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     source.take(MAX_SIZE + 1).read_to_end(&mut bytes)?;

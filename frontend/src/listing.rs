@@ -21,7 +21,8 @@ impl Listing {
         self.go_to_line(self.line + 1);
     }
 
-    /// Begins the line of this number, from 1, leaving empty those in between; a line that has passed means the next one.
+    /// Begins the line of this number, from 1, leaving empty those in between; a line that has passed means the next
+    /// one.
     pub fn go_to_line(&mut self, line: u32) {
         let line = line.max(self.line + 1);
         let first = u32::from(self.line == 0);

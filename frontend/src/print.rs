@@ -1,5 +1,5 @@
-//! Writers: the same program as an instruction list or as the editors' list export. What they write reads back to the same
-//! program, save for the source text and places.
+//! Writers: the same program as an instruction list or as the editors' list export. What they write reads back to the
+//! same program, save for the source text and places.
 
 use crate::csv::{HEADERS, encode};
 use crate::il::is_label;

@@ -14,9 +14,9 @@ pub fn is_project(folder: &Path) -> bool {
     main_file(folder).is_ok()
 }
 
-/// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists (`.il`), list exports (`.csv`), GX Developer
-/// projects (their folders) and GX Works2 projects (`.gxw`). Hidden folders, folders called `target` and links to folders are left
-/// out.
+/// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists
+/// (`.il`), list exports (`.csv`), GX Developer projects (their folders) and GX Works2 projects (`.gxw`). Hidden
+/// folders, folders called `target` and links to folders are left out.
 pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let entries = WalkDir::new(folder).max_depth(depth).sort_by_file_name();

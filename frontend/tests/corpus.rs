@@ -1,4 +1,5 @@
-//! Published projects read without a finding. They are not part of this repository: where they are absent, the tests say so.
+//! Published projects read without a finding. They are not part of this repository: where they are absent, the tests
+//! say so.
 
 use rungc_syntax::Program;
 use std::path::{Path, PathBuf};

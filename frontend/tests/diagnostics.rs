@@ -112,7 +112,8 @@ fn codes_that_are_unknown() {
     ));
 }
 
-/// WDT and ANR by codes that were derived, ANR twice; IVMC by one that is a guess; an unknown one with every kind of operand.
+/// WDT and ANR by codes that were derived, ANR twice; IVMC by one that is a guess; an unknown one with every kind of
+/// operand.
 const UNPROVEN: &[&[u8]] = &[
     &[0x61, 0x01, 0x00],
     &[0x00],

@@ -114,7 +114,8 @@ fn an_export_without_its_head_is_read() {
     );
 }
 
-/// A statement, contacts and coils of every kind, a timer, an indexed move, a bit of a word, constants of every kind, a label.
+/// A statement, contacts and coils of every kind, a timer, an indexed move, a bit of a word, constants of every kind, a
+/// label.
 const PROGRAM: &[&[u8]] = &[
     b"\x80\x00motor",
     &[0x00],

@@ -1,4 +1,5 @@
-//! Learning codes from an export: whichever codes of a program are not known, the list of the same program supplies them.
+//! Learning codes from an export: whichever codes of a program are not known, the list of the same program supplies
+//! them.
 
 mod fixture;
 

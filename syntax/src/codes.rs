@@ -104,7 +104,8 @@ static NOT_EASED: [(&Code, &str); 6] = [
 ];
 
 impl Code {
-    /// Whether the error is a limit of the PLC that a compiled program does not share, so that it can be made a warning.
+    /// Whether the error is a limit of the PLC that a compiled program does not share, so that it can be made a
+    /// warning.
     ///
     /// # Errors
     ///

@@ -92,7 +92,8 @@ impl Fix {
     }
 }
 
-/// A text after fixes were applied to it, and for each fix whether it was: one that touches what another changes is left out.
+/// A text after fixes were applied to it, and for each fix whether it was: one that touches what another changes is
+/// left out.
 pub fn apply(text: &str, fixes: &[&Fix]) -> (String, Vec<bool>) {
     let reach = |fix: &Fix| {
         let spans = fix.edits.iter().map(|edit| edit.span);
@@ -252,8 +253,9 @@ impl Diagnostics {
         self.0.extend(more);
     }
 
-    /// Adds what the compiler found to what the reader of the program found. About an operand that could not be read at all the
-    /// compiler may know more, since it knows the instruction: then the reader's error gives way to the compiler's.
+    /// Adds what the compiler found to what the reader of the program found. About an operand that could not be read at
+    /// all the compiler may know more, since it knows the instruction: then the reader's error gives way to the
+    /// compiler's.
     pub fn refine(&mut self, compiled: &Diagnostics) {
         let errors = || compiled.iter().filter(|d| d.severity == Severity::Error);
         let mut places: Vec<_> = errors().map(|d| (d.span.start, d.span.end)).collect();

@@ -1,7 +1,8 @@
 //! Source text, the program as its author wrote it, and diagnostics.
 //!
-//! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper share. It must not know file formats,
-//! the models, or what an instruction computes. Start reading at [`Program`], then [`Diagnostic`] and [`codes`].
+//! This crate is what the readers of file formats (`rungc-frontend`) and the compiler proper share. It must not know
+//! file formats, the models, or what an instruction computes. Start reading at [`Program`], then [`Diagnostic`] and
+//! [`codes`].
 
 mod classes;
 pub mod codes;

@@ -19,8 +19,9 @@ pub struct Program {
     pub pou: Option<String>,
     /// CPU type named in the source, as written there, e.g. `FX2N/FX2NC`.
     pub cpu: Option<String>,
-    /// The instructions in order. One of which an operand could not be read is among them, with [`OperandKind::Unreadable`] in its
-    /// place; lines that do not even name an instruction are not here. The reader reported both.
+    /// The instructions in order. One of which an operand could not be read is among them, with
+    /// [`OperandKind::Unreadable`] in its place; lines that do not even name an instruction are not here. The reader
+    /// reported both.
     pub instrs: Vec<Instr>,
     /// For each line that does not name an instruction, how many of `instrs` precede it; ascending.
     pub unread: Vec<u32>,
@@ -116,7 +117,8 @@ impl SourceKind {
         }
     }
 
-    /// Whether it is a project of an editor, which holds instructions by their codes and lengths; else a list of mnemonics.
+    /// Whether it is a project of an editor, which holds instructions by their codes and lengths; else a list of
+    /// mnemonics.
     pub const fn is_project(self) -> bool {
         match self {
             SourceKind::Il | SourceKind::Csv => false,
@@ -243,7 +245,8 @@ pub enum OperandKind {
         /// Index of the address.
         index: Option<Index>,
     },
-    /// Text that is not an operand, which the reader reported; the device that it was probably meant to name (`MO` for `M0`).
+    /// Text that is not an operand, which the reader reported; the device that it was probably meant to name (`MO` for
+    /// `M0`).
     Unreadable(Option<Device>),
 }
 

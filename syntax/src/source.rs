@@ -40,8 +40,8 @@ impl std::fmt::Debug for Span {
 
 /// The text that diagnostics quote.
 ///
-/// For an instruction list it is the file itself, decoded to UTF-8. For an export or a binary project it is a listing made by the
-/// reader, one line per row of the export (or per instruction of the project), so that line N is row N.
+/// For an instruction list it is the file itself, decoded to UTF-8. For an export or a binary project it is a listing
+/// made by the reader, one line per row of the export (or per instruction of the project), so that line N is row N.
 #[derive(Clone, Debug, Default)]
 pub struct Source {
     /// What to call it in diagnostics and in generated headers: the file's name without its folder.

@@ -102,7 +102,8 @@ pub fn run(args: &Args) -> Result<(), Problem> {
     Ok(())
 }
 
-/// Writes the files that differ and removes those that are no longer generated, unless they are only checked; gives their paths.
+/// Writes the files that differ and removes those that are no longer generated, unless they are only checked; gives
+/// their paths.
 fn apply(root: &Path, made: &Made, check: bool) -> Result<Vec<PathBuf>, Problem> {
     let mut stale = Vec::new();
     for (path, text) in &made.files {

@@ -1,5 +1,6 @@
-//! `codegen-c/include/rungc_rt.h` is made with cbindgen from the runtime's C ABI. The prototypes of the instructions are not in it: a macro makes
-//! those functions, which cbindgen does not see, so they are added from the registry when code is emitted.
+//! `codegen-c/include/rungc_rt.h` is made with cbindgen from the runtime's C ABI. The prototypes of the instructions
+//! are not in it: a macro makes those functions, which cbindgen does not see, so they are added from the registry when
+//! code is emitted.
 
 use crate::generate::Made;
 use crate::{Problem, root};

@@ -1,6 +1,6 @@
-//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask package` the packages
-//! that are published. No crate may depend on this one.
-//! Start reading at `generate.rs`, the table of generated files.
+//! Chores of the repository that need its crates: `cargo xtask generate` makes every generated file, `cargo xtask
+//! package` the packages that are published. No crate may depend on this one. Start reading at `generate.rs`, the table
+//! of generated files.
 
 mod book;
 mod generate;

@@ -4,7 +4,8 @@ use crate::{Problem, root, tools};
 use std::fs;
 use std::process::Command;
 
-/// Publish all crates that are meant for it; without `--publish`, do everything but upload: each crate must build from its package alone.
+/// Publish all crates that are meant for it; without `--publish`, do everything but upload: each crate must build from
+/// its package alone.
 #[derive(clap::Args, Debug)]
 pub struct Args {
     /// Upload the packages, in the order of their dependencies.

@@ -40,8 +40,8 @@ impl Access {
     }
 }
 
-/// The accesses of instruction `i` by its operands, without operands that do not belong there. An instruction that could not be
-/// understood has none.
+/// The accesses of instruction `i` by its operands, without operands that do not belong there. An instruction that
+/// could not be understood has none.
 pub(super) fn of(code: &Code, i: usize) -> impl Iterator<Item = Access> {
     let operands = &code.instr(i).operands;
     let params = code.params(i);

@@ -1,7 +1,8 @@
 //! Contact logic: blocks begun by LD, joined by ANB and ORB, branched by MPS, MRD and MPP, and what they drive.
 //!
-//! A block is *spent* when its result has driven something. An LD then begins a new rung, unless a following ANB joins the new
-//! block to the spent one: lists of rungs that branch again after a coil are written like this (hm-programming §5.2, MPS).
+//! A block is *spent* when its result has driven something. An LD then begins a new rung, unless a following ANB joins
+//! the new block to the spent one: lists of rungs that branch again after a coil are written like this (hm-programming
+//! §5.2, MPS).
 
 use super::{Code, Part};
 use rungc_catalogue::Basic;

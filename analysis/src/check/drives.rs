@@ -1,4 +1,5 @@
-//! What drives each instruction: the contacts before it, as far as that can be said without knowing their devices' values.
+//! What drives each instruction: the contacts before it, as far as that can be said without knowing their devices'
+//! values.
 
 use super::{Code, Part};
 use rungc_catalogue::Basic;

@@ -1,4 +1,5 @@
-//! Fast inputs: high-speed counters, interrupts, pulse catch and SPD that want the same terminal, and interrupts of one source.
+//! Fast inputs: high-speed counters, interrupts, pulse catch and SPD that want the same terminal, and interrupts of one
+//! source.
 
 use super::pointers::Pointers;
 use super::{Code, fast_units};

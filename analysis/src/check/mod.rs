@@ -1,7 +1,7 @@
 //! Looks at a program as a whole: contact logic, structure, labels, interrupts, and what hurts in practice.
 //!
-//! Each file is one concept and walks the program once, so that checking stays linear in its length. `structure` finds where each
-//! instruction is (routine, loop, state); what jumps, calls and warns builds on that.
+//! Each file is one concept and walks the program once, so that checking stays linear in its length. `structure` finds
+//! where each instruction is (routine, loop, state); what jumps, calls and warns builds on that.
 
 mod accesses;
 mod blocks;
@@ -206,8 +206,8 @@ impl<'a> Code<'a> {
         })
     }
 
-    /// Whether what begins or ends a part of the program may be among what could not be read: in a project an unknown code may be any
-    /// instruction, while a line of a list without a mnemonic is none.
+    /// Whether what begins or ends a part of the program may be among what could not be read: in a project an unknown
+    /// code may be any instruction, while a line of a list without a mnemonic is none.
     fn may_lack_structure(&self) -> bool {
         let program = self.resolved.program;
         !program.kind.is_text() && !program.unread.is_empty()

@@ -20,7 +20,8 @@ pub(super) fn check(code: &Code, i: usize, out: &mut Diagnostics) {
     }
 }
 
-/// A divisor that is the constant 0: an operation error (h1u-h2u-programming §4.3.3), where the model does not limit the result.
+/// A divisor that is the constant 0: an operation error (h1u-h2u-programming §4.3.3), where the model does not limit
+/// the result.
 fn by_zero(code: &Code, i: usize, fails: bool, out: &mut Diagnostics) {
     let Some(divisor) = code.instr(i).operands.get(1) else {
         return;

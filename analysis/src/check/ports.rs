@@ -1,7 +1,7 @@
 //! The serial ports of a program: what each of them will be, as far as its registers are set to constants.
 //!
-//! Which registers choose what is data of the runtime ([`PortWiring`]), and so is what they choose: the state machine of a port and this
-//! analysis ask the same functions.
+//! Which registers choose what is data of the runtime ([`PortWiring`]), and so is what they choose: the state machine
+//! of a port and this analysis ask the same functions.
 
 mod facts;
 mod findings;

@@ -94,8 +94,8 @@ fn in_vain(
         let out = overwriting(set).first().and_then(|outs| outs.first());
         out.map(|&out| (out, set))
     };
-    // A RST that follows the OUT switches the coil off for the rest of the scan, and one that contacts follow until then: both may
-    // be meant.
+    // A RST that follows the OUT switches the coil off for the rest of the scan, and one that contacts follow until
+    // then: both may be meant.
     let reset_last = uses.rst.last() > uses.out.last();
     let reset_in_vain = |&rst: &usize| {
         let next = |outs: &[usize]| outs.get(outs.partition_point(|&out| out < rst)).copied();

@@ -33,7 +33,8 @@ impl Skips {
         }))
     }
 
-    /// A mark of the jumps that skip an instruction: instructions with different marks need not run in the same scan. 0: none does.
+    /// A mark of the jumps that skip an instruction: instructions with different marks need not run in the same scan.
+    /// 0: none does.
     pub(super) fn mark(&self, i: usize) -> u64 {
         self.0.as_ref().map_or(0, |marks| marks[i])
     }

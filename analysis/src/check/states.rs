@@ -9,7 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// At most this many circuits may begin at one branch (h1u-h2u-programming §4.2.2).
 const MAX_BRANCH: usize = 8;
-/// At most this many circuits may branch off in the states that one initial state leads to (h1u-h2u-programming §4.2.2).
+/// At most this many circuits may branch off in the states that one initial state leads to (h1u-h2u-programming
+/// §4.2.2).
 const MAX_BRANCHES: usize = 16;
 /// Initial states (h1u-h2u-programming §3.4).
 const LAST_INITIAL: u32 = 9;
@@ -20,8 +21,8 @@ pub(super) fn check(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     branches(code, nesting, out);
 }
 
-/// States that have two sections which do something. STL in a row, and a section that holds transitions alone, join branches: so the
-/// manual writes them (h1u-h2u-programming §4.2.3, the sorting of balls).
+/// States that have two sections which do something. STL in a row, and a section that holds transitions alone, join
+/// branches: so the manual writes them (h1u-h2u-programming §4.2.3, the sorting of balls).
 fn stands_twice(code: &Code, out: &mut Diagnostics) {
     let stl = |i: usize| code.basic(i) == Some(Basic::Stl);
     let mut first: FxHashMap<Device, usize> = FxHashMap::default();
@@ -60,7 +61,8 @@ fn acts(code: &Code, stl: usize) -> bool {
     driven.any(|i| !transition(i))
 }
 
-/// The states to which SET leads from each state, with the first transition; OUT only jumps to a state that others lead to.
+/// The states to which SET leads from each state, with the first transition; OUT only jumps to a state that others lead
+/// to.
 fn branches(code: &Code, nesting: &Nesting, out: &mut Diagnostics) {
     let mut leads: BTreeMap<Device, BTreeMap<Device, usize>> = BTreeMap::new();
     for i in 0..code.len {

@@ -1,4 +1,5 @@
-//! What begins must end, and what may hold what: master control, loops, step ladders, subroutines and interrupt routines.
+//! What begins must end, and what may hold what: master control, loops, step ladders, subroutines and interrupt
+//! routines.
 
 mod table;
 
@@ -204,8 +205,9 @@ impl Walk<'_, '_> {
         }
     }
 
-    /// The next entry of an advanced interrupt continues after PROC or PEND, and PEND leaves the routine: in a loop, one would run without
-    /// its FOR and the other without its NEXT, which belong together (hm-motion-controller §5.4.3, §5.4.4).
+    /// The next entry of an advanced interrupt continues after PROC or PEND, and PEND leaves the routine: in a loop,
+    /// one would run without its FOR and the other without its NEXT, which belong together (hm-motion-controller
+    /// §5.4.3, §5.4.4).
     fn in_no_loop(&mut self, i: usize) {
         let Some(&around) = self.loops.last() else {
             return;

@@ -96,8 +96,8 @@ impl<'a, 'p> Unused<'a, 'p> {
         }
     }
 
-    /// Takes an instruction that could not be read or understood: it may read and write what it names, or anything where it names
-    /// nothing that could be read.
+    /// Takes an instruction that could not be read or understood: it may read and write what it names, or anything
+    /// where it names nothing that could be read.
     pub(super) fn note_broken(&mut self, i: usize) {
         let instr = self.code.instr(i);
         let unknown = self.code.inst(i).is_none() || self.code.is_meant(i);

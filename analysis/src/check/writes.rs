@@ -7,7 +7,8 @@ use rungc_models::runs::is_special;
 use rungc_models::special;
 use rungc_syntax::{Diagnostics, codes};
 
-/// Warns of a write to a special device that is there to be read. An operand that is also read (BMOV goes either way) says too little.
+/// Warns of a write to a special device that is there to be read. An operand that is also read (BMOV goes either way)
+/// says too little.
 pub(super) fn check(code: &Code, i: usize, access: &Access, out: &mut Diagnostics) {
     let device = access.first;
     let special = is_special(device.class, device.number);

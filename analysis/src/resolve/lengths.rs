@@ -39,7 +39,8 @@ impl<'p> Checker<'p> {
             false => self.target,
         };
         let length = found.inst.steps_of(found.form, operands, model);
-        // A text is part of the instruction: two steps for every two characters, those of a register included in its length.
+        // A text is part of the instruction: two steps for every two characters, those of a register included in its
+        // length.
         let text = operands
             .iter()
             .any(|operand| matches!(operand.kind, OperandKind::Text(_)));

@@ -15,8 +15,8 @@ pub(super) enum Fit {
     Good,
     /// The model does not have the form, which was reported.
     NoSuchForm,
-    /// The instruction is misspelt, or the model does not have it, which was reported; this is what it stands for in the structure
-    /// of the program.
+    /// The instruction is misspelt, or the model does not have it, which was reported; this is what it stands for in
+    /// the structure of the program.
     Meant,
 }
 
@@ -45,8 +45,9 @@ impl Finder {
         }
     }
 
-    /// The row and form of an instruction. One that is unknown, or that the model does not have, is reported; where it can only have
-    /// been meant to begin, end or name a part of the program, it is found as that. `last`: nothing follows it.
+    /// The row and form of an instruction. One that is unknown, or that the model does not have, is reported; where it
+    /// can only have been meant to begin, end or name a part of the program, it is found as that. `last`: nothing
+    /// follows it.
     pub(super) fn find(
         &mut self,
         instr: &Instr,
@@ -168,8 +169,8 @@ impl Finder {
     }
 }
 
-/// The row that a mnemonic would name if its prefix D or suffix P were taken away, with the form that these mean and that the row
-/// does not have.
+/// The row that a mnemonic would name if its prefix D or suffix P were taken away, with the form that these mean and
+/// that the row does not have.
 fn without_affixes(mnemonic: &str) -> Option<Found> {
     let without_prefix = mnemonic.strip_prefix('D');
     let shorter = [

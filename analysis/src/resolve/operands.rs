@@ -71,7 +71,8 @@ impl Checker {
         }
     }
 
-    /// Says that boards which take programs for the model take operand `at`, if only its value is what the model does not take.
+    /// Says that boards which take programs for the model take operand `at`, if only its value is what the model does
+    /// not take.
     fn compatible_boards(
         &self,
         diagnostic: Diagnostic,

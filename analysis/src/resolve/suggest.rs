@@ -1,7 +1,7 @@
 //! What was probably meant by a mnemonic that no model has.
 //!
-//! The nearest spelling alone misleads: what the operands fit and what the program waits for at this place count as much. A suggestion
-//! never turns a contact into its opposite.
+//! The nearest spelling alone misleads: what the operands fit and what the program waits for at this place count as
+//! much. A suggestion never turns a contact into its opposite.
 
 use super::operands::takes;
 use rungc_catalogue::{Basic, Found, Inst};

@@ -1,4 +1,5 @@
-//! Device comments: `COMMENT.wcd` of GX Developer and `COMMENT.qcd` of GX Works2, which begin with the same table of devices.
+//! Device comments: `COMMENT.wcd` of GX Developer and `COMMENT.qcd` of GX Works2, which begin with the same table of
+//! devices.
 
 use super::fields::Fields;
 use super::{HEADER, tokens};
@@ -23,8 +24,8 @@ fn head(bytes: &[u8], start: usize, mark: u8) -> Option<(usize, u16, Fields<'_>)
     marked.then_some((length, fields.u16()?, fields))
 }
 
-/// The devices of a table in order, and where the fields after it begin; an offset where it cannot be read on. More than `most`
-/// devices cannot have comments in this file: a damaged table takes no memory.
+/// The devices of a table in order, and where the fields after it begin; an offset where it cannot be read on. More
+/// than `most` devices cannot have comments in this file: a damaged table takes no memory.
 fn devices(
     bytes: &[u8],
     start: usize,

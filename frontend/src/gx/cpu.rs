@@ -7,8 +7,8 @@ use rungc_syntax::{Diagnostics, Program, SourceKind, codes};
 /// The high byte of the FX family's numbers.
 const FX: u16 = 0x02;
 
-/// Numbers that the vendor's software gives to CPU types, in the headers of GX Developer's files, with their names: the FX family as
-/// the list export writes them, and those of other families.
+/// Numbers that the vendor's software gives to CPU types, in the headers of GX Developer's files, with their names: the
+/// FX family as the list export writes them, and those of other families.
 const CPUS: &[(u16, &str)] = &[
     (0x0011, "Q2A"),
     (0x0012, "Q2AS1"),
@@ -78,7 +78,8 @@ const CPUS: &[(u16, &str)] = &[
     (0x020A, "FX3S"),
 ];
 
-/// The name of the CPU type with this number; of one that is not in the table, its family, if that is FX, and the number.
+/// The name of the CPU type with this number; of one that is not in the table, its family, if that is FX, and the
+/// number.
 pub(super) fn name(code: u16) -> String {
     let known = CPUS.iter().find(|row| row.0 == code);
     let family = if code >> 8 == FX { "FX " } else { "" };

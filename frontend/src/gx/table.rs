@@ -1,11 +1,12 @@
 //! What the codes of instructions mean: `tokens.tsv`, a row for each code with the evidence for it.
 //!
-//! The second byte of a body is the instruction's number of steps; the first and the third name it. A fourth byte 02 makes it a
-//! pulse form. Where codes differ in their steps alone (LD M0 takes one, LD M7300 three), each has a row.
+//! The second byte of a body is the instruction's number of steps; the first and the third name it. A fourth byte 02
+//! makes it a pulse form. Where codes differ in their steps alone (LD M0 takes one, LD M7300 three), each has a row.
 
 use std::sync::LazyLock;
 
-/// Columns: body (hexadecimal), mnemonic, steps (`5+`: and two more for every two characters of a text), evidence, note.
+/// Columns: body (hexadecimal), mnemonic, steps (`5+`: and two more for every two characters of a text), evidence,
+/// note.
 const ROWS: &str = include_str!("tokens.tsv");
 
 /// How sure it is what a code means.

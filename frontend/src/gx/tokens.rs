@@ -1,7 +1,8 @@
 //! The tokens of GX Developer and GX Works2.
 //!
-//! A token is `[len, body…, len]`, where `len` counts both length bytes. The first byte of the body gives its kind: below 80h an
-//! instruction, 80h and 81h a statement, 82h a note, from 90h an operand, from F0h a prefix of the operand that follows.
+//! A token is `[len, body…, len]`, where `len` counts both length bytes. The first byte of the body gives its kind:
+//! below 80h an instruction, 80h and 81h a statement, 82h a note, from 90h an operand, from F0h a prefix of the operand
+//! that follows.
 
 use super::table::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind};

@@ -19,8 +19,8 @@ impl Folded {
         folded
     }
 
-    /// Folds another line into the same buffers. Letters of other alphabets that look Latin are read as they look, and reported;
-    /// not in texts and comments, and not in words that are whole words of another language.
+    /// Folds another line into the same buffers. Letters of other alphabets that look Latin are read as they look, and
+    /// reported; not in texts and comments, and not in words that are whole words of another language.
     pub fn fold_line(&mut self, line: &str, faults: &mut Faults) {
         self.fold(line);
         if self.text.is_ascii() || self.text.trim_start().starts_with("ASC ") {
@@ -88,8 +88,8 @@ fn code_length(line: &str) -> usize {
     signs.into_iter().flatten().min().unwrap_or(line.len())
 }
 
-/// The first letter of a word that looks Latin and is not, if all of its letters can be read so. A long word without any Latin letter is
-/// one of another language.
+/// The first letter of a word that looks Latin and is not, if all of its letters can be read so. A long word without
+/// any Latin letter is one of another language.
 fn foreign_letter(word: &str) -> Option<char> {
     /// No mnemonic that such letters make up alone is longer.
     const LONGEST: usize = 3;

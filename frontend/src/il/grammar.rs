@@ -50,7 +50,8 @@ fn is_space(c: &char) -> bool {
     c.is_whitespace() || *c == ',' || *c == '\0'
 }
 
-/// Skips characters of a kind, as many as there are. As `any().filter(of_kind).repeated()`, but without backtracking after the last.
+/// Skips characters of a kind, as many as there are. As `any().filter(of_kind).repeated()`, but without backtracking
+/// after the last.
 fn skip<'s>(of_kind: impl Fn(&char) -> bool + Copy) -> impl Parser<'s, &'s str, (), Extra> + Copy {
     custom(move |input| {
         while input.peek().is_some_and(|c| of_kind(&c)) {

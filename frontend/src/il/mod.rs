@@ -1,13 +1,15 @@
 //! Reader of instruction lists as text.
 //!
-//! A list is read line by line with a [chumsky](https://docs.rs/chumsky) grammar. Each line is a start anew, and within a line
-//! each operand is: one mistake never hides the next. Full-width text is read as half-width; places always refer to the original.
+//! A list is read line by line with a [chumsky](https://docs.rs/chumsky) grammar. Each line is a start anew, and within
+//! a line each operand is: one mistake never hides the next. Full-width text is read as half-width; places always refer
+//! to the original.
 //!
-//! An instruction of which one operand cannot be read stays, with that operand marked as unreadable; an operand whose number is merely
-//! impossible (`X008`) gets a stand-in. So the instructions around it are judged by what the author meant.
+//! An instruction of which one operand cannot be read stays, with that operand marked as unreadable; an operand whose
+//! number is merely impossible (`X008`) gets a stand-in. So the instructions around it are judged by what the author
+//! meant.
 //!
-//! Comment lines above an instruction become its statement, a comment beside it its note. Lines that begin with `;!` state
-//! properties of the program: `;! cpu = FX3U/FX3UC`, `;! title = Press`, `;! X000 = start button`.
+//! Comment lines above an instruction become its statement, a comment beside it its note. Lines that begin with `;!`
+//! state properties of the program: `;! cpu = FX3U/FX3UC`, `;! title = Press`, `;! X000 = start button`.
 
 mod fault;
 pub(crate) mod field;

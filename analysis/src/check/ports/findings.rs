@@ -88,7 +88,8 @@ impl Port<'_> {
         }
     }
 
-    /// A protocol number that a relay of a parallel link, or the bit of the format word that stands for computer link, overrides.
+    /// A protocol number that a relay of a parallel link, or the bit of the format word that stands for computer link,
+    /// overrides.
     fn overridden(&self, out: &mut Diagnostics) {
         let Some(number) = self.wiring.protocol.map(d) else {
             return;

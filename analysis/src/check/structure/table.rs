@@ -17,8 +17,8 @@ pub(super) enum Verdict {
     Error(u16),
 }
 
-/// The nesting table (h1u-h2u-programming §8.8). Its left half is lost in the manual; the remarks below it and the list of errors
-/// (§8.7) say what stood there.
+/// The nesting table (h1u-h2u-programming §8.8). Its left half is lost in the manual; the remarks below it and the list
+/// of errors (§8.7) say what stood there.
 pub(super) fn inside(outer: Kind, inner: Kind) -> Verdict {
     use Kind::{For, Interrupt, Mc, Stl, Sub};
     match (outer, inner) {

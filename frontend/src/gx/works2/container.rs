@@ -1,5 +1,5 @@
-//! A compound file and the list of its streams. In a GX Works2 project the outer file holds the list and, as one stream, an inner
-//! file, whose streams have numbers for names.
+//! A compound file and the list of its streams. In a GX Works2 project the outer file holds the list and, as one
+//! stream, an inner file, whose streams have numbers for names.
 
 use cfb::CompoundFile;
 use std::cell::{Cell, RefCell};

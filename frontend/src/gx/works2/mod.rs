@@ -1,10 +1,10 @@
-//! GX Works2: an OLE compound file whose stream `_hdb` is an OLE compound file in turn. Its streams are known by numbers; the list
-//! `projectdatalist.xml` gives them names.
+//! GX Works2: an OLE compound file whose stream `_hdb` is an OLE compound file in turn. Its streams are known by
+//! numbers; the list `projectdatalist.xml` gives them names.
 //!
-//! A project holds each program twice: as it was drawn or written (`*.pou`), and as it was last compiled (`*.res`). A ladder
-//! without labels is read from its source, everything else as compiled. Times do not show which of the two is newer: that of a
-//! `.res` is when the program file was made (in all published projects it is older than a source which equals it byte for byte).
-//! So a compiled program is held to its source by the devices that both name.
+//! A project holds each program twice: as it was drawn or written (`*.pou`), and as it was last compiled (`*.res`). A
+//! ladder without labels is read from its source, everything else as compiled. Times do not show which of the two is
+//! newer: that of a `.res` is when the program file was made (in all published projects it is older than a source which
+//! equals it byte for byte). So a compiled program is held to its source by the devices that both name.
 
 mod container;
 mod mentions;

@@ -4,8 +4,8 @@ use crate::gx::program::{self, Chain, Code};
 use crate::gx::{MAX_DATA, tokens};
 use crate::{Read, ReadOptions};
 
-/// Reads the longest program of these streams, if there is one. The editor keeps a copy of the program: the longest is the one without damage. Of
-/// equals, the first.
+/// Reads the longest program of these streams, if there is one. The editor keeps a copy of the program: the longest is
+/// the one without damage. Of equals, the first.
 pub(super) fn read(name: &str, streams: &[Vec<u8>], options: &ReadOptions) -> Option<Read> {
     let programs = streams.iter().filter_map(|stream| {
         let stream = stream.get(..MAX_DATA).unwrap_or(stream);
@@ -24,7 +24,8 @@ pub(super) fn read(name: &str, streams: &[Vec<u8>], options: &ReadOptions) -> Op
     Some(code.read(name, encoding, options))
 }
 
-/// The program's beginning before `start`, if damage hides it: its length is stored there, 32 bits that count the bytes through `END`.
+/// The program's beginning before `start`, if damage hides it: its length is stored there, 32 bits that count the bytes
+/// through `END`.
 fn stated_start(stream: &[u8], start: usize, chains: &[Chain]) -> Option<usize> {
     let end = (start..stream.len())
         .rev()
