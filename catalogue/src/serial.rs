@@ -7,7 +7,7 @@ use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
 const SERIAL: &str = "serial communication";
-const INVERTER: &str = "inverter communication";
+const INVERTER: &str = "the protocol of Mitsubishi inverters; RS2 and ADPRW reach inverters, too";
 const CASSETTE: &str = "memory cassettes";
 
 /// A number of bytes or words: a constant or a register.

@@ -295,7 +295,10 @@ pub(crate) const CAN_RATE: Reason = because(
 );
 pub(crate) const CONTROLLER: Reason = because(Missed::Never, "the host watches the CAN controller");
 pub(crate) const CAN_FREE: Reason = because(Missed::Never, "CANTX and CANRX work whatever it says");
-pub(crate) const CARDS: Reason = because(Missed::ByAll, "extension cards are not implemented yet");
+pub(crate) const CARDS: Reason = because(
+    Missed::ByAll,
+    "there are no extension cards: the host gives analog values to channels and modules",
+);
 pub(crate) const AXES: Reason = because(
     Missed::Never,
     "the manual does not state which period it means; D212 and D262 show the pulses of a millisecond",
