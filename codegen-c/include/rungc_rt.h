@@ -9,7 +9,12 @@
 #define RUNGC_RT_H
 
 #include "rungc.h"
-/* PORT */
+
+/* What serial ports do under some protocols. */
+typedef struct rungc_codec rungc_codec;
+
+/* The serial ports of a model. */
+typedef struct rungc_port_model rungc_port_model;
 
 /**
  * Inputs X whose edges an instruction takes notice of at once if it names them; others are looked at once a scan.
@@ -446,6 +451,28 @@ typedef struct rungc_text {
 } rungc_text;
 
 /**
+ * Where a program's struct holds a serial port.
+ */
+typedef struct rungc_port_place {
+    /**
+     * Where in the struct.
+     */
+    size_t offset;
+    /**
+     * Characters of the longest frame.
+     */
+    uint16_t length;
+    /**
+     * Its number in the model's manual.
+     */
+    uint8_t number;
+    /**
+     * Whether there is memory for what its protocols keep.
+     */
+    bool keeps;
+} rungc_port_place;
+
+/**
  * What a program's struct looks like. All pointers are valid for their counts, for as long as the program runs.
  */
 typedef struct rungc_layout {
@@ -526,17 +553,25 @@ typedef struct rungc_layout {
      */
     rungc_pulses pulses;
     /**
-     * Where the struct holds its serial ports.
+     * Its serial ports, in the order of their numbers.
      */
-    size_t ports;
-    /**
-     * Their numbers, in order.
-     */
-    const uint8_t *port_numbers;
+    const struct rungc_port_place *ports;
     /**
      * How many.
      */
     size_t port_count;
+    /**
+     * The serial ports of the model; NULL if the program has none.
+     */
+    const rungc_port_model *port_model;
+    /**
+     * What the ports do, by protocols.
+     */
+    const rungc_codec *const *codecs;
+    /**
+     * How many.
+     */
+    size_t codec_count;
     /**
      * The serial ports that the model has.
      */

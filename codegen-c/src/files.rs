@@ -10,6 +10,7 @@ use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::walk::has_many_timers;
 use rungc_rt::RtFn;
+use rungc_rt::comm::{codec, model};
 use std::fmt::Write;
 
 /// First line of each file.
@@ -174,14 +175,24 @@ fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
 
 /// The header of the runtime library with serial ports and the prototypes of all instructions.
 fn runtime_header() -> String {
-    let port = format!(
-        "/* A serial port in a program's memory, for the runtime alone. All zero is one that has not been set up. */\n\
-         typedef struct rungc_port {{\n    uint32_t words[{}];\n}} rungc_port;\n",
-        size_of::<rungc_rt::Port>() / size_of::<u32>()
-    );
     let mut prototypes = String::from(
         "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n\
-         /* The instructions. An operation error is shown in the program's special devices. */\n",
+         /* What serial ports do, by protocols. A program links those that its layout names. */\n",
+    );
+    for codec in codec::ALL {
+        let name = codec.name();
+        let _ = writeln!(prototypes, "extern const rungc_codec rungc_codec_{name};");
+    }
+    prototypes.push_str("\n/* The serial ports of models. */\n");
+    for model in model::ALL {
+        let name = model.name();
+        let _ = writeln!(
+            prototypes,
+            "extern const rungc_port_model rungc_ports_of_{name};"
+        );
+    }
+    prototypes.push_str(
+        "\n/* The instructions. An operation error is shown in the program's special devices. */\n",
     );
     for function in RtFn::ALL {
         let _ = write!(
@@ -195,8 +206,7 @@ fn runtime_header() -> String {
         prototypes.push_str(");\n");
     }
     prototypes.push_str("\n#ifdef __cplusplus\n}\n#endif\n");
-    let header = RUNGC_RT_H.replace("/* PORT */\n", &port);
-    header.replace("/* INSTRUCTIONS */\n", &prototypes)
+    RUNGC_RT_H.replace("/* INSTRUCTIONS */\n", &prototypes)
 }
 
 /// Where the runtime library is; `make` wants to know it before the first rule that needs it.

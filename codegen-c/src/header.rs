@@ -10,7 +10,7 @@ use rungc_emit::private::{self, Private};
 use rungc_emit::storage::{Field, Keep, Kind, Section, Storage};
 use rungc_ir::Module;
 use rungc_ir::node::Ty;
-use rungc_rt::{Axis, Port};
+use rungc_rt::Axis;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -155,10 +155,15 @@ fn private_field(out: &mut String, size: &mut Size, field: Private) {
             let bytes = size_of::<Axis>() * outputs.len();
             (line, "what the pulse outputs send", bytes as u32, 8)
         }
-        Private::Ports(ports) => {
-            let line = format!("rungc_port port[{}];", ports.len());
-            let bytes = size_of::<Port>() * ports.len();
-            (line, "the serial ports", bytes as u32, 4)
+        Private::Port(number, protocols) => {
+            let bytes = protocols.port_size();
+            let line = format!("uint32_t com{number}[{}];", bytes / 4);
+            (
+                line,
+                "a serial port, for the runtime alone",
+                bytes as u32,
+                4,
+            )
         }
         Private::States(0) => return,
         Private::States(count) => {

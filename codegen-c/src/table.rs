@@ -5,6 +5,7 @@ use crate::text;
 use rungc_emit::areas::{self, Area};
 use rungc_emit::storage::{Kind, Storage};
 use rungc_ir::Module;
+use rungc_rt::comm::model::PortModel;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -51,15 +52,27 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
         layout.push(format!(".pulses = RUNGC_PULSES_{family}"));
     }
     if module.has_ports() {
-        let numbers: Vec<String> = module.ports.iter().map(u8::to_string).collect();
+        let places = module.serial_ports().map(|(number, protocols)| {
+            let length = protocols.longest_frame();
+            let keeps = protocols.keeps_memory();
+            format!("{{offsetof({name}_plc, com{number}), {length}, {number}, {keeps}}}")
+        });
+        let codecs = module
+            .codecs()
+            .map(|codec| format!("&rungc_codec_{}", codec.name()));
         let _ = writeln!(
             out,
-            "/* Serial ports, in the order of `port`. */\nstatic const uint8_t {name}_port_numbers[] = {{{}}};\n",
-            numbers.join(", ")
+            "/* Serial ports, and what they do. */\nstatic const rungc_port_place {name}_ports[] = {{{}}};\n\
+             static const rungc_codec *const {name}_codecs[] = {{{}}};\n",
+            places.collect::<Vec<_>>().join(", "),
+            codecs.collect::<Vec<_>>().join(", ")
         );
-        layout.push(format!(".ports = offsetof({name}_plc, port)"));
-        layout.push(format!(".port_numbers = {name}_port_numbers"));
-        layout.push(format!(".port_count = {}", numbers.len()));
+        layout.push(format!(".ports = {name}_ports"));
+        layout.push(format!(".port_count = {}", module.ports.len()));
+        let model = PortModel::of(module.model.ports, module.model.type_code());
+        layout.push(format!(".port_model = &rungc_ports_of_{}", model.name()));
+        layout.push(format!(".codecs = {name}_codecs"));
+        layout.push(format!(".codec_count = {}", module.codecs().count()));
         let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
         layout.push(format!(".port_family = RUNGC_PORTS_{family}"));
         layout.push(format!(".type_code = {}", module.model.type_code()));

@@ -350,8 +350,11 @@ impl Printer<'_> {
         if module.sends_pulses() {
             states.push_str("    memset(plc->axis, 0, sizeof plc->axis);\n");
         }
-        if module.has_ports() {
-            states.push_str("    memset(plc->port, 0, sizeof plc->port);\n");
+        for number in &module.ports {
+            let _ = writeln!(
+                states,
+                "    memset(plc->com{number}, 0, sizeof plc->com{number});"
+            );
         }
         let cells = events::clear_cells(module);
         // An interrupt may come before the first scan.

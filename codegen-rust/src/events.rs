@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 use rungc_emit::events;
 use rungc_ir::node::{CellId, Flag, FlagId, TableId};
 use rungc_rt::EdgeKind;
+use rungc_rt::comm::model::PortModel;
 use std::rc::Rc;
 
 /// The field of a flag.
@@ -156,11 +157,17 @@ impl Generator<'_> {
         if !self.module.has_ports() {
             return None;
         }
-        let (port, ports) = (self.rt("Port"), self.rt("Ports"));
+        let (comm, ports) = (self.rt("comm"), self.rt("Ports"));
+        let model = PortModel::of(self.module.model.ports, self.module.model.type_code());
+        let model = format_ident!("{}", model.name().to_ascii_uppercase());
+        let codecs = self.module.codecs().map(|codec| {
+            let codec = format_ident!("{}", codec.name().to_ascii_uppercase());
+            quote!(&#comm::codec::#codec)
+        });
         let arms = self.module.ports.iter().map(|&number| {
             let field = port_field(number);
             let number = Literal::u8_unsuffixed(number);
-            quote!(#number => Some(&mut self.#field),)
+            quote!(#number => Some(self.#field.parts()),)
         });
         let family = format_ident!("{}", format!("{:?}", self.module.model.ports));
         let type_code = Literal::u16_unsuffixed(self.module.model.type_code());
@@ -175,8 +182,14 @@ impl Generator<'_> {
         });
         let rows: Vec<_> = rows.collect();
         Some(quote! {
-            fn port(&mut self, number: u8) -> Option<&mut #port> {
+            fn port(&mut self, number: u8) -> Option<#comm::PortMut<'_>> {
                 match number { #(#arms)* _ => None }
+            }
+            fn port_model(&self) -> Option<&'static #comm::model::PortModel> {
+                Some(&#comm::model::#model)
+            }
+            fn codecs(&self) -> &'static [&'static #comm::codec::Codec] {
+                &[#(#codecs),*]
             }
             fn ports(&self) -> #ports { #ports::#family }
             fn stores(&self, class: #class, number: u32) -> bool {

@@ -5,6 +5,7 @@ use crate::plan::Plan;
 use crate::temps::{Home, Temp};
 use rungc_ir::Module;
 use rungc_ir::node::{Cell, Flag, Table, Ty};
+use rungc_rt::comm::Protocols;
 
 /// What a private field holds.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +35,8 @@ pub enum Private<'m> {
     Temp(Temp, Ty),
     /// The generators of these outputs Y, at least one: [`rungc_rt::Axis`].
     Axes(&'m [u32]),
-    /// These serial ports, at least one: [`rungc_rt::Port`].
-    Ports(&'m [u8]),
+    /// The serial port of this number, which may speak these protocols: [`rungc_rt::Port`].
+    Port(u8, Protocols),
     /// The memories of instructions that work over several scans: this many, perhaps none.
     States(u16),
 }
@@ -52,7 +53,7 @@ impl Private<'_> {
             | Private::StepsLeft
             | Private::Temp(..)
             | Private::Axes(_)
-            | Private::Ports(_)
+            | Private::Port(..)
             | Private::States(_) => false,
         }
     }
@@ -79,9 +80,8 @@ pub fn fields<'m>(module: &'m Module, plan: &Plan) -> Vec<Private<'m>> {
     if module.sends_pulses() {
         fields.push(Private::Axes(&module.pulse_outputs));
     }
-    if module.has_ports() {
-        fields.push(Private::Ports(&module.ports));
-    }
+    let ports = module.serial_ports();
+    fields.extend(ports.map(|(number, protocols)| Private::Port(number, protocols)));
     fields.push(Private::States(module.states));
     fields
 }

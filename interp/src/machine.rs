@@ -10,6 +10,9 @@ use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::{CellId, EdgeId, FlagId, FunctionKind, TableId, TempId};
 use rungc_models::special::RunCommand;
+use rungc_rt::comm::PortMut;
+use rungc_rt::comm::codec::{self, Codec};
+use rungc_rt::comm::model::PortModel;
 use rungc_rt::special::{
     D_REMOTE, D_WATCHDOG_MS, M_FORCE_ENABLE, M_FORCED_RUN, M_KEEP_IN_STOP, M_LOCAL_CONTROL,
     M_OUTPUTS_OFF, M_REMOTE_RUN, REMOTE_KEY, Relay,
@@ -409,9 +412,17 @@ impl Plc for Machine<'_> {
         self.axes.get_mut(i)
     }
 
-    fn port(&mut self, number: u8) -> Option<&mut Port> {
+    fn port(&mut self, number: u8) -> Option<PortMut<'_>> {
         let i = self.module.ports.binary_search(&number).ok()?;
-        self.ports.get_mut(i)
+        self.ports.get_mut(i).map(Port::parts)
+    }
+
+    fn codecs(&self) -> &'static [&'static Codec] {
+        codec::ALL
+    }
+
+    fn port_model(&self) -> Option<&'static PortModel> {
+        Some(PortModel::of(self.ports(), self.type_code()))
     }
 
     fn ports(&self) -> Ports {

@@ -114,6 +114,8 @@ pub struct Wanted {
     pub observe_all: bool,
     /// Serial ports that the host opens, in addition to those that the program uses.
     pub ports: Vec<u8>,
+    /// Slaves by Modbus RTU do not answer QLink, which takes memory.
+    pub without_qlink: bool,
 }
 
 impl Wanted {

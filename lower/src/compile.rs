@@ -24,6 +24,8 @@ pub struct CompileOptions {
     pub observe_all: bool,
     /// Serial ports that the host opens, in addition to those that the program uses; numbers that the model does not have mean nothing.
     pub ports: Vec<u8>,
+    /// Slaves by Modbus RTU do not answer QLink, which takes memory.
+    pub without_qlink: bool,
     /// What operands with an index can reach.
     pub bounds: Vec<Bound>,
     /// Simplify the module.
@@ -120,6 +122,7 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
                 observe: options.observe.clone(),
                 observe_all: options.observe_all,
                 ports: options.ports.clone(),
+                without_qlink: options.without_qlink,
             },
             bounds: options.bounds.clone(),
         };

@@ -36,6 +36,7 @@ mod operand;
 mod origins;
 mod parts;
 mod ports;
+mod protocols;
 mod pulse_width;
 mod shared_timers;
 mod signals;
@@ -60,7 +61,7 @@ use typed_index_collections::TiVec;
 
 use flow::{Flow, Open};
 use parts::Item;
-use rungc_rt::{EdgeKind, TimerKind};
+use rungc_rt::{EdgeKind, RtFn, TimerKind};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Instr, OperandKind};
 use special::Specials;
 use std::cell::OnceCell;
@@ -162,6 +163,8 @@ struct Lowerer<'a> {
     exclusive: Option<(CellId, i32)>,
     /// Devices that tests or a monitor look at.
     observed: &'a [(DeviceClass, u32)],
+    /// Functions that work on serial ports, of those that the program calls.
+    port_functions: Vec<RtFn>,
     /// What operands with an index can reach, where that is given.
     bounds: &'a [Bound],
     /// Operands with an index.
@@ -205,6 +208,7 @@ impl<'a> Lowerer<'a> {
             signals: signals::Signals::default(),
             exclusive: None,
             observed: &options.wanted.observe,
+            port_functions: Vec::new(),
             bounds: &options.bounds,
             indexes: Vec::new(),
             named: OnceCell::new(),
@@ -246,6 +250,7 @@ impl<'a> Lowerer<'a> {
         }
         self.module.run_states = self.module.states;
         self.find_ports(&wanted.ports);
+        self.find_protocols(wanted);
         self.counter_edges();
         self.edge_counts();
         self.pulse_widths();

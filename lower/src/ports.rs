@@ -12,6 +12,7 @@ impl Lowerer<'_> {
     /// The ports that an instruction uses: that of RS, those that a register may name, or the one that its last operand names; all if that
     /// is not a constant.
     pub(super) fn use_ports(&mut self, needs: Needs, function: RtFn) {
+        self.port_functions.push(function);
         if function == RtFn::Uinit && self.takes_work_area() {
             self.specials.whole.push(DeviceClass::D);
         }

@@ -16,7 +16,9 @@ mod exports;
 mod hal;
 mod map;
 
-use crate::comm::{CanFrame, LineFormat, Ports, Received};
+use crate::comm::codec::Codec;
+use crate::comm::model::PortModel;
+use crate::comm::{CanFrame, LineFormat, PortMut, Ports, Received, Status};
 use crate::cx::Cx;
 use crate::fault::Done;
 use crate::hal::Clock;
@@ -138,16 +140,54 @@ pub struct Layout {
     pub output_count: usize,
     /// The pulse outputs that the model has.
     pub pulses: Pulses,
-    /// Where the struct holds its serial ports.
-    pub ports: usize,
-    /// Their numbers, in order.
-    pub port_numbers: *const u8,
+    /// Its serial ports, in the order of their numbers.
+    pub ports: *const PortPlace,
     /// How many.
     pub port_count: usize,
+    /// The serial ports of the model; NULL if the program has none.
+    pub port_model: *const PortModel,
+    /// What the ports do, by protocols.
+    pub codecs: *const *const Codec,
+    /// How many.
+    pub codec_count: usize,
     /// The serial ports that the model has.
     pub port_family: Ports,
     /// Code of model and version, for partners on a line.
     pub type_code: u16,
+}
+
+/// Where a program's struct holds a serial port.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct PortPlace {
+    /// Where in the struct.
+    pub offset: usize,
+    /// Characters of the longest frame.
+    pub length: u16,
+    /// Its number in the model's manual.
+    pub number: u8,
+    /// Whether there is memory for what its protocols keep.
+    pub keeps: bool,
+}
+
+impl PortPlace {
+    /// The port of a program's struct.
+    ///
+    /// # Safety
+    /// The struct holds a port there, aligned as words, and nothing else uses it for as long.
+    unsafe fn port<'a>(&self, plc: *mut c_void) -> PortMut<'a> {
+        let length = usize::from(self.length);
+        // SAFETY: see above; a port is as `Port` is laid out.
+        unsafe {
+            let status = plc.cast::<u8>().add(self.offset);
+            let buffer = status.add(size_of::<Status>());
+            PortMut {
+                status: &mut *status.cast(),
+                buffer: core::slice::from_raw_parts_mut(buffer, length),
+                memory: self.keeps.then(|| &mut *buffer.add(length).cast()),
+            }
+        }
+    }
 }
 
 /// The hardware that instructions ask, as functions; one that is `NULL` means "not fitted". `context` is handed to each.

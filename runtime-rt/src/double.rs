@@ -1,5 +1,8 @@
 //! A PLC for the tests of this crate: all devices, no layout.
 
+use crate::comm::PortMut;
+use crate::comm::codec::{self, Codec};
+use crate::comm::model::PortModel;
 use crate::{
     Axis, Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, Port, Ports, Pulses, RtFn, Site,
     State, Sys, VirtualHal, d,
@@ -221,8 +224,16 @@ impl Plc for Double {
         self.axes.get_mut(output as usize)
     }
 
-    fn port(&mut self, number: u8) -> Option<&mut Port> {
-        self.ports.get_mut(usize::from(number))
+    fn port(&mut self, number: u8) -> Option<PortMut<'_>> {
+        self.ports.get_mut(usize::from(number)).map(Port::parts)
+    }
+
+    fn codecs(&self) -> &'static [&'static Codec] {
+        codec::ALL
+    }
+
+    fn port_model(&self) -> Option<&'static PortModel> {
+        Some(PortModel::of(self.ports(), self.type_code()))
     }
 
     fn ports(&self) -> Ports {

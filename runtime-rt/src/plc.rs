@@ -1,7 +1,9 @@
 //! The devices of a PLC as instructions see them.
 
 use crate::axis::Axis;
-use crate::comm::{Port, Ports};
+use crate::comm::codec::Codec;
+use crate::comm::model::PortModel;
+use crate::comm::{PortMut, Ports};
 use crate::wiring::Pulses;
 
 /// Device class. The numbers are part of the C ABI.
@@ -192,8 +194,16 @@ pub trait Plc {
         None
     }
     /// The serial port that the model's manual numbers so, if the program has it.
-    fn port(&mut self, number: u8) -> Option<&mut Port> {
+    fn port(&mut self, number: u8) -> Option<PortMut<'_>> {
         let _ = number;
+        None
+    }
+    /// What its serial ports do, by protocols; a port does nothing under one that is missing.
+    fn codecs(&self) -> &'static [&'static Codec] {
+        &[]
+    }
+    /// The serial ports of the model: their special devices, and what they serve; a program without ports has none.
+    fn port_model(&self) -> Option<&'static PortModel> {
         None
     }
     /// The serial ports that the model has.

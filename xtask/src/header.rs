@@ -9,7 +9,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 25] = [
+const NAMES: [(&str, &str); 28] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -35,6 +35,9 @@ const NAMES: [(&str, &str); 25] = [
     ("Received", "rungc_received"),
     ("CanFrame", "rungc_can_frame"),
     ("Request", "rungc_request"),
+    ("PortPlace", "rungc_port_place"),
+    ("Codec", "rungc_codec"),
+    ("PortModel", "rungc_port_model"),
 ];
 
 const TOP: &str = "/*
@@ -43,6 +46,14 @@ const TOP: &str = "/*
  * A program describes its struct once (rungc_layout), binds it to one struct and the hardware (rungc_map), and calls one function
  * for each instruction that is not worth inlining. Only the functions that a program calls are linked.
  */";
+
+/// What stands before all other types.
+const OPAQUE: &str = "
+/* What serial ports do under some protocols. */
+typedef struct rungc_codec rungc_codec;
+
+/* The serial ports of a model. */
+typedef struct rungc_port_model rungc_port_model;";
 
 /// Operands and sites, as emitted code writes them.
 const CONSTRUCTORS: &str = include_str!("constructors.h");
@@ -65,7 +76,7 @@ pub fn make() -> Result<Made, Problem> {
         include_guard: Some("RUNGC_RT_H".to_string()),
         no_includes: true,
         includes: vec!["rungc.h".to_string()],
-        after_includes: Some("/* PORT */".to_string()),
+        after_includes: Some(OPAQUE.to_string()),
         trailer: Some(format!("{CONSTRUCTORS}\n/* INSTRUCTIONS */")),
         line_length: 120,
         tab_width: 4,

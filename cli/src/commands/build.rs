@@ -55,6 +55,7 @@ fn build(
         name: Some(name.clone()),
         optimise: !plan.no_opt,
         ports: image.iter().flat_map(ForImage::ports).collect(),
+        without_qlink: image.as_ref().is_some_and(|image| !image.answers_qlink()),
         ..subject.options()
     };
     let compiled = progress::spin("compiling", || compile::compile(&read.program, &options));
@@ -233,6 +234,11 @@ impl ForImage {
     fn ports(&self) -> impl Iterator<Item = u8> {
         let always = self.board.serial.iter().filter(|serial| serial.always);
         always.map(|serial| serial.port)
+    }
+
+    /// Whether a serial port answers QLink.
+    fn answers_qlink(&self) -> bool {
+        self.board.serial.iter().any(|serial| serial.qlink)
     }
 
     fn image<'a>(&'a self, module: &'a Module) -> Image<'a> {

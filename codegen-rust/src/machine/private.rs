@@ -122,12 +122,19 @@ impl Generator<'_> {
                 };
                 return outputs.iter().map(field).collect();
             }
-            Private::Ports(ports) => {
-                let port = self.rt("Port");
-                let (ty, new) = (quote!(#port), quote!(#port::new()));
-                let meaning = "What this serial port is doing.";
-                let field = |&number: &u8| (port_field(number), ty.clone(), new.clone(), meaning);
-                return ports.iter().map(field).collect();
+            Private::Port(number, protocols) => {
+                let (port, comm) = (self.rt("Port"), self.rt("comm"));
+                let length = Literal::usize_unsuffixed(protocols.longest_frame());
+                let memory = match protocols.keeps_memory() {
+                    true => quote!(#comm::Memory),
+                    false => quote!(#comm::NoMemory),
+                };
+                (
+                    port_field(number),
+                    quote!(#port<#length, #memory>),
+                    quote!(#port::new()),
+                    "What this serial port is doing.",
+                )
             }
             Private::States(count) => {
                 // Slot 0 stands for instructions without memory.

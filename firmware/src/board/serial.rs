@@ -29,6 +29,8 @@ pub struct Serial {
     pub driver: Option<OutputPin>,
     /// It works even if the program neither uses it nor sets it up: a programming port.
     pub always: bool,
+    /// A slave by Modbus RTU also answers QLink (H1U, H2U), which takes memory.
+    pub qlink: bool,
     /// How many characters are kept until the program takes them.
     pub receive: u16,
     /// How many characters are kept until they are sent.
@@ -58,6 +60,8 @@ pub(super) struct Format {
     de: Option<toml::Spanned<Output>>,
     #[serde(default)]
     always: bool,
+    #[serde(default)]
+    qlink: bool,
     #[serde(default = "default_receive")]
     receive: toml::Spanned<u16>,
     #[serde(default = "default_send")]
@@ -137,6 +141,7 @@ impl Reader<'_> {
             clock_hz: format.hz.unwrap_or(clock_hz),
             driver,
             always: format.always,
+            qlink: format.qlink,
             receive: format.receive.into_inner(),
             send: format.send.into_inner(),
         })

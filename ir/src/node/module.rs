@@ -5,6 +5,8 @@ use crate::layout::Layout;
 use crate::walk::{calls_runtime, statements};
 use rungc_models::{Model, Range};
 use rungc_rt::EdgeKind;
+use rungc_rt::comm::Protocols;
+use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::special::D_WATCHDOG_MS;
 use rungc_syntax::{Device, DeviceClass, Index, Span};
 use std::borrow::Cow;
@@ -157,6 +159,8 @@ pub struct Module {
     /// Serial ports, in order: those that instructions use, that the program sets up, and that a host opens. They are brought up to date
     /// ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time that a host reports the time.
     pub ports: Vec<u8>,
+    /// What each of these ports may speak, as far as its set-up is known.
+    pub port_protocols: Vec<Protocols>,
     /// Networks that [`Stmt::Network`] names.
     pub networks: Vec<Network>,
     /// The instructions at which faults can occur, by step.
@@ -195,6 +199,7 @@ impl Module {
             tables: TiVec::new(),
             pulse_outputs: Vec::new(),
             ports: Vec::new(),
+            port_protocols: Vec::new(),
             functions: [FunctionKind::Begin, FunctionKind::Main, FunctionKind::End]
                 .map(function)
                 .into(),
@@ -244,6 +249,20 @@ impl Module {
     /// Whether it has pulse outputs.
     pub fn sends_pulses(&self) -> bool {
         !self.pulse_outputs.is_empty()
+    }
+
+    /// Its serial ports, and what each of them may speak.
+    pub fn serial_ports(&self) -> impl Iterator<Item = (u8, Protocols)> {
+        let protocols = self.port_protocols.iter().copied();
+        self.ports.iter().copied().zip(protocols)
+    }
+
+    /// What its serial ports do: the codecs of all protocols that they may speak.
+    pub fn codecs(&self) -> impl Iterator<Item = &'static Codec> {
+        let all = self.port_protocols.iter().copied();
+        let all = all.fold(Protocols::NONE, Protocols::or);
+        let codecs = codec::ALL.iter().copied();
+        codecs.filter(move |codec| codec.protocols().meets(all))
     }
 
     /// Whether it has serial ports.

@@ -3,7 +3,9 @@
 use super::hal::Board;
 use super::{Map, Request};
 use crate::axis::{advance, millihertz, pulse_timer};
-use crate::comm::{Port, advance as advance_ports};
+use crate::comm::codec::{self, Codec};
+use crate::comm::model::{self, PortModel};
+use crate::comm::{Port, Status, advance as advance_ports};
 use crate::cx::{fetch, send};
 use crate::hal::Hal;
 use crate::operand::Operand;
@@ -80,8 +82,50 @@ pub extern "C" fn rungc_advance_ports(map: &mut Map, now_us: u32) -> Request {
     }
 }
 
+/// Exports constants, so that a linker takes only those that a program's layout names.
+macro_rules! export_constants {
+    ($names:ident: $type:ident; $($symbol:literal = $constant:path;)*) => {
+        $(const _: () = {
+            #[allow(unsafe_code, reason = "each name occurs once, and no other symbol begins like it")]
+            #[unsafe(export_name = $symbol)]
+            static EXPORTED: $type = $constant;
+        };)*
+
+        /// Their names for a linker.
+        #[cfg(test)]
+        const $names: &[&str] = &[$($symbol),*];
+    };
+}
+
+export_constants! {
+    CODECS: Codec;
+    "rungc_codec_free" = codec::FREE;
+    "rungc_codec_programming_port" = codec::PROGRAMMING_PORT;
+    "rungc_codec_modbus_rtu" = codec::MODBUS_RTU;
+    "rungc_codec_qlink" = codec::QLINK;
+    "rungc_codec_modbus_ascii" = codec::MODBUS_ASCII;
+    "rungc_codec_master_rtu" = codec::MASTER_RTU;
+    "rungc_codec_master_ascii" = codec::MASTER_ASCII;
+    "rungc_codec_computer_link" = codec::COMPUTER_LINK;
+    "rungc_codec_link" = codec::LINK;
+    "rungc_codec_can" = codec::CAN;
+}
+
+export_constants! {
+    MODELS: PortModel;
+    "rungc_ports_of_h1u" = model::H1U;
+    "rungc_ports_of_h2u" = model::H2U;
+    "rungc_ports_of_l01s" = model::L01S;
+    "rungc_ports_of_hm" = model::HM;
+    "rungc_ports_of_fx" = model::FX;
+    "rungc_ports_of_fx3" = model::FX3;
+    "rungc_ports_of_fx3g" = model::FX3G;
+    "rungc_ports_of_board_2n" = model::BOARD_2N;
+    "rungc_ports_of_board_3u" = model::BOARD_3U;
+}
+
 /// A program holds ports as words of 32 bits.
-const _: () = assert!(align_of::<Port>() <= 4 && size_of::<Port>().is_multiple_of(4));
+const _: () = assert!(align_of::<Port>() <= 4 && size_of::<Status>().is_multiple_of(4));
 
 /// Drives the pins of all pulse outputs at `now_us`; returns after how many microseconds the next one changes, `UINT32_MAX` if none does.
 #[unsafe(no_mangle)]
@@ -107,4 +151,27 @@ pub extern "C" fn rungc_pulse_millihertz(map: &mut Map, number: u32) -> u32 {
 pub extern "C" fn rungc_set_long(map: &mut Map, class: Class, number: u32, value: i32) -> bool {
     map.with_operand(class, number, |cx| cx.set_dword(0, 0, value))
         .is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codecs_and_models_are_exported_by_their_names() {
+        let names = codec::ALL.iter().map(|codec| codec.name());
+        assert!(
+            CODECS
+                .iter()
+                .map(|name| &name["rungc_codec_".len()..])
+                .eq(names)
+        );
+        let names = model::ALL.iter().map(|model| model.name());
+        assert!(
+            MODELS
+                .iter()
+                .map(|name| &name["rungc_ports_of_".len()..])
+                .eq(names)
+        );
+    }
 }

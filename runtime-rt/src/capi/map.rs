@@ -3,7 +3,9 @@
 use super::hal::Board;
 use super::{Area, Kind, Layout, Map};
 use crate::axis::Axis;
-use crate::comm::{Port, Ports};
+use crate::comm::codec::Codec;
+use crate::comm::model::PortModel;
+use crate::comm::{PortMut, Ports};
 use crate::cx::Cx;
 use crate::fault::{Done, report};
 use crate::operand::Operand;
@@ -222,13 +224,26 @@ impl Plc for Map {
         Some(unsafe { &mut *self.plc.cast::<u8>().add(offset).cast::<Axis>() })
     }
 
-    fn port(&mut self, number: u8) -> Option<&mut Port> {
+    fn port(&mut self, number: u8) -> Option<PortMut<'_>> {
         let layout = *self.layout();
-        let numbers = elements(layout.port_numbers, layout.port_count);
-        let i = numbers.iter().position(|&n| n == number)?;
-        let offset = layout.ports + i * size_of::<Port>();
-        // SAFETY: the struct holds `port_count` ports there, aligned as words, and nothing else uses it during a call.
-        Some(unsafe { &mut *self.plc.cast::<u8>().add(offset).cast::<Port>() })
+        let mut places = elements(layout.ports, layout.port_count).iter();
+        let place = places.find(|place| place.number == number)?;
+        // SAFETY: the layout says so, and nothing else uses the struct during a call.
+        Some(unsafe { place.port(self.plc.cast()) })
+    }
+
+    fn codecs(&self) -> &'static [&'static Codec] {
+        let layout = self.layout();
+        if layout.codecs.is_null() {
+            return &[];
+        }
+        // SAFETY: a layout names codecs of the library, of which none is NULL and which are there as long as the program runs.
+        unsafe { core::slice::from_raw_parts(layout.codecs.cast(), layout.codec_count) }
+    }
+
+    fn port_model(&self) -> Option<&'static PortModel> {
+        // SAFETY: NULL, or one of the library's.
+        unsafe { self.layout().port_model.as_ref() }
     }
 
     fn ports(&self) -> Ports {

@@ -130,17 +130,24 @@ impl LineFormat {
 
     /// How long `halves` halves of a character take, in nanoseconds.
     pub const fn nanoseconds(&self, halves: u32) -> u64 {
-        let rate = if self.bits_per_second == 0 {
-            9600
-        } else {
-            self.bits_per_second
-        };
-        self.bits() as u64 * halves as u64 * 500_000_000 / rate as u64
+        self.bits() as u64 * halves as u64 * 500_000_000 / self.rate() as u64
+    }
+
+    /// The same in microseconds, for fewer than 600 halves.
+    const fn microseconds(&self, halves: u32) -> u32 {
+        self.bits() * halves * 500_000 / self.rate()
+    }
+
+    const fn rate(&self) -> u32 {
+        match self.bits_per_second {
+            0 => 9600,
+            rate => rate,
+        }
     }
 
     /// How long a character takes, in microseconds.
     pub const fn character_us(&self) -> u32 {
-        (self.nanoseconds(2) / 1000) as u32
+        self.microseconds(2)
     }
 
     /// Silence that ends a frame of Modbus RTU, in microseconds: 3.5 characters, or 1750 µs above 19,200 bit/s (Modbus over serial
@@ -149,7 +156,7 @@ impl LineFormat {
         if self.bits_per_second > 19_200 {
             1750
         } else {
-            (self.nanoseconds(7) / 1000) as u32
+            self.microseconds(7)
         }
     }
 

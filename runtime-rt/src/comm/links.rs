@@ -4,34 +4,32 @@ use super::computer_link::on_demand::{self, Devices};
 use super::link::Role;
 use super::port::{FRAME, Session};
 use super::slaves;
-use super::wiring::{M_PARALLEL_MASTER, M_PARALLEL_SLAVE, Ports, Protocol};
+use super::wiring::{Ports, Protocol};
 use super::{Frame, Memory, Served};
-use crate::special::Relay;
-
-/// The parallel link is set up wrongly: M8070 and M8071 are both on.
-const M_SET_UP_WRONGLY: Relay = Relay(8073);
 
 impl Session<'_> {
     /// What the port is on a link.
-    pub(super) fn role(&self) -> Option<Role> {
+    fn role(&self) -> Option<Role> {
         slaves::role(self.status.protocol, self.status.uinit[2])
     }
 
     /// Forgets what a slave keeps, when the protocol changes.
     pub(super) fn forget(&mut self) {
         if let Some(port) = self.plc.port(self.wiring.number) {
-            port.memory = Memory::new();
+            if let Some(memory) = port.memory {
+                *memory = Memory::new();
+            }
         }
     }
 
     /// Takes a frame of a link.
-    pub(super) fn take_linked(&mut self, role: Role, received: usize) {
-        let Some(port) = self.plc.port(self.wiring.number) else {
+    pub(super) fn take_linked(&mut self, received: usize) {
+        let Some(role) = self.role() else {
             return;
         };
-        let buffer = port.buffer;
+        let buffer = self.copy_frame::<FRAME>(received);
         let mut map = Served::new(self.plc, 0);
-        let frame = &buffer[..received];
+        let frame = buffer.get(..received).unwrap_or_default();
         let taken = self.status.link.receive(role, frame, self.now_us, &mut map);
         if let Err(fault) = taken {
             self.note(fault);
@@ -40,10 +38,6 @@ impl Session<'_> {
 
     /// Sends what the link has to send.
     pub(super) fn advance_link(&mut self) {
-        if self.plc.ports() == Ports::Inovance && self.wiring.number == 1 {
-            let both = M_PARALLEL_MASTER.is_on(self.plc) && M_PARALLEL_SLAVE.is_on(self.plc);
-            M_SET_UP_WRONGLY.set(self.plc, both);
-        }
         let Some(role) = self.role() else {
             return;
         };

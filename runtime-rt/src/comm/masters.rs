@@ -1,29 +1,21 @@
 //! A port as a Modbus master: it sends the request of the instruction in work, and takes the answer.
 
 use super::modbus::{self, Framing, Limits};
-use super::port::{FRAME, Session, has_come};
+use super::port::{Session, has_come};
 use super::wiring::{Ports, Protocol};
 use super::{Frame, LineFault, Served};
 
 impl Session<'_> {
-    /// RTU or ASCII.
-    fn master_framing(&self) -> Framing {
-        match self.status.protocol {
-            Protocol::MasterAscii => Framing::Ascii,
-            _ => Framing::Rtu,
-        }
-    }
-
     /// How much one request may be about.
     fn master_limits(&self) -> Limits {
         match (self.plc.ports(), self.status.protocol) {
             (Ports::L01s, Protocol::MasterAscii) => Limits::L01S_ASCII,
-            _ => self.slave().profile().limits,
+            _ => self.profile.limits,
         }
     }
 
     /// Sends what is to be sent, and takes notice of time.
-    pub(super) fn advance_master(&mut self) {
+    pub(super) fn advance_master<const LENGTH: usize>(&mut self, framing: Framing) {
         self.forget_errors();
         if self.status.exchange.is_sending() && !self.status.sending {
             self.status.exchange.sent(self.now_us);
@@ -40,9 +32,9 @@ impl Session<'_> {
         let Some(job) = self.status.exchange.to_send().filter(|_| free) else {
             return;
         };
-        let mut bytes = [0; FRAME];
+        let mut bytes = [0; LENGTH];
         let mut frame = Frame::new(&mut bytes);
-        let (framing, limits) = (self.master_framing(), self.master_limits());
+        let limits = self.master_limits();
         let map = Served::new(self.plc, 0);
         match modbus::request(framing, &limits, &job, &map, &mut frame) {
             Ok(()) => {
@@ -100,18 +92,12 @@ impl Session<'_> {
     }
 
     /// A frame of this many characters has come.
-    pub(super) fn take_answer(&mut self, received: usize) {
-        let framing = self.master_framing();
-        let Some(port) = self.plc.port(self.wiring.number) else {
-            return;
-        };
-        let buffer = port.buffer;
-        let refusal = modbus::refusal(framing, self.status.exchange.job(), &buffer[..received]);
+    pub(super) fn take_answer<const LENGTH: usize>(&mut self, framing: Framing, received: usize) {
+        let buffer = self.copy_frame::<LENGTH>(received);
+        let frame = buffer.get(..received).unwrap_or_default();
+        let refusal = modbus::refusal(framing, self.status.exchange.job(), frame);
         let mut map = Served::new(self.plc, 0);
-        let taken = self
-            .status
-            .exchange
-            .receive(framing, &buffer[..received], &mut map);
+        let taken = self.status.exchange.receive(framing, frame, &mut map);
         if let Err(fault) = taken {
             self.note_exchange(fault, refusal);
         }

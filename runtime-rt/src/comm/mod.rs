@@ -38,7 +38,10 @@
 //! | `line.rs` | format words, character times, line errors |
 //! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
 //! | `port.rs` | the state machine of one port |
-//! | `slaves.rs` | which codec answers under which protocol |
+//! | `codec.rs` | what a port does under each protocol: the table of which a program links what it may need |
+//! | `model.rs` | the ports of each model, of which a program links those of its own |
+//! | `protocols.rs` | sets of protocols, and how much memory they take |
+//! | `slaves.rs` | how the codecs that answer are set up |
 //! | `free.rs` | RS, RS2, USEND, URCV |
 //! | `masters.rs` | a port as a Modbus master |
 //! | `modbus/` | Modbus RTU, ASCII, TCP: slave and master |
@@ -49,6 +52,7 @@
 //! | `qlink.rs`, `can.rs` | QLink, CAN |
 
 pub(crate) mod can;
+pub mod codec;
 pub mod computer_link;
 mod frame;
 pub(crate) mod free;
@@ -61,9 +65,11 @@ mod masters;
 pub mod mc;
 mod memory;
 pub mod modbus;
+pub mod model;
 mod port;
 #[cfg(test)]
 mod port_tests;
+mod protocols;
 mod qlink;
 mod slaves;
 #[cfg(test)]
@@ -76,7 +82,8 @@ pub use free::{Free, Transfer};
 pub use line::{CharFault, LineFormat, Parity, Received};
 pub use map::{Map, Served};
 pub use memory::Memory;
-pub use port::{FRAME, Port, Status, advance};
+pub use port::{FRAME, Keeps, NoMemory, Port, PortMut, Status, advance};
+pub use protocols::Protocols;
 pub(crate) use wiring::note_missing;
 pub use wiring::{Choice, PortWiring, Ports, Protocol};
 

@@ -1,16 +1,19 @@
 //! The state machine of one port, beside the scan.
 
 use super::can::{CanFrame, CanTurn};
+use super::codec::Codec;
 use super::computer_link::Remote;
 use super::free::Free;
 use super::line::{CharFault, LineFormat, Received};
 use super::link::Link;
-use super::modbus::Exchange;
+use super::modbus::{Exchange, Profile};
+use super::protocols::Protocols;
 use super::slaves::Slave;
-use super::wiring::{PortWiring, Protocol, value};
-use super::{Cut, Frame, LineFault, Memory, Served};
+use super::wiring::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol, value};
+use super::{Cut, Frame, LineFault, Memory, Served, qlink};
 use crate::hal::{Hal, SerialPort};
 use crate::plc::{Plc, Sys};
+use crate::special::Relay;
 
 /// Characters of the longest frame: Modbus ASCII has 513, computer link fewer.
 pub const FRAME: usize = 528;
@@ -20,6 +23,9 @@ const GIVEN_UP_US: u32 = 1_000_000;
 
 /// The same on links that PLCs keep up by themselves, whose partners send frames without gaps: a frame that was cut off must not hold up the others.
 const LINK_GIVEN_UP_US: u32 = 50_000;
+
+/// The parallel link is set up wrongly: M8070 and M8071 are both on.
+const M_SET_UP_WRONGLY: Relay = Relay(8073);
 
 /// What a port is doing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,55 +67,113 @@ pub struct Status {
     pub exchange: Exchange,
 }
 
-/// A serial port in a program's memory. All zero is one that has not been set up.
+impl Status {
+    /// A port that has not been set up.
+    pub const fn new() -> Self {
+        Status {
+            protocol: Protocol::Off,
+            bound: false,
+            open: false,
+            spoiled: false,
+            sending: false,
+            format: LineFormat {
+                data_bits: 0,
+                stop_bits: 0,
+                ..LineFormat::new()
+            },
+            uinit: [0; 3],
+            received: 0,
+            to_send: 0,
+            taken: 0,
+            last_us: 0,
+            due_us: 0,
+            free: Free::new(),
+            link: Link::new(),
+            can: CanTurn::new(),
+            remote: Remote::new(),
+            exchange: Exchange::new(),
+        }
+    }
+}
+
+/// A serial port in a program's memory, with room for a frame of `LENGTH` characters and for what its protocols keep: [`Memory`] or
+/// [`NoMemory`]. All zero is one that has not been set up.
 #[derive(Clone, Debug)]
 #[repr(C)]
-pub struct Port {
+pub struct Port<const LENGTH: usize = FRAME, K = Memory> {
     /// What it is doing.
     pub status: Status,
     /// The frame that is received or sent.
-    pub buffer: [u8; FRAME],
+    pub buffer: [u8; LENGTH],
     /// What a slave keeps.
-    pub memory: Memory,
+    pub memory: K,
 }
 
-impl Default for Port {
+/// No protocol of the port keeps anything from one frame to the next.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct NoMemory;
+
+/// What a port has to keep something in from one frame to the next.
+pub trait Keeps {
+    /// Nothing is kept.
+    const NOTHING: Self;
+
+    /// The memory, if there is one.
+    fn memory(&mut self) -> Option<&mut Memory>;
+}
+
+impl Keeps for Memory {
+    const NOTHING: Self = Memory::new();
+
+    fn memory(&mut self) -> Option<&mut Memory> {
+        Some(self)
+    }
+}
+
+impl Keeps for NoMemory {
+    const NOTHING: Self = NoMemory;
+
+    fn memory(&mut self) -> Option<&mut Memory> {
+        None
+    }
+}
+
+impl<const LENGTH: usize, K: Keeps> Default for Port<LENGTH, K> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Port {
+impl<const LENGTH: usize, K: Keeps> Port<LENGTH, K> {
     /// A port that has not been set up.
     pub const fn new() -> Self {
         Port {
-            status: Status {
-                protocol: Protocol::Off,
-                bound: false,
-                open: false,
-                spoiled: false,
-                sending: false,
-                format: LineFormat {
-                    data_bits: 0,
-                    stop_bits: 0,
-                    ..LineFormat::new()
-                },
-                uinit: [0; 3],
-                received: 0,
-                to_send: 0,
-                taken: 0,
-                last_us: 0,
-                due_us: 0,
-                free: Free::new(),
-                link: Link::new(),
-                can: CanTurn::new(),
-                remote: Remote::new(),
-                exchange: Exchange::new(),
-            },
-            buffer: [0; FRAME],
-            memory: Memory::new(),
+            status: Status::new(),
+            buffer: [0; LENGTH],
+            memory: K::NOTHING,
         }
     }
+
+    /// The port, whatever it has room for.
+    pub fn parts(&mut self) -> PortMut<'_> {
+        PortMut {
+            status: &mut self.status,
+            buffer: &mut self.buffer,
+            memory: self.memory.memory(),
+        }
+    }
+}
+
+/// A serial port in a program's memory, whatever it has room for.
+#[derive(Debug)]
+pub struct PortMut<'a> {
+    /// What it is doing.
+    pub status: &'a mut Status,
+    /// The frame that is received or sent.
+    pub buffer: &'a mut [u8],
+    /// What a slave keeps, if its protocols keep anything.
+    pub memory: Option<&'a mut Memory>,
 }
 
 /// One port while it is advanced.
@@ -117,6 +181,7 @@ pub(super) struct Session<'a> {
     pub(super) plc: &'a mut dyn Plc,
     pub(super) hal: &'a mut dyn Hal,
     pub(super) wiring: &'static PortWiring,
+    pub(super) profile: &'static Profile,
     pub(super) status: Status,
     pub(super) now_us: u32,
     /// RUN or STOP, if a frame has asked for it.
@@ -132,8 +197,9 @@ pub(super) fn has_come(now_us: u32, at_us: u32) -> bool {
 /// that have come, answers, sends, and shows in special devices what has happened. Returns RUN or STOP if a partner has asked for it.
 pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool> {
     let mut request = None;
-    for wiring in plc.ports().all() {
-        let Some(status) = plc.port(wiring.number).map(|port| port.status) else {
+    let model = plc.port_model()?;
+    for wiring in model.wiring {
+        let Some(status) = plc.port(wiring.number).map(|port| *port.status) else {
             continue;
         };
         let wiring = wiring.chosen(plc);
@@ -141,6 +207,7 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
             plc,
             hal,
             wiring,
+            profile: model.profile,
             status,
             now_us,
             request: None,
@@ -149,7 +216,7 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
         let status = session.status;
         request = request.or(session.request);
         if let Some(port) = plc.port(wiring.number) {
-            port.status = status;
+            *port.status = status;
         }
     }
     request
@@ -169,15 +236,23 @@ impl Session<'_> {
         if self.status.open && quiet_us >= self.silence_us() {
             self.silence();
         }
-        if self.status.protocol == Protocol::Free {
-            self.advance_free();
+        if let Some(codec) = self.codec() {
+            codec.advance(self);
         }
-        if self.status.protocol.is_master() {
-            self.advance_master();
-        }
-        self.advance_link();
-        self.advance_on_demand();
         self.send();
+    }
+
+    /// What the port does under its protocol, if the program has that.
+    fn codec(&self) -> Option<&'static Codec> {
+        self.codec_of(Protocols::of(&[self.status.protocol]))
+    }
+
+    /// What a port does under one of these protocols, if the program has that.
+    pub(super) fn codec_of(&self, protocols: Protocols) -> Option<&'static Codec> {
+        let mut codecs = self.plc.codecs().iter();
+        codecs
+            .find(|codec| codec.protocols().meets(protocols))
+            .copied()
     }
 
     /// The hardware of the port, and the time.
@@ -188,6 +263,10 @@ impl Session<'_> {
 
     /// What the port speaks from now on.
     fn choose(&mut self) {
+        if self.wiring.choice == Choice::Com1 {
+            let both = M_PARALLEL_MASTER.is_on(self.plc) && M_PARALLEL_SLAVE.is_on(self.plc);
+            M_SET_UP_WRONGLY.set(self.plc, both);
+        }
         let Sys {
             running,
             first_scan,
@@ -231,7 +310,7 @@ impl Session<'_> {
             let modbus = self.wiring.modbus;
             let asked_us = modbus.map_or(0, |modbus| modbus.silence_us(self.plc));
             self.status.format.silence_us().max(asked_us) - 2
-        } else if self.role().is_some() {
+        } else if Protocols::LINKS.contains(self.status.protocol) {
             LINK_GIVEN_UP_US
         } else {
             GIVEN_UP_US
@@ -243,8 +322,9 @@ impl Session<'_> {
         if self.status.sending && self.status.format.half_duplex {
             return;
         }
-        if self.status.protocol == Protocol::Free {
-            return self.take_free(character);
+        let codec = self.codec();
+        if codec.is_some_and(|codec| codec.character(self, character)) {
+            return;
         }
         let begin_us = character
             .at_us
@@ -263,7 +343,7 @@ impl Session<'_> {
             return;
         }
         if !self.status.protocol.ends_by_silence() {
-            self.cut();
+            self.cut(codec);
         }
     }
 
@@ -278,11 +358,8 @@ impl Session<'_> {
         }
         let at = usize::from(self.status.received);
         let byte = character.byte & self.status.format.mask();
-        let buffer = self
-            .plc
-            .port(self.wiring.number)
-            .map(|port| &mut port.buffer);
-        match buffer.and_then(|buffer| buffer.get_mut(at)) {
+        let port = self.plc.port(self.wiring.number);
+        match port.and_then(|port| port.buffer.get_mut(at)) {
             Some(place) => {
                 *place = byte;
                 self.status.received += 1;
@@ -301,28 +378,26 @@ impl Session<'_> {
     }
 
     /// Looks whether the frame is whole, in a protocol whose frames have an end.
-    fn cut(&mut self) {
+    fn cut(&mut self, codec: Option<&'static Codec>) {
         let received = usize::from(self.status.received);
-        let (role, link) = (self.role(), self.status.link);
         let slave = self.slave();
         let Some(port) = self.plc.port(self.wiring.number) else {
             return;
         };
-        let cut = match role {
-            Some(role) => link.cut(role, &port.buffer[..received]),
-            None => slave.cut(&port.buffer[..received]),
-        };
+        let frame = port.buffer.get(..received).unwrap_or_default();
+        let cut = codec.map_or(Cut::Drop, |codec| codec.cut(&self.status, slave, frame));
         match cut {
             Cut::More => {}
             Cut::Whole if self.status.spoiled => self.drop_frame(),
-            Cut::Whole => self.answer(),
+            Cut::Whole => self.take_frame(),
             Cut::Restart => {
-                port.buffer[0] = port.buffer[received - 1];
+                let last = received.saturating_sub(1);
+                port.buffer.copy_within(last..received, 0);
                 self.status.received = 1;
                 self.status.spoiled = false;
                 // The character may be a whole frame.
                 if received > 1 {
-                    self.cut();
+                    self.cut(codec);
                 }
             }
             Cut::Drop => self.drop_frame(),
@@ -333,7 +408,7 @@ impl Session<'_> {
     fn silence(&mut self) {
         let whole = self.status.received > 0 && !self.status.spoiled;
         if self.status.protocol.ends_by_silence() && whole {
-            self.answer();
+            self.take_frame();
         } else {
             self.drop_frame();
         }
@@ -362,62 +437,93 @@ impl Session<'_> {
             ),
         };
         Slave {
-            protocol: self.status.protocol,
             family: self.plc.ports(),
             type_code: self.plc.type_code(),
             station,
             format,
+            profile: self.profile,
         }
     }
 
     /// A frame is whole: answers it, or takes it for an answer.
-    fn answer(&mut self) {
+    fn take_frame(&mut self) {
         let received = usize::from(self.status.received);
         self.drop_frame();
-        if self.status.protocol == Protocol::Can {
-            return self.take_can(received);
+        if let Some(codec) = self.codec() {
+            codec.take(self, received);
         }
-        if self.status.protocol.is_master() {
-            return self.take_answer(received);
+    }
+
+    /// Copies the frame that has been received.
+    pub(super) fn copy_frame<const LENGTH: usize>(&mut self, received: usize) -> [u8; LENGTH] {
+        let mut frame = [0; LENGTH];
+        let port = self.plc.port(self.wiring.number);
+        let received = port.as_ref().and_then(|port| port.buffer.get(..received));
+        if let Some((place, received)) =
+            received.and_then(|r| frame.get_mut(..r.len()).zip(Some(r)))
+        {
+            place.copy_from_slice(received);
         }
-        if let Some(role) = self.role() {
-            return self.take_linked(role, received);
+        frame
+    }
+
+    /// Whether what has been received is a request of QLink that the program answers.
+    pub(super) fn is_qlink(&mut self, received: usize) -> bool {
+        if !self.slave().has_qlink() || self.codec_of(Protocols::QLINK).is_none() {
+            return false;
         }
+        let port = self.plc.port(self.wiring.number);
+        let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
+        frame.is_some_and(qlink::is_qlink)
+    }
+
+    /// Answers a frame, none of which has more than `LENGTH` characters.
+    pub(super) fn answer<const LENGTH: usize>(
+        &mut self,
+        received: usize,
+        answer: impl FnOnce(Slave, &[u8], &mut Remote, &mut Served, &mut Frame) -> Result<(), LineFault>,
+    ) {
         let slave = self.slave();
-        let Some(port) = self.plc.port(self.wiring.number) else {
-            return;
-        };
-        let buffer = port.buffer;
-        let mut memory = core::mem::take(&mut port.memory);
+        let request = self.copy_frame::<LENGTH>(received);
         let mut remote = self.status.remote;
-        let mut bytes = [0; FRAME];
+        let mut bytes = [0; LENGTH];
         let mut reply = Frame::new(&mut bytes);
         let mut map = Served::new(self.plc, slave.type_code);
-        let answered = slave.answer(
-            &buffer[..received],
-            &mut memory,
-            &mut remote,
-            &mut map,
-            &mut reply,
-        );
+        let request = request.get(..received).unwrap_or_default();
+        let answered = answer(slave, request, &mut remote, &mut map, &mut reply);
         self.request = map.take_request().or(self.request);
-        if let Some(port) = self.plc.port(self.wiring.number) {
-            port.memory = memory;
-        }
         self.status.remote = remote;
         if let Err(fault) = answered {
             self.note(fault);
         }
         let wait_us = u32::from(reply.wait_ms()) * 1000;
-        let reply = reply.len();
-        self.begin_sending(&bytes[..reply], wait_us);
+        self.begin_sending(reply.as_slice(), wait_us);
+    }
+
+    /// The same with what the slave keeps.
+    pub(super) fn answer_with_memory<const LENGTH: usize>(
+        &mut self,
+        received: usize,
+        answer: impl FnOnce(Slave, &[u8], &mut Memory, &mut Served, &mut Frame) -> Result<(), LineFault>,
+    ) {
+        let number = self.wiring.number;
+        let port = self.plc.port(number);
+        let Some(mut memory) = port.and_then(|port| port.memory.map(core::mem::take)) else {
+            return;
+        };
+        self.answer::<LENGTH>(received, |slave, request, _, map, reply| {
+            answer(slave, request, &mut memory, map, reply)
+        });
+        if let Some(place) = self.plc.port(number).and_then(|port| port.memory) {
+            *place = memory;
+        }
     }
 
     /// A frame of CAN has come.
-    fn take_can(&mut self, received: usize) {
+    pub(super) fn take_can(&mut self, received: usize) {
         let port = self.plc.port(self.wiring.number);
-        let frame = port.and_then(|port| CanFrame::parse(&port.buffer[..received]));
-        if let Some(frame) = frame {
+        let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
+        if let Some(frame) = frame.and_then(CanFrame::parse) {
             self.status.can.receive(frame);
         }
     }
@@ -442,7 +548,8 @@ impl Session<'_> {
 
     /// Hands the frame to the hardware, and takes notice of its end.
     fn send(&mut self) {
-        if self.status.protocol == Protocol::Free
+        let codec = self.codec();
+        if codec.is_some_and(Codec::has_no_frames)
             || !self.status.sending
             || !has_come(self.now_us, self.status.due_us)
         {
@@ -468,7 +575,9 @@ impl Session<'_> {
             .is_none_or(|(port, now_us)| port.unsent(now_us) == 0)
         {
             self.status.sending = false;
-            self.end_on_demand();
+            if let Some(codec) = codec {
+                codec.sent(self);
+            }
         }
     }
 }

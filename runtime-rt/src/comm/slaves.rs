@@ -1,17 +1,15 @@
-//! Which codec answers under which protocol, and how it is set up.
+//! How the codecs that answer are set up.
 
-use super::computer_link::{self, Dialect, Remote};
+use super::computer_link::{self, Dialect};
 use super::fx_port::{self, Space};
 use super::link::Role;
 use super::modbus::{self, Framing, Profile};
+use super::model::PortModel;
 use super::wiring::{Ports, Protocol};
-use super::{Cut, Frame, LineFault, Map, Memory, can, qlink};
 
 /// A port's partner is answered like this.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Slave {
-    /// What the port speaks.
-    pub(super) protocol: Protocol,
     /// The family of models.
     pub(super) family: Ports,
     /// What D8001 shows.
@@ -20,10 +18,12 @@ pub(super) struct Slave {
     pub(super) station: u16,
     /// The format word.
     pub(super) format: u16,
+    /// What the model serves as a Modbus slave.
+    pub(super) profile: &'static Profile,
 }
 
 /// Types of H1U begin so (h1u-h2u-programming §8.3, D8001).
-const H1U: u16 = 26;
+pub(super) const H1U: u16 = 26;
 
 impl Protocol {
     /// Whether silence ends its frames; those of others have an end.
@@ -50,69 +50,22 @@ pub(super) fn role(protocol: Protocol, area: u16) -> Option<Role> {
 }
 
 impl Slave {
-    /// Whether the characters received so far are a frame.
-    pub(super) fn cut(&self, received: &[u8]) -> Cut {
-        match self.protocol {
-            Protocol::ModbusAscii | Protocol::MasterAscii => modbus::cut_ascii(received),
-            Protocol::ProgrammingPort => fx_port::cut(received),
-            Protocol::Can => can::cut(received),
-            Protocol::ComputerLink => computer_link::cut(self.computer_link(), received),
-            _ => Cut::Drop,
-        }
-    }
-
-    /// Answers a frame.
-    pub(super) fn answer(
-        &self,
-        request: &[u8],
-        memory: &mut Memory,
-        remote: &mut Remote,
-        map: &mut dyn Map,
-        reply: &mut Frame,
-    ) -> Result<(), LineFault> {
-        match self.protocol {
-            Protocol::ModbusRtu if self.has_qlink() && qlink::is_qlink(request) => {
-                let settings = self.modbus_settings(Framing::Rtu);
-                qlink::answer(&settings, self.qlink_devices(), memory, request, map, reply)
-            }
-            Protocol::ModbusRtu => self.modbus(Framing::Rtu, request, map, reply),
-            Protocol::ModbusAscii => self.modbus(Framing::Ascii, request, map, reply),
-            Protocol::ProgrammingPort => {
-                let settings = self.family.programming_port();
-                fx_port::answer(settings, memory, request, map, reply)
-            }
-            Protocol::ComputerLink => {
-                let settings = self.computer_link();
-                computer_link::answer(settings, remote, request, map, reply)
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn modbus(
-        &self,
-        framing: Framing,
-        request: &[u8],
-        map: &mut dyn Map,
-        reply: &mut Frame,
-    ) -> Result<(), LineFault> {
-        modbus::answer(&self.modbus_settings(framing), request, map, reply)
-    }
-
-    fn modbus_settings(&self, framing: Framing) -> modbus::Settings {
+    /// What the registers make of a slave by Modbus.
+    pub(super) fn modbus(&self, framing: Framing) -> modbus::Settings {
         modbus::Settings {
             framing,
             station: self.station,
-            profile: self.profile(),
+            profile: self.profile,
         }
     }
 
-    fn has_qlink(&self) -> bool {
+    /// Whether the model answers QLink.
+    pub(super) fn has_qlink(&self) -> bool {
         matches!(self.family, Ports::Inovance)
     }
 
     /// Most devices of a QLink block (h1u-h2u-programming §5.7.3).
-    fn qlink_devices(&self) -> u16 {
+    pub(super) fn qlink_devices(&self) -> u16 {
         if self.type_code / 1000 == H1U {
             50
         } else {
@@ -137,23 +90,12 @@ impl Slave {
             },
         }
     }
-
-    /// What the model serves as a Modbus slave.
-    pub(super) fn profile(&self) -> &'static Profile {
-        self.family.modbus(self.type_code)
-    }
 }
 
 impl Ports {
     /// What a model of the family serves as a Modbus slave; `type_code` is what its D8001 shows.
     pub fn modbus(self, type_code: u16) -> &'static Profile {
-        match self {
-            Ports::Inovance | Ports::Without if type_code / 1000 == H1U => &modbus::H1U,
-            Ports::Inovance | Ports::Without => &modbus::H2U,
-            Ports::L01s => &modbus::L01S,
-            Ports::Hm => &modbus::HM,
-            Ports::Fx | Ports::Fx3 | Ports::Fx3g | Ports::Board2n | Ports::Board3u => &modbus::FX3U,
-        }
+        PortModel::of(self, type_code).profile
     }
 
     /// What a model of the family makes of the programming port's protocol.

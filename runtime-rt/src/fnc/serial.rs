@@ -170,7 +170,7 @@ fn packs(cx: &Cx, number: u8) -> bool {
 /// What a free protocol sends and receives on a port, as long as it is driven.
 fn transfer(cx: &mut Cx, number: u8) -> Done {
     let owner = cx.site.step + 1;
-    let Some(status) = cx.plc.port(number).map(|port| port.status) else {
+    let Some(status) = cx.plc.port(number).map(|port| *port.status) else {
         return Ok(());
     };
     if !cx.site.drive {

@@ -1,0 +1,208 @@
+//! What a port does under each protocol, as a table: a program links the codecs that its ports may need.
+
+use super::computer_link;
+use super::line::Received;
+use super::modbus::{self, Framing, LONGEST_RTU};
+use super::port::{FRAME, Session, Status};
+use super::slaves::{Slave, role};
+use super::{Cut, Protocol, Protocols, can, fx_port, qlink};
+
+/// What a port does under one protocol, or under several that belong together.
+#[derive(Debug)]
+pub struct Codec {
+    /// Its name in emitted code.
+    name: &'static str,
+    protocols: Protocols,
+    /// Whether the characters received so far are a frame, if it is not silence that ends them.
+    cut: fn(&Status, Slave, &[u8]) -> Cut,
+    /// Takes a frame of this many characters.
+    take: for<'a, 'b> fn(&'a mut Session<'b>, usize),
+    /// Takes a character, in protocols that have no frames.
+    character: Option<for<'a, 'b> fn(&'a mut Session<'b>, Received)>,
+    /// Does what is to be done by now: at the end of each call.
+    advance: for<'a, 'b> fn(&'a mut Session<'b>),
+    /// A frame has been sent.
+    sent: for<'a, 'b> fn(&'a mut Session<'b>),
+}
+
+impl Codec {
+    /// One that does nothing.
+    const fn of(name: &'static str, protocols: Protocols) -> Self {
+        Codec {
+            name,
+            protocols,
+            cut: |_, _, _| Cut::Drop,
+            take: |_, _| {},
+            character: None,
+            advance: |_| {},
+            sent: |_| {},
+        }
+    }
+
+    /// Its name in emitted code, in small letters.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The protocols that it is for.
+    pub const fn protocols(&self) -> Protocols {
+        self.protocols
+    }
+
+    /// Whether it takes characters rather than frames, and sends by itself.
+    pub(super) const fn has_no_frames(&self) -> bool {
+        self.character.is_some()
+    }
+
+    pub(super) fn cut(&self, status: &Status, slave: Slave, received: &[u8]) -> Cut {
+        (self.cut)(status, slave, received)
+    }
+
+    pub(super) fn take(&self, session: &mut Session, received: usize) {
+        (self.take)(session, received);
+    }
+
+    /// Takes a character; false if it belongs to a frame.
+    pub(super) fn character(&self, session: &mut Session, character: Received) -> bool {
+        if let Some(take) = self.character {
+            take(session, character);
+        }
+        self.character.is_some()
+    }
+
+    pub(super) fn advance(&self, session: &mut Session) {
+        (self.advance)(session);
+    }
+
+    pub(super) fn sent(&self, session: &mut Session) {
+        (self.sent)(session);
+    }
+}
+
+/// RS, RS2, USEND, URCV.
+pub const FREE: Codec = Codec {
+    character: Some(|session, character| session.take_free(character)),
+    advance: |session| session.advance_free(),
+    ..Codec::of("free", Protocols::of(&[Protocol::Free]))
+};
+
+/// The programming port.
+pub const PROGRAMMING_PORT: Codec = Codec {
+    cut: |_, _, received| fx_port::cut(received),
+    take: |session, received| {
+        session.answer_with_memory::<FRAME>(received, |slave, request, memory, map, reply| {
+            let settings = slave.family.programming_port();
+            fx_port::answer(settings, memory, request, map, reply)
+        });
+    },
+    ..Codec::of(
+        "programming_port",
+        Protocols::of(&[Protocol::ProgrammingPort]),
+    )
+};
+
+/// A slave by Modbus RTU.
+pub const MODBUS_RTU: Codec = Codec {
+    take: |session, received| {
+        if !session.is_qlink(received) {
+            session.answer::<LONGEST_RTU>(received, |slave, request, _, map, reply| {
+                modbus::answer(&slave.modbus(Framing::Rtu), request, map, reply)
+            });
+        } else if let Some(qlink) = session.codec_of(Protocols::QLINK) {
+            qlink.take(session, received);
+        }
+    },
+    ..Codec::of("modbus_rtu", Protocols::of(&[Protocol::ModbusRtu]))
+};
+
+/// QLink, which a slave by Modbus RTU of H1U and H2U answers, too.
+pub const QLINK: Codec = Codec {
+    take: |session, received| {
+        session.answer_with_memory::<FRAME>(received, |slave, request, memory, map, reply| {
+            let settings = slave.modbus(Framing::Rtu);
+            qlink::answer(
+                &settings,
+                slave.qlink_devices(),
+                memory,
+                request,
+                map,
+                reply,
+            )
+        });
+    },
+    ..Codec::of("qlink", Protocols::QLINK)
+};
+
+/// A slave by Modbus ASCII.
+pub const MODBUS_ASCII: Codec = Codec {
+    cut: |_, _, received| modbus::cut_ascii(received),
+    take: |session, received| {
+        session.answer::<FRAME>(received, |slave, request, _, map, reply| {
+            modbus::answer(&slave.modbus(Framing::Ascii), request, map, reply)
+        });
+    },
+    ..Codec::of("modbus_ascii", Protocols::of(&[Protocol::ModbusAscii]))
+};
+
+/// A master by Modbus RTU.
+pub const MASTER_RTU: Codec = Codec {
+    take: |session, received| session.take_answer::<LONGEST_RTU>(Framing::Rtu, received),
+    advance: |session| session.advance_master::<LONGEST_RTU>(Framing::Rtu),
+    ..Codec::of(
+        "master_rtu",
+        Protocols::of(&[Protocol::MasterRtu, Protocol::MasterTable]),
+    )
+};
+
+/// A master by Modbus ASCII.
+pub const MASTER_ASCII: Codec = Codec {
+    cut: |_, _, received| modbus::cut_ascii(received),
+    take: |session, received| session.take_answer::<FRAME>(Framing::Ascii, received),
+    advance: |session| session.advance_master::<FRAME>(Framing::Ascii),
+    ..Codec::of("master_ascii", Protocols::of(&[Protocol::MasterAscii]))
+};
+
+/// A slave of a computer link.
+pub const COMPUTER_LINK: Codec = Codec {
+    cut: |_, slave, received| computer_link::cut(slave.computer_link(), received),
+    take: |session, received| {
+        session.answer::<FRAME>(received, |slave, request, remote, map, reply| {
+            computer_link::answer(slave.computer_link(), remote, request, map, reply)
+        });
+    },
+    advance: |session| session.advance_on_demand(),
+    sent: |session| session.end_on_demand(),
+    ..Codec::of("computer_link", Protocols::of(&[Protocol::ComputerLink]))
+};
+
+/// Links that PLCs keep up by themselves.
+pub const LINK: Codec = Codec {
+    cut: |status, _, received| match role(status.protocol, status.uinit[2]) {
+        Some(role) => status.link.cut(role, received),
+        None => Cut::Drop,
+    },
+    take: |session, received| session.take_linked(received),
+    advance: |session| session.advance_link(),
+    ..Codec::of("link", Protocols::LINKS)
+};
+
+/// Frames of CAN.
+pub const CAN: Codec = Codec {
+    cut: |_, _, received| can::cut(received),
+    take: |session, received| session.take_can(received),
+    ..Codec::of("can", Protocols::of(&[Protocol::Can]))
+};
+
+/// All of them.
+pub const ALL: &[&Codec] = &[
+    &FREE,
+    &PROGRAMMING_PORT,
+    &MODBUS_RTU,
+    &QLINK,
+    &MODBUS_ASCII,
+    &MASTER_RTU,
+    &MASTER_ASCII,
+    &COMPUTER_LINK,
+    &LINK,
+    &CAN,
+];

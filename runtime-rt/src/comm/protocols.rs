@@ -1,0 +1,110 @@
+//! Sets of protocols: what a port may speak, and how much memory that takes.
+
+use super::memory::Memory;
+use super::modbus::LONGEST_RTU;
+use super::port::{FRAME, Status};
+use super::wiring::Protocol;
+
+/// A set of protocols.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Protocols(u32);
+
+impl Protocols {
+    /// None.
+    pub const NONE: Self = Protocols(0);
+
+    /// QLink, which slaves by Modbus RTU of H1U and H2U answer besides.
+    pub const QLINK: Self = Protocols(1 << 31);
+
+    /// Those of links that PLCs keep up by themselves.
+    pub const LINKS: Self = Protocols::of(&[
+        Protocol::ComputerLinkMaster,
+        Protocol::ParallelMaster,
+        Protocol::ParallelSlave,
+        Protocol::NnMaster,
+        Protocol::NnSlave,
+        Protocol::EnhancedMaster,
+        Protocol::EnhancedSlave,
+    ]);
+
+    /// Those that keep something from one frame to the next.
+    const WITH_MEMORY: Self = Protocols::of(&[Protocol::ProgrammingPort]).or(Self::QLINK);
+
+    /// Those whose longest frame is that of Modbus RTU, or shorter, or that have no frames.
+    const SHORT: Self = Protocols::of(&[
+        Protocol::Off,
+        Protocol::Free,
+        Protocol::ModbusRtu,
+        Protocol::MasterRtu,
+        Protocol::MasterTable,
+        Protocol::Can,
+    ]);
+
+    /// All of them.
+    pub const ALL: Self = Protocols(u32::MAX);
+
+    /// The set of these.
+    pub const fn of(protocols: &[Protocol]) -> Self {
+        let mut set = 0;
+        let mut i = 0;
+        while i < protocols.len() {
+            set |= 1 << protocols[i] as u32;
+            i += 1;
+        }
+        Protocols(set)
+    }
+
+    /// This set and another.
+    #[must_use]
+    pub const fn or(self, other: Self) -> Self {
+        Protocols(self.0 | other.0)
+    }
+
+    /// This set without another.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Protocols(self.0 & !other.0)
+    }
+
+    /// Whether it has something in common with another.
+    pub const fn meets(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// Whether it contains a protocol.
+    pub const fn contains(self, protocol: Protocol) -> bool {
+        self.0 & 1 << protocol as u32 != 0
+    }
+
+    /// Characters of the longest frame.
+    pub const fn longest_frame(self) -> usize {
+        match self.0 & !Self::SHORT.0 {
+            0 => LONGEST_RTU,
+            _ => FRAME,
+        }
+    }
+
+    /// Whether one of them keeps something from one frame to the next ([`super::Memory`]).
+    pub const fn keeps_memory(self) -> bool {
+        self.meets(Self::WITH_MEMORY)
+    }
+
+    /// Bytes of a port that speaks them in a program's memory.
+    pub const fn port_size(self) -> usize {
+        let memory = if self.keeps_memory() {
+            size_of::<Memory>()
+        } else {
+            0
+        };
+        size_of::<Status>() + self.longest_frame() + memory
+    }
+}
+
+impl FromIterator<Protocol> for Protocols {
+    fn from_iter<T: IntoIterator<Item = Protocol>>(protocols: T) -> Self {
+        let sets = protocols
+            .into_iter()
+            .map(|protocol| Protocols::of(&[protocol]));
+        sets.fold(Protocols::NONE, Protocols::or)
+    }
+}
