@@ -79,10 +79,18 @@ static bool set_clock(void *context, const rungc_clock *clock)
     return true;
 }
 
-/* The hardware that the program asks: a clock. */
-static const rungc_hal hardware = {.clock = read_clock, .set_clock = set_clock};
-
 ";
+
+/// What drives serial ports.
+const LINES: &str = include_str!("../include/main_lines.c");
+
+/// Headers that they need.
+const LINES_HEADERS: &str = "#include <errno.h>\n#include <fcntl.h>\n#include <poll.h>\n#include <signal.h>\n#include <stdio.h>\n\
+                             #include <stdlib.h>\n#include <string.h>\n#include <termios.h>\n";
+
+/// The same of a host without serial ports.
+const HEADERS: &str =
+    "#include <poll.h>\n#include <signal.h>\n#include <stdio.h>\n#include <stdlib.h>\n";
 
 /// What a host says of a scan that takes longer than the constant length.
 const OVERRUN: &str = "\
@@ -153,15 +161,30 @@ pub fn main_file(module: &Module) -> String {
         Some(_) => (CONSTANT_PERIOD, OVERRUN),
         None => (PERIOD, ""),
     };
-    let (clock, hal) = match rungc_emit::cycle::asks_clock(module) {
-        true => (CLOCK, "    plc->hal = &hardware;\n"),
-        false => ("", ""),
+    let asks_clock = rungc_emit::cycle::asks_clock(module);
+    let hardware = hardware(asks_clock, module.has_ports());
+    let hal = match hardware.is_empty() {
+        true => "",
+        false => "    plc->hal = &hardware;\n",
     };
-    MAIN_C
-        .replace("    /* ERRORS */\n", &errors)
+    let clock = if asks_clock { CLOCK } else { "" };
+    let text = match module.has_ports() {
+        true => MAIN_C
+            .replace(
+                "#define _POSIX_C_SOURCE 200809L",
+                "#define _DEFAULT_SOURCE\n#define _XOPEN_SOURCE 700",
+            )
+            .replace(HEADERS, LINES_HEADERS)
+            .replace("int main(void)\n{\n", MAIN_WITH_OPTIONS),
+        false => MAIN_C.to_string(),
+    };
+    text.replace("    /* ERRORS */\n", &errors)
         .replace("    /* INSTRUCTIONS */\n", &instructions(module))
         .replace("/* MISSING */\n", &missing_device(module, &fields))
-        .replace("/* CLOCK */\n", clock)
+        .replace(
+            "/* CLOCK */\n",
+            &format!("{clock}{}{hardware}", lines(module)),
+        )
         .replace("    /* HAL */\n", hal)
         .replace("/* PERIOD */", period)
         .replace("/* OVERRUN */\n", overrun)
@@ -170,6 +193,46 @@ pub fn main_file(module: &Module) -> String {
         .replace("    /* INPUTS */\n", &inputs)
         .replace("    /* OUTPUTS */\n", &outputs)
         .replace("PROGRAM", name)
+}
+
+/// How `main` begins where it takes options.
+const MAIN_WITH_OPTIONS: &str = "int main(int argc, char **argv)\n{\n    if (!read_options(argc, argv)) {\n        return 2;\n    }\n";
+
+/// The serial ports, and what drives them.
+fn lines(module: &Module) -> String {
+    if !module.has_ports() {
+        return String::new();
+    }
+    let ports = module.ports.iter();
+    let rows = ports.map(|port| format!("    {{.port = {port}, .file = -1, .client_end = -1}},\n"));
+    LINES.replace("    /* LINES */\n", &rows.collect::<String>())
+}
+
+/// The hardware that the program asks, if it asks any.
+fn hardware(clock: bool, ports: bool) -> String {
+    let clock = if clock {
+        ".clock = read_clock, .set_clock = set_clock"
+    } else {
+        ""
+    };
+    let ports = match ports {
+        true => {
+            ".set_line = set_line, .receive = receive, .send = send_character, .unsent = unsent"
+        }
+        false => "",
+    };
+    let (what, fields) = match (clock, ports) {
+        ("", "") => return String::new(),
+        (clock, "") => ("a clock", format!("{{{clock}}}")),
+        ("", ports) => ("serial ports", format!("{{{ports}}}")),
+        (clock, ports) => (
+            "a clock and serial ports",
+            format!("{{{clock},\n                                   {ports}}}"),
+        ),
+    };
+    format!(
+        "/* The hardware that the program asks: {what}. */\nstatic const rungc_hal hardware = {fields};\n\n"
+    )
 }
 
 /// The rows of the instructions at which an error can occur.

@@ -396,10 +396,13 @@ fn host(generator: &Generator, crate_name: &str) -> String {
     if !table.is_empty() {
         table.push('\n');
     }
-    let wait = if !generator.module.takes_events() {
-        WAIT
-    } else {
-        WAIT_WITH_EVENTS
+    let wait = match (
+        generator.module.takes_events(),
+        generator.module.has_ports(),
+    ) {
+        (false, _) => WAIT,
+        (true, false) => WAIT_WITH_EVENTS,
+        (true, true) => WAIT_WITH_LINES,
     };
     let errors = match generator.module.may_fail() {
         true => plc_errors::PLC_ERRORS,
@@ -417,8 +420,12 @@ fn host(generator: &Generator, crate_name: &str) -> String {
         true => ("Class, Clock, Hal", SET_CLOCK, LOCAL_TIME),
         false => ("Class", "", ""),
     };
-    include_str!("../templates/host.rs")
-        .replace("        PERIOD;\n", period)
+    let text = include_str!("../templates/host.rs");
+    let text = match generator.module.has_ports() {
+        true => with_lines(text),
+        false => text.to_string(),
+    };
+    text.replace("        PERIOD;\n", period)
         .replace("    OVERRUN;\n", overrun)
         .replace("CLOCK_USES", uses)
         .replace("    CLOCK;\n", set)
@@ -429,6 +436,29 @@ fn host(generator: &Generator, crate_name: &str) -> String {
         .replace("        WAIT;\n", wait)
         .replace("CRATE", crate_name)
         .replace("TYPE", &generator.type_name.to_string())
+}
+
+/// A host with serial ports.
+fn with_lines(text: &str) -> String {
+    let open = "    let mut lines = lines(&mut plc).unwrap_or_else(|error| {
+        eprintln!(\"{error}\");
+        std::process::exit(2)
+    });
+";
+    let exchange =
+        "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n";
+    let uses = "use rungc_rt::comm::{LineFormat, Parity, Received};\nuse rungc_rt::{";
+    text.replacen("use rungc_rt::{", uses, 1)
+        .replace(
+            "use std::io::{self, BufRead};",
+            "use std::fs::File;\nuse std::io::{self, BufRead, Read, Write};",
+        )
+        .replace(
+            "    let mut hal = VirtualHal::new();\n",
+            &format!("    let mut hal = VirtualHal::new();\n{open}"),
+        )
+        .replace("        plc.scan(", &format!("{exchange}        plc.scan("))
+        + include_str!("../templates/lines.rs")
 }
 
 /// The rows of the instructions at which an error can occur.
@@ -508,6 +538,18 @@ const WAIT_WITH_EVENTS: &str = "\
         while Instant::now() < next {
             std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
             plc.tick(&mut hal, start.elapsed().as_millis() as u32);
+            plc.take_interrupts(&mut hal);
+        }
+";
+
+/// The same with serial ports.
+const WAIT_WITH_LINES: &str = "\
+        while Instant::now() < next {
+            std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
+            let now_ms = start.elapsed().as_millis() as u32;
+            hal.advance_to(now_ms);
+            lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));
+            plc.tick(&mut hal, now_ms);
             plc.take_interrupts(&mut hal);
         }
 ";

@@ -10,13 +10,6 @@ use rungc_rt::{Class, Plc, Ports, State, Sys};
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
 use std::collections::BTreeSet;
 
-/// More protocol numbers than mean anything on a model.
-const NUMBERS: u16 = 0x200;
-
-/// Format words with all values of the bits that choose a protocol: 12 to 15.
-const FORMATS: std::ops::Range<u16> = 0..16;
-const FIRST_FORMAT_BIT: u32 = 12;
-
 /// The station number of a master on L01S, and one of a slave.
 const STATIONS: [u16; 2] = [1, 255];
 
@@ -53,11 +46,10 @@ impl Lowerer<'_> {
         if wiring.choice == Choice::Can {
             return Protocols::of(&[Protocol::Can]);
         }
-        let numbers = self.values(wiring.protocol, wanted);
-        let numbers = numbers.unwrap_or_else(|| (0..NUMBERS).collect());
-        let formats = self.values(wiring.format, wanted);
-        let formats =
-            formats.unwrap_or_else(|| FORMATS.map(|bits| bits << FIRST_FORMAT_BIT).collect());
+        let values = self.values(wiring.protocol, wanted);
+        let Some((numbers, formats)) = values.zip(self.values(wiring.format, wanted)) else {
+            return Protocols::ALL;
+        };
         let uinits = self.uinits(wiring);
         let relays = self.relays(wiring, wanted);
         let mut spoken = Vec::new();

@@ -15,10 +15,9 @@ impl Session<'_> {
 
     /// Forgets what a slave keeps, when the protocol changes.
     pub(super) fn forget(&mut self) {
-        if let Some(port) = self.plc.port(self.wiring.number) {
-            if let Some(memory) = port.memory {
-                *memory = Memory::new();
-            }
+        let port = self.plc.port(self.wiring.number);
+        if let Some(memory) = port.and_then(|port| port.memory) {
+            *memory = Memory::new();
         }
     }
 

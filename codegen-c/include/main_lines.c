@@ -1,0 +1,231 @@
+/* A serial port of the program, and the one of this machine that it is. */
+typedef struct {
+    const uint8_t port; /* its number in the PLC's manual */
+    int file;           /* -1: none */
+    int client_end;     /* of a pseudo-terminal: open, so that clients can come and go */
+    const char *path;
+    rungc_line_format format;
+    uint32_t character_us; /* how long a character takes */
+    uint32_t received_us;  /* when the last character was in */
+    uint32_t sent_us;      /* when the last character is out */
+    uint8_t received[1024];
+    size_t next, count; /* the next of them, and how many there are */
+    uint8_t to_send[600];
+    size_t waiting;
+} serial_line;
+
+static serial_line serial_lines[] = {
+    /* LINES */
+};
+
+static serial_line *line_of(uint8_t port)
+{
+    for (size_t i = 0; i < sizeof serial_lines / sizeof serial_lines[0]; i++) {
+        if (serial_lines[i].port == port) {
+            return &serial_lines[i];
+        }
+    }
+    return NULL;
+}
+
+/* The program runs on without the line. */
+static void close_line(serial_line *line)
+{
+    fprintf(stderr, "PROGRAM: COM%u: %s no longer works; nothing is received or sent on it any more\n", line->port, line->path);
+    close(line->file);
+    line->file = -1;
+}
+
+static speed_t speed_of(uint32_t bits_per_second)
+{
+    static const struct {
+        uint32_t bits_per_second;
+        speed_t speed;
+    } speeds[] = {
+        {300, B300},     {600, B600},     {1200, B1200},   {2400, B2400},   {4800, B4800},
+        {9600, B9600},   {19200, B19200}, {38400, B38400}, {57600, B57600}, {115200, B115200},
+    };
+
+    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++) {
+        if (speeds[i].bits_per_second == bits_per_second) {
+            return speeds[i].speed;
+        }
+    }
+    return B9600;
+}
+
+/* The line has the format that the program sets up. */
+static void set_line(void *context, uint8_t port, const rungc_line_format *format)
+{
+    serial_line *const line = line_of(port);
+    struct termios settings;
+
+    (void)context;
+    if (line == NULL || line->file < 0 || format->bits_per_second == 0u) {
+        return;
+    }
+    const uint32_t bits = 1u + format->data_bits + (format->parity != RUNGC_PARITY_NONE ? 1u : 0u) + format->stop_bits;
+    line->format = *format;
+    line->character_us = bits * 1000000u / format->bits_per_second;
+    if (tcgetattr(line->file, &settings) != 0) {
+        return;
+    }
+    cfmakeraw(&settings);
+    settings.c_cflag &= ~(tcflag_t)(CSIZE | PARENB | PARODD | CSTOPB | CRTSCTS);
+    settings.c_cflag |= (tcflag_t)(CLOCAL | CREAD | (format->data_bits == 7u ? CS7 : CS8));
+    if (format->parity != RUNGC_PARITY_NONE) {
+        settings.c_cflag |= (tcflag_t)(PARENB | (format->parity == RUNGC_PARITY_ODD ? PARODD : 0));
+    }
+    if (format->stop_bits == 2u) {
+        settings.c_cflag |= (tcflag_t)CSTOPB;
+    }
+    cfsetispeed(&settings, speed_of(format->bits_per_second));
+    cfsetospeed(&settings, speed_of(format->bits_per_second));
+    if (tcsetattr(line->file, TCSANOW, &settings) != 0) {
+        fprintf(stderr, "PROGRAM: COM%u: the line cannot be set to %lu bit/s\n", port, (unsigned long)format->bits_per_second);
+    }
+}
+
+/* Characters that came together came one after the other; the last of them is in now. */
+static bool receive(void *context, uint8_t port, uint32_t now_us, rungc_received *received)
+{
+    serial_line *const line = line_of(port);
+
+    (void)context;
+    if (line == NULL || line->file < 0) {
+        return false;
+    }
+    if (line->next == line->count) {
+        const ssize_t count = read(line->file, line->received, sizeof line->received);
+        if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) {
+            close_line(line);
+        }
+        line->next = 0;
+        line->count = count > 0 ? (size_t)count : 0;
+        if (count <= 0) {
+            return false;
+        }
+    }
+    const uint32_t earliest_us = line->received_us + line->character_us;
+    uint32_t at_us = now_us - (uint32_t)(line->count - line->next - 1u) * line->character_us;
+    if ((int32_t)(at_us - earliest_us) < 0 && (int32_t)(earliest_us - now_us) <= 0) {
+        at_us = earliest_us;
+    }
+    received->at_us = at_us;
+    received->byte = line->received[line->next++];
+    received->fault = RUNGC_CHAR_FAULT_NONE;
+    line->received_us = at_us;
+    return true;
+}
+
+/* Hands over what waits. */
+static void flush_line(serial_line *line)
+{
+    while (line->file >= 0 && line->waiting > 0) {
+        const ssize_t count = write(line->file, line->to_send, line->waiting);
+        if (count < 0 && errno != EINTR) {
+            if (errno != EAGAIN) {
+                close_line(line);
+            }
+            return;
+        }
+        if (count > 0) {
+            line->waiting -= (size_t)count;
+            memmove(line->to_send, line->to_send + count, line->waiting);
+        }
+    }
+}
+
+static bool send_character(void *context, uint8_t port, uint8_t byte, uint32_t now_us)
+{
+    serial_line *const line = line_of(port);
+
+    (void)context;
+    if (line == NULL || line->waiting == sizeof line->to_send) {
+        return false;
+    }
+    if ((int32_t)(line->sent_us - now_us) < 0) {
+        line->sent_us = now_us;
+    }
+    line->sent_us += line->character_us;
+    line->to_send[line->waiting++] = byte;
+    return true;
+}
+
+static uint16_t unsent(void *context, uint8_t port, uint32_t now_us)
+{
+    serial_line *const line = line_of(port);
+
+    (void)context;
+    if (line == NULL || line->file < 0) {
+        return 0;
+    }
+    flush_line(line);
+    const int32_t left_us = (int32_t)(line->sent_us - now_us);
+    return (uint16_t)(left_us > 0 && line->character_us > 0u ? (uint32_t)left_us / line->character_us + 1u : line->waiting);
+}
+
+/* A new pseudo-terminal, whose other end is for clients. */
+static bool open_pseudo_terminal(serial_line *line)
+{
+    static char path[sizeof serial_lines / sizeof serial_lines[0]][64];
+    char *const place = path[line - serial_lines];
+    struct termios settings;
+
+    line->file = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (line->file < 0 || grantpt(line->file) != 0 || unlockpt(line->file) != 0) {
+        return false;
+    }
+    const char *const name = ptsname(line->file);
+    line->client_end = name == NULL ? -1 : open(name, O_RDWR | O_NOCTTY);
+    if (line->client_end < 0 || tcgetattr(line->client_end, &settings) != 0) {
+        return false;
+    }
+    cfmakeraw(&settings);
+    snprintf(place, sizeof path[0], "%s", name);
+    line->path = place;
+    return tcsetattr(line->client_end, TCSANOW, &settings) == 0;
+}
+
+/* Connects a serial port as `COM1=/dev/ttyUSB0` or `COM1=pty` says. */
+static bool open_line(const char *what)
+{
+    char *end = NULL;
+    const unsigned long port = strncmp(what, "COM", 3) == 0 ? strtoul(what + 3, &end, 10) : 0;
+
+    if (end == NULL || end == what + 3 || *end != '=' || port > 255u) {
+        fprintf(stderr, "PROGRAM: --serial %s: a line is written COM1=/dev/ttyUSB0 or COM1=pty\n", what);
+        return false;
+    }
+    serial_line *const line = line_of((uint8_t)port);
+    if (line == NULL) {
+        fprintf(stderr, "PROGRAM: --serial %s: the program has no port COM%lu\n", what, port);
+        return false;
+    }
+    line->path = end + 1;
+    if (strcmp(line->path, "pty") != 0) {
+        line->file = open(line->path, O_RDWR | O_NOCTTY | O_NONBLOCK);
+    }
+    if (strcmp(line->path, "pty") == 0 ? !open_pseudo_terminal(line) : line->file < 0) {
+        fprintf(stderr, "PROGRAM: --serial %s: %s\n", what, strerror(errno));
+        return false;
+    }
+    fprintf(stderr, "PROGRAM: COM%lu at %s\n", port, line->path);
+    return true;
+}
+
+/* Takes the options; false if they are wrong. */
+static bool read_options(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i += 2) {
+        if (strcmp(argv[i], "--serial") != 0 || i + 1 == argc) {
+            fprintf(stderr, "PROGRAM: usage: %s [--serial COM1=/dev/ttyUSB0|COM1=pty]...\n", argv[0]);
+            return false;
+        }
+        if (!open_line(argv[i + 1])) {
+            return false;
+        }
+    }
+    return true;
+}
+
