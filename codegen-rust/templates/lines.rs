@@ -88,7 +88,7 @@ impl Line {
     }
 }
 
-/// How characters stand on a line, as the command `stty` has it.
+/// The format of characters as arguments of the command `stty`.
 fn settings(format: LineFormat) -> Vec<String> {
     let on = |on: bool, name: &str| if on { name.to_string() } else { format!("-{name}") };
     vec![

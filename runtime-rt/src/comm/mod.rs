@@ -39,7 +39,7 @@
 //! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
 //! | `port.rs` | the state machine of one port |
 //! | `codec.rs` | what a port does under each protocol: the table of which a program links what it may need |
-//! | `model.rs` | the ports of each model, of which a program links those of its own |
+//! | `model.rs` | the ports of each model, of which a program links one |
 //! | `protocols.rs` | sets of protocols, and how much memory they take |
 //! | `slaves.rs` | how the codecs that answer are set up |
 //! | `free.rs` | RS, RS2, USEND, URCV |

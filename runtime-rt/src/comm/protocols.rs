@@ -13,7 +13,7 @@ impl Protocols {
     /// None.
     pub const NONE: Self = Protocols(0);
 
-    /// QLink, which slaves by Modbus RTU of H1U and H2U answer besides.
+    /// QLink, which slaves by Modbus RTU of H1U and H2U also answer.
     pub const QLINK: Self = Protocols(1 << 31);
 
     /// Those of links that PLCs keep up by themselves.
