@@ -128,7 +128,13 @@ impl Lowerer<'_> {
                         && device.number <= number
                         && device.number + 32 > number
                 }
-                _ => false,
+                OperandKind::WordBit(..)
+                | OperandKind::Decimal(..)
+                | OperandKind::Hex(..)
+                | OperandKind::Float(_)
+                | OperandKind::Text(_)
+                | OperandKind::Buffer { .. }
+                | OperandKind::Unreadable(_) => false,
             };
             let instrs = self.resolved.program.instrs.iter();
             let mut operands = instrs.flat_map(|instr| &instr.operands);
@@ -210,7 +216,15 @@ fn writes(instr: &Instr, register: u32) -> Written {
                 && device.number >= rungc_rt::FIRST_SPECIAL
                 && near.contains(&device.number)
         }
-        _ => false,
+        OperandKind::Device(..)
+        | OperandKind::WordBit(..)
+        | OperandKind::Nibbles(..)
+        | OperandKind::Decimal(..)
+        | OperandKind::Hex(..)
+        | OperandKind::Float(_)
+        | OperandKind::Text(_)
+        | OperandKind::Buffer { .. }
+        | OperandKind::Unreadable(_) => false,
     });
     match reaches {
         true => Written::Anything,
