@@ -6,11 +6,11 @@ mod common;
 use common::running::Run;
 use common::{folder, rungc, text};
 use serial2::SerialPort;
-use std::io::{Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::process::{Child, Command};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// COM1 is a Modbus slave, RTU, station 1, 9600 bit/s, 8 data bits, no parity, 1 stop bit.
 const SLAVE: &str = "\
@@ -64,6 +64,25 @@ fn ask_stream(stream: &mut TcpStream, request: &[u8], length: usize) -> Vec<u8> 
 }
 
 /// A gateway that is restarted: the line is connected again, and each change is reported once.
+/// The next client of a socket, which has to come soon.
+fn accepted(listener: &TcpListener) -> TcpStream {
+    listener.set_nonblocking(true).unwrap();
+    let limit = Instant::now() + Duration::from_secs(60);
+    loop {
+        match listener.accept() {
+            Ok((stream, _)) => {
+                stream.set_nonblocking(false).unwrap();
+                return stream;
+            }
+            Err(error) if error.kind() == ErrorKind::WouldBlock => {
+                assert!(Instant::now() < limit, "nobody has connected");
+                thread::sleep(Duration::from_millis(10));
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
 #[test]
 fn a_vanished_gateway_is_connected_again() {
     let folder = folder(&[("p.il", SLAVE.as_bytes())]);
@@ -72,13 +91,13 @@ fn a_vanished_gateway_is_connected_again() {
     let line = format!("COM1=tcp:{address}");
     let run = Run::start(folder.path(), "h2u", &["--serial", &line]);
     let write_d0 = [1, 6, 0, 0, 0, 5, 0x49, 0xc9];
-    let (mut stream, _) = listener.accept().unwrap();
+    let mut stream = accepted(&listener);
     assert_eq!(ask_stream(&mut stream, &write_d0, 8), write_d0);
     drop((stream, listener));
     // Long enough for several attempts in vain.
     thread::sleep(Duration::from_millis(1500));
     let listener = TcpListener::bind(address).unwrap();
-    let (mut stream, _) = listener.accept().unwrap();
+    let mut stream = accepted(&listener);
     let read_d2 = [1, 3, 0, 2, 0, 1, 0x25, 0xca];
     assert_eq!(ask_stream(&mut stream, &read_d2, 7)[..5], [1, 3, 2, 0, 5]);
     let said = run.said();

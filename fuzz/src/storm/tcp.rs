@@ -123,7 +123,7 @@ fn bad(server: &Server, random: &mut Random) -> Bytes {
 pub fn run(server: &Server, frames: usize, seed: u64) -> Outcome {
     let mut plc = Plc::new(module(ModelId::H2u, 0, "LD M8000\nOUT M0\nEND\n"), 0);
     let mut random = Random::new(seed);
-    let mut wanted = vec![0; COUNT];
+    let mut wanted = [0; COUNT];
     let mut good = Dialogue::new((server.service)());
     // Those that stopped in the middle of a frame, and stay.
     let mut idle = Vec::new();
