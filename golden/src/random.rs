@@ -516,7 +516,7 @@ impl Writer<'_> {
         // Index registers with small values keep indexed operands within reach.
         if self.rng.percent(8) {
             let register = self.rng.pick(&["Z0", "Z1", "V0", "V1"])?;
-            let value = match self.rng.below(16) {
+            let value = match self.rng.below(12) {
                 // From general devices to special ones, and to those that are index registers.
                 0 => 7990 + self.rng.below(50),
                 1 => 8160 + self.rng.below(30),
