@@ -73,7 +73,8 @@ impl Lowerer<'_> {
             let called = &self.port_functions;
             called.iter().any(|function| functions.contains(function))
         };
-        let free = [RtFn::Rs, RtFn::Rs2, RtFn::Usend, RtFn::Urcv];
+        // After UINIT the bits of HM's control word send and receive without further instructions.
+        let free = [RtFn::Rs, RtFn::Rs2, RtFn::Usend, RtFn::Urcv, RtFn::Uinit];
         let mut unused = Protocols::NONE;
         if !calls(&free) {
             unused = unused.or(Protocols::of(&[Protocol::Free]));
