@@ -75,7 +75,7 @@ fn accepted(listener: &TcpListener) -> TcpStream {
                 return stream;
             }
             Err(error) if error.kind() == ErrorKind::WouldBlock => {
-                assert!(Instant::now() < limit, "nobody has connected");
+                assert!(Instant::now() < limit, "no client has connected");
                 thread::sleep(Duration::from_millis(10));
             }
             Err(error) => panic!("{error}"),
