@@ -67,11 +67,11 @@ impl Grid {
         self.downs[row * (self.columns + 1) + boundary]
     }
 
-    /// What starts at a cell.
-    pub fn at(&self, row: usize, column: usize) -> Option<Placed> {
-        let key = |placed: &Placed| (placed.row, placed.column);
-        let found = self.placed.binary_search_by_key(&(row, column), key);
-        found.ok().map(|i| self.placed[i])
+    /// What lies on a row, from left to right.
+    pub fn row(&self, row: usize) -> &[Placed] {
+        let start = self.placed.partition_point(|placed| placed.row < row);
+        let rest = &self.placed[start..];
+        &rest[..rest.partition_point(|placed| placed.row == row)]
     }
 }
 

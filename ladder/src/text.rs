@@ -128,14 +128,9 @@ impl Page<'_> {
             .map(|of| of.step.to_string());
         let mut step = step.unwrap_or_default();
         for row in 0..grid.rows {
-            let placed: Vec<Placed> = grid
-                .placed
-                .iter()
-                .copied()
-                .filter(|placed| placed.row == row)
-                .collect();
+            let placed = grid.row(row);
             let mut names = self.blank(grid, |boundary| row > 0 && grid.down(row - 1, boundary));
-            for placed in &placed {
+            for placed in placed {
                 let name = self.face.name(placed.cell);
                 names.center(
                     self.column(placed.column) + 1,
@@ -153,7 +148,7 @@ impl Page<'_> {
                 let _ = writeln!(out, "{}{}", self.lead(number, label), names.text());
             }
             let lead = self.lead("", &std::mem::take(&mut step));
-            let _ = writeln!(out, "{lead}{}", self.wires(grid, row, &placed).text());
+            let _ = writeln!(out, "{lead}{}", self.wires(grid, row, placed).text());
             let comments: Vec<Vec<String>> = placed
                 .iter()
                 .map(|placed| self.face.comment(*placed))
