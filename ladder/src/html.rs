@@ -4,6 +4,7 @@
 use crate::face::device_of;
 use crate::network::Ladder;
 use crate::svg::Painter;
+use quick_xml::escape::escape;
 use rungc_analysis::resolve::Resolved;
 use rungc_syntax::Device;
 use rungc_syntax::text::one_line;
@@ -142,16 +143,6 @@ struct Escaped<'a>(&'a str);
 
 impl fmt::Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        for character in one_line(self.0).chars() {
-            match character {
-                '&' => f.write_str("&amp;")?,
-                '<' => f.write_str("&lt;")?,
-                '>' => f.write_str("&gt;")?,
-                '"' => f.write_str("&quot;")?,
-                '\'' => f.write_str("&#39;")?,
-                character => f.write_char(character)?,
-            }
-        }
-        Ok(())
+        f.write_str(&escape(one_line(self.0)))
     }
 }
