@@ -216,7 +216,7 @@ pub struct Plan {
     #[arg(long, value_name = "ARG", allow_hyphen_values = true)]
     pub cargo_arg: Vec<String>,
     /// Folder (c, rust, lib) or file (bin, elf, ir) to write; for ir the default is standard output. With several programs, a
-    /// folder for all outputs, each under its program's name.
+    /// folder for all outputs, each under its program's name; in c they share headers, the runtime and a Makefile there.
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
     /// Name of the program in the emitted code. Default: derived from the file's name.

@@ -1,5 +1,6 @@
 //! Puts units into files.
 
+use crate::makefile::{self, Recipe};
 use crate::unit::{self, Unit};
 use crate::{
     Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, access, board, header,
@@ -24,15 +25,96 @@ fn banner(module: &Module, file: &str) -> String {
     )
 }
 
-/// The files of one program.
-pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
-    let unit = unit::unit(module, false);
+/// A program of a firmware: its own files, and what they need of those that all programs share.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its own files.
+    files: Vec<OutFile>,
+    /// What is built of them.
+    recipe: Recipe,
+}
+
+impl Part {
+    /// Emits a program. The same module gives the same bytes.
+    pub fn new(module: &Module, options: &Options) -> Part {
+        let unit = unit::unit(module, false);
+        let name = &module.name;
+        let shared = Shared {
+            runtime: unit.runtime,
+            board: options.board || module.takes_events(),
+            access: options.access,
+        };
+        let mut recipe = Recipe {
+            name: name.clone(),
+            folder: String::new(),
+            sources: Vec::new(),
+            headers: own_headers(name, shared, unit.groups.len() > 1),
+            main: options.main,
+            shared,
+        };
+        let mut files = own_files(module, unit, &mut recipe.sources);
+        let named = |path: &str, text: String| {
+            let banner = banner(module, path);
+            OutFile::new(path, format!("/* {banner} */\n{text}"))
+        };
+        if shared.board {
+            let path = format!("{name}_board.c");
+            files.push(named(&format!("{name}_board.h"), board::header(module)));
+            files.push(named(&path, board::source(module, shared.runtime)));
+            recipe.sources.push(path);
+        }
+        if shared.access {
+            let path = format!("{name}_access.c");
+            files.push(named(&format!("{name}_access.h"), access::header(module)));
+            files.push(named(&path, access::source(module)));
+            recipe.sources.push(path);
+        }
+        if options.main {
+            files.push(OutFile::new("main.c", crate::host::main_file(module)));
+            recipe.sources.push("main.c".to_string());
+        }
+        Part { files, recipe }
+    }
+
+    /// All files of a program that shares with no other.
+    pub fn alone(self) -> Vec<OutFile> {
+        let mut files = self.files;
+        files.extend(self.recipe.shared.files());
+        let makefile = makefile::makefile(&[self.recipe]);
+        files.push(OutFile::new("Makefile", makefile));
+        files
+    }
+
+    /// Its own files, to be written into this folder beside the files that [`together`] makes of the recipes.
+    pub fn inside(self, folder: &str) -> (Vec<OutFile>, Recipe) {
+        let recipe = Recipe {
+            folder: format!("{folder}/"),
+            ..self.recipe
+        };
+        (self.files, recipe)
+    }
+}
+
+/// What programs in separate folders share: headers, the runtime's sources, and the Makefile that builds them all.
+pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
+    let needed = |what: fn(&Shared) -> bool| recipes.iter().any(|recipe| what(&recipe.shared));
+    let shared = Shared {
+        runtime: needed(|shared| shared.runtime),
+        board: needed(|shared| shared.board),
+        access: needed(|shared| shared.access),
+    };
+    let mut files = shared.files();
+    files.push(OutFile::new("Makefile", makefile::makefile(recipes)));
+    files
+}
+
+/// The header and the sources of a program, whose paths join `sources`.
+fn own_files(module: &Module, unit: Unit, sources: &mut Vec<String>) -> Vec<OutFile> {
     let name = &module.name;
     let mut files = vec![OutFile::new(
         format!("{name}.h"),
         header_file(module, &unit),
     )];
-    let mut sources = Vec::new();
     let several = unit.groups.len() > 1;
     if several {
         let banner = banner(module, &format!("{name}_internal.h"));
@@ -63,47 +145,19 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         sources.push(path.clone());
         files.push(OutFile::new(path, text));
     }
-    let wired = options.board || module.takes_events();
-    let named = |path: &str, text: String| {
-        let banner = banner(module, path);
-        OutFile::new(path, format!("/* {banner} */\n{text}"))
-    };
-    if wired {
-        let path = format!("{name}_board.c");
-        files.push(named(&format!("{name}_board.h"), board::header(module)));
-        files.push(named(&path, board::source(module, unit.runtime)));
-        sources.push(path);
-    }
-    if options.access {
-        let path = format!("{name}_access.c");
-        files.push(named(&format!("{name}_access.h"), access::header(module)));
-        files.push(named(&path, access::source(module)));
-        files.push(OutFile::new("rungc_access.h", RUNGC_ACCESS_H));
-        sources.push(path);
-    }
-    files.extend(shared(unit.runtime, wired));
-    if options.main {
-        files.push(OutFile::new("main.c", crate::host::main_file(module)));
-        sources.push("main.c".to_string());
-    }
-    let mut headers = format!("{name}.h rungc.h");
-    if unit.runtime || wired {
-        headers.push_str(" rungc_rt.h");
-    }
-    if wired {
-        let _ = write!(headers, " {name}_board.h rungc_board.h");
-    }
-    if options.access {
-        let _ = write!(headers, " {name}_access.h rungc_access.h");
-    }
-    if several {
-        let _ = write!(headers, " {name}_internal.h");
-    }
-    files.push(OutFile::new(
-        "Makefile",
-        makefile(name, &sources, &headers, options.main, unit.runtime),
-    ));
     files
+}
+
+/// The headers of a program that are not shared.
+fn own_headers(name: &str, shared: Shared, several: bool) -> Vec<String> {
+    let kinds = [
+        (true, ""),
+        (shared.board, "_board"),
+        (shared.access, "_access"),
+        (several, "_internal"),
+    ];
+    let there = kinds.into_iter().filter(|(there, _)| *there);
+    there.map(|(_, kind)| format!("{name}{kind}.h")).collect()
 }
 
 fn header_file(module: &Module, unit: &Unit) -> String {
@@ -155,22 +209,49 @@ fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
     )
 }
 
-/// What all programs share: rungc.h, the header of boards for those that take events, and if the runtime library is needed its sources.
-/// Its header has the types that describe a board, too.
-fn shared(runtime: bool, board: bool) -> Vec<OutFile> {
-    let mut files = vec![OutFile::new("rungc.h", stamped(RUNGC_H, "RUNGC_H"))];
-    if runtime || board {
-        let header = runtime_header();
-        files.push(OutFile::new("rungc_rt.h", stamped(&header, "RUNGC_RT_H")));
+/// What programs need beside their own files.
+#[derive(Clone, Copy, Debug)]
+pub struct Shared {
+    /// The runtime library: its header and its sources.
+    pub runtime: bool,
+    /// What describes a board; its types are in the runtime's header, too.
+    pub board: bool,
+    /// Devices by number and by name.
+    pub access: bool,
+}
+
+impl Shared {
+    /// The headers.
+    pub fn headers(self) -> impl Iterator<Item = &'static str> {
+        let kinds = [
+            (true, "rungc.h"),
+            (self.runtime || self.board, "rungc_rt.h"),
+            (self.board, "rungc_board.h"),
+            (self.access, "rungc_access.h"),
+        ];
+        let there = kinds.into_iter().filter(|(there, _)| *there);
+        there.map(|(_, header)| header)
     }
-    if board {
-        files.push(OutFile::new("rungc_board.h", RUNGC_BOARD_H.to_string()));
+
+    /// The headers, and the runtime's sources.
+    fn files(self) -> Vec<OutFile> {
+        let header = |path| {
+            let text = match path {
+                "rungc.h" => stamped(RUNGC_H, "RUNGC_H"),
+                "rungc_rt.h" => stamped(&runtime_header(), "RUNGC_RT_H"),
+                "rungc_board.h" => RUNGC_BOARD_H.to_string(),
+                _ => RUNGC_ACCESS_H.to_string(),
+            };
+            OutFile::new(path, text)
+        };
+        let mut files: Vec<OutFile> = self.headers().map(header).collect();
+        if self.runtime {
+            let sources = rungc_runtime_sources::library::sources().into_iter();
+            files
+                .extend(sources.map(|(path, text)| OutFile::new(format!("rungc-rt/{path}"), text)));
+        }
+        files
     }
-    if runtime {
-        let sources = rungc_runtime_sources::library::sources().into_iter();
-        files.extend(sources.map(|(path, text)| OutFile::new(format!("rungc-rt/{path}"), text)));
-    }
-    files
 }
 
 /// The header of the runtime library with serial ports and the prototypes of all instructions.
@@ -209,72 +290,14 @@ fn runtime_header() -> String {
     RUNGC_RT_H.replace("/* INSTRUCTIONS */\n", &prototypes)
 }
 
-/// Where the runtime library is; `make` wants to know it before the first rule that needs it.
-const LIBRARY_PATH: &str = "\
-# The runtime library: `make TARGET=thumbv7em-none-eabihf CC=arm-none-eabi-gcc` for a microcontroller (rustup target add ...).
-# It is built from the sources in rungc-rt, without a network; RUNGC_RT=path/to/librungc_rt.a names one that is built already.
-CARGO ?= cargo
-ifdef TARGET
-TARGET_FLAG = --target $(TARGET)
-endif
-# The crates of a standard library that cargo builds itself (-Zbuild-std) may come from the registry.
-OFFLINE ?= $(if $(CARGO_UNSTABLE_BUILD_STD)$(findstring build-std,$(CARGOFLAGS)),,--offline)
-RUNTIME_OPT ?= $(if $(TARGET),s,3)
-LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a)
-";
-
-/// How it is built.
-const LIBRARY_RULE: &str = "\
-ifndef RUNGC_RT
-$(LIBRARY): $(shell find rungc-rt/src rungc-rt/libm -name '*.rs') rungc-rt/Cargo.toml
-\tcd rungc-rt && CARGO_PROFILE_RELEASE_OPT_LEVEL=$(RUNTIME_OPT) $(CARGO) rustc --release --locked $(OFFLINE) --target-dir target \\
-\t\t--crate-type staticlib --features staticlib $(TARGET_FLAG) $(CARGOFLAGS)
-endif
-
-";
-
-/// A Makefile that builds an executable, or without a `main.c` a library of the program's objects.
-fn makefile(name: &str, sources: &[String], headers: &str, main: bool, runtime: bool) -> String {
-    let objects: Vec<String> = sources.iter().map(|s| s.replace(".c", ".o")).collect();
-    let target = if main {
-        name.to_string()
-    } else {
-        format!("lib{name}.a")
-    };
-    let library = if runtime { " $(LIBRARY)" } else { "" };
-    let what = match (main, runtime) {
-        (false, true) => format!(
-            "{target} and $(LIBRARY), both to be linked with your firmware (-Wl,--gc-sections)"
-        ),
-        _ => target.clone(),
-    };
-    let link = match main {
-        true => format!(
-            "{target}: $(OBJECTS){library}\n\t$(CC) $(CFLAGS) -o $@ $(OBJECTS){library} $(LDFLAGS)"
-        ),
-        false => format!("{target}: $(OBJECTS)\n\t$(AR) rcs $@ $(OBJECTS)"),
-    };
-    format!(
-        "# `make` builds {what}; `make CC=arm-none-eabi-gcc CFLAGS=...` builds for another machine.\n\
-         CFLAGS ?= -std=c99 -O2 -Wall -Wextra -Wconversion -pedantic -ffunction-sections -fdata-sections\n\
-         LDFLAGS ?= -Wl,--gc-sections\n\
-         OBJECTS = {}\n{}\nall: {target}{library}\n\n{}{link}\n\n$(OBJECTS): {headers}\n\n\
-         clean:\n\trm -rf $(OBJECTS) {target}{}\n\n.PHONY: all clean\n",
-        objects.join(" "),
-        if runtime { LIBRARY_PATH } else { "" },
-        if runtime { LIBRARY_RULE } else { "" },
-        if runtime { " rungc-rt/target" } else { "" },
-    )
-}
-
 /// A source file of a batch and its header.
 #[derive(Default)]
-struct Part {
+struct Batched {
     api: String,
     source: String,
 }
 
-impl Part {
+impl Batched {
     /// Its files.
     fn files(self, number: usize) -> [OutFile; 2] {
         let header = format!("cases_{number}.h");
@@ -320,7 +343,7 @@ fn batch_entry(i: usize, module: &Module, functions: &mut String, entries: &mut 
 
 /// The files of a program that holds all modules, for tests.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
-    let mut parts: Vec<Part> = Vec::new();
+    let mut parts: Vec<Batched> = Vec::new();
     let (mut functions, mut entries, mut memory) = (String::new(), String::new(), String::new());
     for (i, module) in modules.iter().enumerate() {
         let module = Module {
@@ -334,7 +357,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         let length: usize =
             unit.internal.len() + unit.groups.iter().map(String::len).sum::<usize>();
         if size.saturating_add(length) > BATCH_FILE {
-            parts.push(Part::default());
+            parts.push(Batched::default());
         }
         if let Some(part) = parts.last_mut() {
             part.api.push_str(&unit.api);
@@ -365,10 +388,22 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         .replace("/* CASES */\n", &functions)
         .replace("    /* ENTRIES */\n", &entries);
     files.push(OutFile::new("main.c", main));
-    files.extend(shared(true, false));
-    let headers = format!("{} rungc.h rungc_rt.h", headers.join(" "));
-    let makefile = makefile("batch", &sources, &headers, true, true);
-    files.push(OutFile::new("Makefile", makefile + MAIN_RULE));
+    let shared = Shared {
+        runtime: true,
+        board: false,
+        access: false,
+    };
+    files.extend(shared.files());
+    let recipe = Recipe {
+        name: "batch".to_string(),
+        folder: String::new(),
+        sources,
+        headers,
+        main: true,
+        shared,
+    };
+    let makefile = makefile::makefile(&[recipe]) + MAIN_RULE;
+    files.push(OutFile::new("Makefile", makefile));
     files
 }
 

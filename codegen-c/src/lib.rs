@@ -2,7 +2,7 @@
 //!
 //! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all programs share, only if
 //! the program calls the runtime, the runtime's sources, and if it takes events or it is asked for, the wiring between it and a board.
-//! [`batch`] makes one executable of many programs, for tests.
+//! [`Part`] and [`together`] do the same for several programs of one firmware; [`batch`] makes one executable of many programs, for tests.
 //!
 //! `rungc_emit` decides on the fields of the program's struct, on its functions and on where temporaries live. What is done here is to
 //! print that: `fields` the struct's fields, `writer` and `expr` statements and expressions; `unit` puts it all together.
@@ -21,6 +21,7 @@ mod files;
 mod header;
 mod helpers;
 mod host;
+mod makefile;
 mod members;
 mod page;
 mod reads;
@@ -33,6 +34,8 @@ mod text;
 mod unit;
 mod writer;
 
+pub use files::{Part, together};
+pub use makefile::Recipe;
 pub use members::Members;
 pub use rungc_emit::OutFile;
 pub use rungc_emit::storage::{Memory, memory};
@@ -69,5 +72,5 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
 
 /// Emits a program. The same module gives the same bytes.
 pub fn emit(module: &Module, options: &Options) -> Vec<OutFile> {
-    files::program(module, options)
+    Part::new(module, options).alone()
 }

@@ -1,14 +1,25 @@
 //! Emitted sources that build for a target as they are.
 
 use crate::target::Target;
-pub use rungc_codegen_c::Options;
+pub use rungc_codegen_c::{Options, Part, Recipe};
 use rungc_emit::OutFile;
 use rungc_ir::Module;
 use rungc_runtime_sources::library::Optimise;
 
 /// A folder of C whose `make` builds for the target.
 pub fn c(module: &Module, target: &Target, options: &Options) -> Vec<OutFile> {
-    let files = rungc_codegen_c::emit(module, options).into_iter();
+    for_target(rungc_codegen_c::emit(module, options), target)
+}
+
+/// What programs in separate folders share: headers, the runtime's sources, and the Makefile that builds them all for
+/// the target.
+pub fn c_together(recipes: &[Recipe], target: &Target) -> Vec<OutFile> {
+    for_target(rungc_codegen_c::together(recipes), target)
+}
+
+/// The same files with a Makefile for the target.
+fn for_target(files: Vec<OutFile>, target: &Target) -> Vec<OutFile> {
+    let files = files.into_iter();
     files
         .map(|f| match (f.path.as_str(), target.rustc_name()) {
             ("Makefile", Some(triple)) => {

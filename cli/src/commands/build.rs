@@ -2,6 +2,7 @@
 
 use super::setting::setting;
 use super::subject::{self, OutputPaths, Subject};
+use super::together::{Place, Together};
 use super::{
     Context, Failure, Outcome, Result, Verbosity, conclude, counted, defaults, file_name, findings,
     interruption, parent_dir, plain, ports, read, say, stem, tell, write_executable, write_file,
@@ -27,14 +28,17 @@ use std::path::{Path, PathBuf};
 pub fn run(args: &BuildArgs, cx: Context) -> Result {
     interruption::note_for_a_while();
     let mut outputs = OutputPaths::default();
-    subject::each(&args.inputs, cx, |subject, reporter| {
+    let mut together = Together::default();
+    let outcome = subject::each(&args.inputs, cx, |subject, reporter| {
         if reporter.many() && args.plan.name.is_some() {
             let why = "--name: several programs cannot have the same name";
             return Err(Failure::Because(why.to_string()));
         }
         let plan = defaults::plan(&args.plan, subject)?;
-        build(&plan, subject, reporter, &mut outputs, cx)
-    })
+        build(&plan, subject, reporter, &mut outputs, &mut together, cx)
+    })?;
+    together.write(cx)?;
+    Ok(outcome)
 }
 
 fn build(
@@ -42,6 +46,7 @@ fn build(
     subject: &Subject,
     reporter: &mut Reporter,
     outputs: &mut OutputPaths,
+    together: &mut Together,
     cx: Context,
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
@@ -71,7 +76,12 @@ fn build(
             module.name
         ));
     }
-    let name = file_name(&name, &module.name);
+    let shares = reporter.many() && plan.shares();
+    let name = match shares {
+        // What a Makefile takes as it is.
+        true => module.name.clone(),
+        false => file_name(&name, &module.name),
+    };
     let job = Job {
         cx,
         name: &name,
@@ -81,6 +91,7 @@ fn build(
         image: image.as_ref(),
     };
     let written = match plan.emit {
+        Some(_) if shares => Some(job.share(together)?),
         Some(what) => job.emit(what)?,
         None => None,
     };
@@ -114,6 +125,11 @@ fn build(
 }
 
 impl Plan {
+    /// Whether several programs come into one folder, where they share headers, the runtime's sources and a Makefile.
+    fn shares(&self) -> bool {
+        self.emit == Some(Emit::C) && self.output.is_some() && self.board.is_none()
+    }
+
     /// The plan for one program: among several, each has a separate output path.
     fn at(
         &self,
@@ -362,6 +378,22 @@ impl Job<'_> {
         Ok(Some(path))
     }
 
+    /// Writes the program beside those that it shares files with.
+    fn share(&self, together: &mut Together) -> Built<PathBuf> {
+        let path = self.output(Emit::C);
+        let place = Place {
+            folder: parent_dir(&path).to_owned(),
+            target: self.target,
+            force: self.plan.force,
+        };
+        let shared = together.at(place)?;
+        let part = sources::Part::new(self.module, &self.options(self.plan.main));
+        let (files, recipe) = part.inside(self.name);
+        let path = self.folder(Emit::C, || Ok(bytes(files)))?;
+        shared.push(recipe);
+        Ok(path)
+    }
+
     fn ir(&self) -> Built<Option<PathBuf>> {
         let text = dump::dump(self.module);
         match &self.plan.output {
@@ -442,7 +474,7 @@ fn bytes(files: Vec<OutFile>) -> Vec<OutFile<Vec<u8>>> {
 }
 
 /// Rejects a file that is there before a long build, unless it may be replaced.
-fn vacant(path: &Path, force: bool) -> std::result::Result<(), Failure> {
+pub(super) fn vacant(path: &Path, force: bool) -> std::result::Result<(), Failure> {
     match path.exists() && !force {
         true => Err(Failure::Because(format!(
             "{} already exists; use --force to overwrite",

@@ -15,6 +15,7 @@ pub mod serve;
 pub mod setting;
 pub mod subject;
 pub mod test;
+mod together;
 mod unproven;
 pub mod view;
 

@@ -1,6 +1,6 @@
 //! Tools for another machine that tests need. Without them a test says what is missing and that it did not run; with
 //! `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a failure.
-#![allow(dead_code, reason = "not every test needs all of it")]
+#![allow(dead_code, unused_imports, reason = "not every test needs all of it")]
 
 pub use rungc_sim::engines::cortex_m::{cargo, no_rust};
 use std::process::Command;
