@@ -98,11 +98,12 @@ pub fn source(module: &Module) -> String {
             &member,
         );
     }
-    for &(number, class, index) in module.model.index_aliases {
+    for alias in module.model.index_aliases {
         let mut place = String::new();
-        if class != DeviceClass::D && storage.access(&mut place, class, index) {
+        if alias.class != DeviceClass::D && storage.access(&mut place, alias.class, alias.index) {
             let member = place.trim_start_matches("plc->");
             let area = (DeviceClass::D, kind(Kind::Word));
+            let number = alias.register.number();
             row(&mut out, name, area, &format!("{number}, 1, 1, 1"), member);
         }
     }

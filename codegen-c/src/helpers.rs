@@ -317,12 +317,15 @@ impl Printer<'_> {
         let runs = reach::by_index(self.module, class);
         let aliases = self.module.model.index_aliases.iter();
         aliases
-            .filter(|(number, ..)| runs.iter().any(|run| (run.0..=run.1).contains(number)))
-            .filter_map(|&(number, class, index)| {
+            .filter(|alias| {
+                runs.iter()
+                    .any(|&(first, last)| alias.is_within(first, last))
+            })
+            .filter_map(|alias| {
                 let mut name = String::new();
-                let stored = self.fields.access(&mut name, class, index);
+                let stored = self.fields.access(&mut name, alias.class, alias.index);
                 stored.then_some((
-                    number,
+                    alias.register.number(),
                     Device {
                         name,
                         kind: Kind::Word,

@@ -105,8 +105,11 @@ fn tables(out: &mut String, layout: &mut Vec<String>, module: &Module, fields: &
         .collect();
     let aliases = module.model.index_aliases.iter();
     let aliases: Vec<String> = aliases
-        .filter(|(_, class, index)| fields.find(*class, *index).is_some())
-        .map(|(number, class, index)| format!("{{{number}, {}, {index}}}", class_name(*class)))
+        .filter(|alias| fields.find(alias.class, alias.index).is_some())
+        .map(|alias| {
+            let (number, class) = (alias.register.number(), class_name(alias.class));
+            format!("{{{number}, {class}, {}}}", alias.index)
+        })
         .collect();
     let texts = module.texts.iter().map(|text| {
         let literal = text::string_literal(text);

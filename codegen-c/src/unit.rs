@@ -375,7 +375,8 @@ impl Printer<'_> {
     /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all others.
     fn preset(&self, out: &mut String, latched: bool) {
         let module = self.module;
-        for &(number, value) in &module.initial_words {
+        for &(register, value) in &module.initial_words {
+            let number = register.number();
             let device = self.stored(DeviceClass::D, number);
             if let Some(device) =
                 device.filter(|_| module.is_latched(DeviceClass::D, number) == latched)
@@ -383,7 +384,8 @@ impl Printer<'_> {
                 let _ = writeln!(out, "    {device} = {value};");
             }
         }
-        for &number in &module.initial_bits {
+        for &relay in &module.initial_bits {
+            let number = relay.number();
             let device = self.stored(DeviceClass::M, number);
             if let Some(device) =
                 device.filter(|_| module.is_latched(DeviceClass::M, number) == latched)

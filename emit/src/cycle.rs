@@ -106,18 +106,12 @@ pub fn latches(module: &Module, storage: &Storage) -> Latches {
     let Some((register, key)) = module.model.latch_key else {
         return Latches::Kept;
     };
-    let register = register.number();
-    if storage.find(DeviceClass::D, register).is_some() {
-        return Latches::KeptIf(register, key);
-    }
-    let mut words = module.model.special_words();
-    let at_power_on = words
-        .find(|word| word.0 == register)
-        .map_or(0, |word| word.1);
-    if at_power_on == key {
+    if is_stored(storage, register) {
+        Latches::KeptIf(register.number(), key)
+    } else if module.model.word_at_power_on(register) == key {
         Latches::Kept
     } else {
-        Latches::Lost(register, key)
+        Latches::Lost(register.number(), key)
     }
 }
 

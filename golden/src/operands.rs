@@ -139,8 +139,8 @@ fn operand(rng: &mut Rng, param: &Param, form: Form, model: &Model) -> Option<St
 /// A special register that is another name of an index register, or precedes one.
 pub fn special_register(rng: &mut Rng, model: &Model) -> u32 {
     let aliases = model.index_aliases;
-    let first = aliases[rng.below(aliases.len() as u32) as usize].0;
-    first - rng.below(4).saturating_sub(1)
+    let first = aliases[rng.below(aliases.len() as u32) as usize].register;
+    first.number() - rng.below(4).saturating_sub(1)
 }
 
 /// The first 32-bit counter of a model.

@@ -558,7 +558,7 @@ mod tests {
             let aliases = Model::get(model).index_aliases;
             let named = |operand: &&str| {
                 let number = operand.strip_prefix('D').and_then(|n| n.parse().ok());
-                aliases.iter().any(|alias| Some(alias.0) == number)
+                aliases.iter().any(|alias| Some(alias.register.0) == number)
             };
             let special = |operand: &&str| operand.starts_with("D8") && operand.len() == 5;
             let indexed = |operand: &&str| operand.starts_with('M') && operand.contains(['Z', 'V']);

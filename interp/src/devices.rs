@@ -2,7 +2,7 @@
 
 use rungc_ir::Module;
 use rungc_models::Range;
-use rungc_models::runs::is_special;
+use rungc_models::runs::{IndexAlias, is_special};
 use rungc_rt::{Class, Counter16, Counter32, FIRST_COUNTER32, FIRST_SPECIAL, Timer};
 use rungc_syntax::DeviceClass;
 
@@ -135,8 +135,8 @@ pub(crate) struct Devices {
     timers: Bank<Timer>,
     counters16: Bank<Counter16>,
     counters32: Bank<Counter32>,
-    /// Other names of index registers among the special registers: (D number, class, number).
-    aliases: &'static [(u32, DeviceClass, u32)],
+    /// Other names of index registers among the special registers.
+    aliases: &'static [IndexAlias],
 }
 
 impl Devices {
@@ -158,11 +158,11 @@ impl Devices {
     /// The device that a word device's name stands for.
     fn canonical(&self, class: Class, number: u32) -> (Class, u32) {
         if class == Class::D && number >= FIRST_SPECIAL {
-            let alias = self.aliases.iter().find(|(d, ..)| *d == number);
-            if let Some(&(_, class, number)) = alias
-                && let Some(class) = rt_class(class)
+            let mut aliases = self.aliases.iter();
+            if let Some(alias) = aliases.find(|alias| alias.register.number() == number)
+                && let Some(class) = rt_class(alias.class)
             {
-                return (class, number);
+                return (class, alias.index);
             }
         }
         (class, number)

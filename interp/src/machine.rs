@@ -130,13 +130,15 @@ impl<'m> Machine<'m> {
     /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all others.
     fn preset(&mut self, latched: bool) {
         let module = self.module;
-        for (number, value) in module.model.special_words() {
+        for (register, value) in module.model.special_words() {
+            let number = register.number();
             if module.is_latched(DeviceClass::D, number) == latched {
                 // A model's table names only devices that it has.
                 let _ = self.set_word(Class::D, number, value);
             }
         }
-        for number in module.model.special_bits() {
+        for relay in module.model.special_bits() {
+            let number = relay.number();
             if module.is_latched(DeviceClass::M, number) == latched {
                 let _ = self.set_bit(Class::M, number, true);
             }

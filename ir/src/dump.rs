@@ -34,7 +34,8 @@ pub fn dump(module: &Module) -> String {
         }
         out.line(&line);
     }
-    for &(number, value) in &module.initial_words {
+    for &(register, value) in &module.initial_words {
+        let number = register.number();
         out.line(&format!("D{number} begins as {value}"));
     }
     for function in &module.functions {

@@ -201,10 +201,11 @@ impl<'m> Builder<'m> {
         if class != DeviceClass::D {
             return;
         }
-        for &(alias, class, index) in self.module.model.index_aliases {
-            if (number as usize..end).contains(&(alias as usize)) {
-                self.marks[DeviceClass::D as usize][alias as usize] = 0;
-                self.marks[class as usize][index as usize] |= STORED;
+        for alias in self.module.model.index_aliases {
+            let register = alias.register.number() as usize;
+            if (number as usize..end).contains(&register) {
+                self.marks[DeviceClass::D as usize][register] = 0;
+                self.marks[alias.class as usize][alias.index as usize] |= STORED;
             }
         }
     }

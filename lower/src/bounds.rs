@@ -144,7 +144,6 @@ fn size(model: &Model, class: DeviceClass, (first, last): (u32, u32)) -> u64 {
         C => 4,
         D | R | ER | V | Z | P | I | N => 2,
     };
-    let aliases = model.index_aliases.iter();
-    let aliases = aliases.filter(|a| class == DeviceClass::D && (first..=last).contains(&a.0));
+    let aliases = model.aliases_within(class, first, last);
     (u64::from(last - first + 1) - aliases.count() as u64) * each
 }

@@ -6,7 +6,7 @@ use rungc_analysis::resolve::Resolution;
 use rungc_catalogue::{Extent, Form, Lower, Param, Rule, Shape};
 use rungc_ir::node::{Arg, Call, CellId, Expr, ExprId, Place, Stmt, SysValue};
 use rungc_models::runs::{is_counter32, words_of_bits};
-use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, Register, RtFn, Wiring};
+use rungc_rt::{Clear, CmpOp, EdgeKind, Looks, RtFn, Wiring};
 use rungc_syntax::{Device, DeviceClass, Index, Operand, OperandKind, codes};
 use std::borrow::Cow;
 
@@ -183,13 +183,13 @@ impl Lowerer<'_> {
 
     /// The output of a clear signal is stored: all outputs, if the program may choose another one.
     fn use_clear_signal(&mut self, clear: Clear) {
-        let register = clear.register.map(Register::number);
         if clear.register.is_some_and(|own| self.specials.has(own)) {
             self.specials.whole.push(DeviceClass::Y);
         }
-        let mut words = self.model.special_words();
-        let chosen = words.find(|word| clear.chooses.is_none() && Some(word.0) == register);
-        let output = chosen.map_or(clear.output, |word| word.1 as u32);
+        let chosen = clear.register.filter(|_| clear.chooses.is_none());
+        let chosen = chosen.map(|register| self.model.word_at_power_on(register));
+        let chosen = chosen.filter(|&output| output != 0);
+        let output = chosen.map_or(clear.output, |output| output as u32);
         self.specials.flags.push((DeviceClass::Y, output));
     }
 

@@ -484,8 +484,7 @@ impl Lowerer<'_> {
         let on = if self.specials.has(relay) {
             self.add(Expr::Read(Access::bit(relay)))
         } else {
-            let on = self.model.special_bits().any(|bit| bit == relay.number());
-            self.bit_const(on)
+            self.bit_const(self.model.is_on_at_power_on(relay))
         };
         match gate {
             Gate::Forbids(_) => self.not(on),

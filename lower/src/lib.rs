@@ -122,12 +122,17 @@ pub fn lower(resolved: &Resolved, options: &LowerOptions) -> (Option<Module>, Di
     module.initial_words = module
         .model
         .special_words()
-        .filter(|&(number, _)| module.layout.area(DeviceClass::D, number).is_some())
+        .filter(|(register, _)| {
+            module
+                .layout
+                .area(DeviceClass::D, register.number())
+                .is_some()
+        })
         .collect();
     module.initial_bits = module
         .model
         .special_bits()
-        .filter(|&number| module.layout.area(DeviceClass::M, number).is_some())
+        .filter(|relay| module.layout.area(DeviceClass::M, relay.number()).is_some())
         .collect();
     debug_assert_eq!(rungc_ir::validate::validate(&module), Ok(()));
     (Some(module), findings)

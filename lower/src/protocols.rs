@@ -96,18 +96,19 @@ impl Lowerer<'_> {
 
     /// All values that a register may have; `None` if they are not known.
     fn values(&self, register: Option<Register>, wanted: &Wanted) -> Option<BTreeSet<u16>> {
-        let Some(register) = register.map(Register::number) else {
+        let Some(register) = register else {
             return Some(BTreeSet::from([0]));
         };
-        if wanted.observes(self.model, DeviceClass::D, register) {
+        let number = register.number();
+        if wanted.observes(self.model, DeviceClass::D, number) {
             return None;
         }
         let initial = self.module.initial_words.iter();
-        let initial = initial.filter(|(number, _)| *number == register);
+        let initial = initial.filter(|(of, _)| *of == register);
         let mut values: BTreeSet<u16> = initial.map(|&(_, value)| value as u16).collect();
         values.insert(0);
         for instr in &self.resolved.program.instrs {
-            match writes(instr, register) {
+            match writes(instr, number) {
                 Written::Nothing => {}
                 Written::Value(value) => {
                     values.insert(value);

@@ -15,6 +15,7 @@ mod shared;
 
 use crate::high_speed::{FastUnits, HighSpeed};
 use crate::interrupts::Interrupts;
+use crate::runs::IndexAlias;
 use crate::special::Special;
 use rungc_rt::{Ports, Pulses, Register, Relay, TimerKind};
 use rungc_syntax::{Classes, DeviceClass};
@@ -238,8 +239,8 @@ pub struct Model {
     /// Parameters of axes that start with a value other than 0, in addition to the output, which is at first an axis' own
     /// ([`rungc_rt::axis_place`]).
     pub axis_defaults: &'static [(u32, i16)],
-    /// Special data registers that are other names of index registers: (number, class, index number), e.g. D8028 is Z0.
-    pub index_aliases: &'static [(u32, DeviceClass, u32)],
+    /// Special data registers that are other names of index registers.
+    pub index_aliases: &'static [IndexAlias],
     /// Its special devices; see [`Model::special`]. Each table is sorted by class and number, and none holds what another holds.
     pub special: &'static [&'static [Special]],
     /// Relays that go off when it goes from RUN to STOP, by their numbers; see [`Model::cleared_in_stop`].

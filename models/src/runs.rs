@@ -1,8 +1,36 @@
 //! Runs of devices: where an index or a block may go without leaving the devices it began in.
 
 use crate::Model;
+use rungc_rt::Register;
 pub use rungc_rt::{FIRST_COUNTER32, FIRST_SPECIAL};
 use rungc_syntax::DeviceClass;
+
+/// A special register that is another name of an index register: D8028 is Z0.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct IndexAlias {
+    /// The special register.
+    pub register: Register,
+    /// V or Z.
+    pub class: DeviceClass,
+    /// Number of the index register.
+    pub index: u32,
+}
+
+impl IndexAlias {
+    /// The special register `number` is another name of this index register.
+    pub(crate) const fn new(number: u16, class: DeviceClass, index: u32) -> Self {
+        IndexAlias {
+            register: Register(number),
+            class,
+            index,
+        }
+    }
+
+    /// Whether its special register is one of D`first` to D`last`.
+    pub fn is_within(&self, first: u32, last: u32) -> bool {
+        (first..=last).contains(&self.register.number())
+    }
+}
 
 /// Whether a run ends before device `number` of `class` although the model has more: the special devices and the 32-bit counters
 /// are separate from the devices before them.
@@ -37,14 +65,24 @@ impl Model {
             return (class, number);
         }
         let mut aliases = self.index_aliases.iter();
-        let alias = aliases.find(|alias| alias.0 == number);
-        alias.map_or((class, number), |&(_, class, number)| (class, number))
+        let alias = aliases.find(|alias| alias.register.number() == number);
+        alias.map_or((class, number), |alias| (alias.class, alias.index))
     }
 
     /// Whether one of the registers `first` to `last` of a class is another name of an index register.
     pub fn has_alias(&self, class: DeviceClass, first: u32, last: u32) -> bool {
-        let mut aliases = self.index_aliases.iter();
-        class == DeviceClass::D && aliases.any(|alias| (first..=last).contains(&alias.0))
+        self.aliases_within(class, first, last).next().is_some()
+    }
+
+    /// Those of the registers `first` to `last` of a class that are other names of index registers.
+    pub fn aliases_within(
+        &self,
+        class: DeviceClass,
+        first: u32,
+        last: u32,
+    ) -> impl Iterator<Item = &'static IndexAlias> + use<> {
+        let aliases = self.index_aliases.iter();
+        aliases.filter(move |alias| class == DeviceClass::D && alias.is_within(first, last))
     }
 
     /// The runs of a class as (first, last), in order: its ranges, general and latched neighbours joined.

@@ -186,24 +186,39 @@ impl Model {
     }
 
     /// Special registers that start with a value other than 0, e.g. D8000 = 200.
-    pub fn special_words(&self) -> impl Iterator<Item = (u32, i16)> + use<> {
+    pub fn special_words(&self) -> impl Iterator<Item = (Register, i16)> + use<> {
+        self.presets(DeviceClass::D)
+            .map(|(number, value)| (Register(number), value))
+    }
+
+    /// Special devices of a class that start with a value other than 0: their numbers, which fit, and the values.
+    fn presets(&self, class: DeviceClass) -> impl Iterator<Item = (u16, i16)> + use<> {
         self.specials()
-            .filter(|row| row.class == DeviceClass::D && row.default != 0)
-            .flat_map(|row| (row.first..=row.last).map(|number| (number, row.default)))
+            .filter(move |row| row.class == class && row.default != 0)
+            .flat_map(|row| (row.first..=row.last).map(|number| (number as u16, row.default)))
+    }
+
+    /// Value of a special register at power-on; 0 of one that has no meaning on the model.
+    pub fn word_at_power_on(&self, register: Register) -> i16 {
+        let row = self.special(DeviceClass::D, register.number());
+        row.map_or(0, |row| row.default)
+    }
+
+    /// Whether a special relay is on at power-on.
+    pub fn is_on_at_power_on(&self, relay: Relay) -> bool {
+        let row = self.special(DeviceClass::M, relay.number());
+        row.is_some_and(|row| row.default != 0)
     }
 
     /// Code of model and version, which D8001 shows; 0 on a model that does not show any.
     pub fn type_code(&self) -> u16 {
-        let mut words = self.special_words();
-        let shown = words.find(|word| word.0 == D_TYPE.number());
-        shown.map_or(0, |word| word.1 as u16)
+        self.word_at_power_on(D_TYPE) as u16
     }
 
     /// Special relays that are on at power-on.
-    pub fn special_bits(&self) -> impl Iterator<Item = u32> + use<> {
-        self.specials()
-            .filter(|row| row.class == DeviceClass::M && row.default != 0)
-            .flat_map(|row| row.first..=row.last)
+    pub fn special_bits(&self) -> impl Iterator<Item = Relay> + use<> {
+        self.presets(DeviceClass::M)
+            .map(|(number, _)| Relay(number))
     }
 
     /// Relays that go off when the model goes from RUN to STOP.
@@ -360,6 +375,7 @@ pub(crate) use specials;
 mod tests {
     use super::{Access, CANLINK, CARDS, MODULES, POWER, RunCommand, Special, Status};
     use crate::{Model, ModelId};
+    use rungc_rt::Register;
     use rungc_syntax::DeviceClass::{self, D, M};
     use std::collections::BTreeSet;
 
@@ -440,7 +456,8 @@ mod tests {
         assert_eq!(of(ModelId::Hm, D, 7142), Some(Status::Inert(MODULES)));
         assert_eq!(of(ModelId::Hm, D, 1000), None);
         let modules: Vec<_> = Model::get(ModelId::Hm).special_words().collect();
-        assert!(modules.contains(&(7143, 60)) && modules.contains(&(7144, 60)));
+        assert!(modules.contains(&(Register(7143), 60)));
+        assert!(modules.contains(&(Register(7144), 60)));
     }
 
     #[test]
@@ -480,9 +497,11 @@ mod tests {
     #[test]
     fn registers_start_with_their_defaults() {
         let words: Vec<_> = Model::get(ModelId::H2u).special_words().collect();
-        assert!(words.contains(&(8000, 200)));
-        assert!(words.contains(&(8002, 24)));
         // 100000 in the pair D8147, D8146.
-        assert!(words.contains(&(8146, -31072)) && words.contains(&(8147, 1)));
+        for (number, value) in [(8000, 200), (8002, 24), (8146, -31072), (8147, 1)] {
+            let register = Register(number);
+            assert!(words.contains(&(register, value)), "{register:?}");
+            assert_eq!(Model::get(ModelId::H2u).word_at_power_on(register), value);
+        }
     }
 }

@@ -222,12 +222,12 @@ impl Generator<'_> {
     /// Special registers that are other names of index registers.
     fn alias_arms(&mut self, set: bool) -> TokenStream {
         let mut out = TokenStream::new();
-        for &(number, class, index) in self.module.model.index_aliases {
-            let Some(cell) = self.storage.word(&quote!(self), class, index) else {
+        for alias in self.module.model.index_aliases {
+            let Some(cell) = self.storage.word(&quote!(self), alias.class, alias.index) else {
                 continue;
             };
             let d = self.class(DeviceClass::D);
-            let number = Literal::u32_unsuffixed(number);
+            let number = Literal::u32_unsuffixed(alias.register.number());
             out.extend(if set {
                 quote!((#d, #number) => #cell = value,)
             } else {

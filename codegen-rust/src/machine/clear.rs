@@ -15,16 +15,17 @@ impl Generator<'_> {
     /// others.
     pub(super) fn preset(&mut self, plc: &TokenStream, latched: bool) -> TokenStream {
         let module = self.module;
-        let bits = module.initial_bits.iter();
-        let bits = bits.filter(|&&number| module.is_latched(DeviceClass::M, number) == latched);
-        let bits = bits.filter_map(|&number| {
+        let bits = module.initial_bits.iter().map(|relay| relay.number());
+        let bits = bits.filter(|&number| module.is_latched(DeviceClass::M, number) == latched);
+        let bits = bits.filter_map(|number| {
             let cell = self.storage.bit(plc, DeviceClass::M, number)?;
             Some(quote!(#cell = true;))
         });
         let words = module.initial_words.iter();
+        let words = words.map(|(register, value)| (register.number(), *value));
         let words = words.filter(|word| module.is_latched(DeviceClass::D, word.0) == latched);
         words
-            .filter_map(|&(number, value)| {
+            .filter_map(|(number, value)| {
                 let cell = self.storage.word(plc, DeviceClass::D, number)?;
                 let value = literal32(i32::from(value), false);
                 Some(quote!(#cell = #value;))

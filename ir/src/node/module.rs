@@ -4,10 +4,10 @@ use super::{Body, CellId, Expr, ExprId, FlagId, Stmt, TableId, TempId, Ty, type_
 use crate::layout::Layout;
 use crate::walk::{calls_runtime, statements};
 use rungc_models::{Model, Range};
-use rungc_rt::EdgeKind;
 use rungc_rt::comm::Protocols;
 use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::special::D_WATCHDOG_MS;
+use rungc_rt::{EdgeKind, Register, Relay};
 use rungc_syntax::{Device, DeviceClass, Index, Span};
 use std::borrow::Cow;
 use typed_index_collections::TiVec;
@@ -170,9 +170,9 @@ pub struct Module {
     /// Stored devices.
     pub layout: Layout,
     /// Special registers' values at power-on, of those stored.
-    pub initial_words: Vec<(u32, i16)>,
+    pub initial_words: Vec<(Register, i16)>,
     /// Special relays that are on at power-on, of those stored.
-    pub initial_bits: Vec<u32>,
+    pub initial_bits: Vec<Relay>,
 }
 
 impl Module {
@@ -293,9 +293,10 @@ impl Module {
 
     /// The watchdog time D8000 at power-on, in milliseconds: that of a program that does not look at D8000.
     pub fn watchdog_ms(&self) -> i16 {
-        let mut words = self.model.special_words();
-        let found = words.find(|&(number, _)| number == D_WATCHDOG_MS.number());
-        found.map_or(WATCHDOG_MS, |(_, ms)| ms)
+        match self.model.word_at_power_on(D_WATCHDOG_MS) {
+            0 => WATCHDOG_MS,
+            ms => ms,
+        }
     }
 
     /// Whether the watchdog may cut a scan short.

@@ -137,13 +137,9 @@ impl Words {
                 mask |= 1 << slot;
             }
         }
-        if class == DeviceClass::D {
-            for &(alias, class, index) in self.model.index_aliases {
-                if (first..=last).contains(&alias)
-                    && let Some(slot) = self.slots.get(&(class, index))
-                {
-                    mask |= 1 << slot;
-                }
+        for alias in self.model.aliases_within(class, first, last) {
+            if let Some(slot) = self.slots.get(&(alias.class, alias.index)) {
+                mask |= 1 << slot;
             }
         }
         mask

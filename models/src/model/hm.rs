@@ -8,10 +8,11 @@ use crate::high_speed::{Axis, Counter, HighSpeed, Kind, PATTERNS, TableMode, cou
 use crate::interrupts::{
     Advanced, AdvancedPointers, Capture, Gate, Interrupt, Interrupts, Precedence, Source, edge,
 };
+use crate::runs::IndexAlias;
 use rungc_rt::axis_place::{ACCELERATION, HIGHEST, UNIT};
 use rungc_rt::{CmpOp, Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
-use rungc_syntax::DeviceClass::{self, C, D, I, M, P, R, S, T, V, Z};
+use rungc_syntax::DeviceClass::{C, D, I, M, P, R, S, T, V, Z};
 
 /// Kewei HM.
 pub(super) const HM: Model = Model {
@@ -262,21 +263,21 @@ const TIMERS: &[Timers] = &[
 ];
 
 /// D8100–D8115: other names of V0–V7 and Z0–Z7 (hm-motion-controller §5.7.2).
-const INDEX_ALIASES: &[(u32, DeviceClass, u32)] = &[
-    (8100, V, 0),
-    (8101, V, 1),
-    (8102, V, 2),
-    (8103, V, 3),
-    (8104, V, 4),
-    (8105, V, 5),
-    (8106, V, 6),
-    (8107, V, 7),
-    (8108, Z, 0),
-    (8109, Z, 1),
-    (8110, Z, 2),
-    (8111, Z, 3),
-    (8112, Z, 4),
-    (8113, Z, 5),
-    (8114, Z, 6),
-    (8115, Z, 7),
+const INDEX_ALIASES: &[IndexAlias] = &[
+    IndexAlias::new(8100, V, 0),
+    IndexAlias::new(8101, V, 1),
+    IndexAlias::new(8102, V, 2),
+    IndexAlias::new(8103, V, 3),
+    IndexAlias::new(8104, V, 4),
+    IndexAlias::new(8105, V, 5),
+    IndexAlias::new(8106, V, 6),
+    IndexAlias::new(8107, V, 7),
+    IndexAlias::new(8108, Z, 0),
+    IndexAlias::new(8109, Z, 1),
+    IndexAlias::new(8110, Z, 2),
+    IndexAlias::new(8111, Z, 3),
+    IndexAlias::new(8112, Z, 4),
+    IndexAlias::new(8113, Z, 5),
+    IndexAlias::new(8114, Z, 6),
+    IndexAlias::new(8115, Z, 7),
 ];

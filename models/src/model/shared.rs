@@ -1,6 +1,7 @@
 //! What the files of models share: how runs of devices are written, and runs that several models have.
 
 use super::{FastTimers, Range, Timers};
+use crate::runs::IndexAlias;
 use rungc_rt::{Relay, TimerKind};
 use rungc_syntax::DeviceClass::{self, C, I, N, T, V, X, Y, Z};
 
@@ -198,24 +199,24 @@ pub(super) const M8028: &FastTimers = &FastTimers {
 };
 
 /// D8028, D8029 and D8182–D8195: other names of Z0, V0, Z1, V1, … Z7, V7 (h1u-h2u-programming §3.8).
-pub(super) const INDEX_ALIASES: &[(u32, DeviceClass, u32)] = &{
+pub(super) const INDEX_ALIASES: &[IndexAlias] = &{
     use DeviceClass::{V, Z};
     [
-        (8028, Z, 0),
-        (8029, V, 0),
-        (8182, Z, 1),
-        (8183, V, 1),
-        (8184, Z, 2),
-        (8185, V, 2),
-        (8186, Z, 3),
-        (8187, V, 3),
-        (8188, Z, 4),
-        (8189, V, 4),
-        (8190, Z, 5),
-        (8191, V, 5),
-        (8192, Z, 6),
-        (8193, V, 6),
-        (8194, Z, 7),
-        (8195, V, 7),
+        IndexAlias::new(8028, Z, 0),
+        IndexAlias::new(8029, V, 0),
+        IndexAlias::new(8182, Z, 1),
+        IndexAlias::new(8183, V, 1),
+        IndexAlias::new(8184, Z, 2),
+        IndexAlias::new(8185, V, 2),
+        IndexAlias::new(8186, Z, 3),
+        IndexAlias::new(8187, V, 3),
+        IndexAlias::new(8188, Z, 4),
+        IndexAlias::new(8189, V, 4),
+        IndexAlias::new(8190, Z, 5),
+        IndexAlias::new(8191, V, 5),
+        IndexAlias::new(8192, Z, 6),
+        IndexAlias::new(8193, V, 6),
+        IndexAlias::new(8194, Z, 7),
+        IndexAlias::new(8195, V, 7),
     ]
 };

@@ -146,10 +146,9 @@ impl Facts {
     pub(super) fn held(&self, device: Device) -> Held {
         let writes = self.writes(device);
         let Some(last) = writes.last() else {
-            let mut words = self.model.special_words();
-            let default =
-                words.find(|word| (device.class, device.number) == (DeviceClass::D, word.0));
-            return Held::Default(default.map_or(0, |word| word.1 as u16));
+            let row = self.model.special(device.class, device.number);
+            let row = row.filter(|_| device.class == DeviceClass::D);
+            return Held::Default(row.map_or(0, |row| row.default as u16));
         };
         let same = writes.iter().all(|write| write.value == last.value);
         let ordered = writes.iter().all(|write| write.first_scan);
