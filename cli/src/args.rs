@@ -90,8 +90,8 @@ pub enum Command {
 /// A program and how to read it.
 #[derive(Args, Clone, Debug)]
 pub struct Input {
-    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg) or GX Works2 project (.gxw); recognised
-    /// by content, not by name. `-` is standard input. Default: the program of rungc.toml.
+    /// Instruction list, list export (CSV), GX Developer project (folder or MAIN.wpg), GX Works2 project (.gxw) or image of
+    /// program memory; recognised by content, not by name. `-` is standard input. Default: the program of rungc.toml.
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
     #[command(flatten)]
@@ -101,9 +101,9 @@ pub struct Input {
 /// Programs and how to read them.
 #[derive(Args, Debug)]
 pub struct Inputs {
-    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg) and GX Works2 projects (.gxw), recognised by
-    /// content, not by name; folders, for all programs in them and below; `-` is standard input. Default: the program of
-    /// rungc.toml.
+    /// Instruction lists, list exports (CSV), GX Developer projects (folder or MAIN.wpg), GX Works2 projects (.gxw) and images
+    /// of program memory, recognised by content, not by name; folders, for all programs in them and below; `-` is standard
+    /// input. Default: the program of rungc.toml.
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
     #[command(flatten)]
@@ -126,6 +126,9 @@ pub struct Reading {
     /// Read the compiled program of a GX Works2 project, not its source.
     #[arg(long)]
     pub compiled: bool,
+    /// What a file is, where its content does not show it.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub from: Option<ReadFrom>,
     #[command(flatten)]
     pub reporting: Reporting,
 }
@@ -136,6 +139,7 @@ impl Reading {
         ReadOptions {
             encoding: self.encoding,
             compiled: self.compiled,
+            image: self.from == Some(ReadFrom::Image),
             ..ReadOptions::default()
         }
     }
@@ -500,6 +504,13 @@ pub enum Backend {
     Rust,
 }
 
+/// Formats that files are read as when they are named.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ReadFrom {
+    /// Program memory of an FX PLC.
+    Image,
+}
+
 /// Output forms of `convert`.
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ConvertTo {
@@ -507,6 +518,19 @@ pub enum ConvertTo {
     Il,
     /// The editors' list export (UTF-16, tabs).
     Csv,
+    /// Program memory of an FX PLC.
+    Image,
+}
+
+impl ConvertTo {
+    /// What this form is called, if it cannot store comments on devices.
+    pub const fn without_comments(self) -> Option<&'static str> {
+        match self {
+            ConvertTo::Il => None,
+            ConvertTo::Csv => Some("a list export"),
+            ConvertTo::Image => Some("an image"),
+        }
+    }
 }
 
 /// One part of the cases.

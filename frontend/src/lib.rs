@@ -9,6 +9,7 @@ mod encoding;
 mod foreign;
 mod gx;
 mod il;
+pub mod image;
 mod learn;
 mod learned;
 mod listing;
@@ -49,6 +50,8 @@ pub struct ReadOptions {
     pub encoding: Option<&'static Encoding>,
     /// Of a GX Works2 project, read the compiled program rather than its source.
     pub compiled: bool,
+    /// Take a file of unknown format for an image of program memory.
+    pub image: bool,
 }
 
 impl ReadOptions {
@@ -209,6 +212,9 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     }
     if gx::is_wpg(bytes) {
         return Ok(gx::read_wpg(name, bytes, &gx::Beside::default(), options));
+    }
+    if image::is_image(bytes) || options.image {
+        return Ok(image::read(name, bytes, options));
     }
     let Some((text, replaced)) = encoding::decode(bytes, options.encoding) else {
         return Err(ReadError::Undecodable {

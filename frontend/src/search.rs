@@ -1,6 +1,6 @@
 //! Finding the programs in a folder.
 
-use crate::{GX_DEVELOPER, csv, encoding, find, main_file};
+use crate::{GX_DEVELOPER, csv, encoding, find, image, main_file};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -15,8 +15,8 @@ pub fn is_project(folder: &Path) -> bool {
 }
 
 /// All programs in a folder and, to this depth (1: in itself), below, in the order of their paths: instruction lists
-/// (`.il`), list exports (`.csv`), GX Developer projects (their folders) and GX Works2 projects (`.gxw`). Hidden
-/// folders, folders called `target` and links to folders are left out.
+/// (`.il`), list exports (`.csv`), GX Developer projects (their folders), GX Works2 projects (`.gxw`), FXGP/WIN programs
+/// (`.pmw`) and images of program memory (`.bin`). Hidden folders, folders called `target` and links to folders are left out.
 pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     let entries = WalkDir::new(folder).max_depth(depth).sort_by_file_name();
@@ -36,8 +36,9 @@ pub fn programs(folder: &Path, depth: usize) -> io::Result<Vec<PathBuf>> {
         let ending = path.extension().unwrap_or_default();
         let ending = ending.to_string_lossy().to_lowercase();
         let fits = match ending.as_str() {
-            "il" | "gxw" => true,
+            "il" | "gxw" | "pmw" => true,
             "csv" => is_export(path),
+            "bin" => is_memory(path),
             _ => false,
         };
         if fits {
@@ -52,14 +53,23 @@ fn is_left_out(folder: &DirEntry) -> bool {
     name.starts_with('.') || name == "target"
 }
 
-/// Whether a table is a list export, not comments or something else.
-fn is_export(path: &Path) -> bool {
+/// The beginning of a file; nothing if it cannot be read, which is said where it is read whole.
+fn head(path: &Path) -> Option<Vec<u8>> {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    if read.is_err() {
-        // What cannot be read is said where it is read.
+    read.is_ok().then_some(head)
+}
+
+/// Whether a file of bytes is an image of program memory, not firmware or something else.
+fn is_memory(path: &Path) -> bool {
+    head(path).is_none_or(|head| image::is_image(&head))
+}
+
+/// Whether a table is a list export, not comments or something else.
+fn is_export(path: &Path) -> bool {
+    let Some(mut head) = head(path) else {
         return true;
-    }
+    };
     // Whole lines alone: the last character may be cut. In UTF-16 a line feed has a zero beside it.
     if head.len() as u64 == HEAD
         && let Some(last) = head.iter().rposition(|&byte| byte == b'\n')

@@ -88,6 +88,8 @@ pub enum SourceKind {
     GxDeveloper,
     /// GX Works2 project (`.gxw`).
     GxWorks2,
+    /// Program memory of a PLC.
+    Image,
 }
 
 impl SourceKind {
@@ -98,6 +100,7 @@ impl SourceKind {
             SourceKind::Csv => "list export",
             SourceKind::GxDeveloper => "GX Developer",
             SourceKind::GxWorks2 => "GX Works2",
+            SourceKind::Image => "program memory",
         }
     }
 
@@ -105,7 +108,10 @@ impl SourceKind {
     pub const fn is_text(self) -> bool {
         match self {
             SourceKind::Il => true,
-            SourceKind::Csv | SourceKind::GxDeveloper | SourceKind::GxWorks2 => false,
+            SourceKind::Csv
+            | SourceKind::GxDeveloper
+            | SourceKind::GxWorks2
+            | SourceKind::Image => false,
         }
     }
 
@@ -113,16 +119,18 @@ impl SourceKind {
     pub const fn has_rows(self) -> bool {
         match self {
             SourceKind::Csv => true,
-            SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 => false,
+            SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 | SourceKind::Image => {
+                false
+            }
         }
     }
 
-    /// Whether it is a project of an editor, which holds instructions by their codes and lengths; else a list of
-    /// mnemonics.
+    /// Whether it is a project of an editor or the memory of a PLC, which hold instructions by their codes and
+    /// lengths; else a list of mnemonics.
     pub const fn is_project(self) -> bool {
         match self {
             SourceKind::Il | SourceKind::Csv => false,
-            SourceKind::GxDeveloper | SourceKind::GxWorks2 => true,
+            SourceKind::GxDeveloper | SourceKind::GxWorks2 | SourceKind::Image => true,
         }
     }
 }

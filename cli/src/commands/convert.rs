@@ -6,7 +6,7 @@ use super::{
 };
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::{Findings, Reporter};
-use rungc_frontend::print;
+use rungc_frontend::{image, print};
 use rungc_syntax::codes;
 use std::io::{self, IsTerminal, Write};
 
@@ -36,6 +36,16 @@ fn convert(
             .help("`--to csv` keeps it");
         diagnostics.push(diagnostic);
     }
+    let (bytes, ending) = match args.to {
+        ConvertTo::Il => (print::to_il(&read.program).into_bytes(), "il"),
+        ConvertTo::Csv => (print::to_csv(&read.program), "csv"),
+        ConvertTo::Image if read.program.is_complete() => {
+            let written =
+                image::write(&read.program).map_err(|unknown| diagnostics.extend(unknown.sorted()));
+            (written.unwrap_or_default(), "bin")
+        }
+        ConvertTo::Image => (Vec::new(), "bin"),
+    };
     let findings = Findings::new(
         &subject.file,
         &read.program,
@@ -46,15 +56,11 @@ fn convert(
         return conclude(&findings, reporter, cx, String::new);
     }
     reporter.add(&findings)?;
-    let (bytes, ending) = match args.to {
-        ConvertTo::Il => (print::to_il(&read.program).into_bytes(), "il"),
-        ConvertTo::Csv => (print::to_csv(&read.program), "csv"),
-    };
     let comments = read.program.comments.len();
-    if args.to == ConvertTo::Csv && comments > 0 {
-        let what = counted(comments, "device comment");
+    if let (Some(what), 1..) = (args.to.without_comments(), comments) {
+        let comments = counted(comments, "device comment");
         tell(&format!(
-            "rungc: {what} omitted, because a list export cannot store them; `--to il` keeps them"
+            "rungc: {comments} omitted, because {what} cannot store them; `--to il` keeps them"
         ));
     }
     match &args.output {

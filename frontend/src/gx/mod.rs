@@ -119,7 +119,11 @@ fn protected(name: &str, kind: SourceKind, cpu: Option<String>) -> Read {
 }
 
 /// A project whose program is not read; `line` says what stands for it.
-fn without_program(name: &str, line: &str, why: impl FnOnce(Span) -> Diagnostic) -> Read {
+pub(crate) fn without_program(
+    name: &str,
+    line: &str,
+    why: impl FnOnce(Span) -> Diagnostic,
+) -> Read {
     let mut listing = Listing::default();
     listing.next_line();
     let span = listing.word(line);

@@ -57,7 +57,7 @@ super::codes! {
 
     UNKNOWN_FORMAT = "E0010" "unknown-format" Error None,
     "unknown file format",
-    "rungc reads instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg) and GX Works2 projects (.gxw). It recognises the format by content, not by the file's name.",
+    "rungc reads instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg), GX Works2 projects (.gxw) and images of a PLC's program memory. It recognises the format by content, not by the file's name.",
     wrong: "",
     right: "";
 
@@ -143,6 +143,24 @@ super::codes! {
     NOT_IMPLEMENTED = "E0036" "not-implemented" Error None,
     "this instruction is not implemented yet",
     "The instruction is known, checked and counted, but not implemented yet. The message names the group of instructions that is missing.",
+    wrong: "",
+    right: "";
+
+    UNKNOWN_MACHINE_CODE = "E0060" "unknown-machine-code" Error None,
+    "unknown machine code",
+    "The program memory of a PLC contains words whose meaning no recorded transfer or published image shows. The message gives the step and the bytes, low byte first; the rest of the program is read. Extension registers R, bits of words, M3584 and above, S1024 and above, interrupt pointers, floating-point constants and texts are not known yet. Read the PLC with its editor instead, and give rungc the project.",
+    wrong: "",
+    right: "";
+
+    NO_MACHINE_CODE = "E0061" "no-machine-code" Error None,
+    "instruction without known machine code",
+    "`rungc convert --to image` writes only machine code that `rungc` reads: what recorded transfers and published images have shown, and applied instructions by their numbers. This instruction, or one of its operands, is not known; `rungc explain E0060` lists what is missing. A program must also end with END.",
+    wrong: "",
+    right: "";
+
+    NOT_AN_IMAGE = "E0062" "not-an-image" Error None,
+    "the file is not the program memory of a PLC",
+    "With `--from image`, the file is read as the program memory of an FX PLC: 92 bytes of parameters with the latched ranges from byte 30h on, then the program; a `.PMW` file of FXGP/WIN has a header of 256 bytes before them. The file does not have this form.",
     wrong: "",
     right: "";
 

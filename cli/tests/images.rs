@@ -1,0 +1,61 @@
+//! Program memory as a file: it goes through every command as other programs do.
+
+mod common;
+
+use common::{MOTOR, code, folder, rungc, shown, text};
+use std::fs;
+
+/// The instructions of a list, without comments.
+fn instructions(list: &str) -> Vec<&str> {
+    let lines = list
+        .lines()
+        .map(|line| line.split(';').next().unwrap().trim());
+    lines.filter(|line| !line.is_empty()).collect()
+}
+
+#[test]
+fn an_image_is_a_program_like_others() {
+    let folder = folder(&[("motor.il", MOTOR.as_bytes())]);
+    let path = folder.path();
+    assert_eq!(
+        code(
+            path,
+            &["convert", "motor.il", "--to", "image", "-o", "motor.bin"]
+        ),
+        0
+    );
+    insta::assert_snapshot!("image_check", shown(path, &["check", "motor.bin"]));
+    let back = text(&rungc(path, &["convert", "motor.bin", "--to", "il"]).stdout);
+    let numberless = back.lines().map(|line| {
+        line.trim_start_matches([' ', '0', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
+    });
+    assert_eq!(numberless.collect::<Vec<_>>(), instructions(MOTOR));
+    for command in [
+        &["build", "motor.bin", "--emit", "c"][..],
+        &["view", "motor.bin"],
+    ] {
+        assert_eq!(code(path, command), 0, "{command:?}");
+    }
+    fs::remove_file(path.join("motor.il")).unwrap();
+    let all = text(&rungc(path, &["check", "."]).stderr);
+    assert!(
+        all.contains("motor.bin"),
+        "a folder's images are found: {all}"
+    );
+}
+
+#[test]
+fn nothing_is_written_of_what_machine_code_does_not_hold() {
+    let list = ";! X000 = start\nLD X000\nMOV R0 D0\nEND\n";
+    let folder = folder(&[("r.il", list.as_bytes()), ("short.bin", &[0; 8])]);
+    let path = folder.path();
+    insta::assert_snapshot!(
+        "image_unknown",
+        shown(path, &["convert", "r.il", "--to", "image", "-o", "r.bin"])
+    );
+    assert!(!path.join("r.bin").exists());
+    insta::assert_snapshot!(
+        "image_short",
+        shown(path, &["check", "short.bin", "--from", "image"])
+    );
+}
