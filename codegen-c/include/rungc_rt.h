@@ -820,6 +820,11 @@ typedef struct rungc_operand {
      */
     uint8_t digits;
     /**
+     * Where emitted C stores the device: which of its areas, counted from the last, which is 1. It is looked at first; 0, or an area
+     * that does not hold the device: it is searched by its number.
+     */
+    uint8_t area;
+    /**
      * Device number, address, constant, or bits of a float.
      */
     int32_t value;
@@ -1078,8 +1083,16 @@ static inline rungc_operand rungc_device(rungc_class device_class, int32_t numbe
     operand.kind = RUNGC_OPERAND_KIND_DEVICE;
     operand.class_ = device_class;
     operand.digits = 0;
+    operand.area = 0;
     operand.value = number;
     return operand;
+}
+
+/* An operand whose device is in this area of the program's layout, counted from the last: rungc_in(1, rungc_D(100)). */
+static inline rungc_operand rungc_in(uint8_t area, rungc_operand device)
+{
+    device.area = area;
+    return device;
 }
 
 static inline rungc_operand rungc_K(int32_t value)

@@ -2,6 +2,7 @@
 
 use crate::expr::{Around, float, integer};
 use crate::writer::Writer;
+use rungc_emit::areas;
 use rungc_ir::node::{Arg, Call, Expr, ExprId, Fetch, Place, Send};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
@@ -146,10 +147,21 @@ impl Writer<'_, '_> {
         }
     }
 
+    /// A device, and in which area the runtime finds it without a search.
     fn device(&mut self, code: &mut String, place: &Place) {
+        let area = match place.index {
+            None => areas::named(&self.areas, place.class, place.number),
+            Some(_) => None,
+        };
+        if let Some(area) = area {
+            let _ = write!(code, "rungc_in({area}, ");
+        }
         let _ = write!(code, "rungc_{}(", place.class.prefix());
         self.number(code, place);
         code.push(')');
+        if area.is_some() {
+            code.push(')');
+        }
     }
 
     fn constant(&mut self, code: &mut String, value: i32, index: Option<ExprId>, wide: bool) {

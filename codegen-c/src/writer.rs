@@ -4,6 +4,7 @@ use crate::expr::Around;
 use crate::helpers::Helpers;
 use crate::page::Page;
 use crate::text;
+use rungc_emit::areas::{self, Area};
 use rungc_emit::comments;
 use rungc_emit::edges::{Asker, asker};
 use rungc_emit::parts::{self, Limits};
@@ -39,6 +40,8 @@ pub struct Writer<'a, 'm> {
     pub(crate) module: &'m Module,
     pub(crate) plan: &'a Plan<'m>,
     pub(crate) fields: &'a Storage<'m>,
+    /// How the runtime finds devices; nothing where it is not called.
+    pub(crate) areas: Vec<Area<'a>>,
     /// Functions for indexed access that are needed.
     pub helpers: Helpers,
     /// Names of parts of the current statement's expressions.
@@ -72,6 +75,10 @@ impl<'a, 'm> Writer<'a, 'm> {
             module,
             plan,
             fields,
+            areas: match plan.functions.iter().any(|function| function.calls_runtime) {
+                true => areas::areas(fields),
+                false => Vec::new(),
+            },
             helpers: Helpers::default(),
             named: FxHashMap::default(),
             calls: 0,

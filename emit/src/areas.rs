@@ -21,7 +21,7 @@ pub struct Area<'a> {
 }
 
 /// The areas of a program, in the runtime's order: arrays, and relays or words that follow each other.
-pub fn areas<'a>(storage: &'a Storage) -> Vec<Area<'a>> {
+pub fn areas<'a>(storage: &'a Storage<'_>) -> Vec<Area<'a>> {
     let mut order: Vec<(usize, &Field)> = storage.in_sections().into_iter().enumerate().collect();
     order.sort_by_key(|(_, f)| (rank(f.class), f.first));
     let mut areas: Vec<(usize, Area)> = Vec::new();
@@ -54,6 +54,18 @@ pub fn areas<'a>(storage: &'a Storage) -> Vec<Area<'a>> {
         }
     }
     areas.into_iter().map(|(_, area)| area).collect()
+}
+
+/// How an operand says which of the `areas` holds a device ([`rungc_rt::Operand::area`]): counted from the last, which is 1. `None`: in
+/// none of them, or in one that is too far from the last to be said.
+pub fn named(areas: &[Area], class: DeviceClass, number: u32) -> Option<u8> {
+    let after = areas.partition_point(|area| {
+        (rank(area.field.class), area.field.first) <= (rank(class), number)
+    });
+    let index = after.checked_sub(1)?;
+    let area = areas.get(index)?;
+    let holds = area.field.class == class && number - area.field.first < area.count;
+    u8::try_from(areas.len() - index).ok().filter(|_| holds)
 }
 
 /// The model's devices in the runtime's order, neighbouring ranges joined: class, first and last number.

@@ -55,7 +55,17 @@ pub fn send(site: Site, to: Operand, value: i32, plc: &mut dyn Plc, hal: &mut dy
 }
 
 /// Device number `offset` places after `operand`. Devices together are all general or all special.
+#[inline]
 fn at(operand: Operand, offset: i32) -> Result<u32, Fault> {
+    match u32::try_from(operand.value) {
+        // The device that the operand names is the usual one.
+        Ok(number) if offset == 0 => Ok(number),
+        _ => beyond(operand, offset),
+    }
+}
+
+/// The same where the device is another one than that of the operand.
+fn beyond(operand: Operand, offset: i32) -> Result<u32, Fault> {
     let number = operand
         .value
         .checked_add(offset)
@@ -141,17 +151,18 @@ impl<'a> Cx<'a> {
     pub fn word(&self, i: usize, offset: i32) -> Result<i16, Fault> {
         let op = self.op(i)?;
         match op.kind {
+            OperandKind::Device => self.load(op, at(op, offset)?),
+            _ => self.word_elsewhere(op, offset),
+        }
+    }
+
+    /// A word of an operand that is no device.
+    fn word_elsewhere(&self, op: Operand, offset: i32) -> Result<i16, Fault> {
+        match op.kind {
             OperandKind::Const | OperandKind::Float => Ok(op.value as i16),
-            OperandKind::Device => {
-                let n = at(op, offset)?;
-                if op.class == Class::C && n >= FIRST_COUNTER32 {
-                    return self.plc.counter32(n).map(|v| v as i16).ok_or(Fault::DEVICE);
-                }
-                self.plc.word(op.class, n).ok_or(Fault::DEVICE)
-            }
             OperandKind::Nibbles => self.group(op, offset, 4).map(|v| v as i16),
             OperandKind::Buffer => self.buffer(op, offset),
-            OperandKind::WordBit | OperandKind::Text => Err(Fault::DEVICE),
+            OperandKind::Device | OperandKind::WordBit | OperandKind::Text => Err(Fault::DEVICE),
         }
     }
 
@@ -159,20 +170,29 @@ impl<'a> Cx<'a> {
     pub fn set_word(&mut self, i: usize, offset: i32, value: i16) -> Result<(), Fault> {
         let op = self.op(i)?;
         match op.kind {
-            OperandKind::Device => {
-                let n = at(op, offset)?;
-                if op.class == Class::C && n >= FIRST_COUNTER32 {
-                    return self
-                        .plc
-                        .set_counter32(n, i32::from(value))
-                        .ok_or(Fault::DEVICE);
-                }
-                self.plc.set_word(op.class, n, value).ok_or(Fault::DEVICE)
-            }
+            OperandKind::Device => self.store(op, at(op, offset)?, value),
             OperandKind::Nibbles => self.set_group(op, offset, 4, i32::from(value)),
             OperandKind::Buffer => self.set_buffer(op, offset, value),
             _ => Err(Fault::DEVICE),
         }
+    }
+
+    /// The word of device `n`, which an operand's devices include; of a 32-bit counter the low word.
+    fn load(&self, op: Operand, n: u32) -> Result<i16, Fault> {
+        let word = match op.class == Class::C && n >= FIRST_COUNTER32 {
+            true => self.plc.counter32(n).map(|v| v as i16),
+            false => self.plc.word_in(op.area, op.class, n),
+        };
+        word.ok_or(Fault::DEVICE)
+    }
+
+    /// Writes it; a 32-bit counter takes the value.
+    fn store(&mut self, op: Operand, n: u32, value: i16) -> Done {
+        let done = match op.class == Class::C && n >= FIRST_COUNTER32 {
+            true => self.plc.set_counter32(n, value.into()),
+            false => self.plc.set_word_in(op.area, op.class, n, value),
+        };
+        done.ok_or(Fault::DEVICE)
     }
 
     /// The 32-bit value whose low word is word number `offset` from operand `i`: the pair (n+1, n), a 32-bit counter, the pair
@@ -192,8 +212,14 @@ impl<'a> Cx<'a> {
                     return self.plc.counter32(n).ok_or(Fault::DEVICE);
                 }
                 let (class, high) = self.high_word(op, offset)?;
-                let low = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
-                let high = self.plc.word(class, high).ok_or(Fault::DEVICE)?;
+                let low = self
+                    .plc
+                    .word_in(op.area, op.class, n)
+                    .ok_or(Fault::DEVICE)?;
+                let high = self
+                    .plc
+                    .word_in(op.area, class, high)
+                    .ok_or(Fault::DEVICE)?;
                 Ok(i32::from(high) << 16 | i32::from(low as u16))
             }
             OperandKind::WordBit | OperandKind::Text => Err(Fault::DEVICE),
@@ -218,12 +244,14 @@ impl<'a> Cx<'a> {
                     return self.plc.set_counter32(n, value).ok_or(Fault::DEVICE);
                 }
                 let (class, high) = self.high_word(op, offset)?;
-                self.plc.word(class, high).ok_or(Fault::DEVICE)?;
                 self.plc
-                    .set_word(op.class, n, value as i16)
+                    .word_in(op.area, class, high)
                     .ok_or(Fault::DEVICE)?;
                 self.plc
-                    .set_word(class, high, (value >> 16) as i16)
+                    .set_word_in(op.area, op.class, n, value as i16)
+                    .ok_or(Fault::DEVICE)?;
+                self.plc
+                    .set_word_in(op.area, class, high, (value >> 16) as i16)
                     .ok_or(Fault::DEVICE)
             }
             _ => Err(Fault::DEVICE),
@@ -323,10 +351,16 @@ impl<'a> Cx<'a> {
         match op.kind {
             OperandKind::WordBit => {
                 let (n, mask) = Self::word_bit(op, offset)?;
-                let word = self.plc.word(op.class, n).ok_or(Fault::DEVICE)?;
+                let word = self
+                    .plc
+                    .word_in(op.area, op.class, n)
+                    .ok_or(Fault::DEVICE)?;
                 Ok(word as u16 & mask != 0)
             }
-            _ => self.plc.bit(op.class, at(op, offset)?).ok_or(Fault::DEVICE),
+            _ => self
+                .plc
+                .bit_in(op.area, op.class, at(op, offset)?)
+                .ok_or(Fault::DEVICE),
         }
     }
 
@@ -336,15 +370,18 @@ impl<'a> Cx<'a> {
         match op.kind {
             OperandKind::WordBit => {
                 let (n, mask) = Self::word_bit(op, offset)?;
-                let word = self.plc.word(op.class, n).ok_or(Fault::DEVICE)? as u16;
+                let word = self
+                    .plc
+                    .word_in(op.area, op.class, n)
+                    .ok_or(Fault::DEVICE)? as u16;
                 let word = if value { word | mask } else { word & !mask };
                 self.plc
-                    .set_word(op.class, n, word as i16)
+                    .set_word_in(op.area, op.class, n, word as i16)
                     .ok_or(Fault::DEVICE)
             }
             _ => self
                 .plc
-                .set_bit(op.class, at(op, offset)?, value)
+                .set_bit_in(op.area, op.class, at(op, offset)?, value)
                 .ok_or(Fault::DEVICE),
         }
     }
@@ -462,7 +499,7 @@ impl<'a> Cx<'a> {
 
     /// Whether operands `a` and `b` denote the same devices.
     pub fn same(&self, a: usize, b: usize) -> bool {
-        matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a == b)
+        matches!((self.op(a), self.op(b)), (Ok(a), Ok(b)) if a.within(0) == b.within(0))
     }
 
     /// Whether operand `b` starts after operand `a` in the same class, so that a block copied from `a` to `b` must be copied from its end.
@@ -542,7 +579,10 @@ impl<'a> Cx<'a> {
         let first = at(op, offset.saturating_mul(4 * i32::from(op.digits)))?;
         let mut value = 0u32;
         for bit in 0..4 * u32::from(op.digits.min(max)) {
-            let on = self.plc.bit(op.class, first + bit).ok_or(Fault::DEVICE)?;
+            let on = self
+                .plc
+                .bit_in(op.area, op.class, first + bit)
+                .ok_or(Fault::DEVICE)?;
             value |= u32::from(on) << bit;
         }
         Ok(value as i32)
@@ -553,11 +593,11 @@ impl<'a> Cx<'a> {
         let first = at(op, offset.saturating_mul(4 * i32::from(op.digits)))?;
         let bits = 4 * u32::from(op.digits.min(max));
         self.plc
-            .bit(op.class, first + bits.saturating_sub(1))
+            .bit_in(op.area, op.class, first + bits.saturating_sub(1))
             .ok_or(Fault::DEVICE)?;
         for bit in 0..bits {
             self.plc
-                .set_bit(op.class, first + bit, value >> bit & 1 == 1)
+                .set_bit_in(op.area, op.class, first + bit, value >> bit & 1 == 1)
                 .ok_or(Fault::DEVICE)?;
         }
         Ok(())

@@ -32,6 +32,9 @@ pub struct Operand {
     pub class: Class,
     /// Digits of a group, the bit of a word, or the number of a module.
     pub digits: u8,
+    /// Where emitted C stores the device: which of its areas, counted from the last, which is 1. It is looked at first; 0, or an area
+    /// that does not hold the device: it is searched by its number.
+    pub area: u8,
     /// Device number, address, constant, or bits of a float.
     pub value: i32,
 }
@@ -43,6 +46,7 @@ impl Operand {
             kind: OperandKind::Const,
             class: Class::D,
             digits: 0,
+            area: 0,
             value,
         }
     }
@@ -53,6 +57,7 @@ impl Operand {
             kind: OperandKind::Float,
             class: Class::D,
             digits: 0,
+            area: 0,
             value: value.to_bits() as i32,
         }
     }
@@ -63,8 +68,16 @@ impl Operand {
             kind: OperandKind::Device,
             class,
             digits: 0,
+            area: 0,
             value: number,
         }
+    }
+
+    /// The same operand, whose device is stored in this area.
+    #[must_use]
+    pub const fn within(mut self, area: u8) -> Self {
+        self.area = area;
+        self
     }
 
     /// A group of `4 * digits` bits.
@@ -73,6 +86,7 @@ impl Operand {
             kind: OperandKind::Nibbles,
             class,
             digits,
+            area: 0,
             value: number,
         }
     }
@@ -83,6 +97,7 @@ impl Operand {
             kind: OperandKind::WordBit,
             class,
             digits: bit,
+            area: 0,
             value: number,
         }
     }
@@ -93,6 +108,7 @@ impl Operand {
             kind: OperandKind::Buffer,
             class: Class::D,
             digits: module,
+            area: 0,
             value: address,
         }
     }
@@ -103,6 +119,7 @@ impl Operand {
             kind: OperandKind::Text,
             class: Class::D,
             digits: 0,
+            area: 0,
             value: index,
         }
     }

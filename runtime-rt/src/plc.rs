@@ -175,6 +175,26 @@ pub trait Plc {
     fn word(&self, class: Class, number: u32) -> Option<i16>;
     /// Sets a word device.
     fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()>;
+    /// As [`Plc::bit`], of a device that is perhaps stored in this area ([`crate::Operand::area`]): that is looked at first.
+    fn bit_in(&self, area: u8, class: Class, number: u32) -> Option<bool> {
+        let _ = area;
+        self.bit(class, number)
+    }
+    /// As [`Plc::set_bit`], likewise.
+    fn set_bit_in(&mut self, area: u8, class: Class, number: u32, value: bool) -> Option<()> {
+        let _ = area;
+        self.set_bit(class, number, value)
+    }
+    /// As [`Plc::word`], likewise.
+    fn word_in(&self, area: u8, class: Class, number: u32) -> Option<i16> {
+        let _ = area;
+        self.word(class, number)
+    }
+    /// As [`Plc::set_word`], likewise.
+    fn set_word_in(&mut self, area: u8, class: Class, number: u32, value: i16) -> Option<()> {
+        let _ = area;
+        self.set_word(class, number, value)
+    }
     /// Current value of a 32-bit counter (C200 and up).
     fn counter32(&self, number: u32) -> Option<i32>;
     /// Sets the current value of a 32-bit counter.

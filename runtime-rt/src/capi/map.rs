@@ -35,6 +35,7 @@ fn elements<'a, T>(first: *const T, count: usize) -> &'a [T] {
 
 impl Area {
     /// Which of its devices one is in memory, if it holds it.
+    #[inline]
     fn place_of(&self, class: Class, number: u32) -> Option<u32> {
         let n = number.wrapping_sub(self.first);
         if self.class != class || n >= self.count {
@@ -44,6 +45,11 @@ impl Area {
         if self.columns <= 1 {
             return Some(n);
         }
+        self.place_in_columns(n)
+    }
+
+    /// The same of the device `n` places after the first, in an array of columns.
+    fn place_in_columns(&self, n: u32) -> Option<u32> {
         let (row, column) = (n / self.columns, n % self.columns);
         let rows = self.count.div_ceil(self.columns);
         (column < self.kept).then_some(column * rows + row)
@@ -56,22 +62,53 @@ impl Map {
         unsafe { &*self.layout }
     }
 
+    /// The area that an operand names, if it holds the device; most calls need no more.
+    #[inline]
+    fn named(&self, area: u8, class: Class, number: u32) -> Option<Found> {
+        let layout = self.layout();
+        let index = layout.area_count.checked_sub(area.into())?;
+        self.at(
+            elements(layout.areas, layout.area_count).get(index)?,
+            class,
+            number,
+        )
+    }
+
+    /// Finds a device, in this area if that holds it.
+    #[inline]
+    fn find_in(&self, area: u8, class: Class, number: u32) -> Found {
+        match self.named(area, class, number) {
+            Some(found) => found,
+            None => self.find(class, number),
+        }
+    }
+
+    /// A device of an area, if that holds it.
+    #[inline]
+    fn at(&self, area: &Area, class: Class, number: u32) -> Option<Found> {
+        let place = area.place_of(class, number)?;
+        let size = match area.kind {
+            Kind::Bits => size_of::<bool>(),
+            Kind::Words => size_of::<i16>(),
+            Kind::Timers => size_of::<Timer>(),
+            Kind::Counters16 => size_of::<Counter16>(),
+            Kind::Counters32 => size_of::<Counter32>(),
+        };
+        let offset = area.offset + place as usize * size;
+        // SAFETY: an area's elements lie inside the program's struct, which `plc` points to.
+        Some(Found::At(area.kind, unsafe {
+            self.plc.cast::<u8>().add(offset)
+        }))
+    }
+
+    #[cold]
     fn find(&self, class: Class, number: u32) -> Found {
         let layout = self.layout();
         let areas = elements(layout.areas, layout.area_count);
         let after = areas.partition_point(|a| (a.class, a.first) <= (class, number));
         let area = after.checked_sub(1).and_then(|i| areas.get(i));
-        if let Some((area, place)) = area.and_then(|a| Some((a, a.place_of(class, number)?))) {
-            let size = match area.kind {
-                Kind::Bits => size_of::<bool>(),
-                Kind::Words => size_of::<i16>(),
-                Kind::Timers => size_of::<Timer>(),
-                Kind::Counters16 => size_of::<Counter16>(),
-                Kind::Counters32 => size_of::<Counter32>(),
-            };
-            let offset = area.offset + place as usize * size;
-            // SAFETY: an area's elements lie inside the program's struct, which `plc` points to.
-            return Found::At(area.kind, unsafe { self.plc.cast::<u8>().add(offset) });
+        if let Some(found) = area.and_then(|area| self.at(area, class, number)) {
+            return found;
         }
         if class == Class::D {
             let aliases = elements(layout.aliases, layout.alias_count);
@@ -88,6 +125,30 @@ impl Map {
         match range.filter(|r| r.class == class && number <= r.last) {
             Some(_) => Found::Elsewhere,
             None => Found::Nowhere,
+        }
+    }
+
+    /// A word, however it is stored.
+    fn any_word(&self, area: u8, class: Class, number: u32) -> Option<i16> {
+        match self.find_in(area, class, number) {
+            Found::At(Kind::Words, at) => Some(read(at)),
+            Found::At(Kind::Timers, at) => Some(read::<Timer>(at).value),
+            Found::At(Kind::Counters16, at) => Some(read::<Counter16>(at).value),
+            Found::Elsewhere if is_word(class, number) => Some(0),
+            _ => None,
+        }
+    }
+
+    /// Writes one.
+    fn set_any_word(&mut self, area: u8, class: Class, number: u32, value: i16) -> Option<()> {
+        match self.find_in(area, class, number) {
+            Found::At(Kind::Words, at) => change(at, |word| *word = value),
+            Found::At(Kind::Timers, at) => change(at, |timer: &mut Timer| timer.value = value),
+            Found::At(Kind::Counters16, at) => {
+                change(at, |counter: &mut Counter16| counter.value = value)
+            }
+            Found::Elsewhere if is_word(class, number) => Some(()),
+            _ => None,
         }
     }
 
@@ -131,7 +192,23 @@ fn change<T>(at: *mut u8, change: impl FnOnce(&mut T)) -> Option<()> {
 
 impl Plc for Map {
     fn bit(&self, class: Class, number: u32) -> Option<bool> {
-        match self.find(class, number) {
+        self.bit_in(0, class, number)
+    }
+
+    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
+        self.set_bit_in(0, class, number, value)
+    }
+
+    fn word(&self, class: Class, number: u32) -> Option<i16> {
+        self.any_word(0, class, number)
+    }
+
+    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
+        self.set_any_word(0, class, number, value)
+    }
+
+    fn bit_in(&self, area: u8, class: Class, number: u32) -> Option<bool> {
+        match self.find_in(area, class, number) {
             Found::At(Kind::Bits, at) => Some(read(at)),
             Found::At(Kind::Timers, at) => Some(read::<Timer>(at).done),
             Found::At(Kind::Counters16, at) => Some(read::<Counter16>(at).done),
@@ -141,8 +218,8 @@ impl Plc for Map {
         }
     }
 
-    fn set_bit(&mut self, class: Class, number: u32, value: bool) -> Option<()> {
-        match self.find(class, number) {
+    fn set_bit_in(&mut self, area: u8, class: Class, number: u32, value: bool) -> Option<()> {
+        match self.find_in(area, class, number) {
             Found::At(Kind::Bits, at) => change(at, |bit| *bit = value),
             Found::At(Kind::Timers, at) => change(at, |timer: &mut Timer| timer.done = value),
             Found::At(Kind::Counters16, at) => {
@@ -156,25 +233,18 @@ impl Plc for Map {
         }
     }
 
-    fn word(&self, class: Class, number: u32) -> Option<i16> {
-        match self.find(class, number) {
-            Found::At(Kind::Words, at) => Some(read(at)),
-            Found::At(Kind::Timers, at) => Some(read::<Timer>(at).value),
-            Found::At(Kind::Counters16, at) => Some(read::<Counter16>(at).value),
-            Found::Elsewhere if is_word(class, number) => Some(0),
-            _ => None,
+    // Most operands are registers in the area that they name.
+    fn word_in(&self, area: u8, class: Class, number: u32) -> Option<i16> {
+        match self.named(area, class, number) {
+            Some(Found::At(Kind::Words, at)) => Some(read(at)),
+            _ => self.any_word(area, class, number),
         }
     }
 
-    fn set_word(&mut self, class: Class, number: u32, value: i16) -> Option<()> {
-        match self.find(class, number) {
-            Found::At(Kind::Words, at) => change(at, |word| *word = value),
-            Found::At(Kind::Timers, at) => change(at, |timer: &mut Timer| timer.value = value),
-            Found::At(Kind::Counters16, at) => {
-                change(at, |counter: &mut Counter16| counter.value = value)
-            }
-            Found::Elsewhere if is_word(class, number) => Some(()),
-            _ => None,
+    fn set_word_in(&mut self, area: u8, class: Class, number: u32, value: i16) -> Option<()> {
+        match self.named(area, class, number) {
+            Some(Found::At(Kind::Words, at)) => change(at, |word| *word = value),
+            _ => self.set_any_word(area, class, number, value),
         }
     }
 
@@ -312,5 +382,84 @@ fn is_word(class: Class, number: u32) -> bool {
         Class::C => number < FIRST_COUNTER32,
         Class::X | Class::Y | Class::M | Class::S => false,
         _ => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capi::Range;
+
+    /// Two areas, of words and of relays.
+    #[repr(C)]
+    struct Devices {
+        m10: [bool; 3],
+        d20: [i16; 3],
+    }
+
+    fn area(class: Class, kind: Kind, first: u32, offset: usize) -> Area {
+        Area {
+            class,
+            kind,
+            first,
+            count: 3,
+            columns: 1,
+            kept: 1,
+            offset,
+        }
+    }
+
+    #[test]
+    fn a_device_is_found_whatever_area_the_operand_names() {
+        let areas = [
+            area(
+                Class::M,
+                Kind::Bits,
+                10,
+                core::mem::offset_of!(Devices, m10),
+            ),
+            area(
+                Class::D,
+                Kind::Words,
+                20,
+                core::mem::offset_of!(Devices, d20),
+            ),
+        ];
+        let ranges = [Range {
+            class: Class::D,
+            first: 0,
+            last: 30,
+        }];
+        let layout = Layout {
+            areas: areas.as_ptr(),
+            area_count: areas.len(),
+            ranges: ranges.as_ptr(),
+            range_count: ranges.len(),
+            // SAFETY: everything else of a layout may be zero: null pointers of no elements, offsets, numbers.
+            ..unsafe { core::mem::zeroed() }
+        };
+        let mut devices = Devices {
+            m10: [false, true, false],
+            d20: [5, 6, 7],
+        };
+        let mut map = Map {
+            layout: &layout,
+            plc: (&raw mut devices).cast(),
+            hal: core::ptr::null(),
+            none: State::new(),
+        };
+        for named in [0, 1, 2, 3, 255] {
+            assert_eq!(map.word_in(named, Class::D, 22), Some(7), "{named}");
+            assert_eq!(map.word_in(named, Class::D, 23), Some(0), "not stored");
+            assert_eq!(map.word_in(named, Class::D, 31), None, "not of the model");
+            assert_eq!(map.bit_in(named, Class::M, 11), Some(true), "{named}");
+            assert_eq!(map.set_word_in(named, Class::D, 20, named.into()), Some(()));
+            assert_eq!(map.word(Class::D, 20), Some(named.into()));
+            assert_eq!(
+                map.set_bit_in(named, Class::M, 12, named % 2 == 0),
+                Some(())
+            );
+            assert_eq!(map.bit(Class::M, 12), Some(named % 2 == 0));
+        }
     }
 }
