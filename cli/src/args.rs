@@ -232,6 +232,10 @@ pub struct Plan {
     /// Add functions that read and write devices by number and by name to emitted C (docs/src/embedding.md).
     #[arg(long)]
     pub device_access: bool,
+    /// Add NAME_retain.h and rungc_retain.h to emitted C: save latched devices to flash and load them (docs/src/retain.md). Emitted Rust has
+    /// `Program::retained` for this.
+    #[arg(long)]
+    pub retain: bool,
     /// Do not optimise the IR.
     #[arg(long)]
     pub no_opt: bool,
@@ -274,6 +278,10 @@ pub struct RunArgs {
     /// overwrites existing files.
     #[arg(long, value_name = "FILE")]
     pub scope: Option<PathBuf>,
+    /// Keep latched devices in this file from run to run: their values are loaded when the run begins, and saved when it ends, in real time
+    /// also once a second if one has changed. Default: that of rungc.toml.
+    #[arg(long, value_name = "FILE")]
+    pub retain: Option<PathBuf>,
     /// Run in real time instead of as fast as possible.
     #[arg(long)]
     pub real_time: bool,

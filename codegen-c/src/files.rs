@@ -3,8 +3,8 @@
 use crate::makefile::{self, Recipe};
 use crate::unit::{self, Unit};
 use crate::{
-    Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_RT_H, access, board, header,
-    text,
+    Options, OutFile, RUNGC_ACCESS_H, RUNGC_BOARD_H, RUNGC_H, RUNGC_RETAIN_H, RUNGC_RT_H, access,
+    board, header, retain, text,
 };
 use rungc_emit::cycle;
 use rungc_emit::storage::Storage;
@@ -39,10 +39,12 @@ impl Part {
     pub fn new(module: &Module, options: &Options) -> Part {
         let unit = unit::unit(module, false);
         let name = &module.name;
+        let retain = options.retain && retain::keeps_any(module);
         let shared = Shared {
             runtime: unit.runtime,
             board: options.board || module.takes_events(),
-            access: options.access,
+            access: options.access || retain,
+            retain,
         };
         let mut recipe = Recipe {
             name: name.clone(),
@@ -53,21 +55,25 @@ impl Part {
             shared,
         };
         let mut files = own_files(module, unit, &mut recipe.sources);
-        let named = |path: &str, text: String| {
-            let banner = banner(module, path);
-            OutFile::new(path, format!("/* {banner} */\n{text}"))
+        let mut pair = |part: &str, texts: [String; 2]| {
+            for (ending, text) in ["h", "c"].into_iter().zip(texts) {
+                let path = format!("{name}_{part}.{ending}");
+                let banner = banner(module, &path);
+                files.push(OutFile::new(&path, format!("/* {banner} */\n{text}")));
+                if ending == "c" {
+                    recipe.sources.push(path);
+                }
+            }
         };
         if shared.board {
-            let path = format!("{name}_board.c");
-            files.push(named(&format!("{name}_board.h"), board::header(module)));
-            files.push(named(&path, board::source(module, shared.runtime)));
-            recipe.sources.push(path);
+            let source = board::source(module, shared.runtime);
+            pair("board", [board::header(module), source]);
         }
         if shared.access {
-            let path = format!("{name}_access.c");
-            files.push(named(&format!("{name}_access.h"), access::header(module)));
-            files.push(named(&path, access::source(module)));
-            recipe.sources.push(path);
+            pair("access", [access::header(module), access::source(module)]);
+        }
+        if shared.retain {
+            pair("retain", [retain::header(module), retain::source(module)]);
         }
         if options.main {
             files.push(OutFile::new("main.c", crate::host::main_file(module)));
@@ -102,6 +108,7 @@ pub fn together(recipes: &[Recipe]) -> Vec<OutFile> {
         runtime: needed(|shared| shared.runtime),
         board: needed(|shared| shared.board),
         access: needed(|shared| shared.access),
+        retain: needed(|shared| shared.retain),
     };
     let mut files = shared.files();
     files.push(OutFile::new("Makefile", makefile::makefile(recipes)));
@@ -154,6 +161,7 @@ fn own_headers(name: &str, shared: Shared, several: bool) -> Vec<String> {
         (true, ""),
         (shared.board, "_board"),
         (shared.access, "_access"),
+        (shared.retain, "_retain"),
         (several, "_internal"),
     ];
     let there = kinds.into_iter().filter(|(there, _)| *there);
@@ -218,6 +226,8 @@ pub struct Shared {
     pub board: bool,
     /// Devices by number and by name.
     pub access: bool,
+    /// Latched devices that survive power-off.
+    pub retain: bool,
 }
 
 impl Shared {
@@ -228,6 +238,7 @@ impl Shared {
             (self.runtime || self.board, "rungc_rt.h"),
             (self.board, "rungc_board.h"),
             (self.access, "rungc_access.h"),
+            (self.retain, "rungc_retain.h"),
         ];
         let there = kinds.into_iter().filter(|(there, _)| *there);
         there.map(|(_, header)| header)
@@ -240,7 +251,8 @@ impl Shared {
                 "rungc.h" => stamped(RUNGC_H, "RUNGC_H"),
                 "rungc_rt.h" => stamped(&runtime_header(), "RUNGC_RT_H"),
                 "rungc_board.h" => RUNGC_BOARD_H.to_string(),
-                _ => RUNGC_ACCESS_H.to_string(),
+                "rungc_access.h" => RUNGC_ACCESS_H.to_string(),
+                _ => RUNGC_RETAIN_H.to_string(),
             };
             OutFile::new(path, text)
         };
@@ -392,6 +404,7 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
         runtime: true,
         board: false,
         access: false,
+        retain: false,
     };
     files.extend(shared.files());
     let recipe = Recipe {

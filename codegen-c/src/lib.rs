@@ -25,6 +25,7 @@ mod makefile;
 mod members;
 mod page;
 mod reads;
+mod retain;
 mod run_control;
 mod runtime;
 mod stations;
@@ -37,6 +38,7 @@ mod writer;
 pub use files::{Part, together};
 pub use makefile::Recipe;
 pub use members::Members;
+pub use retain::keeps_any;
 pub use rungc_emit::OutFile;
 pub use rungc_emit::storage::{Memory, memory};
 use rungc_ir::Module;
@@ -50,6 +52,8 @@ pub struct Options {
     pub board: bool,
     /// Also `NAME_access.h`, which reads and writes devices by number and by name.
     pub access: bool,
+    /// Also `NAME_retain.h`, which saves latched devices to flash, of a program that has any; with `access`, which it needs.
+    pub retain: bool,
 }
 
 /// The header that all programs share.
@@ -63,6 +67,9 @@ const RUNGC_BOARD_H: &str = include_str!("../include/rungc_board.h");
 
 /// The header of access to devices by number.
 const RUNGC_ACCESS_H: &str = include_str!("../include/rungc_access.h");
+
+/// The header of latched devices that survive power-off.
+const RUNGC_RETAIN_H: &str = include_str!("../include/rungc_retain.h");
 
 /// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make` builds it as
 /// `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.

@@ -2,27 +2,9 @@
 
 use rungc_ir::Module;
 use rungc_models::Range;
-use rungc_models::runs::{IndexAlias, is_special};
+use rungc_models::runs::{IndexAlias, is_special, rt_class};
 use rungc_rt::{Class, Counter16, Counter32, FIRST_COUNTER32, FIRST_SPECIAL, Timer};
 use rungc_syntax::DeviceClass;
-
-/// The class as the runtime numbers it; `None` for pointers and nesting levels, which are not storage.
-pub fn rt_class(class: DeviceClass) -> Option<Class> {
-    Some(match class {
-        DeviceClass::X => Class::X,
-        DeviceClass::Y => Class::Y,
-        DeviceClass::M => Class::M,
-        DeviceClass::S => Class::S,
-        DeviceClass::T => Class::T,
-        DeviceClass::C => Class::C,
-        DeviceClass::D => Class::D,
-        DeviceClass::R => Class::R,
-        DeviceClass::ER => Class::ER,
-        DeviceClass::V => Class::V,
-        DeviceClass::Z => Class::Z,
-        DeviceClass::P | DeviceClass::I | DeviceClass::N => return None,
-    })
-}
 
 /// What the model says about one number of a class.
 #[derive(Clone, Copy, PartialEq, Eq, Default)]

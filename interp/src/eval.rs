@@ -1,9 +1,9 @@
 //! The values of expressions, as [`rungc_ir::node`] specifies them.
 
-use crate::devices::rt_class;
 use crate::logic::{Input, Join, Strided};
 use crate::machine::Machine;
 use rungc_ir::node::{Access, AccessKind, Expr, ExprId, FloatOp, Place, SysValue, Ty, UnOp};
+use rungc_models::runs::rt_class;
 use rungc_rt::{Class, Plc, word};
 
 /// Value of an expression or temporary.

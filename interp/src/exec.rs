@@ -1,12 +1,12 @@
 //! What statements do, as [`rungc_ir::node`] specifies.
 
-use crate::devices::rt_class;
 use crate::eval::{Value, float, int};
 use crate::machine::Machine;
 use rungc_ir::node::{
     Access, AccessKind, Arg, Block, Call, Count, Counter32Coil, Edge, EdgeId, ExprId, Fetch,
     IndexedCoil, LabelId, Part, Place, Repeat, Send, Stmt, TempId, TimerCoil,
 };
+use rungc_models::runs::rt_class;
 use rungc_rt::{
     Class, Cx, EdgeKind, Fault, Hal, Operand, Plc, Site, Stop, TimerKind, fetch, report, send,
 };

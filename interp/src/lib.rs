@@ -14,6 +14,6 @@ mod exec;
 mod logic;
 mod machine;
 
-pub use devices::rt_class;
 pub use errors::OperationError;
 pub use machine::Machine;
+pub use rungc_models::runs::rt_class;

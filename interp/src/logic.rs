@@ -5,9 +5,10 @@
 //! `((X000 | M0) & !X001)` is LD X000, OR M0, ANI X001. What is joined is a device whose slot is known, or any other
 //! expression, which `eval` evaluates.
 
-use crate::devices::{BitSlot, Devices, rt_class};
+use crate::devices::{BitSlot, Devices};
 use rungc_ir::node::{Expr, ExprId, Place, TempId, Ty};
 use rungc_ir::{Module, walk};
+use rungc_models::runs::rt_class;
 use rungc_rt::Class;
 use typed_index_collections::TiVec;
 

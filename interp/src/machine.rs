@@ -13,6 +13,7 @@ use rungc_models::special::RunCommand;
 use rungc_rt::comm::PortMut;
 use rungc_rt::comm::codec::{self, Codec};
 use rungc_rt::comm::model::PortModel;
+use rungc_rt::retain::{Retained, RetainedRun};
 use rungc_rt::special::{
     D_REMOTE, D_WATCHDOG_MS, M_FORCE_ENABLE, M_FORCED_RUN, M_KEEP_IN_STOP, M_LOCAL_CONTROL,
     M_OUTPUTS_OFF, M_REMOTE_RUN, REMOTE_KEY, Relay,
@@ -90,6 +91,8 @@ pub struct Machine<'m> {
     /// Of the module's serial ports, in their order.
     ports: Vec<Port>,
     type_code: u16,
+    /// What it keeps over power-off, and how records of that name it.
+    retained: (String, Vec<RetainedRun>),
 }
 
 impl<'m> Machine<'m> {
@@ -121,6 +124,7 @@ impl<'m> Machine<'m> {
             axes: vec![Axis::new(); module.pulse_outputs.len()],
             ports: vec![Port::new(); module.ports.len()],
             type_code: module.model.type_code(),
+            retained: (module.retained_as(), module.retained()),
         };
         machine.preset(true);
         machine.power_on();
@@ -355,6 +359,16 @@ impl Program for Machine<'_> {
             self.devices.open_contacts();
         }
         self.power_on();
+    }
+
+    fn retained(&self) -> Retained<'_> {
+        let key = self.module.model.latch_key;
+        Retained {
+            program: &self.retained.0,
+            runs: &self.retained.1,
+            contacts: self.module.model.keeps_contacts,
+            key: key.map(|(register, key)| (register.number(), key)),
+        }
     }
 
     fn last_error(&self) -> LastError {

@@ -11,6 +11,7 @@ pub mod node;
 pub mod passes;
 pub mod ranges;
 pub mod reach;
+mod retained;
 pub mod validate;
 pub mod walk;
 pub mod worst;

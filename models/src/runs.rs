@@ -1,7 +1,7 @@
 //! Runs of devices: where an index or a block may go without leaving the devices it began in.
 
 use crate::Model;
-use rungc_rt::Register;
+use rungc_rt::{Class, Register};
 pub use rungc_rt::{FIRST_COUNTER32, FIRST_SPECIAL};
 use rungc_syntax::DeviceClass;
 
@@ -30,6 +30,24 @@ impl IndexAlias {
     pub fn is_within(&self, first: u32, last: u32) -> bool {
         (first..=last).contains(&self.register.number())
     }
+}
+
+/// The class as the runtime numbers it; `None` for pointers and nesting levels, which are not storage.
+pub fn rt_class(class: DeviceClass) -> Option<Class> {
+    Some(match class {
+        DeviceClass::X => Class::X,
+        DeviceClass::Y => Class::Y,
+        DeviceClass::M => Class::M,
+        DeviceClass::S => Class::S,
+        DeviceClass::T => Class::T,
+        DeviceClass::C => Class::C,
+        DeviceClass::D => Class::D,
+        DeviceClass::R => Class::R,
+        DeviceClass::ER => Class::ER,
+        DeviceClass::V => Class::V,
+        DeviceClass::Z => Class::Z,
+        DeviceClass::P | DeviceClass::I | DeviceClass::N => return None,
+    })
 }
 
 /// Whether a run ends before device `number` of `class` although the model has more: the special devices and the 32-bit counters

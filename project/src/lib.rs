@@ -57,6 +57,8 @@ pub struct Project {
     pub modbus: Vec<modbus::Row>,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is named.
     pub latched: Vec<Range>,
+    /// `[retain] file`: where `run` and `serve` keep latched devices.
+    pub retain: Option<PathBuf>,
     /// `[serve]`: servers and serial lines of a running program, and devices that it serves.
     pub serve: serve::Serve,
 }

@@ -14,7 +14,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 9] = [
+const TABLES: [(&str, &[&str]); 10] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output", "access"]),
@@ -22,6 +22,7 @@ const TABLES: [(&str, &[&str]); 9] = [
     ("tokens", &[]),
     ("index", &[]),
     ("latched", &[]),
+    ("retain", &["file"]),
     ("serve", &[]),
     (MODBUS, &[]),
 ];
@@ -141,6 +142,7 @@ impl Reader {
                 "test" => self.test(table, project),
                 "tokens" => self.tokens(table, project),
                 "index" => self.index(table, project),
+                "retain" => project.retain = self.path(table, "file"),
                 "serve" => self.serve(table, project),
                 _ => self.latched(table, project),
             }

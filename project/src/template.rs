@@ -64,6 +64,10 @@ deny = []
 # [latched]
 # D = "D200-D511"
 
+# Where `rungc run` and `rungc serve` keep latched devices from run to run.
+# [retain]
+# file = "machine.retain"
+
 # What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
 # [serve]
 # modbus-tcp = "127.0.0.1:5020"

@@ -10,7 +10,7 @@
 #![deny(missing_docs)]
 #![deny(unsafe_code)]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "std"))]
 extern crate std;
 
 mod access;
@@ -46,6 +46,7 @@ mod program;
 pub mod pulse;
 mod pulse_side;
 mod registry;
+pub mod retain;
 mod runs;
 pub mod special;
 mod timing;

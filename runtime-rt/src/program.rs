@@ -3,6 +3,7 @@
 use crate::fault::LastError;
 use crate::hal::Hal;
 use crate::plc::Plc;
+use crate::retain::Retained;
 
 /// A program and its devices. The host copies the input terminals to X ([`Plc::set_bit`]), calls [`Program::scan`], and copies
 /// [`Program::output`] to the output terminals.
@@ -63,6 +64,11 @@ pub trait Program: Plc {
     /// latched timers and counters and private memories included; then RUN. On models with a latch key (HM) latched devices
     /// are kept only if the key register holds the key.
     fn power_cycle(&mut self);
+
+    /// What the program keeps over power-off, for a host that saves it ([`crate::retain`]).
+    fn retained(&self) -> Retained<'_> {
+        Retained::NOTHING
+    }
 
     /// The last operation error, and why the PLC stopped. Going to RUN forgets both.
     fn last_error(&self) -> LastError {

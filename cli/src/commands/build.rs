@@ -200,6 +200,12 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         Emit::C if args.device_access && args.board.is_some() => wrong(
             "--device-access does not apply to the sources of an image; emit the program without --board",
         ),
+        Emit::Bin | Emit::Elf | Emit::Ir | Emit::Rust if args.retain => {
+            wrong("--retain only applies to --emit c and --emit lib (docs/src/retain.md)")
+        }
+        Emit::C if args.retain && args.board.is_some() => wrong(
+            "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (docs/src/retain.md)",
+        ),
         Emit::Bin if target.is_bare() => {
             wrong("--emit bin: the target has no operating system; use --emit elf for an image")
         }
@@ -326,6 +332,7 @@ impl Job<'_> {
         sources::Options {
             main,
             access: self.plan.device_access,
+            retain: self.plan.retain,
             ..sources::Options::default()
         }
     }

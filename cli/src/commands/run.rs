@@ -6,6 +6,7 @@ mod errors;
 mod lines;
 mod plotting;
 mod recording;
+mod retaining;
 mod scope;
 mod serving;
 mod simulate;
@@ -131,8 +132,13 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             "rungc: the axis {name} never moves: the program sends no pulses to its output"
         ));
     }
+    let usual = subject.project.as_ref().and_then(|project| {
+        let file = project.retain.as_deref()?;
+        Some(project.at(file))
+    });
     let run = simulate::Run {
         args,
+        retain: args.retain.clone().or(usual),
         module: &module,
         errors_at_once: cx.verbosity == Verbosity::Verbose,
         settings: &settings,

@@ -4,8 +4,8 @@ use crate::events::hal_parameter;
 use crate::generate::{Generator, Item};
 use crate::storage::PrintStorage;
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
-use rungc_emit::cycle;
+use quote::{format_ident, quote};
+use rungc_emit::cycle::{self, Latches};
 use rungc_ir::node::FunctionKind;
 use rungc_models::special::RunCommand;
 use rungc_rt::special::{
@@ -51,6 +51,7 @@ impl Generator<'_> {
         let constant_scan = self.constant_scan();
         let ports = self.ports_advance();
         let watchdog = self.watchdog_begins();
+        let retained = self.retained();
         let last_error = self.last_error();
         let pulse_timer = self.pulse_timer();
         let output = self.output();
@@ -76,6 +77,7 @@ impl Generator<'_> {
                 }
                 #power_cycle
                 #pulse_timer
+                #retained
                 #last_error
                 #output
             }
@@ -131,6 +133,37 @@ impl Generator<'_> {
         Some(quote! {
             fn constant_scan_ms(&self) -> Option<u16> {
                 (#on #ms > 0).then_some(#ms as u16)
+            }
+        })
+    }
+
+    /// The method that names what the program keeps over power-off.
+    fn retained(&mut self) -> Option<TokenStream> {
+        let key = match cycle::latches(self.module, &self.storage) {
+            Latches::Kept => quote!(None),
+            Latches::KeptIf(register, key) => {
+                let register = Literal::u32_unsuffixed(register);
+                let key = Literal::i16_unsuffixed(key);
+                quote!(Some((#register, #key)))
+            }
+            Latches::Lost(..) => return None,
+        };
+        let runs = self.module.retained();
+        if runs.is_empty() {
+            return None;
+        }
+        let retain = self.rt("retain");
+        let class = self.rt("Class");
+        let rows = runs.iter().map(|row| {
+            let name = format_ident!("{}", format!("{:?}", row.class));
+            let [first, count] = [row.first, row.count].map(Literal::u16_unsuffixed);
+            quote!(#retain::RetainedRun::new(#class::#name, #first, #count))
+        });
+        let program = self.module.retained_as();
+        let contacts = self.module.model.keeps_contacts;
+        Some(quote! {
+            fn retained(&self) -> #retain::Retained<'_> {
+                #retain::Retained { program: #program, runs: const { &[#(#rows),*] }, contacts: #contacts, key: #key }
             }
         })
     }

@@ -4,6 +4,7 @@ use super::errors::Errors;
 use super::lines::Lines;
 use super::plotting::Plotting;
 use super::recording::Recording;
+use super::retaining::Retaining;
 use super::scope::Scope;
 use super::serving::Servers;
 use super::view::{Column, Kind, View};
@@ -22,6 +23,7 @@ use rungc_sim::record::Reading;
 use rungc_syntax::DeviceClass;
 use std::io::{self, Write};
 use std::iter::Peekable;
+use std::path::PathBuf;
 use std::slice::Iter;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -37,6 +39,7 @@ struct Simulation<'a> {
     recording: Option<Recording>,
     plotting: Option<Plotting>,
     scope: Option<Scope>,
+    retaining: Option<Retaining>,
     plant: Option<Plant>,
     errors: Errors<'a>,
     servers: Servers,
@@ -54,6 +57,8 @@ const USUAL_SCAN_MS: u64 = 10;
 pub struct Run<'a> {
     /// The command line.
     pub args: &'a RunArgs,
+    /// Where latched devices are kept from run to run.
+    pub retain: Option<PathBuf>,
     /// The program.
     pub module: &'a Module,
     /// Whether operation errors are reported as they occur.
@@ -72,12 +77,16 @@ impl Run<'_> {
     /// Runs the program, wired to a machine.
     pub fn simulate(&self, plant: Option<Plant>) -> Result {
         let Run { args, module, .. } = *self;
-        let machine = Machine::new(module);
+        let mut machine = Machine::new(module);
         // What does not exist is said before anything is shown or written.
         let set = self.settings.iter().map(|s| s.target);
         for target in set.chain(self.shown.iter().copied()) {
             Reading::of(&machine, target).ok_or_else(|| missing(target, module))?;
         }
+        let retaining = match &self.retain {
+            Some(path) => Some(Retaining::begin(path, &mut machine)?),
+            None => None,
+        };
         let around = plant.as_ref();
         let recording = match &args.vcd {
             Some(path) => Some(Recording::begin(path, &machine, around, self.shown)?),
@@ -115,6 +124,7 @@ impl Run<'_> {
             recording,
             plotting,
             scope,
+            retaining,
             plant,
             errors: Errors::new(module, self.errors_at_once),
             servers: Servers::open(&args.serve, module.model, &mut watch)?,
@@ -131,6 +141,9 @@ impl Run<'_> {
         let table = simulation.watch.table();
         if !table.is_empty() {
             say(&format!("\n{}\n", table.join("\n")))?;
+        }
+        if let Some(retaining) = simulation.retaining.take() {
+            retaining.end(&simulation.machine)?;
         }
         let errors = simulation.machine.errors();
         simulation.errors.summarise(errors);
@@ -186,6 +199,9 @@ impl Simulation<'_> {
                 break;
             }
             if args.in_real_time() {
+                if let Some(retaining) = &mut self.retaining {
+                    retaining.poll(&self.machine, self.now_ms)?;
+                }
                 let next = Duration::from_millis(self.now_ms + scan_ms);
                 thread::sleep(next.saturating_sub(begin.elapsed()));
                 self.lines

@@ -1,0 +1,137 @@
+//! Latched devices that survive power-off: `NAME_retain.h` and `NAME_retain.c`.
+
+use rungc_emit::cycle::{self, Latches};
+use rungc_emit::storage::Storage;
+use rungc_ir::Module;
+use std::fmt::Write;
+
+/// What surrounds the name of a program in its header.
+const HEADER: &str = "\
+#ifndef /* GUARD */
+#define /* GUARD */
+
+#include \"NAME_access.h\"
+#include \"rungc_retain.h\"
+
+#ifdef __cplusplus
+extern \"C\" {
+#endif
+
+/* What the program keeps over power-off, and how long a record of it is, in bytes. */
+extern const rungc_retained NAME_retained;
+#define /* LENGTH */
+
+/* After NAME_init: gives latched devices the values of the newest record in two slots of flash. */
+rungc_loaded NAME_load_latched(NAME_plc *plc, rungc_slots *slots);
+
+/* Between scans: once in `every_ms` saves latched devices if one has changed. `now_ms` is the time of the last scan. False if flash fails. */
+bool NAME_save_changes(const NAME_plc *plc, rungc_slots *slots, uint32_t now_ms, uint32_t every_ms);
+
+/* Saves them now, as when a supply says that power is about to fail. Not while a scan runs. False if flash fails. */
+bool NAME_save_latched(const NAME_plc *plc, rungc_slots *slots);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+";
+
+/// Its source.
+const SOURCE: &str = "\
+#include \"NAME_retain.h\"
+
+static const rungc_retained_run runs[] = {
+/* RUNS */
+};
+
+static bool read_device(const void *plc, plc_class device, uint32_t number, int32_t *value)
+{
+    return NAME_read((const NAME_plc *)plc, device, number, value);
+}
+
+static bool write_device(void *plc, plc_class device, uint32_t number, int32_t value)
+{
+    return NAME_write((NAME_plc *)plc, device, number, value);
+}
+
+const rungc_retained NAME_retained = {
+    .program = \"/* OWNER */\",
+    .runs = runs,
+    .run_count = sizeof runs / sizeof runs[0],
+    .contacts = /* CONTACTS */,
+    .key_number = /* REGISTER */,
+    .key = /* KEY */,
+    .read = read_device,
+    .write = write_device,
+};
+
+rungc_loaded NAME_load_latched(NAME_plc *plc, rungc_slots *slots)
+{
+    return rungc_load(slots, &NAME_retained, plc);
+}
+
+bool NAME_save_changes(const NAME_plc *plc, rungc_slots *slots, uint32_t now_ms, uint32_t every_ms)
+{
+    return rungc_save_changes(slots, &NAME_retained, plc, now_ms, every_ms);
+}
+
+bool NAME_save_latched(const NAME_plc *plc, rungc_slots *slots)
+{
+    return rungc_save(slots, &NAME_retained, plc);
+}
+";
+
+/// Whether a program keeps something over power-off.
+pub fn keeps_any(module: &Module) -> bool {
+    let lost = matches!(
+        cycle::latches(module, &Storage::new(module)),
+        Latches::Lost(..)
+    );
+    !lost && !module.retained().is_empty()
+}
+
+/// The text of `NAME_retain.h`, without its first line.
+pub fn header(module: &Module) -> String {
+    let upper = module.name.to_ascii_uppercase();
+    let length = format!("{upper}_RECORD_LENGTH {}u", record_len(module));
+    HEADER
+        .replace("NAME", &module.name)
+        .replace("/* GUARD */", &format!("{upper}_RETAIN_H"))
+        .replace("/* LENGTH */", &length)
+}
+
+/// How long a record of the program's latched devices is, in bytes.
+fn record_len(module: &Module) -> u32 {
+    let (program, runs) = (module.retained_as(), module.retained());
+    let retained = rungc_rt::retain::Retained {
+        program: &program,
+        runs: &runs,
+        ..rungc_rt::retain::Retained::NOTHING
+    };
+    retained.record_len()
+}
+
+/// The text of `NAME_retain.c`, without its first line.
+pub fn source(module: &Module) -> String {
+    let mut rows = String::new();
+    for run in module.retained() {
+        // Writing to a String does not fail.
+        let _ = writeln!(
+            rows,
+            "    {{PLC_CLASS_{:?}, {}, {}}},",
+            run.class, run.first, run.count
+        );
+    }
+    let (register, key) = match cycle::latches(module, &Storage::new(module)) {
+        Latches::KeptIf(register, key) => (register, key),
+        Latches::Kept | Latches::Lost(..) => (0, 0),
+    };
+    SOURCE
+        .replace("NAME", &module.name)
+        .replace("/* RUNS */\n", &rows)
+        .replace("/* OWNER */", &module.retained_as())
+        .replace("/* CONTACTS */", &module.model.keeps_contacts.to_string())
+        .replace("/* REGISTER */", &register.to_string())
+        .replace("/* KEY */", &key.to_string())
+}
