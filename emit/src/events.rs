@@ -4,6 +4,7 @@ use rungc_ir::Module;
 use rungc_ir::node::{Cell, FunctionKind, Stmt};
 use rungc_ir::walk::statements;
 use rungc_rt::EdgeKind;
+use rungc_syntax::order;
 use std::collections::BTreeSet;
 
 /// The edges that mean something: function of the module, terminal X, which.
@@ -20,7 +21,7 @@ pub fn edges(module: &Module) -> impl Iterator<Item = (usize, u32, EdgeKind)> {
 
 /// The input terminals whose edges mean something, each once.
 pub fn inputs(module: &Module) -> BTreeSet<u32> {
-    edges(module).map(|(_, input, _)| input).collect()
+    order::set(edges(module).map(|(_, input, _)| input))
 }
 
 /// The cells that follow the time.

@@ -17,6 +17,7 @@ pub mod print;
 mod search;
 mod text;
 
+use rungc_syntax::order;
 use rungc_syntax::{Diagnostic, Diagnostics, Program, Span, codes};
 use std::fs::File;
 use std::io::{self, Read as _};
@@ -295,7 +296,7 @@ fn find(folder: &Path, names: &[&str]) -> Option<PathBuf> {
         folder
     };
     let mut entries: Vec<_> = std::fs::read_dir(folder).ok()?.flatten().collect();
-    entries.sort_by_key(std::fs::DirEntry::file_name);
+    order::by_key(&mut entries, std::fs::DirEntry::file_name);
     entries
         .into_iter()
         .filter(|e| e.file_name().eq_ignore_ascii_case(name))

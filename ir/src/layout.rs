@@ -10,6 +10,7 @@ use rungc_models::Model;
 use rungc_models::runs::is_special;
 use rungc_rt::special::{D_FIRST_ERROR_STEP, M_FIRST_ERROR};
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 
 /// A run of stored devices.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -253,7 +254,7 @@ impl<'m> Builder<'m> {
                 open = array;
             }
         }
-        areas.sort_by_key(|area| (area.class, area.first));
+        order::by_key(&mut areas, |area| (area.class, area.first));
         Layout {
             areas,
             grids: Vec::new(),

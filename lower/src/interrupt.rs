@@ -10,6 +10,7 @@ use rungc_models::interrupts::{Advanced, Capture, CountRows, Gate, Interrupt, Pu
 use rungc_rt::special::D_SCOPE_STATE;
 use rungc_rt::{CmpOp, EdgeKind, Relay};
 use rungc_syntax::DeviceClass::M;
+use rungc_syntax::order;
 use rungc_syntax::{Device, codes};
 
 /// Name of the flag that EI sets.
@@ -132,7 +133,7 @@ impl Lowerer<'_> {
             }
         }
         keep_last_of_relays(&mut requests);
-        requests.sort_by_key(|request| request.what.pointer());
+        order::by_key(&mut requests, |request| request.what.pointer());
         if let Some(catch) = self.model.interrupts.pulse_catch {
             requests.extend(self.caught(catch));
         }
@@ -201,7 +202,7 @@ impl Lowerer<'_> {
         }
         let precedence = self.model.interrupts.precedence;
         // Those of one rank stay in the order of their pointers.
-        flags.sort_by_key(|&(source, _)| precedence.rank(source));
+        order::by_key(&mut flags, |&(source, _)| precedence.rank(source));
         flags
     }
 

@@ -7,6 +7,7 @@ use rungc_rt::RtFn;
 use rungc_rt::comm::{Choice, PortWiring, Protocol, Protocols};
 use rungc_rt::special::Register;
 use rungc_rt::{Class, Plc, Ports, State, Sys};
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Instr, OperandKind};
 use std::collections::BTreeSet;
 
@@ -97,7 +98,7 @@ impl Lowerer<'_> {
     /// All values that a register may have; `None` if they are not known.
     fn values(&self, register: Option<Register>, wanted: &Wanted) -> Option<BTreeSet<u16>> {
         let Some(register) = register else {
-            return Some(BTreeSet::from([0]));
+            return Some(order::set([0]));
         };
         let number = register.number();
         if wanted.observes(self.model, DeviceClass::D, number) {
@@ -105,7 +106,7 @@ impl Lowerer<'_> {
         }
         let initial = self.module.initial_words.iter();
         let initial = initial.filter(|(of, _)| *of == register);
-        let mut values: BTreeSet<u16> = initial.map(|&(_, value)| value as u16).collect();
+        let mut values = order::set(initial.map(|&(_, value)| value as u16));
         values.insert(0);
         for instr in &self.resolved.program.instrs {
             match writes(instr, number) {

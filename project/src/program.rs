@@ -3,8 +3,8 @@
 use crate::{Error, Project, Range};
 use rungc_lower::compile::Bound;
 use rungc_models::Model;
-use rungc_syntax::{Device, DeviceClass, DeviceRun, Program, codes};
-use std::collections::BTreeSet;
+use rungc_syntax::order;
+use rungc_syntax::{Device, DeviceRun, Program, codes};
 use std::path::Path;
 
 impl Project {
@@ -36,7 +36,7 @@ impl Project {
         for run in &self.latched {
             self.can_latch(run, model)?;
         }
-        let named: BTreeSet<DeviceClass> = self.latched.iter().map(|run| run.class).collect();
+        let named = order::set(self.latched.iter().map(|run| run.class));
         let parameters = program.parameters.get_or_insert_default();
         let others = parameters.latched.take().unwrap_or_else(|| usual(model));
         let others = others.into_iter().filter(|run| !named.contains(&run.class));

@@ -1,5 +1,7 @@
 //! What comes in at input terminals during a step: pulses and encoders, as edges in virtual time.
 
+use rungc_syntax::order;
+
 /// A change of an input terminal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Change {
@@ -79,7 +81,7 @@ impl Signal {
 /// The changes of all signals, in order.
 pub fn changes(signals: &[Signal]) -> Vec<Change> {
     let mut changes: Vec<Change> = signals.iter().flat_map(|signal| signal.changes()).collect();
-    changes.sort();
+    order::by(&mut changes, Ord::cmp);
     changes
 }
 

@@ -16,6 +16,7 @@
 
 use crate::Span;
 use crate::diag::{Diagnostic, Severity};
+use crate::order;
 
 mod labels;
 mod logic;
@@ -138,7 +139,7 @@ pub fn all() -> Vec<&'static Code> {
         vendor::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();
-    all.sort_by_key(|code| code.id);
+    order::by_key(&mut all, |code| code.id);
     all
 }
 

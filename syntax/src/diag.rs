@@ -1,5 +1,6 @@
 //! Diagnostics: what is wrong with a program, where, and what to do about it. Rendering is the command line's business.
 
+use crate::order;
 use crate::{Device, Span, codes};
 use std::borrow::Cow;
 
@@ -117,7 +118,7 @@ pub fn apply(text: &str, fixes: &[&Fix]) -> (String, Vec<bool>) {
             edits.extend(&fixes[n].edits);
         }
     }
-    edits.sort_by_key(|edit| edit.span);
+    order::by_key(&mut edits, |edit| edit.span);
     let mut result = String::with_capacity(text.len());
     let mut at = 0;
     for Edit { span, text: new } in edits {
@@ -310,8 +311,7 @@ impl Diagnostics {
 
     /// Ordered by place, then by code.
     pub fn sorted(mut self) -> Vec<Diagnostic> {
-        self.0
-            .sort_by(|a, b| (a.span, a.code).cmp(&(b.span, b.code)));
+        order::by(&mut self.0, |a, b| (a.span, a.code).cmp(&(b.span, b.code)));
         self.0
     }
 

@@ -8,6 +8,7 @@ mod classes;
 pub mod codes;
 mod device;
 pub mod diag;
+pub mod order;
 mod program;
 mod source;
 pub mod text;

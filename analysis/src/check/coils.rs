@@ -4,6 +4,7 @@ use super::Code;
 use super::skips::Skips;
 use super::structure::{NONE, Nesting};
 use rungc_catalogue::Basic;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
@@ -25,7 +26,7 @@ pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Dia
             };
             (state, skips.mark(i))
         };
-        coils.sort_by_key(condition);
+        order::by_key(&mut coils, condition);
         let same = coils
             .chunk_by(|a, b| condition(a) == condition(b))
             .find_map(|same| same.split_last().filter(|(_, earlier)| !earlier.is_empty()));
@@ -33,7 +34,7 @@ pub(super) fn check(code: &Code, skips: &Skips, nesting: &Nesting, out: &mut Dia
             found.push(driven_twice(code, device, earlier, last));
         }
     }
-    found.sort_by_key(|diagnostic| diagnostic.span);
+    order::by_key(&mut found, |diagnostic| diagnostic.span);
     out.extend(found);
 }
 

@@ -6,6 +6,7 @@ use super::drives::{Drive, Drives, Lasts};
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use rungc_catalogue::{ArithOp, Form, Forms, Lower};
+use rungc_syntax::order;
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
 use std::collections::BTreeMap;
 
@@ -66,7 +67,9 @@ impl EveryScan {
     pub(super) fn report(mut self, code: &Code, out: &mut Diagnostics) {
         self.leave_out_computed(code);
         let mut found: Vec<_> = self.found.into_iter().collect();
-        found.sort_by_key(|(_, changes)| changes.first().map(|change| change.at));
+        order::by_key(&mut found, |(_, changes)| {
+            changes.first().map(|change| change.at)
+        });
         for (device, changes) in &found {
             out.extend(report(code, *device, changes));
         }

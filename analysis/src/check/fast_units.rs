@@ -2,6 +2,7 @@
 
 use super::Code;
 use super::fast_inputs::{Counter, Other, measured};
+use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Diagnostics, codes};
 use std::collections::BTreeMap;
 
@@ -11,7 +12,7 @@ pub(super) fn check(code: &Code, others: &[Other], counters: &[Counter], out: &m
         return;
     };
     let outputs = outputs(code).into_values().map(|at| (at, of.output));
-    let inputs: BTreeMap<u32, usize> = measured(code).map(|(i, input)| (input.number, i)).collect();
+    let inputs = order::map(measured(code).map(|(i, input)| (input.number, i)));
     let inputs = inputs.into_values().map(|at| (at, of.density));
     let others = others.iter().map(|other| (other.at, of.edge));
     let counters = counters.iter().map(|c| (c.coil, of.counter(c.kind)));

@@ -5,6 +5,7 @@ use super::accesses::Access;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_models::special::{Missed, Reason, Special, Status};
+use rungc_syntax::order;
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Span, codes};
 use std::collections::BTreeMap;
 
@@ -74,7 +75,9 @@ impl Inert {
             }
         }
         for (reason, mut same) in by_reason {
-            same.sort_by_key(|(_, used)| used.places.first().map(|&(span, _)| span));
+            order::by_key(&mut same, |(_, used)| {
+                used.places.first().map(|&(span, _)| span)
+            });
             if same.len() > MAX_SINGLE {
                 out.extend(report(reason, &same));
             } else {

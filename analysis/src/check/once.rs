@@ -1,6 +1,7 @@
 //! Instructions that a program may hold only so often: as their rows say, and with some operands.
 
 use super::Code;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use std::collections::BTreeMap;
 
@@ -71,7 +72,7 @@ pub(super) fn check(code: &Code, out: &mut Diagnostics) {
         report(code, *max, places, None, out);
     }
     for mut places in by_operand {
-        places.sort_by_key(|&(_, device)| device);
+        order::by_key(&mut places, |&(_, device)| device);
         for same in places.chunk_by(|a, b| a.1 == b.1) {
             let at: Vec<_> = same.iter().map(|&(i, _)| i).collect();
             report(code, 1, &at, same.first().map(|&(_, device)| device), out);

@@ -6,6 +6,7 @@ use super::Code;
 use super::accesses::Access;
 use rungc_catalogue::{ArithOp, Basic, Lower};
 use rungc_models::runs::is_special;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -109,7 +110,7 @@ impl Overlaps {
                 ));
             }
         }
-        found.sort_by_key(|diagnostic| diagnostic.span);
+        order::by_key(&mut found, |diagnostic| diagnostic.span);
         out.extend(found);
     }
 

@@ -2,6 +2,7 @@
 
 use super::accesses::Access;
 use rungc_models::runs::is_special;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};
 use rustc_hash::FxHashMap;
 
@@ -55,7 +56,7 @@ impl Pairs {
                 .help("leave one register between the two values");
             found.push(diagnostic);
         }
-        found.sort_by_key(|diagnostic| diagnostic.span);
+        order::by_key(&mut found, |diagnostic| diagnostic.span);
         out.extend(found);
     }
 }

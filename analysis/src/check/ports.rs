@@ -12,7 +12,7 @@ pub(super) use findings::check;
 use rungc_catalogue::Lower;
 use rungc_rt::comm::{Choice, LineFormat, Parity, PortWiring, Protocol};
 use rungc_rt::{Ports, RtFn};
-use std::collections::BTreeSet;
+use rungc_syntax::order;
 use std::fmt;
 
 /// What a program makes of a serial port.
@@ -68,9 +68,7 @@ pub fn setups(resolved: &Resolved) -> Vec<Setup> {
     let code = Code::new(resolved);
     let facts = facts::Facts::new(&code);
     let ports = code.model().ports;
-    let used: BTreeSet<u8> = (0..code.len)
-        .flat_map(|i| port_of(&code, i, ports))
-        .collect();
+    let used = order::set((0..code.len).flat_map(|i| port_of(&code, i, ports)));
     let wirings = ports.all().iter();
     let wirings = wirings.filter(|wiring| wiring.choice != Choice::Can);
     let wirings = wirings.filter(|wiring| used.contains(&wiring.number) || facts.touch(wiring));

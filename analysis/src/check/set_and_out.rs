@@ -4,6 +4,7 @@ use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostic, Diagnostics, codes};
 use rustc_hash::FxHashMap;
 
@@ -53,7 +54,7 @@ pub(super) fn check(code: &Code, nesting: &Nesting, skips: &Skips, out: &mut Dia
         .iter()
         .filter_map(|(&device, uses)| in_vain(code, device, uses, &rungs, condition))
         .collect();
-    found.sort_by_key(|diagnostic| diagnostic.span);
+    order::by_key(&mut found, |diagnostic| diagnostic.span);
     out.extend(found);
 }
 

@@ -3,9 +3,10 @@
 use super::structure::{NONE, Nesting};
 use super::{Code, Part};
 use rungc_catalogue::Basic;
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, codes};
 use rustc_hash::FxHashMap;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// At most this many circuits may begin at one branch (h1u-h2u-programming §4.2.2).
 const MAX_BRANCH: usize = 8;
@@ -111,7 +112,7 @@ fn flow_branches(
     initial: Device,
 ) -> (usize, usize) {
     let (mut count, mut last) = (0, 0);
-    let mut seen = BTreeSet::from([initial]);
+    let mut seen = order::set([initial]);
     let mut open = vec![initial];
     while let Some(state) = open.pop() {
         let Some(to) = leads.get(&state) else {

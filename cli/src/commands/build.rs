@@ -20,6 +20,7 @@ use rungc_firmware::target::{self, Target};
 use rungc_ir::{Module, dump};
 use rungc_lower::compile::{self, CompileOptions};
 use rungc_sim::Target as Device;
+use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, text};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -236,7 +237,7 @@ impl ForImage {
         }
         let settings = args.set.iter().map(|text| setting(text));
         let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
-        settings.sort_by_key(|setting| setting.at_ms);
+        order::by_key(&mut settings, |setting| setting.at_ms);
         let inputs = settings.iter().map(|setting| match setting.target {
             Device::Bit(DeviceClass::X, number) => {
                 Ok((milliseconds(setting.at_ms)?, number, setting.value != 0.0))

@@ -27,6 +27,7 @@ use rungc_lower::compile::{CompileOptions, compile};
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_sim::{LoadError, Target};
+use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Program};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,7 +66,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         .iter()
         .map(|text| setting(text))
         .collect::<std::result::Result<Vec<_>, _>>()?;
-    settings.sort_by_key(|s| s.at_ms);
+    order::by_key(&mut settings, |s| s.at_ms);
     let watched = args
         .watch
         .iter()

@@ -14,6 +14,7 @@ use rungc_runtime_sources::cache::{self, Slot};
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plant;
 use rungc_sim::plctest::{self, Report, Suite, TestFile};
+use rungc_syntax::order;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -169,7 +170,7 @@ fn load(paths: &[PathBuf], filter: Option<&str>) -> std::result::Result<Vec<Test
             names.push(path.clone())
         }
     }
-    names.sort();
+    order::by(&mut names, Ord::cmp);
     names.dedup();
     let mut problems = Vec::new();
     let mut files = Vec::new();

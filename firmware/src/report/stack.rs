@@ -4,6 +4,7 @@
 use super::elf::Elf;
 use super::thumb::{Frame, frame};
 use object::{Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
+use rungc_syntax::order;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Why there is no bound.
@@ -139,10 +140,8 @@ impl Functions {
             .values()
             .flat_map(|f: &Function| &f.frame.constants);
         let stored = words.map(|(_, word)| word).chain(constants.copied());
-        let stored = stored
-            .filter(|word| word & 1 == 1 && by_address.contains_key(&(word & !1)))
-            .map(|word| word & !1)
-            .collect();
+        let stored = stored.filter(|word| word & 1 == 1 && by_address.contains_key(&(word & !1)));
+        let stored = order::set(stored.map(|word| word & !1));
         Functions { by_address, stored }
     }
 

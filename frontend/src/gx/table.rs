@@ -3,6 +3,7 @@
 //! The second byte of a body is the instruction's number of steps; the first and the third name it. A fourth byte 02
 //! makes it a pulse form. Where codes differ in their steps alone (LD M0 takes one, LD M7300 three), each has a row.
 
+use rungc_syntax::order;
 use std::sync::LazyLock;
 
 /// Columns: body (hexadecimal), mnemonic, steps (`5+`: and two more for every two characters of a text), evidence,
@@ -72,7 +73,7 @@ pub fn has_code(mnemonic: &str) -> bool {
 /// The rows, ordered by their bodies.
 static TABLE: LazyLock<Vec<Code>> = LazyLock::new(|| {
     let mut table: Vec<_> = ROWS.lines().skip(1).filter_map(code).collect();
-    table.sort_by(|a, b| a.body.cmp(&b.body));
+    order::by(&mut table, |a, b| a.body.cmp(&b.body));
     table
 });
 

@@ -11,6 +11,7 @@ mod marks;
 
 pub use axis::{Axis, Collision};
 pub use format::{Description, load, parse};
+use rungc_syntax::order;
 
 use crate::wire::Change;
 use delay::Delay;
@@ -82,7 +83,7 @@ impl Plant {
         for delay in &mut self.delays {
             delay.step(&see, &mut moments);
         }
-        moments.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
+        order::by(&mut moments, |(a, ..), (b, ..)| a.total_cmp(b));
         for (part, input, on) in moments {
             terminals.change(Change {
                 at_us: now_ms.saturating_sub(1) * 1000 + (part * 1000.0) as u64,

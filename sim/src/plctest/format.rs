@@ -9,6 +9,7 @@ use crate::target::Target;
 use crate::wire::Signal;
 use rungc_models::ModelId;
 use rungc_rt::{Clock, FIRST_COUNTER32};
+use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Source};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -153,7 +154,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
     if reader.problems.is_empty() {
         Ok(file)
     } else {
-        reader.problems.sort_by_key(|p| (p.line, p.column));
+        order::by_key(&mut reader.problems, |p| (p.line, p.column));
         Err(reader.problems)
     }
 }

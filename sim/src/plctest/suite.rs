@@ -5,8 +5,8 @@ use rungc_frontend::Read;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, Compiled, compile};
 use rungc_models::ModelId;
+use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Diagnostic, Program, Severity, Source, codes};
-use std::collections::BTreeSet;
 
 /// Which case of which file.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Hash)]
@@ -108,10 +108,8 @@ fn observed(case: &Case, plc: usize) -> Vec<(DeviceClass, u32)> {
     let of_machine = case.machine.iter().filter(|_| plc == 0);
     let of_machine = of_machine.flat_map(|machine| machine.terminals());
     let of_others = case.others.iter().flat_map(|other| &other.init);
-    let devices: BTreeSet<_> = init
-        .iter()
-        .chain(of_others)
-        .chain(of_steps)
+    let settings = init.iter().chain(of_others).chain(of_steps);
+    let devices = settings
         .filter(|setting| setting.plc == plc)
         .flat_map(|setting| {
             let text_len = match &setting.value {
@@ -120,10 +118,8 @@ fn observed(case: &Case, plc: usize) -> Vec<(DeviceClass, u32)> {
             };
             let (class, first, count) = setting.target.devices(text_len);
             (first..first.saturating_add(count)).map(move |n| (class, n))
-        })
-        .chain(of_machine)
-        .collect();
-    devices.into_iter().collect()
+        });
+    order::set(devices.chain(of_machine)).into_iter().collect()
 }
 
 /// The serial ports of a PLC that a case uses.
@@ -135,10 +131,8 @@ fn opened(case: &Case, plc: usize) -> Vec<u8> {
     let tx = steps.iter().flat_map(|step| &step.expect_tx);
     let ports = rx.chain(tx.map(|(port, _)| port));
     let ports = ports.chain(case.wires.iter().flatten());
-    let ports: BTreeSet<u8> = ports
-        .filter(|port| port.plc == plc)
-        .filter_map(|port| port.id.number())
-        .collect();
+    let ports = ports.filter(|port| port.plc == plc);
+    let ports = order::set(ports.filter_map(|port| port.id.number()));
     ports.into_iter().collect()
 }
 

@@ -8,6 +8,7 @@ use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
 use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
 use rungc_rt::{Class, Plc, Ports, Register, Relay, RtFn, State, Sys};
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -77,7 +78,7 @@ impl Facts {
             .clone()
             .flat_map(|wiring| wiring.setup_registers().chain(wiring.station).map(d));
         let relays = ports.flat_map(|wiring| wiring.setup_relays().map(m));
-        let watched: BTreeSet<Device> = words.chain(relays).collect();
+        let watched = order::set(words.chain(relays));
         let mut facts = Facts {
             model: code.model(),
             writes: BTreeMap::new(),

@@ -8,6 +8,7 @@ use rungc_sim::plant::{Axis, Plant};
 use rungc_sim::record::{Reading, Signal, Vcd};
 use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;
+use rungc_syntax::order;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
@@ -111,7 +112,7 @@ fn targets(module: &Module, watched: &[Target]) -> Vec<Target> {
             targets.push(target);
         }
     }
-    targets.sort_by_key(|&target| rank(target));
+    order::by_key(&mut targets, |&target| rank(target));
     targets
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Image, switch};
 use crate::board::{Serial, Uart};
-use std::collections::BTreeMap;
+use rungc_syntax::order;
 use std::fmt::Write;
 
 const SERIAL: &str = include_str!("../../../templates/serial.rs");
@@ -62,12 +62,10 @@ fn handler(serial: &Serial) -> String {
 /// The vectors of the devices' interrupts.
 pub(super) fn vectors(image: &Image) -> String {
     let ports = image.serial().into_iter();
-    let handlers: BTreeMap<u32, String> = ports
-        .flat_map(|serial| {
-            let numbers = serial.interrupts.iter();
-            numbers.map(move |number| (*number, handler(serial)))
-        })
-        .collect();
+    let handlers = order::map(ports.flat_map(|serial| {
+        let numbers = serial.interrupts.iter();
+        numbers.map(move |number| (*number, handler(serial)))
+    }));
     let mut text = String::new();
     let mut next = 0;
     for (number, handler) in handlers {

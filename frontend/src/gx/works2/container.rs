@@ -2,6 +2,7 @@
 //! stream, an inner file, whose streams have numbers for names.
 
 use cfb::CompoundFile;
+use rungc_syntax::order;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::io::{Cursor, Read as _};
@@ -45,7 +46,7 @@ impl<'b> Container<'b> {
             .map(|entry| (entry.name().len(), entry.path().to_owned()))
             .collect();
         drop(entries);
-        names.sort();
+        order::by(&mut names, Ord::cmp);
         let path = |(_, path): (usize, PathBuf)| self.stream(path.to_str()?);
         names.into_iter().filter_map(path).collect()
     }

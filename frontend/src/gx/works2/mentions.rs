@@ -2,6 +2,7 @@
 
 use crate::gx::program;
 use crate::gx::tokens::{self, Bare, Token};
+use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, OperandKind};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,12 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) fn of_text(text: &str, labels: &BTreeMap<String, Device>) -> BTreeSet<Device> {
     let code = without_comments(text);
     let words = code.split(|c: char| !c.is_ascii_alphanumeric() && c != '_' && c.is_ascii());
-    words
-        .filter_map(|word| {
-            let label = labels.get(&word.to_lowercase()).copied();
-            label.or_else(|| device(word))
-        })
-        .collect()
+    order::set(words.filter_map(|word| {
+        let label = labels.get(&word.to_lowercase()).copied();
+        label.or_else(|| device(word))
+    }))
 }
 
 /// The devices that the tokens of a ladder name, by themselves or through labels in ASCII.
@@ -28,7 +27,7 @@ pub(super) fn of_ladder(code: &[u8], labels: &BTreeMap<String, Device>) -> BTree
         _ => None,
     };
     let devices = program::bodies(code).filter_map(operand);
-    devices.filter(is_stored).collect()
+    order::set(devices.filter(is_stored))
 }
 
 /// Whether a device stores something; pointers and nesting levels are numbered anew by the compiler.

@@ -20,6 +20,7 @@ use container::{Container, Row};
 use encoding_rs::UTF_16LE;
 use memchr::memmem;
 use objects::{Compiled, Language, Pou, Project, Task};
+use rungc_syntax::order;
 use rungc_syntax::{Diagnostic, Diagnostics, Parameters, SourceKind, Span, codes};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -359,12 +360,12 @@ impl<'o> Works<'o> {
                 None => Age::Newer,
             };
         }
-        let labels: BTreeMap<_, _> = self
-            .labels
-            .iter()
-            .flat_map(|part| objects::labels(&part.bytes))
-            .filter_map(|(name, device)| Some((name.to_lowercase(), mentions::device(&device)?)))
-            .collect();
+        let labels = self.labels.iter();
+        let labels = labels.flat_map(|part| objects::labels(&part.bytes));
+        let labels =
+            order::map(labels.filter_map(|(name, device)| {
+                Some((name.to_lowercase(), mentions::device(&device)?))
+            }));
         let has = mentions::of_ladder(code, &BTreeMap::new());
         let missing: Vec<_> = sources
             .iter()
@@ -391,10 +392,8 @@ impl<'o> Works<'o> {
     /// Names the POUs that are neither run by a task nor named by another POU.
     fn name_unused(&self, found: &mut Diagnostics) {
         let tasks = self.tasks.iter().filter_map(|part| Task::read(&part.bytes));
-        let run: BTreeSet<_> = tasks
-            .flat_map(|task| task.pous)
-            .map(|pou| pou.to_lowercase())
-            .collect();
+        let run = tasks.flat_map(|task| task.pous);
+        let run = order::set(run.map(|pou| pou.to_lowercase()));
         let is_run = |part: &&Part| run.contains(&part.stem().to_lowercase());
         let others: Vec<&Part> = self.sources.iter().filter(|part| !is_run(part)).collect();
         let named = self.named(&others);
@@ -415,7 +414,7 @@ impl<'o> Works<'o> {
 
     /// Which of these POUs the text or the labels of another POU name.
     fn named(&self, pous: &[&Part]) -> BTreeSet<String> {
-        let names: BTreeSet<&str> = pous.iter().map(|part| part.stem()).collect();
+        let names = order::set(pous.iter().map(|part| part.stem()));
         let mut named = BTreeSet::new();
         for part in self.sources.iter().chain(&self.labels) {
             // Texts in UTF-16 begin at even and at odd offsets.

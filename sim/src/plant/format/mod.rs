@@ -12,6 +12,7 @@ use super::marks::{Marks, Switch};
 use crate::problem::{self, LoadError, Problem};
 use raw::{RawCylinder, RawDelay, RawEnd, RawMachine};
 use rungc_models::Model;
+use rungc_syntax::order;
 use rungc_syntax::{DeviceClass, Source};
 use std::path::Path;
 use toml::Spanned;
@@ -94,7 +95,7 @@ fn describe(source: Source) -> Result<Description, LoadError> {
         if reader.problems.is_empty() {
             return Ok((plant, reader.terminals));
         }
-        reader.problems.sort_by_key(|p| (p.line, p.column));
+        order::by_key(&mut reader.problems, |p| (p.line, p.column));
         Err(reader.problems)
     });
     match read {

@@ -1,6 +1,7 @@
 //! The points of a curve, as many as can be seen.
 
 use super::Shape;
+use rungc_syntax::order;
 
 /// How many columns a diagram has: two a pixel of its width.
 const COLUMNS: u64 = 1600;
@@ -75,7 +76,7 @@ impl Curve {
     pub(super) fn points(&self) -> impl Iterator<Item = Point> {
         self.columns.iter().flat_map(|(_, column)| {
             let mut points = [column.first, column.least, column.greatest, column.last];
-            points.sort_by_key(|&(at_ms, _)| at_ms);
+            order::by_key(&mut points, |&(at_ms, _)| at_ms);
             points
         })
     }
