@@ -1,0 +1,76 @@
+//! The rungc command line: arguments, reports and exit codes. What a command does is in the crates that it calls; nothing here may decide
+//! what a program means. Start reading at `args.rs` and `commands/mod.rs`; a command is a file in `commands/`.
+#![deny(missing_docs)]
+
+mod args;
+mod commands;
+mod progress;
+mod report;
+mod time;
+
+use args::{Cli, ColorWhen, Command, Emit};
+use clap::{CommandFactory, Parser};
+use commands::{Context, Failure, Outcome, Verbosity, interruption};
+use std::io::{self, IsTerminal};
+use std::process::ExitCode;
+
+/// Does what the arguments of the process ask for, and returns its exit code.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let cx = Context {
+        color: color(cli.color),
+        stdout_in_use: match &cli.command {
+            Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
+            Command::Convert(args) => args.output.is_none(),
+            Command::Run(_) | Command::Serve(_) => true,
+            _ => false,
+        },
+        verbosity: match (cli.quiet, cli.verbose) {
+            (true, _) => Verbosity::Quiet,
+            (false, false) => Verbosity::Normal,
+            (false, true) => Verbosity::Verbose,
+        },
+    };
+    let result = match &cli.command {
+        Command::Check(args) => commands::check::run(args, cx),
+        Command::Build(args) => commands::build::run(args, cx),
+        Command::Run(args) => commands::run::run(args, cx),
+        Command::Serve(args) => commands::serve::run(args, cx),
+        Command::Test(args) => commands::test::run(args, cx),
+        Command::Convert(args) => commands::convert::run(args, cx),
+        Command::Init(args) => commands::init::run(args, cx),
+        Command::Learn(args) => commands::learn::run(args, cx),
+        Command::View(args) => commands::view::run(args, cx),
+        Command::Explain(args) => commands::explain::run(args),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Cli::command(), "rungc", &mut script);
+            commands::say(&String::from_utf8_lossy(&script))
+                .map(|()| Outcome::Success)
+                .map_err(Failure::from)
+        }
+    };
+    match result {
+        // An error caused by an interruption is not reported separately.
+        Err(Failure::Because(_)) if interruption::is_asked() => {
+            ExitCode::from(interruption::EXIT_CODE)
+        }
+        Ok(Outcome::Success) | Err(Failure::BrokenPipe) => ExitCode::SUCCESS,
+        Ok(Outcome::Failed) => ExitCode::from(1),
+        Ok(Outcome::Interrupted) => ExitCode::from(interruption::EXIT_CODE),
+        Ok(Outcome::Unusable) | Err(Failure::Reported) => ExitCode::from(2),
+        Err(failure) => {
+            commands::tell(&format!("rungc: {failure}"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether to colour what goes to standard error.
+fn color(when: ColorWhen) -> bool {
+    match when {
+        ColorWhen::Always => true,
+        ColorWhen::Never => false,
+        ColorWhen::Auto => io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+    }
+}
