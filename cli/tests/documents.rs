@@ -123,7 +123,7 @@ fn pages() -> Vec<PathBuf> {
 /// A folder with the example programs, a board, and the files of a page.
 fn desk(page: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for part in [EXAMPLES, "examples/firmware/stm32f405"] {
+    for part in [EXAMPLES, "examples/oven", "examples/firmware/stm32f405"] {
         let examples = folder.path().join(part);
         fs::create_dir_all(&examples).unwrap();
         for entry in fs::read_dir(root().join(part)).unwrap() {

@@ -210,23 +210,43 @@ static bool machine_request(const program *program, const char *verb, const long
         }
         done(true);
     } else if (strcmp(verb, "run") == 0) {
+        rungc_virtual_set_running(number[0] != 0);
         program->set_running(number[0] != 0);
         done(true);
     } else if (strcmp(verb, "power") == 0) {
         rungc_virtual_restart();
         program->power_cycle();
         done(true);
-    } else if (strcmp(verb, "bfm") == 0) {
-        done(rungc_virtual_set_bfm((uint16_t)number[0], (uint16_t)number[1], (int16_t)number[2]));
-    } else if (strcmp(verb, "getbfm") == 0) {
-        int16_t word = 0;
-        const bool found = rungc_virtual_get_bfm((uint16_t)number[0], (uint16_t)number[1], &word);
-        value(found, word);
     } else if (strcmp(verb, "clock") == 0) {
         done(rungc_virtual_set_clock((uint16_t)number[0], (uint8_t)number[1], (uint8_t)number[2], (uint8_t)number[3],
                                      (uint8_t)number[4], (uint8_t)number[5]));
     } else if (strcmp(verb, "analog") == 0) {
         done(rungc_virtual_set_analog((uint8_t)number[0], (int16_t)number[1]));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* Fits special modules, and sets and reads their buffer memory and signals; false if the request is another one. */
+static bool module_request(const char *verb, const long *number)
+{
+    if (strcmp(verb, "bfm") == 0) {
+        done(rungc_virtual_set_bfm((uint16_t)number[0], (uint16_t)number[1], (int16_t)number[2]));
+    } else if (strcmp(verb, "getbfm") == 0) {
+        int16_t word = 0;
+        const bool found = rungc_virtual_get_bfm((uint16_t)number[0], (uint16_t)number[1], &word);
+        value(found, word);
+    } else if (strcmp(verb, "fit") == 0) {
+        done(rungc_virtual_fit((uint16_t)number[0], (uint16_t)number[1]));
+    } else if (strcmp(verb, "signal") == 0) {
+        rungc_virtual_advance((uint32_t)number[0]);
+        done(rungc_virtual_set_signal((uint16_t)number[1], (uint8_t)number[2], (uint8_t)number[3], (int32_t)number[4]));
+    } else if (strcmp(verb, "getsignal") == 0) {
+        int32_t millionths = 0;
+        rungc_virtual_advance((uint32_t)number[0]);
+        const bool found = rungc_virtual_get_signal((uint16_t)number[1], (uint8_t)number[2], (uint8_t)number[3], &millionths);
+        value(found, millionths);
     } else {
         return false;
     }
@@ -336,7 +356,8 @@ int main(void)
         }
         const program *program = running[current];
         if (!device_request(program, words[0], words[1], (uint32_t)number[1], number[2]) &&
-            !machine_request(program, words[0], number) && !line_request(words[0], number)) {
+            !machine_request(program, words[0], number) && !module_request(words[0], number) &&
+            !line_request(words[0], number)) {
             value(false, 0);
         }
     }

@@ -1058,6 +1058,30 @@ bool rungc_virtual_set_bfm(uint16_t unit, uint16_t address, int16_t value);
 bool rungc_virtual_get_bfm(uint16_t unit, uint16_t address, int16_t *value);
 
 /**
+ * Fits a special module, by its number in the table of kinds; false if there is no such kind or no place for it.
+ */
+bool rungc_virtual_fit(uint16_t unit, uint16_t kind);
+
+/**
+ * The RUN/STOP switch, as modules see it.
+ */
+void rungc_virtual_set_running(bool running);
+
+/**
+ * What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a degree Celsius (2). False if
+ * there is no such input.
+ */
+bool rungc_virtual_set_signal(uint16_t unit,
+                              uint8_t channel,
+                              uint8_t quantity,
+                              int32_t millionths);
+
+/**
+ * What is at a channel of a module, in millionths of that unit; false if there is no such channel.
+ */
+bool rungc_virtual_get_signal(uint16_t unit, uint8_t channel, uint8_t quantity, int32_t *millionths);
+
+/**
  * Sets the raw value of an analog input; false if there is no such channel.
  */
 bool rungc_virtual_set_analog(uint8_t channel, int16_t value);

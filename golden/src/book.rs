@@ -1,5 +1,5 @@
 //! The generated pages of the book in `docs/src`: one for each diagnostic code, one for each family of instructions, one for the
-//! special devices of each model, one for the addresses of Modbus slaves, and the lines of `SUMMARY.md` that list them.
+//! special devices of each model, one each for the addresses of Modbus slaves and the buffer memory of modules, and the lines of `SUMMARY.md` that list them.
 
 use rungc_catalogue::{Family, Inst, explain, families, special_table};
 use rungc_models::{Model, ModelId};
@@ -8,6 +8,7 @@ use rungc_syntax::codes::{self, Code};
 use std::fmt::Write;
 
 mod modbus;
+mod modules;
 
 /// A generated page.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -21,13 +22,22 @@ pub struct Page {
 }
 
 /// All generated pages, chapter by chapter; the first page of a chapter is its index.
-pub fn chapters() -> [Vec<Page>; 4] {
+pub fn chapters() -> [Vec<Page>; 5] {
     [
         checks(),
         instructions(),
         special_devices(),
         modbus_addresses(),
+        module_tables(),
     ]
+}
+
+fn module_tables() -> Vec<Page> {
+    vec![Page {
+        path: "module-tables/index.md".to_owned(),
+        title: "Buffer memory of modules".to_owned(),
+        text: modules::modules(),
+    }]
 }
 
 fn modbus_addresses() -> Vec<Page> {

@@ -8,6 +8,7 @@
 
 pub mod device;
 pub mod modbus;
+pub mod module;
 mod program;
 mod reader;
 pub mod serve;
@@ -55,6 +56,8 @@ pub struct Project {
     pub index: Vec<Bound>,
     /// `[[modbus]]`: the rows of the Modbus table.
     pub modbus: Vec<modbus::Row>,
+    /// `[[module]]`: the special modules that are fitted.
+    pub modules: Vec<module::Row>,
     /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is named.
     pub latched: Vec<Range>,
     /// `[retain] file`: where `run` and `serve` keep latched devices.

@@ -1,10 +1,12 @@
 //! From TOML to [`Project`], every mistake with its place.
 
+mod module;
 mod serve;
 
 use crate::modbus::{self, Row};
 use crate::{Bound, Named, Project, Range as DeviceRange, device};
 use encoding_rs::Encoding;
+use module::MODULE;
 use rungc_models::{Model, ModelId};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Severity, Span, diag};
@@ -14,7 +16,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The tables, and their keys where these are fixed.
-const TABLES: [(&str, &[&str]); 10] = [
+const TABLES: [(&str, &[&str]); 11] = [
     ("project", &["program", "model", "name", "encoding"]),
     ("check", &["allow", "warn", "deny"]),
     ("build", &["target", "board", "emit", "output", "access"]),
@@ -25,6 +27,7 @@ const TABLES: [(&str, &[&str]); 10] = [
     ("retain", &["file"]),
     ("serve", &[]),
     (MODBUS, &[]),
+    (MODULE, &[]),
 ];
 
 /// The table of which each entry is a row.
@@ -119,9 +122,16 @@ impl Reader {
                 self.found.push(unknown.help(help));
                 continue;
             };
-            if name == MODBUS {
-                self.modbus(at, value, project);
-                continue;
+            match name {
+                MODBUS => {
+                    self.modbus(at, value, project);
+                    continue;
+                }
+                MODULE => {
+                    self.modules(at, value, project);
+                    continue;
+                }
+                _ => {}
             }
             let Some(table) = value.get_ref().as_table() else {
                 let message = format!("`{name}` is a table");
@@ -433,17 +443,32 @@ impl Reader {
         }
     }
 
-    fn modbus(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
+    /// The entries of a table of which there are several.
+    fn rows<'v, 't>(
+        &mut self,
+        name: &str,
+        at: Span,
+        value: &'v Value<'t>,
+    ) -> Vec<(Span, &'v DeTable<'t>)> {
         let Some(rows) = value.get_ref().as_array() else {
-            let help = "write `[[modbus]]` on its own line, and the keys of the row below";
-            return self.wrong(at, "each row of `modbus` is a table", help);
+            let help = format!("write `[[{name}]]` on its own line, and the keys of the row below");
+            self.wrong(at, format!("each row of `{name}` is a table"), &help);
+            return Vec::new();
         };
+        let mut tables = Vec::new();
         for row in rows {
             let at = span(row.span());
             match row.get_ref().as_table() {
-                Some(table) => project.modbus.extend(self.row(at, table)),
-                None => self.wrong(at, "a row of `modbus` is a table", ""),
+                Some(table) => tables.push((at, table)),
+                None => self.wrong(at, format!("a row of `{name}` is a table"), ""),
             }
+        }
+        tables
+    }
+
+    fn modbus(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
+        for (at, table) in self.rows(MODBUS, at, value) {
+            project.modbus.extend(self.row(at, table));
         }
     }
 

@@ -68,6 +68,11 @@ deny = []
 # [retain]
 # file = "machine.retain"
 
+# Special modules, for checks and simulation: their numbers in FROM and TO, and what they are.
+# [[module]]
+# at = 0
+# kind = "FX2N-4AD"
+
 # What `rungc serve` opens, and devices that an emitted program stores for its ports, beyond those that the program names.
 # [serve]
 # modbus-tcp = "127.0.0.1:5020"

@@ -193,7 +193,7 @@ fn unknown_tables_and_keys() {
     );
     insta::assert_snapshot!(
         "unknown_at_top",
-        mistakes("model = 'fx3u'\n[[module]]\nat = 0\n")
+        mistakes("model = 'fx3u'\n[[device]]\nat = 0\n")
     );
 }
 
@@ -479,4 +479,33 @@ fn mistakes_in_rows_of_the_modbus_table() {
         }
     }
     insta::assert_snapshot!(found);
+}
+
+#[test]
+fn modules_are_fitted_to_the_plc() {
+    let text =
+        "[[module]]\nat = 0\nkind = \"fx2n-4ad\"\n\n[[module]]\nat = 101\nkind = \"H2U-4DAR\"\n";
+    let project = parse(text).unwrap();
+    let mut program = rungc_frontend::read_text("p.il", "LD X0\nOUT Y0\nEND\n").program;
+    let path = Path::new("plant/p.il");
+    let h2u = Model::get(ModelId::H2u);
+    project.complete(path, &mut program, h2u).unwrap();
+    let fitted = program.parameters.unwrap().modules;
+    let fitted: Vec<_> = fitted.iter().map(|m| (m.unit, m.kind)).collect();
+    assert_eq!(fitted, [(0, "FX2N-4AD"), (101, "H2U-4DA")]);
+    let mut program = rungc_frontend::read_text("p.il", "END\n").program;
+    let of_fx = project.complete(path, &mut program, Model::get(ModelId::Fx3u));
+    let Err(Error::Mistakes { diagnostics, .. }) = of_fx else {
+        panic!("FX3U has no remote modules");
+    };
+    let messages: Vec<_> = diagnostics.iter().map(|d| d.message.clone()).collect();
+    assert_eq!(messages, ["Mitsubishi FX3U has no remote modules"]);
+    insta::assert_snapshot!(
+        "modules",
+        mistakes(
+            "[[module]]\nat = 0\nkind = \"FX2N-4AB\"\n[[module]]\nat = 8\nkind = \"FX2N-4AD\"\n[[module]]\nat = 1\n\
+             [[module]]\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4AD\"\n[[module]]\nat = 2\nkind = \"FX2N-4DA\"\n\
+             [[module]]\nat = 3\nkind = \"FX2N-4DA\"\nid = 1\n"
+        )
+    );
 }

@@ -3,6 +3,7 @@
 use crate::capi::HalTable;
 use crate::comm::{CharFault, LineFormat, Received};
 use crate::hal::{Clock, Hal, SerialPort};
+use crate::modules::{KINDS, Quantity, Signal};
 use crate::virtual_hal::VirtualHal;
 use core::cell::UnsafeCell;
 use core::ffi::c_void;
@@ -178,6 +179,51 @@ pub extern "C" fn rungc_virtual_set_bfm(unit: u16, address: u16, value: i16) -> 
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_get_bfm(unit: u16, address: u16, value: *mut i16) -> bool {
     give(with(|hal| hal.bfm(unit, address)), value)
+}
+
+/// Fits a special module, by its number in the table of kinds; false if there is no such kind or no place for it.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_fit(unit: u16, kind: u16) -> bool {
+    let kind = KINDS.get(usize::from(kind));
+    kind.and_then(|kind| with(|hal| hal.fit(unit, kind)))
+        .is_some()
+}
+
+/// The RUN/STOP switch, as modules see it.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_set_running(running: bool) {
+    with(|hal| hal.set_running(running));
+}
+
+/// What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a degree Celsius (2). False if
+/// there is no such input.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_set_signal(
+    unit: u16,
+    channel: u8,
+    quantity: u8,
+    millionths: i32,
+) -> bool {
+    let signal = Quantity::of(quantity).map(|quantity| Signal {
+        quantity,
+        millionths,
+    });
+    signal
+        .and_then(|signal| with(|hal| hal.set_signal(unit, channel, signal)))
+        .is_some()
+}
+
+/// What is at a channel of a module, in millionths of that unit; false if there is no such channel.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_virtual_get_signal(
+    unit: u16,
+    channel: u8,
+    quantity: u8,
+    millionths: *mut i32,
+) -> bool {
+    let quantity = Quantity::of(quantity);
+    let found = quantity.and_then(|quantity| with(|hal| hal.signal(unit, channel, quantity)));
+    give(found, millionths)
 }
 
 /// Sets the raw value of an analog input; false if there is no such channel.

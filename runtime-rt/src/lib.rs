@@ -40,6 +40,7 @@ mod edge_queue;
 mod fault;
 pub mod fnc;
 mod hal;
+pub mod modules;
 mod operand;
 mod plc;
 mod program;

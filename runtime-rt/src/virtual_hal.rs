@@ -1,10 +1,14 @@
 //! Hardware for tests, simulation and `rungc run`: everything is memory, and time is virtual.
 
 use crate::hal::{Clock, Hal, SerialPort};
+use crate::modules::{Kind, Module, Quantity, Signal};
 use crate::virtual_line::VirtualLine;
 
 /// Words of buffer memory that all modules together may hold.
 const BFM_WORDS: usize = 1024;
+
+/// Special modules that may be fitted.
+const MODULES: usize = 8;
 
 /// Built-in analog inputs.
 const ANALOG_CHANNELS: usize = 16;
@@ -22,13 +26,15 @@ struct BfmWord {
 
 /// Virtual hardware without allocation.
 ///
-/// A module exists as soon as one of its words has been set ([`VirtualHal::set_bfm`]); its other words are then 0. The clock starts
+/// A special module that is fitted ([`VirtualHal::fit`]) behaves as its kind does. Any other module is plain memory: it exists as soon as one of its
+/// words has been set ([`VirtualHal::set_bfm`]); its other words are then 0. The clock starts
 /// at 2000-01-01 (a Saturday) and follows the virtual time that [`VirtualHal::advance_to`] sets. Input and output terminals are
 /// the images of the program, so immediate refreshes change nothing.
 #[derive(Clone, Debug)]
 pub struct VirtualHal {
     bfm: [BfmWord; BFM_WORDS],
     bfm_len: usize,
+    modules: [Option<(u16, Module)>; MODULES],
     analog: [Option<i16>; ANALOG_CHANNELS],
     /// The clock was `base` when it was set, `since_base_ms` ago.
     base: Clock,
@@ -53,6 +59,7 @@ impl VirtualHal {
                 value: 0,
             }; BFM_WORDS],
             bfm_len: 0,
+            modules: [None; MODULES],
             analog: [None; ANALOG_CHANNELS],
             base: Clock {
                 year: 2000,
@@ -79,12 +86,58 @@ impl VirtualHal {
         let passed = now_ms.wrapping_sub(self.now_ms);
         self.since_base_ms = self.since_base_ms.saturating_add(passed.into());
         self.now_ms = now_ms;
+        for (_, module) in self.modules.iter_mut().flatten() {
+            module.pass(passed.saturating_mul(1000));
+        }
     }
 
-    /// Virtual time restarts at 0, as after power off and on; the clock continues where it is.
+    /// Virtual time restarts at 0, as after power off and on; the clock continues where it is, and modules keep what they keep.
     pub fn restart(&mut self) {
         self.now_ms = 0;
         self.lines = [const { VirtualLine::new() }; LINES];
+        for (_, module) in self.modules.iter_mut().flatten() {
+            module.power_cycle();
+        }
+    }
+
+    /// Puts the RUN/STOP switch; modules see it.
+    pub fn set_running(&mut self, running: bool) {
+        for (_, module) in self.modules.iter_mut().flatten() {
+            module.set_running(running);
+        }
+    }
+
+    /// Fits a special module with this number; `None` if there is one already, or if there are 8.
+    pub fn fit(&mut self, unit: u16, kind: &'static Kind) -> Option<()> {
+        if self.has_unit(unit) || self.module(unit).is_some() {
+            return None;
+        }
+        let place = self.modules.iter_mut().find(|place| place.is_none())?;
+        *place = Some((unit, Module::new(kind)));
+        Some(())
+    }
+
+    fn module(&self, unit: u16) -> Option<&Module> {
+        let mut modules = self.modules.iter().flatten();
+        modules.find_map(|(own, module)| (*own == unit).then_some(module))
+    }
+
+    fn module_mut(&mut self, unit: u16) -> Option<&mut Module> {
+        let mut modules = self.modules.iter_mut().flatten();
+        modules.find_map(|(own, module)| (*own == unit).then_some(module))
+    }
+
+    /// What is connected to an input of a fitted module from now on; channels are counted from 1. `None` if there is no such input.
+    pub fn set_signal(&mut self, unit: u16, channel: u8, signal: Signal) -> Option<()> {
+        let channel = channel.checked_sub(1)?;
+        self.module_mut(unit)?.connect(channel, signal)
+    }
+
+    /// What is at a channel of a fitted module, in millionths of the quantity's unit: what is connected to an input, or what an output puts
+    /// out; 0 if it is another quantity. Channels are counted from 1. `None` if there is no such channel.
+    pub fn signal(&self, unit: u16, channel: u8, quantity: Quantity) -> Option<i32> {
+        let channel = channel.checked_sub(1)?;
+        self.module(unit)?.signal(channel, quantity)
     }
 
     fn find(&self, unit: u16, address: u16) -> Option<usize> {
@@ -100,6 +153,9 @@ impl VirtualHal {
 
     /// Sets a word of buffer memory, fitting the module if need be; `None` if the table is full.
     pub fn set_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+        if let Some(module) = self.module_mut(unit) {
+            return module.poke(address, value);
+        }
         let at = self.find(unit, address).unwrap_or(self.bfm_len);
         *self.bfm.get_mut(at)? = BfmWord {
             unit,
@@ -112,6 +168,9 @@ impl VirtualHal {
 
     /// A word of buffer memory; `None` if there is no such module.
     pub fn bfm(&self, unit: u16, address: u16) -> Option<i16> {
+        if let Some(module) = self.module(unit) {
+            return module.read(address);
+        }
         match self.find(unit, address) {
             Some(at) => self.bfm.get(at).map(|w| w.value),
             None => self.has_unit(unit).then_some(0),
@@ -142,6 +201,9 @@ impl Hal for VirtualHal {
     }
 
     fn write_bfm(&mut self, unit: u16, address: u16, value: i16) -> Option<()> {
+        if let Some(module) = self.module_mut(unit) {
+            return module.write(address, value);
+        }
         if self.has_unit(unit) {
             self.set_bfm(unit, address, value)
         } else {
@@ -205,6 +267,33 @@ mod tests {
             (hal.read_bfm(1, 5), hal.read_bfm(1, 6), hal.read_bfm(2, 5)),
             (Some(7), Some(0), None)
         );
+    }
+
+    #[test]
+    fn fitted_modules_behave_as_their_kind() {
+        let mut hal = VirtualHal::new();
+        hal.fit(1, Kind::find("FX2N-4AD").unwrap()).unwrap();
+        let other = Kind::find("FX2N-4DA").unwrap();
+        assert_eq!(hal.fit(1, other), None);
+        let signal = Signal {
+            quantity: Quantity::Volts,
+            millionths: 5_000_000,
+        };
+        hal.set_signal(1, 1, signal).unwrap();
+        assert_eq!(hal.set_signal(1, 0, signal), None);
+        hal.advance_to(60);
+        assert_eq!(
+            (hal.read_bfm(1, 9), hal.read_bfm(1, 30)),
+            (Some(1000), Some(2010))
+        );
+        assert_eq!(hal.read_bfm(1, 31), None);
+        assert_eq!(hal.signal(1, 1, Quantity::Volts), Some(5_000_000));
+        hal.restart();
+        assert_eq!(hal.read_bfm(1, 9), Some(0));
+        for unit in 2..9 {
+            hal.fit(unit, other).unwrap();
+        }
+        assert_eq!(hal.fit(9, other), None);
     }
 
     #[test]

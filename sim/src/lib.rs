@@ -17,4 +17,4 @@ mod target;
 pub mod wire;
 
 pub use problem::{LoadError, Problem};
-pub use target::Target;
+pub use target::{Channel, Target};

@@ -3,6 +3,7 @@
 //! A batch executable holds many compiled programs. It reads one request a line and answers each with one line: `ok`, `none` (no
 //! such device, module or channel), or a decimal value. It flushes its output when its input is exhausted or a value was asked for.
 
+use crate::target::Channel;
 use rungc_rt::comm::Received;
 use rungc_rt::{Class, Clock};
 use std::fmt;
@@ -66,6 +67,24 @@ pub enum Request {
     SetBfm(u16, u16, i16),
     /// Asks for a word of a module's buffer memory.
     Bfm(u16, u16),
+    /// Fits the module with this number: the kind by its number in the table of [`rungc_rt::modules::KINDS`].
+    Fit(u16, usize),
+    /// An analog signal reaches an input of a module.
+    SetSignal {
+        /// Milliseconds since power-on.
+        now_ms: u32,
+        /// Where.
+        channel: Channel,
+        /// How much, in millionths.
+        millionths: i32,
+    },
+    /// Asks for the signal at a channel of a module, in millionths.
+    Signal {
+        /// Milliseconds since power-on.
+        now_ms: u32,
+        /// Where.
+        channel: Channel,
+    },
     /// Sets the real-time clock.
     SetClock(Clock),
     /// Sets the raw value of an analog input.
@@ -152,6 +171,21 @@ impl fmt::Display for Request {
             Request::Power => write!(f, "power"),
             Request::SetBfm(unit, address, v) => write!(f, "bfm {unit} {address} {v}"),
             Request::Bfm(unit, address) => write!(f, "getbfm {unit} {address}"),
+            Request::Fit(unit, kind) => write!(f, "fit {unit} {kind}"),
+            Request::SetSignal {
+                now_ms,
+                channel,
+                millionths,
+            } => write!(
+                f,
+                "signal {now_ms} {} {} {} {millionths}",
+                channel.unit, channel.number, channel.quantity as u8
+            ),
+            Request::Signal { now_ms, channel } => write!(
+                f,
+                "getsignal {now_ms} {} {} {}",
+                channel.unit, channel.number, channel.quantity as u8
+            ),
             Request::SetClock(c) => write!(
                 f,
                 "clock {} {} {} {} {} {}",

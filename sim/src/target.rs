@@ -1,7 +1,63 @@
 //! Names in `set`, `init` and `expect`: `M0`, `D0.i32`, `K4M0`, `T0.value`, `Y000.pulses`.
 
+use rungc_rt::modules::Quantity;
 use rungc_syntax::DeviceClass;
 use std::fmt;
+
+/// A channel of a special module: `0:CH1.mA`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Channel {
+    /// The module's number.
+    pub unit: u16,
+    /// The channel's, from 1.
+    pub number: u8,
+    /// In what it is measured.
+    pub quantity: Quantity,
+}
+
+/// The units of channels as names end in them, and the quantities.
+const UNITS: [(&str, Quantity); 3] = [
+    ("V", Quantity::Volts),
+    ("mA", Quantity::Milliamperes),
+    ("C", Quantity::Celsius),
+];
+
+impl Channel {
+    /// Reads a name, if it begins like that of a channel; the error says what is wrong with it.
+    fn parse(name: &str) -> Option<Result<Channel, String>> {
+        let (unit, channel) = name.split_once(':')?;
+        let unit = unit.parse().ok()?;
+        let wrong = || {
+            format!("`{name}`: write a channel of a module as `0:CH1.V`, `0:CH1.mA` or `0:CH1.C`")
+        };
+        let channel = || {
+            let (channel, view) = channel.split_once('.')?;
+            let letters = channel.get(..2)?;
+            let number = channel.get(2..)?.parse().ok()?;
+            let named = UNITS
+                .iter()
+                .find(|(name, _)| name.eq_ignore_ascii_case(view));
+            let (_, quantity) = named?;
+            let found = letters.eq_ignore_ascii_case("CH") && number > 0;
+            found.then_some(Channel {
+                unit,
+                number,
+                quantity: *quantity,
+            })
+        };
+        Some(channel().ok_or_else(wrong))
+    }
+}
+
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = UNITS
+            .iter()
+            .find(|(_, quantity)| *quantity == self.quantity);
+        let unit = unit.map_or("", |(unit, _)| unit);
+        write!(f, "{}:CH{}.{unit}", self.unit, self.number)
+    }
+}
 
 /// What a name denotes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -24,6 +80,8 @@ pub enum Target {
     Pulses(u32),
     /// The frequency that an output emits now.
     Frequency(u32),
+    /// The analog signal at a channel of a special module.
+    Channel(Channel),
 }
 
 /// No device of any model has a higher number.
@@ -47,6 +105,9 @@ const WORDS: [DeviceClass; 5] = [
 impl Target {
     /// Reads a name; the error says what is wrong with it.
     pub fn parse(name: &str) -> Result<Target, String> {
+        if let Some(channel) = Channel::parse(name) {
+            return channel.map(Target::Channel);
+        }
         let (device, view) = match name.split_once('.') {
             Some((device, view)) => (device, Some(view)),
             None => (name, None),
@@ -85,7 +146,7 @@ impl Target {
         }
     }
 
-    /// The devices it covers, as (class, first, count); a text covers `text_len` bytes.
+    /// The devices it covers, as (class, first, count); a text covers `text_len` bytes, a channel of a module none.
     pub fn devices(self, text_len: usize) -> (DeviceClass, u32, u32) {
         match self {
             Target::Bit(class, n) | Target::Word(class, n) | Target::Current(class, n) => {
@@ -95,6 +156,7 @@ impl Target {
             Target::Text(class, n) => (class, n, text_len.div_ceil(2) as u32),
             Target::Nibbles(digits, class, n) => (class, n, 4 * u32::from(digits)),
             Target::Pulses(n) | Target::Frequency(n) => (DeviceClass::Y, n, 1),
+            Target::Channel(_) => (DeviceClass::D, 0, 0),
         }
     }
 }
@@ -162,13 +224,15 @@ impl fmt::Display for Target {
             Target::Nibbles(digits, class, n) => write!(f, "K{digits}{}", class.number(n)),
             Target::Pulses(n) => write!(f, "{}.pulses", DeviceClass::Y.number(n)),
             Target::Frequency(n) => write!(f, "{}.hz", DeviceClass::Y.number(n)),
+            Target::Channel(channel) => channel.fmt(f),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Target;
+    use super::{Channel, Target};
+    use rungc_rt::modules::Quantity;
     use rungc_syntax::DeviceClass::{C, D, M, X, Y};
 
     #[test]
@@ -180,6 +244,14 @@ mod tests {
             ("D0.f32", Target::Float(D, 0)),
             ("K4M16", Target::Nibbles(4, M, 16)),
             ("Y003.hz", Target::Frequency(3)),
+            (
+                "101:CH4.mA",
+                Target::Channel(Channel {
+                    unit: 101,
+                    number: 4,
+                    quantity: Quantity::Milliamperes,
+                }),
+            ),
             ("Y000", Target::Bit(Y, 0)),
         ] {
             assert_eq!(Target::parse(name), Ok(target));
@@ -216,6 +288,10 @@ mod tests {
             "D4294967295.i32",
             "D0:f",
             "D0/",
+            "0:CH1",
+            "0:CH0.V",
+            "0:CH1.A",
+            "0:D1.V",
         ] {
             assert!(Target::parse(name).is_err(), "{name}");
         }

@@ -1,6 +1,7 @@
 //! Machines around a PLC: how they move, and what is wrong in their files.
 
 use rungc_models::{Model, ModelId};
+use rungc_sim::Channel;
 use rungc_sim::plant::{self, Look, Plant, Terminals};
 use rungc_sim::wire::Change;
 use std::collections::BTreeMap;
@@ -12,6 +13,9 @@ struct Plc {
     pulses: BTreeMap<u32, i32>,
     changes: Vec<Change>,
     inputs: BTreeMap<u32, bool>,
+    signals: BTreeMap<String, i32>,
+    /// The signal at each channel of a module, in millionths.
+    driven: i32,
 }
 
 impl Terminals for Plc {
@@ -21,6 +25,7 @@ impl Terminals for Plc {
         let value = |look: &Look| match look {
             Look::Output(n) => i32::from(self.outputs.get(n).copied().unwrap_or(false)),
             Look::Pulses(n) => self.pulses.get(n).copied().unwrap_or(0),
+            Look::Channel(_) => self.driven,
         };
         Ok(at.iter().map(value).collect())
     }
@@ -34,6 +39,11 @@ impl Terminals for Plc {
                 .is_none_or(|last| last.at_us <= change.at_us)
         );
         self.changes.push(change);
+        Ok(())
+    }
+
+    fn connect(&mut self, channel: Channel, millionths: i32) -> Result<(), ()> {
+        self.signals.insert(channel.to_string(), millionths);
         Ok(())
     }
 }
@@ -112,6 +122,62 @@ fn an_axis_passes_its_switches_at_their_places() {
         collision,
         "at 111 ms: the axis Y000 hits its end stop at -1000 pulses"
     );
+}
+
+#[test]
+fn a_process_settles_and_sensors_measure() {
+    let mut rig = Rig::new(
+        r#"
+        [[process]]
+        name = "oven"
+        rest = 20
+        full = 220
+        drive = "Y001"
+        time_constant_s = 10
+        dead_time_s = 1
+        sensor = [{ channel = "0:CH1.mA", range = [0, 400], signal = [4, 20] }, { channel = "0:CH2.C" }]
+        [[axis]]
+        output = "Y000"
+        sensor = [{ channel = "1:CH1.V", range = [0, 1000], signal = [0, 10] }]
+        "#,
+    );
+    rig.plant.measure(&mut rig.plc).unwrap();
+    let at = |rig: &Rig, channel: &str| f64::from(rig.plc.signals[channel]) / 1e6;
+    assert_eq!(at(&rig, "0:CH1.mA"), 4.8);
+    rig.plc.outputs.insert(1, true);
+    rig.run(1000, 0);
+    assert_eq!(at(&rig, "0:CH2.C"), 20.0);
+    // After one time constant, 63.2 % of the way.
+    rig.run(10_000, 0);
+    assert!((at(&rig, "0:CH2.C") - (20.0 + 200.0 * 0.632_12)).abs() < 0.01);
+    assert!(rig.plant.processes()[0].is_at(146.4));
+    rig.plc.outputs.insert(1, false);
+    rig.run(60_000, 1);
+    assert!(at(&rig, "0:CH2.C") < 21.0);
+    rig.plc.pulses.insert(0, 500);
+    rig.run(1, 0);
+    assert_eq!(at(&rig, "1:CH1.V"), 5.0);
+}
+
+#[test]
+fn a_channel_drives_a_process() {
+    let mut rig = Rig::new(
+        r#"
+        [[process]]
+        name = "tank"
+        full = 100
+        drive = "2:CH1.mA"
+        drive_signal = [4, 20]
+        time_constant_s = 0.1
+        sensor = [{ channel = "0:CH1.V", range = [0, 100], signal = [0, 10] }]
+        "#,
+    );
+    rig.plc.driven = 12_000_000;
+    rig.run(2000, 0);
+    assert_eq!(rig.plc.signals["0:CH1.V"], 5_000_000);
+    rig.plc.driven = 0;
+    rig.run(2000, 0);
+    assert_eq!(rig.plc.signals["0:CH1.V"], 0);
 }
 
 #[test]
@@ -286,6 +352,12 @@ input = "X001"
         (
             "unknown_key",
             "[[axis]]\noutput = \"Y000\"\nhomee = \"X000\"\n",
+        ),
+        (
+            "process",
+            "[[process]]\nname = \"a\"\ndrive = \"0:CH1.V\"\nfull = 0\ntime_constant_s = 0\n[[process]]\nname = \"a\"\nfull = 1\n\
+             drive = \"D0\"\ntime_constant_s = 1\ndead_time_s = 999\nsensor = [{ channel = \"0:CH1.V\" }, { channel = \"0:CH1.C\" }, \
+             { channel = \"D0\" }, { channel = \"0:1\" }]\n",
         ),
         ("unknown_part", "[[motor]]\noutput = \"Y000\"\n"),
         ("no_number", "[[axis]]\noutput = \"Y000\"\nspeed = \"5\"\n"),

@@ -44,6 +44,8 @@ pub struct Parameters {
     pub file_register_blocks: u32,
     /// Program files that the PLC runs, in order; empty if nothing is said.
     pub programs: Vec<String>,
+    /// Special modules that are fitted to it; empty if nothing is said.
+    pub modules: Vec<FittedModule>,
     /// Whether a keyword keeps the program from being read.
     pub protected: bool,
 }
@@ -56,6 +58,15 @@ impl Parameters {
             .saturating_add(self.file_register_blocks);
         Some(self.capacity?.saturating_sub(blocks.saturating_mul(500)))
     }
+}
+
+/// A special module that is fitted to a PLC.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FittedModule {
+    /// Its number in FROM and TO.
+    pub unit: u16,
+    /// Its kind, as the table of modules names it.
+    pub kind: &'static str,
 }
 
 /// Devices of one class that follow each other.

@@ -21,11 +21,11 @@ pub struct Args {
 pub enum What {
     /// codegen-c/include/rungc_rt.h, from the runtime's C ABI.
     Header,
-    /// The pages of the book on checks, instructions and special devices.
+    /// The pages of the book on checks, instructions, special devices and special modules.
     Book,
     /// docs/src/commands.md, from --help.
     Commands,
-    /// docs/src/drill.svg and docs/src/cam.svg, drawn by the commands in docs/src/machines.md.
+    /// The diagrams of the book, drawn by the commands in docs/src/machines.md and docs/src/modules.md.
     Diagram,
     /// benches/figures.toml, measured with the Arm compiler and QEMU; `cargo test -p rungc-benches` compares.
     Figures,

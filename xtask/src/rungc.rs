@@ -7,7 +7,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The example programs, below the root.
-const EXAMPLES: &str = "examples/programs";
+const EXAMPLES: [&str; 2] = ["examples/programs", "examples/oven"];
+
+/// The pages whose commands draw.
+const PAGES: [&str; 2] = ["docs/src/machines.md", "docs/src/modules.md"];
 
 /// Options before the name of a diagram.
 const DRAWING: [&str; 2] = ["--plot", "--scope"];
@@ -38,37 +41,48 @@ pub fn commands() -> Result<Made, Problem> {
     Ok(Made::file("docs/src/commands.md", page))
 }
 
-/// The diagrams of the page on machines: what its commands draw.
+/// The diagrams of the pages on machines and modules: what their commands draw.
 pub fn diagrams() -> Result<Made, Problem> {
-    let page = fs::read_to_string(root().join("docs/src/machines.md"))?;
-    let commands = page
-        .lines()
-        .filter_map(|line| line.strip_prefix("$ rungc "));
     let folder = tempfile::tempdir()?;
-    let examples = folder.path().join(EXAMPLES);
-    fs::create_dir_all(&examples)?;
-    for entry in fs::read_dir(root().join(EXAMPLES))? {
-        let entry = entry?;
-        if entry.file_type()?.is_file() {
-            fs::copy(entry.path(), examples.join(entry.file_name()))?;
+    for examples in EXAMPLES {
+        let copies = folder.path().join(examples);
+        fs::create_dir_all(&copies)?;
+        for entry in fs::read_dir(root().join(examples))? {
+            let entry = entry?;
+            if entry.file_type()?.is_file() {
+                fs::copy(entry.path(), copies.join(entry.file_name()))?;
+            }
         }
     }
     let rungc = build()?;
     let mut made = Made::default();
+    for path in PAGES {
+        let before = made.files.len();
+        draw(&rungc, folder.path(), path, &mut made)?;
+        if made.files.len() == before {
+            return Err(format!("{path} has no command that draws").into());
+        }
+    }
+    Ok(made)
+}
+
+/// What the commands of a page draw.
+fn draw(rungc: &Path, folder: &Path, page: &str, made: &mut Made) -> Result<(), Problem> {
+    let page = fs::read_to_string(root().join(page))?;
+    let commands = page
+        .lines()
+        .filter_map(|line| line.strip_prefix("$ rungc "));
     for command in commands {
         let args: Vec<_> = command.split(' ').collect();
         let draws = |pair: &&[&str]| DRAWING.contains(&pair[0]);
         let Some(&[_, file]) = args.windows(2).find(draws) else {
             continue;
         };
-        run(&rungc, folder.path(), &args)?;
-        let drawn = fs::read_to_string(folder.path().join(file))?;
+        run(rungc, folder, &args)?;
+        let drawn = fs::read_to_string(folder.join(file))?;
         made.files.push((Path::new("docs/src").join(file), drawn));
     }
-    match made.files.is_empty() {
-        true => Err("docs/src/machines.md has no command that draws".into()),
-        false => Ok(made),
-    }
+    Ok(())
 }
 
 /// Builds the command; gives its place.

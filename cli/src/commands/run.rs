@@ -24,6 +24,7 @@ use crate::report::Reporter;
 use rungc_analysis::check::devices::{self, Holds, Use};
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
+use rungc_rt::modules::Kind;
 use rungc_sim::plant::{self, Axis, Description, Plant};
 use rungc_sim::record::TEXT_LENGTH;
 use rungc_sim::{LoadError, Target};
@@ -146,8 +147,18 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         shown: &shown,
         watched: &watched,
         table: table == Table::Usual || !watched.is_empty(),
+        modules: &fitted(&read.program),
     };
     run.simulate(plant)
+}
+
+/// The special modules that the settings fit to the PLC.
+fn fitted(program: &Program) -> Vec<(u16, &'static Kind)> {
+    let parameters = program.parameters.iter();
+    let modules = parameters.flat_map(|parameters| &parameters.modules);
+    modules
+        .filter_map(|module| Some((module.unit, Kind::find(module.kind)?)))
+        .collect()
 }
 
 /// What a watched device is called: T0 rather than T0.value, since it is seen at once that it is a number.

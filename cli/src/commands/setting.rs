@@ -15,6 +15,9 @@ pub struct Setting {
     pub value: f64,
 }
 
+/// The greatest signal of a channel, in its unit.
+const MOST_SIGNAL: f64 = 2000.0;
+
 /// Reads what is watched or set.
 pub fn target(name: &str) -> std::result::Result<Target, Failure> {
     let upper = upper(name);
@@ -56,6 +59,7 @@ pub fn setting(text: &str) -> std::result::Result<Setting, Failure> {
         Target::Bit(..) => value == 0.0 || value == 1.0,
         Target::Word(..) => value.fract() == 0.0 && (-32768.0..=65535.0).contains(&value),
         Target::Float(..) => true,
+        Target::Channel(_) => value.abs() <= MOST_SIGNAL,
         Target::Text(..) => return Err(wrong("characters cannot be set here".to_string())),
         Target::Pulses(_) | Target::Frequency(_) => {
             return Err(wrong("only the program can send pulses".to_string()));

@@ -13,6 +13,7 @@ use core::fmt;
 use core::str::{FromStr, SplitAsciiWhitespace};
 use port::Port;
 use rungc_rt::comm::{CharFault, Received};
+use rungc_rt::modules::{KINDS, Quantity, Signal};
 use rungc_rt::{Class, Clock, FIRST_COUNTER32, Program, VirtualHal, word};
 
 /// Answers requests until they end. `read` waits for bytes and says how many came, 0 at the end; `write` takes all bytes.
@@ -168,13 +169,37 @@ fn answer(
         }
         "sent" => return value(hal.line(next(words)?)?.take_packed(next(words)?)?),
         "line" => return value(hal.line(next(words)?)?.format().packed()),
-        "run" => program.set_running(next::<i64>(words)? != 0),
+        "run" => {
+            let running = next::<i64>(words)? != 0;
+            program.set_running(running);
+            hal.set_running(running);
+        }
         "power" => {
             program.power_cycle();
             hal.restart();
         }
         "bfm" => hal.set_bfm(next(words)?, next(words)?, next(words)?)?,
         "getbfm" => return value(hal.bfm(next(words)?, next(words)?)?),
+        "fit" => hal.fit(next(words)?, KINDS.get(next::<usize>(words)?)?)?,
+        "signal" => {
+            hal.advance_to(next(words)?);
+            let (unit, channel) = (next(words)?, next(words)?);
+            let quantity = Quantity::of(next(words)?)?;
+            let millionths = next(words)?;
+            hal.set_signal(
+                unit,
+                channel,
+                Signal {
+                    quantity,
+                    millionths,
+                },
+            )?;
+        }
+        "getsignal" => {
+            hal.advance_to(next(words)?);
+            let (unit, channel) = (next(words)?, next(words)?);
+            return value(hal.signal(unit, channel, Quantity::of(next(words)?)?)?);
+        }
         "clock" => set_clock(hal, words)?,
         "analog" => hal.set_analog(next(words)?, next(words)?)?,
         _ => return None,

@@ -89,6 +89,7 @@ fn parameters(bytes: &[u8]) -> Option<Parameters> {
         comment_blocks: word(bytes, BLOCKS)?.into(),
         file_register_blocks: word(bytes, BLOCKS + 2)?.into(),
         programs: Vec::new(),
+        modules: Vec::new(),
         protected: is_protected(bytes),
     })
 }

@@ -4,6 +4,7 @@ use super::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
 use rungc_interp::Machine;
 use rungc_ir::Module;
+use rungc_rt::modules::{KINDS, Signal};
 use rungc_rt::{Class, Cx, Operand, Plc, Program, Site, VirtualHal};
 
 /// The reference interpreter and virtual hardware.
@@ -101,6 +102,7 @@ impl Engine for Interpreter<'_> {
             Request::Line(port) => Answer::value(hal.line(port).map(|line| line.format().packed())),
             Request::Run(running) => {
                 machine.set_running(running);
+                hal.set_running(running);
                 Answer::Ok
             }
             Request::Power => {
@@ -112,6 +114,25 @@ impl Engine for Interpreter<'_> {
                 Answer::done(hal.set_bfm(unit, address, value))
             }
             Request::Bfm(unit, address) => Answer::value(hal.bfm(unit, address)),
+            Request::Fit(unit, kind) => {
+                Answer::done(KINDS.get(kind).and_then(|kind| hal.fit(unit, kind)))
+            }
+            Request::SetSignal {
+                now_ms,
+                channel,
+                millionths,
+            } => {
+                hal.advance_to(now_ms);
+                let signal = Signal {
+                    quantity: channel.quantity,
+                    millionths,
+                };
+                Answer::done(hal.set_signal(channel.unit, channel.number, signal))
+            }
+            Request::Signal { now_ms, channel } => {
+                hal.advance_to(now_ms);
+                Answer::value(hal.signal(channel.unit, channel.number, channel.quantity))
+            }
             Request::SetClock(clock) => Answer::done(rungc_rt::Hal::set_clock(hal, clock)),
             Request::SetAnalog(channel, value) => Answer::done(hal.set_analog(channel, value)),
         })

@@ -140,6 +140,7 @@ fn asks_for_value(request: Request) -> bool {
             | Request::Frequency(_)
             | Request::ConstantScan
             | Request::Bfm(..)
+            | Request::Signal { .. }
             | Request::Sent(..)
             | Request::Line(_)
     )

@@ -1,6 +1,7 @@
 //! Something that moves: what drives it, how far it can go, and the switches along its way.
 
 use super::marks::Switch;
+use super::process::Sensor;
 use super::{Look, Moment};
 use std::fmt;
 
@@ -54,6 +55,8 @@ pub struct Axis {
     /// The ends of its way.
     pub(super) travel: Option<[f64; 2]>,
     pub(super) switches: Vec<Switch>,
+    /// What measures its position, in its unit.
+    pub(super) sensors: Vec<Sensor>,
     /// Whether it has run into an end of its way.
     pub(super) collision: Option<Collision>,
 }

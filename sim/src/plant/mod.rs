@@ -1,4 +1,4 @@
-//! The machine around a PLC: axes with their switches and encoders, cylinders, and inputs that follow outputs.
+//! The machine around a PLC: axes with their switches, encoders and sensors, cylinders, inputs that follow outputs, and processes.
 //!
 //! A [`Description`] is read from a TOML file (`docs/src/machines.md`). The [`Plant`] that it describes moves on a millisecond at a time:
 //! it looks at the PLC's outputs through [`Terminals`] and changes its inputs. Within a millisecond an axis moves evenly, and each
@@ -8,13 +8,16 @@ mod axis;
 mod delay;
 mod format;
 mod marks;
+mod process;
 
 pub use axis::{Axis, Collision};
 pub use format::{Description, load, parse};
-use rungc_syntax::order;
+pub use process::Process;
 
+use crate::target::Channel;
 use crate::wire::Change;
 use delay::Delay;
+use rungc_syntax::order;
 
 /// What the machine asks of an output.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -23,6 +26,8 @@ pub enum Look {
     Output(u32),
     /// How many pulses output Y has sent since power-on, those in reverse counting down; wraps.
     Pulses(u32),
+    /// The signal at a channel of a module, in millionths.
+    Channel(Channel),
 }
 
 /// The terminals of a PLC, as the machine is wired to them.
@@ -35,6 +40,9 @@ pub trait Terminals {
 
     /// An input turns on or off. Changes come in the order of their times.
     fn change(&mut self, change: Change) -> Result<(), Self::Error>;
+
+    /// A signal, in millionths, reaches an input of a module.
+    fn connect(&mut self, channel: Channel, millionths: i32) -> Result<(), Self::Error>;
 }
 
 /// A machine.
@@ -43,6 +51,7 @@ pub struct Plant {
     axes: Vec<Axis>,
     cylinders: Vec<Axis>,
     delays: Vec<Delay>,
+    processes: Vec<Process>,
     /// Inputs whose contacts open where the others close.
     normally_closed: Vec<u32>,
 }
@@ -68,6 +77,7 @@ impl Plant {
             axis.looks_at(&mut wanted);
         }
         wanted.extend(self.delays.iter().map(Delay::looks_at));
+        wanted.extend(self.processes.iter().map(Process::looks_at));
         let seen = terminals.look(&wanted)?;
         let see = |look: Look| {
             let found = wanted
@@ -83,6 +93,9 @@ impl Plant {
         for delay in &mut self.delays {
             delay.step(&see, &mut moments);
         }
+        for process in &mut self.processes {
+            process.step(&see);
+        }
         order::by(&mut moments, |(a, ..), (b, ..)| a.total_cmp(b));
         for (part, input, on) in moments {
             terminals.change(Change {
@@ -90,6 +103,20 @@ impl Plant {
                 input,
                 on: self.contact(input, on),
             })?;
+        }
+        self.measure(terminals)
+    }
+
+    /// The sensors send what has changed; when the machine is connected, all that they measure.
+    pub fn measure<T: Terminals>(&mut self, terminals: &mut T) -> Result<(), T::Error> {
+        let axes = self.axes.iter_mut();
+        let of_axes = axes.map(|axis| (axis.position(), &mut axis.sensors));
+        let processes = self.processes.iter_mut();
+        let of_processes = processes.map(|process| (process.value(), &mut process.sensors));
+        for (value, sensors) in of_axes.chain(of_processes) {
+            for (channel, millionths) in sensors.iter_mut().filter_map(|s| s.change(value)) {
+                terminals.connect(channel, millionths)?;
+            }
         }
         Ok(())
     }
@@ -102,6 +129,11 @@ impl Plant {
     /// The axes, in the order of the file.
     pub fn axes(&self) -> &[Axis] {
         &self.axes
+    }
+
+    /// The processes, in the order of the file.
+    pub fn processes(&self) -> &[Process] {
+        &self.processes
     }
 
     /// The axis with this name.

@@ -1,5 +1,6 @@
 //! Reading a test file: TOML to [`TestFile`], every mistake with its place.
 
+use super::modules;
 use super::program::{self, RawProgram, Tested};
 use super::serial::{self, Port, PortId, Protocol, RawMode, RawSent, Switch, Way};
 use super::{Basis, Case, Check, OtherPlc, Rejects, Run, Setting, Step, TestFile, Value};
@@ -28,6 +29,8 @@ struct RawFile {
     note: Option<String>,
     program: Option<Spanned<RawProgram>>,
     machine: Option<Spanned<String>>,
+    #[serde(default)]
+    modules: modules::Raw,
     index: Option<Spanned<IgnoredAny>>,
     case: Vec<Spanned<RawCase>>,
 }
@@ -44,6 +47,8 @@ struct RawCase {
     note: String,
     program: Option<Spanned<RawProgram>>,
     machine: Option<Spanned<String>>,
+    #[serde(default)]
+    modules: modules::Raw,
     index: Option<Spanned<IgnoredAny>>,
     #[serde(default)]
     init: Map<Spanned<Scalar>>,
@@ -132,7 +137,7 @@ enum Scalar {
 }
 
 /// Collects the problems of one file.
-struct Reader<'t> {
+pub(super) struct Reader<'t> {
     source: &'t Source,
     problems: Vec<Problem>,
     /// The programs in files that were read, by their paths.
@@ -160,7 +165,7 @@ pub(super) fn parse(source: &Source) -> Result<TestFile, Vec<Problem>> {
 }
 
 impl Reader<'_> {
-    fn report(&mut self, at: usize, message: String) {
+    pub(super) fn report(&mut self, at: usize, message: String) {
         self.problems.push(Problem::at(self.source, at, message));
     }
 
@@ -180,6 +185,7 @@ impl Reader<'_> {
         let given = raw.model.as_ref().map(|name| self.model(name));
         let program = raw.program.map(|program| self.program(program));
         let machine = self.machine(raw.machine.as_ref());
+        let modules = self.modules(raw.modules);
         self.no_index(raw.index.as_ref());
         let mut cases: Vec<Case> = Vec::new();
         for case in raw.case {
@@ -194,6 +200,9 @@ impl Reader<'_> {
             let mut case = self.case(case, given, program.as_ref());
             if case.machine.is_none() {
                 case.machine.clone_from(&machine);
+            }
+            if case.modules.is_empty() {
+                case.modules.clone_from(&modules);
             }
             cases.push(case);
         }
@@ -314,6 +323,7 @@ impl Reader<'_> {
             note: raw.note,
             program: tested.program,
             machine: self.machine(raw.machine.as_ref()),
+            modules: self.modules(raw.modules),
             others,
             wires,
             serve,
@@ -632,7 +642,7 @@ impl Value {
             Target::Pair(..) | Target::Nibbles(..) | Target::Pulses(_) => {
                 double().ok_or("a 32-bit integer")
             }
-            Target::Float(..) | Target::Frequency(_) => match value {
+            Target::Float(..) | Target::Frequency(_) | Target::Channel(_) => match value {
                 Scalar::Integer(v) => Ok(Value::Float(*v as f64)),
                 Scalar::Float(v) => Ok(Value::Float(*v)),
                 Scalar::Text(_) => Err("a number"),

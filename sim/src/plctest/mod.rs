@@ -4,6 +4,7 @@
 
 mod format;
 mod lines;
+mod modules;
 mod program;
 mod report;
 mod runner;
@@ -24,6 +25,7 @@ use crate::target::Target;
 use crate::wire::Signal;
 use rungc_models::ModelId;
 use rungc_rt::Clock;
+use rungc_rt::modules::Kind;
 use rungc_syntax::Source;
 use serde::Deserialize;
 use std::fmt;
@@ -62,6 +64,8 @@ pub struct Case {
     pub program: CaseProgram,
     /// The machine that its inputs and outputs are wired to.
     pub machine: Option<Arc<Description>>,
+    /// The special modules that are fitted to its PLC, with their numbers.
+    pub modules: Vec<(u16, &'static Kind)>,
     /// PLCs beside that of the case.
     pub others: Vec<OtherPlc>,
     /// Ports on one line each.

@@ -1,6 +1,7 @@
 //! Runs the cases of a suite on an engine.
 
 use super::lines::Lines;
+use super::modules::{MILLION, millionths};
 use super::servers::Servers;
 use super::suite::Built;
 use super::wiring;
@@ -25,6 +26,9 @@ const FLOAT_TOLERANCE: f64 = 1e-5;
 
 /// Relative tolerance of frequencies.
 const FREQUENCY_TOLERANCE: f64 = 0.01;
+
+/// Relative tolerance of analog signals.
+const CHANNEL_TOLERANCE: f64 = 0.001;
 
 /// Runs all cases. `progress` receives each result as it is known, and may cancel the run.
 pub fn run(
@@ -181,6 +185,7 @@ fn run_case(
         stopped: BTreeSet::new(),
     };
     running.power_up()?;
+    running.fit(&case.fitted())?;
     running.set_all(init)?;
     for other in &case.others {
         running.set_all(&other.init)?;
@@ -209,7 +214,7 @@ impl Running<'_> {
     }
 
     /// Asks for something that must exist.
-    fn insist(&mut self, request: Request) -> Result<(), Failure> {
+    pub(super) fn insist(&mut self, request: Request) -> Result<(), Failure> {
         match self.ask(request)? {
             Answer::Missing => Err(self.failed(&EngineError::Missing(request))),
             _ => Ok(()),
@@ -252,6 +257,11 @@ impl Running<'_> {
     /// Where that switch is.
     pub(super) fn is_running(&self, plc: usize) -> bool {
         !self.stopped.contains(&plc)
+    }
+
+    /// Time since power-on in milliseconds, wrapping.
+    pub(super) fn now_ms(&self) -> u32 {
+        self.now_ms
     }
 
     /// Time since power-on in microseconds, wrapping.
@@ -431,6 +441,12 @@ impl Running<'_> {
 
     fn set(&mut self, setting: &Setting) -> Result<(), Failure> {
         self.select(setting.plc)?;
+        if let (Target::Channel(channel), Value::Float(value)) = (setting.target, &setting.value) {
+            return match self.connect_channel(channel, millionths(*value))? {
+                true => Ok(()),
+                false => Err(self.no_device(setting.target)),
+            };
+        }
         for request in requests(setting) {
             if let Request::SetBit(Class::X, number, on) = request {
                 self.input(number, on)?;
@@ -532,6 +548,11 @@ impl Running<'_> {
                 let millihertz = self.value(target, Request::Frequency(n))?;
                 Ok(Value::Float(millihertz as f64 / 1000.0))
             }
+            Target::Channel(channel) => {
+                let now_ms = self.now_ms;
+                let signal = self.value(target, Request::Signal { now_ms, channel })?;
+                Ok(Value::Float(signal as f64 / MILLION))
+            }
         }
     }
 }
@@ -572,6 +593,7 @@ fn requests(setting: &Setting) -> Vec<Request> {
 fn agrees(target: Target, expected: &Value, actual: &Value) -> bool {
     let tolerance = match target {
         Target::Frequency(_) => FREQUENCY_TOLERANCE,
+        Target::Channel(_) => CHANNEL_TOLERANCE,
         _ => FLOAT_TOLERANCE,
     };
     match (expected, actual) {

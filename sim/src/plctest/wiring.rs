@@ -3,8 +3,9 @@
 use super::runner::Running;
 use super::{Failure, Setting, Signal, Step, Value};
 use crate::engines::EngineError;
-use crate::plant::{Axis, Description, Look, Terminals};
+use crate::plant::{Axis, Description, Look, Process, Terminals};
 use crate::protocol::{Answer, Request};
+use crate::target::Channel;
 use crate::wire::Change;
 use rungc_models::{Model, ModelId};
 use rungc_rt::Class;
@@ -43,9 +44,12 @@ pub(super) fn check(
     }
     for (i, step) in steps.iter().enumerate() {
         for (name, _) in &step.expect_position {
-            if plant.axis(name).is_none() {
-                let axes: Vec<_> = plant.axes().iter().map(Axis::name).collect();
-                let message = format!("unknown axis `{name}`; available: {}", axes.join(", "));
+            let names = plant.axes().iter().map(Axis::name);
+            let names: Vec<_> = names
+                .chain(plant.processes().iter().map(Process::name))
+                .collect();
+            if !names.contains(&name.as_str()) {
+                let message = format!("unknown axis `{name}`; available: {}", names.join(", "));
                 return wrong(i + 1, message);
             }
         }
@@ -75,6 +79,11 @@ impl Running<'_> {
             self.input(number, on)?;
             self.ask(Request::SetBit(Class::X, number, on))?;
         }
+        let Some(mut plant) = self.plant.take() else {
+            return Ok(());
+        };
+        plant.measure(self)?;
+        self.plant = Some(plant);
         Ok(())
     }
 
@@ -106,12 +115,24 @@ impl Running<'_> {
         let axes = expected
             .iter()
             .filter_map(|(name, at)| Some((plant.axis(name)?, *at)));
-        axes.filter(|(axis, at)| !axis.is_at(*at))
+        let axes = axes
+            .filter(|(axis, at)| !axis.is_at(*at))
             .map(|(axis, at)| {
                 let name = format!("the position of {}", axis.name());
                 (name, Value::Float(at), Value::Float(axis.position()))
-            })
-            .collect()
+            });
+        let processes = plant.processes().iter().flat_map(|process| {
+            let expected = expected.iter().filter(|(name, _)| name == process.name());
+            expected.map(move |(_, at)| (process, *at))
+        });
+        let processes =
+            processes
+                .filter(|(process, at)| !process.is_at(*at))
+                .map(|(process, at)| {
+                    let name = format!("the value of {}", process.name());
+                    (name, Value::Float(at), Value::Float(process.value()))
+                });
+        axes.chain(processes).collect()
     }
 }
 
@@ -119,11 +140,13 @@ impl Terminals for Running<'_> {
     type Error = Failure;
 
     fn look(&mut self, at: &[Look]) -> Result<Vec<i32>, Failure> {
+        let now_ms = self.now_ms();
         let requests: Vec<Request> = at
             .iter()
             .map(|look| match *look {
                 Look::Output(output) => Request::Output(output),
                 Look::Pulses(output) => Request::Pulses(output),
+                Look::Channel(channel) => Request::Signal { now_ms, channel },
             })
             .collect();
         let answers = self.engine.ask_all(&requests);
@@ -142,5 +165,15 @@ impl Terminals for Running<'_> {
         self.ask(Request::SetBit(Class::X, change.input, change.on))?;
         self.input(change.input, change.on)?;
         self.interrupts()
+    }
+
+    fn connect(&mut self, channel: Channel, millionths: i32) -> Result<(), Failure> {
+        match self.connect_channel(channel, millionths)? {
+            true => Ok(()),
+            false => Err(Failure::Machine {
+                step: self.step,
+                message: format!("the PLC has no input `{channel}`: no such module is fitted"),
+            }),
+        }
     }
 }

@@ -1,13 +1,37 @@
 //! Values of devices, in the shapes that their names ask for.
 
+use crate::plant::{Axis, Plant, Process};
 use crate::target::Target;
 use rungc_interp::{Machine, rt_class};
 use rungc_models::runs::is_counter32;
-use rungc_rt::{Class, Plc};
+use rungc_rt::{Class, Plc, VirtualHal};
 use std::fmt;
 
 /// How many characters of a text are read at most.
 pub const TEXT_LENGTH: usize = 64;
+
+/// A PLC between two scans, with what is around it.
+#[derive(Clone, Copy)]
+pub struct Seen<'a> {
+    /// The PLC.
+    pub machine: &'a Machine<'a>,
+    /// Its hardware.
+    pub hal: &'a VirtualHal,
+    /// The machine that it is wired to.
+    pub plant: Option<&'a Plant>,
+}
+
+impl<'a> Seen<'a> {
+    /// The axes of that machine.
+    pub fn axes(self) -> &'a [Axis] {
+        self.plant.map_or(&[], Plant::axes)
+    }
+
+    /// The processes of that machine.
+    pub fn processes(self) -> &'a [Process] {
+        self.plant.map_or(&[], Plant::processes)
+    }
+}
 
 /// What a device holds.
 #[derive(Clone, PartialEq, Debug)]
@@ -23,9 +47,14 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// What the target holds; `None` if the model has no such device.
-    pub fn of(machine: &Machine, target: Target) -> Option<Reading> {
+    /// What the target holds; `None` if the model or its hardware has no such device.
+    pub fn of(seen: Seen, target: Target) -> Option<Reading> {
+        let Seen { machine, hal, .. } = seen;
         Some(match target {
+            Target::Channel(channel) => {
+                let signal = hal.signal(channel.unit, channel.number, channel.quantity)?;
+                Reading::Float(f64::from(signal) / 1e6)
+            }
             Target::Bit(class, n) => Reading::Bit(machine.bit(rt_class(class)?, n)?),
             Target::Current(class, n) if is_counter32(class, n) => {
                 Reading::Integer(machine.counter32(n)?.into(), 32)

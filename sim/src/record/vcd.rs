@@ -29,9 +29,21 @@ impl Signal {
         };
         let name = match target {
             Target::Current(..) => class.number(number).to_string(),
-            target => target.to_string().replace('.', "_"),
+            target => target.to_string().replace(['.', ':'], "_"),
+        };
+        let scope = match target {
+            Target::Channel(_) => "channels",
+            _ => scope,
         };
         Signal { scope, name }
+    }
+
+    /// The value of a process of the machine around the PLC.
+    pub fn of_process(name: &str) -> Signal {
+        Signal {
+            scope: "machine",
+            name: format!("{name}_value"),
+        }
     }
 
     /// The position of an axis of the machine around the PLC.

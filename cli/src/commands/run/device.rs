@@ -2,7 +2,8 @@
 
 use rungc_interp::{Machine, rt_class};
 use rungc_models::runs::is_counter32;
-use rungc_rt::{Class, Plc};
+use rungc_rt::modules::Signal;
+use rungc_rt::{Class, Plc, VirtualHal};
 use rungc_sim::Target;
 
 fn set_pair(machine: &mut Machine, class: Class, number: u32, value: i32) -> Option<()> {
@@ -10,8 +11,8 @@ fn set_pair(machine: &mut Machine, class: Class, number: u32, value: i32) -> Opt
     machine.set_word(class, number + 1, (value >> 16) as i16)
 }
 
-/// Sets a device; `None` if the model has no such device.
-pub fn set(machine: &mut Machine, target: Target, value: f64) -> Option<()> {
+/// Sets a device, or the signal at an input of a module; `None` if the model or its hardware has none.
+pub fn set(machine: &mut Machine, hal: &mut VirtualHal, target: Target, value: f64) -> Option<()> {
     let integer = value as i64;
     match target {
         Target::Bit(class, n) => machine.set_bit(rt_class(class)?, n, value != 0.0),
@@ -30,6 +31,13 @@ pub fn set(machine: &mut Machine, target: Target, value: f64) -> Option<()> {
             let class = rt_class(class)?;
             (0..4 * u32::from(digits))
                 .try_for_each(|i| machine.set_bit(class, n + i, integer >> i & 1 == 1))
+        }
+        Target::Channel(channel) => {
+            let signal = Signal {
+                quantity: channel.quantity,
+                millionths: (value * 1e6).round() as i32,
+            };
+            hal.set_signal(channel.unit, channel.number, signal)
         }
         Target::Text(..) | Target::Pulses(_) | Target::Frequency(_) => None,
     }

@@ -1,13 +1,12 @@
 //! `rungc run --plot`: what is drawn, and the file.
 
 use super::super::{AtomicFile, Failure, file_name};
-use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::Program;
 use rungc_sim::Target;
-use rungc_sim::plant::{Axis, Plant};
+use rungc_sim::plant::{Axis, Process};
 use rungc_sim::record::plot::{CurveId, Plot, Shape};
-use rungc_sim::record::{Reading, hertz};
+use rungc_sim::record::{Reading, Seen, hertz};
 use rungc_syntax::DeviceClass;
 use std::io::Write;
 use std::path::Path;
@@ -19,6 +18,8 @@ enum Subject {
     Position(usize),
     /// Speed of an axis.
     Speed(usize),
+    /// Value of a process of the machine, by its place there.
+    Value(usize),
     /// Pulses that an output has sent.
     Pulses(u32),
     /// Their frequency, negative for those that are counted down.
@@ -39,8 +40,8 @@ fn named(target: Target, module: &Module) -> String {
 }
 
 /// What a device holds, as far as it can be drawn.
-fn number(machine: &Machine, target: Target) -> Option<f64> {
-    match Reading::of(machine, target)? {
+fn number(seen: Seen, target: Target) -> Option<f64> {
+    match Reading::of(seen, target)? {
         Reading::Bit(on) => Some(f64::from(u8::from(on))),
         Reading::Integer(value, _) => Some(value as f64),
         Reading::Float(value) => Some(value),
@@ -59,22 +60,26 @@ impl Plotting {
     /// Begins a diagram of the axes, and of what is watched.
     pub fn begin(
         path: &Path,
-        machine: &Machine,
-        plant: Option<&Plant>,
+        seen: Seen,
         watched: &[Target],
         duration_ms: u64,
     ) -> std::result::Result<Self, Failure> {
-        let module = machine.module();
+        let module = seen.machine.module();
         let name = file_name(rungc_lower::stem(&module.source_name), &module.name);
         let title = format!("{name} on {}", module.model.title);
         let mut plot = Plot::new(&title, duration_ms);
         let mut curves = Vec::new();
-        let axes = plant.map_or(&[][..], Plant::axes);
+        let axes = seen.axes();
         for (i, axis) in axes.iter().enumerate() {
             let (name, unit) = (axis.name(), axis.unit());
             let position = plot.curve(&format!("Position ({unit})"), name, Shape::Line);
             let speed = plot.curve(&format!("Speed ({unit}/s)"), name, Shape::Line);
             curves.extend([(position, Subject::Position(i)), (speed, Subject::Speed(i))]);
+        }
+        for (i, process) in seen.processes().iter().enumerate() {
+            let (name, unit) = (process.name(), process.unit());
+            let curve = plot.curve(&format!("Process ({unit})"), name, Shape::Line);
+            curves.push((curve, Subject::Value(i)));
         }
         for &output in &module.pulse_outputs {
             if axes.iter().any(|axis| axis.pulse_output() == Some(output)) {
@@ -88,10 +93,17 @@ impl Plotting {
         }
         for &target in watched {
             let name = named(target, module);
-            let curve = match Reading::of(machine, target) {
+            let curve = match Reading::of(seen, target) {
                 Some(Reading::Bit(_)) => plot.lane(&name),
+
                 Some(Reading::Integer(..) | Reading::Float(_)) => {
-                    plot.curve(&name, &name, Shape::Step)
+                    let panel = match target {
+                        Target::Channel(channel) => {
+                            format!("Channels ({})", channel.quantity.unit())
+                        }
+                        _ => name.clone(),
+                    };
+                    plot.curve(&panel, &name, Shape::Step)
                 }
                 Some(Reading::Text(_)) | None => continue,
             };
@@ -99,7 +111,7 @@ impl Plotting {
         }
         if plot.is_empty() {
             return Err(Failure::Because(
-                "--plot: nothing to draw: no machine with an axis, no output that sends pulses, and no number or bit in --watch".to_string(),
+                "--plot: nothing to draw: no machine with an axis or a process, no output that sends pulses, and no number or bit in --watch".to_string(),
             ));
         }
         Ok(Plotting {
@@ -110,8 +122,8 @@ impl Plotting {
     }
 
     /// Takes notice of how things are now.
-    pub fn sample(&mut self, at_ms: u64, machine: &Machine, plant: Option<&Plant>) {
-        let axes = plant.map_or(&[][..], Plant::axes);
+    pub fn sample(&mut self, at_ms: u64, seen: Seen) {
+        let (machine, axes) = (seen.machine, seen.axes());
         for &(curve, subject) in &self.curves {
             let value = match subject {
                 Subject::Position(i) => axes.get(i).map(Axis::position),
@@ -120,9 +132,10 @@ impl Plotting {
                     let is_on = |output| machine.output(output);
                     axes.get(i).map(|axis| axis.speed(hz, is_on))
                 }
-                Subject::Pulses(n) => number(machine, Target::Pulses(n)),
+                Subject::Value(i) => seen.processes().get(i).map(Process::value),
+                Subject::Pulses(n) => number(seen, Target::Pulses(n)),
                 Subject::Frequency(n) => Some(hertz(machine, n)),
-                Subject::Watched(target) => number(machine, target),
+                Subject::Watched(target) => number(seen, target),
             };
             if let Some(value) = value {
                 self.plot.point(curve, at_ms, value);

@@ -1,11 +1,9 @@
 //! `rungc run --vcd`: which devices are recorded, and the file.
 
 use super::super::{AtomicFile, Failure};
-use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_sim::Target;
-use rungc_sim::plant::{Axis, Plant};
-use rungc_sim::record::{Reading, Signal, Vcd};
+use rungc_sim::record::{Reading, Seen, Signal, Vcd};
 use rungc_sim::wire::Change;
 use rungc_syntax::DeviceClass;
 use rungc_syntax::order;
@@ -15,7 +13,7 @@ use std::path::Path;
 
 /// A recording that is being written.
 pub struct Recording {
-    /// What the first signals show; those of the machine's axes follow.
+    /// What the first signals show; those of the machine follow.
     targets: Vec<Target>,
     vcd: Vcd<BufWriter<File>>,
     file: AtomicFile,
@@ -25,25 +23,20 @@ impl Recording {
     /// Begins a recording of a program's inputs and outputs and of what is watched.
     pub fn begin(
         path: &Path,
-        machine: &Machine,
-        plant: Option<&Plant>,
+        seen: Seen,
         watched: &[Target],
     ) -> std::result::Result<Self, Failure> {
-        let module = machine.module();
+        let module = seen.machine.module();
         let targets = targets(module, watched);
-        let axes = plant.map_or(&[][..], Plant::axes);
-        if targets.is_empty() && axes.is_empty() {
+        let of_machine = machine_signals(seen);
+        if targets.is_empty() && of_machine.is_empty() {
             return Err(Failure::Because(
                 "--vcd: nothing to record: the program has no inputs and outputs; select devices with --watch".to_string(),
             ));
         }
-        let of_axis = |axis: &Axis| {
-            let position = Reading::Float(axis.position());
-            (Signal::of_axis(axis.name()), position)
-        };
-        let of_target = |&target| Some((Signal::of(target), Reading::of(machine, target)?));
+        let of_target = |&target| Some((Signal::of(target), Reading::of(seen, target)?));
         let signals = targets.iter().filter_map(of_target);
-        let signals = signals.chain(axes.iter().map(of_axis)).collect();
+        let signals = signals.chain(of_machine).collect();
         let file = AtomicFile::create(path)?;
         let vcd = Vcd::begin(file.writer()?, &module.name, signals);
         Ok(Recording {
@@ -54,20 +47,14 @@ impl Recording {
     }
 
     /// Records what has changed.
-    pub fn sample(
-        &mut self,
-        at_us: u64,
-        machine: &Machine,
-        plant: Option<&Plant>,
-    ) -> std::result::Result<(), Failure> {
+    pub fn sample(&mut self, at_us: u64, seen: Seen) -> std::result::Result<(), Failure> {
         for i in 0..self.targets.len() {
-            if let Some(reading) = Reading::of(machine, self.targets[i]) {
+            if let Some(reading) = Reading::of(seen, self.targets[i]) {
                 self.change(at_us, i, reading)?;
             }
         }
-        let axes = plant.map_or(&[][..], Plant::axes);
-        for (i, axis) in (self.targets.len()..).zip(axes) {
-            self.change(at_us, i, Reading::Float(axis.position()))?;
+        for (i, (_, reading)) in (self.targets.len()..).zip(machine_signals(seen)) {
+            self.change(at_us, i, reading)?;
         }
         Ok(())
     }
@@ -97,6 +84,23 @@ impl Recording {
         written.map_err(|error| self.file.failed(error))?;
         self.file.persist()
     }
+}
+
+/// The positions of the machine's axes and the values of its processes.
+fn machine_signals(seen: Seen) -> Vec<(Signal, Reading)> {
+    let axes = seen.axes().iter();
+    let axes = axes.map(|axis| {
+        (
+            Signal::of_axis(axis.name()),
+            Reading::Float(axis.position()),
+        )
+    });
+    let processes = seen.processes().iter();
+    let processes = processes.map(|process| {
+        let value = Reading::Float(process.value());
+        (Signal::of_process(process.name()), value)
+    });
+    axes.chain(processes).collect()
 }
 
 /// The inputs and outputs that the program uses, the pulses that it sends, and the watched devices, each once, by class.

@@ -16,10 +16,11 @@ use crate::commands::{Failure, Outcome, Result, interruption, say, tell};
 use crate::report::visible;
 use rungc_interp::Machine;
 use rungc_ir::Module;
+use rungc_rt::modules;
 use rungc_rt::{Class, Clock, Hal, Plc, Program, VirtualHal};
 use rungc_sim::Target;
 use rungc_sim::plant::Plant;
-use rungc_sim::record::Reading;
+use rungc_sim::record::{Reading, Seen};
 use rungc_syntax::DeviceClass;
 use std::io::{self, Write};
 use std::iter::Peekable;
@@ -71,6 +72,8 @@ pub struct Run<'a> {
     pub watched: &'a [Target],
     /// Whether there is a table.
     pub table: bool,
+    /// The special modules that are fitted.
+    pub modules: &'a [(u16, &'static modules::Kind)],
 }
 
 impl Run<'_> {
@@ -78,18 +81,32 @@ impl Run<'_> {
     pub fn simulate(&self, plant: Option<Plant>) -> Result {
         let Run { args, module, .. } = *self;
         let mut machine = Machine::new(module);
+        let mut hal = hardware(args.in_real_time());
+        for &(unit, kind) in self.modules {
+            // The settings name each number once, and no more modules than there is room for.
+            let _ = hal.fit(unit, kind);
+        }
         // What does not exist is said before anything is shown or written.
         let set = self.settings.iter().map(|s| s.target);
         for target in set.chain(self.shown.iter().copied()) {
-            Reading::of(&machine, target).ok_or_else(|| missing(target, module))?;
+            let seen = Seen {
+                machine: &machine,
+                hal: &hal,
+                plant: plant.as_ref(),
+            };
+            Reading::of(seen, target).ok_or_else(|| missing(target, module))?;
         }
         let retaining = match &self.retain {
             Some(path) => Some(Retaining::begin(path, &mut machine)?),
             None => None,
         };
-        let around = plant.as_ref();
+        let seen = Seen {
+            machine: &machine,
+            hal: &hal,
+            plant: plant.as_ref(),
+        };
         let recording = match &args.vcd {
-            Some(path) => Some(Recording::begin(path, &machine, around, self.shown)?),
+            Some(path) => Some(Recording::begin(path, seen, self.shown)?),
             None => None,
         };
         let scope = match &args.scope {
@@ -102,7 +119,7 @@ impl Run<'_> {
                     let message = "--plot: state with --for how long the run takes";
                     Failure::Because(message.to_string())
                 })?;
-                let plotting = Plotting::begin(path, &machine, around, self.watched, duration);
+                let plotting = Plotting::begin(path, seen, self.watched, duration);
                 Some(plotting?)
             }
             None => None,
@@ -110,7 +127,7 @@ impl Run<'_> {
         let mut watch = Watch::new(module.model, args.serve.trace_frames.as_deref())?;
         let mut simulation = Simulation {
             machine,
-            hal: hardware(args.in_real_time()),
+            hal,
             pending: self.settings.iter().peekable(),
             shown: self.shown,
             view: View::new(
@@ -178,6 +195,13 @@ impl Simulation<'_> {
         for (number, on) in inputs {
             // The description was held to the model, so the input exists.
             let _ = self.machine.set_bit(Class::X, number, on);
+        }
+        if let Some(plant) = &mut self.plant {
+            plant.measure(&mut Wiring {
+                machine: &mut self.machine,
+                hal: &mut self.hal,
+                recording: None,
+            })?;
         }
         let end_ms = args.end_ms().unwrap_or(u64::MAX);
         loop {
@@ -302,6 +326,7 @@ impl Simulation<'_> {
     /// A millisecond between two scans.
     fn millisecond(&mut self) -> std::result::Result<(), Failure> {
         self.now_ms += 1;
+        self.hal.advance_to(self.now_ms as u32);
         self.machine.tick(&mut self.hal, self.now_ms as u32);
         self.apply_settings()?;
         self.machine.take_interrupts(&mut self.hal);
@@ -328,8 +353,14 @@ impl Simulation<'_> {
     /// Sets what is to be set now.
     fn apply_settings(&mut self) -> std::result::Result<(), Failure> {
         while let Some(setting) = self.pending.next_if(|s| s.at_ms == self.now_ms) {
-            device::set(&mut self.machine, setting.target, setting.value)
-                .ok_or_else(|| missing(setting.target, self.machine.module()))?;
+            self.hal.advance_to(self.now_ms as u32);
+            device::set(
+                &mut self.machine,
+                &mut self.hal,
+                setting.target,
+                setting.value,
+            )
+            .ok_or_else(|| missing(setting.target, self.machine.module()))?;
             if let Target::Bit(DeviceClass::X, number) = setting.target
                 && self.now_ms > 0
             {
@@ -340,22 +371,34 @@ impl Simulation<'_> {
         Ok(())
     }
 
+    fn seen(&self) -> Seen<'_> {
+        Seen {
+            machine: &self.machine,
+            hal: &self.hal,
+            plant: self.plant.as_ref(),
+        }
+    }
+
     fn read(&self, target: Target) -> std::result::Result<String, Failure> {
-        Reading::of(&self.machine, target)
+        Reading::of(self.seen(), target)
             .map(|reading| reading.to_string())
             .ok_or_else(|| missing(target, self.machine.module()))
     }
 
     fn record(&mut self) -> std::result::Result<(), Failure> {
-        let plant = self.plant.as_ref();
+        let seen = Seen {
+            machine: &self.machine,
+            hal: &self.hal,
+            plant: self.plant.as_ref(),
+        };
         if let Some(scope) = &mut self.scope {
             scope.sample(&self.machine);
         }
         if let Some(plotting) = &mut self.plotting {
-            plotting.sample(self.now_ms, &self.machine, plant);
+            plotting.sample(self.now_ms, seen);
         }
         match &mut self.recording {
-            Some(recording) => recording.sample(1000 * self.now_ms, &self.machine, plant),
+            Some(recording) => recording.sample(1000 * self.now_ms, seen),
             None => Ok(()),
         }
     }
@@ -417,5 +460,10 @@ fn column(target: Target) -> Column {
 
 fn missing(target: Target, module: &Module) -> Failure {
     let model = module.model.title;
+    if let Target::Channel(channel) = target {
+        return Failure::Because(format!(
+            "`{channel}` does not exist: list the module with this channel as `[[module]]` in rungc.toml"
+        ));
+    }
     Failure::Because(format!("`{target}` does not exist on {model}"))
 }

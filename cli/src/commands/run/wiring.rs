@@ -3,7 +3,9 @@
 use super::recording::Recording;
 use crate::commands::Failure;
 use rungc_interp::Machine;
+use rungc_rt::modules::Signal;
 use rungc_rt::{Class, Plc, Program, VirtualHal};
+use rungc_sim::Channel;
 use rungc_sim::plant::{Look, Terminals};
 use rungc_sim::wire::Change;
 
@@ -24,6 +26,11 @@ impl Terminals for Wiring<'_, '_> {
         let value = |look: &Look| match *look {
             Look::Output(output) => i32::from(self.machine.output(output)),
             Look::Pulses(output) => self.machine.pulses_sent(output),
+            Look::Channel(Channel {
+                unit,
+                number,
+                quantity,
+            }) => self.hal.signal(unit, number, quantity).unwrap_or(0),
         };
         Ok(at.iter().map(value).collect())
     }
@@ -37,5 +44,18 @@ impl Terminals for Wiring<'_, '_> {
             Some(recording) => recording.edge(change),
             None => Ok(()),
         }
+    }
+
+    fn connect(&mut self, channel: Channel, millionths: i32) -> Result<(), Failure> {
+        let signal = Signal {
+            quantity: channel.quantity,
+            millionths,
+        };
+        let connected = self.hal.set_signal(channel.unit, channel.number, signal);
+        connected.ok_or_else(|| {
+            Failure::Because(format!(
+                "the PLC has no input `{channel}`: no such module is fitted"
+            ))
+        })
     }
 }

@@ -57,6 +57,8 @@ impl Reader<'_> {
             Drive::Outputs { out_speed, .. } => FASTEST / (1000.0 * out_speed),
         };
         let switches = self.switches(&raw, Scale { per_unit, travel }, fastest);
+        let sensors = raw.sensor.into_iter();
+        let sensors = sensors.filter_map(|sensor| self.sensor(sensor)).collect();
         Some(Axis {
             name,
             unit,
@@ -66,6 +68,7 @@ impl Reader<'_> {
             moved: 0.0,
             travel,
             switches,
+            sensors,
             collision: None,
         })
     }

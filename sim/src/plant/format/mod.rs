@@ -1,6 +1,7 @@
 //! Reading the description of a machine: TOML to [`Plant`], every mistake with its line and column.
 
 mod axis;
+mod process;
 mod raw;
 mod switches;
 mod values;
@@ -116,6 +117,8 @@ struct Reader<'t> {
     source: &'t Source,
     problems: Vec<Problem>,
     terminals: Vec<Terminal>,
+    /// Inputs of modules that sensors are connected to: module and channel.
+    channels: Vec<(u16, u8)>,
 }
 
 impl<'t> Reader<'t> {
@@ -124,6 +127,7 @@ impl<'t> Reader<'t> {
             source,
             problems: Vec::new(),
             terminals: Vec::new(),
+            channels: Vec::new(),
         }
     }
 
@@ -134,8 +138,10 @@ impl<'t> Reader<'t> {
 
     fn machine(&mut self, raw: RawMachine) -> Plant {
         let mut plant = Plant::default();
-        if raw.axis.is_empty() && raw.cylinder.is_empty() && raw.delay.is_empty() {
-            let message = "the machine is empty: add [[axis]], [[cylinder]] or [[delay]] tables";
+        let parts = [raw.axis.len(), raw.cylinder.len(), raw.delay.len()];
+        if parts == [0; 3] && raw.process.is_empty() {
+            let message =
+                "the machine is empty: add [[axis]], [[cylinder]], [[delay]] or [[process]] tables";
             self.report(0, message);
         }
         for axis in raw.axis {
@@ -153,6 +159,11 @@ impl<'t> Reader<'t> {
         for delay in raw.delay {
             let at = delay.span().start;
             plant.delays.extend(self.delay(at, delay.into_inner()));
+        }
+        for process in raw.process {
+            let at = process.span().start;
+            let process = self.process(at, process.into_inner(), &plant.processes);
+            plant.processes.extend(process);
         }
         for name in raw.normally_closed {
             plant.normally_closed.extend(self.closed(&name));
@@ -207,6 +218,7 @@ impl<'t> Reader<'t> {
             },
             moved: 0.0,
             travel: Some([0.0, length]),
+            sensors: Vec::new(),
             switches: switches
                 .map(|(input, marks)| Switch { input, marks })
                 .collect(),

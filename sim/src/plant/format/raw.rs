@@ -13,6 +13,8 @@ pub(super) struct RawMachine {
     #[serde(default)]
     pub(super) delay: Vec<Spanned<RawDelay>>,
     #[serde(default)]
+    pub(super) process: Vec<Spanned<RawProcess>>,
+    #[serde(default)]
     pub(super) normally_closed: Vec<Spanned<String>>,
 }
 
@@ -41,6 +43,8 @@ pub(super) struct RawAxis {
     pub(super) encoder: Option<RawEncoder>,
     #[serde(default)]
     pub(super) switch: Vec<RawSwitch>,
+    #[serde(default)]
+    pub(super) sensor: Vec<RawSensor>,
 }
 
 #[derive(Deserialize, Clone, Copy)]
@@ -92,4 +96,29 @@ pub(super) struct RawDelay {
     pub(super) input: Spanned<String>,
     pub(super) on_ms: Option<Spanned<u32>>,
     pub(super) off_ms: Option<Spanned<u32>>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawProcess {
+    pub(super) name: Spanned<String>,
+    pub(super) unit: Option<String>,
+    pub(super) drive: Spanned<String>,
+    pub(super) drive_signal: Option<Spanned<Vec<f64>>>,
+    #[serde(default)]
+    pub(super) rest: f64,
+    pub(super) full: f64,
+    pub(super) start: Option<f64>,
+    pub(super) time_constant_s: Spanned<f64>,
+    pub(super) dead_time_s: Option<Spanned<f64>>,
+    #[serde(default)]
+    pub(super) sensor: Vec<RawSensor>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSensor {
+    pub(super) channel: Spanned<String>,
+    pub(super) range: Option<Spanned<Vec<f64>>>,
+    pub(super) signal: Option<Spanned<Vec<f64>>>,
 }

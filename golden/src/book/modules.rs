@@ -1,0 +1,91 @@
+//! The page of the buffer memory of special modules.
+
+use rungc_rt::modules::{Bfm, KINDS, Kind, Quantity, Range};
+use std::fmt::Write;
+
+/// The page: a table of ranges and a table of buffer memory for each kind, as the runtime holds them.
+pub fn modules() -> String {
+    let mut page = "# Buffer memory of modules\n\nThe special modules that rungc simulates and checks, and what FROM and TO find in them. \
+                    [Special modules](../modules.md) says how to fit them. A word that is *kept* outlasts power-off.\n"
+        .to_owned();
+    for kind in &KINDS {
+        // Writing to a String cannot fail.
+        let _ = write!(page, "\n## {}\n\n", kind.name);
+        if !kind.aliases.is_empty() {
+            let _ = write!(page, "Also {}. ", kind.aliases.join(", "));
+        }
+        let _ = write!(page, "Described in {}.", kind.source);
+        ranges(&mut page, "inputs", kind.input_ranges, 1..=kind.inputs);
+        let outputs = kind.inputs + 1..=kind.inputs + kind.outputs;
+        ranges(&mut page, "outputs", kind.output_ranges, outputs);
+        page += "\n\n| BFM | channel | meaning | default | access |\n|--:|---|---|--:|---|\n";
+        for bfm in kind.bfms {
+            row(&mut page, kind, bfm);
+        }
+    }
+    page
+}
+
+/// The ranges of the channels.
+fn ranges(
+    page: &mut String,
+    what: &str,
+    ranges: &[Option<Range>],
+    channels: std::ops::RangeInclusive<u8>,
+) {
+    if channels.is_empty() {
+        return;
+    }
+    let (first, last) = (channels.start(), channels.end());
+    let channels = match first == last {
+        true => format!("CH{first}"),
+        false => format!("CH{first} to CH{last}"),
+    };
+    let _ = write!(
+        page,
+        "\n\n{channels} are {what}:\n\n| digit | 0 stands for | gain | held in |\n|--:|--:|--:|--:|\n"
+    );
+    let rows = ranges.iter().enumerate().map(|(digit, range)| match range {
+        None => format!("| {digit} | off | | |"),
+        Some(range) => {
+            let analog = |thousandths: i32| {
+                let unit = range.quantity.unit();
+                format!("{} {unit}", f64::from(thousandths) / 1000.0)
+            };
+            let gain = match range.quantity {
+                Quantity::Celsius => format!("0.1 {} = 1", range.quantity.unit()),
+                _ => format!("{} = {}", analog(range.gain), range.span),
+            };
+            format!(
+                "| {digit} | {} | {gain} | {} to {} |",
+                analog(range.offset),
+                range.low,
+                range.high
+            )
+        }
+    });
+    *page += &rows.collect::<Vec<_>>().join("\n");
+}
+
+/// A row of buffer memory.
+fn row(page: &mut String, kind: &Kind, bfm: &Bfm) {
+    let last = bfm.first + u16::from(bfm.count) - 1;
+    let numbers = match last == bfm.first {
+        true => bfm.first.to_string(),
+        false => format!("{} – {last}", bfm.first),
+    };
+    let channels = kind.channels(bfm).map_or(String::new(), |(first, each)| {
+        let last = first + bfm.count / each;
+        match last == first + 1 {
+            true => format!("CH{last}"),
+            false => format!("CH{} – CH{last}", first + 1),
+        }
+    });
+    let _ = writeln!(
+        page,
+        "| {numbers} | {channels} | {} | {} | {} |",
+        bfm.role.meaning(),
+        bfm.default,
+        bfm.access.name()
+    );
+}

@@ -1,0 +1,47 @@
+//! `[[module]]`: the special modules that are fitted to the PLC, for checks and simulation.
+
+use crate::{Error, Project};
+use rungc_models::Model;
+use rungc_rt::Ports;
+use rungc_rt::modules::Kind;
+use rungc_syntax::{FittedModule, Program, Span, codes};
+
+/// Numbers of modules beside the main unit.
+pub const LOCAL: std::ops::RangeInclusive<u16> = 0..=7;
+
+/// Numbers of modules on the CAN bus of H1U and H2U: 100 and their station.
+pub const REMOTE: std::ops::RangeInclusive<u16> = 101..=162;
+
+/// A module.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Row {
+    /// Its number in FROM and TO.
+    pub unit: u16,
+    /// What it is.
+    pub kind: &'static Kind,
+    /// Where that number is.
+    pub span: Span,
+}
+
+impl Project {
+    /// Gives a program the modules of its PLC.
+    pub(crate) fn fit_modules(&self, program: &mut Program, model: &Model) -> Result<(), Error> {
+        if self.modules.is_empty() {
+            return Ok(());
+        }
+        let has_bus = model.ports == Ports::Inovance;
+        for row in &self.modules {
+            if REMOTE.contains(&row.unit) && !has_bus {
+                let message = format!("{} has no remote modules", model.title);
+                let why = codes::PROJECT_VALUE.at(row.span, message);
+                return Err(self.mistake(why.help("the modules beside it have the numbers 0 to 7")));
+            }
+        }
+        let fitted = self.modules.iter().map(|row| FittedModule {
+            unit: row.unit,
+            kind: row.kind.name,
+        });
+        program.parameters.get_or_insert_default().modules = fitted.collect();
+        Ok(())
+    }
+}

@@ -1,0 +1,68 @@
+//! `[[module]]`.
+
+use super::{Reader, Value, hint, span};
+use crate::Project;
+use crate::module::{LOCAL, REMOTE, Row};
+use rungc_rt::modules::{KINDS, Kind};
+use rungc_syntax::Span;
+use toml::de::DeTable;
+
+/// The table of which each entry is a module.
+pub(super) const MODULE: &str = "module";
+
+/// How many modules a PLC has at most.
+const MOST: usize = 8;
+
+impl Reader {
+    pub(super) fn modules(&mut self, at: Span, value: &Value<'_>, project: &mut Project) {
+        for (at, table) in self.rows(MODULE, at, value) {
+            let Some(row) = self.module(at, table) else {
+                continue;
+            };
+            if project.modules.iter().any(|other| other.unit == row.unit) {
+                self.wrong(row.span, format!("module {} is listed twice", row.unit), "");
+            } else if project.modules.len() == MOST {
+                self.wrong(at, format!("a PLC has at most {MOST} modules"), "");
+            } else {
+                project.modules.push(row);
+            }
+        }
+    }
+
+    fn module(&mut self, at: Span, table: &DeTable<'_>) -> Option<Row> {
+        self.known(MODULE, table, &["at", "kind"]);
+        let unit = self.number(table, at, "at", 0..=(*REMOTE.end()).into(), None);
+        let Some(named) = self.get(table, "kind") else {
+            if !table.contains_key("kind") {
+                self.wrong(
+                    at,
+                    "a module has `kind`",
+                    "add for example `kind = \"FX2N-4AD\"`",
+                );
+            }
+            return None;
+        };
+        let Some(kind) = Kind::find(&named.text) else {
+            let names: Vec<_> = KINDS.iter().map(|kind| kind.name).collect();
+            let message = format!("unknown module `{}`", named.text);
+            self.wrong(
+                named.span,
+                message,
+                &hint(&named.text.to_uppercase(), &names),
+            );
+            return None;
+        };
+        let at = table.get("at").map_or(at, |value| span(value.span()));
+        let unit = unit.and_then(|unit| u16::try_from(unit).ok())?;
+        if !LOCAL.contains(&unit) && !REMOTE.contains(&unit) {
+            let help = "the number is 0 to 7 beside the main unit, or 100 and the station on the CAN bus of H1U and H2U";
+            self.wrong(at, format!("no module has the number {unit}"), help);
+            return None;
+        }
+        Some(Row {
+            unit,
+            kind,
+            span: at,
+        })
+    }
+}
