@@ -7,7 +7,7 @@ use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::ModelId;
 use rungc_project::Check;
 use rungc_project::serve::{Line, address};
-use rungc_syntax::{Device, Severity, codes, diag};
+use rungc_syntax::{Device, DeviceClass, Severity, codes, diag};
 use std::net::SocketAddr;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -34,6 +34,7 @@ Examples:
   rungc build MAIN.csv --emit bin -o machine   an executable that scans in real time
   rungc test tests --engine all                all test files in a folder
   rungc view machine.gxw --device Y000         networks, as ladder
+  rungc xref machine.gxw --device M100..M199   who reads and writes each device
   rungc init machine.gxw                       settings of a project: rungc.toml
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
 
@@ -72,6 +73,12 @@ pub enum Command {
     Test(TestArgs),
     /// Draw a program as ladder.
     View(ViewArgs),
+    /// List who reads, writes, sets and resets each device.
+    Xref(XrefArgs),
+    /// Count steps, instructions and devices, and estimate the scan time of the real PLC.
+    Stats(StatsArgs),
+    /// Lay out instruction lists in the usual way; comments stay.
+    Fmt(FmtArgs),
     /// Rewrite a program as an instruction list or a list export.
     Convert(ConvertArgs),
     /// Write rungc.toml, the settings of a project, with a comment on each.
@@ -414,6 +421,48 @@ pub struct ViewArgs {
     pub force: bool,
 }
 
+/// Arguments of `xref`.
+#[derive(Args, Debug)]
+pub struct XrefArgs {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// List only these devices: `M100` or `D100..D199`. Repeat it for more.
+    #[arg(long, value_parser = devices, value_name = "RANGE")]
+    pub device: Vec<(DeviceClass, u32, u32)>,
+    /// List the general devices that no instruction names, too; the page and JSON always do.
+    #[arg(long)]
+    pub unused: bool,
+    /// Output form.
+    #[arg(long, value_enum, default_value_t = XrefTo::Text)]
+    pub to: XrefTo,
+    /// File to write. Default: standard output. With several programs, a folder for all outputs.
+    #[arg(short, long, value_name = "PATH")]
+    pub output: Option<PathBuf>,
+    /// Overwrite an existing file.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `stats`.
+#[derive(Args, Debug)]
+pub struct StatsArgs {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// Print one JSON object, with a member of `programs` for each program.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `fmt`.
+#[derive(Args, Debug)]
+pub struct FmtArgs {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// Change nothing: list the lines that are laid out differently, and fail (exit code 1) if there are any.
+    #[arg(long)]
+    pub check: bool,
+}
+
 /// Arguments of `init`.
 #[derive(Args, Debug)]
 pub struct InitArgs {
@@ -541,6 +590,19 @@ impl ConvertTo {
     }
 }
 
+/// Output forms of `xref`.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum XrefTo {
+    /// Human-readable: a line for each use.
+    Text,
+    /// A table (CSV) with a line for each use.
+    Csv,
+    /// A page with a search.
+    Html,
+    /// JSON: one object.
+    Json,
+}
+
 /// One part of the cases.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Shard {
@@ -644,6 +706,11 @@ fn networks(text: &str) -> Result<RangeInclusive<usize>, String> {
 fn device(text: &str) -> Result<Device, String> {
     rungc_project::device::device(&text.to_uppercase())
         .ok_or_else(|| "a device is written `X010`, `M100` or `D0`".to_string())
+}
+
+fn devices(text: &str) -> Result<(DeviceClass, u32, u32), String> {
+    rungc_project::device::range(&text.to_uppercase().replace("..", "-"))
+        .ok_or_else(|| "devices are written `M100` or `D100..D199`".to_string())
 }
 
 fn code(text: &str) -> Result<&'static str, String> {

@@ -6,6 +6,9 @@ use crate::il::is_label;
 use rungc_syntax::{Instr, Operand, OperandKind, Program};
 use std::fmt::Write as _;
 
+/// Characters that an instruction takes before the comment beside it.
+const COMMENT_COLUMN: usize = 24;
+
 /// The program as an instruction list: title, CPU and device comments as `;!` lines, then one instruction a line.
 pub fn to_il(program: &Program) -> String {
     let mut out = String::new();
@@ -33,21 +36,135 @@ fn il_line(out: &mut String, instr: &Instr, width: usize) {
     for line in instr.statement().into_iter().flat_map(str::lines) {
         let _ = writeln!(out, "; {line}");
     }
+    il_step(out, instr, width);
+    let comment = instr.note().map(|note| format!("; {note}"));
+    il_words(out, instr, comment.as_deref());
+    out.push('\n');
+}
+
+/// The step number before an instruction, in a list that numbers steps.
+fn il_step(out: &mut String, instr: &Instr, width: usize) {
     match instr.step {
         Some(step) => _ = write!(out, "{step:>width$} "),
         None if width > 0 => _ = write!(out, "{:width$} ", ""),
         None => {}
     }
+}
+
+/// An instruction, and the comment beside it in its column.
+fn il_words(out: &mut String, instr: &Instr, comment: Option<&str>) {
     let start = out.len();
     out.push_str(&instr.mnemonic);
     for operand in &instr.operands {
         let _ = write!(out, " {}", spelled(&operand.kind));
     }
-    if let Some(note) = instr.note() {
-        let pad = 24_usize.saturating_sub(out.len() - start);
-        let _ = write!(out, "{:pad$} ; {note}", "");
+    if let Some(comment) = comment {
+        let pad = COMMENT_COLUMN.saturating_sub(out.len() - start);
+        let _ = write!(out, "{:pad$} {comment}", "");
     }
-    out.push('\n');
+}
+
+/// An instruction list as [`to_il`] lays out its lines, and the lines that differ from the source.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct LaidOut {
+    /// The whole text, with the line end of its first line throughout.
+    pub text: String,
+    /// The lines that differ.
+    pub changes: Vec<Change>,
+}
+
+/// A line of a list that is laid out differently.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Change {
+    /// Its number, from 1.
+    pub line: usize,
+    /// How it is written in the source.
+    pub before: String,
+    /// How it is laid out: two lines where a label and an instruction share one, none where an empty line goes.
+    pub after: String,
+}
+
+/// Lays out the source of a list that was read without errors: one instruction on a line, mnemonics and devices as the
+/// editors write them, comments beside instructions in one column, one empty line where there are several. Comments
+/// and the order of lines stay.
+pub fn lay_out(program: &Program) -> LaidOut {
+    let source = &program.source;
+    let first = source.lines().next();
+    let end = match first.is_some_and(|(_, line)| line.ends_with("\r\n")) {
+        true => "\r\n",
+        false => "\n",
+    };
+    let steps = program.instrs.iter().filter_map(|instr| instr.step).max();
+    let width = steps.map_or(0, |last| last.to_string().len());
+    let mut laid_out = LaidOut {
+        text: String::with_capacity(source.text.len()),
+        changes: Vec::new(),
+    };
+    let mut instrs = program.instrs.as_slice();
+    // Empty lines that wait for a line after them.
+    let mut empty = Vec::new();
+    for (number, (start, whole)) in (1..).zip(source.lines()) {
+        let before = whole.trim_end_matches(['\r', '\n']);
+        let here = instrs.partition_point(|instr| instr.span.start < start + whole.len() as u32);
+        let (of_line, others) = instrs.split_at(here);
+        instrs = others;
+        let after = line(of_line, start, before, width);
+        if after.is_empty() {
+            empty.push((number, before));
+            continue;
+        }
+        let kept = usize::from(!laid_out.text.is_empty()).min(empty.len());
+        for (i, (number, before)) in empty.drain(..).enumerate() {
+            laid_out.text.push_str(if i < kept { end } else { "" });
+            laid_out.note(number, before, "", i < kept);
+        }
+        for line in after.lines() {
+            laid_out.text.push_str(line);
+            laid_out.text.push_str(end);
+        }
+        laid_out.note(number, before, &after, whole.ends_with(end));
+    }
+    for (number, before) in empty {
+        laid_out.note(number, before, "", false);
+    }
+    laid_out
+}
+
+impl LaidOut {
+    /// Takes a line; `ended` if it is there afterwards and ended before as it ends now.
+    fn note(&mut self, line: usize, before: &str, after: &str, ended: bool) {
+        if before != after || !ended {
+            self.changes.push(Change {
+                line,
+                before: before.to_owned(),
+                after: after.to_owned(),
+            });
+        }
+    }
+}
+
+/// One line of the source, which begins at `start` and holds these instructions.
+fn line(instrs: &[Instr], start: u32, whole: &str, width: usize) -> String {
+    let Some((last, labels)) = instrs.split_last() else {
+        return whole.trim().to_owned();
+    };
+    let rest = &whole[(last.span.end - start) as usize..];
+    // A colon may follow a label.
+    let separates = |c: char| c.is_whitespace() || matches!(c, ',' | '，' | ':' | '：' | '\0');
+    let comment = rest.trim_start_matches(separates).trim_end();
+    let mut out = String::new();
+    for label in labels {
+        il_step(&mut out, label, width);
+        il_words(&mut out, label, None);
+        out.push('\n');
+    }
+    il_step(&mut out, last, width);
+    il_words(
+        &mut out,
+        last,
+        Some(comment).filter(|comment| !comment.is_empty()),
+    );
+    out
 }
 
 /// An operand as a reader takes it: a quote within a text is written twice.

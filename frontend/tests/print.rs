@@ -122,6 +122,21 @@ fn check(read: &Read, written: &Program) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// The same list, written carelessly: a line in each of these ways, over and over.
+fn rag(list: &str, ways: &[u8]) -> String {
+    let end = if ways[0] == 0 { "\r\n" } else { "\n" };
+    let lines = list.lines().zip(ways.iter().cycle());
+    let lines = lines.map(|(line, way)| match way {
+        0 => format!("\t{line}  "),
+        1 => format!("{line}{end}{end}  "),
+        2 if !line.contains([';', '"']) => line.to_lowercase(),
+        3 if !line.contains([';', '"']) => line.replace(' ', "  "),
+        4 if !line.contains([';', '"']) => format!("{line},"),
+        _ => line.to_owned(),
+    });
+    lines.map(|line| line + end).collect()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -130,6 +145,20 @@ proptest! {
         let read = read_text("a.il", &print::to_il(&program));
         check(&read, &program)?;
         prop_assert_eq!(&read.program.comments, &program.comments);
+    }
+
+    #[test]
+    fn a_list_that_is_laid_out_means_the_same(program in program(), ragged in vec(0..6_u8, 1..20)) {
+        let source = read_text("a.il", &rag(&print::to_il(&program), &ragged));
+        check(&source, &program)?;
+        let laid_out = print::lay_out(&source.program);
+        let again = read_text("a.il", &laid_out.text);
+        check(&again, &program)?;
+        prop_assert_eq!(&again.program.comments, &program.comments);
+        let second = print::lay_out(&again.program);
+        prop_assert_eq!(&second.text, &laid_out.text);
+        prop_assert!(second.changes.is_empty(), "{:?}", second.changes);
+        prop_assert_eq!(laid_out.changes.is_empty(), laid_out.text == source.program.source.text);
     }
 
     #[test]
@@ -163,6 +192,13 @@ fn comments_are_read_from_beside_an_export() {
 fn a_list_is_written_with_steps_and_notes_in_columns() {
     let text = ";! cpu = FX3U/FX3UC\n;! X000 = start\n; motor\n0 LD X0 ; go\n1 OUT T0 K30\n4 ASC ABCD D0\nP1:\nEND\n";
     insta::assert_snapshot!(print::to_il(&read_text("a.il", text).program));
+}
+
+#[test]
+fn a_list_is_laid_out_in_place() {
+    let text = ";! cpu = FX3U\n\n\n; motor\nld x0;go\n  0 out t0, k30\r\nP1: LD　Ｍ８０００　；速度\n\tasc abcd d0\nP2:\nend";
+    let laid_out = print::lay_out(&read_text("a.il", text).program);
+    insta::assert_debug_snapshot!(laid_out);
 }
 
 /// A TAB is the editors' delimiter, and a line break ends a row: in a text neither does.

@@ -139,7 +139,7 @@ fn write_list(out: &mut String, resolved: &Resolved, ladder: &Ladder) -> fmt::Re
 }
 
 /// Text within HTML, without characters that would act on its reader.
-struct Escaped<'a>(&'a str);
+pub struct Escaped<'a>(pub &'a str);
 
 impl fmt::Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {

@@ -10,5 +10,6 @@ mod model;
 pub mod plc_errors;
 pub mod runs;
 pub mod special;
+pub mod times;
 
 pub use model::*;

@@ -17,6 +17,7 @@ use crate::high_speed::{FastUnits, HighSpeed};
 use crate::interrupts::Interrupts;
 use crate::runs::IndexAlias;
 use crate::special::Special;
+use crate::times::InstructionTimes;
 use rungc_rt::{Ports, Pulses, Register, Relay, TimerKind};
 use rungc_syntax::{Classes, DeviceClass};
 pub use set::ModelSet;
@@ -202,6 +203,8 @@ pub struct Model {
     pub end_pointer: Option<u32>,
     /// Program capacity in steps.
     pub max_steps: u32,
+    /// How long instructions take on the real PLC; `None` where nothing is printed.
+    pub instruction_times: Option<InstructionTimes>,
     /// Whether a 32-bit access to Zn takes Vn as its high word; HM takes Zn+1.
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].

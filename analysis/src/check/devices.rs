@@ -1,6 +1,7 @@
 //! Which devices a program works with, for whoever shows them.
 
-use super::{Code, accesses};
+use super::Code;
+use crate::accesses;
 use crate::resolve::resolve;
 use rungc_catalogue::Shape;
 use rungc_models::Model;
@@ -39,7 +40,7 @@ pub fn uses(program: &Program, model: &'static Model) -> BTreeMap<Device, Use> {
     let mut uses = BTreeMap::new();
     for i in 0..code.len {
         let operands = &code.instr(i).operands;
-        for access in accesses::of(&code, i) {
+        for access in accesses::of(code.resolved, i) {
             let place = operands.iter().position(|o| o.span == access.span);
             let param = place.and_then(|place| code.params(i).get(place));
             let is_float = param.is_some_and(|param| param.shape == Shape::Float);

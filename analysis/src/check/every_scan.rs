@@ -1,10 +1,10 @@
 //! Instructions that change their own operand, driven by something that stays on for many scans.
 
 use super::Code;
-use super::accesses::{self, Access};
 use super::drives::{Drive, Drives, Lasts};
 use super::skips::Skips;
 use super::structure::{NONE, Nesting, Routine};
+use crate::accesses::{self, Access};
 use rungc_catalogue::{ArithOp, Form, Forms, Lower};
 use rungc_syntax::order;
 use rungc_syntax::{Device, Diagnostic, Diagnostics, Fix, Operand, codes};
@@ -52,7 +52,7 @@ impl EveryScan {
         let Some(operand) = changed(code, i) else {
             return;
         };
-        let access = accesses::of(code, i).find(|access| access.span == operand.span);
+        let access = accesses::of(code.resolved, i).find(|access| access.span == operand.span);
         if let Some((access, count)) = access.and_then(|access| Some((access, access.count?))) {
             let change = Change {
                 at: i,
@@ -86,7 +86,7 @@ impl EveryScan {
             let Some(drive) = drives.next(code, i) else {
                 continue;
             };
-            for access in accesses::of(code, i).filter(Access::writes) {
+            for access in accesses::of(code.resolved, i).filter(Access::writes) {
                 let computed = self.computed(i, drive, &access, longest);
                 for device in computed {
                     self.found.remove(&device);

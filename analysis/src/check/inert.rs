@@ -1,7 +1,7 @@
 //! Special devices that a program relies on and that do nothing in compiled programs.
 
 use super::Code;
-use super::accesses::Access;
+use crate::accesses::Access;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_models::special::{Missed, Reason, Special, Status};

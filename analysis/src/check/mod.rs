@@ -3,7 +3,6 @@
 //! Each file is one concept and walks the program once, so that checking stays linear in its length. `structure` finds
 //! where each instruction is (routine, loop, state); what jumps, calls and warns builds on that.
 
-mod accesses;
 mod blocks;
 mod coils;
 pub mod devices;
@@ -32,6 +31,7 @@ mod unreachable;
 mod unused;
 mod writes;
 
+use crate::accesses;
 use crate::resolve::{Resolved, numbered};
 use rungc_catalogue::{Basic, Drive, Inst, Join, Lower, Param};
 use rungc_models::Model;
@@ -95,7 +95,7 @@ fn accessed(code: &Code, out: &mut Diagnostics) {
     for i in 0..code.len {
         operation_errors::check(code, i, out);
         unused.note_broken(i);
-        for access in accesses::of(code, i) {
+        for access in accesses::of(code.resolved, i) {
             unused.note(i, &access);
             pairs.note(&access);
             overlaps.note(code, i, &access);

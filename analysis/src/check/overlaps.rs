@@ -3,7 +3,7 @@
 //! Two 32-bit values that begin at neighbouring registers are the business of [`super::pairs`].
 
 use super::Code;
-use super::accesses::Access;
+use crate::accesses::Access;
 use rungc_catalogue::{ArithOp, Basic, Lower};
 use rungc_models::runs::is_special;
 use rungc_syntax::order;

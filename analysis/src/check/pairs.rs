@@ -1,6 +1,6 @@
 //! 32-bit values in registers that overlap by one word.
 
-use super::accesses::Access;
+use crate::accesses::Access;
 use rungc_models::runs::is_special;
 use rungc_syntax::order;
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Span, codes};

@@ -1,7 +1,7 @@
 //! Counters that count once, and outputs that stay on, because nothing resets them.
 
 use super::Code;
-use super::accesses::Access;
+use crate::accesses::Access;
 use rungc_catalogue::{Basic, Drive};
 use rungc_syntax::codes::Code as Finding;
 use rungc_syntax::order;

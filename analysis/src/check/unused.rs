@@ -1,7 +1,7 @@
 //! Relays, timers and counters that are driven and never read, or read and never driven.
 
 use super::Code;
-use super::accesses::Access;
+use crate::accesses::Access;
 use rungc_catalogue::Basic;
 use rungc_models::runs::is_special;
 use rungc_syntax::codes::Code as Finding;

@@ -1,7 +1,7 @@
 //! Writes that do not last, because the system maintains what is written.
 
 use super::Code;
-use super::accesses::Access;
+use crate::accesses::Access;
 use rungc_catalogue::Role;
 use rungc_models::runs::is_special;
 use rungc_models::special;

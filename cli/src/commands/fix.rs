@@ -1,18 +1,15 @@
 //! `rungc check --fix`: changes instruction lists as diagnostics propose, where that is certainly what was meant.
 
+use super::in_place::InPlace;
 use super::subject::{self, Subject};
-use super::{Context, Failure, findings, write_file};
+use super::{Context, Failure, findings};
 use rungc_frontend::{Read, read_text};
 use rungc_lower::compile;
 use rungc_syntax::diag::{self, Fix};
 use rungc_syntax::{Diagnostic, Severity};
-use std::fs;
-use std::path::Path;
 
 /// A fix may uncover another one; no line needs more rounds than this.
 const ROUNDS: usize = 8;
-/// What UTF-8 may begin with.
-const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
 /// Changes the file of a program, as a whole or not at all, and reports the changes. The check reports what cannot be read.
 pub fn fix(subject: &Subject, cx: Context) -> Result<(), Failure> {
@@ -30,34 +27,16 @@ pub fn fix(subject: &Subject, cx: Context) -> Result<(), Failure> {
         ));
         return Ok(());
     }
-    let at = |error: std::io::Error| Failure::Because(format!("{path}: {error}"));
-    let file = fs::canonicalize(&subject.file).map_err(at)?;
-    let bytes = fs::read(&file).map_err(at)?;
-    let marked = bytes.starts_with(BYTE_ORDER_MARK);
-    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&bytes);
-    if text != read.program.source.text.as_bytes() {
-        return Err(Failure::Because(format!(
-            "--fix: {path} is not UTF-8; `rungc convert --to il` converts it"
-        )));
-    }
+    let file = InPlace::open(subject, &read, "--fix")?;
     let fixed = Fixed::of(subject, read);
     if fixed.changes.is_empty() {
         return Ok(());
     }
-    let mark = if marked { BYTE_ORDER_MARK } else { &[] };
-    write_back(&file, &[mark, fixed.text.as_bytes()].concat())?;
+    file.write(&fixed.text)?;
     for change in &fixed.changes {
         cx.note(&format!("       Fixed {path}:{change}"));
     }
     Ok(())
-}
-
-/// Replaces a file; who may read and write it stays the same.
-fn write_back(file: &Path, contents: &[u8]) -> Result<(), Failure> {
-    let at = |error: std::io::Error| Failure::Because(format!("{}: {error}", file.display()));
-    let permissions = fs::metadata(file).map_err(at)?.permissions();
-    write_file(file, contents, true)?;
-    fs::set_permissions(file, permissions).map_err(at)
 }
 
 /// A text with its fixes applied.

@@ -6,6 +6,8 @@ pub mod convert;
 mod defaults;
 pub mod explain;
 mod fix;
+pub mod fmt;
+mod in_place;
 pub mod init;
 pub mod interruption;
 pub mod learn;
@@ -13,18 +15,19 @@ mod ports;
 pub mod run;
 pub mod serve;
 pub mod setting;
+pub mod stats;
 pub mod subject;
 pub mod test;
 mod together;
 mod unproven;
 pub mod view;
+pub mod xref;
 
 use crate::args::Format;
 use crate::report::{Findings, Reporter, Totals, visible};
 use rungc_frontend::{Read, ReadError};
 use rungc_lower::compile::{self, CompileOptions, Compiled};
 use rungc_syntax::{SourceKind, Span, codes, text};
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -55,8 +58,8 @@ pub enum Failure {
     BrokenPipe,
 }
 
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Failure::Because(reason) => f.write_str(reason),
             Failure::Reported => f.write_str("the input cannot be read"),

@@ -8,9 +8,18 @@ use super::shared::{
 };
 use super::{Model, ModelId, Range, Timers, mitsubishi};
 use crate::high_speed::{self, HighSpeed};
+use crate::times::InstructionTimes;
 use rungc_rt::Pulses;
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, M, P, S, T, X, Y};
+
+/// What the hardware manuals print for FX1S and FX1N.
+const TIMES: InstructionTimes = InstructionTimes {
+    basic: 550,
+    longer: &[],
+    applied: Some(3700),
+    source: "FX1S and FX1N hardware manuals, performance specifications",
+};
 
 /// Mitsubishi FX1S.
 pub(super) const FX1S: Model = Model {
@@ -32,6 +41,7 @@ pub(super) const FX1S: Model = Model {
     timers: FX1S_TIMERS,
     fast_timers: Some(M8028),
     max_steps: 2000,
+    instruction_times: Some(TIMES),
     special: &[
         mitsubishi::ALL,
         mitsubishi::FAST_TIMERS,
@@ -57,6 +67,7 @@ pub(super) const FX1N: Model = Model {
     timers: FX_TIMERS,
     latch_choices: &[],
     max_steps: 8000,
+    instruction_times: Some(TIMES),
     pulses: Pulses::Fx1,
     notations: Classes::NONE,
     special: &[

@@ -6,12 +6,21 @@ use super::shared::{
     LATCH_CHOICES, NESTS, TERMINALS, TIMERS_256, general, joined, latched,
 };
 use super::{ErrorNumbers, Model, ModelId, Range, mitsubishi};
+use crate::times::InstructionTimes;
 use crate::{high_speed, interrupts, special};
 use rungc_rt::{Ports, Pulses, special::M_OPERATION_ERROR};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, M, P, S, Y};
 
 const FX2: &str = "it has fewer devices and instructions than fx2n, and what does not exist there is not reported";
+
+/// What the hardware manual prints.
+const TIMES: InstructionTimes = InstructionTimes {
+    basic: 80,
+    longer: &[],
+    applied: Some(1520),
+    source: "FX2N hardware manual, performance specifications",
+};
 
 /// Mitsubishi FX2N. What it shares with the others of the FX family, they take from it.
 pub(super) const FX2N: Model = Model {
@@ -36,6 +45,7 @@ pub(super) const FX2N: Model = Model {
     keeps_contacts: true,
     end_pointer: Some(63),
     max_steps: 16000,
+    instruction_times: Some(TIMES),
     z_pairs_with_v: true,
     error_relay: M_OPERATION_ERROR,
     errors_last_a_scan: true,

@@ -10,10 +10,27 @@ use super::{Model, ModelId, Range, Timers, mitsubishi};
 use crate::high_speed::{self, FOUR_FOLD, HighSpeed, Meter};
 use crate::interrupts::{self, Interrupts, PULSE_CATCH_OF_8};
 use crate::special;
+use crate::times::InstructionTimes;
 use rungc_rt::{Ports, Pulses, Register, Relay};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{C, D, ER, M, P, R, S, T, X, Y};
 use std::ops::RangeInclusive;
+
+/// What the hardware manuals print for the FX3S, and for the FX3G in its standard mode.
+const TIMES_FX3SG: InstructionTimes = InstructionTimes {
+    basic: 210,
+    longer: &[],
+    applied: Some(500),
+    source: "FX3S and FX3G hardware manuals, performance specifications",
+};
+
+/// What the hardware manual prints for the FX3U.
+const TIMES_FX3U: InstructionTimes = InstructionTimes {
+    basic: 65,
+    longer: &[],
+    applied: Some(642),
+    source: "FX3U hardware manual, performance specifications",
+};
 
 /// Mitsubishi FX3S.
 pub(super) const FX3S: Model = Model {
@@ -26,6 +43,7 @@ pub(super) const FX3S: Model = Model {
     timers: FX3S_TIMERS,
     fast_timers: Some(M8028),
     max_steps: 4000,
+    instruction_times: Some(TIMES_FX3SG),
     ports: Ports::Fx3,
     pulse_outputs: &[(Y, 0, 1)],
     position_outputs: &[(Y, 0, 1)],
@@ -55,6 +73,7 @@ pub(super) const FX3G: Model = Model {
     timers: FX3G_TIMERS,
     latch_choices: &[],
     max_steps: 32000,
+    instruction_times: Some(TIMES_FX3SG),
     pulses: Pulses::Fx3,
     ports: Ports::Fx3g,
     pulse_outputs: &[(Y, 0, 2)],
@@ -91,6 +110,7 @@ pub(super) const FX3U: Model = Model {
     ranges: FX3U_RANGES,
     timers: FX3U_TIMERS,
     max_steps: 64000,
+    instruction_times: Some(TIMES_FX3U),
     pulses: Pulses::Fx3,
     ports: Ports::Fx3,
     pulse_outputs: &[(Y, 0, 3)],

@@ -10,9 +10,33 @@ use super::shared::{
 use super::{ErrorNumbers, Model, ModelId, Range, Timers};
 use crate::high_speed::{self, FOUR_FOLD, HighSpeed, Meter};
 use crate::interrupts::{self, Interrupts, Kind, PULSE_CATCH_OF_8, Precedence};
+use crate::times::InstructionTimes;
 use rungc_rt::{Ports, Pulses, Register};
 use rungc_syntax::Classes;
 use rungc_syntax::DeviceClass::{D, I, M, P, R, S, T, Y};
+
+/// With devices of low numbers.
+const TIMES: InstructionTimes = InstructionTimes {
+    basic: 240,
+    longer: &[
+        ("LDP", 560),
+        ("LDF", 560),
+        ("ANDP", 560),
+        ("ANDF", 560),
+        ("ORP", 560),
+        ("ORF", 560),
+        ("OUT T", 9600),
+        // A 32-bit counter takes 14.3 us.
+        ("OUT C", 12_800),
+        ("MC", 5600),
+        ("MCR", 5700),
+        ("PLS", 9920),
+        ("PLF", 10_160),
+        ("STL", 560),
+    ],
+    applied: None,
+    source: "l01s-programming §4.1",
+};
 
 /// Coolmay L01S.
 pub(super) const L01S: Model = Model {
@@ -27,6 +51,7 @@ pub(super) const L01S: Model = Model {
     timers: TIMERS,
     latch_choices: &[],
     max_steps: 30000,
+    instruction_times: Some(TIMES),
     error_numbers: ErrorNumbers::No,
     pulses: Pulses::L01s,
     ports: Ports::L01s,

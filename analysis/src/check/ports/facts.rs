@@ -1,9 +1,9 @@
 //! The constants that a program writes to the registers and relays of its ports.
 
-use super::super::accesses;
 use super::super::pointers::Pointers;
 use super::super::skips::Skips;
 use super::super::{Code, Part};
+use crate::accesses;
 use rungc_catalogue::{Basic, Lower};
 use rungc_models::Model;
 use rungc_rt::comm::{LineFormat, PortWiring, Protocol};
@@ -98,7 +98,7 @@ impl Facts {
             self.note_uinit(code, i);
         }
         let constants = constants(code, i);
-        for access in accesses::of(code, i).filter(accesses::Access::writes) {
+        for access in accesses::of(code.resolved, i).filter(accesses::Access::writes) {
             let Device { class, number } = access.first;
             // What may be any register is not taken for a set-up.
             let Some(count) = access.count else { continue };

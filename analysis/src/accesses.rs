@@ -1,61 +1,62 @@
 //! Which devices each instruction reads and writes.
 
-use super::Code;
+use crate::resolve::Resolved;
 use rungc_catalogue::{Extent, Param, Role, Shape};
 use rungc_syntax::{Classes, Device, DeviceClass, Operand, OperandKind, Span};
 
 /// One operand's access to a run of devices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Access {
+pub(crate) struct Access {
     /// The first device.
-    pub(super) first: Device,
+    pub(crate) first: Device,
     /// How many; `None` if that is only known at run time, so that any device of the class may be meant.
-    pub(super) count: Option<u32>,
+    pub(crate) count: Option<u32>,
     /// How many devices make one value: 2 for a 32-bit value in registers.
-    pub(super) each: u32,
+    pub(crate) each: u32,
     /// What is done with them.
-    pub(super) role: Role,
+    pub(crate) role: Role,
+    /// Whether an index register decides which devices they are.
+    pub(crate) indexed: bool,
     /// Where the operand is.
-    pub(super) span: Span,
+    pub(crate) span: Span,
 }
 
 impl Access {
     /// To one device, whatever is done with it.
-    pub(super) fn whole(first: Device) -> Self {
+    pub(crate) fn whole(first: Device) -> Self {
         Access {
             first,
             count: Some(1),
             each: 1,
             role: Role::ReadWrite,
+            indexed: false,
             span: Span::default(),
         }
     }
 
-    pub(super) fn reads(&self) -> bool {
+    pub(crate) fn reads(&self) -> bool {
         matches!(self.role, Role::Read | Role::ReadWrite)
     }
 
-    pub(super) fn writes(&self) -> bool {
+    pub(crate) fn writes(&self) -> bool {
         matches!(self.role, Role::Write | Role::ReadWrite)
     }
 }
 
 /// The accesses of instruction `i` by its operands, without operands that do not belong there. An instruction that
 /// could not be understood has none.
-pub(super) fn of(code: &Code, i: usize) -> impl Iterator<Item = Access> {
-    let operands = &code.instr(i).operands;
-    let params = code.params(i);
-    let wide = code.wide(i);
-    let understood = !code.is_meant(i);
+pub(crate) fn of(resolved: &Resolved, i: usize) -> impl Iterator<Item = Access> {
+    let operands = &resolved.program.instrs[i].operands;
+    let resolution = resolved.instrs[i];
     operands
         .iter()
-        .zip(params)
+        .zip(resolution.params)
         .filter(move |(operand, param)| {
-            understood
+            !resolution.meant
                 && param.shape != Shape::Pointer
                 && param.classes.meets(Classes::of(&operand.kind))
         })
-        .filter_map(move |(operand, param)| access(operands, operand, param, wide))
+        .filter_map(move |(operand, param)| access(operands, operand, param, resolution.form.wide))
 }
 
 fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) -> Option<Access> {
@@ -85,6 +86,7 @@ fn access(operands: &[Operand], operand: &Operand, param: &Param, wide: bool) ->
         count: values.map(|values| values.saturating_mul(each)),
         each,
         role: param.role,
+        indexed,
         span: operand.span,
     })
 }

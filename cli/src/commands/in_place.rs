@@ -1,0 +1,49 @@
+//! Changing the file that a program was read from.
+
+use super::subject::Subject;
+use super::{Failure, write_file};
+use rungc_frontend::Read;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What UTF-8 may begin with.
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// An instruction list as a file that can be replaced.
+pub struct InPlace {
+    file: PathBuf,
+    /// Whether it begins with a byte-order mark.
+    marked: bool,
+}
+
+impl InPlace {
+    /// The file of a list, on behalf of `who`. A file in another encoding than UTF-8 is rejected.
+    pub fn open(subject: &Subject, read: &Read, who: &str) -> Result<InPlace, Failure> {
+        let path = &subject.file;
+        let file = fs::canonicalize(path).map_err(|error| at(path, &error))?;
+        let bytes = fs::read(&file).map_err(|error| at(path, &error))?;
+        let text = bytes.strip_prefix(BYTE_ORDER_MARK);
+        if text.unwrap_or(&bytes) != read.program.source.text.as_bytes() {
+            return Err(Failure::Because(format!(
+                "{who}: {} is not UTF-8; `rungc convert --to il` converts it",
+                path.display()
+            )));
+        }
+        let marked = text.is_some();
+        Ok(InPlace { file, marked })
+    }
+
+    /// Replaces the text, whole or not at all; who may read and write the file stays the same.
+    pub fn write(&self, text: &str) -> Result<(), Failure> {
+        let permissions = fs::metadata(&self.file).map_err(|error| at(&self.file, &error))?;
+        let mark = if self.marked { BYTE_ORDER_MARK } else { &[] };
+        write_file(&self.file, &[mark, text.as_bytes()].concat(), true)?;
+        fs::set_permissions(&self.file, permissions.permissions())
+            .map_err(|error| at(&self.file, &error))
+    }
+}
+
+fn at(path: &Path, error: &io::Error) -> Failure {
+    Failure::Because(format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,82 @@
+//! `rungc xref`.
+
+mod html;
+mod table;
+
+use super::subject::{self, OutputPaths, Subject};
+use super::{Context, Failure, Outcome, Result, say, stem, unread, write_file};
+use crate::args::{XrefArgs, XrefTo};
+use crate::report::{Findings, Reporter};
+use rungc_analysis::resolve::resolve;
+use rungc_ladder::build;
+use rungc_lower::compile;
+use std::io::{self, Write};
+use table::Table;
+
+/// Lists who uses which device.
+pub fn run(args: &XrefArgs, cx: Context) -> Result {
+    let mut outputs = OutputPaths::default();
+    subject::each(&args.inputs, cx, |subject, reporter| {
+        xref(args, subject, reporter, &mut outputs)
+    })
+}
+
+fn xref(
+    args: &XrefArgs,
+    subject: &Subject,
+    reporter: &mut Reporter,
+    outputs: &mut OutputPaths,
+) -> Result {
+    // What its author wrote: without what the settings add.
+    let read = match subject::source(subject) {
+        Ok(read) => read,
+        Err(error) => return Err(unread(&error, subject, reporter)?),
+    };
+    let program = &read.program;
+    let findings = Findings::new(
+        &subject.file,
+        program,
+        read.diagnostics.clone(),
+        &subject.reporting,
+    );
+    reporter.add(&findings)?;
+    let model = compile::model(program, &subject.options());
+    let (resolved, _) = resolve(program, model);
+    let table = Table::new(&resolved, &build::ladder(&resolved), args);
+    if table.devices.is_empty() && !args.device.is_empty() {
+        let path = subject.file.display();
+        let why = format!("{path}: no instruction names these devices");
+        return Err(Failure::Because(why));
+    }
+    let name = findings.name(reporter.many());
+    let (bytes, ending) = match args.to {
+        XrefTo::Text => (table.text(args.unused).into_bytes(), "txt"),
+        XrefTo::Csv => (table.csv()?, "csv"),
+        XrefTo::Html => (html::page(&name, &table).into_bytes(), "html"),
+        XrefTo::Json => (table.json()?, "json"),
+    };
+    match &args.output {
+        Some(folder) if reporter.many() => {
+            let name = format!("{}.{ending}", stem(subject, &read));
+            let path = outputs.claim(folder.join(name), subject)?;
+            write_file(&path, &bytes, args.force)?;
+        }
+        Some(path) => write_file(path, &bytes, args.force)?,
+        None if args.to == XrefTo::Text => {
+            let heading = match reporter.many() {
+                true => format!("; {name}\n"),
+                false => String::new(),
+            };
+            say(&format!("{heading}{}", String::from_utf8_lossy(&bytes)))?;
+        }
+        None if reporter.many() => {
+            let why = "-o: several programs need a folder; name one";
+            return Err(Failure::Because(why.to_string()));
+        }
+        None => io::stdout().write_all(&bytes)?,
+    }
+    Ok(match findings.failed() {
+        true => Outcome::Failed,
+        false => Outcome::Success,
+    })
+}
