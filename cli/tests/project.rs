@@ -217,3 +217,19 @@ fn init_in_folders() {
     assert_eq!(code(path, &["init", "b.il"]), 0);
     assert!(said(path, &["check"]).contains("Checked b.il"));
 }
+
+#[test]
+fn transfers_are_held_to_the_modules() {
+    let program = "LD M8000\nFROM K0 K5 D0 K4\nFROM K0 K30 D10 K1\nFROM K0 K30 D12 K2\nTO K0 K5 D20 K1\nTO K1 K1 K0 K1\nFROM K0 K13 D14 K1\n\
+        MOV U0\\G30 D15\nMOV D16 U0\\G9\nDMOV U0\\G30 D18\nMOV U3\\G0 D17\nTOP K0 K20 K1 K1\nFROM D30 K0 D31 K1\nFROM K0 D30 D32 K1\nEND\n";
+    let settings =
+        "[project]\nprogram = 'a.il'\nmodel = 'fx3u'\n[[module]]\nat = 0\nkind = 'FX2N-4AD'\n";
+    let folder = folder(&[
+        ("rungc.toml", settings.as_bytes()),
+        ("a.il", program.as_bytes()),
+    ]);
+    insta::assert_snapshot!("project_modules", shown(folder.path(), &["check"]));
+    let without = common::folder(&[("a.il", program.as_bytes())]);
+    let said = said(without.path(), &["check", "a.il"]);
+    assert!(!said.contains("module"), "{said}");
+}

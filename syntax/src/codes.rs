@@ -20,6 +20,7 @@ use crate::order;
 
 mod labels;
 mod logic;
+mod modules;
 mod operands;
 mod ports;
 mod practice;
@@ -30,6 +31,7 @@ mod vendor;
 
 pub use labels::*;
 pub use logic::*;
+pub use modules::*;
 pub use operands::*;
 pub use ports::*;
 pub use practice::*;
@@ -136,6 +138,7 @@ pub fn all() -> Vec<&'static Code> {
         structure::TABLE,
         labels::TABLE,
         practice::TABLE,
+        modules::TABLE,
         vendor::TABLE,
     ];
     let mut all: Vec<_> = families.into_iter().flatten().copied().collect();

@@ -13,6 +13,7 @@ mod fast_units;
 mod inert;
 mod jumped_over;
 mod labels;
+mod modules;
 mod once;
 mod one_output;
 mod operation_errors;
@@ -87,12 +88,14 @@ fn driven(
     outputs.report(code, out);
 }
 
-/// What is found in the devices that instructions read and write.
+/// What is found in the devices and the buffer memory that instructions read and write.
 fn accessed(code: &Code, out: &mut Diagnostics) {
     let (mut unused, mut pairs) = (unused::Unused::new(code), pairs::Pairs::default());
     let (mut overlaps, mut resets) = (overlaps::Overlaps::default(), resets::Resets::default());
     let mut inert = inert::Inert::default();
+    let modules = modules::Modules::new(code);
     for i in 0..code.len {
+        modules.check(code, i, out);
         operation_errors::check(code, i, out);
         unused.note_broken(i);
         for access in accesses::of(code.resolved, i) {
