@@ -1,8 +1,9 @@
-//! Packs what characters of other scripts are in ASCII into one deflated text, which names of modules are made by: a third of the size
-//! of the tables of `deunicode`, from which it is made.
+//! Packs what characters of other scripts are in ASCII into one deflated text, which names of modules are made by: a
+//! third of the size of the tables of `deunicode`, from which it is made.
 //!
-//! From the character after ASCII on, each has its letters and digits in lower case, and a mark: `~` if it stands for a syllable or a
-//! word, `-` if it stands for nothing, and `.` otherwise. Those that the text does not reach stand for nothing.
+//! From the character after ASCII on, each has its letters and digits in lower case, and a mark: `~` if it stands for a
+//! syllable or a word, `-` if it stands for nothing, and `.` otherwise. Those that the text does not reach stand for
+//! nothing.
 
 use deunicode::deunicode_char;
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! Packs the sources of the runtime and of libm into one deflated text, which the library embeds.
 //!
-//! The packed text is a sequence of paths and contents, each ended by NUL. A published package has no neighbours to pack; it carries
-//! the packed text as `sources.bin`, which `cargo xtask package` makes.
+//! The packed text is a sequence of paths and contents, each ended by NUL. A published package has no neighbours to
+//! pack; it carries the packed text as `sources.bin`, which `cargo xtask package` makes.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};

@@ -81,7 +81,10 @@ fn line() -> impl Strategy<Value = String> {
 
 proptest! {
     #[test]
-    fn no_program_makes_it_panic(lines in prop::collection::vec(line(), 0..80), model in prop::sample::select(ModelId::ALL.to_vec())) {
+    fn no_program_makes_it_panic(
+        lines in prop::collection::vec(line(), 0..80),
+        model in prop::sample::select(ModelId::ALL.to_vec()),
+    ) {
         let read = read_text("test", &lines.join("\n"));
         let (resolved, _) = resolve(&read.program, Model::get(model));
         check(&resolved);

@@ -1,4 +1,5 @@
-//! How checking grows with a program's length, on programs that could make a careless check look at everything again and again.
+//! How checking grows with a program's length, on programs that could make a careless check look at everything again
+//! and again.
 
 use crate::clock::Clock;
 use crate::table::{Cell, Table};

@@ -1,5 +1,5 @@
-//! Time that work takes. What counts is the processor's time, where the system reports it: other programs that run at the same time do
-//! not add to it.
+//! Time that work takes. What counts is the processor's time, where the system reports it: other programs that run at
+//! the same time do not add to it.
 
 use std::time::{Duration, Instant};
 
@@ -41,10 +41,12 @@ fn processor_time() -> Option<Duration> {
     None
 }
 
-/// What programs that were started, and have ended, have worked; `None` where the system does not report it. In steps of 10 ms.
+/// What programs that were started, and have ended, have worked; `None` where the system does not report it. In steps
+/// of 10 ms.
 pub fn of_others() -> Option<Duration> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // After the name, which may contain spaces: cutime and cstime are fields 16 and 17 of proc(5), the state is field 3.
+    // After the name, which may contain spaces: cutime and cstime are fields 16 and 17 of proc(5), the state is
+    // field 3.
     let (_, fields) = stat.rsplit_once(')')?;
     let mut fields = fields.split_whitespace().skip(16 - 3);
     let mut ticks = || fields.next()?.parse::<u64>().ok();

@@ -65,8 +65,8 @@ impl Work {
     }
 }
 
-/// Does some work once, in a separate process (which is this one), and prints how long it took in seconds and how many KiB of memory
-/// the process had in use at most: 0 where the system does not report it.
+/// Does some work once, in a separate process (which is this one), and prints how long it took in seconds and how many
+/// KiB of memory the process had in use at most: 0 where the system does not report it.
 pub fn work_once(work: Work, steps: u32) -> Result<()> {
     let list = Ladder::new(Kind::Contacts, steps).list();
     let clock = Clock::start();

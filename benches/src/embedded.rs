@@ -96,7 +96,8 @@ struct Build {
     parts: Result<(Vec<PathBuf>, String)>,
 }
 
-/// Bytes of implementations of a program, and if `count` says so the instructions of a scan. They are checked to do the same then.
+/// Bytes of implementations of a program, and if `count` says so the instructions of a scan. They are checked to do the
+/// same then.
 pub fn measure(
     ladder: &Ladder,
     codes: &[Code],

@@ -1,5 +1,6 @@
-//! Benchmarks of rungc: what it emits, beside the C that an engineer would write by hand, in the same run and with the same compilers;
-//! how long compiling takes; how fast the interpreter is. `docs/src/benchmarks.md` describes the method.
+//! Benchmarks of rungc: what it emits, beside the C that an engineer would write by hand, in the same run and with the
+//! same compilers; how long compiling takes; how fast the interpreter is. `docs/src/benchmarks.md` describes the
+//! method.
 //!
 //! No decision of the compiler may depend on this crate. Start reading at [`host`] and [`ladder`].
 

@@ -1,4 +1,5 @@
-//! `cargo run --release -p rungc-benches`: prints tables, and writes JSON. `docs/src/benchmarks.md` describes the method.
+//! `cargo run --release -p rungc-benches`: prints tables, and writes JSON. `docs/src/benchmarks.md` describes the
+//! method.
 
 use clap::{Parser, ValueEnum};
 use rungc_benches::compile::{self, Work};

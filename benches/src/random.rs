@@ -1,5 +1,5 @@
-//! Random numbers that are the same everywhere: those of Python's `random`, so that a program is known by its kind, size and seed,
-//! whoever makes it.
+//! Random numbers that are the same everywhere: those of Python's `random`, so that a program is known by its kind,
+//! size and seed, whoever makes it.
 
 const SIZE: usize = 624;
 const MIDDLE: usize = 397;

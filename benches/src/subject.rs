@@ -1,4 +1,5 @@
-//! Implementations of a program, each in a form that can be measured: the program's own files, and an adaptor (`templates/subject.h`).
+//! Implementations of a program, each in a form that can be measured: the program's own files, and an adaptor
+//! (`templates/subject.h`).
 
 use crate::ladder::{Device, FLAGS, Ladder, TERMINALS, hand};
 use crate::problem::{Problem, Result};
@@ -17,7 +18,8 @@ const SUBJECT_H: &str = include_str!("../templates/subject.h");
 /// The adaptor of emitted Rust.
 const RUST_ADAPTOR: &str = include_str!("../templates/adaptor.rs");
 
-/// How far the input that changes before a scan is from the one before: all of them have their turn (`templates/subject.h`).
+/// How far the input that changes before a scan is from the one before: all of them have their turn
+/// (`templates/subject.h`).
 pub const INPUT_STRIDE: usize = 37;
 
 /// Where Rust is built: beside the workspace's own output, so that what all programs share is built once.

@@ -85,8 +85,8 @@ fn run_both(command: &mut Command) -> Result<(String, String)> {
     }
 }
 
-/// Runs an image on a Cortex-M4, where each instruction takes a nanosecond; what it prints by semihosting. One that does not end is
-/// ended after two minutes.
+/// Runs an image on a Cortex-M4, where each instruction takes a nanosecond; what it prints by semihosting. One that
+/// does not end is ended after two minutes.
 pub fn qemu(image: &Path) -> Result<String> {
     let log = image.with_extension("log");
     let at = |error| Problem::File {

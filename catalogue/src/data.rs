@@ -118,7 +118,13 @@ pub(super) const ROWS: &[Inst] = &[
     data("BON", 44, "Test a bit")
         .on(NOT_HM_FX1)
         .steps(7, 13)
-        .takes(&[src("S", VALUES), coil("D", RESULT_BITS), count("n", 0, 15).also_on(LIKE_FX3, DATA).rules(&[Rule::WideLimits(0, 31)])])
+        .takes(&[
+            src("S", VALUES),
+            coil("D", RESULT_BITS),
+            count("n", 0, 15)
+                .also_on(LIKE_FX3, DATA)
+                .rules(&[Rule::WideLimits(0, 31)]),
+        ])
         .call(RtFn::Bon)
         .text("D = bit n of S, counted from 0."),
     data("MEAN", 45, "Mean")

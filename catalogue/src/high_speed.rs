@@ -79,8 +79,10 @@ const RESET_FX: &[Param] = &[
 fn table_holds(operands: &[Operand], rule: fn(&OperandKind, &OperandKind) -> bool) -> bool {
     match operands {
         [first, rows, _, mode] => {
-            let table = matches!(mode.kind, OperandKind::Device(relay, None) if high_speed::zone_table(relay).is_some());
-            !table || rule(&first.kind, &rows.kind)
+            let OperandKind::Device(relay, None) = mode.kind else {
+                return true;
+            };
+            high_speed::zone_table(relay).is_none() || rule(&first.kind, &rows.kind)
         }
         _ => true,
     }
@@ -88,10 +90,12 @@ fn table_holds(operands: &[Operand], rule: fn(&OperandKind, &OperandKind) -> boo
 /// With M8130 or M8132 as D, S1 is where a table begins …
 const TABLE: Rule = Rule::Holds(
     |operands| {
-        table_holds(
-            operands,
-            |first, _| matches!(first, OperandKind::Device(first, None) if matches!(first.class, DeviceClass::D | DeviceClass::R)),
-        )
+        table_holds(operands, |first, _| {
+            let OperandKind::Device(first, None) = first else {
+                return false;
+            };
+            matches!(first.class, DeviceClass::D | DeviceClass::R)
+        })
     },
     "a table starts at a data register",
 );

@@ -168,7 +168,10 @@ fn every_runtime_function_has_a_row() {
         rungc_rt::RtFn::StopPulses,
     ];
     for function in rungc_rt::RtFn::ALL {
-        let calls = |lower: &Lower| matches!(lower, Lower::Call(called) | Lower::Exclusive(called) if called == function);
+        let calls = |lower: &Lower| match lower {
+            Lower::Call(called) | Lower::Exclusive(called) => called == function,
+            _ => false,
+        };
         let reached = all()
             .any(|inst| calls(&inst.lower) || inst.lower_on.iter().any(|(_, lower)| calls(lower)));
         assert!(reached || without_row.contains(function), "{function:?}");

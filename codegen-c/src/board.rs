@@ -1,4 +1,5 @@
-//! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events and where it is asked for.
+//! The wiring between a program and a board: `NAME_board.h` and `NAME_board.c`, beside programs that take events and
+//! where it is asked for.
 
 use crate::host::terminals;
 use rungc_emit::storage::Storage;

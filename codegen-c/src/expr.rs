@@ -44,7 +44,8 @@ impl Around {
         }
     }
 
-    /// Whether an expression made with `op` needs parentheses here. More than C asks for: compilers warn where readers may err.
+    /// Whether an expression made with `op` needs parentheses here. More than C asks for: compilers warn where readers
+    /// may err.
     fn needs_parentheses(self, op: &str) -> bool {
         match self {
             Around::Exact | Around::Loose => false,

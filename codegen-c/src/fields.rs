@@ -93,7 +93,8 @@ impl PrintField for Field {
 pub trait PrintStorage {
     /// Writes the expression of a stored device; false if it is not stored.
     fn access(&self, out: &mut String, class: DeviceClass, number: u32) -> bool;
-    /// Writes the expression of a device of a loop's current iteration, whose number is in `variable`; false if it is not stored so.
+    /// Writes the expression of a device of a loop's current iteration, whose number is in `variable`; false if it is
+    /// not stored so.
     fn access_iteration(
         &self,
         out: &mut String,

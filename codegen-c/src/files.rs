@@ -208,8 +208,8 @@ fn stamped(text: &str, guard: &str) -> String {
     text.replacen(&defines, &says, 1)
 }
 
-/// Rejects a shared header of another version of rungc: programs of one firmware share theirs, and the first one on the include path
-/// serves all.
+/// Rejects a shared header of another version of rungc: programs of one firmware share theirs, and the first one on the
+/// include path serves all.
 fn same_version(own: &str, shared: &str, guard: &str, text: &str) -> String {
     format!(
         "#if {guard}_STAMP != 0x{:08X}u\n#error \"{own} and the {shared} that was found come from different versions of rungc: emit all programs again\"\n#endif\n",

@@ -1,13 +1,16 @@
 //! C99 from rungc's IR.
 //!
-//! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all programs share, only if
-//! the program calls the runtime, the runtime's sources, and if it takes events or it is asked for, the wiring between it and a board.
-//! [`Part`] and [`together`] do the same for several programs of one firmware; [`batch`] makes one executable of many programs, for tests.
+//! [`emit`] makes a folder that builds with `make`: the program's struct and functions, `rungc.h` with what all
+//! programs share, only if the program calls the runtime, the runtime's sources, and if it takes events or it is asked
+//! for, the wiring between it and a board. [`Part`] and [`together`] do the same for several programs of one firmware;
+//! [`batch`] makes one executable of many programs, for tests.
 //!
-//! `rungc_emit` decides on the fields of the program's struct, on its functions and on where temporaries live. What is done here is to
-//! print that: `fields` the struct's fields, `writer` and `expr` statements and expressions; `unit` puts it all together.
+//! `rungc_emit` decides on the fields of the program's struct, on its functions and on where temporaries live. What is
+//! done here is to print that: `fields` the struct's fields, `writer` and `expr` statements and expressions; `unit`
+//! puts it all together.
 //!
-//! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`, then `unit`.
+//! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`,
+//! then `unit`.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
@@ -48,11 +51,13 @@ use rungc_ir::Module;
 pub struct Options {
     /// Also a `main.c` for a Linux host that scans in real time.
     pub main: bool,
-    /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that does always has it.
+    /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that
+    /// does always has it.
     pub board: bool,
     /// Also `NAME_access.h`, which reads and writes devices by number and by name.
     pub access: bool,
-    /// Also `NAME_retain.h`, which saves latched devices to flash, of a program that has any; with `access`, which it needs.
+    /// Also `NAME_retain.h`, which saves latched devices to flash, of a program that has any; with `access`, which it
+    /// needs.
     pub retain: bool,
 }
 
@@ -71,8 +76,8 @@ const RUNGC_ACCESS_H: &str = include_str!("../include/rungc_access.h");
 /// The header of latched devices that survive power-off.
 const RUNGC_RETAIN_H: &str = include_str!("../include/rungc_retain.h");
 
-/// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make` builds it as
-/// `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.
+/// Emits one executable that holds all programs and does what requests on its standard input say: for tests. `make`
+/// builds it as `batch`; the protocol is that of `rungc-sim`, and the hardware is virtual.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     files::batch(modules)
 }

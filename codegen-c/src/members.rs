@@ -18,8 +18,8 @@ impl<'m> Members<'m> {
         }
     }
 
-    /// The member that holds a device: `M0`, `D[100]`, `M16[1][0]`; `None` if it is not stored. X, Y, M and S are bytes that are 0
-    /// or 1, D and the like `int16_t`, timers and counters structs (`rungc.h`).
+    /// The member that holds a device: `M0`, `D[100]`, `M16[1][0]`; `None` if it is not stored. X, Y, M and S are bytes
+    /// that are 0 or 1, D and the like `int16_t`, timers and counters structs (`rungc.h`).
     pub fn of(&self, class: DeviceClass, number: u32) -> Option<String> {
         let mut expression = String::new();
         let stored = self.fields.access(&mut expression, class, number);

@@ -9,7 +9,8 @@ const COMMENT_WIDTH: usize = 200;
 /// Where comments beside statements begin.
 const COMMENT_COLUMN: usize = 64;
 
-/// Makes a user's text safe inside a comment: no end of the comment, no line breaks, no characters that turn text around.
+/// Makes a user's text safe inside a comment: no end of the comment, no line breaks, no characters that turn text
+/// around.
 pub fn comment(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     let mut last = ' ';

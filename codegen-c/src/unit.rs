@@ -13,7 +13,8 @@ use rungc_rt::special::{M_KEEP_IN_STOP, M_OUTPUTS_OFF, Relay};
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
-/// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to divide.
+/// About how many operations a source file may hold, so that none takes long to compile and `make -j` has something to
+/// divide.
 const FILE_WEIGHT: u64 = 60_000;
 
 /// Up to how many output terminals a `switch` distinguishes.
@@ -31,7 +32,8 @@ pub struct Unit {
     pub groups: Vec<String>,
 }
 
-/// Makes it. `by_number`: the host finds devices by number, so the device table is there even if no instruction needs it.
+/// Makes it. `by_number`: the host finds devices by number, so the device table is there even if no instruction needs
+/// it.
 pub fn unit(module: &Module, by_number: bool) -> Unit {
     let fields = Storage::new(module);
     let plan = Plan::new(module);
@@ -232,7 +234,8 @@ impl Printer<'_> {
         );
     }
 
-    /// Functions that clear devices: general ones (STOP, M8031), and, where a program asks for it, latched ones (M8032).
+    /// Functions that clear devices: general ones (STOP, M8031), and, where a program asks for it, latched ones
+    /// (M8032).
     fn clear_functions(&self, latched_too: bool) -> String {
         let name = self.name();
         let mut out = String::new();
@@ -372,7 +375,8 @@ impl Printer<'_> {
         );
     }
 
-    /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all others.
+    /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all
+    /// others.
     fn preset(&self, out: &mut String, latched: bool) {
         let module = self.module;
         for &(register, value) in &module.initial_words {
@@ -459,7 +463,8 @@ impl Printer<'_> {
         );
     }
 
-    /// The function that forgets edges, memories and the coils of timers and counters when RUN begins; false if there are none.
+    /// The function that forgets edges, memories and the coils of timers and counters when RUN begins; false if there
+    /// are none.
     fn forget(&self, out: &mut String) -> bool {
         let name = self.name();
         let mut body = String::new();

@@ -9,7 +9,8 @@ use rungc_models::ModelId;
 use rungc_syntax::DeviceClass;
 use std::process::Command;
 
-/// Devices of each kind: single ones, arrays, a timer, both kinds of counters, an index register with two names, stations in a grid.
+/// Devices of each kind: single ones, arrays, a timer, both kinds of counters, an index register with two names,
+/// stations in a grid.
 const LIST: &str = "LD X012\nOUT T0 K5\nOUT C0 K3\nLD X001\nOUT C200 K70000\nLD M8000\nMOV D100Z0 D0\nLD X1\nMOV K2 D8028\n";
 
 /// What asks for them.

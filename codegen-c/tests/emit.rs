@@ -122,7 +122,8 @@ fn host_main_runs_in_real_time() {
     assert!(transcript.contains("X9=1: not an input"), "{transcript}");
 }
 
-/// Programs of one firmware share `rungc.h`: the first one on the include path serves all, and one of another version is rejected.
+/// Programs of one firmware share `rungc.h`: the first one on the include path serves all, and one of another version
+/// is rejected.
 #[test]
 fn a_header_of_another_version_is_refused() {
     let folder = tempfile::tempdir().unwrap();

@@ -137,8 +137,8 @@ impl Generator<'_> {
         quote!(#before #run(#arguments, &mut #timer, &plc.sys);)
     }
 
-    /// Writes a function for each kind of timer that coils run, so that the compiler knows what there is to do; in a program with very many
-    /// timer coils it is called, not inlined.
+    /// Writes a function for each kind of timer that coils run, so that the compiler knows what there is to do; in a
+    /// program with very many timer coils it is called, not inlined.
     pub fn coils_of_kinds(&mut self) {
         let never = has_many_timers(self.module).then(|| quote!(#[inline(never)]));
         for (name, kind) in std::mem::take(&mut self.timer_coils) {

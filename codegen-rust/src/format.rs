@@ -7,7 +7,8 @@ use rungc_syntax::text::one_line;
 /// Columns that a comment line fills before it is wrapped.
 const WIDTH: usize = 100;
 
-/// A user's text within documentation: on one line, and shown by rustdoc as it is instead of read as links, code or HTML.
+/// A user's text within documentation: on one line, and shown by rustdoc as it is instead of read as links, code or
+/// HTML.
 pub fn documented(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in one_line(text).chars() {

@@ -1,11 +1,12 @@
 //! Rust from rungc's IR: a `no_std` crate without `unsafe`, made with quote, laid out by prettyplease.
 //!
-//! [`emit`] makes a crate of one program; [`batch`] one of many, for tests. How a program becomes Rust: `storage` names the fields,
-//! `analysis` finds where temporaries live, `function` splits what is long, `stmt`, `coils`, `expr` and `numeric` write statements and
-//! expressions, `machine` the struct and its implementations, `format` lays out and prints comments between statements, `files` puts it together.
+//! [`emit`] makes a crate of one program; [`batch`] one of many, for tests. How a program becomes Rust: `storage` names
+//! the fields, `analysis` finds where temporaries live, `function` splits what is long, `stmt`, `coils`, `expr` and
+//! `numeric` write statements and expressions, `machine` the struct and its implementations, `format` lays out and
+//! prints comments between statements, `files` puts it together.
 //!
-//! Layout takes about as long as everything else together; it is made function by function, so time is linear in the program's
-//! length.
+//! Layout takes about as long as everything else together; it is made function by function, so time is linear in the
+//! program's length.
 //!
 //! This crate must not know instructions or file formats, nor decide what a program means. Start reading at `files`.
 

@@ -27,9 +27,9 @@ impl<'m> Members<'m> {
         &self.type_name
     }
 
-    /// The field that holds a device: `m0`, `d[100]`, `m16[1][0]`; `None` if it is not stored. X, Y, M and S are `bool`,
-    /// or `u8` (0 or 1) where a loop over rungs goes through them, D and the
-    /// like `i16`, timers and counters structs of `rungc_rt`.
+    /// The field that holds a device: `m0`, `d[100]`, `m16[1][0]`; `None` if it is not stored. X, Y, M and S are
+    /// `bool`, or `u8` (0 or 1) where a loop over rungs goes through them, D and the like `i16`, timers and counters
+    /// structs of `rungc_rt`.
     pub fn of(&self, class: DeviceClass, number: u32) -> Option<String> {
         let cell = self.storage.cell(&quote!(plc), class, number)?.to_string();
         let text: String = cell.split_whitespace().collect();

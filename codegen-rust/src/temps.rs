@@ -58,7 +58,8 @@ impl Generator<'_> {
         }
     }
 
-    /// The `let`s in front of a statement that evaluates `roots`: for what nests too deep, and for what would be written out several times.
+    /// The `let`s in front of a statement that evaluates `roots`: for what nests too deep, and for what would be
+    /// written out several times.
     pub fn name_parts(&mut self, roots: &[ExprId]) -> TokenStream {
         let mut lets = TokenStream::new();
         for e in parts::named(self.module, &self.plan.sizes, roots, LIMITS) {

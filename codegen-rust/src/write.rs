@@ -138,7 +138,8 @@ impl Generator<'_> {
         }
     }
 
-    /// Writes a pair with the function of `rungc_rt::word` that makes words of the value, or with the method for indexed ones.
+    /// Writes a pair with the function of `rungc_rt::word` that makes words of the value, or with the method for
+    /// indexed ones.
     fn write_words(
         &mut self,
         place: Place,

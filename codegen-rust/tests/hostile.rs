@@ -7,7 +7,8 @@ use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_syntax::text::acts;
 
-/// Names of files as people have them: an ideographic space, a combining accent as macOS stores it, a no-break space; and worse.
+/// Names of files as people have them: an ideographic space, a combining accent as macOS stores it, a no-break space;
+/// and worse.
 const NAMES: [&str; 6] = [
     "传送带　控制.il",
     "tre\u{301}mie.il",

@@ -57,8 +57,8 @@ pub fn areas<'a>(storage: &'a Storage<'_>) -> Vec<Area<'a>> {
     areas.into_iter().map(|(_, area)| area).collect()
 }
 
-/// How an operand says which of the `areas` holds a device ([`rungc_rt::Operand::area`]): counted from the last, which is 1. `None`: in
-/// none of them, or in one that is too far from the last to be said.
+/// How an operand says which of the `areas` holds a device ([`rungc_rt::Operand::area`]): counted from the last, which
+/// is 1. `None`: in none of them, or in one that is too far from the last to be said.
 pub fn named(areas: &[Area], class: DeviceClass, number: u32) -> Option<u8> {
     let after = areas.partition_point(|area| {
         (rank(area.field.class), area.field.first) <= (rank(class), number)

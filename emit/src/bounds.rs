@@ -17,8 +17,8 @@ pub fn fits((low, high): Bounds) -> bool {
     low >= I32.0 && high <= I32.1
 }
 
-/// Whether an operator's result lies within 32 bits for all values of its operands, so that it needs no wrapping. The divisor of a quotient
-/// is not 0.
+/// Whether an operator's result lies within 32 bits for all values of its operands, so that it needs no wrapping. The
+/// divisor of a quotient is not 0.
 pub fn is_exact(module: &Module, op: BinOp, a: ExprId, b: ExprId) -> bool {
     let (a, b) = (of(module, a, DEPTH), of(module, b, DEPTH));
     result(op, a, b).is_some_and(fits)

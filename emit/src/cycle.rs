@@ -165,8 +165,8 @@ pub fn watchdog_shows(model: &Model, storage: &Storage) -> Vec<Shows> {
     stored(storage, shows)
 }
 
-/// What stored special devices show of the first operation error, as long as the first of them, a relay, is on; then what they show of each one
-/// ([`rungc_rt::report`]).
+/// What stored special devices show of the first operation error, as long as the first of them, a relay, is on; then
+/// what they show of each one ([`rungc_rt::report`]).
 pub fn fault_shows(model: &Model, storage: &Storage) -> [Vec<Shows>; 2] {
     use DeviceClass::{D, M};
     let relay = model.error_relay.number();

@@ -18,8 +18,8 @@ pub fn comparison(module: &Module, op: CmpOp, a: ExprId, b: ExprId) -> (CmpOp, E
     }
 }
 
-/// The comparison that is the opposite of an expression, if that is a comparison of integers. With floats, not (a < b) is not a >= b, for
-/// NaN.
+/// The comparison that is the opposite of an expression, if that is a comparison of integers. With floats, not (a < b)
+/// is not a >= b, for NaN.
 pub fn opposite(module: &Module, e: ExprId) -> Option<(CmpOp, ExprId, ExprId)> {
     let Expr::Cmp(op, a, b) = *module.expr(e) else {
         return None;
@@ -27,8 +27,8 @@ pub fn opposite(module: &Module, e: ExprId) -> Option<(CmpOp, ExprId, ExprId)> {
     (module.ty(a) != Ty::F32).then(|| (op.opposite(), a, b))
 }
 
-/// Whether a bit is made of bits that are numbers, 0 or 1, as those of grids are. `known` answers for what a backend has a name or a place
-/// for; it is asked first, of each operand.
+/// Whether a bit is made of bits that are numbers, 0 or 1, as those of grids are. `known` answers for what a backend
+/// has a name or a place for; it is asked first, of each operand.
 pub fn is_number(module: &Module, e: ExprId, known: &dyn Fn(ExprId) -> Option<bool>) -> bool {
     known(e).unwrap_or_else(|| {
         let expr = module.expr(e);

@@ -66,7 +66,8 @@ pub fn below(module: &Module, expr: ExprId, found: &mut Vec<ExprId>) {
     found.sort_unstable();
 }
 
-/// Calls `f` with each temporary that an expression uses: once for each use, but in a large expression once for each node.
+/// Calls `f` with each temporary that an expression uses: once for each use, but in a large expression once for each
+/// node.
 pub fn temps(
     module: &Module,
     sizes: &Sizes,

@@ -17,8 +17,8 @@ pub struct Limits {
     pub plain: u64,
 }
 
-/// The parts that get names in a statement that evaluates `roots`, each after those inside it. Evaluating one of them before the statement
-/// changes nothing: expressions have no effects.
+/// The parts that get names in a statement that evaluates `roots`, each after those inside it. Evaluating one of them
+/// before the statement changes nothing: expressions have no effects.
 pub fn named(module: &Module, sizes: &Sizes, roots: &[ExprId], limits: Limits) -> Vec<ExprId> {
     let is_plain =
         |root: ExprId| sizes.depth(root) <= limits.depth && sizes.size(root) <= limits.plain;

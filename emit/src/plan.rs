@@ -9,7 +9,8 @@ use smallvec::SmallVec;
 use std::collections::{BTreeSet, HashMap};
 use typed_index_collections::TiVec;
 
-/// About how many operations a function may hold: what a reader can take in and every compiler optimises in linear time.
+/// About how many operations a function may hold: what a reader can take in and every compiler optimises in linear
+/// time.
 const FUNCTION_WEIGHT: u64 = 1200;
 /// How deep blocks may nest in one function (C99 promises 127 levels).
 const MAX_NESTING: u32 = 24;
@@ -72,8 +73,8 @@ impl Function<'_> {
 pub enum Flow {
     /// No result; runs to its end or returns.
     Void,
-    /// A block of another one, with jumps out of it: returns the state of the part to continue with, or that the root is to be left, or
-    /// that it has come to its end.
+    /// A block of another one, with jumps out of it: returns the state of the part to continue with, or that the root
+    /// is to be left, or that it has come to its end.
     Outlined,
     /// A part: returns the same; from its end it continues with this part.
     Part {

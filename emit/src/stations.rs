@@ -11,8 +11,8 @@ use std::collections::{BTreeSet, HashSet};
 /// Class and number.
 pub type Device = (DeviceClass, u32);
 
-/// Bits that a loop only reads, and that are the same in all of its iterations. They are read before it: compilers make no vectors if these bits
-/// are after an array in memory to which the loop writes.
+/// Bits that a loop only reads, and that are the same in all of its iterations. They are read before it: compilers make
+/// no vectors if these bits are after an array in memory to which the loop writes.
 pub fn invariants(module: &Module, storage: &Storage, stations: &Stations) -> BTreeSet<Device> {
     let (mut roots, mut written) = (Vec::new(), HashSet::new());
     collect(&stations.body, &mut roots, &mut written);

@@ -26,7 +26,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// What a device of this class and number is stored as outside a grid; `None` for what is not a device (labels, nesting levels).
+    /// What a device of this class and number is stored as outside a grid; `None` for what is not a device (labels,
+    /// nesting levels).
     pub fn of(class: DeviceClass, number: u32) -> Option<Kind> {
         use DeviceClass::*;
         Some(match class {
@@ -158,7 +159,8 @@ pub struct Field {
 }
 
 impl Field {
-    /// Whether its name carries the number it begins with; an array that begins with device 0 is named by its class alone.
+    /// Whether its name carries the number it begins with; an array that begins with device 0 is named by its class
+    /// alone.
     pub fn is_numbered(&self) -> bool {
         !self.array || self.first != 0
     }
@@ -319,8 +321,8 @@ impl<'m> Storage<'m> {
         self.fields.iter().map(bytes).sum()
     }
 
-    /// The fields by sections. Arrays that loops over rungs go through are side by side: clang makes vectors of two bytes only if few
-    /// others lie between what a loop reads and what it writes.
+    /// The fields by sections. Arrays that loops over rungs go through are side by side: clang makes vectors of two
+    /// bytes only if few others lie between what a loop reads and what it writes.
     pub fn in_sections(&self) -> Vec<&Field> {
         let mut fields: Vec<&Field> = self.fields.iter().collect();
         order::by_key(&mut fields, |f| match f.section {
@@ -337,7 +339,8 @@ impl<'m> Storage<'m> {
         self.slot(class, number).map(|(field, _)| field)
     }
 
-    /// The field that holds a device, and the device's number in it: that of an index register, if it is another name of one.
+    /// The field that holds a device, and the device's number in it: that of an index register, if it is another name
+    /// of one.
     pub fn slot(&self, class: DeviceClass, number: u32) -> Option<(&Field, u32)> {
         let (class, number) = self.model.canonical(class, number);
         let i = *self.by_number[class as usize].get(number as usize)?;

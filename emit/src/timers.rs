@@ -26,7 +26,8 @@ impl Coils {
         coils
     }
 
-    /// The behaviour of a timer's coil. It need not remember the preset with which it began if only one coil names a constant.
+    /// The behaviour of a timer's coil. It need not remember the preset with which it began if only one coil names a
+    /// constant.
     pub fn kind(&self, number: u32, kind: TimerKind) -> TimerKind {
         TimerKind {
             latches_preset: kind.latches_preset && self.coils.get(&number) != Some(&1),

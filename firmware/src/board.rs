@@ -39,7 +39,8 @@ pub struct Board {
     pub outputs: BTreeMap<u32, OutputPin>,
     /// Serial ports of the PLC, and the UARTs that they are.
     pub serial: Vec<Serial>,
-    /// C functions of the user that stand for fields of `rungc_hal` and `rungc_board`, and `init`; by the fields' names.
+    /// C functions of the user that stand for fields of `rungc_hal` and `rungc_board`, and `init`; by the fields'
+    /// names.
     pub functions: BTreeMap<String, String>,
     /// C sources and headers with these functions: as named, and where they are.
     pub sources: Vec<(String, PathBuf)>,

@@ -35,8 +35,8 @@ pub enum BuildError {
     },
 }
 
-/// The compilers for a target, by the environment: `CC_thumbv7em_none_eabihf` and `AR_…` name C's, for this machine also `CC` and `AR`;
-/// `CARGO` and `RUSTC` name Rust's.
+/// The compilers for a target, by the environment: `CC_thumbv7em_none_eabihf` and `AR_…` name C's, for this machine
+/// also `CC` and `AR`; `CARGO` and `RUSTC` name Rust's.
 #[derive(Clone, Debug)]
 pub struct Tools {
     announce: fn(&str),
@@ -230,8 +230,8 @@ impl Tools {
         Ok(library)
     }
 
-    /// Builds sources in C and links all of the program that a host calls, and nothing else, as an executable to be measured. Its struct is
-    /// called `plc`.
+    /// Builds sources in C and links all of the program that a host calls, and nothing else, as an executable to be
+    /// measured. Its struct is called `plc`.
     pub fn c_probe(&self, files: &[OutFile], module: &Module) -> Result<Vec<u8>, BuildError> {
         let built = self.build_c(files)?;
         let folder = built.folder.path();

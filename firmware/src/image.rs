@@ -16,7 +16,8 @@ pub use rust::project as rust_project;
 /// What an image does by itself, for a simulator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Script {
-    /// Inputs that switch themselves and do not follow their pins: milliseconds since the start, X, whether on. In order of time.
+    /// Inputs that switch themselves and do not follow their pins: milliseconds since the start, X, whether on. In
+    /// order of time.
     pub inputs: Vec<(u32, u32, bool)>,
     /// When the simulator ends, in milliseconds.
     pub until_ms: Option<u32>,
@@ -60,8 +61,8 @@ impl Image<'_> {
             .collect()
     }
 
-    /// Outputs that are printed: number, name, and the text after the state, a comment. Those that send pulses would be printed all
-    /// the time.
+    /// Outputs that are printed: number, name, and the text after the state, a comment. Those that send pulses would be
+    /// printed all the time.
     fn printed(&self) -> Vec<(u32, String, String)> {
         let module = self.module;
         let quiet = |number: &u32| module.pulse_outputs.contains(number);
@@ -78,7 +79,8 @@ impl Image<'_> {
             .collect()
     }
 
-    /// Terminals and serial ports of the program that the board has no pin or UART for and no function either, by their names.
+    /// Terminals and serial ports of the program that the board has no pin or UART for and no function either, by their
+    /// names.
     pub fn unconnected(&self) -> Vec<String> {
         let has = |function: &str| self.board.functions.contains_key(function);
         let scripted = |n: &u32| self.script.inputs.iter().any(|(_, x, _)| x == n);

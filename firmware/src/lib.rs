@@ -1,11 +1,11 @@
 //! From a compiled program to a library or an image for another machine.
 //!
-//! [`target`] lists the machines, [`board`] reads the description of a board, [`image`] writes the sources of an image for it,
-//! [`sources`] those of a library, and [`build`] calls the compilers; [`report`] measures the resources it
-//! uses there.
+//! [`target`] lists the machines, [`board`] reads the description of a board, [`image`] writes the sources of an image
+//! for it, [`sources`] those of a library, and [`build`] calls the compilers; [`report`] measures the resources it uses
+//! there.
 //!
-//! This crate must not know what a program computes: it calls the backends and compilers, and reads what they made. Start reading at
-//! [`target`] and [`image`].
+//! This crate must not know what a program computes: it calls the backends and compilers, and reads what they made.
+//! Start reading at [`target`] and [`image`].
 
 pub mod board;
 pub mod build;

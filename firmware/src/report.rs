@@ -111,7 +111,8 @@ fn exception_frame(target: &Target) -> u32 {
     }
 }
 
-/// The report of an image or, without a board, of an executable that holds nothing but the program and what it calls (`probe`).
+/// The report of an image or, without a board, of an executable that holds nothing but the program and what it calls
+/// (`probe`).
 pub fn of_image(
     module: &Module,
     target: &'static Target,

@@ -1,5 +1,5 @@
-//! Storms: many frames on one line, a tenth of them bad. No good frame may be lost, nothing else may be written, and no call that advances the
-//! ports may take long.
+//! Storms: many frames on one line, a tenth of them bad. No good frame may be lost, nothing else may be written, and no
+//! call that advances the ports may take long.
 
 pub mod tcp;
 
@@ -9,10 +9,12 @@ use crate::random::Random;
 use crate::text::Bytes;
 use std::fmt;
 
-/// How long a PLC may take to answer, or a master to ask, in microseconds: an answer with an end that does not come is given up after a second.
+/// How long a PLC may take to answer, or a master to ask, in microseconds: an answer with an end that does not come is
+/// given up after a second.
 const PATIENCE_US: u64 = 2_000_000;
 
-/// How long a partner waits after a bad frame whether it is rejected: a frame of a computer link says itself how long, up to 150 ms.
+/// How long a partner waits after a bad frame whether it is rejected: a frame of a computer link says itself how long,
+/// up to 150 ms.
 const REFUSAL_US: u64 = 200_000;
 
 /// What came of a storm.

@@ -1,4 +1,5 @@
-//! Every target on its corpus, and for a short random campaign. `RUNGC_FUZZ_SECONDS` makes the campaign of each target that long.
+//! Every target on its corpus, and for a short random campaign. `RUNGC_FUZZ_SECONDS` makes the campaign of each target
+//! that long.
 
 use rungc_fuzz::random::Random;
 use rungc_fuzz::targets::{Target, all};

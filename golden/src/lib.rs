@@ -1,8 +1,8 @@
-//! Tests that span the crates: conformance cases (`conformance/`), snapshots of what the examples become, random programs for differential
-//! tests, and the pages that are generated from the tables.
+//! Tests that span the crates: conformance cases (`conformance/`), snapshots of what the examples become, random
+//! programs for differential tests, and the pages that are generated from the tables.
 //!
-//! Random programs are made from the catalogue's rows. What they should do must not be known here: the engines are compared with one
-//! another. Start reading at `tests/conformance.rs`, then [`random`] and `tests/differential.rs`.
+//! Random programs are made from the catalogue's rows. What they should do must not be known here: the engines are
+//! compared with one another. Start reading at `tests/conformance.rs`, then [`random`] and `tests/differential.rs`.
 
 pub mod book;
 pub mod operands;

@@ -64,7 +64,8 @@ pub fn program(seed: u64, model: ModelId, candidates: &[Candidate], rungs: u32) 
     writer.lines.join("\n") + "\n"
 }
 
-/// Interrupt pointers of a model with what masks them: of one edge of the first input, of one edge of the next, and of two timers.
+/// Interrupt pointers of a model with what masks them: of one edge of the first input, of one edge of the next, and of
+/// two timers.
 fn pointers(model: &Model) -> Vec<(u32, Gate)> {
     let find = |n: u32| {
         let found = model.interrupts.find(n)?;

@@ -1,4 +1,5 @@
-//! ARCHITECTURE.md's picture and table of the crates agree with Cargo's metadata, and each crate says where to start reading.
+//! ARCHITECTURE.md's picture and table of the crates agree with Cargo's metadata, and each crate says where to start
+//! reading.
 
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,6 +1,6 @@
-//! A board that comes at random times, on the interpreter, on emitted C and on emitted Rust: each edge and each pulse counts once, whoever
-//! counts it, comparisons act at the count, and a move has as many pulses as it was given. With an interrupt that sends them they are on
-//! time while scans run.
+//! A board that comes at random times, on the interpreter, on emitted C and on emitted Rust: each edge and each pulse
+//! counts once, whoever counts it, comparisons act at the count, and a move has as many pulses as it was given. With an
+//! interrupt that sends them they are on time while scans run.
 
 use rungc_codegen_c::{Options, emit};
 use rungc_interp::Machine;

@@ -1,7 +1,7 @@
 //! Every conformance case on every engine.
 //!
-//! A case that contradicts its manual is listed in `conformance/DISPUTED.toml` with the reason. All others must pass, and a listed case
-//! that passes must be removed from the list.
+//! A case that contradicts its manual is listed in `conformance/DISPUTED.toml` with the reason. All others must pass,
+//! and a listed case that passes must be removed from the list.
 
 mod suite;
 

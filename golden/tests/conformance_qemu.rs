@@ -1,7 +1,8 @@
-//! Every conformance case on microcontrollers that QEMU simulates, with the same results as on the host, to the last bit.
+//! Every conformance case on microcontrollers that QEMU simulates, with the same results as on the host, to the last
+//! bit.
 //!
-//! Without the tools a test says what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI, that is a
-//! failure.
+//! Without the tools a test says what is missing and that it did not run; with `RUNGC_REQUIRE_EMBEDDED` set, as in CI,
+//! that is a failure.
 
 mod suite;
 

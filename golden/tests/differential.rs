@@ -1,6 +1,8 @@
-//! Random programs, with random inputs, must do the same on all engines, optimised and not: every device is compared after each scan.
+//! Random programs, with random inputs, must do the same on all engines, optimised and not: every device is compared
+//! after each scan.
 //!
-//! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or another one.
+//! The environment variables `RUNGC_RANDOM_PROGRAMS`, `RUNGC_RANDOM_SCANS` and `RUNGC_RANDOM_SEED` make it longer, or
+//! another one.
 
 use rungc_golden::operands::{BUFFER_WORDS, candidates};
 use rungc_golden::random::program;

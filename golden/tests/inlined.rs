@@ -1,7 +1,8 @@
 //! Instructions that are inline code do what the runtime's functions do.
 //!
-//! Each is compiled twice: as it is written here, which is inline code, and with an index of 0 somewhere, which makes it a call of the
-//! runtime. Both run in the interpreter with the same random data, and all of their devices are compared.
+//! Each is compiled twice: as it is written here, which is inline code, and with an index of 0 somewhere, which makes
+//! it a call of the runtime. Both run in the interpreter with the same random data, and all of their devices are
+//! compared.
 
 use rungc_golden::rng::Rng;
 use rungc_interp::Machine;

@@ -1,5 +1,5 @@
-//! Dependencies keep to what `deny.toml` says of licences, origins and versions, as far as Cargo's metadata shows it. `cargo deny check` also
-//! reads advisories and the texts of licences.
+//! Dependencies keep to what `deny.toml` says of licences, origins and versions, as far as Cargo's metadata shows it.
+//! `cargo deny check` also reads advisories and the texts of licences.
 
 use serde::Deserialize;
 use spdx::{Expression, ParseMode};

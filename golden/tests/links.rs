@@ -1,4 +1,5 @@
-//! Links of the documentation lead somewhere: files exist, headings too, and the book's table of contents lists every page.
+//! Links of the documentation lead somewhere: files exist, headings too, and the book's table of contents lists every
+//! page.
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::collections::BTreeSet;
@@ -30,8 +31,8 @@ fn files(extension: &str) -> Vec<PathBuf> {
     wanted
 }
 
-/// The text of a page with `{{#include FILE}}` or `{{#include FILE:ANCHOR}}` resolved as far as links need it: includes are checked to
-/// exist and their content is checked where it is at home.
+/// The text of a page with `{{#include FILE}}` or `{{#include FILE:ANCHOR}}` resolved as far as links need it: includes
+/// are checked to exist and their content is checked where it is at home.
 fn included(path: &Path, text: &str, broken: &mut Vec<String>) {
     for part in text.split("{{#include ").skip(1) {
         let target = part.split("}}").next().unwrap();

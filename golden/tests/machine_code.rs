@@ -1,4 +1,5 @@
-//! Machine code against the catalogue: each applied instruction's word follows from its FNC number, and its length is its number of steps.
+//! Machine code against the catalogue: each applied instruction's word follows from its FNC number, and its length is
+//! its number of steps.
 
 use rungc_catalogue::{Form, find};
 use rungc_frontend::{image, read_bytes, read_text};

@@ -1,4 +1,5 @@
-//! Programs with a machine around them run whole on every engine: the examples, and one with as many pulses as there can be.
+//! Programs with a machine around them run whole on every engine: the examples, and one with as many pulses as there
+//! can be.
 
 use rungc_sim::engines::{EngineKind, build};
 use rungc_sim::plant;
@@ -82,7 +83,8 @@ const SEARCHES: [(&str, &str, &str); 4] = [
 /// Where each of them comes to rest.
 const RESTS: [f64; 4] = [-1.0, -91.0, -4016.0, -91.0];
 
-/// Each with scans of several lengths: it comes to rest at the same place, though a scan may be longer than its switch is on.
+/// Each with scans of several lengths: it comes to rest at the same place, though a scan may be longer than its switch
+/// is on.
 fn searches() -> TestFile {
     let machine = r#"
 [[axis]]

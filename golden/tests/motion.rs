@@ -1,5 +1,5 @@
-//! Profiles of moves beside the equations of a trapezoid, as open planners publish them (grbl's `planner.c`, LinuxCNC's `simple_tp.c`): how many
-//! pulses and milliseconds they differ. The table is in `docs/src/motion.md`.
+//! Profiles of moves beside the equations of a trapezoid, as open planners publish them (grbl's `planner.c`, LinuxCNC's
+//! `simple_tp.c`): how many pulses and milliseconds they differ. The table is in `docs/src/motion.md`.
 
 use rungc_golden::module;
 use rungc_interp::Machine;
@@ -234,7 +234,8 @@ fn table() -> String {
             "| {} | {model} | {} | {} | {pulses:.1} | {should:.1} | {is:.0} |",
             order.name, order.source, order.expected.distance
         );
-        // A pulse has the speed that it begins with, so a ramp from rest is late by a part of its first pulse. Time is known to the millisecond.
+        // A pulse has the speed that it begins with, so a ramp from rest is late by a part of its first pulse. Time is
+        // known to the millisecond.
         let first = (2.0 / order.expected.acceleration).sqrt();
         let most = order.expected.peak() * first / 4.0 + 1.0;
         assert!(pulses <= most, "{}: {pulses} of {most} pulses", order.name);

@@ -1,8 +1,10 @@
-//! The whole way from text to execution withstands any input: nothing panics, nothing hangs, and what compiles is sound.
+//! The whole way from text to execution withstands any input: nothing panics, nothing hangs, and what compiles is
+//! sound.
 //!
-//! Random lines of valid mnemonics with operands of every kind, and conformance programs with random damage, are read, compiled
-//! for the models and, where a module comes of it, validated, printed, emitted in both languages and run. Lines that the compiler
-//! finds fault with are taken out until the rest compiles, so that the later stages see strange programs as well.
+//! Random lines of valid mnemonics with operands of every kind, and conformance programs with random damage, are read,
+//! compiled for the models and, where a module comes of it, validated, printed, emitted in both languages and run.
+//! Lines that the compiler finds fault with are taken out until the rest compiles, so that the later stages see strange
+//! programs as well.
 //!
 //! The environment variables `RUNGC_RANDOM_PROGRAMS` and `RUNGC_RANDOM_SEED` make it longer, or another one.
 

@@ -1,5 +1,5 @@
-//! Pins of pulse outputs, as firmware drives them from a timer: the interpreter and emitted C change them at the same microseconds, and
-//! there are as many pulses as the program asked for.
+//! Pins of pulse outputs, as firmware drives them from a timer: the interpreter and emitted C change them at the same
+//! microseconds, and there are as many pulses as the program asked for.
 
 use rungc_codegen_c::{Options, emit};
 use rungc_interp::Machine;

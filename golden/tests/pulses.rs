@@ -1,4 +1,5 @@
-//! Pulse outputs: random moves, changes and stops end with exactly the pulses that were asked for, and no faster than their ramps allow.
+//! Pulse outputs: random moves, changes and stops end with exactly the pulses that were asked for, and no faster than
+//! their ramps allow.
 
 use rungc_golden::module;
 use rungc_golden::rng::Rng;

@@ -161,7 +161,8 @@ fn scans_of_constant_length_begin_on_time() {
         .filter_map(|line| line.split(' ').nth(2)?.parse().ok())
         .collect();
     let gaps: Vec<u32> = begins.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    // 30 ms each until one that takes 70 ms (35 ms of them after the scan itself); then at once, then 30 ms again; then as the board likes.
+    // 30 ms each until one that takes 70 ms (35 ms of them after the scan itself); then at once, then 30 ms again; then
+    // as the board likes.
     assert_eq!(
         begins[..8],
         [

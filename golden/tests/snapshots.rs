@@ -31,8 +31,8 @@ fn joined(files: impl Iterator<Item = (String, String)>) -> String {
         .collect()
 }
 
-/// The text with words in place of the stamps that it demands of shared headers, each of which must be the stamp of the header that comes
-/// with it: they change with every function of the runtime.
+/// The text with words in place of the stamps that it demands of shared headers, each of which must be the stamp of the
+/// header that comes with it: they change with every function of the runtime.
 fn without_stamps(text: &str, files: &[(String, String)]) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_string).collect();
     for line in &mut lines {

@@ -1,4 +1,5 @@
-//! PLCs on one line that run on different engines: emitted C talks to emitted Rust, and each of them to the interpreter.
+//! PLCs on one line that run on different engines: emitted C talks to emitted Rust, and each of them to the
+//! interpreter.
 
 use rungc_sim::engines::{Engine, EngineError, EngineKind, build};
 use rungc_sim::plctest::{self, Suite};

@@ -129,8 +129,8 @@ impl<'m> Machine<'m> {
         }
     }
 
-    /// A `Bit` expression's value: what its list leaves when its items are executed. The results of the blocks that are open
-    /// are bits of a number, that of the innermost is the lowest.
+    /// A `Bit` expression's value: what its list leaves when its items are executed. The results of the blocks that are
+    /// open are bits of a number, that of the innermost is the lowest.
     pub(crate) fn on(&self, id: ExprId) -> bool {
         let mut blocks = 0u64;
         for item in self.logic.list(id) {

@@ -1,9 +1,9 @@
 //! Contact logic, decoded once into lists.
 //!
-//! Nearly all of a scan is the logic of contacts, so its expressions ([`Expr::And`], [`Expr::Or`], [`Expr::Not`] and what they join)
-//! are not walked as trees. They are decoded into what a ladder's contacts are written as, an instruction list:
-//! `((X000 | M0) & !X001)` is LD X000, OR M0, ANI X001. What is joined is a device whose slot is known, or any other
-//! expression, which `eval` evaluates.
+//! Nearly all of a scan is the logic of contacts, so its expressions ([`Expr::And`], [`Expr::Or`], [`Expr::Not`] and
+//! what they join) are not walked as trees. They are decoded into what a ladder's contacts are written as, an
+//! instruction list: `((X000 | M0) & !X001)` is LD X000, OR M0, ANI X001. What is joined is a device whose slot is
+//! known, or any other expression, which `eval` evaluates.
 
 use crate::devices::{BitSlot, Devices};
 use rungc_ir::node::{Expr, ExprId, Place, TempId, Ty};
@@ -166,8 +166,8 @@ impl Decoder<'_> {
         depth
     }
 
-    /// Appends the items of two joined expressions. The one that needs more open blocks comes first, so that their number grows only with
-    /// the logarithm of the length.
+    /// Appends the items of two joined expressions. The one that needs more open blocks comes first, so that their
+    /// number grows only with the logarithm of the length.
     fn join(&mut self, join: Join, a: ExprId, b: ExprId) -> u32 {
         for (block, other) in [(a, b), (b, a)] {
             let (contact, inverted) = self.plain(other);

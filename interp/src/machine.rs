@@ -1,7 +1,7 @@
 //! The reference interpreter: the machine that a [`Module`] runs on, and its scan cycle.
 //!
-//! It has every device of the model, so it answers for devices that compiled code leaves out. What statements and expressions
-//! mean is in `exec` and `eval`, word for word as [`rungc_ir::node`] specifies it.
+//! It has every device of the model, so it answers for devices that compiled code leaves out. What statements and
+//! expressions mean is in `exec` and `eval`, word for word as [`rungc_ir::node`] specifies it.
 
 use crate::devices::Devices;
 use crate::errors::OperationError;
@@ -62,8 +62,8 @@ impl Entries {
 /// A program and its devices, executed by reading the IR.
 ///
 /// In STOP a scan runs only the function `Begin`, which brings the clocks up to date. A scan that repeats more than
-/// 10,000 steps for each millisecond of the watchdog time D8000 counts as one that does not end: the machine sets M8061 and
-/// D8061 = 6105 and goes to STOP with all outputs off.
+/// 10,000 steps for each millisecond of the watchdog time D8000 counts as one that does not end: the machine sets M8061
+/// and D8061 = 6105 and goes to STOP with all outputs off.
 pub struct Machine<'m> {
     pub(crate) module: &'m Module,
     entries: Entries,
@@ -131,7 +131,8 @@ impl<'m> Machine<'m> {
         machine
     }
 
-    /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all others.
+    /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all
+    /// others.
     fn preset(&mut self, latched: bool) {
         let module = self.module;
         for (register, value) in module.model.special_words() {

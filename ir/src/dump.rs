@@ -1,7 +1,7 @@
 //! Text of a module, for readers and snapshots.
 //!
-//! One line a statement; temporaries are `t0`, edge memories `e0`, devices have their names, pairs and floats `D0:32`, `D0:f`, an
-//! index is added in brackets: `D[10 + t0]`.
+//! One line a statement; temporaries are `t0`, edge memories `e0`, devices have their names, pairs and floats `D0:32`,
+//! `D0:f`, an index is added in brackets: `D[10 + t0]`.
 
 use crate::layout::Area;
 use crate::node::{

@@ -1,7 +1,7 @@
 //! Which devices a compiled program stores, and how: decided once for both backends.
 //!
-//! A device that is only ever named directly becomes a separate field; devices that are indexed, moved in blocks or handed to a
-//! runtime function as a run become arrays. Special devices that the program never looks at are not stored.
+//! A device that is only ever named directly becomes a separate field; devices that are indexed, moved in blocks or
+//! handed to a runtime function as a run become arrays. Special devices that the program never looks at are not stored.
 
 use crate::node::{Module, Place};
 use crate::reach::{Footprint, of_expr, of_stmt};
@@ -28,17 +28,18 @@ pub struct Area {
 }
 
 impl Area {
-    /// Whether M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Stmt::Clear`]); what M8031 clears, going to STOP
-    /// clears as well. Inputs and special devices are never cleared (h1u-h2u-programming §8.9). Cleared timers and counters
-    /// forget their coil, too.
+    /// Whether M8031 (`latched` false) or M8032 (true) clears it ([`crate::node::Stmt::Clear`]); what M8031 clears,
+    /// going to STOP clears as well. Inputs and special devices are never cleared (h1u-h2u-programming §8.9). Cleared
+    /// timers and counters forget their coil, too.
     pub fn is_cleared(&self, latched: bool) -> bool {
         let special = is_special(self.class, self.first);
         self.class != DeviceClass::X && !special && self.latched == latched
     }
 }
 
-/// Devices that a [`Stmt::Repeat`](crate::node::Stmt::Repeat) goes through, as an array of columns: column 0 holds the first device of each row, column 1 the second, and
-/// so on. Each iteration of the loop moves on by one row. The devices lie in areas that are arrays.
+/// Devices that a [`Stmt::Repeat`](crate::node::Stmt::Repeat) goes through, as an array of columns: column 0 holds the
+/// first device of each row, column 1 the second, and so on. Each iteration of the loop moves on by one row. The
+/// devices lie in areas that are arrays.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Grid {
     /// Class.
@@ -132,8 +133,8 @@ impl Wanted {
 const STORED: u8 = 1;
 const IN_ARRAY: u8 = 2;
 
-/// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the functions
-/// it calls use (`flags`). They may use devices of the `whole` classes by number.
+/// Finds out which devices a module stores: those that its code accesses, those observed, and the special ones that the
+/// functions it calls use (`flags`). They may use devices of the `whole` classes by number.
 pub fn build(
     module: &mut Module,
     wanted: &Wanted,
@@ -189,8 +190,8 @@ impl<'m> Builder<'m> {
         Builder { module, marks }
     }
 
-    /// `count` devices from `number` on are stored, in an array if they are accessed as a run. Registers that are other names of
-    /// index registers are stored as these, by themselves.
+    /// `count` devices from `number` on are stored, in an array if they are accessed as a run. Registers that are other
+    /// names of index registers are stored as these, by themselves.
     fn mark(&mut self, class: DeviceClass, number: u32, count: u32, array: bool) {
         let marks = &mut self.marks[class as usize];
         let end = (number as usize)

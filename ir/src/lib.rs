@@ -1,7 +1,7 @@
 //! The typed IR, its layout, its passes and the validator that holds them to the rules of [`node`].
 //!
-//! The IR is the contract between lowering, the interpreter and both backends. It knows the PLC models, but no instructions, no
-//! programs and no diagnostics. Start reading at [`node`], whose docs specify what every engine does.
+//! The IR is the contract between lowering, the interpreter and both backends. It knows the PLC models, but no
+//! instructions, no programs and no diagnostics. Start reading at [`node`], whose docs specify what every engine does.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 

@@ -1,9 +1,10 @@
 //! Which devices an access may meet: the one rule that the layout, the validator and the passes share.
 //!
-//! A place without an index names one device, and the access starts there. **An index leads to any device of the class that the
-//! model has**, general or special, regardless of the number it is added to ([`Expr::InRange`]); where it leads to none, the operand does not
-//! exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices together lie in one run ([`Model::runs`]): none
-//! continues from the general devices into the special ones. The range of an index is known from [`Expr::Within`].
+//! A place without an index names one device, and the access starts there. **An index leads to any device of the class
+//! that the model has**, general or special, regardless of the number it is added to ([`Expr::InRange`]); where it
+//! leads to none, the operand does not exist, which is the PLC's error 6706 (h1u-h2u-programming §8.2). Several devices
+//! together lie in one run ([`Model::runs`]): none continues from the general devices into the special ones. The range
+//! of an index is known from [`Expr::Within`].
 
 use crate::node::{
     Access, AccessKind, Arg, Count, Counter16Coil, Counter32Coil, Expr, ExprId, Fetch, IndexedCoil,
@@ -177,8 +178,8 @@ fn of_arg(model: &Model, arg: &Arg, wide: bool, found: &mut impl FnMut(Footprint
     }
 }
 
-/// The devices of a class that indexes lead to, as runs (first, last) in order. They are all in arrays, but for those that are other
-/// names of index registers.
+/// The devices of a class that indexes lead to, as runs (first, last) in order. They are all in arrays, but for those
+/// that are other names of index registers.
 pub fn by_index(module: &Module, class: DeviceClass) -> Vec<(u32, u32)> {
     let mut runs = Vec::new();
     let mut note = |used: Footprint| {

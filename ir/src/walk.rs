@@ -328,7 +328,8 @@ pub fn statements<'a>(body: &'a [Stmt], visit: &mut dyn FnMut(&'a Stmt)) {
     }
 }
 
-/// How many coils of timers are very many: more than any machine needs. Each takes a hundred bytes of code where compilers inline it.
+/// How many coils of timers are very many: more than any machine needs. Each takes a hundred bytes of code where
+/// compilers inline it.
 const MANY_TIMERS: usize = 1000;
 
 /// Whether a program has too many timer coils to expand each inline.

@@ -1,7 +1,8 @@
 //! The longest way through a program: how much a scan does at most.
 //!
-//! What is counted are PLC steps of the networks that are passed and operations of the IR (a statement, an operator, a read of a device). Of two
-//! branches the longer one counts, a loop counts as often as it runs, a call with all that it calls.
+//! What is counted are PLC steps of the networks that are passed and operations of the IR (a statement, an operator, a
+//! read of a device). Of two branches the longer one counts, a loop counts as often as it runs, a call with all that it
+//! calls.
 
 use crate::node::{Expr, ExprId, Function, FunctionKind, LabelId, Module, Part, Repeat, Stmt};
 use crate::walk::{for_exprs, operands, statements};

@@ -74,7 +74,8 @@ impl Lowerer<'_> {
         self.return_here();
     }
 
-    /// One more place at which the current routine continues, and where that is stored. The checks ensure that it is not in a loop.
+    /// One more place at which the current routine continues, and where that is stored. The checks ensure that it is
+    /// not in a loop.
     fn new_place(&mut self) -> Option<(u32, CellId)> {
         let function = self.flow.function();
         let mut sections = self.interrupts.sections.iter_mut();
@@ -106,8 +107,8 @@ impl Lowerer<'_> {
         self.out.extend(body);
     }
 
-    /// Runs an advanced interrupt's routine from its start, or continues it. An earlier request for that is forgotten at its
-    /// begin.
+    /// Runs an advanced interrupt's routine from its start, or continues it. An earlier request for that is forgotten
+    /// at its begin.
     pub(super) fn serve_process(&mut self, what: &What) {
         let What::Process {
             function,

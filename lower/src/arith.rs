@@ -218,8 +218,8 @@ impl Lowerer<'_> {
         flags.iter().any(|&flag| self.specials.has(flag))
     }
 
-    /// Whether the result is 0, too small, too large. A sum of two values of one sign (a difference of two of different signs)
-    /// has left the range if its sign is another.
+    /// Whether the result is 0, too small, too large. A sum of two values of one sign (a difference of two of different
+    /// signs) has left the range if its sign is another.
     fn sum_flags(
         &mut self,
         op: BinOp,
@@ -250,7 +250,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Sets a flag of MUL and DIV, if the model has it and something looks at it, by `value`, and returns the value to continue with.
+    /// Sets a flag of MUL and DIV, if the model has it and something looks at it, by `value`, and returns the value to
+    /// continue with.
     fn flag_of(
         &mut self,
         flag: Relay,

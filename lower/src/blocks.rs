@@ -1,5 +1,5 @@
-//! Instructions on consecutive devices, which are inline code: of a few, each device by name; longer runs are copied or filled as a whole.
-//! The runtime is called for those that an index leads to.
+//! Instructions on consecutive devices, which are inline code: of a few, each device by name; longer runs are copied or
+//! filled as a whole. The runtime is called for those that an index leads to.
 
 use super::Lowerer;
 use super::operand::{Guards, fixed};
@@ -309,8 +309,8 @@ impl Lowerer<'_> {
         self.emit(Stmt::Write(Access::bit(place), on));
     }
 
-    /// Whether an instruction has a long run that is not copied or filled as a whole: some of its devices are special, or those that enter a
-    /// shift overlap so that one by one they enter more than once.
+    /// Whether an instruction has a long run that is not copied or filled as a whole: some of its devices are special,
+    /// or those that enter a shift overlap so that one by one they enter more than once.
     #[expect(
         clippy::wildcard_enum_match_arm,
         reason = "the other functions of the runtime are called"
@@ -413,7 +413,8 @@ impl Lowerer<'_> {
         });
     }
 
-    /// Copies the devices that stay, then those that enter; the argument of `copy` says whether to begin with the last one.
+    /// Copies the devices that stay, then those that enter; the argument of `copy` says whether to begin with the last
+    /// one.
     fn shift(&mut self, right: bool, copy: impl Fn(&mut Self, Device, Device, u32, bool)) {
         let (length, by) = (self.stated(2), self.stated(3));
         let (Some(from), Some(to)) = (self.device_of(0), self.device_of(1)) else {

@@ -69,8 +69,8 @@ pub(super) fn check(resolved: &Resolved, bounds: &[Bound], diagnostics: &mut Dia
     }
 }
 
-/// The warning about a bound for an operand that no instruction has, at the operand that is most like it: with the same index register
-/// rather than another, then the one with the closest number.
+/// The warning about a bound for an operand that no instruction has, at the operand that is most like it: with the same
+/// index register rather than another, then the one with the closest number.
 fn unused(resolved: &Resolved, bound: &Bound, operand: &str) -> Diagnostic {
     let operands = resolved.program.instrs.iter().flat_map(|i| &i.operands);
     let alike = operands

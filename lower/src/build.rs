@@ -6,8 +6,8 @@ use rungc_ir::node::{Body, Edge, EdgeId, Expr, ExprId, Stmt, TempId, Ty};
 use rungc_ir::walk::operands;
 use rungc_rt::EdgeKind;
 
-/// Trees of contacts deeper than this are cut by a temporary, so that no rung is too deep for what reads the IR, or for a
-/// compiler of the emitted code.
+/// Trees of contacts deeper than this are cut by a temporary, so that no rung is too deep for what reads the IR, or for
+/// a compiler of the emitted code.
 const MAX_DEPTH: u8 = 40;
 
 impl Lowerer<'_> {

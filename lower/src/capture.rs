@@ -10,7 +10,10 @@ impl Lowerer<'_> {
     /// Finds the registers of edges that the program names, and that its interrupts depend on.
     pub(super) fn find_captures(&mut self, requests: &[Request]) {
         for capture in self.model.interrupts.captures {
-            let captured = |request: &Request| matches!(request.source, Some(Source::Input { number, .. }) if capture.inputs.contains(&number));
+            let captured = |request: &Request| match request.source {
+                Some(Source::Input { number, .. }) => capture.inputs.contains(&number),
+                _ => false,
+            };
             let named = self.names(capture.register);
             if named && requests.iter().any(captured) {
                 let name = format!("x{:03o}_edges", capture.inputs[0]);

@@ -9,8 +9,8 @@ use rungc_syntax::{Device, OperandKind, codes};
 /// Characters of a comment on the PLC.
 const LENGTH: usize = 16;
 
-/// Characters of a comment in emitted code at most. The editors allow 64 in a statement, 32 in a note and in a device comment; C99 promises no
-/// more than 4095 bytes in a string, and a reader wants far less on a line.
+/// Characters of a comment in emitted code at most. The editors allow 64 in a statement, 32 in a note and in a device
+/// comment; C99 promises no more than 4095 bytes in a string, and a reader wants far less on a line.
 const EMITTED: usize = 400;
 
 /// A comment as emitted code shows it: cut, with `…` at its end, if it is longer than any editor's.
@@ -22,7 +22,8 @@ pub(super) fn shortened(text: &str) -> String {
 }
 
 impl Lowerer<'_> {
-    /// COMRD S D: the characters of S's comment, two a word, padded with spaces, with a zero after them unless M8091 is on.
+    /// COMRD S D: the characters of S's comment, two a word, padded with spaces, with a zero after them unless M8091 is
+    /// on.
     pub(super) fn device_comment(&mut self) {
         let (device, span) = match (self.operand(0), self.instr().operands.first()) {
             (Some(&OperandKind::Device(device, None)), Some(operand)) => (device, operand.span),

@@ -22,7 +22,8 @@ pub struct CompileOptions {
     pub observe: Vec<(DeviceClass, u32)>,
     /// Store every device of the model.
     pub observe_all: bool,
-    /// Serial ports that the host opens, in addition to those that the program uses; numbers that the model does not have mean nothing.
+    /// Serial ports that the host opens, in addition to those that the program uses; numbers that the model does not
+    /// have mean nothing.
     pub ports: Vec<u8>,
     /// Slaves by Modbus RTU do not answer QLink, which takes memory.
     pub without_qlink: bool,
@@ -30,7 +31,8 @@ pub struct CompileOptions {
     pub bounds: Vec<Bound>,
     /// Simplify the module.
     pub optimise: bool,
-    /// Codes of errors that are warnings here: limits of the PLC which can be eased ([`codes::Code::can_be_eased`]); others stay errors.
+    /// Codes of errors that are warnings here: limits of the PLC which can be eased ([`codes::Code::can_be_eased`]);
+    /// others stay errors.
     pub warn: Vec<&'static str>,
 }
 

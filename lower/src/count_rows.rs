@@ -1,7 +1,8 @@
-//! The table of counts at which one high-speed counter interrupts, a row after the other (h1u-h2u-programming §4.3.1, §8.7).
+//! The table of counts at which one high-speed counter interrupts, a row after the other (h1u-h2u-programming §4.3.1,
+//! §8.7).
 //!
-//! Relay, registers and rows are read at each count, so they may change at any time. A table that starts, when its relay turns on or RUN
-//! begins, begins with its first row.
+//! Relay, registers and rows are read at each count, so they may change at any time. A table that starts, when its
+//! relay turns on or RUN begins, begins with its first row.
 
 use super::Lowerer;
 use super::interrupt::Request;

@@ -1,5 +1,5 @@
-//! SPD: pulses of an input in windows of time. Edges count them and end windows that are over, so that each pulse falls into its
-//! own window, to a millisecond; the instruction shows them in the scan.
+//! SPD: pulses of an input in windows of time. Edges count them and end windows that are over, so that each pulse falls
+//! into its own window, to a millisecond; the instruction shows them in the scan.
 
 use super::Lowerer;
 use super::operand::{Guards, Target};

@@ -1,5 +1,5 @@
-//! Instructions on digits and bits of one word, which are inline code where the program states how many: SMOV, RCR and RCL, DECO of
-//! words.
+//! Instructions on digits and bits of one word, which are inline code where the program states how many: SMOV, RCR and
+//! RCL, DECO of words.
 
 use super::Lowerer;
 use super::blocks::{bits, register};

@@ -36,7 +36,8 @@ impl Lowerer<'_> {
         axes.find(|axis| Some(&axis.input) == input)
     }
 
-    /// Before each scan, input axes show what their counters hold, how these count, and the pulses of the last millisecond, too.
+    /// Before each scan, input axes show what their counters hold, how these count, and the pulses of the last
+    /// millisecond, too.
     pub(super) fn show_axes(&mut self) {
         let counters = self.high_speed.used.iter().map(|u| (u.counter, u.on));
         for (counter, on) in counters.collect::<Vec<_>>() {

@@ -299,8 +299,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The body of the function that takes interrupts: advanced ones first, then those that waited for EI, then the others by their
-    /// sources' ranks.
+    /// The body of the function that takes interrupts: advanced ones first, then those that waited for EI, then the
+    /// others by their sources' ranks.
     pub(super) fn take_interrupts(&mut self) {
         let Some((enabled, function)) = self.interrupts.function else {
             return;

@@ -1,11 +1,12 @@
 //! Lowering: from instructions to the IR of [`rungc_ir::node`].
 //!
-//! One walk over the instructions. Contact logic is collected as an expression (`logic`) until an instruction consumes it;
-//! operands become expressions and places with the conditions under which they exist (`operand`). Jumps and loops are collected
-//! as items and made into structured statements when their body ends (`flow`). What the layout stores is found last.
+//! One walk over the instructions. Contact logic is collected as an expression (`logic`) until an instruction consumes
+//! it; operands become expressions and places with the conditions under which they exist (`operand`). Jumps and loops
+//! are collected as items and made into structured statements when their body ends (`flow`). What the layout stores is
+//! found last.
 //!
-//! This crate must not know file formats or output languages. Start reading at [`compile::compile`], the whole way from a program to a
-//! module.
+//! This crate must not know file formats or output languages. Start reading at [`compile::compile`], the whole way from
+//! a program to a module.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 

@@ -13,7 +13,8 @@ pub(super) struct Logic {
     pub(super) stack: Vec<ExprId>,
     /// What MPS has pushed.
     branches: Vec<ExprId>,
-    /// State of the bus that coils hang on, a temporary: of the innermost master control, or of the step. `None` is always on.
+    /// State of the bus that coils hang on, a temporary: of the innermost master control, or of the step. `None` is
+    /// always on.
     pub(super) bus: Option<ExprId>,
     /// The zones of master control that are open: level and the bus around each.
     pub(super) zones: Vec<(u32, Option<ExprId>)>,
@@ -135,7 +136,8 @@ impl Lowerer<'_> {
         self.logic.stack.push(joined);
     }
 
-    /// State of the bit that the first operand names, as a contact: off, with a fault, where an index leads out of range.
+    /// State of the bit that the first operand names, as a contact: off, with a fault, where an index leads out of
+    /// range.
     fn contact_state(&mut self) -> ExprId {
         let Some(operand) = self.operand(0) else {
             return self.bit_const(false);

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 /// What characters are in ASCII, as the build script packs it.
 static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ascii.bin"));
 
-/// An identifier in lower case from the name of a file. What is not ASCII is transliterated; since other names can be so, too, a short
-/// number that belongs to this name alone follows then: `往复.gxw` becomes `wang_fu_4c1e`.
+/// An identifier in lower case from the name of a file. What is not ASCII is transliterated; since other names can be
+/// so, too, a short number that belongs to this name alone follows then: `往复.gxw` becomes `wang_fu_4c1e`.
 pub fn module_name(source: &str) -> String {
     let stem = stem(source);
     let mut name = String::new();
@@ -46,8 +46,8 @@ pub fn stem(source: &str) -> &str {
     }
 }
 
-/// Appends what a character is in ASCII. Those that stand for syllables or words (`往`: `Wang `) are set apart from what is before and
-/// after them.
+/// Appends what a character is in ASCII. Those that stand for syllables or words (`往`: `Wang `) are set apart from what
+/// is before and after them.
 fn transliterate(c: char, name: &mut String) {
     let (letters, mark) = ascii(c);
     if mark == "~" && !name.is_empty() && !name.ends_with('_') {
@@ -66,8 +66,8 @@ fn ascii(c: char) -> (&'static str, &'static str) {
     known.unwrap_or(("", "-"))
 }
 
-/// Of each character from U+0080 on its letters and digits in ASCII, and its mark: `~` if it stands for a syllable or a word, `-` if it
-/// stands for nothing, and `.` otherwise.
+/// Of each character from U+0080 on its letters and digits in ASCII, and its mark: `~` if it stands for a syllable or a
+/// word, `-` if it stands for nothing, and `.` otherwise.
 fn table() -> impl Iterator<Item = (&'static str, &'static str)> {
     const MARKS: [char; 3] = ['~', '-', '.'];
     static TEXT: OnceLock<String> = OnceLock::new();
@@ -88,8 +88,8 @@ fn short_hash(name: &str) -> u16 {
     (hash >> 16 ^ hash) as u16
 }
 
-/// Names that emitted files must not have, without their endings, in order: headers of C99 and POSIX, which other sources
-/// would find instead of the system's, and the files beside a program's own.
+/// Names that emitted files must not have, without their endings, in order: headers of C99 and POSIX, which other
+/// sources would find instead of the system's, and the files beside a program's own.
 const TAKEN: [&str; 71] = [
     "aio",
     "assert",

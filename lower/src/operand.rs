@@ -138,8 +138,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// An index where it leads to a device, or where it is asked whether it does. What else it can be is determined when all is
-    /// lowered.
+    /// An index where it leads to a device, or where it is asked whether it does. What else it can be is determined
+    /// when all is lowered.
     pub(super) fn within(&mut self, value: ExprId, bound: Option<(i32, i32)>) -> ExprId {
         let (low, high) = bound.unwrap_or((i32::MIN, i32::MAX));
         self.add(Expr::Within { value, low, high })
@@ -165,8 +165,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// The operand of the instruction at hand to which a place with this index belongs: its device, and where it is. A result of several
-    /// words continues after its operand.
+    /// The operand of the instruction at hand to which a place with this index belongs: its device, and where it is. A
+    /// result of several words continues after its operand.
     pub(super) fn indexed_operand(&self, place: Place, written: Index) -> Option<(Device, Span)> {
         let operands = self.instr().operands.iter();
         let found = operands.filter_map(|operand| match indexed(&operand.kind)? {
@@ -178,7 +178,8 @@ impl Lowerer<'_> {
             .max_by_key(|(device, _)| device.number)
     }
 
-    /// Between which values an index must lie so that it leads to `count` devices of those that its operand reaches, if these are given.
+    /// Between which values an index must lie so that it leads to `count` devices of those that its operand reaches, if
+    /// these are given.
     pub(super) fn bound(&self, place: Place, written: Index, count: u32) -> Option<(i32, i32)> {
         if self.bounds.is_empty() {
             return None;
@@ -279,8 +280,8 @@ impl Lowerer<'_> {
             .any(|&(first, last)| first <= number && end <= u64::from(last))
     }
 
-    /// The place of a device, without its index. If only this one is accessed, a register that is another name of an index register has
-    /// that one's.
+    /// The place of a device, without its index. If only this one is accessed, a register that is another name of an
+    /// index register has that one's.
     fn named(&self, device: Device, alone: bool) -> Place {
         let (class, number) = match alone {
             true => self.model.canonical(device.class, device.number),

@@ -9,8 +9,8 @@ use rungc_syntax::{Device, DeviceClass, OperandKind};
 const ERRORS: [u32; 2] = [8062, 8063];
 
 impl Lowerer<'_> {
-    /// The ports that an instruction uses: that of RS, those that a register may name, or the one that its last operand names; all if that
-    /// is not a constant.
+    /// The ports that an instruction uses: that of RS, those that a register may name, or the one that its last operand
+    /// names; all if that is not a constant.
     pub(super) fn use_ports(&mut self, needs: Needs, function: RtFn) {
         self.port_functions.push(function);
         if function == RtFn::Uinit && self.takes_work_area() {
@@ -36,8 +36,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Whether UINIT sets up a protocol with a work area, whose registers name others: free protocol, or master of a computer link
-    /// (hm-motion-controller §6.2).
+    /// Whether UINIT sets up a protocol with a work area, whose registers name others: free protocol, or master of a
+    /// computer link (hm-motion-controller §6.2).
     fn takes_work_area(&self) -> bool {
         const LINK_MASTER: i64 = 2;
         const FREE: i64 = 5;

@@ -1,5 +1,5 @@
-//! What the serial ports of a program may speak, as far as its set-up is known: all values of the registers and relays that choose are
-//! constants that the program moves there.
+//! What the serial ports of a program may speak, as far as its set-up is known: all values of the registers and relays
+//! that choose are constants that the program moves there.
 
 use super::Lowerer;
 use rungc_ir::layout::Wanted;
@@ -190,7 +190,8 @@ enum Written {
     Anything,
 }
 
-/// What an instruction does to a special register. An index is taken to stay where it does not matter, as where ports are found.
+/// What an instruction does to a special register. An index is taken to stay where it does not matter, as where ports
+/// are found.
 fn writes(instr: &Instr, register: u32) -> Written {
     let is = |i: usize, number: u32| {
         let operand = instr.operands.get(i).map(|operand| &operand.kind);

@@ -1,7 +1,8 @@
 //! Finds the timers whose coils may be executed more than once in a scan: they count the time of a scan only once
 //! ([`TimerKind::shared`](rungc_rt::TimerKind::shared)).
 //!
-//! A coil that occurs once, in code that a scan passes at most once, needs no memory of the scan in which it was executed.
+//! A coil that occurs once, in code that a scan passes at most once, needs no memory of the scan in which it was
+//! executed.
 
 use rungc_ir::node::{FunctionKind, LabelId, Module, Part, Stmt, TimerCoil};
 use rungc_ir::walk::{bodies, bodies_mut, statements};

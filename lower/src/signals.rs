@@ -35,7 +35,8 @@ pub(super) struct Signals {
 const STOP_INPUTS: std::ops::Range<u32> = 0..6;
 
 impl Lowerer<'_> {
-    /// The instruction at hand looks at inputs. One that needs the buffer memory of a module does so in the scan alone, which has it.
+    /// The instruction at hand looks at inputs. One that needs the buffer memory of a module does so in the scan alone,
+    /// which has it.
     pub(super) fn find_signals(&mut self, function: RtFn, slot: u16) {
         let operands = &self.instr().operands;
         let mut inputs = Vec::new();
@@ -83,7 +84,8 @@ impl Lowerer<'_> {
         self.signals.lookers.push(Looker { at, function, slot });
     }
 
-    /// The inputs that the registers of an axis may name, as bits: what its instructions say, or all if the program may write others.
+    /// The inputs that the registers of an axis may name, as bits: what its instructions say, or all if the program may
+    /// write others.
     fn mask_of_axis(&self, axis: &OperandKind) -> u16 {
         let Some(number) = output_of(axis) else {
             return u16::MAX;

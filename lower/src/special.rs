@@ -1,4 +1,5 @@
-//! Which special relays and registers something looks at. What the scan or an instruction would write to the others is left out.
+//! Which special relays and registers something looks at. What the scan or an instruction would write to the others is
+//! left out.
 
 use super::call::extents;
 use super::{LowerOptions, Lowerer, inline};

@@ -1,8 +1,8 @@
 //! The step ladder.
 //!
-//! A state's block runs while the state is on, and once more, with its bus off, when it has gone off. A transition turns the target
-//! on and marks the states it leaves; each is turned off where its block begins in the next scan, so that source and target are
-//! both on for one scan (h1u-h2u-programming §4.2). The mark is an edge memory of the state.
+//! A state's block runs while the state is on, and once more, with its bus off, when it has gone off. A transition
+//! turns the target on and marks the states it leaves; each is turned off where its block begins in the next scan, so
+//! that source and target are both on for one scan (h1u-h2u-programming §4.2). The mark is an edge memory of the state.
 
 use super::operand::fixed;
 use super::{Lowerer, basic_of};
@@ -114,8 +114,8 @@ impl Lowerer<'_> {
         self.steps.current = states;
     }
 
-    /// Turns a state off that a transition left in the scan before. It may have several blocks (a merge of branches has one of
-    /// its own): the first decides.
+    /// Turns a state off that a transition left in the scan before. It may have several blocks (a merge of branches has
+    /// one of its own): the first decides.
     fn leave_if_marked(&mut self, state: u32) {
         if !self.steps.begun.insert(state) || !self.steps.left.contains(&state) {
             return;

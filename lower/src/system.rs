@@ -1,5 +1,5 @@
-//! What the PLC itself does around the program: special relays and registers, END processing. Only for devices that something
-//! looks at.
+//! What the PLC itself does around the program: special relays and registers, END processing. Only for devices that
+//! something looks at.
 
 use super::Lowerer;
 use super::operand::fixed;

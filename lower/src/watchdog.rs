@@ -1,4 +1,5 @@
-//! Puts [`Stmt::Watch`] where a scan might not end: at what jumps back, and in loops that are long or as long as a device says.
+//! Puts [`Stmt::Watch`] where a scan might not end: at what jumps back, and in loops that are long or as long as a
+//! device says.
 //!
 //! Loops that are known to be short are left alone, so most programs have no watchdog at all.
 
@@ -13,7 +14,8 @@ use rungc_ir::worst::lengths;
 use rungc_syntax::OperandKind;
 use std::collections::BTreeMap;
 
-/// A loop that executes no more steps than these in all its iterations needs no watching: the fastest PLC takes some milliseconds.
+/// A loop that executes no more steps than these in all its iterations needs no watching: the fastest PLC takes some
+/// milliseconds.
 const SHORT: u64 = 20_000;
 
 /// What is known of a function.

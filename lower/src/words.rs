@@ -1,5 +1,6 @@
-//! Instructions on words and floats that the runtime has functions for and that are inline code: moves, conversions, rotations,
-//! arithmetic of floats. The runtime is called only where operands or flags ask for more than the code here does.
+//! Instructions on words and floats that the runtime has functions for and that are inline code: moves, conversions,
+//! rotations, arithmetic of floats. The runtime is called only where operands or flags ask for more than the code here
+//! does.
 
 use super::Lowerer;
 use super::operand::{Guards, Target};
@@ -11,8 +12,8 @@ use rungc_syntax::{DeviceClass, Instr, OperandKind};
 /// A value is not a float, or outside a function's domain.
 const DOMAIN: u16 = rungc_rt::Fault::DOMAIN.0;
 
-/// Whether an instruction that a runtime function implements is inline code, judging by its operands. Such an instruction stores no
-/// flags that nothing looks at.
+/// Whether an instruction that a runtime function implements is inline code, judging by its operands. Such an
+/// instruction stores no flags that nothing looks at.
 #[expect(
     clippy::wildcard_enum_match_arm,
     reason = "the other functions of the runtime are called"
@@ -97,7 +98,8 @@ impl Lowerer<'_> {
         true
     }
 
-    /// Whether something looks at a flag that inline code does not set: float arithmetic has flags for results too small and too large.
+    /// Whether something looks at a flag that inline code does not set: float arithmetic has flags for results too
+    /// small and too large.
     fn calls_for_flags(&self, function: RtFn) -> bool {
         matches!(function, RtFn::Eadd | RtFn::Esub | RtFn::Emul | RtFn::Ediv)
             && [M_BORROW, M_CARRY]
@@ -237,7 +239,8 @@ impl Lowerer<'_> {
         self.guarded(guards, |this| this.store_bit(target, 0, on));
     }
 
-    /// ROR and ROL by up to 16 places, as the program states; the bit that passed the end last is in the carry flag, too.
+    /// ROR and ROL by up to 16 places, as the program states; the bit that passed the end last is in the carry flag,
+    /// too.
     fn rotate(&mut self, right: bool) {
         let wide = self.wide();
         let width = if wide { 32 } else { 16 };

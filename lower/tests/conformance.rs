@@ -1,5 +1,5 @@
-//! The conformance cases as judges of diagnostics: each program that must be rejected is, with the PLC's code and at the line that the
-//! case names; no other program has an error.
+//! The conformance cases as judges of diagnostics: each program that must be rejected is, with the PLC's code and at
+//! the line that the case names; no other program has an error.
 
 use rungc_analysis::check::check;
 use rungc_analysis::resolve::resolve;

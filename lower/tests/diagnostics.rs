@@ -1,5 +1,5 @@
-//! What diagnostics look like: a snapshot of each code's wrong example, and of programs that show details. The right example of a
-//! code has no error and not that code.
+//! What diagnostics look like: a snapshot of each code's wrong example, and of programs that show details. The right
+//! example of a code has no error and not that code.
 
 mod rendered;
 

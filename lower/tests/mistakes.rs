@@ -1,4 +1,5 @@
-//! Programs with one mistake each, as people make them: one mistake is one error, at its place, and the help says what to write.
+//! Programs with one mistake each, as people make them: one mistake is one error, at its place, and the help says what
+//! to write.
 
 mod rendered;
 
@@ -158,7 +159,8 @@ fn another_language_is_one_error() {
     insta::assert_snapshot!(pages(ModelId::Fx3u, LANGUAGES));
 }
 
-/// An unknown code of a project may be the NEXT that seems to be missing; a line of a list that is not an instruction is not.
+/// An unknown code of a project may be the NEXT that seems to be missing; a line of a list that is not an instruction
+/// is not.
 #[test]
 fn an_unknown_code_may_be_any_instruction() {
     let list = "FOR K3\nLD X0\nOUT Y0\n= Y1\nLD X1\nOUT Y1\nEND\n";

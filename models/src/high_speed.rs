@@ -22,8 +22,8 @@ pub struct HighSpeed {
     pub reset_relays: Option<ResetRelays>,
     /// How many comparisons at the count it makes at a time, tables among them; `None`: any number.
     pub most_comparisons: Option<u32>,
-    /// A comparison acts when the count crosses the value in either direction, also where the program changes one of them, and not
-    /// only at a count that equals it: the zones in which such comparisons run.
+    /// A comparison acts when the count crosses the value in either direction, also where the program changes one of
+    /// them, and not only at a count that equals it: the zones in which such comparisons run.
     pub crossing_zones: Option<RangeInclusive<i32>>,
     /// The table of HSCT.
     pub patterns: TableMode,
@@ -173,7 +173,8 @@ const COUNTERS: &[Counter] = &{
     ]
 };
 
-/// What the FX family's models have in common: comparisons act at a count that equals the value, and an edge of a reset input resets.
+/// What the FX family's models have in common: comparisons act at a count that equals the value, and an edge of a reset
+/// input resets.
 pub(crate) const FX: HighSpeed = HighSpeed {
     counters: COUNTERS,
     four_fold: &[],
@@ -301,7 +302,8 @@ pub struct Axis {
 pub struct Meter {
     /// The input.
     pub input: u32,
-    /// First of three pairs of registers: the ring counter at the rising edge, at the falling edge, the width or the period.
+    /// First of three pairs of registers: the ring counter at the rising edge, at the falling edge, the width or the
+    /// period.
     pub registers: Register,
     /// Relays of which all must be on; none: it always measures.
     pub measures: &'static [Relay],

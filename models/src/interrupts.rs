@@ -131,8 +131,8 @@ impl AdvancedPointers {
 /// What the edges of two inputs interrupt, as a register says (hm-motion-controller §5.5.6).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Capture {
-    /// The register. Its low digit is 0 if the first input's falling edge interrupts, its high digit 1 if the second one's falling
-    /// edge does, 2 if its rising edge does.
+    /// The register. Its low digit is 0 if the first input's falling edge interrupts, its high digit 1 if the second
+    /// one's falling edge does, 2 if its rising edge does.
     pub register: Register,
     /// The inputs.
     pub inputs: [u32; 2],
@@ -229,8 +229,8 @@ pub enum Kind {
 pub struct Precedence {
     /// The first kind runs first. Without kinds, and within one, the lower pointer runs first.
     pub kinds: &'static [Kind],
-    /// Requests that DI keeps waiting run in the order in which they came; only among simultaneous ones does the kind decide. Otherwise it
-    /// does of all.
+    /// Requests that DI keeps waiting run in the order in which they came; only among simultaneous ones does the kind
+    /// decide. Otherwise it does of all.
     pub first_come: bool,
 }
 

@@ -1,5 +1,5 @@
-//! The PLC models: which devices each has, which of them are latched, what its timers and counters are, and all else in which it
-//! differs from the others.
+//! The PLC models: which devices each has, which of them are latched, what its timers and counters are, and all else in
+//! which it differs from the others.
 //!
 //! A model is a file here, with the tables of its special devices, and a line in [`models!`].
 
@@ -86,7 +86,8 @@ pub enum Fit {
 }
 
 impl ModelId {
-    /// The model with this name on the command line, e.g. `h2u`, or with this CPU type, e.g. `fx3uc`. Case does not matter.
+    /// The model with this name on the command line, e.g. `h2u`, or with this CPU type, e.g. `fx3uc`. Case does not
+    /// matter.
     pub fn from_name(name: &str) -> Option<Self> {
         let is = |known: &str| known.eq_ignore_ascii_case(name);
         Self::ALL.into_iter().find(|&id| {
@@ -95,8 +96,8 @@ impl ModelId {
         })
     }
 
-    /// The model that a project's CPU type means, e.g. `FX3U/FX3UC`, and how well it fits. Projects for the makers' own models are
-    /// made for the Mitsubishi model they descend from.
+    /// The model that a project's CPU type means, e.g. `FX3U/FX3UC`, and how well it fits. Projects for the makers' own
+    /// models are made for the Mitsubishi model they descend from.
     pub fn for_cpu(cpu: &str) -> Option<(Self, Fit)> {
         let names = || cpu.split('/').map(str::trim);
         let nearest = |name: &str| {
@@ -172,8 +173,8 @@ pub enum ErrorNumbers {
 pub struct Model {
     /// Which.
     pub id: ModelId,
-    /// The model whose instructions it has, with their forms and operands: itself, or the one whose programs it takes. Rows of the
-    /// catalogue that name this model hold for it, too.
+    /// The model whose instructions it has, with their forms and operands: itself, or the one whose programs it takes.
+    /// Rows of the catalogue that name this model hold for it, too.
     pub instructions: ModelId,
     /// Name on the command line: `h2u`.
     pub name: &'static str,
@@ -183,17 +184,18 @@ pub struct Model {
     pub title: &'static str,
     /// CPU types of projects that are for it, in upper case: `FX3U`, `FX3UC`. A program cannot distinguish them.
     pub cpus: &'static [&'static str],
-    /// CPU types that are not among the models, in upper case, and resemble this one most ([`Fit::Nearest`]), each with what is different
-    /// there.
+    /// CPU types that are not among the models, in upper case, and resemble this one most ([`Fit::Nearest`]), each with
+    /// what is different there.
     pub nearest: &'static [(&'static str, &'static str)],
-    /// Its devices: general and special ranges of every class, P, I and N included. Sorted by class and first number, disjoint.
+    /// Its devices: general and special ranges of every class, P, I and N included. Sorted by class and first number,
+    /// disjoint.
     pub ranges: &'static [Range],
     /// Its timers, sorted, disjoint; they cover the ranges of class T.
     pub timers: &'static [Timers],
     /// Those of them whose unit a relay changes.
     pub fast_timers: Option<&'static FastTimers>,
-    /// Devices of which the project's parameters choose the latched ones: class, first and last number. What `ranges` says of them
-    /// is the factory setting.
+    /// Devices of which the project's parameters choose the latched ones: class, first and last number. What `ranges`
+    /// says of them is the factory setting.
     pub latch_choices: &'static [(DeviceClass, u32, u32)],
     /// Latched devices are kept over power-off only while this special register holds this value (HM); `None`: always.
     pub latch_key: Option<(Register, i16)>,
@@ -209,12 +211,13 @@ pub struct Model {
     pub z_pairs_with_v: bool,
     /// Relay that shows an operation error: M8067, or M8006 (HM); see [`rungc_rt::report`].
     pub error_relay: Relay,
-    /// Whether that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than with RUN.
+    /// Whether that relay goes off at the beginning of each scan (FX and L01S: only M8068 keeps an error) rather than
+    /// with RUN.
     pub errors_last_a_scan: bool,
     /// Whether M8046 shows active annunciators as well as states.
     pub annunciators_are_states: bool,
-    /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes know only 6706, for
-    /// devices and values.
+    /// Code of an operation error in an operand's value: 6707 on H1U/H2U (h1u-h2u-programming §8.2); FX and its likes
+    /// know only 6706, for devices and values.
     pub value_error: u16,
     /// Which errors that are found before a run have a number.
     pub error_numbers: ErrorNumbers,
@@ -222,8 +225,8 @@ pub struct Model {
     pub notations: Classes,
     /// Whether its programs name instructions that have only a 32-bit form without the D: `ECMP` for `DECMP`.
     pub bare_names: bool,
-    /// Steps of an applied instruction: 1 plus this many for each operand of the 16-bit and of the 32-bit form; `None`: as the
-    /// catalogue's rows say.
+    /// Steps of an applied instruction: 1 plus this many for each operand of the 16-bit and of the 32-bit form; `None`:
+    /// as the catalogue's rows say.
     pub steps_per_operand: Option<(u8, u8)>,
     /// Whether its clock shows years of two digits, and takes such.
     pub two_digit_years: bool,
@@ -239,12 +242,13 @@ pub struct Model {
     pub pulse_outputs: &'static [(DeviceClass, u32, u32)],
     /// Those of them that keep a position, for positioning.
     pub position_outputs: &'static [(DeviceClass, u32, u32)],
-    /// Parameters of axes that start with a value other than 0, in addition to the output, which is at first an axis' own
-    /// ([`rungc_rt::axis_place`]).
+    /// Parameters of axes that start with a value other than 0, in addition to the output, which is at first an axis'
+    /// own ([`rungc_rt::axis_place`]).
     pub axis_defaults: &'static [(u32, i16)],
     /// Special data registers that are other names of index registers.
     pub index_aliases: &'static [IndexAlias],
-    /// Its special devices; see [`Model::special`]. Each table is sorted by class and number, and none holds what another holds.
+    /// Its special devices; see [`Model::special`]. Each table is sorted by class and number, and none holds what
+    /// another holds.
     pub special: &'static [&'static [Special]],
     /// Relays that go off when it goes from RUN to STOP, by their numbers; see [`Model::cleared_in_stop`].
     pub cleared_in_stop: &'static [&'static [RangeInclusive<u16>]],

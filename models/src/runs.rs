@@ -50,8 +50,8 @@ pub fn rt_class(class: DeviceClass) -> Option<Class> {
     })
 }
 
-/// Whether a run ends before device `number` of `class` although the model has more: the special devices and the 32-bit counters
-/// are separate from the devices before them.
+/// Whether a run ends before device `number` of `class` although the model has more: the special devices and the 32-bit
+/// counters are separate from the devices before them.
 pub fn is_border(class: DeviceClass, number: u32) -> bool {
     match class {
         DeviceClass::M | DeviceClass::D => number == FIRST_SPECIAL,
@@ -76,8 +76,8 @@ pub fn words_of_bits(bit: u8, count: u32) -> u32 {
 }
 
 impl Model {
-    /// The device that a name stands for: some special registers are other names of index registers (D8028 is Z0), however they are
-    /// reached.
+    /// The device that a name stands for: some special registers are other names of index registers (D8028 is Z0),
+    /// however they are reached.
     pub fn canonical(&self, class: DeviceClass, number: u32) -> (DeviceClass, u32) {
         if class != DeviceClass::D || number < FIRST_SPECIAL {
             return (class, number);

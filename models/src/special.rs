@@ -90,7 +90,8 @@ pub struct ConstantScan {
 pub enum RunCommand {
     /// M8036 puts it in RUN while M8035 is on, and goes off (h1u-h2u-programming §8.9).
     Forced,
-    /// While D8004 holds [`REMOTE_KEY`](rungc_rt::special::REMOTE_KEY) and M8005 is off, M8004 decides on RUN and STOP (hm-motion-controller §5.7).
+    /// While D8004 holds [`REMOTE_KEY`](rungc_rt::special::REMOTE_KEY) and M8005 is off, M8004 decides on RUN and STOP
+    /// (hm-motion-controller §5.7).
     Remote,
 }
 
@@ -146,14 +147,15 @@ impl Model {
         row.is_some_and(Special::works)
     }
 
-    /// Whether a special device is one that the scan keeps on this model: M8034, for one, switches outputs off on most models and is
-    /// an interrupt request on HM.
+    /// Whether a special device is one that the scan keeps on this model: M8034, for one, switches outputs off on most
+    /// models and is an interrupt request on HM.
     pub fn scan_keeps<D: SpecialDevice>(&self, device: D) -> bool {
         let row = self.special(D::CLASS, device.number());
         row.is_some_and(Special::is_kept_by_scan)
     }
 
-    /// Whether its registers from D8030 on are an oscilloscope's (HM). On L01S, they are the values of analog inputs, in one row.
+    /// Whether its registers from D8030 on are an oscilloscope's (HM). On L01S, they are the values of analog inputs,
+    /// in one row.
     pub fn has_oscilloscope(&self) -> bool {
         let row = self.special(DeviceClass::D, D_SCOPE_STATE.number());
         row.is_some_and(|row| row.is_kept_by_scan() && row.first == row.last)
@@ -346,11 +348,13 @@ pub(crate) const TIMING: Reason = because(
 );
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");
 
-/// Writes a table of special devices, a row a line:
-/// `class first[-last] access default status "meaning";` with the access `r` or `rw` and the status `scan`, `by("…")` or
-/// `inert(…)`.
+/// Writes a table of special devices, a row a line: `class first[-last] access default status "meaning";` with the
+/// access `r` or `rw` and the status `scan`, `by("…")` or `inert(…)`.
 macro_rules! specials {
-    ($($class:ident $first:literal $(- $last:literal)? $access:ident $default:literal $status:ident $(($why:expr))? $meaning:literal;)*) => {
+    ($(
+        $class:ident $first:literal $(- $last:literal)?
+        $access:ident $default:literal $status:ident $(($why:expr))? $meaning:literal;
+    )*) => {
         &[$($crate::special::Special {
             class: ::rungc_syntax::DeviceClass::$class,
             first: $first,

@@ -1,7 +1,7 @@
 //! The settings of a project: `rungc.toml`, which lies in the folder of a program or above it.
 //!
-//! The file is read strictly: a key that is not known, or a value that does not fit, is a diagnostic with its place. Whoever calls
-//! decides what a setting does; what the command line says wins over the file.
+//! The file is read strictly: a key that is not known, or a value that does not fit, is a diagnostic with its place.
+//! Whoever calls decides what a setting does; what the command line says wins over the file.
 //!
 //! This crate must not know output languages. Start reading at [`Project`].
 #![deny(missing_docs)]
@@ -58,7 +58,8 @@ pub struct Project {
     pub modbus: Vec<modbus::Row>,
     /// `[[module]]`: the special modules that are fitted.
     pub modules: Vec<module::Row>,
-    /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is named.
+    /// `[latched]`: devices that keep their value over power-off, in place of those of the model for each class that is
+    /// named.
     pub latched: Vec<Range>,
     /// `[retain] file`: where `run` and `serve` keep latched devices.
     pub retain: Option<PathBuf>,

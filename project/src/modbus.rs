@@ -1,7 +1,7 @@
 //! `[[modbus]]`: what a PLC asks as the master of a Modbus table (h1u-h2u-programming §5.7.4, `D8126` = 60h).
 //!
-//! The editor of H1U and H2U downloads the table as data whose form is not published. Here each row is a MODBUS2 at the end of the main program,
-//! driven by its trigger, so rows take turns as these instructions do.
+//! The editor of H1U and H2U downloads the table as data whose form is not published. Here each row is a MODBUS2 at the
+//! end of the main program, driven by its trigger, so rows take turns as these instructions do.
 
 use crate::{Error, Named, Project};
 use rungc_models::Model;

@@ -23,8 +23,8 @@ impl Project {
         bounds.map(bound).collect()
     }
 
-    /// Gives the program of `file` the latched devices and special modules of the settings and, if the project is about it, the Modbus table.
-    /// What the model does not have is a mistake.
+    /// Gives the program of `file` the latched devices and special modules of the settings and, if the project is about
+    /// it, the Modbus table. What the model does not have is a mistake.
     pub fn complete(&self, file: &Path, program: &mut Program, model: &Model) -> Result<(), Error> {
         self.check_served(model)?;
         self.fit_modules(program, model)?;

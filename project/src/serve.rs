@@ -19,7 +19,8 @@ pub struct Serve {
     pub fx: Vec<SocketAddr>,
     /// What the serial ports are connected to.
     pub serial: Vec<SerialLine>,
-    /// Devices that an emitted program stores, so that its ports serve them, in addition to those that the program names.
+    /// Devices that an emitted program stores, so that its ports serve them, in addition to those that the program
+    /// names.
     pub devices: Vec<Range>,
 }
 

@@ -4,8 +4,8 @@ use rungc_models::{Model, ModelId};
 use std::path::Path;
 use toml::Value;
 
-/// A file for a program, with a comment on each key. What is unknown appears as a comment; so does a model that the program
-/// does not name itself.
+/// A file for a program, with a comment on each key. What is unknown appears as a comment; so does a model that the
+/// program does not name itself.
 pub fn template(program: Option<&Path>, model: Option<ModelId>) -> String {
     let models: Vec<_> = ModelId::ALL.iter().map(|&id| Model::get(id).name).collect();
     let program = match program {

@@ -13,8 +13,8 @@ pub const VARIABLE: &str = "RUNGC_CACHE_DIR";
 /// How many folders of one kind are used at the same time at most.
 const SLOTS: usize = 64;
 
-/// The cache: what [`VARIABLE`] names, else `rungc` in the user's cache folder (`~/.cache` on Linux, `~/Library/Caches` on macOS,
-/// `%LOCALAPPDATA%` on Windows). What is in it belongs to these sources: others have separate folders.
+/// The cache: what [`VARIABLE`] names, else `rungc` in the user's cache folder (`~/.cache` on Linux, `~/Library/Caches`
+/// on macOS, `%LOCALAPPDATA%` on Windows). What is in it belongs to these sources: others have separate folders.
 ///
 /// # Errors
 /// There is no such folder, or it cannot be written.

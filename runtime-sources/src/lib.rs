@@ -1,7 +1,8 @@
 //! The runtime as data: the sources of `rungc-rt` and of `libm`, all that it depends on.
 //!
-//! Emitted crates depend on them by path, emitted C links the static library built from them. They come with a lock file and build
-//! without a registry. [`library`] builds that static library once for each target and keeps it in the user's cache.
+//! Emitted crates depend on them by path, emitted C links the static library built from them. They come with a lock
+//! file and build without a registry. [`library`] builds that static library once for each target and keeps it in the
+//! user's cache.
 //!
 //! The crate must not use the runtime that it carries, nor know what is emitted beside it. Start reading at [`files`].
 
@@ -11,14 +12,15 @@ pub mod library;
 use std::fmt::Write;
 use std::sync::OnceLock;
 
-/// The sources as the build script packs them: paths and contents in turn, each ended by NUL, deflated. `cargo xtask package` puts it
-/// into the published package.
+/// The sources as the build script packs them: paths and contents in turn, each ended by NUL, deflated.
+/// `cargo xtask package` puts it into the published package.
 pub static PACKED: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/sources.bin"));
 
 /// How the manifest names the crate that the runtime depends on, and how it does where that lies beside the sources.
 const LIBM_DEPENDENCY: (&str, &str) = ("libm = \"0.2\"", "libm = { path = \"libm\" }");
 
-/// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and `src/…`.
+/// The files of the crate, by their paths relative to its folder, in a fixed order: `Cargo.toml`, then `libm/…` and
+/// `src/…`.
 pub fn files() -> Vec<(String, String)> {
     let mut files = unpacked().to_vec();
     files[0].1 = manifest();
@@ -44,7 +46,8 @@ fn text(path: &str) -> &'static str {
     file.map_or("", |(_, text)| text)
 }
 
-/// The manifest without what only tests need, which is inherited from a workspace that is not there, and with `libm` beside it.
+/// The manifest without what only tests need, which is inherited from a workspace that is not there, and with `libm`
+/// beside it.
 fn manifest() -> String {
     let mut kept = String::new();
     let mut is_for_tests = false;
@@ -64,8 +67,9 @@ fn manifest() -> String {
 /// The version of emitted crates.
 pub const EMITTED_VERSION: &str = "0.1.0";
 
-/// A `Cargo.lock` for emitted crates: each by its name, with the names of what it depends on in order, `rungc-rt` among them; without
-/// any, for the runtime alone. All packages are in it: with it `cargo build --locked --offline` needs nothing but the sources.
+/// A `Cargo.lock` for emitted crates: each by its name, with the names of what it depends on in order, `rungc-rt` among
+/// them; without any, for the runtime alone. All packages are in it: with it `cargo build --locked --offline` needs
+/// nothing but the sources.
 pub fn lock_file(emitted: &[(&str, &[&str])]) -> String {
     let mut packages: Vec<(&str, &str, &[&str])> = vec![
         ("libm", version(text("libm/Cargo.toml")), &[]),

@@ -99,7 +99,8 @@ pub fn sources() -> Vec<(String, String)> {
     files
 }
 
-/// The library for a target, from the cache if it is there. `building` is called before it is built, which takes seconds to minutes.
+/// The library for a target, from the cache if it is there. `building` is called before it is built, which takes
+/// seconds to minutes.
 ///
 /// # Errors
 /// The toolchain cannot build it, or the cache cannot be written.

@@ -1,6 +1,7 @@
 //! Sorting and sets for lists that are short or sorted once.
 //!
-//! The methods of the standard library are compiled anew for each type of element, 6 KB each: these have one copy of the algorithm.
+//! The methods of the standard library are compiled anew for each type of element, 6 KB each: these have one copy of
+//! the algorithm.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};

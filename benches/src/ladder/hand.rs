@@ -1,6 +1,7 @@
-//! The C that an engineer would write by hand for a program: a struct of arrays of all devices that the machine has, one assignment
-//! for each coil, functions of 200 rungs. It knows nothing of PLCs beyond what the program does, so that does not slow it down: a timer
-//! counts milliseconds and knows no current value in its units, arithmetic sets no flags.
+//! The C that an engineer would write by hand for a program: a struct of arrays of all devices that the machine has,
+//! one assignment for each coil, functions of 200 rungs. It knows nothing of PLCs beyond what the program does, so that
+//! does not slow it down: a timer counts milliseconds and knows no current value in its units, arithmetic sets no
+//! flags.
 
 use super::{Action, Chain, Contact, Device, Ladder, Operation, RELAYS, Rung, TERMINALS};
 use super::{Kind, process};
@@ -18,8 +19,8 @@ const MIXED: &str = include_str!("../../templates/hand_mixed.h");
 /// What `process` uses.
 const PROCESS: &str = include_str!("../../templates/hand_process.h");
 
-/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` also with the milliseconds
-/// since the last scan.
+/// The header of a program written by hand: `struct plc` and `void PREFIX_scan(struct plc *p)`, in `mixed` also with
+/// the milliseconds since the last scan.
 pub fn header(ladder: &Ladder, prefix: &str) -> String {
     let mut out = String::from("#include <stdbool.h>\n#include <stdint.h>\n#include <string.h>\n");
     let mut devices = format!("bool X[{TERMINALS}], Y[{TERMINALS}], M[{RELAYS}];");

@@ -7,7 +7,8 @@
 //! | `mixed` | `contacts` with timers, counters, moves, arithmetic, SET and RST |
 //! | `process` | `contacts` with moves of blocks, shifts, conversions and floats |
 //!
-//! [`list`](Ladder::list) is the program as an instruction list, [`hand::source`] the C that an engineer would write for it.
+//! [`list`](Ladder::list) is the program as an instruction list, [`hand::source`] the C that an engineer would write
+//! for it.
 
 mod generate;
 pub mod hand;

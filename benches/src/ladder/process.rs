@@ -1,6 +1,8 @@
-//! What rungs of `process` drive: moves of blocks, shifts, conversions and floats, as the control of a process has them.
+//! What rungs of `process` drive: moves of blocks, shifts, conversions and floats, as the control of a process has
+//! them.
 //!
-//! Floats come from words, are added and multiplied once, and become words again, so that none ever leaves the range of a float.
+//! Floats come from words, are added and multiplied once, and become words again, so that none ever leaves the range of
+//! a float.
 
 use super::Device;
 use crate::random::Random;

@@ -193,8 +193,8 @@ pub fn compilers() -> Vec<&'static str> {
     found
 }
 
-/// Emits a module with a `main` around these statements, compiles it strictly with each compiler, runs it, and returns what
-/// it prints.
+/// Emits a module with a `main` around these statements, compiles it strictly with each compiler, runs it, and returns
+/// what it prints.
 pub fn run_c(module: &Module, statements: &str) -> String {
     let folder = tempfile::tempdir().expect("a folder for the C files");
     let mut sources = Vec::new();

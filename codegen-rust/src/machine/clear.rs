@@ -11,8 +11,8 @@ use rungc_emit::storage::{Keep, Kind, Run};
 use rungc_syntax::DeviceClass;
 
 impl Generator<'_> {
-    /// The statements that give special devices of `plc` their defaults: latched ones, when the PLC is switched on for the first time, or all
-    /// others.
+    /// The statements that give special devices of `plc` their defaults: latched ones, when the PLC is switched on for
+    /// the first time, or all others.
     pub(super) fn preset(&mut self, plc: &TokenStream, latched: bool) -> TokenStream {
         let module = self.module;
         let bits = module.initial_bits.iter().map(|relay| relay.number());

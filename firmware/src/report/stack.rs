@@ -1,5 +1,6 @@
-//! A bound of the stack that an image for a Cortex-M takes, from its machine code: what each function takes ([`super::thumb`]), along the longest
-//! way through the calls. A call through a register may lead to every function whose address is stored somewhere.
+//! A bound of the stack that an image for a Cortex-M takes, from its machine code: what each function takes
+//! ([`super::thumb`]), along the longest way through the calls. A call through a register may lead to every function
+//! whose address is stored somewhere.
 
 use super::elf::Elf;
 use super::thumb::{Frame, frame};
@@ -150,8 +151,8 @@ impl Functions {
         self.by_address.values().any(|f| f.frame.indirect)
     }
 
-    /// How much stack a function of this name takes with all that it calls. Programs and the runtime are not recursive, so that on one way
-    /// through the calls a pointer leads to each stored function at most once.
+    /// How much stack a function of this name takes with all that it calls. Programs and the runtime are not recursive,
+    /// so that on one way through the calls a pointer leads to each stored function at most once.
     pub fn depth(&self, name: &str) -> Result<u32, Unbounded> {
         let found = self.by_address.iter().find(|(_, f)| f.name == name);
         let (address, _) = found.ok_or_else(|| Unbounded::Missing(name.to_string()))?;

@@ -21,8 +21,8 @@ const SP: u16 = 13;
 /// Link register.
 const LR: u16 = 14;
 
-/// Reads the instructions of a function that takes the addresses `from` to `end`. `code` gives the halfword at an address; `None` where
-/// there are data.
+/// Reads the instructions of a function that takes the addresses `from` to `end`. `code` gives the halfword at an
+/// address; `None` where there are data.
 pub fn frame(from: u32, end: u32, code: &impl Fn(u32) -> Option<u16>) -> Frame {
     let mut reader = Reader {
         frame: Frame::default(),

@@ -320,7 +320,8 @@ fn wrong_link(random: &mut Random, head: &str, crlf: bool) -> Bytes {
     enq(&text, crlf)
 }
 
-/// A block of the master, which is not answered, or its question, which is; `first` is the master's first register, `own` the PLC's.
+/// A block of the master, which is not answered, or its question, which is; `first` is the master's first register,
+/// `own` the PLC's.
 fn nn_slave(
     random: &mut Random,
     registers: &mut Registers,

@@ -1,4 +1,5 @@
-//! Storms on servers over TCP: one connection sends good frames, others bad ones, and some stop in the middle of a frame.
+//! Storms on servers over TCP: one connection sends good frames, others bad ones, and some stop in the middle of a
+//! frame.
 
 use super::Outcome;
 use crate::plc::{Plc, module, used_ns};

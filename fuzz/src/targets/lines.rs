@@ -1,7 +1,7 @@
 //! Serial lines: whatever a partner sends, the next good frame is understood.
 //!
-//! The input is a list of pieces. The first byte of a piece says how long it is (bits 0 to 4, plus 1), whether it gets what makes a frame of it
-//! (bit 5), and how long the line is silent after it (bits 6 and 7).
+//! The input is a list of pieces. The first byte of a piece says how long it is (bits 0 to 4, plus 1), whether it gets
+//! what makes a frame of it (bit 5), and how long the line is silent after it (bits 6 and 7).
 
 use super::Target;
 use crate::partner::{Partner, Registers};

@@ -5,17 +5,18 @@ use rungc_models::Model;
 use rungc_rt::{Register, Relay};
 use rungc_syntax::DeviceClass;
 
-/// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression). A special register that is another name of
-/// an index register is that register, however a place or a run leads to it ([`Model::canonical`]).
+/// A bit or word device, perhaps indexed: number = `number` + `index` (an `I32` expression). A special register that is
+/// another name of an index register is that register, however a place or a run leads to it ([`Model::canonical`]).
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub struct Place {
     /// Class.
     pub class: DeviceClass,
     /// Number without the index.
     pub number: u32,
-    /// What to add. A place with an index may only be accessed where [`Expr::InRange`](super::Expr::InRange) of it is known to hold; that of an
-    /// [`Expr::Stride`](super::Expr::Stride) does. Which devices it may lead to says [`crate::reach`]; all of them are stored. An indexed
-    /// access of a word of C200 and up reads the low word, and writes the sign-extended word.
+    /// What to add. A place with an index may only be accessed where [`Expr::InRange`](super::Expr::InRange) of it is
+    /// known to hold; that of an [`Expr::Stride`](super::Expr::Stride) does. Which devices it may lead to says
+    /// [`crate::reach`]; all of them are stored. An indexed access of a word of C200 and up reads the low word, and
+    /// writes the sign-extended word.
     pub index: Option<ExprId>,
 }
 
@@ -29,8 +30,8 @@ impl Place {
         }
     }
 
-    /// Where the high word of the pair at this place is: in V for Z on models where `z_pairs_with_v`, else in the next device. A 32-bit
-    /// counter has none.
+    /// Where the high word of the pair at this place is: in V for Z on models where `z_pairs_with_v`, else in the next
+    /// device. A 32-bit counter has none.
     #[must_use]
     pub fn high_word(self, model: &Model) -> Self {
         if self.class == DeviceClass::Z && model.z_pairs_with_v {
@@ -55,7 +56,8 @@ impl From<Register> for Place {
     }
 }
 
-/// What [`Expr::Read`](super::Expr::Read) reads and [`Stmt::Write`](super::Stmt::Write) writes: a value of one type, in a device or in several.
+/// What [`Expr::Read`](super::Expr::Read) reads and [`Stmt::Write`](super::Stmt::Write) writes: a value of one type, in
+/// a device or in several.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub struct Access {
     /// The device, or the first of them.
@@ -67,18 +69,20 @@ pub struct Access {
 /// What of a device, or of those from it on, is read or written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub enum AccessKind {
-    /// `Bit`: state of a bit device. Of T and C it is the contact, which is only read; X is written by force and at its own edge.
+    /// `Bit`: state of a bit device. Of T and C it is the contact, which is only read; X is written by force and at its
+    /// own edge.
     Bit,
     /// `Bit`: bit 0–15 of a word device.
     WordBit(u8),
     /// `I16`: word device; for T and C0–C199 the current value.
     Word,
-    /// `I32`: the pair (n+1, n); for C200 and up the current value; for Z on models where `z_pairs_with_v` the pair (Vn, Zn).
+    /// `I32`: the pair (n+1, n); for C200 and up the current value; for Z on models where `z_pairs_with_v` the pair
+    /// (Vn, Zn).
     Pair,
     /// `F32`: the pair's bits as a float.
     Float,
-    /// `I32` if `wide`, else `I16`: as many bit devices as `4 * digits`, the lowest bit first. A read extends them with zeros, a write leaves the
-    /// value's other bits out.
+    /// `I32` if `wide`, else `I16`: as many bit devices as `4 * digits`, the lowest bit first. A read extends them with
+    /// zeros, a write leaves the value's other bits out.
     Nibbles {
         /// 1 to 8 if `wide`, else 1 to 4.
         digits: u8,
@@ -133,8 +137,8 @@ impl Access {
         index.is_none().then_some((class, number))
     }
 
-    /// How many devices from the place on it covers at most. The high word of a pair may be elsewhere ([`Place::high_word`]), or, of a
-    /// 32-bit counter, nowhere.
+    /// How many devices from the place on it covers at most. The high word of a pair may be elsewhere
+    /// ([`Place::high_word`]), or, of a 32-bit counter, nowhere.
     pub fn extent(&self) -> u32 {
         match self.kind {
             AccessKind::Bit | AccessKind::WordBit(_) | AccessKind::Word => 1,

@@ -55,7 +55,8 @@ pub enum Expr {
     Cell(CellId),
     /// `I32`: entry of a table. The index, an `I32`, must be known to be at least 0 and less than the table's length.
     Entry(TableId, ExprId),
-    /// `I32`: the number of an iteration of the enclosing [`Stmt::Repeat`](super::Stmt::Repeat), times this factor (at least 1). Occurs only as an index.
+    /// `I32`: the number of an iteration of the enclosing [`Stmt::Repeat`](super::Stmt::Repeat), times this factor (at
+    /// least 1). Occurs only as an index.
     Stride(TempId, u32),
     /// Not, of a `Bit`.
     Not(ExprId),
@@ -83,7 +84,8 @@ pub enum Expr {
     HighWord(ExprId),
     /// `Bit` to `I16`: 0 or 1.
     BitToInt(ExprId),
-    /// `I32`: a value that is known to lie between these ends where it is evaluated: how far an index leads ([`crate::ranges`]).
+    /// `I32`: a value that is known to lie between these ends where it is evaluated: how far an index leads
+    /// ([`crate::ranges`]).
     Within {
         /// The value, an `I32`.
         value: ExprId,
@@ -92,7 +94,8 @@ pub enum Expr {
         /// The most it is.
         high: i32,
     },
-    /// `Bit`: whether `count` devices from `place` on all exist on the model, in one run of it ([`rungc_models::Model::in_range`]).
+    /// `Bit`: whether `count` devices from `place` on all exist on the model, in one run of it
+    /// ([`rungc_models::Model::in_range`]).
     InRange {
         /// First device.
         place: Place,

@@ -4,12 +4,15 @@
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct ExprId(pub u32);
 
-/// Handle of a temporary; its type is in [`Module::temps`](super::Module::temps). Assigned by [`Stmt::Let`](super::Stmt::Let), [`Stmt::Edge`](super::Stmt::Edge) or [`Stmt::Fetch`](super::Stmt::Fetch) before any use on
-/// every path, in the same [`Function`](super::Function), which may be in a body around or before the use; some are assigned in several places.
+/// Handle of a temporary; its type is in [`Module::temps`](super::Module::temps). Assigned by
+/// [`Stmt::Let`](super::Stmt::Let), [`Stmt::Edge`](super::Stmt::Edge) or [`Stmt::Fetch`](super::Stmt::Fetch) before any
+/// use on every path, in the same [`Function`](super::Function), which may be in a body around or before the use; some
+/// are assigned in several places.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct TempId(pub u32);
 
-/// Handle of an edge memory: one bit, off at power-on and when RUN begins. Several statements may share one: each stores its input.
+/// Handle of an edge memory: one bit, off at power-on and when RUN begins. Several statements may share one: each
+/// stores its input.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash, PartialOrd, Ord)]
 pub struct EdgeId(pub u32);
 

@@ -22,7 +22,8 @@ pub struct Flag {
     /// Set each time that this many milliseconds of RUN have passed since the last time, or since RUN began
     /// ([`rungc_rt::Program::tick`]); `None`: by the program only.
     pub period_ms: Option<u32>,
-    /// Set when a train of pulses of this output Y has been sent to its end ([`rungc_rt::Axis::take_end`], asked whenever pulses are counted).
+    /// Set when a train of pulses of this output Y has been sent to its end ([`rungc_rt::Axis::take_end`], asked
+    /// whenever pulses are counted).
     pub pulses_end: Option<u32>,
 }
 
@@ -33,7 +34,8 @@ pub struct Cell {
     pub name: String,
     /// What it means, for a comment.
     pub meaning: &'static str,
-    /// Set to the time, as for [`SysValue::NowMs`](super::SysValue::NowMs), each time that a host reports it ([`rungc_rt::Program::tick`]).
+    /// Set to the time, as for [`SysValue::NowMs`](super::SysValue::NowMs), each time that a host reports it
+    /// ([`rungc_rt::Program::tick`]).
     pub follows_time: bool,
 }
 
@@ -48,7 +50,8 @@ pub struct Table {
     pub length: u32,
 }
 
-/// How many steps a scan may repeat for each millisecond of the watchdog time D8000: more than the fastest PLC executes.
+/// How many steps a scan may repeat for each millisecond of the watchdog time D8000: more than the fastest PLC
+/// executes.
 pub const STEPS_PER_MS: u32 = 10_000;
 
 /// The watchdog time of a model without D8000.
@@ -91,11 +94,11 @@ pub enum FunctionKind {
     Subroutine(u32),
     /// An interrupt routine, by its pointer number.
     Interrupt(u32),
-    /// Runs the interrupt routines that are requested. `Main` calls it at the start of each network, and after code that sets or resets
-    /// a relay that requests or forbids one where relays keep requests (HM); `End` calls it first, and a host may between two scans
-    /// ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program interrupted, and no interrupt routine is itself. What is
-    /// requested between two of these moments counts as requested together: then [`rungc_models::interrupts::Interrupts::precedence`] decides which comes
-    /// first.
+    /// Runs the interrupt routines that are requested. `Main` calls it at the start of each network, and after code
+    /// that sets or resets a relay that requests or forbids one where relays keep requests (HM); `End` calls it first,
+    /// and a host may between two scans ([`rungc_rt::Program::take_interrupts`]): nowhere else is the program
+    /// interrupted, and no interrupt routine is itself. What is requested between two of these moments counts as
+    /// requested together: then [`rungc_models::interrupts::Interrupts::precedence`] decides which comes first.
     TakeInterrupts,
     /// Runs when an input terminal changes ([`rungc_rt::Program::input_edge`]), between two scans.
     InputEdge {
@@ -104,8 +107,9 @@ pub enum FunctionKind {
         /// Which change.
         kind: EdgeKind,
     },
-    /// Calls the instructions that send pulses and look at inputs ([`rungc_rt::Needs::signals`]) once more, with the drive that they had
-    /// last. The edges of these inputs call it, when the device X shows them, and so do interrupts that may give the signal.
+    /// Calls the instructions that send pulses and look at inputs ([`rungc_rt::Needs::signals`]) once more, with the
+    /// drive that they had last. The edges of these inputs call it, when the device X shows them, and so do interrupts
+    /// that may give the signal.
     Signals,
 }
 
@@ -129,7 +133,8 @@ pub struct Module {
     pub steps: u32,
     /// The model.
     pub model: &'static Model,
-    /// The devices of the model, with those latched that the project's parameters choose: [`Model::ranges`] if they say nothing.
+    /// The devices of the model, with those latched that the project's parameters choose: [`Model::ranges`] if they say
+    /// nothing.
     pub ranges: Cow<'static, [Range]>,
     /// Expressions; an expression's operands have lower handles.
     pub exprs: TiVec<ExprId, Expr>,
@@ -139,7 +144,8 @@ pub struct Module {
     pub edges: u32,
     /// How many private memories there are; slots 1..=states are used.
     pub states: u16,
-    /// Slots 1..=run_states are those of the program's instructions, which RUN begins anew; the others last until power-off.
+    /// Slots 1..=run_states are those of the program's instructions, which RUN begins anew; the others last until
+    /// power-off.
     pub run_states: u16,
     /// Texts.
     pub texts: Vec<String>,
@@ -149,15 +155,17 @@ pub struct Module {
     pub cells: TiVec<CellId, Cell>,
     /// Private rows of numbers.
     pub tables: TiVec<TableId, Table>,
-    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines, `TakeInterrupts` if there
-    /// are any of these, `Signals` if there are any, and one for each edge that means something.
+    /// Functions: `Begin`, `Main`, `End` first, in this order, then subroutines and interrupt routines,
+    /// `TakeInterrupts` if there are any of these, `Signals` if there are any, and one for each edge that means
+    /// something.
     pub functions: Vec<Function>,
-    /// Outputs Y at which instructions send pulses, in order, each once. Their [`rungc_rt::Axis`] is idle at power-on. Pulses are counted
-    /// ([`rungc_rt::advance_pulses`]) at the start of each scan before `Begin`, and each time that a host reports the time
-    /// ([`rungc_rt::Program::tick`]).
+    /// Outputs Y at which instructions send pulses, in order, each once. Their [`rungc_rt::Axis`] is idle at power-on.
+    /// Pulses are counted ([`rungc_rt::advance_pulses`]) at the start of each scan before `Begin`, and each time that a
+    /// host reports the time ([`rungc_rt::Program::tick`]).
     pub pulse_outputs: Vec<u32>,
-    /// Serial ports, in order: those that instructions use, that the program sets up, and that a host opens. They are brought up to date
-    /// ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time that a host reports the time.
+    /// Serial ports, in order: those that instructions use, that the program sets up, and that a host opens. They are
+    /// brought up to date ([`rungc_rt::advance_ports`]) when a scan begins, before `Begin`, when it ends, and each time
+    /// that a host reports the time.
     pub ports: Vec<u8>,
     /// What each of these ports may speak, as far as its set-up is known.
     pub port_protocols: Vec<Protocols>,
@@ -212,8 +220,8 @@ impl Module {
         }
     }
 
-    /// Whether a device keeps its value over power-off. A special device that does begins with its default only when the PLC is switched on
-    /// for the first time.
+    /// Whether a device keeps its value over power-off. A special device that does begins with its default only when
+    /// the PLC is switched on for the first time.
     pub fn is_latched(&self, class: DeviceClass, number: u32) -> bool {
         let mut ranges = self.ranges_of(class);
         ranges.any(|r| r.latched && (r.first..=r.last).contains(&number))
@@ -285,8 +293,8 @@ impl Module {
             || self.functions.iter().any(taken)
     }
 
-    /// The steps that a scan may repeat in loops and by jumps back, with this watchdog time (D8000, at least 1): each [`Stmt::Watch`] takes
-    /// its share. They are given anew when a scan begins, and last until the next one does.
+    /// The steps that a scan may repeat in loops and by jumps back, with this watchdog time (D8000, at least 1): each
+    /// [`Stmt::Watch`] takes its share. They are given anew when a scan begins, and last until the next one does.
     pub fn scan_steps(watchdog_ms: i16) -> u32 {
         watchdog_ms.max(1).unsigned_abs() as u32 * STEPS_PER_MS
     }

@@ -27,8 +27,8 @@ pub enum BinOp {
     SatAdd,
     /// Difference, held at the ends of the type's range.
     SatSub,
-    /// The bits of the first operand, those that leave at the high end entering at the low end, by as many places as the second one
-    /// says, modulo the type's width.
+    /// The bits of the first operand, those that leave at the high end entering at the low end, by as many places as
+    /// the second one says, modulo the type's width.
     RotateLeft,
 }
 
@@ -78,7 +78,8 @@ pub enum UnOp {
     SwapBytes,
     /// How many bits of an integer are on, in its type.
     CountOnes,
-    /// The decimal digits of an integer, four bits each; it must be known to be from 0 to 9999 (`I16`) or 99 999 999 (`I32`).
+    /// The decimal digits of an integer, four bits each; it must be known to be from 0 to 9999 (`I16`) or 99 999 999
+    /// (`I32`).
     ToBcd,
     /// The number whose decimal digits an integer holds, four bits each; a digit above 9 counts as what it is.
     FromBcd,
@@ -136,8 +137,9 @@ impl UnOp {
     }
 }
 
-/// Two-operand operators of `F32`. A result too large for an `F32` is the largest of its sign, one that is not 0 but too small for a
-/// normal one is the smallest normal one of its sign: [`rungc_rt::word`] has them as `float_add` and so on.
+/// Two-operand operators of `F32`. A result too large for an `F32` is the largest of its sign, one that is not 0 but
+/// too small for a normal one is the smallest normal one of its sign: [`rungc_rt::word`] has them as `float_add` and so
+/// on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Hash)]
 pub enum FloatOp {
     /// Sum.

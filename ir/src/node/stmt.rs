@@ -17,8 +17,8 @@ pub enum Arg {
     },
     /// Float constant.
     Float(f32),
-    /// Device; the runtime checks its range. `extent` devices from it on may be accessed (for the layout): `None` = to the
-    /// end of its class.
+    /// Device; the runtime checks its range. `extent` devices from it on may be accessed (for the layout): `None` = to
+    /// the end of its class.
     Device {
         /// Device.
         place: Place,
@@ -67,7 +67,8 @@ pub struct Call {
     pub args: Vec<Arg>,
     /// Drive contact, for functions that are called always; others are inside an `If`.
     pub drive: Option<ExprId>,
-    /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in [`FunctionKind::Signals`](super::FunctionKind::Signals).
+    /// It is not a scan that calls it but an input at which it looks ([`rungc_rt::Site::signal`]), in
+    /// [`FunctionKind::Signals`](super::FunctionKind::Signals).
     pub signal: bool,
     /// Private memory, for functions that need one; from 1.
     pub slot: u16,
@@ -75,12 +76,14 @@ pub struct Call {
     pub step: u32,
 }
 
-/// Sets `out` to whether `input` changed as `kind` says since this statement was last executed, and stores `input` in the memory.
+/// Sets `out` to whether `input` changed as `kind` says since this statement was last executed, and stores `input` in
+/// the memory.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Edge {
     /// Memory.
     pub memory: EdgeId,
-    /// The distance in memories to this one's: an [`Expr::Stride`](super::Expr::Stride), in the body of a [`Stmt::Repeat`].
+    /// The distance in memories to this one's: an [`Expr::Stride`](super::Expr::Stride), in the body of a
+    /// [`Stmt::Repeat`].
     pub index: Option<ExprId>,
     /// Which change.
     pub kind: EdgeKind,
@@ -149,9 +152,10 @@ pub struct Count {
     pub preset: ExprId,
 }
 
-/// Executes the body `count` times, for rungs that the program repeats with other devices. `iteration` (`I32`) is 0, 1, 2 …, and leads to the
-/// devices of each iteration ([`Expr::Stride`](super::Expr::Stride)), all of which lie in a [`crate::layout::Grid`] of as many columns as they are
-/// apart. The timers of a [`Stmt::TimerAt`] are of one kind. The body has neither loops nor jumps.
+/// Executes the body `count` times, for rungs that the program repeats with other devices. `iteration` (`I32`) is 0, 1,
+/// 2 …, and leads to the devices of each iteration ([`Expr::Stride`](super::Expr::Stride)), all of which lie in a
+/// [`crate::layout::Grid`] of as many columns as they are apart. The timers of a [`Stmt::TimerAt`] are of one kind. The
+/// body has neither loops nor jumps.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Repeat {
     /// How often, at least 2.
@@ -192,8 +196,8 @@ pub struct Send {
     pub step: u32,
 }
 
-/// A copy or a fill of a run of devices: bits X, Y, M and S, or words D and R. None is special, none of the places has an index, and all
-/// devices of a run exist, in one run of the model.
+/// A copy or a fill of a run of devices: bits X, Y, M and S, or words D and R. None is special, none of the places has
+/// an index, and all devices of a run exist, in one run of the model.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Block {
     /// Copies devices to others of the same kind, as if all were read before one is written.
@@ -254,7 +258,8 @@ pub enum Stmt {
     /// OUT T: [`rungc_rt::Timer::run`].
     Timer(TimerCoil),
     /// OUT T with an index: as [`Stmt::Timer`] of the timer that the place names, of the kind that the model has it
-    /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the iterations of a [`Stmt::Repeat`].
+    /// ([`rungc_models::Model::timer`]), and shared, since it may be any; not shared in the iterations of a
+    /// [`Stmt::Repeat`].
     TimerAt(IndexedCoil),
     /// END processing of a timer that continues in scans that jump over its coil: [`rungc_rt::Timer::go_on`].
     TimerGoesOn {
@@ -295,14 +300,17 @@ pub enum Stmt {
     CallSub(u32),
     /// Leaves the function (SRET reached by a jump, CJ to P63 in a subroutine, …).
     Return,
-    /// Runs `parts` from part 0 on: at the end of a part the next one follows; [`Stmt::Goto`] inside a part (however deep in
-    /// `If` and `For`, not across calls) continues with the part that has that label. Made only where jumps do not nest.
+    /// Runs `parts` from part 0 on: at the end of a part the next one follows; [`Stmt::Goto`] inside a part (however
+    /// deep in `If` and `For`, not across calls) continues with the part that has that label. Made only where jumps do
+    /// not nest.
     Parts(Vec<Part>),
-    /// Ends the current part and continues with the part of this label, in the innermost enclosing [`Stmt::Parts`] that has it.
+    /// Ends the current part and continues with the part of this label, in the innermost enclosing [`Stmt::Parts`] that
+    /// has it.
     Goto(LabelId),
     /// Calls the runtime. A fault is reported with its step ([`rungc_rt::report`]).
     Call(Call),
-    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with its step.
+    /// Reads an operand that only the runtime can: buffer memory ([`rungc_rt::fetch`]). A fault is reported with its
+    /// step.
     Fetch(Fetch),
     /// Writes an operand that only the runtime can ([`rungc_rt::send`]). A fault is reported with its step.
     Send(Send),
@@ -313,18 +321,21 @@ pub enum Stmt {
         /// Step number.
         step: u32,
     },
-    /// Takes this many steps of those that the scan may still execute ([`Module::scan_steps`](super::Module::scan_steps)). If fewer are left, the PLC stops as by
-    /// its watchdog ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
+    /// Takes this many steps of those that the scan may still execute
+    /// ([`Module::scan_steps`](super::Module::scan_steps)). If fewer are left, the PLC stops as by its watchdog
+    /// ([`rungc_rt::trip_watchdog`]), none are left, and the function ends as by [`Stmt::Return`].
     Watch {
-        /// How many PLC steps of the program come now: an iteration of a loop, or what a jump back repeats, with the subroutines that are called
-        /// and the short loops in it.
+        /// How many PLC steps of the program come now: an iteration of a loop, or what a jump back repeats, with the
+        /// subroutines that are called and the short loops in it.
         steps: u32,
         /// Step of the loop or the jump.
         at: u32,
     },
-    /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function `End` only.
+    /// Puts the PLC in STOP when this scan has ended, as the RUN/STOP switch would (M8037). Stands in the function
+    /// `End` only.
     Stop,
-    /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices: M8031, M8032.
+    /// Clears devices, the general ones (false) or the latched ones (true), but no inputs and no special devices:
+    /// M8031, M8032.
     Clear {
         /// Which.
         latched: bool,

@@ -48,8 +48,8 @@ pub(super) fn meets_other_grid(
     touching.any(|grid| grid.columns != columns)
 }
 
-/// Stores the devices from `first` to `last` of a class in a grid of `columns` columns, joined with neighbouring grids of as many;
-/// false if something needs them in another order.
+/// Stores the devices from `first` to `last` of a class in a grid of `columns` columns, joined with neighbouring grids
+/// of as many; false if something needs them in another order.
 pub(super) fn spread(
     layout: &mut Layout,
     module: &Module,
@@ -120,8 +120,8 @@ pub(super) fn spread(
     true
 }
 
-/// Leaves out columns without a device that the program names (`named` stores those). A grid then starts at the column after the longest
-/// row of unused ones, if its devices are free.
+/// Leaves out columns without a device that the program names (`named` stores those). A grid then starts at the column
+/// after the longest row of unused ones, if its devices are free.
 pub(super) fn trim(module: &mut Module, named: &Layout) {
     for i in 0..module.layout.grids.len() {
         let grid = module.layout.grids[i];

@@ -1,5 +1,5 @@
-//! Temporaries: their assignment is put off until they are used, so that a single use can take the expression itself; and a value
-//! that another temporary already has is not computed again.
+//! Temporaries: their assignment is put off until they are used, so that a single use can take the expression itself;
+//! and a value that another temporary already has is not computed again.
 
 use super::effects::{Reads, Writes};
 use super::fold::Arena;

@@ -1,7 +1,8 @@
 //! Passes over a module. None changes what a scan does to any device.
 //!
-//! [`optimise`] rewrites the module twice: the first pass leaves conditions with fewer uses, which the second puts where they are
-//! used, so that emitted code reads as one would write it by hand. Where there are no temporaries the first leaves nothing. In the end rungs that are repeated with other devices become loops.
+//! [`optimise`] rewrites the module twice: the first pass leaves conditions with fewer uses, which the second puts
+//! where they are used, so that emitted code reads as one would write it by hand. Where there are no temporaries the
+//! first leaves nothing. In the end rungs that are repeated with other devices become loops.
 
 mod effects;
 mod fold;
@@ -13,8 +14,8 @@ mod rewrite;
 use crate::node::Module;
 use typed_index_collections::TiVec;
 
-/// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins neighbouring branches
-/// with one condition, and removes code that cannot be reached or whose results nothing uses.
+/// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins
+/// neighbouring branches with one condition, and removes code that cannot be reached or whose results nothing uses.
 pub fn optimise(module: &mut Module) {
     let room = rewrite::run(module, TiVec::new());
     if rewrite::may_gain(module) {

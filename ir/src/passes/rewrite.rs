@@ -32,7 +32,8 @@ pub(super) fn run(module: &mut Module, room: TiVec<ExprId, Expr>) -> TiVec<ExprI
     std::mem::replace(&mut module.exprs, exprs)
 }
 
-/// Whether another pass may find something: a temporary that has fewer uses now, or a label that nothing jumps to any more.
+/// Whether another pass may find something: a temporary that has fewer uses now, or a label that nothing jumps to any
+/// more.
 pub(super) fn may_gain(module: &Module) -> bool {
     if !module.temps.is_empty() {
         return true;

@@ -1,10 +1,12 @@
-//! Between which values index registers lie where an index leads to a device, so that no more is stored than it can lead to.
+//! Between which values index registers lie where an index leads to a device, so that no more is stored than it can
+//! lead to.
 //!
-//! A module is executed with intervals in the place of values: constants, sums, masks, comparisons on the way, iterations of loops, and what
-//! one scan leaves to the next. An index register that nothing has written is 0. What is known rests on one rule: **a host writes an index
-//! register only if it is observed** ([`Wanted::observe`]); other registers it may write between two scans, so
-//! that nothing is known of them when a scan begins. Should a host break the rule, or the watchdog end a scan halfway, an index may lead to a
-//! device that is not stored: it reads 0, and a write goes nowhere.
+//! A module is executed with intervals in the place of values: constants, sums, masks, comparisons on the way,
+//! iterations of loops, and what one scan leaves to the next. An index register that nothing has written is 0. What is
+//! known rests on one rule: **a host writes an index register only if it is observed** ([`Wanted::observe`]); other
+//! registers it may write between two scans, so that nothing is known of them when a scan begins. Should a host break
+//! the rule, or the watchdog end a scan halfway, an index may lead to a device that is not stored: it reads 0, and a
+//! write goes nowhere.
 
 mod eval;
 mod interval;
@@ -24,8 +26,8 @@ use state::Words;
 use std::collections::BTreeSet;
 use walk::Walk;
 
-/// What an operand with an index register can reach, where its user says so: an access beyond is the PLC's error 6706, as one beyond the
-/// model's devices is.
+/// What an operand with an index register can reach, where its user says so: an access beyond is the PLC's error 6706,
+/// as one beyond the model's devices is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bound {
     /// The operand as the program writes it, without its index.
@@ -38,7 +40,8 @@ pub struct Bound {
     pub last: u32,
 }
 
-/// Special devices that indexes are known to lead to. An index that only the end of the devices stops is not taken to aim at special ones.
+/// Special devices that indexes are known to lead to. An index that only the end of the devices stops is not taken to
+/// aim at special ones.
 #[derive(Default)]
 pub struct Reached {
     /// The devices.

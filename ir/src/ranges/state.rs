@@ -264,8 +264,8 @@ impl State {
             });
     }
 
-    /// Moves ends that are further out than those of `before` on to the next threshold, or to the end of all words if there is none,
-    /// so that a state grows a few times at most. Temporaries that change are forgotten.
+    /// Moves ends that are further out than those of `before` on to the next threshold, or to the end of all words if
+    /// there is none, so that a state grows a few times at most. Temporaries that change are forgotten.
     pub(super) fn widen(&mut self, before: &State, thresholds: &[i32]) {
         self.temps
             .retain(|&(temp, known)| before.temp(temp) == Some(known));

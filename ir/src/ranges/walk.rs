@@ -309,7 +309,8 @@ impl<'m> Walk<'m> {
         asked || self.matters.contains(&stmt)
     }
 
-    /// How many of these statements, the first of which has a condition, may be executed as if they stood in one condition.
+    /// How many of these statements, the first of which has a condition, may be executed as if they stood in one
+    /// condition.
     fn with_one_condition(&self, cond: ExprId, body: &[Stmt]) -> usize {
         let Expr::Temp(temp) = *self.eval.module.expr(cond) else {
             return 1;

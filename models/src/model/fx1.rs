@@ -1,5 +1,5 @@
-//! Mitsubishi FX1S and FX1N (FX1S, FX1N, FX2N, FX2NC programming manual II, JY992D88101, §8.1 and §8.2). What they keep without power,
-//! in EEPROM or by a capacitor, is fixed.
+//! Mitsubishi FX1S and FX1N (FX1S, FX1N, FX2N, FX2NC programming manual II, JY992D88101, §8.1 and §8.2). What they keep
+//! without power, in EEPROM or by a capacitor, is fixed.
 
 use super::fx2n::FX2N;
 use super::shared::{

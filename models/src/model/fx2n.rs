@@ -1,5 +1,5 @@
-//! Mitsubishi FX2N and FX2NC, and compatible boards (FX1S, FX1N, FX2N, FX2NC programming manual II, JY992D88101, §8). Latched ranges
-//! are the factory settings.
+//! Mitsubishi FX2N and FX2NC, and compatible boards (FX1S, FX1N, FX2N, FX2NC programming manual II, JY992D88101, §8).
+//! Latched ranges are the factory settings.
 
 use super::shared::{
     COUNTERS_FROM_100, FX_TIMERS, I_INPUTS_AND_COUNTERS, I_TIMERS, INDEX_ALIASES, INDEXES,
@@ -78,8 +78,8 @@ pub(super) const FX2N: Model = Model {
     interrupts: interrupts::FX,
 };
 
-/// Boards that take programs for FX2N. No manual of theirs is public: makers advertise up to eight outputs that send pulses, and which
-/// registers the outputs after Y001 would count in is unknown, so these keep no position.
+/// Boards that take programs for FX2N. No manual of theirs is public: makers advertise up to eight outputs that send
+/// pulses, and which registers the outputs after Y001 would count in is unknown, so these keep no position.
 pub(super) const FX2N_COMPATIBLE: Model = Model {
     id: ModelId::Fx2nCompatible,
     name: "fx2n-compatible",

@@ -1,5 +1,5 @@
-//! Mitsubishi FX3S, FX3G and FX3U, and compatible boards (FX3S, FX3G, FX3GC, FX3U, FX3UC programming manual, JY997D16601, §4.1).
-//! Latched ranges are the factory settings.
+//! Mitsubishi FX3S, FX3G and FX3U, and compatible boards (FX3S, FX3G, FX3GC, FX3U, FX3UC programming manual,
+//! JY997D16601, §4.1). Latched ranges are the factory settings.
 
 use super::fx2n::FX2N;
 use super::shared::{
@@ -142,8 +142,8 @@ pub(super) const FX3U: Model = Model {
     ..FX2N
 };
 
-/// Boards that take programs for FX3U. No manual of theirs is public: makers advertise up to eight outputs that send pulses, and which
-/// registers the outputs after Y003 would count in is unknown, so these keep no position.
+/// Boards that take programs for FX3U. No manual of theirs is public: makers advertise up to eight outputs that send
+/// pulses, and which registers the outputs after Y003 would count in is unknown, so these keep no position.
 pub(super) const FX3U_COMPATIBLE: Model = Model {
     id: ModelId::Fx3uCompatible,
     name: "fx3u-compatible",

@@ -79,7 +79,8 @@ pub(super) const HM: Model = Model {
         captures: CAPTURES,
         pulse_catch: None,
         count_rows: None,
-        // hm-motion-controller §5.5.4 speaks of priorities, but names none. Relays keep the requests, and not when they came.
+        // hm-motion-controller §5.5.4 speaks of priorities, but names none. Relays keep the requests, and not when they
+        // came.
         precedence: Precedence {
             kinds: &[],
             first_come: false,
@@ -174,7 +175,8 @@ const ADVANCED: AdvancedPointers = AdvancedPointers {
     },
 };
 
-/// The interrupt of the interpolation, each millisecond; the manual names no relay that forbids it (hm-motion-controller §5.1.9).
+/// The interrupt of the interpolation, each millisecond; the manual names no relay that forbids it
+/// (hm-motion-controller §5.1.9).
 const INTERPOLATION: u32 = 500;
 
 /// The other pointers (hm-motion-controller §5.5.5 to §5.5.7).

@@ -130,8 +130,8 @@ const COUNT_ROWS: CountRows = CountRows {
     most: 24,
 };
 
-/// In addition to the pointers of FX, those of the ends of pulse trains, I502 to I506 for Y000 to Y004 (h1u-h2u-programming §4.3.6), and of
-/// the rows of a table of counts.
+/// In addition to the pointers of FX, those of the ends of pulse trains, I502 to I506 for Y000 to Y004
+/// (h1u-h2u-programming §4.3.6), and of the rows of a table of counts.
 fn pointers(number: u32) -> Option<Interrupt> {
     let (502..=506) = number else {
         return fx_pointer(number).or_else(|| COUNT_ROWS.find(number));
@@ -144,7 +144,8 @@ fn pointers(number: u32) -> Option<Interrupt> {
     })
 }
 
-/// Special registers of both. The format words and the station numbers of the serial ports are latched (h1u-h2u-programming §5.1).
+/// Special registers of both. The format words and the station numbers of the serial ports are latched
+/// (h1u-h2u-programming §5.1).
 const D_SPECIAL: &[Range] = &[
     general(D, 8000, 8109),
     latched(D, 8110, 8111),

@@ -191,7 +191,8 @@ impl Timers {
     }
 }
 
-/// M8028 of FX1S and FX3S: T32 to T62 count 10 ms (FX1S/FX1N/FX2N programming manual II §4.7, FX3 programming manual §4.5).
+/// M8028 of FX1S and FX3S: T32 to T62 count 10 ms (FX1S/FX1N/FX2N programming manual II §4.7, FX3 programming manual
+/// §4.5).
 pub(super) const M8028: &FastTimers = &FastTimers {
     relay: Relay(8028),
     numbers: 32..=62,

@@ -1,6 +1,7 @@
-//! Machines are built of equal stations, and their programs repeat the same rungs with other devices. This pass finds such rungs, where
-//! each device is as far from the one before as in the iteration before, and makes a loop of them ([`Stmt::Repeat`]) that C and Rust
-//! compilers vectorise. The iterations run in the program's order, so nothing has to be proved but that they are alike.
+//! Machines are built of equal stations, and their programs repeat the same rungs with other devices. This pass finds
+//! such rungs, where each device is as far from the one before as in the iteration before, and makes a loop of them
+//! ([`Stmt::Repeat`]) that C and Rust compilers vectorise. The iterations run in the program's order, so nothing has to
+//! be proved but that they are alike.
 
 mod maker;
 mod pair;

@@ -31,7 +31,8 @@ pub(super) struct Pair<'m> {
 }
 
 impl<'m> Pair<'m> {
-    /// What two iterations name, in order, and by how much the numbers of the other one are higher; `None` if they differ otherwise.
+    /// What two iterations name, in order, and by how much the numbers of the other one are higher; `None` if they
+    /// differ otherwise.
     pub(super) fn of(module: &'m Module, one: &[Stmt], other: &[Stmt]) -> Option<Vec<Named>> {
         let mut pair = Pair {
             module,

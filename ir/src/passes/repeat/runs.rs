@@ -85,14 +85,16 @@ impl Networks {
     }
 }
 
-/// As many iterations of one length as are alike. It is sought once, and not again from each of its iterations that a group might begin with.
+/// As many iterations of one length as are alike. It is sought once, and not again from each of its iterations that a
+/// group might begin with.
 struct Run {
     /// First statement.
     first: usize,
     iterations: usize,
     /// What its first iteration names.
     named: Vec<Named>,
-    /// How many of the first iterations may not begin a group: the last of them gives a temporary a value that others use, too.
+    /// How many of the first iterations may not begin a group: the last of them gives a temporary a value that others
+    /// use, too.
     leaking: usize,
 }
 

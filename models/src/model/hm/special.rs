@@ -1,4 +1,5 @@
-//! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers mean something else than on the other models.
+//! Special devices of HM (hm-motion-controller §5.7), and its registers of axes (§8.2) and modules (§7). Many numbers
+//! mean something else than on the other models.
 
 use crate::special::{AXES, MAKER, MODULES, POWER, Special, TIMING, specials};
 

@@ -1,5 +1,5 @@
-//! A stepper motor on an STM32F405. Pulses are on PD11, which an interrupt switches every 50 µs at the soonest, however long a scan takes;
-//! it also notes when the button is pressed and let go.
+//! A stepper motor on an STM32F405. Pulses are on PD11, which an interrupt switches every 50 µs at the soonest, however
+//! long a scan takes; it also notes when the button is pressed and let go.
 
 #![no_std]
 #![no_main]
