@@ -1,5 +1,9 @@
 //! Arguments of the command line.
 
+mod diff;
+
+pub use diff::{DiffArgs, DiffFormat};
+
 use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::{self, Target};
@@ -35,6 +39,7 @@ Examples:
   rungc test tests --engine all                all test files in a folder
   rungc view machine.gxw --device Y000         networks, as ladder
   rungc xref machine.gxw --device M100..M199   who reads and writes each device
+  rungc diff old.gxw new.gxw --semantic        what changed, and which outputs can differ
   rungc init machine.gxw                       settings of a project: rungc.toml
   rungc explain E0106                          also: rungc explain ADD, rungc explain M8013
 
@@ -79,6 +84,8 @@ pub enum Command {
     Stats(StatsArgs),
     /// Lay out instruction lists in the usual way; comments stay.
     Fmt(FmtArgs),
+    /// Compare two programs network by network, or what they do.
+    Diff(DiffArgs),
     /// Rewrite a program as an instruction list or a list export.
     Convert(ConvertArgs),
     /// Write rungc.toml, the settings of a project, with a comment on each.

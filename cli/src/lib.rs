@@ -22,7 +22,7 @@ pub fn main() -> ExitCode {
         stdout_in_use: match &cli.command {
             Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
             Command::Convert(args) => args.output.is_none(),
-            Command::Run(_) | Command::Serve(_) | Command::Stats(_) => true,
+            Command::Run(_) | Command::Serve(_) | Command::Stats(_) | Command::Diff(_) => true,
             Command::Xref(args) => args.output.is_none(),
             Command::Fmt(args) => args.check,
             _ => false,
@@ -46,6 +46,7 @@ pub fn main() -> ExitCode {
         Command::Xref(args) => commands::xref::run(args, cx),
         Command::Stats(args) => commands::stats::run(args, cx),
         Command::Fmt(args) => commands::fmt::run(args, cx),
+        Command::Diff(args) => commands::diff::run(args, cx),
         Command::Explain(args) => commands::explain::run(args),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -5,6 +5,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
+pub mod compare;
 pub mod dump;
 pub mod layout;
 pub mod node;

@@ -2,7 +2,7 @@
 //! nothing else.
 
 use crate::face::device_of;
-use crate::network::Ladder;
+use crate::network::{Ladder, Network};
 use crate::svg::Painter;
 use quick_xml::escape::escape;
 use rungc_analysis::resolve::Resolved;
@@ -10,6 +10,10 @@ use rungc_syntax::Device;
 use rungc_syntax::text::one_line;
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
+
+mod comparison;
+
+pub use comparison::comparison;
 
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
@@ -53,22 +57,27 @@ fn write_page(out: &mut String, title: &str, resolved: &Resolved, ladder: &Ladde
             write!(out, "<p class=\"statement\">{}</p>", Escaped(statement))?;
         }
         let list: Vec<String> = instrs.iter().map(ToString::to_string).collect();
-        let picture = painter.network(*number, network).to_string();
-        let label = Escaped(&list.join("; ")).to_string();
-        writeln!(
-            out,
-            "{}</section>",
-            picture.replacen(
-                "role=\"img\"",
-                &format!("role=\"img\" aria-label=\"{label}\""),
-                1
-            )
-        )?;
+        write_picture(out, &painter, *number, network, &list)?;
+        writeln!(out, "</section>")?;
     }
     writeln!(
         out,
         "</main>\n<script type=\"module\">\n{SCRIPT}</script>\n</body>\n</html>"
     )
+}
+
+/// The picture of a network, which its list describes to those who do not see it.
+fn write_picture(
+    out: &mut String,
+    painter: &Painter,
+    number: usize,
+    network: &Network,
+    list: &[String],
+) -> fmt::Result {
+    let picture = painter.network(number, network).to_string();
+    let label = Escaped(&list.join("; ")).to_string();
+    let labelled = format!("role=\"img\" aria-label=\"{label}\"");
+    out.write_str(&picture.replacen("role=\"img\"", &labelled, 1))
 }
 
 /// The networks that name each device, by their numbers.

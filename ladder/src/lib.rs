@@ -5,6 +5,7 @@
 //! characters, [`svg::draw`] as a picture, and [`html::page`] makes a page of all pictures. This crate knows neither files nor output languages nor what an instruction does. Start reading at [`Network`].
 
 pub mod build;
+pub mod compare;
 pub mod html;
 pub mod layout;
 pub mod list;

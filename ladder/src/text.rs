@@ -22,12 +22,42 @@ pub fn draw(resolved: &Resolved, networks: &[(usize, &Network)], style: Style) -
         face: Face::of(resolved, networks, style.comments),
         width: style.width,
         margin: Margin::of(resolved, networks),
+        counted: true,
     };
     let mut out = String::new();
     for (number, network) in networks {
         page.network(*number, network, &mut out);
     }
     out
+}
+
+/// Draws networks of different programs so that they can be compared line by line: without numbers and steps, in columns of one width.
+pub fn draw_alike(networks: &[(&Resolved, &Network)], style: Style) -> Vec<String> {
+    let networks: Vec<_> = networks
+        .iter()
+        .map(|&(resolved, network)| (resolved, [(1, network)]))
+        .collect();
+    let faces = networks.iter();
+    let faces = faces.map(|(resolved, network)| Face::of(resolved, network, style.comments));
+    let cell = faces.clone().map(|face| face.cell).max().unwrap_or(1);
+    let labels = networks.iter();
+    let labels = labels.map(|(resolved, network)| widest_label(resolved, network[0].1));
+    let margin = Margin {
+        numbers: 0,
+        steps: labels.max().unwrap_or(0),
+    };
+    let drawn = networks.iter().zip(faces).map(|((_, network), face)| {
+        let page = Page {
+            face: Face { cell, ..face },
+            width: style.width,
+            margin,
+            counted: false,
+        };
+        let mut out = String::new();
+        page.network(1, network[0].1, &mut out);
+        out
+    });
+    drawn.collect()
 }
 
 /// What lies to the left of the rail: the widths of the columns of numbers, and of labels and steps.
@@ -44,9 +74,7 @@ impl Margin {
         for (_, network) in networks {
             let step = resolved.instrs[network.instrs.start..].first();
             steps = steps.max(step.map_or(1, |of| of.step.to_string().len()));
-            for label in labels(network) {
-                steps = steps.max(resolved.program.instrs[label].mnemonic.len());
-            }
+            steps = steps.max(widest_label(resolved, network));
         }
         Margin {
             numbers: last.to_string().len(),
@@ -59,6 +87,11 @@ impl Margin {
     }
 }
 
+fn widest_label(resolved: &Resolved, network: &Network) -> usize {
+    let names = labels(network).map(|label| resolved.program.instrs[label].mnemonic.len());
+    names.max().unwrap_or(0)
+}
+
 fn labels(network: &Network) -> std::ops::Range<InstrIndex> {
     network.instrs.start..network.instrs.start + network.labels
 }
@@ -69,6 +102,8 @@ struct Page<'a> {
     face: Face<'a>,
     width: usize,
     margin: Margin,
+    /// Whether numbers and steps are shown.
+    counted: bool,
 }
 
 impl Page<'_> {
@@ -103,6 +138,10 @@ impl Page<'_> {
     /// What lies to the left of the rail on a line.
     fn lead(&self, number: impl std::fmt::Display, step: &str) -> String {
         let Margin { numbers, steps } = self.margin;
+        if !self.counted {
+            let label = Some(step).filter(|text| text.starts_with(char::is_alphabetic));
+            return format!("{:>steps$} ", label.unwrap_or(""));
+        }
         format!("{number:>numbers$} {step:>steps$} ")
     }
 

@@ -4,6 +4,7 @@
 //! file formats, the models, or what an instruction computes. Start reading at [`Program`], then [`Diagnostic`] and
 //! [`codes`].
 
+pub mod align;
 mod classes;
 pub mod codes;
 mod device;

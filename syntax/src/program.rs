@@ -80,6 +80,15 @@ pub struct DeviceRun {
     pub count: u32,
 }
 
+impl fmt::Display for DeviceRun {
+    /// `M0 to M499`; the count is at least 1.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let last = self.first.saturating_add(self.count.saturating_sub(1));
+        let name = |number| self.class.number(number);
+        write!(f, "{} to {}", name(self.first), name(last))
+    }
+}
+
 impl Program {
     /// Whether all of it could be read. If not, its reader has reported an error.
     pub fn is_complete(&self) -> bool {

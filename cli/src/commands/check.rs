@@ -6,7 +6,7 @@ use crate::args::CheckArgs;
 use crate::report::Reporter;
 use rungc_lower::compile;
 use rungc_models::Model;
-use rungc_syntax::{Device, DeviceClass, DeviceRun, OperandKind, Parameters, Program};
+use rungc_syntax::{DeviceClass, OperandKind, Parameters, Program};
 use std::collections::BTreeSet;
 use std::time::Instant;
 
@@ -64,18 +64,10 @@ fn parameter_lines(parameters: &Parameters, model: &Model) -> String {
             "     Latched as on every {name}, regardless of the parameters"
         ));
     } else if let Some(latched) = &parameters.latched {
-        let run = |run: &DeviceRun| {
-            let name = |number| Device {
-                class: run.class,
-                number,
-            };
-            let last = run.first.saturating_add(run.count - 1);
-            format!("{} to {}", name(run.first), name(last))
-        };
         let runs: Vec<_> = latched
             .iter()
             .filter(|run| run.count > 0)
-            .map(run)
+            .map(ToString::to_string)
             .collect();
         let none = runs.is_empty().then(|| "no choice".to_string());
         lines.push(format!("     Latched {}", none.unwrap_or(runs.join(", "))));

@@ -4,6 +4,7 @@ pub mod build;
 pub mod check;
 pub mod convert;
 mod defaults;
+pub mod diff;
 pub mod explain;
 mod fix;
 pub mod fmt;

@@ -17,11 +17,16 @@ use typed_index_collections::TiVec;
 /// Folds constants, simplifies contact logic, puts temporaries that are used once where they are used, joins
 /// neighbouring branches with one condition, and removes code that cannot be reached or whose results nothing uses.
 pub fn optimise(module: &mut Module) {
+    simplify(module);
+    repeat::run(module);
+    debug_assert_eq!(crate::validate::validate(module), Ok(()));
+}
+
+/// As [`optimise`], but repeated rungs stay as they are.
+pub fn simplify(module: &mut Module) {
     let room = rewrite::run(module, TiVec::new());
     if rewrite::may_gain(module) {
         rewrite::run(module, room);
     }
-    debug_assert_eq!(crate::validate::validate(module), Ok(()));
-    repeat::run(module);
     debug_assert_eq!(crate::validate::validate(module), Ok(()));
 }

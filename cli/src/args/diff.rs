@@ -1,0 +1,67 @@
+//! Arguments of `diff`.
+
+use super::{ReadFrom, Reading, Reporting, encoding, model};
+use clap::{Args, ValueEnum};
+use rungc_frontend::Encoding;
+use rungc_models::ModelId;
+use std::path::PathBuf;
+
+/// Arguments of `diff`.
+#[derive(Args, Debug)]
+pub struct DiffArgs {
+    /// The old program and the new one, of any kind that `check` reads; `-` is standard input. With seven or nine arguments, those with which Git
+    /// calls a diff driver (docs/src/diff.md).
+    #[arg(value_name = "FILE", required = true, num_args = 2..=9)]
+    pub files: Vec<PathBuf>,
+    /// Compare what the programs do: say which devices can have different values. The exit code is about that alone.
+    #[arg(long)]
+    pub semantic: bool,
+    /// Format of the comparison.
+    #[arg(long, value_enum, default_value_t = DiffFormat::Human)]
+    pub format: DiffFormat,
+    /// File to write the comparison to, overwriting an existing one. Default: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Characters on a line of ladder. Default: the width of the terminal, or 120; 100 with `--format md`.
+    #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
+    pub width: Option<u16>,
+    /// PLC model of both programs. Default: as for `check`.
+    #[arg(long, value_parser = model, value_name = "MODEL")]
+    pub model: Option<ModelId>,
+    /// Encoding of texts. Default: as for `check`.
+    #[arg(long, value_parser = encoding, value_name = "NAME")]
+    pub encoding: Option<&'static Encoding>,
+    /// Read the compiled program of a GX Works2 project, not its source.
+    #[arg(long)]
+    pub compiled: bool,
+    /// What both files are, where their content does not show it.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub from: Option<ReadFrom>,
+}
+
+impl DiffArgs {
+    /// How to read both programs.
+    pub fn reading(&self) -> Reading {
+        Reading {
+            model: self.model,
+            project: None,
+            encoding: self.encoding,
+            compiled: self.compiled,
+            from: self.from,
+            reporting: Reporting::default(),
+        }
+    }
+}
+
+/// Formats of a comparison.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum DiffFormat {
+    /// Human-readable: the lines of ladder that differ.
+    Human,
+    /// A page with the old and the new picture of each network.
+    Html,
+    /// JSON: one object (docs/src/diff.md).
+    Json,
+    /// Markdown, for a comment on a pull request.
+    Md,
+}

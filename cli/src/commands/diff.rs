@@ -1,0 +1,210 @@
+//! `rungc diff`.
+
+mod git;
+mod json;
+mod text;
+
+use super::subject::{self, Subject};
+use super::{Context, Failure, Outcome, Result, counted, say, tell, unread, write_file};
+use crate::args::{DiffArgs, DiffFormat, Input};
+use crate::report::{Findings, Reporter};
+use rungc_analysis::resolve::{Resolved, resolve};
+use rungc_frontend::Read;
+use rungc_ir::compare::{Behaviour, behaviour};
+use rungc_ir::passes::simplify;
+use rungc_ladder::compare::{Comparison, Drawn, compare};
+use rungc_ladder::{Ladder, build, html};
+use rungc_lower::compile::{CompileOptions, compile, model};
+use rungc_models::Model;
+use rungc_syntax::{DeviceClass, DeviceRun};
+use std::path::{Path, PathBuf};
+
+/// Compares two programs.
+pub fn run(args: &DiffArgs, cx: Context) -> Result {
+    match &args.files[..] {
+        [old, new] => {
+            let [old, new] = [old, new].map(|file| Side::read(file, file.clone(), args, cx));
+            let differs = report(&old?, &new?, args)?;
+            Ok(match differs {
+                true => Outcome::Failed,
+                false => Outcome::Success,
+            })
+        }
+        files => match git::call(files) {
+            Some(call) => git::run(&call, args, cx),
+            None => Err(Failure::Because(format!(
+                "diff takes two programs, or the seven or nine arguments of a Git diff driver, not {}",
+                files.len()
+            ))),
+        },
+    }
+}
+
+/// One of two programs.
+struct Side {
+    /// What it is called.
+    name: String,
+    subject: Option<Subject>,
+    read: Read,
+    model: &'static Model,
+}
+
+impl Side {
+    fn read(
+        file: &Path,
+        named: PathBuf,
+        args: &DiffArgs,
+        cx: Context,
+    ) -> std::result::Result<Side, Failure> {
+        let input = Input {
+            file: Some(file.to_owned()),
+            reading: args.reading(),
+        };
+        let subject = subject::one(&input, cx)?;
+        let mut reporter = Reporter::new(&subject.reporting, cx, true);
+        let read = match subject::source(&subject) {
+            Ok(read) => read,
+            Err(error) => return Err(unread(&error, &subject, &mut reporter)?),
+        };
+        if read.diagnostics.has_errors() || !read.program.is_complete() {
+            let diagnostics = read.diagnostics.clone();
+            let findings = Findings::new(&named, &read.program, diagnostics, &subject.reporting);
+            reporter.add(&findings)?;
+            reporter.finish()?;
+            let name = named.display();
+            let why = format!("{name} cannot be read whole, so it is not compared");
+            return Err(Failure::Because(why));
+        }
+        let model = model(&read.program, &subject.options());
+        Ok(Side {
+            name: named.display().to_string(),
+            subject: Some(subject),
+            read,
+            model,
+        })
+    }
+
+    /// A file that is not there yet, or not any more.
+    fn absent(name: &Path) -> Side {
+        let read = Read::default();
+        let model = model(&read.program, &CompileOptions::default());
+        Side {
+            name: name.display().to_string(),
+            subject: None,
+            read,
+            model,
+        }
+    }
+
+    fn options(&self) -> CompileOptions {
+        let options = self.subject.as_ref().map(Subject::options);
+        options.unwrap_or_default()
+    }
+}
+
+/// Two programs with what differs between them.
+struct Compared<'a> {
+    names: [&'a str; 2],
+    old: Drawn<'a>,
+    new: Drawn<'a>,
+    comparison: Comparison,
+    /// What they do, if that was asked.
+    behaviour: Option<Behaviour>,
+}
+
+/// Compares two programs and prints the result; whether they differ.
+fn report(old: &Side, new: &Side, args: &DiffArgs) -> std::result::Result<bool, Failure> {
+    let [a, b] = [old, new].map(|side| resolve(&side.read.program, side.model).0);
+    let (ladder_a, ladder_b) = (build::ladder(&a), build::ladder(&b));
+    let compared = compared(old, new, [(&a, &ladder_a), (&b, &ladder_b)], args.semantic);
+    let differs = match &compared.behaviour {
+        Some(behaviour) => *behaviour != Behaviour::Same,
+        None => !compared.comparison.is_empty(),
+    };
+    let text = match args.format {
+        DiffFormat::Human => text::human(&compared, args.width),
+        DiffFormat::Md => text::markdown(&compared, args.width),
+        DiffFormat::Json => json::object(&compared, differs)?,
+        DiffFormat::Html => {
+            let summary = text::summary(&compared);
+            html::comparison(
+                compared.names,
+                [compared.old, compared.new],
+                &compared.comparison,
+                &summary,
+            )
+        }
+    };
+    match &args.output {
+        Some(path) => write_file(path, text.as_bytes(), true)?,
+        None => say(&text)?,
+    }
+    Ok(differs)
+}
+
+fn compared<'a>(
+    old: &'a Side,
+    new: &'a Side,
+    [a, b]: [(&'a Resolved<'a>, &'a Ladder); 2],
+    semantic: bool,
+) -> Compared<'a> {
+    let drawn = |(resolved, ladder)| Drawn { resolved, ladder };
+    let (drawn_old, drawn_new) = (drawn(a), drawn(b));
+    Compared {
+        names: [&old.name, &new.name],
+        old: drawn_old,
+        new: drawn_new,
+        comparison: compare(drawn_old, drawn_new),
+        behaviour: semantic.then(|| of_both(old, new)),
+    }
+}
+
+/// What both programs do, compared.
+fn of_both(old: &Side, new: &Side) -> Behaviour {
+    let modules = [old, new].map(|side| {
+        let module = compile(&side.read.program, &side.options()).module;
+        module.map(|mut module| {
+            simplify(&mut module);
+            module
+        })
+    });
+    match modules {
+        [Some(old), Some(new)] => behaviour(&old, &new),
+        [None, _] => Behaviour::Undecided("the old program does not compile (see `rungc check`)"),
+        [_, None] => Behaviour::Undecided("the new program does not compile (see `rungc check`)"),
+    }
+}
+
+/// What a comparison of behaviour says, in sentences.
+fn in_words(behaviour: &Behaviour) -> Vec<String> {
+    match behaviour {
+        Behaviour::Same => vec![
+            "Same behaviour: with the same inputs, all devices have the same values.".to_string(),
+        ],
+        Behaviour::Undecided(why) => vec![format!("Behaviour not decided: {why}.")],
+        Behaviour::CanDiffer { devices, hardware } => {
+            let (outputs, others): (Vec<&DeviceRun>, Vec<_>) =
+                devices.iter().partition(|run| run.class == DeviceClass::Y);
+            let list = |runs: &[&DeviceRun]| -> String {
+                let names = runs.iter().map(|run| match run.count {
+                    1 => run.class.number(run.first).to_string(),
+                    _ => run.to_string(),
+                });
+                names.collect::<Vec<_>>().join(", ")
+            };
+            let mut words = vec![match outputs.is_empty() {
+                true => "No output can differ.".to_string(),
+                false => format!("Outputs that can differ: {}.", list(&outputs)),
+            }];
+            if !others.is_empty() {
+                words.push(format!("Other devices that can differ: {}.", list(&others)));
+            }
+            if *hardware {
+                let what = "Modules, pulse outputs or serial ports can be used differently.";
+                words.push(what.to_string());
+            }
+            words.push("All other devices have the same values, with the same inputs.".to_string());
+            words
+        }
+    }
+}

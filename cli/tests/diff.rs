@@ -1,0 +1,255 @@
+//! Two programs compared, alone and by Git.
+
+mod common;
+
+use common::{MOTOR, folder, rungc, shown, text};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const OLD: &str = "\
+;! title = Press
+;! X000 = start button
+; Motor
+LD X0
+OR M0
+ANI X1
+OUT M0
+LD M0
+OUT T0 K30
+AND T0
+OUT Y0
+LD>= D0 K10
+SET Y1
+LD X3
+OUT Y2
+LD X4
+OUT Y4 ; lamp
+END
+";
+
+const NEW: &str = "\
+;! title = Press 2
+;! X000 = start
+; Motor of the press
+LD X3
+OUT Y2
+LD X0
+OR M0
+ANI X2
+OUT M0
+LD M0
+OUT T0 K50
+AND T0
+OUT Y0
+LD X4
+OUT Y4 ; red lamp
+P0
+LD X5
+OUT Y5
+END
+";
+
+#[test]
+fn networks_comments_and_settings_are_compared() {
+    let folder = folder(&[("old.il", OLD.as_bytes()), ("new.il", NEW.as_bytes())]);
+    let diff = |more: &[&str]| {
+        shown(
+            folder.path(),
+            &[&["diff", "old.il", "new.il"], more].concat(),
+        )
+    };
+    insta::assert_snapshot!("text", diff(&["--width", "72"]));
+    insta::assert_snapshot!("markdown", diff(&["--format", "md", "--width", "60"]));
+    insta::assert_snapshot!("json", diff(&["--format", "json"]));
+}
+
+#[test]
+fn equal_programs_end_with_0() {
+    let spaced = MOTOR.replace("OR M0", "  OR    M0");
+    let folder = folder(&[("a.il", MOTOR.as_bytes()), ("b.il", spaced.as_bytes())]);
+    let out = rungc(folder.path(), &["diff", "a.il", "b.il"]);
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stdout));
+    assert!(text(&out.stdout).contains("no differences"));
+    // A list and the export made of it.
+    let out = rungc(
+        folder.path(),
+        &["convert", "a.il", "--to", "csv", "-o", "c.csv"],
+    );
+    assert!(out.status.success());
+    let out = rungc(folder.path(), &["diff", "a.il", "c.csv"]);
+    assert_eq!(out.status.code(), Some(0), "{}", text(&out.stdout));
+}
+
+/// The words of a comparison of behaviour, and the exit code.
+fn behaviour(old: &str, new: &str) -> (String, Option<i32>) {
+    let folder = folder(&[("old.il", old.as_bytes()), ("new.il", new.as_bytes())]);
+    let out = rungc(folder.path(), &["diff", "old.il", "new.il", "--semantic"]);
+    let words = text(&out.stdout);
+    let words = words.lines().skip(3).take_while(|line| !line.is_empty());
+    (words.collect::<Vec<_>>().join("\n"), out.status.code())
+}
+
+#[test]
+fn what_programs_do_is_compared() {
+    let same = "Same behaviour: with the same inputs, all devices have the same values.";
+    let all_others = "All other devices have the same values, with the same inputs.";
+    // Other networks, of which folding makes the same.
+    let old = "LD X0\nMPS\nAND X1\nOUT Y0\nMPP\nOUT Y1\nEND\n";
+    let new = "LD X0\nAND X1\nOUT Y0\nLD X0\nOUT Y1\nEND\n";
+    assert_eq!(behaviour(old, new), (same.to_string(), Some(0)));
+    // Y1 is apart from what changed; M1 and Y2 read it.
+    let old =
+        "LD X0\nOUT M0\nLDP X1\nOUT Y1\nLD M0\nOUT M1\nLD M1\nOUT T0 K5\nLD T0\nOUT Y2\nEND\n";
+    let new = old.replace("LD X0", "LDI X0");
+    let expected = format!(
+        "Outputs that can differ: Y002.\nOther devices that can differ: M0 to M1, T0.\n{all_others}"
+    );
+    assert_eq!(behaviour(old, &new), (expected, Some(1)));
+    // An index may lead anywhere.
+    let old = "LD X2\nMOV D1 Z0\nLD X0\nMOV K1 D0Z0\nLD= D50 K1\nOUT Y0\nLD X1\nOUT Y1\nEND\n";
+    let (words, code) = behaviour(old, &old.replace("K1 D0Z0", "K2 D0Z0"));
+    assert!(
+        words.starts_with("Outputs that can differ: Y000."),
+        "{words}"
+    );
+    assert_eq!(code, Some(1));
+    // A jump decides about everything.
+    let old = "LD X0\nCJ P1\nLD X1\nOUT Y0\nP1\nLD X2\nOUT Y1\nEND\n";
+    let (words, _) = behaviour(old, &old.replace("LD X0", "LD X5"));
+    assert!(words.contains("Y000"), "{words}");
+    // What does not compile is not compared.
+    let (words, code) = behaviour(old, "LD X0\nOUT Y7777\nEND\n");
+    assert!(words.starts_with("Behaviour not decided: "), "{words}");
+    assert_eq!(code, Some(1));
+    let h2u = format!(";! cpu = FX2N\n{old}");
+    let (words, _) = behaviour(old, &h2u);
+    assert_eq!(
+        words,
+        "Behaviour not decided: the programs are for different models."
+    );
+}
+
+#[test]
+fn a_page_shows_hostile_texts_as_texts() {
+    let old = OLD.replace("start button", "<script>alert(1)</script>");
+    let folder = folder(&[("old.il", old.as_bytes()), ("new.il", NEW.as_bytes())]);
+    let args = [
+        "diff", "old.il", "new.il", "--format", "html", "-o", "d.html",
+    ];
+    assert_eq!(rungc(folder.path(), &args).status.code(), Some(1));
+    let page = fs::read_to_string(folder.path().join("d.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>"));
+    assert!(!page.contains("<script"), "{page}");
+    assert!(page.contains("&lt;script&gt;alert(1)"));
+    assert_eq!(page.matches("<svg").count(), 2 * 3 + 1 + 2 + 1);
+}
+
+#[test]
+fn what_cannot_be_compared_is_said() {
+    let folder = folder(&[
+        ("a.il", MOTOR.as_bytes()),
+        ("b.il", b"LD X0\nOUT !!\nEND\n"),
+    ]);
+    let said = |args: &[&str]| {
+        let out = rungc(folder.path(), args);
+        assert_eq!(out.status.code(), Some(2), "{args:?}");
+        assert!(out.stdout.is_empty(), "{args:?}");
+        text(&out.stderr)
+    };
+    assert!(said(&["diff", "a.il", "b.il"]).contains("b.il cannot be read whole"));
+    assert!(said(&["diff", "a.il", "c.il"]).contains("c.il"));
+    assert!(said(&["diff", "a.il", "a.il", "a.il"]).contains("two programs"));
+    assert!(said(&["diff", "a.il"]).contains("2 values"));
+}
+
+fn git(folder: &Path, args: &[&str]) -> Output {
+    Command::new("git")
+        .args(["-c", "user.name=Test", "-c", "user.email=test@example.org"])
+        .args(args)
+        .current_dir(folder)
+        .env("PATH", path())
+        .env("GIT_CONFIG_GLOBAL", "/dev/null")
+        .env("GIT_PAGER", "cat")
+        .output()
+        .unwrap()
+}
+
+/// The search path, with rungc first.
+fn path() -> std::ffi::OsString {
+    let own = Path::new(env!("CARGO_BIN_EXE_rungc")).parent().unwrap();
+    let usual = std::env::var_os("PATH").unwrap_or_default();
+    let all = std::iter::once(own.to_owned()).chain(std::env::split_paths(&usual));
+    std::env::join_paths(all).unwrap()
+}
+
+/// A line of the book's page on comparing.
+fn documented(line: &str) -> String {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/diff.md");
+    let page = fs::read_to_string(page).unwrap();
+    assert!(page.lines().any(|other| other == line), "{line}");
+    line.to_string()
+}
+
+#[test]
+fn git_compares_projects_by_rungc() {
+    if Command::new("git").arg("--version").output().is_err() {
+        eprintln!("skipped: there is no git here");
+        return;
+    }
+    let export = |list: &str| {
+        let read = rungc_frontend::read_text("list.il", list);
+        rungc_frontend::print::to_csv(&read.program)
+    };
+    let folder = folder(&[]);
+    let at = folder.path();
+    let ok = |args: &[&str]| {
+        let out = git(at, args);
+        assert!(out.status.success(), "{args:?}: {}", text(&out.stderr));
+        text(&out.stdout)
+    };
+    ok(&["init", "-q"]);
+    for line in [
+        "git config --global diff.rungc.command \"rungc diff\"",
+        "git config --global diff.rungc.textconv \"rungc convert --to il\"",
+    ] {
+        let line = documented(line);
+        let quoted = line.split('"').nth(1).unwrap();
+        let key = line.split(' ').nth(3).unwrap();
+        ok(&["config", key, quoted]);
+    }
+    let attributes = [
+        documented("*.gxw diff=rungc"),
+        documented("MAIN.csv diff=rungc"),
+    ];
+    fs::write(at.join(".gitattributes"), attributes.join("\n")).unwrap();
+    fs::write(at.join("MAIN.csv"), export(OLD)).unwrap();
+    ok(&["add", "."]);
+    ok(&["commit", "-q", "-m", "First"]);
+    fs::write(at.join("MAIN.csv"), export(NEW)).unwrap();
+    let out = ok(&["diff"]);
+    assert!(out.starts_with("--- MAIN.csv\n+++ MAIN.csv\n"), "{out}");
+    assert!(
+        out.contains("2 networks changed, 1 added, 1 removed, 2 remarked"),
+        "{out}"
+    );
+    assert!(out.contains("+  │  X000     X002 "), "{out}");
+    // New and deleted files, and a program that cannot be read.
+    ok(&["mv", "MAIN.csv", "new.gxw"]);
+    ok(&["commit", "-q", "-a", "-m", "Rename"]);
+    fs::write(at.join("MAIN.csv"), export(OLD)).unwrap();
+    ok(&["add", "MAIN.csv"]);
+    fs::write(at.join("new.gxw"), "LD X0\nOUT !!\nEND\n").unwrap();
+    let out = ok(&["diff", "HEAD"]);
+    assert!(out.contains("networks added"), "{out}");
+    assert!(
+        out.contains("new.gxw: new.gxw cannot be read whole"),
+        "{out}"
+    );
+    // Log and blame compare texts.
+    let out = ok(&["log", "-p", "--no-ext-diff", "-1", "--no-renames"]);
+    assert!(
+        out.contains("+OUT T0 K50") || out.contains("OUT T0 K50"),
+        "{out}"
+    );
+}

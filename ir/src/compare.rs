@@ -1,0 +1,219 @@
+//! Which devices of two modules can have different values, given the same inputs at the same times.
+//!
+//! Each module becomes a sequence of atoms: its statements, with the conditions and loops around them as separate values. An atom is a text,
+//! what it reads and what it writes. Private memory has names made of what is stored in it, not of its number, so that the same statement
+//! has the same text in both modules. The sequences are aligned. What an atom writes that only one module has can differ, and so can what
+//! an atom writes that reads such a thing; everything else is computed by the same statements in the same order from the same values, so it is
+//! the same. The answer is on the safe side: what it calls the same is the same, what it calls different may be the same nevertheless.
+//!
+//! Left out are the watchdog, how long a scan takes, and the steps that errors name where the program does not read them.
+
+mod atoms;
+
+use crate::node::Module;
+use atoms::{Atom, Names, Sequence, Uses};
+use rungc_rt::special::D_FIRST_ERROR_STEP;
+use rungc_syntax::{DeviceClass, DeviceRun, align};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// How the behaviour of two modules compares.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Behaviour {
+    /// All devices have the same values.
+    Same,
+    /// Something can differ.
+    CanDiffer {
+        /// Devices that can have different values, in order; all others have the same.
+        devices: Vec<DeviceRun>,
+        /// Whether modules, pulse outputs or serial ports can be used differently, too.
+        hardware: bool,
+    },
+    /// Not compared, as the end of "not decided: …".
+    Undecided(&'static str),
+}
+
+/// Compares what two modules do. Both are simplified ([`crate::passes::simplify`]), without loops over repeated rungs.
+pub fn behaviour(old: &Module, new: &Module) -> Behaviour {
+    if old.model.name != new.model.name {
+        return Behaviour::Undecided("the programs are for different models");
+    }
+    if old.ports != new.ports || old.port_protocols != new.port_protocols {
+        return Behaviour::Undecided("their serial ports are used differently");
+    }
+    let steps = [old, new].map(reads_steps).contains(&true);
+    let mut names = Names::default();
+    let sequences = [old, new].map(|module| Sequence::of(module, &mut names, steps));
+    let mut taint = Taint::default();
+    let changed = changed(&sequences);
+    for (sequence, changed) in sequences.iter().zip(&changed) {
+        for &at in changed {
+            taint.write(&sequence.atoms[at]);
+        }
+    }
+    taint.initial(old, new);
+    let ports = old.has_ports();
+    loop {
+        let before = taint.size();
+        for atom in sequences.iter().flat_map(|sequence| &sequence.atoms) {
+            if taint.reaches(atom) {
+                taint.write(atom);
+            }
+        }
+        // What a port is set up to do, and so what it writes, is in special devices.
+        taint.all |= ports && taint.has_special();
+        if taint.size() == before {
+            break;
+        }
+    }
+    let devices = taint.stored([old, new]);
+    let hardware = taint.all || taint.names.contains(&names.hardware());
+    match devices.is_empty() && !hardware {
+        true => Behaviour::Same,
+        false => Behaviour::CanDiffer { devices, hardware },
+    }
+}
+
+/// Whether a program reads at which step an error occurred.
+fn reads_steps(module: &Module) -> bool {
+    let first = D_FIRST_ERROR_STEP.number();
+    let stored = |number| module.layout.area(DeviceClass::D, number).is_some();
+    stored(first) || stored(first + 1)
+}
+
+/// The atoms of each sequence that the other does not have at a corresponding place, function by function.
+fn changed(sequences: &[Sequence; 2]) -> [Vec<usize>; 2] {
+    let [old, new] = sequences;
+    let mut kept = [FxHashSet::default(), FxHashSet::default()];
+    for (kind, range) in &old.functions {
+        let Some((_, other)) = new.functions.iter().find(|(other, _)| other == kind) else {
+            continue;
+        };
+        let texts = |sequence: &Sequence, range: &std::ops::Range<usize>| -> Vec<u32> {
+            sequence.atoms[range.clone()]
+                .iter()
+                .map(|atom| atom.text)
+                .collect()
+        };
+        for (a, b) in align::common(&texts(old, range), &texts(new, other)) {
+            kept[0].insert(range.start + a);
+            kept[1].insert(other.start + b);
+        }
+    }
+    let [kept_old, kept_new] = kept;
+    [(old, kept_old), (new, kept_new)].map(|(sequence, kept)| {
+        let all = 0..sequence.atoms.len();
+        all.filter(|at| !kept.contains(at)).collect()
+    })
+}
+
+/// Numbers of devices are below this.
+const NUMBERS: usize = 1 << 16;
+
+/// What can differ.
+#[derive(Default)]
+struct Taint {
+    devices: FxHashMap<DeviceClass, Vec<bool>>,
+    /// How many devices there are in `devices`.
+    count: usize,
+    names: FxHashSet<u32>,
+    /// Everything.
+    all: bool,
+}
+
+impl Taint {
+    fn size(&self) -> (usize, usize, bool) {
+        (self.count, self.names.len(), self.all)
+    }
+
+    fn reaches(&self, atom: &Atom) -> bool {
+        let Uses { runs, names, all } = &atom.reads;
+        let any = self.count + self.names.len() > 0;
+        self.all
+            || *all && any
+            || names.iter().any(|name| self.names.contains(name))
+            || runs.iter().any(|run| self.meets(*run))
+    }
+
+    fn meets(&self, (class, first, last): (DeviceClass, u32, u32)) -> bool {
+        let Some(devices) = self.devices.get(&class) else {
+            return false;
+        };
+        let end = (last as usize + 1).min(NUMBERS);
+        devices[(first as usize).min(end)..end].contains(&true)
+    }
+
+    fn write(&mut self, atom: &Atom) {
+        let Uses { runs, names, all } = &atom.writes;
+        self.all |= all;
+        self.names.extend(names);
+        runs.iter().for_each(|run| self.add(*run));
+    }
+
+    fn add(&mut self, (class, first, last): (DeviceClass, u32, u32)) {
+        let devices = self
+            .devices
+            .entry(class)
+            .or_insert_with(|| vec![false; NUMBERS]);
+        let end = (last as usize + 1).min(NUMBERS);
+        for device in &mut devices[(first as usize).min(end)..end] {
+            self.count += usize::from(!std::mem::replace(device, true));
+        }
+    }
+
+    /// Devices that begin with different values, or keep them differently.
+    fn initial(&mut self, old: &Module, new: &Module) {
+        for (one, other) in [(old, new), (new, old)] {
+            for word in &one.initial_words {
+                let stored = other.layout.area(DeviceClass::D, word.0.number()).is_some();
+                if stored && !other.initial_words.contains(word) {
+                    self.add((DeviceClass::D, word.0.number(), word.0.number()));
+                }
+            }
+        }
+        for module in [old, new] {
+            for area in &module.layout.areas {
+                for number in area.first..area.first + area.count {
+                    if old.is_latched(area.class, number) != new.is_latched(area.class, number) {
+                        self.add((area.class, number, number));
+                    }
+                }
+            }
+        }
+    }
+
+    fn has_special(&self) -> bool {
+        use rungc_models::runs::FIRST_SPECIAL;
+        let last = NUMBERS as u32 - 1;
+        [DeviceClass::M, DeviceClass::D]
+            .into_iter()
+            .any(|class| self.meets((class, FIRST_SPECIAL, last)))
+    }
+
+    /// The devices that can differ, of those that one of the modules stores.
+    fn stored(&self, modules: [&Module; 2]) -> Vec<DeviceRun> {
+        let mut found: Vec<(DeviceClass, u32)> = Vec::new();
+        for area in modules.iter().flat_map(|module| &module.layout.areas) {
+            let numbers = area.first..area.first + area.count;
+            let differ =
+                numbers.filter(|number| self.all || self.meets((area.class, *number, *number)));
+            found.extend(differ.map(|number| (area.class, number)));
+        }
+        found.retain(|(class, _)| *class != DeviceClass::X);
+        found.sort_unstable();
+        found.dedup();
+        let mut runs: Vec<DeviceRun> = Vec::new();
+        for (class, number) in found {
+            match runs.last_mut() {
+                Some(run) if run.class == class && run.first + run.count == number => {
+                    run.count += 1
+                }
+                _ => runs.push(DeviceRun {
+                    class,
+                    first: number,
+                    count: 1,
+                }),
+            }
+        }
+        runs
+    }
+}

@@ -1,0 +1,468 @@
+//! The statements of a module as atoms: texts, and what each reads and writes.
+
+use crate::node::{
+    Arg, Body, Call, CellId, Edge, EdgeId, Expr, ExprId, Fetch, FlagId, FunctionKind, Module, Send,
+    Stmt, TableId, TempId,
+};
+use crate::reach::{Footprint, of_expr, of_stmt};
+use crate::walk::{for_exprs_mut, operands, operands_mut};
+use rungc_rt::Needs;
+use rungc_syntax::DeviceClass;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::ops::Range;
+
+/// A run of devices: class, first and last number.
+type Run = (DeviceClass, u32, u32);
+
+/// No model has special devices from 10000 on.
+const LAST_SPECIAL: u32 = 9999;
+
+/// Special devices that an instruction of the runtime may read or write: all but those that the scan alone maintains, M8000 to M8003 and
+/// M8011 to M8014.
+const SPECIAL: [Run; 3] = [
+    (DeviceClass::M, 8004, 8010),
+    (DeviceClass::M, 8015, LAST_SPECIAL),
+    (DeviceClass::D, 8000, LAST_SPECIAL),
+];
+
+/// What an operation error writes.
+const ERRORS: [Run; 4] = [
+    (DeviceClass::M, 8004, 8004),
+    (DeviceClass::M, 8067, 8069),
+    (DeviceClass::D, 8004, 8004),
+    (DeviceClass::D, 8067, 8069),
+];
+
+/// Texts by number, the same for all modules that are compared.
+#[derive(Default)]
+pub(super) struct Names(FxHashMap<String, u32>);
+
+impl Names {
+    fn of(&mut self, text: String) -> u32 {
+        let next = self.0.len() as u32;
+        *self.0.entry(text).or_insert(next)
+    }
+
+    /// What instructions share that use modules, pulse outputs and serial ports.
+    pub(super) fn hardware(&mut self) -> u32 {
+        self.of("hardware".to_string())
+    }
+}
+
+/// What an atom reads or writes.
+#[derive(Default)]
+pub(super) struct Uses {
+    pub runs: Vec<Run>,
+    /// Temporaries, private memory, conditions, calls.
+    pub names: Vec<u32>,
+    /// Anything at all.
+    pub all: bool,
+}
+
+/// A statement, or what a branch or loop asks.
+pub(super) struct Atom {
+    /// The number of its text.
+    pub text: u32,
+    pub reads: Uses,
+    pub writes: Uses,
+}
+
+/// The atoms of a module.
+pub(super) struct Sequence {
+    pub atoms: Vec<Atom>,
+    /// Which of them are those of each function.
+    pub functions: Vec<(FunctionKind, Range<usize>)>,
+}
+
+impl Sequence {
+    /// Of a module; `steps` is whether the steps of errors are a part of what it does.
+    pub(super) fn of(module: &Module, names: &mut Names, steps: bool) -> Self {
+        let mut reader = Reader {
+            module,
+            names,
+            steps,
+            atoms: Vec::new(),
+            seen: FxHashMap::default(),
+            temps: FxHashMap::default(),
+            edges: FxHashMap::default(),
+            slots: FxHashMap::default(),
+            exprs: FxHashMap::default(),
+        };
+        let mut functions = Vec::with_capacity(module.functions.len());
+        for function in &module.functions {
+            let start = reader.atoms.len();
+            let context = reader.names.of(format!("function {:?}", function.kind));
+            reader.body(&function.body, context);
+            functions.push((function.kind.clone(), start..reader.atoms.len()));
+        }
+        Sequence {
+            atoms: reader.atoms,
+            functions,
+        }
+    }
+}
+
+struct Reader<'a> {
+    module: &'a Module,
+    names: &'a mut Names,
+    steps: bool,
+    atoms: Vec<Atom>,
+    /// How often each text was given as a name, so that no name is given twice.
+    seen: FxHashMap<u32, u32>,
+    temps: FxHashMap<TempId, u32>,
+    edges: FxHashMap<EdgeId, u32>,
+    slots: FxHashMap<u16, u32>,
+    /// The texts of expressions.
+    exprs: FxHashMap<ExprId, u32>,
+}
+
+impl Reader<'_> {
+    /// A name that nothing else in this module has.
+    fn unique(&mut self, text: String) -> u32 {
+        let text = self.names.of(text);
+        let count = self.seen.entry(text).or_default();
+        *count += 1;
+        let name = format!("{text}#{count}");
+        self.names.of(name)
+    }
+
+    fn push(&mut self, text: String, reads: Uses, writes: Uses) {
+        let text = self.names.of(text);
+        self.atoms.push(Atom {
+            text,
+            reads,
+            writes,
+        });
+    }
+
+    /// The atoms of statements that are executed where a context says.
+    fn body(&mut self, body: &Body, context: u32) {
+        for stmt in body {
+            self.stmt(stmt, context);
+        }
+    }
+
+    fn stmt(&mut self, stmt: &Stmt, context: u32) {
+        match stmt {
+            Stmt::Network(_) | Stmt::Watch { .. } => {}
+            Stmt::If {
+                cond,
+                then,
+                otherwise,
+            } => {
+                let [then_context, else_context] = self.header("if", Some(*cond), context);
+                self.body(then, then_context);
+                self.body(otherwise, else_context);
+            }
+            Stmt::For { count, body } => {
+                let [inside, _] = self.header("for", Some(*count), context);
+                self.body(body, inside);
+            }
+            Stmt::Repeat(repeat) => {
+                let [inside, _] = self.header(&format!("repeat {}", repeat.count), None, context);
+                self.body(&repeat.body, inside);
+            }
+            Stmt::Parts(parts) => {
+                let [inside, _] = self.header("parts", None, context);
+                for part in parts {
+                    let label = part.label.map(|label| label.0);
+                    self.jump(format!("part {label:?}"), inside);
+                    self.body(&part.body, inside);
+                }
+            }
+            Stmt::Goto(label) => self.jump(format!("goto {}", label.0), context),
+            Stmt::Return => self.jump("return".to_string(), context),
+            Stmt::Stop => self.jump("stop".to_string(), context),
+            Stmt::Clear { latched } => self.jump(format!("clear {latched}"), context),
+            Stmt::CallSub(function) => {
+                let kind = self.module.functions.get(*function as usize);
+                let kind = format!("function {:?}", kind.map(|function| &function.kind));
+                let text = format!("{context} call {kind}");
+                let called = self.names.of(kind);
+                let mut reads = Uses::default();
+                reads.names.push(context);
+                let mut writes = Uses::default();
+                writes.names.push(called);
+                self.push(text, reads, writes);
+            }
+            Stmt::Let(..)
+            | Stmt::Edge(_)
+            | Stmt::SetFlag(..)
+            | Stmt::SetCell(..)
+            | Stmt::SetEntry(..)
+            | Stmt::Write(..)
+            | Stmt::Block(_)
+            | Stmt::Timer(_)
+            | Stmt::TimerAt(_)
+            | Stmt::TimerGoesOn { .. }
+            | Stmt::Counter16(_)
+            | Stmt::Counter16At(_)
+            | Stmt::Counter32(_)
+            | Stmt::Count(_)
+            | Stmt::Reset(_)
+            | Stmt::Call(_)
+            | Stmt::Fetch(_)
+            | Stmt::Send(_)
+            | Stmt::Fault { .. } => self.leaf(stmt, context),
+        }
+    }
+
+    /// The atom of what a branch or a loop asks, and the contexts of the bodies in it.
+    fn header(&mut self, kind: &str, asked: Option<ExprId>, context: u32) -> [u32; 2] {
+        let value = asked.map(|asked| self.expr(asked));
+        let text = format!("{context} {kind} {value:?}");
+        let name = self.unique(text.clone());
+        let inside = [0, 1].map(|branch| self.names.of(format!("{name} branch {branch}")));
+        let mut reads = Uses::default();
+        reads.names.push(context);
+        if let Some(asked) = asked {
+            self.read_expr(asked, &mut reads);
+        }
+        let mut writes = Uses::default();
+        writes.names.extend(inside);
+        self.push(text, reads, writes);
+        inside
+    }
+
+    /// An atom that decides what is executed, or that reaches everything.
+    fn jump(&mut self, text: String, context: u32) {
+        let mut reads = Uses::default();
+        reads.names.push(context);
+        let writes = Uses {
+            all: true,
+            ..Uses::default()
+        };
+        self.push(format!("{context} {text}"), reads, writes);
+    }
+
+    /// The text of an expression.
+    fn expr(&mut self, id: ExprId) -> u32 {
+        if let Some(text) = self.exprs.get(&id) {
+            return *text;
+        }
+        let expr = *self.module.expr(id);
+        let inner: Vec<u32> = operands(&expr).map(|operand| self.expr(operand)).collect();
+        let private = self.private(&expr);
+        let mut plain = expr;
+        operands_mut(&mut plain).for_each(|operand| *operand = ExprId(0));
+        let text = match private {
+            Some(name) => format!("private {name} {inner:?}"),
+            None => format!("{plain:?} {inner:?}"),
+        };
+        let text = self.names.of(text);
+        self.exprs.insert(id, text);
+        text
+    }
+
+    /// The name of the temporary or private memory that an expression itself reads.
+    fn private(&mut self, expr: &Expr) -> Option<u32> {
+        if let Expr::Temp(temp) = expr {
+            // One that is assigned nowhere does not occur.
+            Some(self.temps.get(temp).copied().unwrap_or_default())
+        } else if let Expr::Flag(flag) = expr {
+            Some(self.flag(*flag))
+        } else if let Expr::Cell(cell) = expr {
+            Some(self.cell(*cell))
+        } else if let Expr::Entry(table, _) = expr {
+            Some(self.table(*table))
+        } else {
+            None
+        }
+    }
+
+    fn flag(&mut self, flag: FlagId) -> u32 {
+        let flag = &self.module.flags[flag];
+        let text = format!(
+            "flag {} {:?} {:?}",
+            flag.name, flag.period_ms, flag.pulses_end
+        );
+        self.names.of(text)
+    }
+
+    fn cell(&mut self, cell: CellId) -> u32 {
+        let cell = &self.module.cells[cell];
+        self.names
+            .of(format!("cell {} {}", cell.name, cell.follows_time))
+    }
+
+    fn table(&mut self, table: TableId) -> u32 {
+        let table = &self.module.tables[table];
+        self.names
+            .of(format!("table {} {}", table.name, table.length))
+    }
+
+    /// What an expression reads, with its operands.
+    fn read_expr(&mut self, id: ExprId, reads: &mut Uses) {
+        let mut open = vec![id];
+        let mut seen = FxHashSet::default();
+        while let Some(id) = open.pop() {
+            if !seen.insert(id) {
+                continue;
+            }
+            let expr = *self.module.expr(id);
+            of_expr(self.module.model, &expr, &mut |used| self.run(used, reads));
+            reads.names.extend(self.private(&expr));
+            open.extend(operands(&expr));
+        }
+    }
+
+    fn run(&self, used: Footprint, uses: &mut Uses) {
+        let class = used.place.class;
+        let runs = used.reach(self.module.model, &self.module.exprs);
+        let runs = runs.into_iter().map(|(first, last)| (class, first, last));
+        uses.runs.extend(runs);
+    }
+
+    /// A statement without others in it.
+    fn leaf(&mut self, stmt: &Stmt, context: u32) {
+        let mut reads = Uses::default();
+        let mut writes = Uses::default();
+        reads.names.push(context);
+        let mut plain = stmt.clone();
+        let mut evaluated = Vec::new();
+        for_exprs_mut(&mut plain, &mut |id| {
+            evaluated.push(std::mem::replace(id, ExprId(0)));
+        });
+        let inner: Vec<u32> = evaluated.iter().map(|id| self.expr(*id)).collect();
+        for id in evaluated {
+            self.read_expr(id, &mut reads);
+        }
+        of_stmt(self.module.model, stmt, &mut |used| {
+            self.run(used, if used.writes { &mut writes } else { &mut reads });
+        });
+        let names = self.own(&mut plain, context, &inner, &mut reads, &mut writes);
+        let text = format!("{context} {plain:?} {inner:?} {names:?}");
+        self.push(text, reads, writes);
+    }
+
+    /// Takes the numbers of temporaries, private memory and steps out of a statement; the names of what they stood for.
+    fn own(
+        &mut self,
+        plain: &mut Stmt,
+        context: u32,
+        inner: &[u32],
+        reads: &mut Uses,
+        writes: &mut Uses,
+    ) -> Vec<u32> {
+        let about = format!("{context} {inner:?}");
+        let mut names = Vec::new();
+        if let Stmt::Let(temp, _) = plain {
+            let name = self.temp(std::mem::replace(temp, TempId(0)), &about);
+            writes.names.push(name);
+            names.push(name);
+        } else if let Stmt::Edge(Edge {
+            memory, kind, out, ..
+        }) = plain
+        {
+            let memory = std::mem::replace(memory, EdgeId(0));
+            let about = format!("{about} {kind:?}");
+            let memory = match self.edges.get(&memory) {
+                Some(name) => *name,
+                None => {
+                    let name = self.unique(format!("edge {about}"));
+                    self.edges.insert(memory, name);
+                    name
+                }
+            };
+            let out = self.temp(std::mem::replace(out, TempId(0)), &about);
+            reads.names.push(memory);
+            writes.names.extend([memory, out]);
+            names.extend([memory, out]);
+        } else if let Stmt::SetFlag(flag, _) = plain {
+            names.push(self.flag(std::mem::replace(flag, FlagId(0))));
+            writes.names.extend(&names);
+        } else if let Stmt::SetCell(cell, _) = plain {
+            names.push(self.cell(std::mem::replace(cell, CellId(0))));
+            writes.names.extend(&names);
+        } else if let Stmt::SetEntry(table, ..) = plain {
+            names.push(self.table(std::mem::replace(table, TableId(0))));
+            writes.names.extend(&names);
+        } else if let Stmt::Fault { step, .. } = plain {
+            self.step(step);
+            writes.runs.extend(ERRORS);
+        } else if let Stmt::Fetch(Fetch {
+            value, there, step, ..
+        }) = plain
+        {
+            self.step(step);
+            let cell = self.cell(std::mem::replace(value, CellId(0)));
+            let there = self.temp(std::mem::replace(there, TempId(0)), &about);
+            self.runtime(true, reads, writes);
+            writes.names.extend([cell, there]);
+            names.extend([cell, there]);
+        } else if let Stmt::Send(Send { step, .. }) = plain {
+            self.step(step);
+            self.runtime(true, reads, writes);
+        } else if let Stmt::Call(call) = plain {
+            names.push(self.call(call, &about, reads, writes));
+        }
+        names
+    }
+
+    /// A call of the runtime reads whatever it may write.
+    fn call(&mut self, call: &mut Call, about: &str, reads: &mut Uses, writes: &mut Uses) -> u32 {
+        self.step(&mut call.step);
+        let slot = std::mem::take(&mut call.slot);
+        let mut texts = String::new();
+        for arg in &mut call.args {
+            if let Arg::Text(number) = arg {
+                let number = std::mem::take(number) as usize;
+                texts.push_str(&format!("{:?}", self.module.texts.get(number)));
+            }
+        }
+        let text = format!("call {} {about} {texts}", call.function.name());
+        // Private memory from 1 on; those of instructions begin anew with RUN.
+        let memory = match self.slots.get(&slot) {
+            _ if slot == 0 => self.names.of(text),
+            Some(name) => *name,
+            None => {
+                let lasts = slot > self.module.run_states;
+                let name = self.unique(format!("{text} {lasts}"));
+                self.slots.insert(slot, name);
+                name
+            }
+        };
+        if slot > 0 {
+            reads.names.push(memory);
+            writes.names.push(memory);
+        }
+        let needs = call.function.needs();
+        let at_rest = Needs {
+            state: needs.state,
+            always: needs.always,
+            ..Needs::default()
+        };
+        reads.runs.extend(writes.runs.iter().copied());
+        self.runtime(needs != at_rest, reads, writes);
+        reads.all = needs.anywhere;
+        writes.all = needs.anywhere;
+        memory
+    }
+
+    /// What every call of the runtime may read and write in addition to its operands.
+    fn runtime(&mut self, hardware: bool, reads: &mut Uses, writes: &mut Uses) {
+        reads.runs.extend(SPECIAL);
+        writes.runs.extend(SPECIAL);
+        if hardware {
+            let name = self.names.hardware();
+            reads.names.push(name);
+            writes.names.push(name);
+        }
+    }
+
+    /// The name of a temporary: after the first statement that assigns it.
+    fn temp(&mut self, temp: TempId, about: &str) -> u32 {
+        if let Some(name) = self.temps.get(&temp) {
+            return *name;
+        }
+        let name = self.unique(format!("temporary {about}"));
+        self.temps.insert(temp, name);
+        name
+    }
+
+    fn step(&self, step: &mut u32) {
+        if !self.steps {
+            *step = 0;
+        }
+    }
+}
