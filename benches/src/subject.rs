@@ -298,6 +298,7 @@ impl RustSubject {
         let module = module(ladder, prefix)?;
         let options = rungc_codegen_rust::Options {
             main: false,
+            servers: false,
             runtime: rungc_codegen_rust::Runtime::At(RUNTIME.to_string()),
         };
         for file in rungc_codegen_rust::emit(&module, &options) {

@@ -243,6 +243,10 @@ pub struct Plan {
     /// Add a main program for a host that scans in real time.
     #[arg(long)]
     pub main: bool,
+    /// Executables and main programs take --modbus-tcp, --mc and --fx, as `rungc run` does, and store every device of the model. They need
+    /// the runtime library (docs/src/serve.md).
+    #[arg(long)]
+    pub servers: bool,
     /// Add functions that read and write devices by number and by name to emitted C (docs/src/embedding.md).
     #[arg(long)]
     pub device_access: bool,

@@ -1,12 +1,16 @@
-//! Serial ports of executables: `NAME --serial COM1=pty`, in C, and `--serial COM1=/dev/pts/1`, in Rust, with mbpoll as their master.
+//! Serial ports of executables: `NAME --serial COM1=pty`, in C, and `--serial COM1=/dev/pts/1`, in Rust, with mbpoll as
+//! their master; and their servers over TCP.
 #![cfg(unix)]
 
 mod common;
 
 use common::{folder, rungc, text};
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{self, Receiver};
+use std::time::{Duration, Instant};
 
 /// COM1 is a Modbus slave, RTU, station 1, 9600 bit/s, 8 data bits, no parity, 1 stop bit.
 const SLAVE: &str = "\
@@ -124,8 +128,11 @@ fn an_executable_in_c_answers_on_a_pseudo_terminal() {
 }
 
 /// The emitted package, built as it is.
-fn rust_program(folder: &Path) -> PathBuf {
-    built(folder, &["--emit", "rust", "--main", "-o", "slave"]);
+fn rust_program(folder: &Path, option: &[&str]) -> PathBuf {
+    built(
+        folder,
+        &[&["--emit", "rust", "--main", "-o", "slave"], option].concat(),
+    );
     let output = Command::new("cargo")
         .args(["build", "--quiet", "--offline"])
         .env("CARGO_PROFILE_DEV_DEBUG", "false")
@@ -137,18 +144,23 @@ fn rust_program(folder: &Path) -> PathBuf {
     folder.join("target/debug/slave")
 }
 
+/// Two pseudo-terminals that are joined.
+fn cable(ours: &Path, theirs: &Path) -> Running {
+    let end = |path: &Path| format!("pty,raw,echo=0,link={}", path.display());
+    let mut socat = Command::new("socat");
+    socat.args(["-d", "-d"]).args([end(ours), end(theirs)]);
+    Running::start(&mut socat, "starting data transfer loop").0
+}
+
 #[test]
 fn an_executable_in_rust_answers_on_a_terminal() {
     if !has(&["mbpoll", "socat", "stty"]) {
         return;
     }
     let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
-    let program = rust_program(folder.path());
+    let program = rust_program(folder.path(), &[]);
     let [ours, theirs] = ["ours", "theirs"].map(|name| folder.path().join(name));
-    let end = |path: &Path| format!("pty,raw,echo=0,link={}", path.display());
-    let mut socat = Command::new("socat");
-    socat.args(["-d", "-d"]).args([end(&ours), end(&theirs)]);
-    let (_cable, _) = Running::start(&mut socat, "starting data transfer loop");
+    let _cable = cable(&ours, &theirs);
     let line = format!("COM1={}", ours.display());
     let (_running, _) =
         Running::start(Command::new(&program).args(["--serial", &line]), "COM1 at ");
@@ -159,4 +171,171 @@ fn an_executable_in_rust_answers_on_a_terminal() {
         .unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains("the program has no port COM7"));
+}
+
+/// How long a program may take to do what it should, on a loaded machine.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// A program whose messages are read, and which takes commands.
+struct Host {
+    child: Child,
+    lines: Receiver<String>,
+}
+
+impl Host {
+    fn start(command: &mut Command) -> Host {
+        let mut child = command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let errors = BufReader::new(child.stderr.take().unwrap());
+        let (sender, lines) = mpsc::channel();
+        std::thread::spawn(move || {
+            let mut lines = errors.lines().map_while(Result::ok);
+            lines.try_for_each(|line| sender.send(line))
+        });
+        Host { child, lines }
+    }
+
+    /// What a message says after these words, once it comes.
+    fn says(&self, words: &str) -> String {
+        let end = Instant::now() + PATIENCE;
+        loop {
+            let left = end.saturating_duration_since(Instant::now());
+            let line = self.lines.recv_timeout(left);
+            let line = line.unwrap_or_else(|_| panic!("the program never says {words:?}"));
+            if let Some((_, rest)) = line.split_once(words) {
+                return rest.to_string();
+            }
+        }
+    }
+}
+
+impl Drop for Host {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Sends a request, and returns an answer of this length.
+fn ask(address: &str, request: &[u8], length: usize) -> Vec<u8> {
+    let mut stream = TcpStream::connect(address).unwrap();
+    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    stream.write_all(request).unwrap();
+    let mut answer = vec![0; length];
+    stream.read_exact(&mut answer).unwrap();
+    answer
+}
+
+/// A program serves devices that it does not name, rejects others, and ends with a table.
+fn serves(program: &Path) {
+    let options = ["--modbus-tcp", "0", "--mc", "127.0.0.1:0", "--fx", "0"];
+    let mut host = Host::start(Command::new(program).args(options));
+    let modbus = host.says("Modbus TCP at ");
+    let mc = host.says("MC protocol at ");
+    let fx = host.says("programming port at ");
+    let write = [0, 1, 0, 0, 0, 6, 1, 6, 0, 200, 0, 7];
+    assert_eq!(ask(&modbus, &write, 12), write);
+    let missing = [0, 2, 0, 0, 0, 6, 1, 3, 0xea, 0x60, 0, 1];
+    assert_eq!(ask(&modbus, &missing, 9), [0, 2, 0, 0, 0, 3, 1, 0x83, 2]);
+    // D200, by frame 1E.
+    let read = [1, 0xff, 10, 0, 200, 0, 0, 0, 0x20, 0x44, 1, 0];
+    assert_eq!(ask(&mc, &read, 4), [0x81, 0, 7, 0]);
+    assert_eq!(ask(&fx, b"\x05", 1), [6]);
+    // No request at all: the connection is closed.
+    let mut stream = TcpStream::connect(&modbus).unwrap();
+    stream.write_all(b"GET / HTTP/1.1\r\n\r\n").unwrap();
+    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    assert!(!matches!(stream.read(&mut [0; 8]), Ok(1..)));
+    host.child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(b"quit\n")
+        .unwrap();
+    let row = host.says(&format!("{modbus:<21}  "));
+    let words: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(
+        words,
+        ["127.0.0.1", "Modbus", "TCP", "3", "2", "2"],
+        "{row}"
+    );
+    assert_eq!(host.child.wait().unwrap().code(), Some(0));
+}
+
+/// A line that vanishes is opened again.
+fn reconnects(program: &Path, folder: &Path) {
+    let [ours, theirs] = ["far", "near"].map(|name| folder.join(name));
+    let first = cable(&ours, &theirs);
+    let line = format!("COM1={}", ours.display());
+    let host = Host::start(Command::new(program).args(["--serial", &line]));
+    host.says("COM1 at ");
+    answers(&theirs.display().to_string());
+    drop(first);
+    host.says("is gone; waiting for it");
+    let _second = cable(&ours, &theirs);
+    host.says("is back");
+    answers(&theirs.display().to_string());
+}
+
+/// What `--help` prints; it ends.
+fn help(program: &Path) -> String {
+    let output = Command::new(program).arg("--help").output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    text(&output.stdout).to_string()
+}
+
+#[test]
+fn an_executable_in_c_serves_over_tcp_and_reconnects() {
+    let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
+    built(
+        folder.path(),
+        &["--emit", "bin", "--servers", "-o", "slave"],
+    );
+    let program = folder.path().join("slave");
+    insta::assert_snapshot!(help(&program));
+    serves(&program);
+    let output = Command::new(&program)
+        .args(["--mc", "127.0.0.1:70000"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("an address is written 127.0.0.1:5020"));
+    if has(&["mbpoll", "socat"]) {
+        reconnects(&program, folder.path());
+    }
+}
+
+#[test]
+fn an_executable_in_rust_serves_over_tcp_and_reconnects() {
+    let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
+    let program = rust_program(folder.path(), &["--servers"]);
+    insta::assert_snapshot!(help(&program));
+    serves(&program);
+    if has(&["mbpoll", "socat", "stty"]) {
+        reconnects(&program, folder.path());
+    }
+}
+
+#[test]
+fn servers_need_a_main_program() {
+    let folder = folder(&[("slave.il", SLAVE.as_bytes())]);
+    let args = [
+        "build",
+        "slave.il",
+        "--model",
+        "h2u",
+        "--emit",
+        "lib",
+        "--servers",
+    ];
+    let output = rungc(folder.path(), &args);
+    assert_eq!(output.status.code(), Some(2));
+    insta::assert_snapshot!(
+        text(&output.stderr).trim_end(),
+        @"rungc: --servers only applies to --emit bin, and to --emit c and --emit rust with --main"
+    );
 }

@@ -1,18 +1,13 @@
 /*
  * main.c: runs PROGRAM on a Linux host in real time, one scan every 10 ms.
  *
- * Type `X0=1` or `X0=0` and Enter to switch an input; outputs are printed when they change. Ctrl-C stops.
+ * Type `X0=1` or `X0=0` and Enter to switch an input; outputs are printed when they change. Ctrl-C or `quit` stops.
  */
-#define _POSIX_C_SOURCE 200809L
+/* FEATURES */
 
 #include "PROGRAM.h"
 
-#include <poll.h>
-#include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
-#include <unistd.h>
+/* HEADERS */
 
 #define SCAN_MS 10
 
@@ -84,6 +79,10 @@ static void read_commands(PROGRAM_plc *plc)
         }
         line[length] = '\0';
         length = 0;
+        if (strcmp(line, "quit") == 0) {
+            stopped = 1;
+            continue;
+        }
         char *end = line;
         if (line[0] == 'X' || line[0] == 'x') {
             const unsigned long number = strtoul(line + 1, &end, 8);
@@ -179,8 +178,34 @@ static void print_outputs(const PROGRAM_plc *plc, uint32_t now_ms)
 
 /* CLOCK */
 /* OVERRUN */
-int main(void)
+/* What the options are. */
+static void print_usage(FILE *to)
 {
+    /* USAGE */
+}
+
+/* Takes the options; -1: the program runs, else its exit code. */
+static int read_options(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "-h") == 0 || strcmp(argv[i], "--help") == 0) {
+            print_usage(stdout);
+            return 0;
+        }
+        /* OPTIONS */
+        fprintf(stderr, "PROGRAM: %s: not an option, or its value is missing\n", argv[i]);
+        print_usage(stderr);
+        return 2;
+    }
+    return -1;
+}
+
+int main(int argc, char **argv)
+{
+    const int code = read_options(argc, argv);
+    if (code >= 0) {
+        return code;
+    }
     PROGRAM_plc *const plc = &plc_memory;
     const uint64_t start = microseconds();
     struct sigaction action = {.sa_flags = SA_RESTART};
@@ -197,6 +222,7 @@ int main(void)
         const uint64_t begin = microseconds();
         const uint32_t now_ms = (uint32_t)((begin - start) / 1000u);
         read_commands(plc);
+        /* SERVE */
         PROGRAM_scan(plc, now_ms, scan_us);
         print_outputs(plc, now_ms);
         print_error(plc, now_ms);
@@ -206,5 +232,6 @@ int main(void)
         /* PERIOD */
         /* WAIT */
     }
+    /* CONNECTIONS */
     return 0;
 }

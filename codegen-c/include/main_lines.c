@@ -1,3 +1,6 @@
+/* After how many microseconds it is tried again to open a line that has vanished. */
+#define RETRY_US 1000000u
+
 /* A serial port of the program, and the one of this machine that it is. */
 typedef struct {
     const uint8_t port; /* its number in the PLC's manual */
@@ -12,6 +15,7 @@ typedef struct {
     size_t next, count; /* the next of them, and how many there are */
     uint8_t to_send[600];
     size_t waiting;
+    uint32_t tried_us; /* when it was last tried to open the line again */
 } serial_line;
 
 static serial_line serial_lines[] = {
@@ -28,12 +32,15 @@ static serial_line *line_of(uint8_t port)
     return NULL;
 }
 
-/* The program runs on without the line. */
+/* The line has vanished; the program runs on without it. */
 static void close_line(serial_line *line)
 {
-    fprintf(stderr, "PROGRAM: COM%u: %s no longer works; nothing is received or sent on it any more\n", line->port, line->path);
+    fprintf(stderr, "PROGRAM: COM%u: %s is gone; waiting for it\n", line->port, line->path);
     close(line->file);
     line->file = -1;
+    line->waiting = 0;
+    line->next = 0;
+    line->count = 0;
 }
 
 static speed_t speed_of(uint32_t bits_per_second)
@@ -86,12 +93,30 @@ static void set_line(void *context, uint8_t port, const rungc_line_format *forma
     }
 }
 
+/* Opens a line again that has vanished, if it is there. */
+static void reopen_line(serial_line *line, uint32_t now_us)
+{
+    if (line->path == NULL || now_us - line->tried_us < RETRY_US) {
+        return;
+    }
+    line->tried_us = now_us;
+    line->file = open(line->path, O_RDWR | O_NOCTTY | O_NONBLOCK);
+    if (line->file >= 0) {
+        const rungc_line_format format = line->format;
+        fprintf(stderr, "PROGRAM: COM%u: %s is back\n", line->port, line->path);
+        set_line(NULL, line->port, &format);
+    }
+}
+
 /* Characters that came together came one after the other; the last of them is in now. */
 static bool receive(void *context, uint8_t port, uint32_t now_us, rungc_received *received)
 {
     serial_line *const line = line_of(port);
 
     (void)context;
+    if (line != NULL && line->file < 0) {
+        reopen_line(line, now_us);
+    }
     if (line == NULL || line->file < 0) {
         return false;
     }
@@ -211,21 +236,6 @@ static bool open_line(const char *what)
         return false;
     }
     fprintf(stderr, "PROGRAM: COM%lu at %s\n", port, line->path);
-    return true;
-}
-
-/* Takes the options; false if they are wrong. */
-static bool read_options(int argc, char **argv)
-{
-    for (int i = 1; i < argc; i += 2) {
-        if (strcmp(argv[i], "--serial") != 0 || i + 1 == argc) {
-            fprintf(stderr, "PROGRAM: usage: %s [--serial COM1=/dev/ttyUSB0|COM1=pty]...\n", argv[0]);
-            return false;
-        }
-        if (!open_line(argv[i + 1])) {
-            return false;
-        }
-    }
     return true;
 }
 

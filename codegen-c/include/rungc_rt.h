@@ -22,6 +22,21 @@ typedef struct rungc_port_model rungc_port_model;
 #define Wiring_FAST_INPUTS 8
 
 /**
+ * Bytes of a monitor list of the programming port, which needs the most.
+ */
+#define RUNGC_MEMORY_SIZE 912
+
+/**
+ * Most characters of a request of any service.
+ */
+#define RUNGC_LONGEST_REQUEST 3605
+
+/**
+ * More characters than an answer of any service has.
+ */
+#define RUNGC_LONGEST_REPLY 8192
+
+/**
  * Device class. The numbers are part of the C ABI.
  */
 enum rungc_class
@@ -362,6 +377,68 @@ enum rungc_request
 typedef enum rungc_request rungc_request;
 #else
 typedef uint8_t rungc_request;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * The protocols of servers.
+ */
+enum rungc_speaks
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Modbus TCP, with the address table of the model.
+     */
+    RUNGC_SPEAKS_MODBUS_TCP = 0,
+    /**
+     * MC protocol, frames 1E and 3E in binary.
+     */
+    RUNGC_SPEAKS_MC = 1,
+    /**
+     * The programming port's protocol, as the model speaks it.
+     */
+    RUNGC_SPEAKS_PROGRAMMING_PORT = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_speaks rungc_speaks;
+#else
+typedef uint8_t rungc_speaks;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/**
+ * What a character of a connection was.
+ */
+enum rungc_heard
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint8_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /**
+     * Part of a request that continues, or of none.
+     */
+    RUNGC_HEARD_MORE = 0,
+    /**
+     * The last of a request, which has been carried out.
+     */
+    RUNGC_HEARD_REQUEST = 1,
+    /**
+     * The last of a request, which has been rejected.
+     */
+    RUNGC_HEARD_REJECTED = 2,
+    /**
+     * Not part of a request; nothing that follows can be one, so the connection is to be closed.
+     */
+    RUNGC_HEARD_LOST = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum rungc_heard rungc_heard;
+#else
+typedef uint8_t rungc_heard;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
@@ -831,6 +908,67 @@ typedef struct rungc_operand {
 } rungc_operand;
 
 /**
+ * What a server speaks, for a model.
+ */
+typedef struct rungc_service {
+    /**
+     * Its protocol.
+     */
+    rungc_speaks speaks;
+    /**
+     * The model's family.
+     */
+    rungc_ports family;
+    /**
+     * Code of model and version, which D8001 shows.
+     */
+    uint16_t type_code;
+} rungc_service;
+
+/**
+ * What a slave keeps from one frame to the next: the monitor list of the programming port, or the blocks of QLink. A port speaks one protocol at a
+ * time, so they share it. All zero is nothing.
+ */
+typedef struct rungc_memory {
+    uint8_t _0[RUNGC_MEMORY_SIZE];
+} rungc_memory;
+
+/**
+ * A connection to a server: what has come of a request, and what is kept from one to the next.
+ */
+typedef struct rungc_connection {
+    struct rungc_service service;
+    /**
+     * How much of `received` there is.
+     */
+    uint16_t length;
+    /**
+     * It is a request that is over.
+     */
+    bool over;
+    uint8_t received[RUNGC_LONGEST_REQUEST];
+    struct rungc_memory memory;
+} rungc_connection;
+
+/**
+ * The answer to a request.
+ */
+typedef struct rungc_reply {
+    /**
+     * RUN or STOP, if the request asks for it.
+     */
+    rungc_request request;
+    /**
+     * How many characters it has; 0: the request is not answered.
+     */
+    uint16_t length;
+    /**
+     * Its characters.
+     */
+    uint8_t bytes[RUNGC_LONGEST_REPLY];
+} rungc_reply;
+
+/**
  * One pulse output. All zero is one that is idle.
  */
 typedef struct rungc_generator {
@@ -1006,6 +1144,20 @@ uint32_t rungc_pulse_millihertz(struct rungc_map *map, uint32_t number);
  * Sets the 32-bit value of a counter from C200 on or of a pair of words.
  */
 bool rungc_set_long(struct rungc_map *map, rungc_class class_, uint32_t number, int32_t value);
+
+/**
+ * A connection begins.
+ */
+void rungc_connect(struct rungc_connection *connection, struct rungc_service service);
+
+/**
+ * Takes a character that has come over a connection. If it is the last of a request, that is carried out and answered
+ * in `reply`. Call it between two scans.
+ */
+rungc_heard rungc_hear(struct rungc_connection *connection,
+                       struct rungc_map *map,
+                       uint8_t byte,
+                       struct rungc_reply *reply);
 
 /**
  * The virtual hardware as instructions see it, for `Map::hal`.

@@ -37,7 +37,7 @@ pub struct Part {
 impl Part {
     /// Emits a program. The same module gives the same bytes.
     pub fn new(module: &Module, options: &Options) -> Part {
-        let unit = unit::unit(module, false);
+        let unit = unit::unit(module, options.main && options.servers);
         let name = &module.name;
         let retain = options.retain && retain::keeps_any(module);
         let shared = Shared {
@@ -76,7 +76,8 @@ impl Part {
             pair("retain", [retain::header(module), retain::source(module)]);
         }
         if options.main {
-            files.push(OutFile::new("main.c", crate::host::main_file(module)));
+            let main = crate::host::main_file(module, options.servers);
+            files.push(OutFile::new("main.c", main));
             recipe.sources.push("main.c".to_string());
         }
         Part { files, recipe }

@@ -3,7 +3,9 @@
 use crate::fields::PrintStorage;
 use crate::text;
 use rungc_emit::storage::{Field, Storage};
+use rungc_emit::usage::{self, Host, Takes};
 use rungc_ir::Module;
+use rungc_rt::comm::service::{Speaks, TABLE_HEADING};
 use rungc_syntax::DeviceClass;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -84,13 +86,22 @@ static bool set_clock(void *context, const rungc_clock *clock)
 /// What drives serial ports.
 const LINES: &str = include_str!("../include/main_lines.c");
 
-/// Headers that they need.
-const LINES_HEADERS: &str = "#include <errno.h>\n#include <fcntl.h>\n#include <poll.h>\n#include <signal.h>\n#include <stdio.h>\n\
-                             #include <stdlib.h>\n#include <string.h>\n#include <termios.h>\n";
+/// The servers over TCP.
+const SERVERS: &str = include_str!("../include/main_servers.c");
 
-/// The same of a host without serial ports.
-const HEADERS: &str =
-    "#include <poll.h>\n#include <signal.h>\n#include <stdio.h>\n#include <stdlib.h>\n";
+/// Headers that every host needs, those with serial ports, and those with servers.
+const HEADERS: [&str; 7] = [
+    "poll", "signal", "stdio", "stdlib", "string", "time", "unistd",
+];
+const LINES_HEADERS: [&str; 3] = ["errno", "fcntl", "termios"];
+const SERVERS_HEADERS: [&str; 6] = [
+    "errno",
+    "fcntl",
+    "netdb",
+    "netinet/in",
+    "netinet/tcp",
+    "sys/socket",
+];
 
 /// What a host says of a scan that takes longer than the constant length.
 const OVERRUN: &str = "\
@@ -108,8 +119,8 @@ static void print_overrun(uint32_t scan_us, uint32_t constant_us)
 
 ";
 
-/// `main.c` for a program.
-pub fn main_file(module: &Module) -> String {
+/// `main.c` for a program; `servers`: it takes options that open servers.
+pub fn main_file(module: &Module, servers: bool) -> String {
     let fields = Storage::new(module);
     let name = &module.name;
     let mut inputs = String::new();
@@ -168,35 +179,117 @@ pub fn main_file(module: &Module) -> String {
         false => "    plc->hal = &hardware;\n",
     };
     let clock = if asks_clock { CLOCK } else { "" };
-    let text = match module.has_ports() {
-        true => MAIN_C
-            .replace(
-                "#define _POSIX_C_SOURCE 200809L",
-                "#define _DEFAULT_SOURCE\n#define _XOPEN_SOURCE 700",
-            )
-            .replace(HEADERS, LINES_HEADERS)
-            .replace("int main(void)\n{\n", MAIN_WITH_OPTIONS),
-        false => MAIN_C.to_string(),
+    let host = Host {
+        lines: &["/dev/ttyUSB0", "pty"],
+        servers,
     };
-    text.replace("    /* ERRORS */\n", &errors)
-        .replace("    /* INSTRUCTIONS */\n", &instructions(module))
+    let (serve, connections) = match servers {
+        true => ("        poll_servers(plc);\n", "    print_connections();\n"),
+        false => ("", ""),
+    };
+    MAIN_C
+        .replace("/* FEATURES */", features(module.has_ports()))
+        .replace("/* HEADERS */\n", &headers(module.has_ports(), servers))
+        .replace("        /* SERVE */\n", serve)
+        .replace("    /* CONNECTIONS */\n", connections)
         .replace("/* MISSING */\n", &missing_device(module, &fields))
         .replace(
             "/* CLOCK */\n",
-            &format!("{clock}{}{hardware}", lines(module)),
+            &[
+                clock,
+                &lines(module),
+                &hardware,
+                &server_code(module, servers),
+            ]
+            .concat(),
         )
         .replace("    /* HAL */\n", hal)
         .replace("/* PERIOD */", period)
         .replace("/* OVERRUN */\n", overrun)
         .replace("/* WAIT */", wait)
         .replace("/* INTERRUPTS */", interrupts)
-        .replace("    /* INPUTS */\n", &inputs)
-        .replace("    /* OUTPUTS */\n", &outputs)
         .replace("PROGRAM", name)
+        // Texts of the program come last: they may contain any word.
+        .replace("        /* OPTIONS */\n", &options(module, &host))
+        .replace("    /* ERRORS */\n", &errors)
+        .replace("    /* INPUTS */\n", &inputs)
+        .replace("    /* USAGE */\n", &usage(module, &host))
+        .replace("    /* INSTRUCTIONS */\n", &instructions(module))
+        .replace("    /* OUTPUTS */\n", &outputs)
 }
 
-/// How `main` begins where it takes options.
-const MAIN_WITH_OPTIONS: &str = "int main(int argc, char **argv)\n{\n    if (!read_options(argc, argv)) {\n        return 2;\n    }\n";
+/// What the system's headers are to declare.
+fn features(ports: bool) -> &'static str {
+    match ports {
+        true => "#define _DEFAULT_SOURCE\n#define _XOPEN_SOURCE 700",
+        false => "#define _POSIX_C_SOURCE 200809L",
+    }
+}
+
+/// The lines that include the system's headers.
+fn headers(ports: bool, servers: bool) -> String {
+    let of_lines = LINES_HEADERS.iter().filter(|_| ports);
+    let of_servers = SERVERS_HEADERS.iter().filter(|_| servers);
+    let all: BTreeSet<_> = HEADERS.iter().chain(of_lines).chain(of_servers).collect();
+    let lines = all.into_iter().map(|name| format!("#include <{name}.h>\n"));
+    lines.collect()
+}
+
+/// The statements that print the text for `--help`.
+fn usage(module: &Module, host: &Host) -> String {
+    let lines = usage::lines(module, host).into_iter();
+    let lines = lines.map(|line| {
+        let line = text::string_literal(&format!("{line}\n"));
+        format!("    fputs({line}, to);\n")
+    });
+    lines.collect()
+}
+
+/// The statements that take the options with a value.
+fn options(module: &Module, host: &Host) -> String {
+    let options = usage::options(module, host).into_iter();
+    let options = options.map(|option| {
+        let call = match option.takes {
+            Takes::Line => "open_line(argv[++i])".to_string(),
+            Takes::Address(speaks) => {
+                let name = speaks.name();
+                let speaks = constant(speaks);
+                format!("open_server(RUNGC_SPEAKS_{speaks}, \"{name}\", argv[++i])")
+            }
+        };
+        format!(
+            "        if (strcmp(argv[i], \"{}\") == 0 && i + 1 < argc) {{\n            if (!{call}) {{\n                \
+             return 2;\n            }}\n            continue;\n        }}\n",
+            option.name
+        )
+    });
+    options.collect()
+}
+
+/// What the header of the runtime calls a protocol.
+fn constant(speaks: Speaks) -> &'static str {
+    match speaks {
+        Speaks::ModbusTcp => "MODBUS_TCP",
+        Speaks::Mc => "MC",
+        Speaks::ProgrammingPort => "PROGRAMMING_PORT",
+    }
+}
+
+/// The servers over TCP of a host that has some.
+fn server_code(module: &Module, servers: bool) -> String {
+    if !servers {
+        return String::new();
+    }
+    let family = format!("{:?}", module.model.ports).to_ascii_uppercase();
+    SERVERS
+        .replace("FAMILY", &format!("RUNGC_PORTS_{family}"))
+        .replace("TYPE_CODE", &module.model.type_code().to_string())
+        .replace("HEADING", TABLE_HEADING)
+        .replace("ROW,", &format!("\"{TABLE_ROW}\\n\","))
+}
+
+/// How a row of the table of connections is printed.
+const TABLE_ROW: &str = "%-21s  %-15s  %-16s  %8lu  %8lu  %8lu";
 
 /// The serial ports, and what drives them.
 fn lines(module: &Module) -> String {

@@ -51,6 +51,8 @@ use rungc_ir::Module;
 pub struct Options {
     /// Also a `main.c` for a Linux host that scans in real time.
     pub main: bool,
+    /// The `main.c` takes options that open servers over TCP; the runtime library is needed then.
+    pub servers: bool,
     /// Also `NAME_board.h`, the wiring between the program and a board, of a program that takes no events; one that
     /// does always has it.
     pub board: bool,

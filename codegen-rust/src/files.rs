@@ -2,14 +2,10 @@
 
 use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
-use crate::{Options, OutFile, Runtime};
-use rungc_emit::cycle;
+use crate::{Options, OutFile, Runtime, host};
 use rungc_ir::Module;
-use rungc_ir::node::Origin;
-use rungc_models::plc_errors;
 use rungc_rt::TimerKind;
 use rungc_runtime_sources::EMITTED_VERSION;
-use rungc_syntax::DeviceClass;
 use rungc_syntax::text::one_line;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -36,14 +32,21 @@ fn runtime(crate_name: &str) -> Vec<OutFile> {
         .collect()
 }
 
-fn manifest(name: &str, description: &str, runtime_path: &str, profile: &str) -> String {
-    // A string of TOML, whose escapes are not those of Rust.
-    let quoted = |text: &str| toml::Value::from(text).to_string();
+/// A string of TOML, whose escapes are not those of Rust.
+fn quoted(text: &str) -> String {
+    toml::Value::from(text).to_string()
+}
+
+/// Where a crate finds the runtime.
+fn at(path: &str) -> String {
+    format!("path = {}", quoted(path))
+}
+
+fn manifest(name: &str, description: &str, runtime: &str, profile: &str) -> String {
     let (name, description) = (quoted(name), quoted(&one_line(description)));
-    let runtime_path = quoted(runtime_path);
     format!(
         "[package]\nname = {name}\ndescription = {description}\nversion = \"{EMITTED_VERSION}\"\nedition = \"2024\"\npublish = false\n\n\
-         [dependencies]\nrungc-rt = {{ path = {runtime_path} }}\n\n\
+         [dependencies]\nrungc-rt = {{ {runtime} }}\n\n\
          # A separate workspace. Delete this line to make the crate a member of yours.\n[workspace]\n{profile}"
     )
 }
@@ -58,18 +61,25 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         Runtime::Included => (RUNTIME_FOLDER, runtime(&crate_name)),
         Runtime::At(path) => (path.as_str(), Vec::new()),
     };
+    let mut runtime_at = at(runtime_path);
+    if options.main && options.servers {
+        runtime_at.push_str(", features = [\"std\"]");
+    }
     let description = format!("PLC program {}", module.source_name);
     let mut files = vec![
         OutFile::new(
             "Cargo.toml",
-            manifest(&crate_name, &description, runtime_path, ""),
+            manifest(&crate_name, &description, &runtime_at, ""),
         ),
         OutFile::new("src/lib.rs", library(&mut generator, &functions)),
         OutFile::new("src/devices.rs", devices(&mut generator)),
     ];
     files.extend(program_files(&generator, functions));
     if options.main {
-        files.push(OutFile::new("src/main.rs", host(&generator, &crate_name)));
+        files.push(OutFile::new(
+            "src/main.rs",
+            host::main_file(&generator, &crate_name, options.servers),
+        ));
     }
     files.extend(runtime);
     files
@@ -374,186 +384,6 @@ fn lines(item: &Item) -> usize {
     item.text.lines().count()
 }
 
-fn host(generator: &Generator, crate_name: &str) -> String {
-    let mut table = String::new();
-    for field in generator.storage.of_class(DeviceClass::Y) {
-        for number in field.first..field.end() {
-            // Those that send pulses would be printed all the time.
-            if generator.module.pulse_outputs.contains(&number) {
-                continue;
-            }
-            let comment = generator
-                .device_comment(DeviceClass::Y, number)
-                .unwrap_or_default();
-            let name = DeviceClass::Y.number(number).to_string();
-            let _ = write!(
-                table,
-                "\n    ({number}, {name:?}, {:?}),",
-                one_line(comment)
-            );
-        }
-    }
-    if !table.is_empty() {
-        table.push('\n');
-    }
-    let wait = match (
-        generator.module.takes_events(),
-        generator.module.has_ports(),
-    ) {
-        (false, _) => WAIT,
-        (true, false) => WAIT_WITH_EVENTS,
-        (true, true) => WAIT_WITH_LINES,
-    };
-    let errors = match generator.module.may_fail() {
-        true => plc_errors::PLC_ERRORS,
-        false => &[],
-    };
-    let errors: String = errors
-        .iter()
-        .map(|error| format!("\n    ({}, {:?}),", error.code, error.title))
-        .collect();
-    let (period, overrun) = match cycle::constant_scan(generator.module, &generator.storage) {
-        Some(_) => (CONSTANT_PERIOD, "    let mut overrun = false;\n"),
-        None => (PERIOD, ""),
-    };
-    let (uses, set, local) = match cycle::asks_clock(generator.module) {
-        true => ("Class, Clock, Hal", SET_CLOCK, LOCAL_TIME),
-        false => ("Class", "", ""),
-    };
-    let text = include_str!("../templates/host.rs");
-    let text = match generator.module.has_ports() {
-        true => with_lines(text),
-        false => text.to_string(),
-    };
-    text.replace("        PERIOD;\n", period)
-        .replace("    OVERRUN;\n", overrun)
-        .replace("CLOCK_USES", uses)
-        .replace("    CLOCK;\n", set)
-        .replace("LOCAL_TIME;\n", local)
-        .replace("ERROR_TABLE", &errors)
-        .replace("INSTRUCTION_TABLE", &instructions(generator.module))
-        .replace("OUTPUT_TABLE", &table)
-        .replace("        WAIT;\n", wait)
-        .replace("CRATE", crate_name)
-        .replace("TYPE", &generator.type_name.to_string())
-}
-
-/// A host with serial ports.
-fn with_lines(text: &str) -> String {
-    let open = "    let mut lines = lines(&mut plc).unwrap_or_else(|error| {
-        eprintln!(\"{error}\");
-        std::process::exit(2)
-    });
-";
-    let exchange =
-        "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n";
-    let uses = "use rungc_rt::comm::{LineFormat, Parity, Received};\nuse rungc_rt::{";
-    text.replacen("use rungc_rt::{", uses, 1)
-        .replace(
-            "use std::io::{self, BufRead};",
-            "use std::fs::File;\nuse std::io::{self, BufRead, Read, Write};",
-        )
-        .replace(
-            "    let mut hal = VirtualHal::new();\n",
-            &format!("    let mut hal = VirtualHal::new();\n{open}"),
-        )
-        .replace("        plc.scan(", &format!("{exchange}        plc.scan("))
-        + include_str!("../templates/lines.rs")
-}
-
-/// The rows of the instructions at which an error can occur.
-fn instructions(module: &Module) -> String {
-    let mut rows = String::new();
-    for Origin {
-        step,
-        text,
-        indexed,
-    } in &module.origins
-    {
-        let indexed = indexed.iter().map(|(device, index)| {
-            let [class, index_class] = [device.class, index.class].map(|c| format!("Class::{c:?}"));
-            format!(
-                "({class}, {:?}, {}, {index_class}, {})",
-                device.class.prefix(),
-                device.number,
-                index.number
-            )
-        });
-        let indexed = indexed.collect::<Vec<_>>().join(", ");
-        let text = one_line(text);
-        let _ = write!(rows, "\n    ({step}, {text:?}, &[{indexed}]),");
-    }
-    if !rows.is_empty() {
-        rows.push('\n');
-    }
-    rows
-}
-
-/// When the next scan begins.
-const PERIOD: &str = "        next += SCAN;\n";
-
-/// When it begins after a scan that may ask for a constant length.
-const CONSTANT_PERIOD: &str = "        let constant_us = plc.constant_scan_ms().map(|ms| u32::from(ms) * 1000);
-        next = match constant_us {
-            None => next + SCAN,
-            Some(us) if scan_us <= us => {
-                scan_us = us;
-                next + Duration::from_micros(us.into())
-            }
-            Some(us) => {
-                if !overrun {
-                    eprintln!(\"a scan took {scan_us} us, longer than the constant scan time of {us} us\");
-                }
-                overrun = true;
-                Instant::now()
-            }
-        };
-";
-
-/// The program's clock starts with that of the computer.
-const SET_CLOCK: &str = "    if let Some(clock) = local_time() {
-        let _ = hal.set_clock(clock);
-    }
-";
-
-/// Where a host takes its clock from: the standard library knows no local time.
-const LOCAL_TIME: &str = "
-/// The local time, as the command `date` gives it; `None` where there is no such command.
-fn local_time() -> Option<Clock> {
-    let date = std::process::Command::new(\"date\").arg(\"+%Y %m %d %H %M %S\").output().ok()?;
-    let text = String::from_utf8(date.stdout).ok()?;
-    let mut fields = text.split_whitespace().map(|field| field.parse::<u16>().ok());
-    let mut next = || fields.next().flatten();
-    let year = next()?;
-    let mut next = || u8::try_from(next()?).ok();
-    Clock::new(year, next()?, next()?, next()?, next()?, next()?)
-}
-";
-
-/// How a host waits for the next scan.
-const WAIT: &str = "        std::thread::sleep(next.saturating_duration_since(Instant::now()));\n";
-
-/// How a host waits that may be interrupted.
-const WAIT_WITH_EVENTS: &str = "\
-        while Instant::now() < next {
-            std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
-            plc.tick(&mut hal, start.elapsed().as_millis() as u32);
-            plc.take_interrupts(&mut hal);
-        }
-";
-
-/// The same with serial ports.
-const WAIT_WITH_LINES: &str = "\
-        while Instant::now() < next {
-            std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
-            let now_ms = start.elapsed().as_millis() as u32;
-            hal.advance_to(now_ms);
-            lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));
-            plc.tick(&mut hal, now_ms);
-            plc.take_interrupts(&mut hal);
-        }
-";
-
 /// A crate for many programs.
 pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     let profile = "\n[features]\n# For a machine without operating system: a static library with a `main`, and without the standard library.\nbare = []\n\n\
@@ -562,7 +392,12 @@ pub fn batch(modules: &[Module]) -> Vec<OutFile> {
     let mut files = vec![
         OutFile::new(
             "Cargo.toml",
-            manifest("batch", "PLC programs for tests", RUNTIME_FOLDER, profile),
+            manifest(
+                "batch",
+                "PLC programs for tests",
+                &at(RUNTIME_FOLDER),
+                profile,
+            ),
         ),
         OutFile::new("src/main.rs", include_str!("../templates/batch/main.rs")),
         OutFile::new("src/lib.rs", include_str!("../templates/batch/lib.rs")),

@@ -20,6 +20,7 @@ mod files;
 mod format;
 mod function;
 mod generate;
+mod host;
 mod machine;
 mod members;
 mod numeric;
@@ -38,6 +39,8 @@ use rungc_ir::Module;
 pub struct Options {
     /// Also a `src/main.rs` that scans in real time on a host with `std`.
     pub main: bool,
+    /// The `src/main.rs` takes options that open servers over TCP.
+    pub servers: bool,
     /// Where the emitted crate finds `rungc-rt`.
     pub runtime: Runtime,
 }

@@ -1,13 +1,9 @@
 //! Runs the program on this computer in real time, one scan every 10 ms.
 //!
-//! Type `X0=1` or `X0=0` and Enter to switch an input (in octal, as on the PLC); outputs are printed when they change.
+//! Type `X0=1` or `X0=0` and Enter to switch an input (in octal, as on the PLC); outputs are printed when they change. `quit` ends
+//! the run.
 
-use CRATE::TYPE;
-use rungc_rt::{CLOCK_USES, LastError, Plc, Program, Stop, VirtualHal};
-use std::collections::BTreeSet;
-use std::io::{self, BufRead};
-use std::sync::mpsc::{self, Receiver};
-use std::time::{Duration, Instant};
+USES;
 
 /// Time from the start of one scan to the start of the next.
 const SCAN: Duration = Duration::from_millis(10);
@@ -27,9 +23,13 @@ type Indexed = (Class, &'static str, u32, Class, u32);
 /// Instructions at which an error can occur: step, text, devices with an index.
 const INSTRUCTIONS: &[(u16, &str, &[Indexed])] = &[INSTRUCTION_TABLE];
 
+/// The text for `--help`.
+const USAGE: &str = USAGE_TEXT;
+
 fn main() {
     let mut plc = TYPE::new();
     let mut hal = VirtualHal::new();
+    OPEN;
     CLOCK;
     let mut shown = [false; OUTPUTS.len()];
     let commands = commands();
@@ -38,15 +38,19 @@ fn main() {
     let mut scan_us = 0;
     let mut reported = Reported::default();
     OVERRUN;
-    loop {
+    'run: loop {
         let begin = Instant::now();
         let now_ms = (begin - start).as_millis() as u32;
         for line in commands.try_iter().take(COMMANDS_PER_SCAN) {
+            if line.trim() == "quit" {
+                break 'run;
+            }
             if set_input(&mut plc, &mut hal, &line).is_none() {
                 eprintln!("{line}: not an input; type for example X0=1");
             }
         }
         hal.advance_to(now_ms);
+        SERVE;
         plc.scan(&mut hal, now_ms, scan_us);
         for (&(number, name, comment), shown) in OUTPUTS.iter().zip(&mut shown) {
             let on = plc.output(number);
@@ -62,6 +66,30 @@ fn main() {
         PERIOD;
         WAIT;
     }
+    CONNECTIONS;
+}
+
+/// Options with a value.
+const VALUED: &[&str] = &[OPTION_NAMES];
+
+/// What the command line asks for, as options and their values; the rest of it ends the program.
+fn options() -> Vec<(String, String)> {
+    let mut options = Vec::new();
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        if ["-h", "--help"].contains(&word.as_str()) {
+            print!("{USAGE}");
+            std::process::exit(0);
+        }
+        match words.next().filter(|_| VALUED.contains(&word.as_str())) {
+            Some(value) => options.push((word, value)),
+            None => {
+                eprint!("{word}: not an option, or its value is missing\n{USAGE}");
+                std::process::exit(2);
+            }
+        }
+    }
+    options
 }
 
 /// What an error code of the PLC means.

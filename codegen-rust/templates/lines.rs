@@ -1,52 +1,74 @@
 
+/// After how long it is tried again to open a line that has vanished.
+const RETRY: Duration = Duration::from_secs(1);
+
 /// A serial port of the program, and the one of this computer that it is.
 struct Line {
     port: u8,
     path: String,
-    file: File,
-    incoming: Receiver<(Instant, Vec<u8>)>,
+    /// `None`: it has vanished.
+    file: Option<File>,
+    events: Receiver<Event>,
     format: LineFormat,
     /// When the last character was in.
     last_us: u32,
 }
 
-/// The lines that the options name: `--serial COM1=/dev/ttyUSB0`.
-fn lines(plc: &mut TYPE) -> Result<Vec<Line>, String> {
-    let mut lines = Vec::new();
-    let mut options = std::env::args().skip(1);
-    while let Some(option) = options.next() {
-        let value = options.next().filter(|_| option == "--serial");
-        let value = value.ok_or("usage: [--serial COM1=/dev/ttyUSB0]...")?;
-        let (port, path) = value
-            .split_once('=')
-            .and_then(|(port, path)| Some((port.strip_prefix("COM")?.parse().ok()?, path)))
-            .ok_or_else(|| format!("--serial {value}: a line is written COM1=/dev/ttyUSB0"))?;
-        if plc.port(port).is_none() {
-            return Err(format!("--serial {value}: the program has no port COM{port}"));
+/// What happens to a line.
+enum Event {
+    Came(Instant, Vec<u8>),
+    Gone,
+    Back(File),
+}
+
+/// Reads a line for as long as the program runs, and opens it again when it vanishes.
+fn keep(path: &str, mut file: File, sender: &Sender<Event>) -> Result<(), SendError<Event>> {
+    loop {
+        let mut bytes = [0; 1024];
+        while let Ok(count @ 1..) = file.read(&mut bytes) {
+            sender.send(Event::Came(Instant::now(), bytes[..count].to_vec()))?;
         }
-        let line = Line::open(port, path).map_err(|error| format!("--serial {value}: {error}"))?;
-        eprintln!("COM{port} at {path}");
-        lines.push(line);
+        sender.send(Event::Gone)?;
+        let (reading, writing) = loop {
+            std::thread::sleep(RETRY);
+            if let Ok(both) = ends(path) {
+                break both;
+            }
+        };
+        file = reading;
+        sender.send(Event::Back(writing))?;
     }
-    Ok(lines)
+}
+
+/// Opens a line, to be read and to be written.
+fn ends(path: &str) -> io::Result<(File, File)> {
+    stty(path, &["raw", "-echo", "clocal"])?;
+    let file = File::options().read(true).write(true).open(path)?;
+    Ok((file.try_clone()?, file))
 }
 
 impl Line {
+    /// The line that an option names: `COM1=/dev/ttyUSB0`.
+    fn connect(plc: &mut TYPE, value: &str) -> Result<Line, String> {
+        let (port, path) = value
+            .split_once('=')
+            .and_then(|(port, path)| Some((port.strip_prefix("COM")?.parse().ok()?, path)))
+            .ok_or("a line is written COM1=/dev/ttyUSB0")?;
+        if plc.port(port).is_none() {
+            return Err(format!("the program has no port COM{port}"));
+        }
+        let line = Line::open(port, path).map_err(|error| error.to_string())?;
+        eprintln!("COM{port} at {path}");
+        Ok(line)
+    }
+
     fn open(port: u8, path: &str) -> io::Result<Line> {
-        stty(path, &["raw", "-echo", "clocal"])?;
-        let file = File::options().read(true).write(true).open(path)?;
-        let mut from = file.try_clone()?;
-        let (sender, incoming) = mpsc::channel();
-        std::thread::spawn(move || {
-            let mut bytes = [0; 1024];
-            while let Ok(count @ 1..) = from.read(&mut bytes) {
-                if sender.send((Instant::now(), bytes[..count].to_vec())).is_err() {
-                    break;
-                }
-            }
-        });
-        let (path, format) = (path.to_string(), LineFormat::new());
-        Ok(Line { port, path, file, incoming, format, last_us: 0 })
+        let (reading, writing) = ends(path)?;
+        let (sender, events) = mpsc::channel();
+        let (path, kept) = (path.to_string(), path.to_string());
+        std::thread::spawn(move || keep(&kept, reading, &sender));
+        let format = LineFormat::new();
+        Ok(Line { port, path, file: Some(writing), events, format, last_us: 0 })
     }
 
     /// What has come in reaches the program's port at its time, and what the program sends goes out. The characters of a lump came one
@@ -63,7 +85,21 @@ impl Line {
             }
         }
         let character_us = self.format.character_us();
-        for (came, bytes) in self.incoming.try_iter() {
+        for event in self.events.try_iter() {
+            let (came, bytes) = match event {
+                Event::Came(at, bytes) => (at, bytes),
+                Event::Gone => {
+                    eprintln!("COM{}: {} is gone; waiting for it", self.port, self.path);
+                    self.file = None;
+                    continue;
+                }
+                Event::Back(file) => {
+                    eprintln!("COM{}: {} is back", self.port, self.path);
+                    self.file = Some(file);
+                    self.format = LineFormat::new();
+                    continue;
+                }
+            };
             let came_us = (came - start).as_micros() as u32;
             let lump_us = character_us * (bytes.len() as u32 - 1);
             let mut at_us = came_us.wrapping_sub(lump_us);
@@ -80,10 +116,9 @@ impl Line {
         }
         let now_us = now_ms.wrapping_mul(1000);
         let sent: Vec<u8> = std::iter::from_fn(|| line.take(now_us)).map(|sent| sent.byte).collect();
-        if !sent.is_empty()
-            && let Err(error) = self.file.write_all(&sent)
-        {
-            eprintln!("COM{}: {error}", self.port);
+        if let Some(file) = &mut self.file {
+            // A failure is one of reading, too, which is reported.
+            let _ = file.write_all(&sent);
         }
     }
 }

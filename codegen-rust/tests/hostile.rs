@@ -35,6 +35,7 @@ fn module(source: &str) -> Module {
 fn options() -> Options {
     Options {
         main: true,
+        servers: false,
         runtime: Runtime::At(common::runtime_path()),
     }
 }

@@ -7,6 +7,7 @@ use rungc_codegen_rust::{Options, Runtime, emit};
 fn emitted(path: &str) -> String {
     let options = Options {
         main: true,
+        servers: false,
         runtime: Runtime::At("../runtime-rt".to_string()),
     };
     let files = emit(&common::motor(), &options);

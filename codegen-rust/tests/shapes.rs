@@ -49,6 +49,7 @@ fn module((name, text): Shape) -> Module {
 fn options() -> Options {
     Options {
         main: false,
+        servers: false,
         runtime: Runtime::At(common::runtime_path()),
     }
 }

@@ -4,8 +4,8 @@
 //! divided into functions of bounded size ([`plan`]), where its temporaries live and what they are called ([`temps`]),
 //! which parts of expressions get a name ([`parts`]) what a loop over stations reads before its first iteration
 //! ([`stations`]), what happens around the program's functions ([`cycle`], [`events`]), what it remembers in addition
-//! to its devices ([`private`]) and what comments say ([`comments`]). It knows no syntax of any output language: a
-//! backend prints what is here, and decides nothing about what a program means.
+//! to its devices ([`private`]), what comments say ([`comments`]) and which options its main program takes ([`usage`]).
+//! It knows no syntax of any output language: a backend prints what is here, and decides nothing about what a program means.
 //!
 //! Start reading at [`plan::Plan`] and [`storage::Storage`].
 
@@ -27,5 +27,6 @@ pub mod stations;
 pub mod storage;
 pub mod temps;
 pub mod timers;
+pub mod usage;
 
 pub use file::OutFile;

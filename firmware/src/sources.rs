@@ -55,10 +55,11 @@ fn makefile(text: &str, target: &Target, triple: &str) -> String {
     )
 }
 
-/// A Rust crate that cargo builds for the target.
-pub fn rust(module: &Module, target: &Target, main: bool) -> Vec<OutFile> {
+/// A Rust crate that cargo builds for the target; `main`: with a main program, `servers`: which opens servers over TCP.
+pub fn rust(module: &Module, target: &Target, main: bool, servers: bool) -> Vec<OutFile> {
     let options = rungc_codegen_rust::Options {
         main,
+        servers,
         ..Default::default()
     };
     let files = rungc_codegen_rust::emit(module, &options).into_iter();

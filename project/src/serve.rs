@@ -118,10 +118,8 @@ pub(crate) fn port(name: &str) -> Option<u8> {
 /// # Errors
 /// How it is to be written.
 pub fn address(text: &str) -> Result<SocketAddr, String> {
-    let port = text.parse();
-    let own = port.map(|port| SocketAddr::from(([127, 0, 0, 1], port)));
-    own.or_else(|_| text.parse())
-        .map_err(|_| "an address is written `127.0.0.1:5020`, `[::1]:5020` or `5020`".to_string())
+    let known = rungc_rt::comm::service::address(text);
+    known.ok_or_else(|| "an address is written `127.0.0.1:5020`, `[::1]:5020` or `5020`".into())
 }
 
 impl Serve {

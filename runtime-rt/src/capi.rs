@@ -15,6 +15,7 @@
 mod exports;
 mod hal;
 mod map;
+mod servers;
 
 use crate::comm::codec::Codec;
 use crate::comm::model::PortModel;
@@ -257,6 +258,16 @@ pub enum Request {
     Run = 1,
     /// STOP.
     Stop = 2,
+}
+
+impl Request {
+    fn of(running: Option<bool>) -> Self {
+        match running {
+            None => Request::None,
+            Some(true) => Request::Run,
+            Some(false) => Request::Stop,
+        }
+    }
 }
 
 /// Runs an instruction: what the exported functions are made of.

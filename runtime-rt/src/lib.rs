@@ -49,6 +49,8 @@ mod pulse_side;
 mod registry;
 pub mod retain;
 mod runs;
+#[cfg(any(test, feature = "std"))]
+pub mod servers;
 pub mod special;
 mod timing;
 mod virtual_hal;

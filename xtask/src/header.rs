@@ -9,7 +9,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 28] = [
+const NAMES: [(&str, &str); 37] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -38,6 +38,15 @@ const NAMES: [(&str, &str); 28] = [
     ("PortPlace", "rungc_port_place"),
     ("Codec", "rungc_codec"),
     ("PortModel", "rungc_port_model"),
+    ("Speaks", "rungc_speaks"),
+    ("Service", "rungc_service"),
+    ("Heard", "rungc_heard"),
+    ("Connection", "rungc_connection"),
+    ("Memory", "rungc_memory"),
+    ("Reply", "rungc_reply"),
+    ("LONGEST_REQUEST", "RUNGC_LONGEST_REQUEST"),
+    ("LONGEST_REPLY", "RUNGC_LONGEST_REPLY"),
+    ("SIZE", "RUNGC_MEMORY_SIZE"),
 ];
 
 const TOP: &str = "/*
@@ -111,9 +120,12 @@ pub fn make() -> Result<Made, Problem> {
         "axis.rs",
         "wiring.rs",
         "comm/line.rs",
+        "comm/memory.rs",
+        "comm/service.rs",
         "comm/wiring.rs",
         "capi.rs",
         "capi/exports.rs",
+        "capi/servers.rs",
         "capi_virtual.rs",
     ];
     let builder = files

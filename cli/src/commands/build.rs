@@ -60,6 +60,7 @@ fn build(
     let options = CompileOptions {
         name: Some(name.clone()),
         optimise: !plan.no_opt,
+        observe_all: plan.servers,
         ports: image.iter().flat_map(ForImage::ports).collect(),
         without_qlink: image.as_ref().is_some_and(|image| !image.answers_qlink()),
         ..subject.options()
@@ -207,6 +208,8 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         Emit::C if args.retain && args.board.is_some() => wrong(
             "--retain does not apply to the sources of an image: describe its flash as `[retain]` of the board (docs/src/retain.md)",
         ),
+        Emit::Lib | Emit::Elf | Emit::Ir if args.servers => wrong(NO_SERVERS),
+        Emit::C | Emit::Rust if args.servers && !args.main => wrong(NO_SERVERS),
         Emit::Bin if target.is_bare() => {
             wrong("--emit bin: the target has no operating system; use --emit elf for an image")
         }
@@ -217,6 +220,10 @@ fn fitting(args: &Plan, reporting: &Reporting) -> std::result::Result<&'static T
         _ => Ok(target),
     }
 }
+
+/// Why `--servers` does not apply.
+const NO_SERVERS: &str =
+    "--servers only applies to --emit bin, and to --emit c and --emit rust with --main";
 
 /// What an image needs in addition to its program.
 struct ForImage {
@@ -332,6 +339,7 @@ impl Job<'_> {
     fn options(&self, main: bool) -> sources::Options {
         sources::Options {
             main,
+            servers: self.plan.servers,
             access: self.plan.device_access,
             retain: self.plan.retain,
             ..sources::Options::default()
@@ -371,7 +379,7 @@ impl Job<'_> {
             Emit::Rust => {
                 let files = match self.image {
                     Some(image) => image.sources(module, Backend::Rust)?,
-                    None => sources::rust(module, self.target, main),
+                    None => sources::rust(module, self.target, main, self.plan.servers),
                 };
                 self.folder(what, || Ok(bytes(files)))?
             }

@@ -8,7 +8,8 @@ use crate::text::{ACK, Bytes, stx, words};
 use rungc_models::ModelId;
 use rungc_rt::Ports;
 use rungc_rt::comm::Served;
-use rungc_sim::serve::{Dialogue, Service};
+use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::servers::Dialogue;
 
 /// Registers that good frames read and write, from D100 on.
 const COUNT: usize = 50;
@@ -17,7 +18,7 @@ const COUNT: usize = 50;
 pub struct Server {
     /// Its name.
     pub name: &'static str,
-    service: fn() -> Service,
+    speaks: Speaks,
     /// Writes or reads a register: the frame, and its answer.
     good: fn(u16, u16, bool) -> (Bytes, Bytes),
 }
@@ -26,7 +27,7 @@ pub struct Server {
 pub const SERVERS: [Server; 4] = [
     Server {
         name: "modbus-tcp",
-        service: || Service::modbus(Ports::Inovance, 24_120),
+        speaks: Speaks::ModbusTcp,
         good: |number, value, write| {
             let ([high, low], [a, b]) = (number.to_be_bytes(), value.to_be_bytes());
             if write {
@@ -41,7 +42,7 @@ pub const SERVERS: [Server; 4] = [
     },
     Server {
         name: "mc-1e",
-        service: || Service::Mc,
+        speaks: Speaks::Mc,
         good: |number, value, write| {
             let ([low, high], [a, b]) = (number.to_le_bytes(), value.to_le_bytes());
             let head = [
@@ -66,7 +67,7 @@ pub const SERVERS: [Server; 4] = [
     },
     Server {
         name: "mc-3e",
-        service: || Service::Mc,
+        speaks: Speaks::Mc,
         good: |number, value, write| {
             let ([low, high], [a, b]) = (number.to_le_bytes(), value.to_le_bytes());
             let (command, length) = if write { (0x14, 14) } else { (0x04, 12) };
@@ -86,7 +87,7 @@ pub const SERVERS: [Server; 4] = [
     },
     Server {
         name: "fx-over-tcp",
-        service: || Service::programming_port(Ports::Inovance),
+        speaks: Speaks::ProgrammingPort,
         good: |number, value, write| {
             let (address, digits) = (0x1000 + 2 * number, words(&[value.swap_bytes()]));
             if write {
@@ -125,7 +126,8 @@ pub fn run(server: &Server, frames: usize, seed: u64) -> Outcome {
     let mut plc = Plc::new(module(ModelId::H2u, 0, "LD M8000\nOUT M0\nEND\n"), 0);
     let mut random = Random::new(seed);
     let mut wanted = [0; COUNT];
-    let mut good = Dialogue::new((server.service)());
+    let service = Service::new(server.speaks, Ports::Inovance, 24_120);
+    let mut good = Dialogue::new(service);
     // Those that stopped in the middle of a frame, and stay.
     let mut idle = Vec::new();
     let mut outcome = Outcome {
@@ -138,7 +140,7 @@ pub fn run(server: &Server, frames: usize, seed: u64) -> Outcome {
         let mut map = Served::new(plc.devices(), 24_120);
         if random.below(10) == 0 {
             outcome.bad += 1;
-            let mut dialogue = Dialogue::new((server.service)());
+            let mut dialogue = Dialogue::new(service);
             dialogue.receive(&bad(server, &mut random), &mut map);
             idle.push(dialogue);
             if idle.len() > 16 {

@@ -6,7 +6,8 @@ use crate::text::stx;
 use rungc_models::ModelId;
 use rungc_rt::Ports;
 use rungc_rt::comm::Served;
-use rungc_sim::serve::{Dialogue, Service};
+use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::servers::Dialogue;
 
 /// Reads D0 in each protocol, and the answer.
 const MODBUS: (&[u8], &[u8]) = (
@@ -20,10 +21,11 @@ const MC_3E: &[u8] = &[
 
 fn target(
     name: &'static str,
-    service: Service,
+    speaks: Speaks,
     probe: (&'static [u8], &'static [u8]),
     seeds: &[&[u8]],
 ) -> Target {
+    let service = Service::new(speaks, Ports::Inovance, 24_120);
     let module = module(ModelId::H2u, 0, "LD M8000\nOUT M0\nEND\n");
     Target {
         name,
@@ -52,16 +54,11 @@ pub(super) fn targets() -> [Target; 3] {
     let fx = stx("0100002");
     let write: &[u8] = &[0, 1, 0, 0, 0, 11, 1, 16, 0, 0, 0, 2, 4, 0, 1, 0, 2];
     [
-        target(
-            "modbus-tcp",
-            Service::modbus(Ports::Inovance, 24_120),
-            MODBUS,
-            &[MODBUS.0, write],
-        ),
-        target("mc", Service::Mc, MC, &[MC.0, MC_3E]),
+        target("modbus-tcp", Speaks::ModbusTcp, MODBUS, &[MODBUS.0, write]),
+        target("mc", Speaks::Mc, MC, &[MC.0, MC_3E]),
         target(
             "fx-over-tcp",
-            Service::programming_port(Ports::Inovance),
+            Speaks::ProgrammingPort,
             (b"\x05", b"\x06"),
             &[&fx, b"\x05"],
         ),

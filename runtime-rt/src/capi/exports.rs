@@ -75,11 +75,7 @@ pub extern "C" fn rungc_advance_pulses(map: &mut Map, now_us: u32) {
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_advance_ports(map: &mut Map, now_us: u32) -> Request {
     let mut hal = Board::new(map.hal);
-    match advance_ports(map, &mut hal, now_us) {
-        None => Request::None,
-        Some(true) => Request::Run,
-        Some(false) => Request::Stop,
-    }
+    Request::of(advance_ports(map, &mut hal, now_us))
 }
 
 /// Exports constants, so that a linker takes only those that a program's layout names.

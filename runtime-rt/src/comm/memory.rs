@@ -1,7 +1,7 @@
 //! What a slave keeps from one frame to the next.
 
 /// Bytes of a monitor list of the programming port, which needs the most.
-pub(super) const SIZE: usize = 0x390;
+pub const SIZE: usize = 0x390;
 
 /// What a slave keeps from one frame to the next: the monitor list of the programming port, or the blocks of QLink. A port speaks one protocol at a
 /// time, so they share it. All zero is nothing.

@@ -50,6 +50,7 @@
 //! | `mc.rs` | MC protocol 1E and 3E |
 //! | `link.rs` | links between PLCs: parallel link, N:N link; polling by HM as a computer link's master |
 //! | `qlink.rs`, `can.rs` | QLink, CAN |
+//! | `service.rs` | what servers over TCP speak; a connection to one |
 
 pub(crate) mod can;
 pub mod codec;
@@ -71,6 +72,7 @@ mod port;
 mod port_tests;
 mod protocols;
 mod qlink;
+pub mod service;
 mod slaves;
 #[cfg(test)]
 mod watched;

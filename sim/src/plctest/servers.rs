@@ -5,10 +5,11 @@ use super::serial::{Item, PortId, Protocol, Sent};
 use super::{Failure, Port, Step, Value};
 use crate::engines::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
-use crate::serve::{Dialogue, Service};
 use rungc_ir::Module;
 use rungc_rt::Class;
 use rungc_rt::comm::Map;
+use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::servers::Dialogue;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
@@ -36,15 +37,15 @@ impl Servers {
     /// The servers of a case whose PLC runs this program.
     pub(super) fn new(serve: &[(u16, Protocol)], module: &Module) -> Self {
         let (family, type_code) = (module.model.ports, module.model.type_code());
-        let service = |protocol: Protocol| match protocol {
-            Protocol::Modbus => Service::modbus(family, type_code),
-            Protocol::Mc => Service::Mc,
-            Protocol::Fx => Service::programming_port(family),
+        let speaks = |protocol: Protocol| match protocol {
+            Protocol::Modbus => Speaks::ModbusTcp,
+            Protocol::Mc => Speaks::Mc,
+            Protocol::Fx => Speaks::ProgrammingPort,
         };
         let services = serve.iter();
         Servers {
             services: services
-                .map(|&(port, protocol)| (port, service(protocol)))
+                .map(|&(port, protocol)| (port, Service::new(speaks(protocol), family, type_code)))
                 .collect(),
             connections: BTreeMap::new(),
             type_code,

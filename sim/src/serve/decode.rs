@@ -10,6 +10,7 @@ use super::probe::{Devices, Probe, ranges};
 use rungc_rt::Ports;
 use rungc_rt::comm::computer_link::{self, Dialect, Remote};
 use rungc_rt::comm::modbus::Framing;
+use rungc_rt::comm::service::Speaks;
 use rungc_rt::comm::{Frame, LineFault, Memory, Protocol, fx_port, mc};
 use std::fmt::Write;
 
@@ -32,12 +33,8 @@ const NAK: u8 = 0x15;
 /// What a server or a port speaks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Speech {
-    /// Modbus TCP.
-    ModbusTcp,
-    /// MC protocol over TCP.
-    Mc,
-    /// The programming port's protocol over TCP.
-    ProgrammingPort,
+    /// A protocol over TCP.
+    Tcp(Speaks),
     /// The protocol of a serial port.
     Serial(Protocol),
 }
@@ -87,10 +84,10 @@ impl Decoder {
     ) -> Decoded {
         let asks = direction == Direction::In;
         match speech {
-            Speech::ModbusTcp => self.modbus_tcp(asks, bytes, before),
-            Speech::Mc if asks => self.mc_request(bytes),
-            Speech::Mc => mc_reply(bytes),
-            Speech::ProgrammingPort => self.programming_port(asks, bytes),
+            Speech::Tcp(Speaks::ModbusTcp) => self.modbus_tcp(asks, bytes, before),
+            Speech::Tcp(Speaks::Mc) if asks => self.mc_request(bytes),
+            Speech::Tcp(Speaks::Mc) => mc_reply(bytes),
+            Speech::Tcp(Speaks::ProgrammingPort) => self.programming_port(asks, bytes),
             Speech::Serial(protocol) => match protocol {
                 Protocol::ModbusRtu => self.modbus(Framing::Rtu, asks, bytes, before),
                 Protocol::ModbusAscii => self.modbus(Framing::Ascii, asks, bytes, before),
@@ -262,9 +259,7 @@ impl Speech {
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {
-            Speech::ModbusTcp => "Modbus TCP",
-            Speech::Mc => "MC protocol",
-            Speech::ProgrammingPort => "programming port",
+            Speech::Tcp(speaks) => speaks.name(),
             Speech::Serial(protocol) => protocol.name(),
         }
     }

@@ -7,7 +7,9 @@ use rungc_interp::Machine;
 use rungc_models::Model;
 use rungc_rt::Program;
 use rungc_rt::comm::Served;
-use rungc_sim::serve::{Direction, Place, Seen, Server, Service};
+use rungc_rt::comm::service::{Service, Speaks};
+use rungc_rt::servers::Server;
+use rungc_sim::serve::{Direction, Place, Seen, Speech};
 use std::net::SocketAddr;
 
 /// The servers of a run.
@@ -29,24 +31,17 @@ impl Servers {
     /// An address that cannot be had.
     pub fn open(args: &ServeArgs, model: &Model, watch: &mut Watch) -> Result<Self, Failure> {
         let type_code = model.type_code();
-        let services = [
-            (
-                "Modbus TCP",
-                Service::modbus(model.ports, type_code),
-                &args.modbus_tcp,
-            ),
-            ("MC protocol", Service::Mc, &args.mc),
-            (
-                "programming port",
-                Service::programming_port(model.ports),
-                &args.fx,
-            ),
-        ];
+        let addresses = |speaks| match speaks {
+            Speaks::ModbusTcp => &args.modbus_tcp,
+            Speaks::Mc => &args.mc,
+            Speaks::ProgrammingPort => &args.fx,
+        };
         let mut servers = Vec::new();
-        for (name, service, addresses) in services {
-            for &address in addresses {
-                let open = open(name, service, address)?;
-                watch.open(&open.place(None), service.speech());
+        for speaks in Speaks::all() {
+            let service = Service::new(speaks, model.ports, type_code);
+            for &address in addresses(speaks) {
+                let open = open(service, address)?;
+                watch.open(&open.place(None), Speech::Tcp(speaks));
                 servers.push(open);
             }
         }
@@ -70,7 +65,7 @@ impl Servers {
                 for (direction, bytes) in frames.into_iter().filter(|frame| !frame.1.is_empty()) {
                     let seen = Seen {
                         place: &place,
-                        speech: open.server.speech(),
+                        speech: Speech::Tcp(open.server.service().speaks),
                         direction,
                         bytes,
                     };
@@ -94,7 +89,8 @@ impl Open {
     }
 }
 
-fn open(name: &str, service: Service, address: SocketAddr) -> Result<Open, Failure> {
+fn open(service: Service, address: SocketAddr) -> Result<Open, Failure> {
+    let name = service.speaks.name();
     let server = Server::bind(address, service)
         .and_then(|server| Ok((server.address()?, server)))
         .map_err(|error| Failure::Because(format!("cannot serve {name} at {address}: {error}")));

@@ -5,6 +5,7 @@ use crate::serve::{Place, Seen, Traffic};
 use rungc_rt::Ports;
 use rungc_rt::comm::Protocol;
 use rungc_rt::comm::modbus::crc16;
+use rungc_rt::comm::service::Speaks;
 use std::fmt::Write;
 
 /// A frame of Modbus RTU.
@@ -55,11 +56,21 @@ fn frames_as_they_are_shown() {
         line(link, In, b"\x0505FFWR0D01000130\r\n", None),
         line(link, In, b"\x0505FFBW0M00100210", None),
         line(link, Out, b"\x1505FF06", None),
-        line(Speech::ProgrammingPort, In, b"\x02110C8023412\x033C", None),
-        line(Speech::ProgrammingPort, In, b"\x020\x0399", None),
-        line(Speech::ProgrammingPort, Out, b"\x15", None),
-        line(Speech::Mc, In, &mc_1e, None),
-        line(Speech::Mc, Out, &[0x81, 0x56], None),
+        line(
+            Speech::Tcp(Speaks::ProgrammingPort),
+            In,
+            b"\x02110C8023412\x033C",
+            None,
+        ),
+        line(
+            Speech::Tcp(Speaks::ProgrammingPort),
+            In,
+            b"\x020\x0399",
+            None,
+        ),
+        line(Speech::Tcp(Speaks::ProgrammingPort), Out, b"\x15", None),
+        line(Speech::Tcp(Speaks::Mc), In, &mc_1e, None),
+        line(Speech::Tcp(Speaks::Mc), Out, &[0x81, 0x56], None),
         line(nn, Out, b"\x02P11100\x0307", None),
     ];
     insta::assert_snapshot!("frames", shown.join("\n"));
@@ -102,7 +113,11 @@ fn what_is_not_carried_out_is_not_written() {
 #[test]
 fn any_bytes_are_shown() {
     let decoder = Decoder::new(Ports::L01s, 24120);
-    let speeches = [Speech::ModbusTcp, Speech::Mc, Speech::ProgrammingPort];
+    let speeches = [
+        Speech::Tcp(Speaks::ModbusTcp),
+        Speech::Tcp(Speaks::Mc),
+        Speech::Tcp(Speaks::ProgrammingPort),
+    ];
     let serial = [
         Protocol::ModbusRtu,
         Protocol::ModbusAscii,

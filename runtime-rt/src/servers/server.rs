@@ -1,10 +1,12 @@
 //! The connections of one address.
 
-use super::{Dialogue, Exchange, Service, Speech};
-use rungc_rt::comm::Map;
+use super::{Dialogue, Exchange};
+use crate::comm::Map;
+use crate::comm::service::Service;
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::time::Instant;
+use std::vec::Vec;
 
 /// Connections at once. When one more comes, the one that has been silent longest gives way.
 const CONNECTIONS: usize = 16;
@@ -58,12 +60,13 @@ impl Server {
         self.listener.local_addr()
     }
 
-    /// What its frames are.
-    pub fn speech(&self) -> Speech {
-        self.service.speech()
+    /// What it speaks.
+    pub fn service(&self) -> Service {
+        self.service
     }
 
-    /// Takes new connections, and carries out and answers what has come over all of them. Returns that, with the address of each client.
+    /// Takes new connections, and carries out and answers what has come over all of them. Returns that, with the address
+    /// of each client.
     pub fn poll(&mut self, map: &mut dyn Map) -> Vec<(SocketAddr, Exchange)> {
         // A listener that fails (too many open files) is asked again after the next scan.
         while let Ok((stream, peer)) = self.listener.accept() {

@@ -1,0 +1,307 @@
+/* How many servers there may be, connections to them, and clients that the table distinguishes. */
+#define SERVERS 8
+#define CONNECTIONS 32
+#define CLIENTS 64
+
+/* Bytes that one connection may have carried out between two scans. */
+#define AT_ONCE 4096
+
+/* A server over TCP. */
+typedef struct {
+    int listener;
+    rungc_service service;
+    const char *name;
+    char address[80];
+} tcp_server;
+
+/* What has gone over the connections of a client. */
+typedef struct {
+    size_t server;
+    char address[64];
+    unsigned long requests, answers, rejected;
+} tcp_client;
+
+/* A connection to a server. */
+typedef struct {
+    int file; /* -1: none */
+    tcp_client *client;
+    uint32_t heard; /* the poll in which something came last */
+    rungc_connection said;
+    uint8_t to_send[2 * RUNGC_LONGEST_REPLY];
+    size_t waiting;
+} tcp_connection;
+
+static tcp_server tcp_servers[SERVERS];
+static size_t tcp_server_count;
+static tcp_client tcp_clients[CLIENTS];
+static size_t tcp_client_count;
+static tcp_connection tcp_connections[CONNECTIONS];
+static uint32_t polls;
+
+/* An address as text; with its port, if there is room for one. */
+static void name_address(const struct sockaddr_storage *address, socklen_t length, char *host, size_t host_size, char *both, size_t size)
+{
+    char port[16] = "";
+
+    if (getnameinfo((const struct sockaddr *)address, length, host, (socklen_t)host_size, port, sizeof port, NI_NUMERICHOST | NI_NUMERICSERV) != 0) {
+        snprintf(host, host_size, "?");
+    }
+    if (both != NULL) {
+        snprintf(both, size, strchr(host, ':') == NULL ? "%s:%s" : "[%s]:%s", host, port);
+    }
+}
+
+/* What `127.0.0.1:5020` or `5020` stands for; NULL if it is not an address. */
+static struct addrinfo *find_address(const char *text)
+{
+    const struct addrinfo hints = {.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE, .ai_socktype = SOCK_STREAM};
+    char host[64] = "127.0.0.1";
+    const char *const colon = strrchr(text, ':');
+    const char *const port = colon == NULL ? text : colon + 1;
+    struct addrinfo *found = NULL;
+    char *end = NULL;
+
+    if (colon != NULL) {
+        const bool in_brackets = text[0] == '[' && colon > text && colon[-1] == ']';
+        const char *const from = in_brackets ? text + 1 : text;
+        const size_t length = (size_t)(colon - from) - (in_brackets ? 1u : 0u);
+        if (length == 0u || length >= sizeof host) {
+            return NULL;
+        }
+        memcpy(host, from, length);
+        host[length] = '\0';
+    }
+    const unsigned long number = strtoul(port, &end, 10);
+    if (port[0] < '0' || port[0] > '9' || *end != '\0' || number > 65535u || getaddrinfo(host, port, &hints, &found) != 0) {
+        return NULL;
+    }
+    return found;
+}
+
+/* Listens at an address; false if that cannot be had. */
+static bool listen_at(tcp_server *server, const struct addrinfo *at)
+{
+    struct sockaddr_storage address;
+    socklen_t length = sizeof address;
+    char host[64];
+    const int on = 1;
+
+    server->listener = socket(at->ai_family, SOCK_STREAM, 0);
+    if (server->listener < 0) {
+        return false;
+    }
+    if (setsockopt(server->listener, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 || bind(server->listener, at->ai_addr, at->ai_addrlen) != 0 ||
+        listen(server->listener, CONNECTIONS) != 0 || fcntl(server->listener, F_SETFL, O_NONBLOCK) != 0 ||
+        getsockname(server->listener, (struct sockaddr *)&address, &length) != 0) {
+        close(server->listener);
+        return false;
+    }
+    name_address(&address, length, host, sizeof host, server->address, sizeof server->address);
+    return true;
+}
+
+/* Opens a server. */
+static bool open_server(rungc_speaks speaks, const char *name, const char *text)
+{
+    if (tcp_server_count == SERVERS) {
+        fprintf(stderr, "PROGRAM: at most %d servers\n", SERVERS);
+        return false;
+    }
+    struct addrinfo *const found = find_address(text);
+    if (found == NULL) {
+        fprintf(stderr, "PROGRAM: %s: an address is written 127.0.0.1:5020, [::1]:5020 or 5020\n", text);
+        return false;
+    }
+    tcp_server *const server = &tcp_servers[tcp_server_count];
+    server->service = (rungc_service){.speaks = speaks, .family = FAMILY, .type_code = TYPE_CODE};
+    server->name = name;
+    const bool listens = listen_at(server, found);
+    freeaddrinfo(found);
+    if (!listens) {
+        fprintf(stderr, "PROGRAM: cannot serve %s at %s: %s\n", name, text, strerror(errno));
+        return false;
+    }
+    tcp_server_count++;
+    fprintf(stderr, "PROGRAM: %s at %s\n", name, server->address);
+    return true;
+}
+
+/* The row of a client in the table; those that do not fit share the last one. */
+static tcp_client *client_of(size_t server, const char *address)
+{
+    size_t i = 0;
+
+    while (i < tcp_client_count && (tcp_clients[i].server != server || strcmp(tcp_clients[i].address, address) != 0)) {
+        i++;
+    }
+    if (i == CLIENTS) {
+        return &tcp_clients[CLIENTS - 1];
+    }
+    if (i == tcp_client_count) {
+        tcp_client_count++;
+        tcp_clients[i].server = server;
+        snprintf(tcp_clients[i].address, sizeof tcp_clients[i].address, "%s", address);
+    }
+    return &tcp_clients[i];
+}
+
+static void close_connection(tcp_connection *connection)
+{
+    close(connection->file);
+    connection->file = -1;
+}
+
+/* A place for a new connection: a free one, or that of the connection which has been silent longest. */
+static tcp_connection *free_connection(void)
+{
+    tcp_connection *longest = &tcp_connections[0];
+
+    for (size_t i = 0; i < CONNECTIONS; i++) {
+        tcp_connection *const connection = &tcp_connections[i];
+        if (connection->client == NULL || connection->file < 0) {
+            return connection;
+        }
+        if (polls - connection->heard > polls - longest->heard) {
+            longest = connection;
+        }
+    }
+    close_connection(longest);
+    return longest;
+}
+
+/* Takes the connections that are waiting. */
+static void accept_clients(size_t at)
+{
+    const tcp_server *const server = &tcp_servers[at];
+    struct sockaddr_storage address;
+    socklen_t length = sizeof address;
+    char host[64];
+    const int on = 1;
+    int file;
+
+    while ((file = accept(server->listener, (struct sockaddr *)&address, &length)) >= 0) {
+        name_address(&address, length, host, sizeof host, NULL, 0);
+        length = sizeof address;
+        if (fcntl(file, F_SETFL, O_NONBLOCK) != 0) {
+            close(file);
+            continue;
+        }
+        /* An answer is one small packet: waiting for more only delays it. */
+        (void)setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+        tcp_connection *const connection = free_connection();
+        connection->file = file;
+        connection->client = client_of(at, host);
+        connection->heard = polls;
+        connection->waiting = 0;
+        rungc_connect(&connection->said, server->service);
+    }
+}
+
+/* Whether there is room for an answer; a client that does not read is not heard. */
+static bool has_room(const tcp_connection *connection)
+{
+    return connection->waiting <= sizeof connection->to_send - RUNGC_LONGEST_REPLY;
+}
+
+/* Takes a character, and carries out and answers the request that it ends; false if nothing that follows can be a request. */
+static bool hear(PROGRAM_plc *plc, tcp_connection *connection, uint8_t byte)
+{
+    static rungc_reply reply;
+    rungc_map map = PROGRAM_map(plc);
+    const rungc_heard heard = rungc_hear(&connection->said, &map, byte, &reply);
+
+    if (heard == RUNGC_HEARD_MORE) {
+        return true;
+    }
+    connection->client->requests++;
+    connection->client->rejected += heard == RUNGC_HEARD_REQUEST ? 0u : 1u;
+    connection->client->answers += reply.length > 0u ? 1u : 0u;
+    memcpy(connection->to_send + connection->waiting, reply.bytes, reply.length);
+    connection->waiting += reply.length;
+    if (reply.request != RUNGC_REQUEST_NONE) {
+        PROGRAM_set_running(plc, reply.request == RUNGC_REQUEST_RUN);
+    }
+    return heard != RUNGC_HEARD_LOST;
+}
+
+/* Sends what the client takes; false when the connection is over. */
+static bool send_answers(tcp_connection *connection)
+{
+    while (connection->waiting > 0) {
+        const ssize_t count = send(connection->file, connection->to_send, connection->waiting, MSG_NOSIGNAL);
+        if (count < 0) {
+            return errno == EAGAIN || errno == EINTR;
+        }
+        connection->waiting -= (size_t)count;
+        memmove(connection->to_send, connection->to_send + count, connection->waiting);
+    }
+    return true;
+}
+
+/* Takes what has come over a connection; false when it is over. */
+static bool serve(PROGRAM_plc *plc, tcp_connection *connection)
+{
+    bool open = true;
+
+    for (size_t left = AT_ONCE; open && left > 0;) {
+        uint8_t bytes[512];
+        const ssize_t count = recv(connection->file, bytes, sizeof bytes, MSG_PEEK);
+        if (count < 0 && (errno == EAGAIN || errno == EINTR)) {
+            break;
+        }
+        size_t taken = 0;
+        open = count > 0;
+        while (open && taken < (size_t)count && has_room(connection)) {
+            open = hear(plc, connection, bytes[taken]);
+            taken++;
+        }
+        if (taken == 0u) {
+            break;
+        }
+        connection->heard = polls;
+        left -= taken < left ? taken : left;
+        if (recv(connection->file, bytes, taken, 0) < 0) {
+            open = false;
+        }
+    }
+    return send_answers(connection) && open;
+}
+
+/* Carries out and answers what clients have asked since the last scan. */
+static void poll_servers(PROGRAM_plc *plc)
+{
+    polls++;
+    for (size_t i = 0; i < tcp_server_count; i++) {
+        accept_clients(i);
+    }
+    for (size_t i = 0; i < CONNECTIONS; i++) {
+        tcp_connection *const connection = &tcp_connections[i];
+        if (connection->client != NULL && connection->file >= 0 && !serve(plc, connection)) {
+            close_connection(connection);
+        }
+    }
+}
+
+/* A table of what has gone over the connections. */
+static void print_connections(void)
+{
+    if (tcp_server_count > 0) {
+        fprintf(stderr, "HEADING\n");
+    }
+    for (size_t server = 0; server < tcp_server_count; server++) {
+        const char *const address = tcp_servers[server].address;
+        const char *const name = tcp_servers[server].name;
+        bool any = false;
+        for (size_t i = 0; i < tcp_client_count; i++) {
+            const tcp_client *const client = &tcp_clients[i];
+            if (client->server == server) {
+                any = true;
+                fprintf(stderr, ROW, address, client->address, name, client->requests, client->answers, client->rejected);
+            }
+        }
+        if (!any) {
+            fprintf(stderr, ROW, address, "-", name, 0ul, 0ul, 0ul);
+        }
+    }
+}
+

@@ -1,0 +1,299 @@
+//! The main program for a host: scans in real time.
+
+use crate::generate::Generator;
+use rungc_emit::cycle;
+use rungc_emit::usage::{self, Host, Takes};
+use rungc_ir::Module;
+use rungc_ir::node::Origin;
+use rungc_models::plc_errors;
+use rungc_syntax::DeviceClass;
+use rungc_syntax::text::one_line;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// The program around a PLC.
+const HOST: &str = include_str!("../templates/host.rs");
+
+/// What connects serial ports.
+const LINES: &str = include_str!("../templates/lines.rs");
+
+/// What opens servers.
+const SERVERS: &str = include_str!("../templates/servers.rs");
+
+/// What a host with serial ports uses of the standard library and of the runtime.
+const LINES_USES: [&str; 5] = [
+    "rungc_rt::comm::{LineFormat, Parity, Received}",
+    "std::fs::File",
+    "std::io::{self, BufRead, Read, Write}",
+    "std::sync::mpsc::{self, Receiver, SendError, Sender}",
+    "std::time::{Duration, Instant}",
+];
+
+/// What one without uses.
+const USES: [&str; 3] = [
+    "std::io::{self, BufRead}",
+    "std::sync::mpsc::{self, Receiver}",
+    "std::time::{Duration, Instant}",
+];
+
+/// What servers use.
+const SERVERS_USES: [&str; 3] = [
+    "rungc_rt::Ports",
+    "rungc_rt::comm::service::{Service, Speaks, address}",
+    "rungc_rt::servers::Servers",
+];
+
+/// `src/main.rs` of a crate; `servers`: it takes options that open servers.
+pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> String {
+    let module = generator.module;
+    let mut table = String::new();
+    for field in generator.storage.of_class(DeviceClass::Y) {
+        for number in field.first..field.end() {
+            // Those that send pulses would be printed all the time.
+            if module.pulse_outputs.contains(&number) {
+                continue;
+            }
+            let comment = generator
+                .device_comment(DeviceClass::Y, number)
+                .unwrap_or_default();
+            let name = DeviceClass::Y.number(number).to_string();
+            let _ = write!(
+                table,
+                "\n    ({number}, {name:?}, {:?}),",
+                one_line(comment)
+            );
+        }
+    }
+    if !table.is_empty() {
+        table.push('\n');
+    }
+    let wait = match (module.takes_events(), module.has_ports()) {
+        (false, _) => WAIT,
+        (true, false) => WAIT_WITH_EVENTS,
+        (true, true) => WAIT_WITH_LINES,
+    };
+    let errors = match module.may_fail() {
+        true => plc_errors::PLC_ERRORS,
+        false => &[],
+    };
+    let errors: String = errors
+        .iter()
+        .map(|error| format!("\n    ({}, {:?}),", error.code, error.title))
+        .collect();
+    let (period, overrun) = match cycle::constant_scan(module, &generator.storage) {
+        Some(_) => (CONSTANT_PERIOD, "    let mut overrun = false;\n"),
+        None => (PERIOD, ""),
+    };
+    let (set, local) = match cycle::asks_clock(module) {
+        true => (SET_CLOCK, LOCAL_TIME),
+        false => ("", ""),
+    };
+    let exchange = match module.has_ports() {
+        true => {
+            "        lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));\n"
+        }
+        false => "",
+    };
+    let (poll, connections) = match servers {
+        true => (POLL, CONNECTIONS),
+        false => ("", ""),
+    };
+    let host = Host {
+        lines: &["/dev/ttyUSB0"],
+        servers,
+    };
+    let text = usage::lines(module, &host).join("\n") + "\n";
+    let names = usage::options(module, &host).into_iter();
+    let names: Vec<_> = names.map(|option| format!("{:?}", option.name)).collect();
+    let mut code = HOST.replace("USES;\n", &uses(generator, crate_name, servers));
+    if module.has_ports() {
+        code.push_str(LINES);
+    }
+    if servers {
+        code.push_str(SERVERS);
+    }
+    code.replace("        PERIOD;\n", period)
+        .replace("    OVERRUN;\n", overrun)
+        .replace("    CLOCK;\n", set)
+        .replace("LOCAL_TIME;\n", local)
+        .replace("    OPEN;\n", &open(module, &host))
+        .replace("        SERVE;\n", &format!("{poll}{exchange}"))
+        .replace("    CONNECTIONS;\n", connections)
+        .replace("OPTION_NAMES", &names.join(", "))
+        .replace("        WAIT;\n", wait)
+        .replace("FAMILY", &format!("{:?}", module.model.ports))
+        .replace("TYPE_CODE", &module.model.type_code().to_string())
+        .replace("TYPE", &generator.type_name.to_string())
+        // Texts of the program come last: they may contain any word.
+        .replace("ERROR_TABLE", &errors)
+        .replace("USAGE_TEXT", &format!("{text:?}"))
+        .replace("INSTRUCTION_TABLE", &instructions(module))
+        .replace("OUTPUT_TABLE", &table)
+}
+
+/// What is used of the standard library and of the runtime.
+fn uses(generator: &Generator, crate_name: &str, servers: bool) -> String {
+    let module = generator.module;
+    let clock = match cycle::asks_clock(module) {
+        true => "Class, Clock, Hal",
+        false => "Class",
+    };
+    let ports = module.has_ports();
+    let usual = USES.iter().filter(|_| !ports);
+    let of_lines = LINES_USES.iter().filter(|_| ports);
+    let of_servers = SERVERS_USES.iter().filter(|_| servers);
+    let all = usual.chain(of_lines).chain(of_servers);
+    let mut all: BTreeSet<String> = all.map(|name| (*name).to_string()).collect();
+    all.insert(format!("{crate_name}::{}", generator.type_name));
+    all.insert("std::collections::BTreeSet".to_string());
+    all.insert(format!(
+        "rungc_rt::{{{clock}, LastError, Plc, Program, Stop, VirtualHal}}"
+    ));
+    let lines = all.into_iter().map(|name| format!("use {name};\n"));
+    lines.collect()
+}
+
+/// The statements that do what the options ask for.
+fn open(module: &Module, host: &Host) -> String {
+    let options = usage::options(module, host);
+    if options.is_empty() {
+        return String::from("    options();\n");
+    }
+    let mut text = String::new();
+    if module.has_ports() {
+        text.push_str("    let mut lines = Vec::new();\n");
+    }
+    if host.servers {
+        text.push_str("    let mut servers = Servers::new();\n");
+    }
+    let arms = options.iter().map(|option| {
+        let does = match option.takes {
+            Takes::Line => {
+                "Line::connect(&mut plc, &value).map(|line| lines.push(line))".to_string()
+            }
+            Takes::Address(speaks) => {
+                format!("open_server(&mut servers, Speaks::{speaks:?}, &value)")
+            }
+        };
+        format!("            {:?} => {does},\n", option.name)
+    });
+    let arms: String = arms.collect();
+    text + "    for (option, value) in options() {\n        let done = match option.as_str() {\n"
+        + &arms
+        + OPENED
+}
+
+/// How the loop over options ends.
+const OPENED: &str = "            _ => Ok(()),
+        };
+        if let Err(error) = done {
+            eprintln!(\"{option} {value}: {error}\");
+            std::process::exit(2);
+        }
+    }
+";
+
+/// Clients are answered between two scans.
+const POLL: &str = "        if let Some(running) = servers.poll(&mut plc) {
+            plc.set_running(running);
+        }
+";
+
+/// The table of connections, at the end.
+const CONNECTIONS: &str = "    for row in servers.table() {
+        eprintln!(\"{row}\");
+    }
+";
+
+/// The rows of the instructions at which an error can occur.
+fn instructions(module: &Module) -> String {
+    let mut rows = String::new();
+    for Origin {
+        step,
+        text,
+        indexed,
+    } in &module.origins
+    {
+        let indexed = indexed.iter().map(|(device, index)| {
+            let [class, index_class] = [device.class, index.class].map(|c| format!("Class::{c:?}"));
+            format!(
+                "({class}, {:?}, {}, {index_class}, {})",
+                device.class.prefix(),
+                device.number,
+                index.number
+            )
+        });
+        let indexed = indexed.collect::<Vec<_>>().join(", ");
+        let text = one_line(text);
+        let _ = write!(rows, "\n    ({step}, {text:?}, &[{indexed}]),");
+    }
+    if !rows.is_empty() {
+        rows.push('\n');
+    }
+    rows
+}
+
+/// When the next scan begins.
+const PERIOD: &str = "        next += SCAN;\n";
+
+/// When it begins after a scan that may ask for a constant length.
+const CONSTANT_PERIOD: &str = "        let constant_us = plc.constant_scan_ms().map(|ms| u32::from(ms) * 1000);
+        next = match constant_us {
+            None => next + SCAN,
+            Some(us) if scan_us <= us => {
+                scan_us = us;
+                next + Duration::from_micros(us.into())
+            }
+            Some(us) => {
+                if !overrun {
+                    eprintln!(\"a scan took {scan_us} us, longer than the constant scan time of {us} us\");
+                }
+                overrun = true;
+                Instant::now()
+            }
+        };
+";
+
+/// The program's clock starts with that of the computer.
+const SET_CLOCK: &str = "    if let Some(clock) = local_time() {
+        let _ = hal.set_clock(clock);
+    }
+";
+
+/// Where a host takes its clock from: the standard library knows no local time.
+const LOCAL_TIME: &str = "
+/// The local time, as the command `date` gives it; `None` where there is no such command.
+fn local_time() -> Option<Clock> {
+    let date = std::process::Command::new(\"date\").arg(\"+%Y %m %d %H %M %S\").output().ok()?;
+    let text = String::from_utf8(date.stdout).ok()?;
+    let mut fields = text.split_whitespace().map(|field| field.parse::<u16>().ok());
+    let mut next = || fields.next().flatten();
+    let year = next()?;
+    let mut next = || u8::try_from(next()?).ok();
+    Clock::new(year, next()?, next()?, next()?, next()?, next()?)
+}
+";
+
+/// How a host waits for the next scan.
+const WAIT: &str = "        std::thread::sleep(next.saturating_duration_since(Instant::now()));\n";
+
+/// How a host waits that may be interrupted.
+const WAIT_WITH_EVENTS: &str = "\
+        while Instant::now() < next {
+            std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
+            plc.tick(&mut hal, start.elapsed().as_millis() as u32);
+            plc.take_interrupts(&mut hal);
+        }
+";
+
+/// The same with serial ports.
+const WAIT_WITH_LINES: &str = "\
+        while Instant::now() < next {
+            std::thread::sleep(Duration::from_millis(1).min(next - Instant::now()));
+            let now_ms = start.elapsed().as_millis() as u32;
+            hal.advance_to(now_ms);
+            lines.iter_mut().for_each(|line| line.exchange(&mut hal, start, now_ms));
+            plc.tick(&mut hal, now_ms);
+            plc.take_interrupts(&mut hal);
+        }
+";

@@ -1,0 +1,93 @@
+//! The command line of a program's host: which options it takes, and what it says of them.
+
+use rungc_ir::Module;
+use rungc_rt::comm::service::Speaks;
+use rungc_syntax::text::one_line;
+use std::fmt::Write;
+
+/// Columns of an option with its value.
+const OPTION_WIDTH: usize = 24;
+
+/// What a host can do; its language decides.
+#[derive(Clone, Copy, Debug)]
+pub struct Host {
+    /// What `--serial` connects a port to, by examples.
+    pub lines: &'static [&'static str],
+    /// Whether it opens servers.
+    pub servers: bool,
+}
+
+/// What an option takes.
+#[derive(Clone, Copy, Debug)]
+pub enum Takes {
+    /// What a serial port is connected to: `COM1=/dev/ttyUSB0`.
+    Line,
+    /// The address of a server.
+    Address(Speaks),
+}
+
+/// An option with a value.
+#[derive(Clone, Copy, Debug)]
+pub struct Valued {
+    /// How it is written.
+    pub name: &'static str,
+    /// What it takes.
+    pub takes: Takes,
+}
+
+/// The options with a value that the host of a module takes.
+pub fn options(module: &Module, host: &Host) -> Vec<Valued> {
+    let line = Valued {
+        name: "--serial",
+        takes: Takes::Line,
+    };
+    let servers = Speaks::all().map(|speaks| Valued {
+        name: speaks.option(),
+        takes: Takes::Address(speaks),
+    });
+    let line = module.has_ports().then_some(line);
+    let servers = servers.into_iter().filter(|_| host.servers);
+    line.into_iter().chain(servers).collect()
+}
+
+/// The text for `--help`, line by line.
+pub fn lines(module: &Module, host: &Host) -> Vec<String> {
+    let Module {
+        name, source_name, ..
+    } = module;
+    let source = one_line(source_name);
+    let mut text = format!(
+        "usage: {name} [OPTIONS]\n\n\
+         Runs {source} in real time, one scan every 10 ms, and prints the outputs that change.\n\
+         Type X0=1 or X0=0 and Enter to switch an input, quit and Enter to end the run.\n\n"
+    );
+    let mut option = |option: &str, what: &str| {
+        // Writing to a String does not fail.
+        let _ = writeln!(text, "  {option:OPTION_WIDTH$}  {what}");
+    };
+    for Valued { name, takes } in options(module, host) {
+        match takes {
+            Takes::Line => {
+                let port = module.ports.first().copied().unwrap_or_default();
+                let ends = host.lines.iter().map(|end| format!("COM{port}={end}"));
+                let ends = ends.collect::<Vec<_>>().join(", ");
+                option(
+                    &format!("{name} COM{port}=DEVICE"),
+                    &format!("connect a serial port: {ends}"),
+                );
+            }
+            Takes::Address(speaks) => option(
+                &format!("{name} ADDRESS"),
+                &format!("serve all devices over TCP: {}", speaks.name()),
+            ),
+        }
+    }
+    option("-h, --help", "print this");
+    if host.servers {
+        text.push_str(
+            "\nAn address is 127.0.0.1:5020, or 5020, a port of this machine alone. The protocols have no password:\n\
+             whoever reaches an address reads and writes every device.\n",
+        );
+    }
+    text.lines().map(str::to_string).collect()
+}

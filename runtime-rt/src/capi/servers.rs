@@ -1,0 +1,40 @@
+//! Servers over TCP, for hosts in C: what a connection says is carried out here, the sockets are the host's.
+
+use super::{Map, Request};
+use crate::comm::service::{Connection, Heard, LONGEST_REPLY, Service};
+use crate::comm::{Frame, Served};
+
+/// The answer to a request.
+#[derive(Clone, Debug)]
+#[repr(C)]
+pub struct Reply {
+    /// RUN or STOP, if the request asks for it.
+    pub request: Request,
+    /// How many characters it has; 0: the request is not answered.
+    pub length: u16,
+    /// Its characters.
+    pub bytes: [u8; LONGEST_REPLY],
+}
+
+/// A connection begins.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_connect(connection: &mut Connection, service: Service) {
+    *connection = Connection::new(service);
+}
+
+/// Takes a character that has come over a connection. If it is the last of a request, that is carried out and answered
+/// in `reply`. Call it between two scans.
+#[unsafe(no_mangle)]
+pub extern "C" fn rungc_hear(
+    connection: &mut Connection,
+    map: &mut Map,
+    byte: u8,
+    reply: &mut Reply,
+) -> Heard {
+    let mut frame = Frame::new(&mut reply.bytes);
+    let mut served = Served::new(map, connection.service().type_code);
+    let heard = connection.hear(byte, &mut served, &mut frame);
+    reply.length = frame.len() as u16;
+    reply.request = Request::of(served.take_request());
+    heard
+}

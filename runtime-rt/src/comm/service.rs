@@ -1,0 +1,207 @@
+//! What a server over TCP speaks, and what one of its connections has said so far. It knows no network: whoever has
+//! one hands over the characters, and sends the answers.
+
+use super::modbus::tcp;
+use super::{Cut, Frame, LineFault, Map, Memory, Ports, fx_port, mc};
+use core::net::{Ipv4Addr, SocketAddr};
+
+/// Most characters of a request of any service.
+pub const LONGEST_REQUEST: usize = 3605;
+
+/// More characters than an answer of any service has.
+pub const LONGEST_REPLY: usize = 8192;
+
+const _: () = assert!(
+    mc::LONGEST <= LONGEST_REQUEST
+        && fx_port::LONGEST <= LONGEST_REQUEST
+        && tcp::LONGEST <= LONGEST_REQUEST
+);
+
+/// The heading of a host's table of connections. Its columns are 21, 15, 16 and three times 8 characters wide, two
+/// apart.
+pub const TABLE_HEADING: &str =
+    "server                 client           protocol          requests   answers  rejected";
+
+/// The protocols of servers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum Speaks {
+    /// Modbus TCP, with the address table of the model.
+    ModbusTcp = 0,
+    /// MC protocol, frames 1E and 3E in binary.
+    Mc = 1,
+    /// The programming port's protocol, as the model speaks it.
+    ProgrammingPort = 2,
+}
+
+impl Speaks {
+    /// All of them.
+    pub const fn all() -> [Self; 3] {
+        [Self::ModbusTcp, Self::Mc, Self::ProgrammingPort]
+    }
+
+    /// What it is called.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ModbusTcp => "Modbus TCP",
+            Self::Mc => "MC protocol",
+            Self::ProgrammingPort => "programming port",
+        }
+    }
+
+    /// The option of a command line that opens such a server.
+    pub const fn option(self) -> &'static str {
+        match self {
+            Self::ModbusTcp => "--modbus-tcp",
+            Self::Mc => "--mc",
+            Self::ProgrammingPort => "--fx",
+        }
+    }
+}
+
+/// Reads the address of a server: `127.0.0.1:5020`, or `5020`, a port of this machine alone.
+pub fn address(text: &str) -> Option<SocketAddr> {
+    let own = text.parse().map(|port| (Ipv4Addr::LOCALHOST, port).into());
+    own.ok().or_else(|| text.parse().ok())
+}
+
+/// What a server speaks, for a model.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(C)]
+pub struct Service {
+    /// Its protocol.
+    pub speaks: Speaks,
+    /// The model's family.
+    pub family: Ports,
+    /// Code of model and version, which D8001 shows.
+    pub type_code: u16,
+}
+
+impl Service {
+    /// A protocol as a model of the family speaks it; `type_code` is what its D8001 shows.
+    pub const fn new(speaks: Speaks, family: Ports, type_code: u16) -> Self {
+        Service {
+            speaks,
+            family,
+            type_code,
+        }
+    }
+
+    /// Whether the characters so far are a request.
+    fn cut(self, received: &[u8]) -> Cut {
+        match self.speaks {
+            Speaks::ModbusTcp => tcp::cut(received),
+            Speaks::Mc => mc::cut(received),
+            Speaks::ProgrammingPort => fx_port::cut(received),
+        }
+    }
+
+    /// Whether a character that begins no request ends the connection: nothing says where the next request begins.
+    fn is_lost_after_drop(self) -> bool {
+        self.speaks != Speaks::ProgrammingPort
+    }
+}
+
+/// What a character of a connection was.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[repr(u8)]
+pub enum Heard {
+    /// Part of a request that continues, or of none.
+    More = 0,
+    /// The last of a request, which has been carried out.
+    Request = 1,
+    /// The last of a request, which has been rejected.
+    Rejected = 2,
+    /// Not part of a request; nothing that follows can be one, so the connection is to be closed.
+    Lost = 3,
+}
+
+/// A connection to a server: what has come of a request, and what is kept from one to the next.
+#[derive(Clone, Debug)]
+#[repr(C)]
+pub struct Connection {
+    service: Service,
+    /// How much of `received` there is.
+    length: u16,
+    /// It is a request that is over.
+    over: bool,
+    received: [u8; LONGEST_REQUEST],
+    memory: Memory,
+}
+
+impl Connection {
+    /// A new connection.
+    pub const fn new(service: Service) -> Self {
+        Connection {
+            service,
+            length: 0,
+            over: false,
+            received: [0; LONGEST_REQUEST],
+            memory: Memory::new(),
+        }
+    }
+
+    /// Takes a character. If it is the last of a request, that is carried out on `map` and answered in `reply`.
+    pub fn hear(&mut self, byte: u8, map: &mut dyn Map, reply: &mut Frame) -> Heard {
+        if core::mem::take(&mut self.over) {
+            self.length = 0;
+        }
+        let mut cut = self.push(byte);
+        if cut == Cut::Restart {
+            self.length = 0;
+            cut = self.push(byte);
+        }
+        let heard = match cut {
+            Cut::More | Cut::Restart => Heard::More,
+            Cut::Whole => match self.answer(map, reply) {
+                Ok(()) => Heard::Request,
+                Err(_) => Heard::Rejected,
+            },
+            Cut::Drop if self.service.is_lost_after_drop() => Heard::Lost,
+            Cut::Drop => {
+                self.length = 0;
+                Heard::More
+            }
+        };
+        self.over = heard != Heard::More;
+        heard
+    }
+
+    /// What its server speaks.
+    pub const fn service(&self) -> Service {
+        self.service
+    }
+
+    /// What has come of the request, whole after its last character.
+    pub fn request(&self) -> &[u8] {
+        let length = usize::from(self.length);
+        self.received.get(..length).unwrap_or_default()
+    }
+
+    fn push(&mut self, byte: u8) -> Cut {
+        let Some(place) = self.received.get_mut(usize::from(self.length)) else {
+            return Cut::Drop;
+        };
+        *place = byte;
+        self.length += 1;
+        self.service.cut(self.request())
+    }
+
+    fn answer(&mut self, map: &mut dyn Map, reply: &mut Frame) -> Result<(), LineFault> {
+        let Service {
+            speaks,
+            family,
+            type_code,
+        } = self.service;
+        let length = usize::from(self.length);
+        let request = self.received.get(..length).unwrap_or_default();
+        match speaks {
+            Speaks::ModbusTcp => tcp::answer(family.modbus(type_code), request, map, reply),
+            Speaks::Mc => mc::answer(request, map, reply),
+            Speaks::ProgrammingPort => {
+                let settings = family.programming_port();
+                fx_port::answer(settings, &mut self.memory, request, map, reply)
+            }
+        }
+    }
+}

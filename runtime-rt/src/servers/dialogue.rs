@@ -1,0 +1,63 @@
+//! What one connection has said, and what it is answered.
+
+use crate::comm::service::{Connection, Heard, LONGEST_REPLY, Service};
+use crate::comm::{Frame, Map};
+use std::vec::Vec;
+
+/// One connection to a PLC.
+#[derive(Debug)]
+pub struct Dialogue(Connection);
+
+/// What a connection does next.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reaction {
+    /// What it sends.
+    pub reply: Vec<u8>,
+    /// Whether it closes: what came is not a request.
+    pub closes: bool,
+    /// The requests that were carried out or rejected.
+    pub exchanges: Vec<Exchange>,
+}
+
+/// A request and its answer.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Exchange {
+    /// What was asked.
+    pub request: Vec<u8>,
+    /// The answer; empty if there is none.
+    pub reply: Vec<u8>,
+    /// Whether the request was rejected.
+    pub rejected: bool,
+}
+
+impl Dialogue {
+    /// A new connection.
+    pub fn new(service: Service) -> Self {
+        Dialogue(Connection::new(service))
+    }
+
+    /// Takes what has come, and carries out and answers each request in it.
+    pub fn receive(&mut self, bytes: &[u8], map: &mut dyn Map) -> Reaction {
+        let mut reaction = Reaction::default();
+        let mut buffer = [0; LONGEST_REPLY];
+        for &byte in bytes {
+            let mut frame = Frame::new(&mut buffer);
+            let heard = self.0.hear(byte, map, &mut frame);
+            if heard == Heard::More {
+                continue;
+            }
+            let reply = frame.as_slice().to_vec();
+            reaction.reply.extend_from_slice(&reply);
+            reaction.exchanges.push(Exchange {
+                request: self.0.request().to_vec(),
+                reply,
+                rejected: heard != Heard::Request,
+            });
+            if heard == Heard::Lost {
+                reaction.closes = true;
+                break;
+            }
+        }
+        reaction
+    }
+}
