@@ -1,11 +1,12 @@
-//! Latched devices that survive: in `rungc run`, from run to run.
+//! Latched devices that survive: in `rungc run`, from run to run, and in images, from reset to reset.
 
 mod common;
+mod tools;
 
 use common::{folder, rungc, text};
 use std::fs;
 use std::path::Path;
-use std::process::Output;
+use std::process::{Command, Output};
 
 /// Counts its starts in D200 and its scans in C100, which are latched, and its scans in D0, which is not.
 const COUNTER: &str = "\
@@ -107,4 +108,112 @@ fn a_changed_program_keeps_what_both_versions_have() {
         @"rungc: counter.retain: 1 of its devices are dropped: the program does not use them as latched devices any more"
     );
     assert!(last(&again).starts_with("2 101"), "{}", last(&again));
+}
+
+/// A board whose RAM from 0x21000000 on survives: QEMU keeps it in a file.
+const BOARD: &str = "
+[retain]
+memory = \"ram\"
+slots = [{ origin = 0x2100_0000, length = \"1K\" }, { origin = 0x2100_0400, length = \"1K\" }]
+every_ms = EVERY
+power_fail = { at = 0x2100_1000, bit = 2 }
+";
+
+/// Shows in Y000 to Y003 how often it was started, in D200, which is latched.
+const STARTS: &str = "\
+LD M8002
+INC D200
+LD= D200 K1
+OUT Y000
+LD= D200 K2
+OUT Y001
+LD= D200 K3
+OUT Y002
+LD= D200 K4
+OUT Y003
+END
+";
+
+/// Bytes of the RAM in the file, the second of QEMU's machine.
+const RAM: usize = 16 << 20;
+
+/// What an image prints on a Cortex-M3 whose RAM is in a file.
+fn simulated(folder: &Path, image: &str) -> String {
+    let output = Command::new("qemu-system-arm")
+        .current_dir(folder)
+        .args(["-M", "mps2-an385,memory-backend=kept", "-nographic"])
+        .args([
+            "-object",
+            "memory-backend-file,id=kept,size=16M,mem-path=ram,share=on",
+        ])
+        .args(["-icount", "shift=0,sleep=off"])
+        .args([
+            "-semihosting-config",
+            "enable=on,target=native",
+            "-kernel",
+            image,
+        ])
+        .output()
+        .unwrap();
+    let printed = text(&[&*output.stdout, &*output.stderr].concat());
+    assert!(output.status.success(), "{printed}");
+    let lines = printed.lines().filter(|line| line.contains(" s  Y"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Images in C and in Rust load what the other has saved, in the background or because the supply fails.
+#[test]
+fn latched_devices_of_images_survive() {
+    let needed = [
+        "make",
+        "arm-none-eabi-gcc",
+        "arm-none-eabi-ld",
+        "qemu-system-arm",
+    ];
+    if !tools::tools(&needed) {
+        return;
+    }
+    let board = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/boards/mps2-an385.toml");
+    let board = fs::read_to_string(board).unwrap() + BOARD;
+    let folder = folder(&[
+        ("starts.il", STARTS.as_bytes()),
+        ("often.toml", board.replace("EVERY", "1000").as_bytes()),
+        ("rarely.toml", board.replace("EVERY", "3600000").as_bytes()),
+    ]);
+    let at = folder.path();
+    let target = "thumbv7m-none-eabi";
+    let Some(cargo) = tools::cargo(target) else {
+        return tools::leave_out(&tools::no_rust(target));
+    };
+    let image = |backend: &str, board: &str| {
+        let name = format!("{backend}-{board}.elf");
+        let built = tools::with_cargo(&cargo)
+            .args(["build", "starts.il", "--emit", "elf", "--for", "3s"])
+            .args(["--board", &format!("{board}.toml"), "--backend", backend])
+            .args(["-o", &name, "--force"])
+            .current_dir(at)
+            .output()
+            .unwrap();
+        assert!(built.status.success(), "{}", text(&built.stderr));
+        name
+    };
+    let [often, rarely] = [image("c", "often"), image("c", "rarely")];
+    let in_rust = image("rust", "rarely");
+    fs::write(at.join("ram"), vec![0; RAM]).unwrap();
+    let supply = |fails: bool| {
+        let mut ram = fs::read(at.join("ram")).unwrap();
+        ram[0x1000] = u8::from(fails) << 2;
+        fs::write(at.join("ram"), &ram).unwrap();
+    };
+    assert_eq!(simulated(at, &often), "      0.000 s  Y000 on");
+    // What is loaded is saved only when the supply fails.
+    for fails in [false, true] {
+        supply(fails);
+        assert_eq!(simulated(at, &in_rust), "      0.000 s  Y001 on");
+    }
+    assert_eq!(simulated(at, &rarely), "      0.000 s  Y002 on");
+    supply(false);
+    for _ in 0..2 {
+        assert_eq!(simulated(at, &in_rust), "      0.000 s  Y003 on");
+    }
 }

@@ -113,7 +113,7 @@ static inline uint32_t rungc_form_bytes(rungc_form form, uint32_t count)
 }
 
 /* CRC-32 by half bytes; it begins with UINT32_MAX and ends inverted. */
-static inline uint32_t rungc_crc(uint32_t crc, const uint8_t *bytes, uint32_t length)
+static inline uint32_t rungc_record_crc(uint32_t crc, const uint8_t *bytes, uint32_t length)
 {
     static const uint32_t table[16] = {0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D930ACu, 0x76DC4190u, 0x6B6B51F4u,
                                        0x4DB26158u, 0x5005713Cu, 0xEDB88320u, 0xF00F9344u, 0xD6D6A3E8u, 0xCB61B38Cu,
@@ -154,14 +154,14 @@ static inline uint32_t rungc_aligned(uint32_t length)
     return (length + align - 1u) / align * align;
 }
 
-static inline void rungc_put_word(uint8_t *bytes, uint32_t value, unsigned count)
+static inline void rungc_number_bytes(uint8_t *bytes, uint32_t value, unsigned count)
 {
     for (unsigned i = 0; i < count; i++) {
         bytes[i] = (uint8_t)(value >> (8u * i));
     }
 }
 
-static inline uint32_t rungc_get_word(const uint8_t *bytes, unsigned count)
+static inline uint32_t rungc_record_number(const uint8_t *bytes, unsigned count)
 {
     uint32_t value = 0;
 
@@ -215,7 +215,7 @@ static inline bool rungc_put_values(const rungc_retained *retained, const void *
                 const uint32_t value = (uint32_t)rungc_read_retained(retained, plc, device, number);
                 const bool has_contact = (form != RUNGC_FORM_WORD) && retained->contacts;
 
-                rungc_put_word(bytes, value, (form == RUNGC_FORM_LONG) ? 4u : 2u);
+                rungc_number_bytes(bytes, value, (form == RUNGC_FORM_LONG) ? 4u : 2u);
                 if (has_contact && (rungc_read_retained(retained, plc, rungc_contacts(run->device), number) != 0)) {
                     bytes[length - 1u] = 1;
                 }
@@ -236,7 +236,7 @@ static inline bool rungc_put_summed(void *context, const uint8_t *bytes, uint32_
 {
     rungc_summing *const summing = (rungc_summing *)context;
 
-    summing->crc = rungc_crc(summing->crc, bytes, length);
+    summing->crc = rungc_record_crc(summing->crc, bytes, length);
     return (summing->sink == NULL) || summing->sink->put(summing->sink->context, bytes, length);
 }
 
@@ -259,20 +259,20 @@ static inline bool rungc_put_record(const rungc_retained *retained, const void *
     uint8_t bytes[RUNGC_RECORD_HEADER] = {'R', 'G', 'R', '1'};
     bool done;
 
-    rungc_put_word(&bytes[4], sequence, 4);
-    rungc_put_word(&bytes[8], rungc_record_length(retained), 4);
-    rungc_put_word(&bytes[12], (uint32_t)retained->run_count, 2);
+    rungc_number_bytes(&bytes[4], sequence, 4);
+    rungc_number_bytes(&bytes[8], rungc_record_length(retained), 4);
+    rungc_number_bytes(&bytes[12], (uint32_t)retained->run_count, 2);
     bytes[14] = (uint8_t)name;
     done = rungc_put_summed(&summing, bytes, (uint32_t)RUNGC_RECORD_HEADER) &&
            rungc_put_summed(&summing, (const uint8_t *)retained->program, name);
     for (size_t i = 0; (i < retained->run_count) && done; i++) {
         bytes[0] = retained->runs[i].device;
-        rungc_put_word(&bytes[1], retained->runs[i].first, 2);
-        rungc_put_word(&bytes[3], retained->runs[i].count, 2);
+        rungc_number_bytes(&bytes[1], retained->runs[i].first, 2);
+        rungc_number_bytes(&bytes[3], retained->runs[i].count, 2);
         done = rungc_put_summed(&summing, bytes, (uint32_t)RUNGC_RECORD_RUN);
     }
     done = done && rungc_put_values(retained, plc, &sink);
-    rungc_put_word(bytes, ~summing.crc, 4);
+    rungc_number_bytes(bytes, ~summing.crc, 4);
     return done && to->put(to->context, bytes, (uint32_t)RUNGC_RECORD_CHECKSUM);
 }
 
@@ -292,10 +292,10 @@ static inline bool rungc_find_record(const rungc_source *source, uint32_t at, ui
     if (!source->read(source->context, at, bytes, (uint32_t)RUNGC_RECORD_HEADER)) {
         return false;
     }
-    const uint32_t length = rungc_get_word(&bytes[8], 4);
+    const uint32_t length = rungc_record_number(&bytes[8], 4);
     const uint32_t name = bytes[14];
-    record->sequence = rungc_get_word(&bytes[4], 4);
-    record->runs = (uint16_t)rungc_get_word(&bytes[12], 2);
+    record->sequence = rungc_record_number(&bytes[4], 4);
+    record->runs = (uint16_t)rungc_record_number(&bytes[12], 2);
     checked = (uint32_t)RUNGC_RECORD_HEADER + name + ((uint32_t)RUNGC_RECORD_RUN * record->runs);
     if ((memcmp(bytes, "RGR1", 4) != 0) || (name > RUNGC_OWNER_MAX) || (length < (checked + (uint32_t)RUNGC_RECORD_CHECKSUM)) ||
         (length > (end - at))) {
@@ -313,12 +313,12 @@ static inline bool rungc_find_record(const rungc_source *source, uint32_t at, ui
         if (!source->read(source->context, at + from, bytes, piece)) {
             return false;
         }
-        crc = rungc_crc(crc, bytes, piece);
+        crc = rungc_record_crc(crc, bytes, piece);
     }
     if (!source->read(source->context, at + checked, bytes, (uint32_t)RUNGC_RECORD_CHECKSUM)) {
         return false;
     }
-    if (rungc_get_word(bytes, 4) == ~crc) {
+    if (rungc_record_number(bytes, 4) == ~crc) {
         record->length = length;
     }
     return true;
@@ -353,9 +353,9 @@ static inline bool rungc_restore_device(const rungc_retained *retained, void *pl
     if (form == RUNGC_FORM_BIT) {
         (void)retained->write(plc, device, number, (int32_t)((unsigned)(bytes[0] >> (n % 8u)) & 1u));
     } else if (form == RUNGC_FORM_LONG) {
-        (void)retained->write(plc, device, number, (int32_t)rungc_get_word(bytes, 4));
+        (void)retained->write(plc, device, number, (int32_t)rungc_record_number(bytes, 4));
     } else {
-        (void)retained->write(plc, device, number, (int16_t)rungc_get_word(bytes, 2));
+        (void)retained->write(plc, device, number, (int16_t)rungc_record_number(bytes, 2));
     }
     if ((form == RUNGC_FORM_SHORT) || (form == RUNGC_FORM_LONG)) {
         (void)retained->write(plc, rungc_contacts(run->device), number, (retained->contacts && (bytes[length - 1u] != 0u)) ? 1 : 0);
@@ -381,7 +381,7 @@ static inline rungc_loaded rungc_restore(const rungc_retained *retained, void *p
 
         done = source->read(source->context, table + ((uint32_t)RUNGC_RECORD_RUN * i), bytes, (uint32_t)RUNGC_RECORD_RUN);
         if (done) {
-            const rungc_retained_run run = {bytes[0], (uint16_t)rungc_get_word(&bytes[1], 2), (uint16_t)rungc_get_word(&bytes[3], 2)};
+            const rungc_retained_run run = {bytes[0], (uint16_t)rungc_record_number(&bytes[1], 2), (uint16_t)rungc_record_number(&bytes[3], 2)};
 
             for (uint32_t n = 0; (n < run.count) && done; n++) {
                 if (rungc_is_retained(retained, run.device, run.first + n)) {

@@ -102,7 +102,7 @@ pub fn header(module: &Module) -> String {
 }
 
 /// How long a record of the program's latched devices is, in bytes.
-fn record_len(module: &Module) -> u32 {
+pub fn record_len(module: &Module) -> u32 {
     let (program, runs) = (module.retained_as(), module.retained());
     let retained = rungc_rt::retain::Retained {
         program: &program,

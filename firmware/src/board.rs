@@ -1,7 +1,9 @@
 //! The description of a board, in TOML: docs/src/boards.md.
 
+mod retain;
 mod serial;
 
+pub use retain::{Retain, RetainMemory};
 pub use serial::{Serial, Uart};
 
 use crate::target::{self, Target};
@@ -39,6 +41,8 @@ pub struct Board {
     pub outputs: BTreeMap<u32, OutputPin>,
     /// Serial ports of the PLC, and the UARTs that they are.
     pub serial: Vec<Serial>,
+    /// Where latched devices survive power-off.
+    pub retain: Option<Retain>,
     /// C functions of the user that stand for fields of `rungc_hal` and `rungc_board`, and `init`; by the fields'
     /// names.
     pub functions: BTreeMap<String, String>,
@@ -145,6 +149,7 @@ struct Format {
     outputs: BTreeMap<toml::Spanned<String>, toml::Spanned<Output>>,
     #[serde(default)]
     serial: Vec<serial::Format>,
+    retain: Option<retain::Format>,
     #[serde(default)]
     functions: BTreeMap<toml::Spanned<String>, toml::Spanned<String>>,
     #[serde(default)]
@@ -366,6 +371,10 @@ impl Reader<'_> {
             inputs,
             outputs,
             serial: self.serial(format.serial, clock_hz)?,
+            retain: format
+                .retain
+                .map(|format| self.retain(format))
+                .transpose()?,
             functions: self.functions(format.functions)?,
             sources: self.sources(&format.sources, folder)?,
             interrupts: self.interrupts(format.interrupts)?,
@@ -586,6 +595,6 @@ impl Reader<'_> {
                 return Err(self.wrong(0, what));
             }
         }
-        Ok(())
+        self.free_slots(board)
     }
 }

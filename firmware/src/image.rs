@@ -3,7 +3,7 @@
 mod c;
 mod rust;
 
-use crate::board::{Board, Serial};
+use crate::board::{Board, Retain, Serial};
 use rungc_ir::Module;
 use rungc_ir::node::FunctionKind;
 use rungc_syntax::DeviceClass;
@@ -51,6 +51,20 @@ impl Image<'_> {
         watched.sort_unstable();
         watched.dedup();
         watched
+    }
+
+    /// Where latched devices survive, if the board has such memory and the program such devices.
+    fn retain(&self) -> Option<&Retain> {
+        let retain = self.board.retain.as_ref()?;
+        rungc_codegen_c::keeps_any(self.module).then_some(retain)
+    }
+
+    /// How many bytes a record of the program's latched devices takes, and how many of them a slot of the board's memory has room for; `None`
+    /// if the board has no such memory or the program no such devices.
+    pub fn records(&self) -> Option<(u32, u32)> {
+        let length = rungc_codegen_c::record_len(self.module);
+        let retain = self.retain()?;
+        Some((length, retain.slots[0].length / length.next_multiple_of(8)))
     }
 
     /// The ports of the board that the program has.

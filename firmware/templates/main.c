@@ -1,5 +1,5 @@
 #include "PROGRAM_board.h"
-
+/* INCLUDE */
 /* The clock that SysTick counts, the resolution of time, and the scan period. */
 #define CLOCK_HZ /* HZ */u
 #define TICK_US /* TICK */u
@@ -23,7 +23,7 @@ static volatile uint32_t microseconds;
     microseconds += TICK_US;
 /* DUE */}
 
-/* PINS *//* SERIAL *//* SETUP *//* CONSOLE */static rungc_board board = {
+/* PINS *//* SERIAL *//* SETUP *//* CONSOLE *//* RETAIN */static rungc_board board = {
 /* HAL */    .period_us = SCAN_US,
 };
 
@@ -32,7 +32,7 @@ int main(void)
 /* BEGIN */    SYSTICK_LOAD = (uint32_t)((uint64_t)CLOCK_HZ * TICK_US / 1000000u) - 1u;
     SYSTICK_VAL = 0;
     PROGRAM_init(&plc);
-    SYSTICK_CTRL = 7; /* the core's clock, interrupt, on */
+/* LOAD */    SYSTICK_CTRL = 7; /* the core's clock, interrupt, on */
     for (;;) {
         PROGRAM_poll(&plc, &board);
 /* SHOW */        __asm__ volatile("wfi");

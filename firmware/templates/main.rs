@@ -6,7 +6,7 @@ use core::mem::MaybeUninit;
 use core::sync::atomic::{AtomicU32, Ordering};
 use rungc_rt::Hal;
 use rungc_rt::board::{CounterInput, Driver, EdgeInterrupt/* EDGE TYPE */, PulseOutput, Setup, Timebase};
-/* USE SERIAL *//* USE PROGRAM */use CRATE::TYPE;
+/* USE RETAIN *//* USE SERIAL *//* USE PROGRAM */use CRATE::TYPE;
 
 /// The clock that SysTick counts, in Hz.
 const CLOCK_HZ: u32 = /* HZ */;
@@ -94,7 +94,7 @@ impl CounterInput for Pins {}
 
 impl PulseOutput for Pins {}
 
-/* CONSOLE */static mut DRIVER: MaybeUninit<Driver<TYPE, Pins>> = MaybeUninit::uninit();
+/* CONSOLE *//* RETAIN */static mut DRIVER: MaybeUninit<Driver<TYPE, Pins>> = MaybeUninit::uninit();
 
 #[unsafe(no_mangle)]
 extern "C" fn main() -> ! {

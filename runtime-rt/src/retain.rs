@@ -12,16 +12,16 @@
 
 #[cfg(feature = "std")]
 mod file;
+mod parts;
 mod record;
 mod slots;
-mod stm32;
 #[cfg(test)]
 mod tests;
 
 #[cfg(feature = "std")]
 pub use file::RetainFile;
+pub use parts::{Ram, Registers, Stm32f1, Stm32f4, f4_sectors};
 pub use slots::{Flash, FlashFailed, Slots};
-pub use stm32::{Registers, Stm32f1, Stm32f4};
 
 use crate::plc::Class;
 

@@ -11,7 +11,7 @@ use crate::args::{Backend, BuildArgs, Emit, Format, Plan, Reporting};
 use crate::progress;
 use crate::report::Reporter;
 use rungc_emit::OutFile;
-use rungc_firmware::board::{self, Board};
+use rungc_firmware::board::{self, Board, Retain, RetainMemory};
 use rungc_firmware::build::Tools;
 use rungc_firmware::image::{self, Image, Script};
 use rungc_firmware::report::{self as firmware, Report};
@@ -299,10 +299,41 @@ impl ForImage {
             let (board, names) = (&self.board.name, unconnected.join(", "));
             tell(&format!("rungc: no pins on {board}: {names}"));
         }
+        self.check_slots(&image)?;
         match backend {
             Backend::C => image::c_project(&image).map_err(Failure::from),
             Backend::Rust => Ok(image::rust_project(&image)),
         }
+    }
+}
+
+/// How often flash can be erased, as most parts state it.
+const ERASURES: u64 = 10_000;
+
+/// In days.
+const TEN_YEARS: u64 = 3653;
+
+impl ForImage {
+    /// Reports how often the board's memory can save latched devices, unless a slot has no room for them.
+    fn check_slots(&self, image: &Image) -> std::result::Result<(), Failure> {
+        let Some((length, records)) = image.records() else {
+            return Ok(());
+        };
+        let board = &self.board.name;
+        if records == 0 {
+            return Err(Failure::Because(format!(
+                "a slot of `[retain]` of {board} is too short: a record of the program's latched devices takes {length} bytes"
+            )));
+        }
+        let wears = |retain: &Retain| retain.memory != RetainMemory::Ram;
+        if self.board.retain.as_ref().is_some_and(wears) {
+            let a_day = 2 * u64::from(records) * ERASURES / TEN_YEARS;
+            tell(&format!(
+                "rungc: {board}: latched devices take {length} bytes, {records} records a slot; flash of {ERASURES} erasures allows {a_day} \
+                 saves a day for ten years"
+            ));
+        }
+        Ok(())
     }
 }
 

@@ -1,5 +1,6 @@
 //! An image in C.
 
+mod retain;
 mod serial;
 
 use super::{Image, comment, linker_script, terminals};
@@ -53,6 +54,7 @@ const END: &str = "        if (board.now_ms >= MSu) {
 pub fn project(image: &Image) -> std::io::Result<Vec<OutFile>> {
     let options = rungc_codegen_c::Options {
         board: true,
+        retain: image.retain().is_some(),
         ..Default::default()
     };
     let emitted = rungc_codegen_c::emit(image.module, &options);
@@ -130,7 +132,11 @@ fn main(image: &Image) -> String {
         let _ = writeln!(begin, "    {init}();");
     }
     begin.push_str(&serial::enable(image));
-    let mut show = String::new();
+    let mut show = retain::save(image);
+    let include = match image.retain() {
+        Some(_) => "#include \"PROGRAM_retain.h\"\n",
+        None => "",
+    };
     if board.console {
         show.push_str("        show_outputs();\n");
     }
@@ -138,6 +144,9 @@ fn main(image: &Image) -> String {
         show.push_str(&END.replace("MS", &ms.to_string()));
     }
     let text = MAIN
+        .replace("/* INCLUDE */", include)
+        .replace("/* LOAD */", retain::load(image))
+        .replace("/* RETAIN */", &retain::drivers(image))
         .replace("/* HZ */", &board.clock_hz.to_string())
         .replace("/* TICK */", &board.tick_us.to_string())
         .replace("/* SCAN */", &board.scan_us.to_string())

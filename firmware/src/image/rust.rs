@@ -1,5 +1,6 @@
 //! An image in Rust. Pins are those of the board's description; functions in C are for images in C.
 
+mod retain;
 mod serial;
 
 use super::{Image, comment, linker_script, terminals};
@@ -118,7 +119,8 @@ fn main(image: &Image) -> String {
     let watched = image.watched();
     let ends = image.script.until_ms;
     let mut before = String::new();
-    let mut show = String::new();
+    let mut show = retain::save(image);
+    before.push_str(&retain::load(image));
     if board.console {
         before.push_str("    let mut shown = [false; OUTPUTS.len()];\n");
         show.push_str("        show_outputs(driver, &mut shown);\n");
@@ -184,6 +186,8 @@ fn main(image: &Image) -> String {
         )
         .replace("/* CONSOLE */", &console(image))
         .replace("/* USE SERIAL */", uses)
+        .replace("/* USE RETAIN */", &retain::uses(image))
+        .replace("/* RETAIN */", &retain::drivers(image))
         .replace("/* SERIAL */", &serial::drivers(image))
         .replace("/* SETUP */", &(setup + &serial::enable(image)))
         .replace("/* BEFORE */", &before)

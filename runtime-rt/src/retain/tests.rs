@@ -553,7 +553,7 @@ impl Flash for Shared<'_> {
 
 #[test]
 fn sectors_of_an_stm32f4_follow_from_addresses() {
-    let sectors = stm32::f4_sectors;
+    let sectors = f4_sectors;
     assert_eq!(sectors(&(0x0800_8000..0x0800_C000)), Some(2..3));
     assert_eq!(sectors(&(0x0801_0000..0x0804_0000)), Some(4..6));
     assert_eq!(sectors(&(0x0810_0000..0x0810_4000)), Some(16..17));

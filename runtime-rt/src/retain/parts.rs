@@ -1,4 +1,4 @@
-//! Flash of STM32F1 and STM32F4 parts (ST PM0075 and RM0090, "Embedded Flash memory interface").
+//! RAM that keeps its contents, and flash of STM32F1 and STM32F4 parts (ST PM0075 and RM0090, "Embedded Flash memory interface").
 
 use super::slots::{Flash, FlashFailed};
 use core::ops::Range;
@@ -78,6 +78,43 @@ fn read<R: Registers>(registers: &mut R, from: u32, bytes: &mut [u8]) {
     for (at, byte) in (from..).zip(bytes) {
         let word = registers.read(at & !3).to_le_bytes();
         *byte = word.get(at as usize & 3).copied().unwrap_or_default();
+    }
+}
+
+/// Two slots in memory that is written like RAM and keeps its contents: with a battery, or FRAM.
+#[derive(Clone, Debug)]
+pub struct Ram<R> {
+    /// How it reaches memory.
+    pub registers: R,
+    /// Addresses of the slots, multiples of 4.
+    pub slots: [Range<u32>; 2],
+}
+
+impl<R: Registers> Flash for Ram<R> {
+    fn slot_len(&self) -> u32 {
+        slot_len(&self.slots)
+    }
+
+    fn read(&mut self, slot: usize, offset: u32, bytes: &mut [u8]) -> Result<(), FlashFailed> {
+        let from = address(&self.slots, slot, offset)?;
+        read(&mut self.registers, from, bytes);
+        Ok(())
+    }
+
+    fn erase(&mut self, slot: usize) -> Result<(), FlashFailed> {
+        let range = self.slots.get(slot).ok_or(FlashFailed)?.clone();
+        for at in range.step_by(4) {
+            self.registers.write(at, u32::MAX);
+        }
+        Ok(())
+    }
+
+    fn program(&mut self, slot: usize, offset: u32, bytes: &[u8]) -> Result<(), FlashFailed> {
+        let from = address(&self.slots, slot, offset)?;
+        for (at, word) in (from..).step_by(4).zip(bytes.as_chunks().0) {
+            self.registers.write(at, u32::from_le_bytes(*word));
+        }
+        Ok(())
     }
 }
 

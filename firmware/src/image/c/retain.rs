@@ -1,0 +1,123 @@
+//! Latched devices in an image in C.
+
+use super::super::Image;
+use crate::board::{InputPin, Retain, RetainMemory};
+use rungc_rt::retain::f4_sectors;
+use std::fmt::Write;
+
+const RAM: &str = include_str!("../../../templates/retain_ram.c");
+const STM32: &str = include_str!("../../../templates/retain_stm32.c");
+const ERASE_F1: &str = include_str!("../../../templates/retain_erase_f1.c");
+const ERASE_F4: &str = include_str!("../../../templates/retain_erase_f4.c");
+
+/// How the drivers reach memory.
+const REACH: &str = "\
+#define READ(address) REGISTER(address)
+#define WRITE(address, value) (REGISTER(address) = (value))
+#define WRITE_UNIT(address, value) (*(volatile flash_unit *)(uintptr_t)(address) = (value))
+
+";
+
+/// What the image has of it, in front of `main`.
+pub(super) fn drivers(image: &Image) -> String {
+    let Some(retain) = image.retain() else {
+        return String::new();
+    };
+    let mut text = String::from("/* Latched devices, which survive power-off. */\n");
+    if retain.memory != RetainMemory::Ram {
+        text.push_str(REACH);
+    }
+    text.push_str(&driver(retain));
+    text.push_str(
+        "static const rungc_flash kept = {\n    .slot_length = KEPT_LENGTH,\n    .read = read_kept,\n    .erase = erase_kept,\n    \
+         .program = program_kept,\n};\nstatic rungc_slots slots = {.flash = &kept};\n\n",
+    );
+    if let Some(pin) = &retain.power_fail {
+        text.push_str(&power_fails(pin));
+    }
+    text
+}
+
+/// What drives the memory: `kept_slots`, and functions that read, erase and write.
+pub(super) fn driver(retain: &Retain) -> String {
+    let [a, b] = retain.slots;
+    let mut text = format!(
+        "#define KEPT_LENGTH {}u\nstatic const uint32_t kept_slots[2] = {{0x{:08X}u, 0x{:08X}u}};\n",
+        a.length, a.origin, b.origin
+    );
+    let body = match retain.memory {
+        RetainMemory::Ram => RAM.to_string(),
+        RetainMemory::Stm32f1 => {
+            let _ = writeln!(text, "#define KEPT_PAGE {}u", retain.page);
+            text.push_str("typedef uint16_t flash_unit; /* half a word at a time is written */\n");
+            stm32(
+                "STM32F1",
+                ["0x40022000", "1u", "0x14u", "(1u << 7)"],
+                ERASE_F1,
+                "1u",
+            )
+        }
+        RetainMemory::Stm32f4 => {
+            let sectors = retain.slots.map(|slot| {
+                let sectors = f4_sectors(&(slot.origin..slot.origin + slot.length));
+                let sectors = sectors.unwrap_or_default();
+                format!("{{{}u, {}u}}", sectors.start, sectors.end)
+            });
+            let _ = writeln!(
+                text,
+                "static const struct {{\n    uint32_t first, end;\n}} kept_sectors[2] = {{{}}};",
+                sectors.join(", ")
+            );
+            text.push_str("typedef uint32_t flash_unit; /* a word at a time is written */\n");
+            let bits = ["0x40023C00", "(1u << 16)", "0xF2u", "(1u << 31)"];
+            stm32("STM32F4", bits, ERASE_F4, "2u << 8 | 1u")
+        }
+    };
+    format!("{text}\n{body}\n")
+}
+
+fn stm32(part: &str, [base, busy, errors, lock]: [&str; 4], erase: &str, program: &str) -> String {
+    STM32
+        .replace("/* PART */", part)
+        .replace("/* BASE */", base)
+        .replace("/* BUSY */", busy)
+        .replace("/* ERRORS */", errors)
+        .replace("/* LOCK */", lock)
+        .replace("/* ERASE */", erase)
+        .replace("/* PROGRAM */", program)
+}
+
+/// What looks at the supply's pin.
+fn power_fails(pin: &InputPin) -> String {
+    let compare = if pin.inverted { "==" } else { "!=" };
+    format!(
+        "/* Saves them once when the supply says that power is about to fail. */\nstatic void watch_supply(void)\n{{\n    \
+         static bool failed;\n    const bool fails = (REGISTER(0x{:08X}u) & 0x{:X}u) {compare} 0u;\n\n    if (fails && !failed) {{\n        \
+         (void)PROGRAM_save_latched(&plc, &slots);\n    }}\n    failed = fails;\n}}\n\n",
+        pin.at,
+        1u32 << pin.bit
+    )
+}
+
+/// What `main` does after the program's devices have their initial values.
+pub(super) fn load(image: &Image) -> &'static str {
+    match image.retain() {
+        Some(_) => "    (void)PROGRAM_load_latched(&plc, &slots);\n",
+        None => "",
+    }
+}
+
+/// What `main` does after each scan.
+pub(super) fn save(image: &Image) -> String {
+    let Some(retain) = image.retain() else {
+        return String::new();
+    };
+    let watch = match retain.power_fail {
+        Some(_) => "        watch_supply();\n",
+        None => "",
+    };
+    format!(
+        "{watch}        (void)PROGRAM_save_changes(&plc, &slots, board.now_ms, {}u);\n",
+        retain.every_ms
+    )
+}

@@ -1,0 +1,109 @@
+//! Latched devices in an image in Rust.
+
+use super::super::Image;
+use crate::board::{InputPin, Retain, RetainMemory};
+use std::fmt::Write;
+
+/// How the drivers of the runtime reach memory.
+const BUS: &str = "/// Memory that holds latched devices, and its controller.
+struct Bus;
+
+impl Registers for Bus {
+    fn read(&mut self, address: u32) -> u32 {
+        read(address as usize)
+    }
+
+    fn write(&mut self, address: u32, value: u32) {
+        write(address as usize, value);
+    }
+
+    fn write_half(&mut self, address: u32, value: u16) {
+        // SAFETY: the address is one of a slot's.
+        unsafe { (address as usize as *mut u16).write_volatile(value) }
+    }
+}
+
+";
+
+/// The type that drives the memory.
+fn name(memory: RetainMemory) -> &'static str {
+    match memory {
+        RetainMemory::Ram => "Ram",
+        RetainMemory::Stm32f1 => "Stm32f1",
+        RetainMemory::Stm32f4 => "Stm32f4",
+    }
+}
+
+/// What the image uses for it.
+pub(super) fn uses(image: &Image) -> String {
+    image.retain().map_or(String::new(), |retain| {
+        let name = name(retain.memory);
+        format!("use rungc_rt::retain::{{{name}, Registers, Slots}};\n")
+    })
+}
+
+/// What the image has of it, in front of `main`.
+pub(super) fn drivers(image: &Image) -> String {
+    let Some(retain) = image.retain() else {
+        return String::new();
+    };
+    let slots = retain.slots.map(|slot| {
+        let end = slot.origin + slot.length;
+        format!("0x{:08X}..0x{end:08X}", slot.origin)
+    });
+    let page = match retain.memory {
+        RetainMemory::Stm32f1 => format!(", page: {}", retain.page),
+        RetainMemory::Ram | RetainMemory::Stm32f4 => String::new(),
+    };
+    let (name, slots) = (name(retain.memory), slots.join(", "));
+    format!(
+        "{BUS}/// The memory that holds latched devices.\nconst fn kept() -> {name}<Bus> {{\n    {name} {{ registers: Bus, slots: [{slots}]{page} }}\n}}\n\n"
+    )
+}
+
+/// What `main` does before the first scan.
+pub(super) fn load(image: &Image) -> String {
+    let Some(retain) = image.retain() else {
+        return String::new();
+    };
+    let mut text = String::from(
+        "    let mut slots = Slots::open(kept()).ok();\n    if let Some(slots) = &mut slots {\n        \
+         let _ = slots.load(&mut driver.program);\n    }\n",
+    );
+    if retain.power_fail.is_some() {
+        text.push_str("    let mut failed = false;\n");
+    }
+    text
+}
+
+/// What it does after each scan.
+pub(super) fn save(image: &Image) -> String {
+    let Some(retain) = image.retain() else {
+        return String::new();
+    };
+    let mut text = String::from("        if let Some(slots) = &mut slots {\n");
+    if let Some(pin) = &retain.power_fail {
+        let _ = write!(
+            text,
+            "            let fails = {};\n            if fails && !failed {{\n                \
+             let _ = slots.save(&driver.program);\n            }}\n            failed = fails;\n",
+            fails(pin)
+        );
+    }
+    let Retain { every_ms, .. } = retain;
+    let _ = write!(
+        text,
+        "            let _ = slots.poll(&driver.program, driver.now_ms(), {every_ms});\n        }}\n"
+    );
+    text
+}
+
+/// Whether the supply says that power is about to fail.
+fn fails(pin: &InputPin) -> String {
+    let compare = if pin.inverted { "==" } else { "!=" };
+    format!(
+        "read(0x{:08X}) & 0x{:X} {compare} 0",
+        pin.at,
+        1u32 << pin.bit
+    )
+}
