@@ -59,8 +59,8 @@ impl Image<'_> {
         rungc_codegen_c::keeps_any(self.module).then_some(retain)
     }
 
-    /// How many bytes a record of the program's latched devices takes, and how many of them a slot of the board's memory has room for; `None`
-    /// if the board has no such memory or the program no such devices.
+    /// How many bytes a record of the program's latched devices takes, and how many of them a slot of the board's
+    /// memory has room for; `None` if the board has no such memory or the program no such devices.
     pub fn records(&self) -> Option<(u32, u32)> {
         let length = rungc_codegen_c::record_len(self.module);
         let retain = self.retain()?;

@@ -1,14 +1,16 @@
-//! Latched devices that survive: what a program keeps over power-off, saved to flash or to a file and loaded when it starts.
+//! Latched devices that survive: what a program keeps over power-off, saved to flash or to a file and loaded when it
+//! starts.
 //!
-//! A *record* holds the values of all latched devices, with the program's name, a sequence number and a checksum (`record.rs` has the
-//! format). [`Slots`] writes records to two slots of flash, each an erasable run of it: record after record into one slot until that is full,
-//! then the other slot is erased and takes the next. So power may fail at any time: the newest complete record is either the one being
-//! written or the one before it, never a mix of both. On a host with files, the feature `std` has `RetainFile`.
+//! A *record* holds the values of all latched devices, with the program's name, a sequence number and a checksum
+//! (`record.rs` has the format). [`Slots`] writes records to two slots of flash, each an erasable run of it: record
+//! after record into one slot until that is full, then the other slot is erased and takes the next. So power may fail
+//! at any time: the newest complete record is either the one being written or the one before it, never a mix of both.
+//! On a host with files, the feature `std` has `RetainFile`.
 //!
 //! # Wear
 //!
-//! A part that allows N erasures takes N · [`Slots::saves_per_erasure`] · 2 saves. [`Slots::poll`] saves at most once in an interval, and
-//! only if a latched device has changed.
+//! A part that allows N erasures takes N · [`Slots::saves_per_erasure`] · 2 saves. [`Slots::poll`] saves at most once
+//! in an interval, and only if a latched device has changed.
 
 #[cfg(feature = "std")]
 mod file;
@@ -50,13 +52,15 @@ impl RetainedRun {
 /// What a program keeps over power-off.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Retained<'a> {
-    /// The program and its model, as in `motor (fx3u)`: records of another program are not loaded. At most [`OWNER_MAX`] bytes.
+    /// The program and its model, as in `motor (fx3u)`: records of another program are not loaded. At most
+    /// [`OWNER_MAX`] bytes.
     pub program: &'a str,
     /// Its latched devices; empty if there are none.
     pub runs: &'a [RetainedRun],
     /// Whether the contacts of timers and counters are kept with their values.
     pub contacts: bool,
-    /// On models with a latch key: the register D and what it must hold when power fails; else latched devices are lost.
+    /// On models with a latch key: the register D and what it must hold when power fails; else latched devices are
+    /// lost.
     pub key: Option<(u32, i16)>,
 }
 
@@ -112,7 +116,8 @@ pub enum Loaded {
     Foreign(Owner),
     /// The program's latched devices have their values again.
     Restored {
-        /// How many devices of the record this version of the program does not keep; their values are gone with the next save.
+        /// How many devices of the record this version of the program does not keep; their values are gone with the
+        /// next save.
         dropped: u32,
     },
 }

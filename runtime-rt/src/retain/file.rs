@@ -9,8 +9,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::vec::Vec;
 
-/// A file that holds the latched devices of a program. It is replaced as a whole: written under another name, flushed to the disk,
-/// renamed. Whenever the process or the machine ends, the file is the old one or the new one.
+/// A file that holds the latched devices of a program. It is replaced as a whole: written under another name, flushed
+/// to the disk, renamed. Whenever the process or the machine ends, the file is the old one or the new one.
 #[derive(Clone, Debug)]
 pub struct RetainFile {
     path: PathBuf,
@@ -64,7 +64,8 @@ impl RetainFile {
         &self.path
     }
 
-    /// Saves a program's latched devices if one has changed since they were loaded or saved last. Returns whether they were saved.
+    /// Saves a program's latched devices if one has changed since they were loaded or saved last. Returns whether they
+    /// were saved.
     ///
     /// # Errors
     /// The file cannot be replaced; it is the old one then.
@@ -81,8 +82,8 @@ impl RetainFile {
         Ok(true)
     }
 
-    /// To be called between scans, `now_ms` is the program's time: saves once in `every_ms` if a latched device has changed. Returns whether
-    /// they were saved.
+    /// To be called between scans, `now_ms` is the program's time: saves once in `every_ms` if a latched device has
+    /// changed. Returns whether they were saved.
     ///
     /// # Errors
     /// The file cannot be replaced; it is the old one then.
@@ -95,7 +96,8 @@ impl RetainFile {
     }
 }
 
-/// Replaces a file: one of another name beside it is written and flushed, and takes its name; then the folder is flushed, too.
+/// Replaces a file: one of another name beside it is written and flushed, and takes its name; then the folder is
+/// flushed, too.
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut name = OsString::from(path);
     name.push(".new");

@@ -1,4 +1,5 @@
-//! RAM that keeps its contents, and flash of STM32F1 and STM32F4 parts (ST PM0075 and RM0090, "Embedded Flash memory interface").
+//! RAM that keeps its contents, and flash of STM32F1 and STM32F4 parts (ST PM0075 and RM0090, "Embedded Flash memory
+//! interface").
 
 use super::slots::{Flash, FlashFailed};
 use core::ops::Range;
@@ -118,8 +119,9 @@ impl<R: Registers> Flash for Ram<R> {
     }
 }
 
-/// Two slots in the flash of an STM32F4, each of one or more whole sectors. The code that runs meanwhile stands still if it is in the same
-/// bank: some 16 µs for each word, and for the erasure of a sector of 16 KB a quarter of a second, of 128 KB one to two seconds.
+/// Two slots in the flash of an STM32F4, each of one or more whole sectors. The code that runs meanwhile stands still
+/// if it is in the same bank: some 16 µs for each word, and for the erasure of a sector of 16 KB a quarter of a second,
+/// of 128 KB one to two seconds.
 #[derive(Clone, Debug)]
 pub struct Stm32f4<R> {
     /// How it reaches registers.
@@ -151,8 +153,8 @@ const F4_SECTORS: [u32; 13] = [
     0xC_0000, 0xE_0000, 0x10_0000,
 ];
 
-/// The sectors of an address range of an STM32F4, as its control register numbers them; `None` if the range does not consist of whole
-/// sectors of one bank.
+/// The sectors of an address range of an STM32F4, as its control register numbers them; `None` if the range does not
+/// consist of whole sectors of one bank.
 pub fn f4_sectors(range: &Range<u32>) -> Option<Range<u32>> {
     let bank = range.start.checked_sub(0x0800_0000)? / 0x10_0000;
     let origin = 0x0800_0000 + bank * 0x10_0000;
@@ -211,8 +213,8 @@ impl<R: Registers> Flash for Stm32f4<R> {
     }
 }
 
-/// Two slots in the flash of an STM32F1, each of one or more whole pages. The code that runs meanwhile stands still: some 50 µs for each half
-/// word, and 20 to 40 ms for the erasure of a page.
+/// Two slots in the flash of an STM32F1, each of one or more whole pages. The code that runs meanwhile stands still:
+/// some 50 µs for each half word, and 20 to 40 ms for the erasure of a page.
 #[derive(Clone, Debug)]
 pub struct Stm32f1<R> {
     /// How it reaches registers.

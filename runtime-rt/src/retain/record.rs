@@ -12,8 +12,8 @@
 //! | | | values, run after run |
 //! | | 4 | CRC-32 (as in zip files) of all before it |
 //!
-//! Relays take a bit each, from the lowest bit of a byte on; registers two bytes; timers and 16-bit counters the value and a byte for the
-//! contact; 32-bit counters the same with four bytes of value.
+//! Relays take a bit each, from the lowest bit of a byte on; registers two bytes; timers and 16-bit counters the value
+//! and a byte for the contact; 32-bit counters the same with four bytes of value.
 
 use super::{Loaded, OWNER_MAX, Owner, Retained, RetainedRun};
 use crate::plc::Class;

@@ -11,8 +11,8 @@ const ALIGN: u32 = 8;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct FlashFailed;
 
-/// Two slots of flash, 0 and 1, each of which is erased as a whole: one or more of its pages or sectors. RAM that keeps its contents (battery,
-/// FRAM) works likewise: it erases by writing 0xFF.
+/// Two slots of flash, 0 and 1, each of which is erased as a whole: one or more of its pages or sectors. RAM that keeps
+/// its contents (battery, FRAM) works likewise: it erases by writing 0xFF.
 pub trait Flash {
     /// Bytes of each slot.
     fn slot_len(&self) -> u32;
@@ -83,8 +83,8 @@ impl<F: Flash> Slots<F> {
         Ok(loaded)
     }
 
-    /// Saves a program's latched devices now, as when a supply says that power is about to fail. Unless [`Slots::prepare`] was called, or
-    /// [`Slots::poll`], this may have to erase a slot first.
+    /// Saves a program's latched devices now, as when a supply says that power is about to fail. Unless
+    /// [`Slots::prepare`] was called, or [`Slots::poll`], this may have to erase a slot first.
     ///
     /// # Errors
     /// Flash cannot be written, or a slot is shorter than a record.
@@ -123,8 +123,8 @@ impl<F: Flash> Slots<F> {
         self.room(retained.record_len()).map(drop)
     }
 
-    /// To be called between scans, `now_ms` is the program's time: once in `every_ms` saves latched devices if one has changed. Returns
-    /// whether they were saved.
+    /// To be called between scans, `now_ms` is the program's time: once in `every_ms` saves latched devices if one has
+    /// changed. Returns whether they were saved.
     ///
     /// # Errors
     /// Flash cannot be written, or a slot is shorter than a record.

@@ -1,4 +1,5 @@
-//! What a save leaves when power fails at any byte of it, and the flash controllers of parts as models of their registers.
+//! What a save leaves when power fails at any byte of it, and the flash controllers of parts as models of their
+//! registers.
 
 use super::*;
 use crate::double::Double;
