@@ -1,8 +1,10 @@
 //! Arguments of the command line.
 
 mod diff;
+mod forms;
 
 pub use diff::{DiffArgs, DiffFormat};
+pub use forms::{ConvertArgs, ConvertTo, ReadArgs, ReadFrom};
 
 use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -88,6 +90,10 @@ pub enum Command {
     Diff(DiffArgs),
     /// Rewrite a program as an instruction list or a list export.
     Convert(ConvertArgs),
+    /// Read the program out of a PLC over its programming port.
+    ///
+    /// The PLC keeps running, and nothing in it is changed. A PLC whose program is protected by a keyword is not read.
+    Read(ReadArgs),
     /// Write rungc.toml, the settings of a project, with a comment on each.
     Init(InitArgs),
     /// Learn unknown instruction codes in a vendor project from the list that the editor exports.
@@ -387,22 +393,6 @@ pub struct TestArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Arguments of `convert`.
-#[derive(Args, Debug)]
-pub struct ConvertArgs {
-    #[command(flatten)]
-    pub inputs: Inputs,
-    /// Output form.
-    #[arg(long, value_enum)]
-    pub to: ConvertTo,
-    /// File to write. Default: standard output. With several programs, a folder for all outputs.
-    #[arg(short, long, value_name = "PATH")]
-    pub output: Option<PathBuf>,
-    /// Overwrite an existing file.
-    #[arg(long)]
-    pub force: bool,
-}
-
 /// Arguments of `view`.
 #[derive(Args, Debug)]
 pub struct ViewArgs {
@@ -570,35 +560,6 @@ pub enum Backend {
     C,
     /// Rust: the board's pins only, no C functions.
     Rust,
-}
-
-/// Formats that files are read as when they are named.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ReadFrom {
-    /// Program memory of an FX PLC.
-    Image,
-}
-
-/// Output forms of `convert`.
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ConvertTo {
-    /// Instruction list.
-    Il,
-    /// The editors' list export (UTF-16, tabs).
-    Csv,
-    /// Program memory of an FX PLC.
-    Image,
-}
-
-impl ConvertTo {
-    /// What this form is called, if it cannot store comments on devices.
-    pub const fn without_comments(self) -> Option<&'static str> {
-        match self {
-            ConvertTo::Il => None,
-            ConvertTo::Csv => Some("a list export"),
-            ConvertTo::Image => Some("an image"),
-        }
-    }
 }
 
 /// Output forms of `xref`.

@@ -22,6 +22,7 @@ pub fn main() -> ExitCode {
         stdout_in_use: match &cli.command {
             Command::Build(args) => args.plan.emit == Some(Emit::Ir) && args.plan.output.is_none(),
             Command::Convert(args) => args.output.is_none(),
+            Command::Read(args) => args.output.is_none(),
             Command::Run(_) | Command::Serve(_) | Command::Stats(_) | Command::Diff(_) => true,
             Command::Xref(args) => args.output.is_none(),
             Command::Fmt(args) => args.check,
@@ -40,6 +41,7 @@ pub fn main() -> ExitCode {
         Command::Serve(args) => commands::serve::run(args, cx),
         Command::Test(args) => commands::test::run(args, cx),
         Command::Convert(args) => commands::convert::run(args, cx),
+        Command::Read(args) => commands::read::run(args, cx),
         Command::Init(args) => commands::init::run(args, cx),
         Command::Learn(args) => commands::learn::run(args, cx),
         Command::View(args) => commands::view::run(args, cx),

@@ -40,6 +40,16 @@ fn is_data(answer: &[u8], length: usize) -> bool {
         && format!("{sum:02X}").as_bytes() == [*high, *low]
 }
 
+/// How many characters answer a request to read: it ends with the number of bytes, before ETX and the sum.
+fn length(request: &[u8]) -> usize {
+    let [.., high, low, 0x03, _, _] = request else {
+        panic!("{request:02x?}");
+    };
+    let digits = [*high, *low];
+    let count = usize::from_str_radix(std::str::from_utf8(&digits).unwrap(), 16).unwrap();
+    2 * count + 4
+}
+
 /// Sends what the editor has sent, and compares what comes back as the session says.
 fn replay(session: &str, model: &str, in_stop: bool) {
     let folder = folder(&[("p.il", b"LD M8000\nOUT M0\nEND\n")]);
@@ -53,6 +63,7 @@ fn replay(session: &str, model: &str, in_stop: bool) {
         std::thread::sleep(Duration::from_millis(100));
     }
     let mut answers = 0;
+    let mut asked = Vec::new();
     for line in session.lines() {
         let line = line.split_once('#').map_or(line, |(before, _)| before);
         let (Some(kind), bytes) = (line.chars().next(), line.get(1..).unwrap_or_default()) else {
@@ -64,12 +75,14 @@ fn replay(session: &str, model: &str, in_stop: bool) {
             .collect();
         if kind == '>' {
             port.write_all(&bytes).unwrap();
+            asked = bytes;
             continue;
         }
         let answer = answer(&mut port);
         let right = match kind {
             '<' => answer == bytes,
             '~' => is_data(&answer, bytes.len()),
+            '?' => is_data(&answer, length(&asked)),
             '!' => answer == NAK,
             _ => panic!("{line}"),
         };

@@ -93,6 +93,8 @@ pub struct Machine<'m> {
     type_code: u16,
     /// What it keeps over power-off, and how records of that name it.
     retained: (String, Vec<RetainedRun>),
+    /// What partners on a line read as program memory, from 8000h on.
+    program_memory: Option<&'m [u8]>,
 }
 
 impl<'m> Machine<'m> {
@@ -125,10 +127,16 @@ impl<'m> Machine<'m> {
             ports: vec![Port::new(); module.ports.len()],
             type_code: module.model.type_code(),
             retained: (module.retained_as(), module.retained()),
+            program_memory: None,
         };
         machine.preset(true);
         machine.power_on();
         machine
+    }
+
+    /// Lets partners on a line read this as program memory, from 8000h on.
+    pub fn set_program_memory(&mut self, memory: Option<&'m [u8]>) {
+        self.program_memory = memory;
     }
 
     /// Gives special devices their defaults: latched ones, when the PLC is switched on for the first time, or all
@@ -448,6 +456,13 @@ impl Plc for Machine<'_> {
 
     fn type_code(&self) -> u16 {
         self.type_code
+    }
+
+    fn program_byte(&self, offset: u32) -> Option<u8> {
+        /// What erased memory holds.
+        const ERASED: u8 = 0xff;
+        let memory = self.program_memory?;
+        Some(memory.get(offset as usize).copied().unwrap_or(ERASED))
     }
 
     fn pulses(&self) -> Pulses {

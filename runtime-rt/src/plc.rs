@@ -234,6 +234,11 @@ pub trait Plc {
     fn type_code(&self) -> u16 {
         0
     }
+    /// A byte of the program memory by its offset from 8000h, where partners may read the program; a compiled program has no such memory.
+    fn program_byte(&self, offset: u32) -> Option<u8> {
+        let _ = offset;
+        None
+    }
     /// The pulse outputs that the model has.
     fn pulses(&self) -> Pulses {
         Pulses::Without

@@ -7,7 +7,7 @@ use super::{
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::{image, print};
-use rungc_syntax::codes;
+use rungc_syntax::{Diagnostics, Program, codes};
 use std::io::{self, IsTerminal, Write};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
@@ -27,25 +27,7 @@ fn convert(
 ) -> Result {
     let read = read(subject, reporter)?;
     let mut diagnostics = read.diagnostics.clone();
-    if let (ConvertTo::Il, Some(text)) = (args.to, print::broken_text(&read.program)) {
-        let diagnostic = codes::TEXT_BREAK
-            .at(
-                text.span,
-                "this text has a line break, which a list cannot represent",
-            )
-            .help("`--to csv` keeps it");
-        diagnostics.push(diagnostic);
-    }
-    let (bytes, ending) = match args.to {
-        ConvertTo::Il => (print::to_il(&read.program).into_bytes(), "il"),
-        ConvertTo::Csv => (print::to_csv(&read.program), "csv"),
-        ConvertTo::Image if read.program.is_complete() => {
-            let written =
-                image::write(&read.program).map_err(|unknown| diagnostics.extend(unknown.sorted()));
-            (written.unwrap_or_default(), "bin")
-        }
-        ConvertTo::Image => (Vec::new(), "bin"),
-    };
+    let bytes = written(args.to, &read.program, &mut diagnostics);
     let findings = Findings::new(
         &subject.file,
         &read.program,
@@ -65,7 +47,7 @@ fn convert(
     }
     match &args.output {
         Some(folder) if reporter.many() => {
-            let name = format!("{}.{ending}", stem(subject, &read));
+            let name = format!("{}.{}", stem(subject, &read), args.to.ending());
             write_file(
                 &outputs.claim(folder.join(name), subject)?,
                 &bytes,
@@ -83,4 +65,30 @@ fn convert(
         None => io::stdout().write_all(&bytes)?,
     }
     Ok(Outcome::Success)
+}
+
+/// A program in an output form; why it cannot take this form is added to the diagnostics.
+pub fn written(to: ConvertTo, program: &Program, diagnostics: &mut Diagnostics) -> Vec<u8> {
+    match to {
+        ConvertTo::Il => {
+            if let Some(text) = print::broken_text(program) {
+                let diagnostic = codes::TEXT_BREAK
+                    .at(
+                        text.span,
+                        "this text has a line break, which a list cannot represent",
+                    )
+                    .help("`--to csv` keeps it");
+                diagnostics.push(diagnostic);
+            }
+            print::to_il(program).into_bytes()
+        }
+        ConvertTo::Csv => print::to_csv(program),
+        ConvertTo::Image if program.is_complete() => {
+            let image =
+                image::write(program).map_err(|unknown| diagnostics.extend(unknown.sorted()));
+            image.unwrap_or_default()
+        }
+        // What could not be read has been reported.
+        ConvertTo::Image => Vec::new(),
+    }
 }

@@ -13,6 +13,7 @@ pub mod init;
 pub mod interruption;
 pub mod learn;
 mod ports;
+pub mod read;
 pub mod run;
 pub mod serve;
 pub mod setting;
@@ -253,6 +254,17 @@ pub fn write_executable(
     write_whole(path, contents, force, 0o777)
 }
 
+/// Rejects a path where a file is, unless `force`.
+pub fn spare(path: &Path, force: bool) -> std::result::Result<(), Failure> {
+    match path.exists() && !force {
+        true => Err(Failure::Because(format!(
+            "{} already exists; use --force to overwrite",
+            path.display()
+        ))),
+        false => Ok(()),
+    }
+}
+
 /// Of `mode`, the permissions where the system has them, the user's mask takes its part away.
 fn write_whole(
     path: &Path,
@@ -260,12 +272,7 @@ fn write_whole(
     force: bool,
     mode: u32,
 ) -> std::result::Result<(), Failure> {
-    if path.exists() && !force {
-        return Err(Failure::Because(format!(
-            "{} already exists; use --force to overwrite",
-            path.display()
-        )));
-    }
+    spare(path, force)?;
     let mut file = AtomicFile::with_mode(path, mode)?;
     let written = file.file.write_all(contents);
     written.map_err(|error| file.failed(error))?;

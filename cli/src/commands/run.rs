@@ -3,7 +3,7 @@
 mod capture;
 mod device;
 mod errors;
-mod lines;
+pub mod lines;
 mod plotting;
 mod recording;
 mod retaining;
@@ -22,6 +22,7 @@ use super::{
 use crate::args::RunArgs;
 use crate::report::Reporter;
 use rungc_analysis::check::devices::{self, Holds, Use};
+use rungc_frontend::image;
 use rungc_ir::Module;
 use rungc_lower::compile::{CompileOptions, compile};
 use rungc_rt::modules::Kind;
@@ -138,6 +139,8 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         let file = project.retain.as_deref()?;
         Some(project.at(file))
     });
+    let served = args.serve.any().then_some(&read.program);
+    let program_memory = served.and_then(|program| image::write(program).ok());
     let run = simulate::Run {
         args,
         retain: args.retain.clone().or(usual),
@@ -148,6 +151,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         watched: &watched,
         table: table == Table::Usual || !watched.is_empty(),
         modules: &fitted(&read.program),
+        program_memory: program_memory.as_deref(),
     };
     run.simulate(plant)
 }

@@ -1,8 +1,8 @@
 //! Devices and operands of machine code, both ways.
 //!
-//! A bit device is a *point*: 12 bits, which a nibble above them widens. An operand of an applied instruction is a pair of words,
-//! `1iii mmmm vvvvvvvv` and `1000 0000 + n wwwwwwww`: kind m, sub-kind n, index i and the value `v + 256 w`. In a 32-bit instruction a
-//! second pair follows, with the upper half of a constant.
+//! A bit device is a *point*: 12 bits, which a nibble above them widens. An operand of an applied instruction is a
+//! pair of words, `1iii mmmm vvvvvvvv` and `1000 0000 + n wwwwwwww`: kind m, sub-kind n, index i and the value `v +
+//! 256 w`. In a 32-bit instruction a second pair follows, with the upper half of a constant.
 
 use rungc_syntax::{Device, DeviceClass, Index, OperandKind};
 
@@ -46,7 +46,8 @@ const POINTS: [Run; 10] = {
     ]
 };
 
-/// Registers by their sub-kind: codes are byte offsets. V and Z lie among the special registers: see [`INDEX_REGISTERS`].
+/// Registers by their sub-kind: codes are byte offsets. V and Z lie among the special registers: see
+/// [`INDEX_REGISTERS`].
 const REGISTERS: [(u8, Run); 6] = {
     use DeviceClass::{C, D, T};
     [

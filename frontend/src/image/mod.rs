@@ -1,10 +1,12 @@
-//! Program memory of FX PLCs: the image that the programming port transfers, and the `.PMW` file of FXGP/WIN, which holds one.
+//! Program memory of FX PLCs: the image that the programming port transfers, and the `.PMW` file of FXGP/WIN, which
+//! holds one.
 //!
-//! The vendor does not publish this format. What is read was worked out from recordings of transfers, from published images and from
-//! independent firmware; `applied.tsv` gives the evidence for each applied instruction. A word whose meaning none of them shows is an error
-//! that gives its step and bytes, and is not written either.
+//! The vendor does not publish this format. What is read was worked out from recordings of transfers, from published
+//! images and from independent firmware; `applied.tsv` gives the evidence for each applied instruction. A word whose
+//! meaning none of them shows is an error that gives its step and bytes, and is not written either.
 //!
-//! An image begins at 8000h with 92 bytes of parameters; the program follows from 805Ch on, two bytes a step, low byte first.
+//! An image begins at 8000h with 92 bytes of parameters; the program follows from 805Ch on, two bytes a step, low byte
+//! first.
 
 mod decode;
 mod devices;
@@ -19,11 +21,10 @@ use rungc_syntax::{
     DeviceClass, DeviceRun, Diagnostic, Diagnostics, Parameters, Program, SourceKind, codes,
 };
 
-/// Address of the image in the PLC's program memory.
-pub const START: u16 = 0x8000;
 /// Bytes of parameters before the program.
 pub const PARAMETERS: usize = 0x5C;
-/// The bytes of `END`, with which a program ends. They stand at an even offset only there: all words of operands have their top bit set.
+/// The bytes of `END`, with which a program ends. They stand at an even offset only there: all words of operands have
+/// their top bit set.
 pub const END: [u8; 2] = encode::END_BYTES;
 
 /// Length of the header of a `.PMW` file.
@@ -34,7 +35,8 @@ const TITLE: std::ops::Range<usize> = 0x08..0x28;
 const KEYWORD: std::ops::Range<usize> = 0x08..0x10;
 /// Where later models have more of the keyword; zeros if there is none.
 const LONG_KEYWORD: std::ops::Range<usize> = 0x44..0x50;
-/// Blocks of comments, then of file registers, 500 steps each. Their places follow from the order of the editors' parameters.
+/// Blocks of comments, then of file registers, 500 steps each. Their places follow from the order of the editors'
+/// parameters.
 const BLOCKS: usize = 0x04;
 /// Bytes of such a block.
 const BLOCK: usize = 1000;
@@ -43,8 +45,8 @@ const LATCHED: usize = 0x30;
 /// The largest memory in units of 1000 steps.
 const MOST_CAPACITY: u16 = 64;
 
-/// The latched ranges in their order, first and last of each: class, first device that can be chosen, its code, how many can, distance
-/// of codes.
+/// The latched ranges in their order, first and last of each: class, first device that can be chosen, its code, how
+/// many can, distance of codes.
 const RANGES: [(DeviceClass, u32, u16, u16, u16); 5] = [
     (DeviceClass::M, 0, 0x800, 1536, 1),
     (DeviceClass::S, 0, 0x000, 1024, 1),
@@ -94,6 +96,18 @@ fn parameters(bytes: &[u8]) -> Option<Parameters> {
     })
 }
 
+/// Where the program begins in an image with these parameters.
+pub fn program_start(parameters: &[u8]) -> usize {
+    let blocks = |at| usize::from(word(parameters, at).unwrap_or(0));
+    PARAMETERS + BLOCK * (blocks(BLOCKS) + blocks(BLOCKS + 2))
+}
+
+/// How many steps the memory with these parameters has; the most of any if they do not say it.
+pub fn capacity(parameters: &[u8]) -> usize {
+    let stated = word(parameters, 0).filter(|k| (1..=MOST_CAPACITY).contains(k));
+    1000 * usize::from(stated.unwrap_or(MOST_CAPACITY))
+}
+
 /// Whether parameters of a PLC hold a keyword.
 pub fn is_protected(parameters: &[u8]) -> bool {
     let keyword = parameters.get(KEYWORD).unwrap_or_default();
@@ -114,7 +128,8 @@ pub(crate) fn is_image(bytes: &[u8]) -> bool {
     image(bytes).is_some()
 }
 
-/// Reads an image, or a file that holds one; if `options.image` says that it is one, also with parameters of unknown form.
+/// Reads an image, or a file that holds one; if `options.image` says that it is one, also with parameters of unknown
+/// form.
 pub(crate) fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
     let image = image(bytes).unwrap_or(bytes);
     let Some(head) = image.get(..PARAMETERS) else {
@@ -139,11 +154,7 @@ pub(crate) fn read(name: &str, bytes: &[u8], options: &ReadOptions) -> Read {
         read.program.parameters = parameters;
         return read;
     }
-    let blocks = parameters.as_ref().map_or(0, |p| {
-        p.comment_blocks.saturating_add(p.file_register_blocks)
-    });
-    let start = PARAMETERS.saturating_add(BLOCK.saturating_mul(blocks as usize));
-    let code = image.get(start..).unwrap_or_default();
+    let code = image.get(program_start(head)..).unwrap_or_default();
     let mut read = decode::read(name, code, Listing::default());
     let title = &head[TITLE];
     let encoding = options.encoding_of(&[title], None);
@@ -162,8 +173,8 @@ fn refused(name: &str, why: impl FnOnce(rungc_syntax::Span) -> Diagnostic) -> Re
 
 /// The program as an image: its parameters and its machine code up to `END`.
 ///
-/// What an image cannot hold, device comments and statements, is left out. The check word at 8002h is 0, since no source says how it is
-/// computed; PLCs of the family get the same from their editor before it adds the word.
+/// What an image cannot hold, device comments and statements, is left out. The check word at 8002h is 0, since no
+/// source says how it is computed; PLCs of the family get the same from their editor before it adds the word.
 ///
 /// # Errors
 /// The instructions whose machine code is not known, and a program without `END`.

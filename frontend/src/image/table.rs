@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-/// Applied instructions: FNC, mnemonic in 16 bits, in 32 bits, whether there is a pulse form, number of operands, evidence (`seen`: a
-/// published image or download holds it; `derived`: by the rule that all of those follow).
+/// Applied instructions: FNC, mnemonic in 16 bits, in 32 bits, whether there is a pulse form, number of operands,
+/// evidence (`seen`: a published image or download holds it; `derived`: by the rule that all of those follow).
 const ROWS: &str = include_str!("applied.tsv");
 
 /// Contacts: the upper nibble of one word from 2 on, or 01C2h and up before a wide point.

@@ -1,8 +1,8 @@
 //! The programming port of the FX family, which is also its HMI monitor: device read, write and force, RUN and STOP, monitor lists.
 //!
 //! The vendors do not publish this protocol (h1u-h2u-programming §5.3.1 names it, no manual prints a frame). This code follows
-//! published recordings between GX Works2 and PLCs and from published drivers. A PLC of this kind has no program memory that could be read
-//! or replaced: commands for that are rejected with NAK.
+//! published recordings between GX Works2 and PLCs and from published drivers. Program memory is read where the PLC has one (a simulated PLC
+//! does, a compiled program does not); commands that would change it are rejected with NAK.
 //!
 //! The line is 9600 bit/s, 7 data bits, even parity, 1 stop bit. A request is `STX command fields ETX sum`, in hexadecimal digits of upper
 //! case; the sum is the low byte of all characters after STX up to and with ETX. A lone ENQ asks whether somebody is there.
@@ -15,6 +15,7 @@ mod tests;
 use super::{Cut, Frame, LineFault, Map, Memory, hex_digits};
 use crate::plc::Class;
 use crate::special;
+use core::ops::Range;
 use monitor::MonitorList;
 pub use space::Space;
 use space::{Area, Place};
@@ -34,6 +35,13 @@ const NAK: u8 = 0x15;
 const MOST_BASIC: u32 = 0x40;
 /// Most bytes that the commands `E00` and `E10` move; more than any published tool asks for.
 const MOST_EXTENDED: u32 = 0xfe;
+
+/// First address of program memory: its parameters.
+pub const PROGRAM_MEMORY: u32 = 0x8000;
+/// Where the program begins in it.
+const PROGRAM: u32 = 0x805c;
+/// The word of `END`.
+const END: u16 = 0x000f;
 
 /// Most characters of a request: `E10` with all its bytes.
 pub const LONGEST: usize = 1 + 9 + 2 * MOST_EXTENDED as usize + 3;
@@ -71,7 +79,7 @@ pub fn cut(received: &[u8]) -> Cut {
     }
 }
 
-/// Answers a request. A rejected one is answered by NAK; commands for program memory, which other PLCs have, are rejected without a fault.
+/// Answers a request. A rejected one is answered by NAK; commands for program memory that is not served are rejected without a fault.
 ///
 /// # Errors
 /// What is wrong with a request that no PLC would take.
@@ -103,6 +111,7 @@ pub fn answer(
             Ok(())
         }
         Ok(Answer::NotServed) => {
+            reply.clear();
             reply.push(NAK);
             Ok(())
         }
@@ -114,8 +123,11 @@ pub fn answer(
     }
 }
 
-/// What is between STX and ETX, if the sum is right.
-fn text_of(request: &[u8]) -> Result<&[u8], LineFault> {
+/// What is between STX and ETX, if the sum is right: in a request, and in an answer with data.
+///
+/// # Errors
+/// What is wrong with the frame.
+pub fn text_of(request: &[u8]) -> Result<&[u8], LineFault> {
     let [STX, text @ .., ETX, high, low] = request else {
         return Err(LineFault::Form);
     };
@@ -132,7 +144,7 @@ enum Answer {
     Data,
     /// ACK.
     Done,
-    /// NAK, since there is no program memory.
+    /// NAK, since there is no such program memory, or it cannot be changed.
     NotServed,
 }
 
@@ -162,6 +174,17 @@ impl Fields<'_> {
     }
 }
 
+/// The addresses that a request to read names: the first, and how many.
+fn addresses(most: u32, fields: &[u8]) -> Result<Range<u32>, LineFault> {
+    let mut fields = Fields(fields);
+    let (address, count) = (fields.hex(4)?, fields.hex(2)?);
+    fields.end()?;
+    if !(1..=most).contains(&count) {
+        return Err(LineFault::Data);
+    }
+    Ok(address..address + count)
+}
+
 /// One request on its way.
 struct Server<'a> {
     settings: Settings,
@@ -184,11 +207,20 @@ impl Server<'_> {
             [b'F', b'5', b'0', b'1', fields @ ..] if extended == Space::Fx3 => {
                 self.read_one(fields, reply)
             }
-            // Search, clear, read and write of program memory, identity challenge, end of a download.
-            [b'E', b'0' | b'1' | b'4', b'1', ..]
+            [b'E', b'0', b'1', fields @ ..] => self.read_program(MOST_EXTENDED, fields, reply),
+            [b'E', b'4', b'1', fields @ ..] => {
+                let mut fields = Fields(fields);
+                let (from, word) = (fields.hex(4)?, fields.hex(4)? as u16);
+                fields.end()?;
+                Ok(self.find_in_program(from, word.swap_bytes(), reply))
+            }
+            // Where the program ends, as tools ask before they read it.
+            [b'F', b'8'] => Ok(self.find_in_program(PROGRAM, END, reply)),
+            // Clear and write of program memory, identity challenge, end of a download.
+            [b'E', b'1', b'1', ..]
             | [b'E', b'6', b'1' | b'2' | b'4' | b'7']
             | [b'E', b'C' | b'E', ..]
-            | [b'F', b'7' | b'8', ..]
+            | [b'F', b'7', ..]
             | [b'B'] => Ok(Answer::NotServed),
             _ => Err(LineFault::Command),
         }
@@ -201,18 +233,58 @@ impl Server<'_> {
         fields: &[u8],
         reply: &mut Frame,
     ) -> Result<Answer, LineFault> {
-        let mut fields = Fields(fields);
-        let (address, count) = (fields.hex(4)?, fields.hex(2)?);
-        fields.end()?;
-        if !(1..=most).contains(&count) {
-            return Err(LineFault::Data);
+        let addresses = addresses(most, fields)?;
+        if space == Space::Basic && addresses.start >= PROGRAM_MEMORY {
+            // FX1S has no other command for it.
+            return self.read_program(most, fields, reply);
         }
         reply.push(STX);
-        for address in address..address + count {
+        for address in addresses {
             let byte = self.byte(space, address).ok_or(LineFault::Address)?;
             reply.push_hex(byte.into(), 2);
         }
         Ok(Answer::Data)
+    }
+
+    /// Reads bytes of program memory.
+    fn read_program(
+        &self,
+        most: u32,
+        fields: &[u8],
+        reply: &mut Frame,
+    ) -> Result<Answer, LineFault> {
+        reply.push(STX);
+        for address in addresses(most, fields)? {
+            let Some(byte) = self.program_byte(address) else {
+                return Ok(Answer::NotServed);
+            };
+            reply.push_hex(byte.into(), 2);
+        }
+        Ok(Answer::Data)
+    }
+
+    /// Answers with `1` and the first address from `from` on, in steps of a word, where program memory holds this word.
+    fn find_in_program(&self, from: u32, word: u16, reply: &mut Frame) -> Answer {
+        for address in (from..=0xffff).step_by(2) {
+            let bytes = self
+                .program_byte(address)
+                .zip(self.program_byte(address + 1));
+            match bytes {
+                None => break,
+                Some((low, high)) if u16::from_le_bytes([low, high]) == word => {
+                    reply.push(STX);
+                    reply.push(b'1');
+                    reply.push_hex(address, 4);
+                    return Answer::Data;
+                }
+                Some(_) => {}
+            }
+        }
+        Answer::NotServed
+    }
+
+    fn program_byte(&self, address: u32) -> Option<u8> {
+        self.map.program_byte(address.checked_sub(PROGRAM_MEMORY)?)
     }
 
     fn write(&mut self, space: Space, most: u32, fields: &[u8]) -> Result<Answer, LineFault> {

@@ -27,6 +27,11 @@ pub trait Map {
     fn request_running(&mut self, running: bool);
     /// Code of model and version, which D8001 shows.
     fn type_code(&self) -> u16;
+    /// A byte of the program memory by its offset from 8000h, if the program can be read.
+    fn program_byte(&self, offset: u32) -> Option<u8> {
+        let _ = offset;
+        None
+    }
 
     /// Whether `count` bit devices from `first` on are all there.
     fn has_bits(&self, class: Class, first: u32, count: u32) -> bool {
@@ -118,6 +123,10 @@ impl Map for Served<'_> {
 
     fn type_code(&self) -> u16 {
         self.type_code
+    }
+
+    fn program_byte(&self, offset: u32) -> Option<u8> {
+        self.plc.program_byte(offset)
     }
 }
 

@@ -18,6 +18,8 @@ pub(super) struct Watched {
     pub(super) request: Option<bool>,
     /// What D8001 shows.
     pub(super) type_code: u16,
+    /// Program memory, if partners may read it.
+    pub(super) program: Option<Vec<u8>>,
 }
 
 impl Watched {
@@ -34,6 +36,7 @@ impl Watched {
             strays: 0,
             request: None,
             type_code: 24120,
+            program: None,
         }
     }
 
@@ -90,6 +93,11 @@ impl Map for Watched {
 
     fn type_code(&self) -> u16 {
         self.type_code
+    }
+
+    fn program_byte(&self, offset: u32) -> Option<u8> {
+        let program = self.program.as_ref()?;
+        Some(program.get(offset as usize).copied().unwrap_or(0xff))
     }
 }
 

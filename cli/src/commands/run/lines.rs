@@ -4,7 +4,7 @@
 //! their own times, and the end of a frame is where the line was silent.
 
 mod frames;
-mod wire;
+pub mod wire;
 
 use super::watch::{Watch, Way};
 use crate::commands::{Failure, tell};

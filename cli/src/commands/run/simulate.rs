@@ -74,6 +74,8 @@ pub struct Run<'a> {
     pub table: bool,
     /// The special modules that are fitted.
     pub modules: &'a [(u16, &'static modules::Kind)],
+    /// What the programming port shows as program memory.
+    pub program_memory: Option<&'a [u8]>,
 }
 
 impl Run<'_> {
@@ -86,6 +88,7 @@ impl Run<'_> {
             // The settings name each number once, and no more modules than there is room for.
             let _ = hal.fit(unit, kind);
         }
+        machine.set_program_memory(self.program_memory);
         // What does not exist is said before anything is shown or written.
         let set = self.settings.iter().map(|s| s.target);
         for target in set.chain(self.shown.iter().copied()) {

@@ -221,6 +221,34 @@ fn refusals() {
     assert_eq!(client.map.writes, 0);
 }
 
+/// What GX Works2 asked and an FX3G answered when its program, `LD X000`, `OUT Y000`, `END`, was read; a PLC gives no such answer after a
+/// request to write.
+#[test]
+fn a_program_is_read_and_stays_what_it_is() {
+    let mut client = Client::of(L01S);
+    let mut program = std::vec![0; 0x5c];
+    program[0] = 8;
+    program.extend([0x00, 0x24, 0x00, 0xc5, 0x0f, 0x00]);
+    client.map.program = Some(program);
+    assert_eq!(client.ask("E01800002"), "0800");
+    assert_eq!(client.ask("E01805C06"), "002400C50F00");
+    assert_eq!(client.ask("E41805C0F00"), "18060");
+    assert_eq!(client.ask("F8"), "18060");
+    assert_eq!(client.ask("E01806202"), "FFFF");
+    assert_eq!(client.ask("0805C06"), "002400C50F00", "as FX1S is asked");
+    assert_eq!(
+        client.ask("E41805CEFBE"),
+        "NAK Ok(())",
+        "a word that is not there"
+    );
+    assert_eq!(client.ask("E01800000"), "NAK Err(Data)");
+    assert_eq!(client.ask("E017FFF02"), "NAK Ok(())");
+    for change in ["E118000020800", "1805C020000", "E67", "B", "F7180000000000"] {
+        assert!(client.ask(change).starts_with("NAK"), "{change}");
+    }
+    assert_eq!(client.ask("E01805C06"), "002400C50F00");
+}
+
 proptest! {
     /// Any bytes: no panic, and what is rejected writes nothing.
     #[test]

@@ -166,7 +166,10 @@ impl Source {
 }
 
 /// Opens an end that has a name.
-fn open(end: &LineEnd) -> io::Result<Wire> {
+///
+/// # Errors
+/// What the system says, or the machine that it connects to.
+pub fn open(end: &LineEnd) -> io::Result<Wire> {
     match end {
         LineEnd::Path(path) => prepared(SerialPort::open(path, USUAL_RATE)?),
         LineEnd::Tcp(peer) => {
@@ -207,7 +210,11 @@ impl Wire {
         })
     }
 
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+    /// Receives what has come, after at most [`PATIENCE`]; 0 when the other end has closed.
+    ///
+    /// # Errors
+    /// What the system says; [`is_patience`] recognises that merely nothing has come.
+    pub fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         match self {
             Wire::Serial(port) => port.read(buffer),
             Wire::Tcp(stream) => stream.read(buffer),
@@ -262,7 +269,7 @@ impl Wire {
 }
 
 /// Whether nothing is wrong but that nothing has happened in time.
-fn is_patience(error: &io::Error) -> bool {
+pub fn is_patience(error: &io::Error) -> bool {
     matches!(
         error.kind(),
         ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted

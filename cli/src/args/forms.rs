@@ -1,0 +1,99 @@
+//! How programs come in and go out in other forms: `convert`, `read`.
+
+use super::{Inputs, Reporting};
+use clap::{Args, ValueEnum};
+use rungc_project::serve::LineEnd;
+use std::path::PathBuf;
+
+/// Arguments of `convert`.
+#[derive(Args, Debug)]
+pub struct ConvertArgs {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// Output form.
+    #[arg(long, value_enum)]
+    pub to: ConvertTo,
+    /// File to write. Default: standard output. With several programs, a folder for all outputs.
+    #[arg(short, long, value_name = "PATH")]
+    pub output: Option<PathBuf>,
+    /// Overwrite an existing file.
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Arguments of `read`.
+#[derive(Args, Debug)]
+pub struct ReadArgs {
+    /// The serial port of this machine that the PLC's programming port is connected to (`/dev/ttyUSB0`, `COM3`), or a serial
+    /// device server (`tcp:HOST:PORT`).
+    #[arg(long, value_parser = plc, value_name = "PORT")]
+    pub port: LineEnd,
+    /// Bit rate; the format is always 7 data bits, even parity, 1 stop bit.
+    #[arg(long, default_value_t = 9600, value_parser = clap::value_parser!(u32).range(300..=115_200), value_name = "BITS_PER_SECOND")]
+    pub baud: u32,
+    /// How long to wait for an answer, in milliseconds.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(10..=60_000), value_name = "MS")]
+    pub timeout: u32,
+    /// How often to ask again when an answer is missing or damaged.
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(..=100), value_name = "N")]
+    pub retries: u32,
+    /// Output form; `image` is the program memory as it is.
+    #[arg(long, value_enum, default_value_t = ConvertTo::Il)]
+    pub to: ConvertTo,
+    /// File to write. Default: standard output.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Overwrite an existing file.
+    #[arg(long)]
+    pub force: bool,
+    #[command(flatten)]
+    pub reporting: Reporting,
+}
+
+/// Where a PLC is.
+fn plc(text: &str) -> Result<LineEnd, String> {
+    match LineEnd::parse(text)? {
+        LineEnd::Pty | LineEnd::TcpListen(_) => {
+            Err("a PLC is at a serial port or at `tcp:HOST:PORT`".to_string())
+        }
+        end => Ok(end),
+    }
+}
+
+/// Formats that files are read as when they are named.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ReadFrom {
+    /// Program memory of an FX PLC.
+    Image,
+}
+
+/// Output forms of `convert`.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ConvertTo {
+    /// Instruction list.
+    Il,
+    /// The editors' list export (UTF-16, tabs).
+    Csv,
+    /// Program memory of an FX PLC.
+    Image,
+}
+
+impl ConvertTo {
+    /// How the name of such a file ends.
+    pub const fn ending(self) -> &'static str {
+        match self {
+            ConvertTo::Il => "il",
+            ConvertTo::Csv => "csv",
+            ConvertTo::Image => "bin",
+        }
+    }
+
+    /// What this form is called, if it cannot store comments on devices.
+    pub const fn without_comments(self) -> Option<&'static str> {
+        match self {
+            ConvertTo::Il => None,
+            ConvertTo::Csv => Some("a list export"),
+            ConvertTo::Image => Some("an image"),
+        }
+    }
+}
