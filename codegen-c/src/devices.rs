@@ -1,5 +1,6 @@
 //! Statements that write to devices, as C.
 
+use crate::code::Code;
 use crate::expr::Around;
 use crate::fields::PrintStorage;
 use crate::helpers::reset_function;
@@ -12,7 +13,7 @@ use std::fmt::Write;
 
 impl Writer<'_, '_> {
     /// A run of devices is copied or filled; nothing is written of one that is not stored.
-    pub(crate) fn block(&mut self, code: &mut String, block: Block) {
+    pub(crate) fn block(&mut self, code: &mut Code, block: Block) {
         let (to, count) = block.written();
         let words = matches!(to.class, DeviceClass::D | DeviceClass::R);
         let kind = if words { "words" } else { "bits" };
@@ -22,13 +23,20 @@ impl Writer<'_, '_> {
         match block {
             Block::Copy { from, .. } => {
                 if let Some(source) = self.run(from, count) {
-                    let _ = write!(code, "plc_copy_{kind}({target}, {source}, {count});");
+                    let _ = write!(code.text(), "plc_copy_{kind}");
+                    code.open("(");
+                    code.push_str(&target);
+                    code.argument(source);
+                    code.argument(count);
+                    code.close(");");
                 }
             }
             Block::Fill { value, .. } => {
-                let _ = write!(code, "plc_fill_{kind}({target}, {count}, ");
-                self.expr(code, value, Around::Exact);
-                code.push_str(");");
+                let _ = write!(code.text(), "plc_fill_{kind}");
+                code.open("(");
+                code.push_str(&target);
+                code.argument(count);
+                self.last_argument(code, value);
             }
         }
     }
@@ -41,15 +49,23 @@ impl Writer<'_, '_> {
         Some(element)
     }
 
-    pub(crate) fn timer_goes_on(&mut self, code: &mut String, number: u32, kind: TimerKind) {
-        code.push_str("plc_timer_go_on(&");
-        self.fields.access(code, DeviceClass::T, number);
-        let _ = write!(code, ", &plc->sys, {}u, ", kind.unit_ms.max(1));
+    pub(crate) fn timer_goes_on(&mut self, code: &mut Code, number: u32, kind: TimerKind) {
+        code.open("plc_timer_go_on(&");
+        self.fields.access(code.text(), DeviceClass::T, number);
+        code.argument("&plc->sys");
+        code.argument(format_args!("{}u", kind.unit_ms.max(1)));
         timer_options(code, self.coils.kind(number, kind));
-        code.push_str(");");
+        code.close(");");
     }
 
-    pub(crate) fn timer(&mut self, code: &mut String, coil: &TimerCoil) {
+    /// The last argument of a call, and its end.
+    fn last_argument(&mut self, code: &mut Code, value: ExprId) {
+        code.comma();
+        self.expr(code, value, Around::Exact);
+        code.close(");");
+    }
+
+    pub(crate) fn timer(&mut self, code: &mut Code, coil: &TimerCoil) {
         let kind = self.coils.kind(coil.number, coil.kind);
         let mut timer = String::new();
         self.fields.access(&mut timer, DeviceClass::T, coil.number);
@@ -58,21 +74,21 @@ impl Writer<'_, '_> {
 
     fn run_timer(
         &mut self,
-        code: &mut String,
+        code: &mut Code,
         (timer, kind): (&str, TimerKind),
         drive: ExprId,
         preset: ExprId,
     ) {
         let [drive, preset] = [drive, preset].map(|argument| {
-            let mut text = String::new();
-            self.expr(&mut text, argument, Around::Exact);
-            text
+            let mut argument_code = Code::default();
+            self.expr(&mut argument_code, argument, Around::Exact);
+            argument_code
         });
         run_timer(code, kind, timer, &drive, &preset);
     }
 
     /// A coil of the timer or counter of a loop's current iteration; false for any other.
-    fn coil_of_iteration(&mut self, code: &mut String, coil: &IndexedCoil) -> bool {
+    fn coil_of_iteration(&mut self, code: &mut Code, coil: &IndexedCoil) -> bool {
         let IndexedCoil {
             ref place,
             drive,
@@ -94,55 +110,48 @@ impl Writer<'_, '_> {
                 self.run_timer(code, (&device, kind), drive, preset);
             }
             _ => {
-                let _ = write!(code, "plc_count16(&{device}, ");
+                code.open("plc_count16(&");
+                code.push_str(&device);
+                code.comma();
                 self.expr(code, drive, Around::Exact);
-                code.push_str(", ");
-                self.expr(code, preset, Around::Exact);
-                code.push_str(");");
+                self.last_argument(code, preset);
             }
         }
         true
     }
 
     /// A coil of a timer or counter that an index leads to.
-    pub(crate) fn indexed_coil(&mut self, code: &mut String, coil: &IndexedCoil) {
+    pub(crate) fn indexed_coil(&mut self, code: &mut Code, coil: &IndexedCoil) {
         if self.coil_of_iteration(code, coil) {
             return;
         }
         let place = &coil.place;
         self.helpers.out(place.class);
-        let _ = write!(
-            code,
-            "{}_out_{}(plc, ",
-            self.module.name,
-            place.class.prefix()
-        );
-        self.number(code, place);
-        for argument in [coil.drive, coil.preset] {
-            code.push_str(", ");
-            self.expr(code, argument, Around::Exact);
-        }
-        code.push_str(");");
+        self.helper_call(code, "out", place);
+        code.comma();
+        self.expr(code, coil.drive, Around::Exact);
+        self.last_argument(code, coil.preset);
     }
 
     /// Writes a call that counts: a coil's, or that of a high-speed counter.
     pub(crate) fn counter(
         &mut self,
-        code: &mut String,
+        code: &mut Code,
         function: &str,
         number: u32,
         arguments: &[ExprId],
     ) {
-        let _ = write!(code, "{function}(&");
-        self.fields.access(code, DeviceClass::C, number);
+        code.push_str(function);
+        code.open("(&");
+        self.fields.access(code.text(), DeviceClass::C, number);
         for &argument in arguments {
-            code.push_str(", ");
+            code.comma();
             self.expr(code, argument, Around::Exact);
         }
-        code.push_str(");");
+        code.close(");");
     }
 
-    pub(crate) fn write(&mut self, code: &mut String, access: &Access, value: ExprId) {
+    pub(crate) fn write(&mut self, code: &mut Code, access: &Access, value: ExprId) {
         let place = &access.place;
         match access.kind {
             AccessKind::Bit => self.put(code, "bit", place, value),
@@ -154,24 +163,16 @@ impl Writer<'_, '_> {
         }
     }
 
-    fn put(&mut self, code: &mut String, what: &'static str, place: &Place, value: ExprId) {
-        let of_iteration = self.access_iteration(code, place);
+    fn put(&mut self, code: &mut Code, what: &'static str, place: &Place, value: ExprId) {
+        let of_iteration = self.access_iteration(code.text(), place);
         if place.index.is_some() && !of_iteration {
             self.helpers.put(what, place.class);
-            let _ = write!(
-                code,
-                "{}_put_{what}_{}(plc, ",
-                self.module.name,
-                place.class.prefix()
-            );
-            self.number(code, place);
-            code.push_str(", ");
-            self.expr(code, value, Around::Exact);
-            code.push_str(");");
+            self.helper_call(code, &format!("put_{what}"), place);
+            self.last_argument(code, value);
             return;
         }
         // A device that nothing reads is not stored.
-        if of_iteration || self.fields.access(code, place.class, place.number) {
+        if of_iteration || self.fields.access(code.text(), place.class, place.number) {
             code.push_str(match (place.class, what) {
                 (DeviceClass::T | DeviceClass::C, "bit") => ".done = ",
                 (DeviceClass::T | DeviceClass::C, _) => ".value = ",
@@ -181,49 +182,54 @@ impl Writer<'_, '_> {
                 true => self.grid_value(code, value),
                 false => self.expr(code, value, Around::Exact),
             }
-            code.push(';');
+            code.push_str(";");
         }
     }
 
-    fn put_word_bit(&mut self, code: &mut String, place: &Place, bit: u8, value: ExprId) {
+    fn put_word_bit(&mut self, code: &mut Code, place: &Place, bit: u8, value: ExprId) {
         if place.index.is_some() {
             self.helpers.get("word", place.class);
             self.helpers.put("word", place.class);
-            let (name, class) = (&self.module.name, place.class.prefix());
-            let _ = write!(code, "{name}_put_word_{class}(plc, ");
-            self.number(code, place);
-            let _ = write!(code, ", plc_with_bit({name}_word_{class}(plc, ");
-            self.number(code, place);
-            let _ = write!(code, "), {bit}u, ");
+            self.helper_call(code, "put_word", place);
+            code.comma();
+            code.open("plc_with_bit(");
+            self.helper_call(code, "word", place);
+            code.close(")");
+            code.argument(format_args!("{bit}u"));
+            code.comma();
             self.expr(code, value, Around::Exact);
-            code.push_str("));");
+            code.close(")");
+            code.close(");");
             return;
         }
         let mut target = String::new();
         if self.fields.access(&mut target, place.class, place.number) {
-            let _ = write!(code, "plc_put_bit(&{target}, {bit}u, ");
-            self.expr(code, value, Around::Exact);
-            code.push_str(");");
+            code.open("plc_put_bit(&");
+            code.push_str(&target);
+            code.argument(format_args!("{bit}u"));
+            self.last_argument(code, value);
         }
     }
 
-    fn put_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
+    fn put_pair(&mut self, code: &mut Code, place: &Place, value: ExprId, float: bool) {
         let wide = is_counter32(place.class, place.number);
         if place.index.is_some() {
             self.put_indexed_pair(code, place, value, float);
             return;
         }
-        let mut text = String::new();
+        let mut bits = Code::default();
         if float {
-            text.push_str("plc_float_bits(");
+            bits.open("plc_float_bits(");
         }
-        self.expr(&mut text, value, Around::Exact);
+        self.expr(&mut bits, value, Around::Exact);
         if float {
-            text.push(')');
+            bits.close(")");
         }
         if wide {
-            if self.fields.access(code, place.class, place.number) {
-                let _ = write!(code, ".value = {text};");
+            if self.fields.access(code.text(), place.class, place.number) {
+                code.push_str(".value = ");
+                code.append(&bits);
+                code.push_str(";");
             }
             return;
         }
@@ -236,92 +242,94 @@ impl Writer<'_, '_> {
         let (mut low_name, mut high_name) = (String::new(), String::new());
         let low = self.fields.access(&mut low_name, place.class, place.number);
         let high = self.fields.access(&mut high_name, high.class, high.number);
-        let _ = match (low, high) {
-            (true, true) => write!(
-                code,
-                "plc_split(&{high_name}{part}, &{low_name}{part}, {text});"
-            ),
-            (true, false) => write!(code, "{low_name}{part} = plc_low({text});"),
-            (false, true) => write!(code, "{high_name}{part} = plc_high({text});"),
-            (false, false) => Ok(()),
-        };
+        let (low_name, high_name) = (low_name + part, high_name + part);
+        match (low, high) {
+            (true, true) => {
+                code.open("plc_split(&");
+                code.push_str(&high_name);
+                code.argument(format_args!("&{low_name}"));
+                code.comma();
+            }
+            (true, false) => code.open(&format!("{low_name} = plc_low(")),
+            (false, true) => code.open(&format!("{high_name} = plc_high(")),
+            (false, false) => return,
+        }
+        code.append(&bits);
+        code.close(");");
     }
 
-    fn put_indexed_pair(&mut self, code: &mut String, place: &Place, value: ExprId, float: bool) {
+    fn put_indexed_pair(&mut self, code: &mut Code, place: &Place, value: ExprId, float: bool) {
         self.helpers.put("long", place.class);
-        let _ = write!(
-            code,
-            "{}_put_long_{}(plc, ",
-            self.module.name,
-            place.class.prefix()
-        );
-        self.number(code, place);
-        code.push_str(if float { ", plc_float_bits(" } else { ", " });
+        self.helper_call(code, "put_long", place);
+        if !float {
+            return self.last_argument(code, value);
+        }
+        code.comma();
+        code.open("plc_float_bits(");
         self.expr(code, value, Around::Exact);
-        code.push_str(if float { "));" } else { ");" });
+        code.close(")");
+        code.close(");");
     }
 
-    fn put_nibbles(&mut self, code: &mut String, place: &Place, count: u32, value: ExprId) {
+    fn put_nibbles(&mut self, code: &mut Code, place: &Place, count: u32, value: ExprId) {
         if place.index.is_some() {
             self.helpers.put_bits(place.class);
-            let _ = write!(
-                code,
-                "{}_put_bits_{}(plc, ",
-                self.module.name,
-                place.class.prefix()
-            );
-            self.number(code, place);
-            let _ = write!(code, ", {count}u, ");
-            self.expr(code, value, Around::Exact);
-            code.push_str(");");
+            self.helper_call(code, "put_bits", place);
+            code.argument(format_args!("{count}u"));
+            self.last_argument(code, value);
         } else if self
             .fields
             .array(place.class, place.number, count)
             .is_some()
         {
-            code.push_str("plc_put_bits(&");
-            self.fields.access(code, place.class, place.number);
-            let _ = write!(code, ", {count}u, ");
-            self.expr(code, value, Around::Exact);
-            code.push_str(");");
+            code.open("plc_put_bits(&");
+            self.fields.access(code.text(), place.class, place.number);
+            code.argument(format_args!("{count}u"));
+            self.last_argument(code, value);
         } else {
             self.put_scattered(code, place, count, value);
         }
     }
 
     /// Spreads a number over relays that are not an array.
-    fn put_scattered(&mut self, code: &mut String, place: &Place, count: u32, value: ExprId) {
-        code.push_str("plc_scatter((bool *const[]){");
+    fn put_scattered(&mut self, code: &mut Code, place: &Place, count: u32, value: ExprId) {
+        code.open("plc_scatter(");
+        code.open("(bool *const[]){");
         for bit in 0..count {
-            code.push_str(if bit > 0 { ", " } else { "" });
+            if bit > 0 {
+                code.comma();
+            }
             let mut name = String::new();
             if self
                 .fields
                 .access(&mut name, place.class, place.number + bit)
             {
-                let _ = write!(code, "&{name}");
+                let _ = write!(code.text(), "&{name}");
             } else {
                 code.push_str("NULL");
             }
         }
-        let _ = write!(code, "}}, {count}u, ");
-        self.expr(code, value, Around::Exact);
-        code.push_str(");");
+        code.close("}");
+        code.argument(format_args!("{count}u"));
+        self.last_argument(code, value);
     }
 
-    pub(crate) fn reset(&mut self, code: &mut String, place: &Place) {
+    /// The start of a call of the program's function for an index: `motor_put_word_D(plc, n`.
+    fn helper_call(&mut self, code: &mut Code, what: &str, place: &Place) {
+        let class = place.class.prefix();
+        let _ = write!(code.text(), "{}_{what}_{class}", self.module.name);
+        code.open("(plc");
+        code.comma();
+        self.number(code, place);
+    }
+
+    pub(crate) fn reset(&mut self, code: &mut Code, place: &Place) {
         let mut name = String::new();
         let of_iteration = self.access_iteration(&mut name, place);
         if place.index.is_some() && !of_iteration {
             self.helpers.reset(place.class);
-            let _ = write!(
-                code,
-                "{}_reset_{}(plc, ",
-                self.module.name,
-                place.class.prefix()
-            );
-            self.number(code, place);
-            code.push_str(");");
+            self.helper_call(code, "reset", place);
+            code.close(");");
             return;
         }
         let Some(field) = self.fields.find(place.class, place.number) else {
@@ -330,12 +338,12 @@ impl Writer<'_, '_> {
         if !of_iteration {
             self.fields.access(&mut name, place.class, place.number);
         }
-        let _ = write!(code, "{}(&{name});", reset_function(field.kind));
+        let _ = write!(code.text(), "{}(&{name});", reset_function(field.kind));
     }
 }
 
 /// Writes the call that runs a timer.
-pub fn run_timer(code: &mut String, kind: TimerKind, timer: &str, drive: &str, preset: &str) {
+pub fn run_timer(code: &mut Code, kind: TimerKind, timer: &str, drive: &Code, preset: &Code) {
     let unit = kind.unit_ms;
     let family = match kind.accumulating {
         _ if kind.free_running
@@ -349,18 +357,27 @@ pub fn run_timer(code: &mut String, kind: TimerKind, timer: &str, drive: &str, p
         true => Some("retentive"),
         false => Some("timer"),
     };
-    let arguments = format!("(&{timer}, {drive}, {preset}, &plc->sys");
+    // Writing to a String does not fail.
     let _ = match family {
-        Some(family) => write!(code, "plc_{family}_{unit}ms{arguments}"),
-        None => write!(code, "plc_timer_run{arguments}, {}u, ", unit.max(1)),
+        Some(family) => write!(code.text(), "plc_{family}_{unit}ms"),
+        None => write!(code.text(), "plc_timer_run"),
     };
+    code.open("(&");
+    code.push_str(timer);
+    for argument in [drive, preset] {
+        code.comma();
+        code.append(argument);
+    }
+    code.argument("&plc->sys");
     if family.is_none() {
+        code.argument(format_args!("{}u", unit.max(1)));
         timer_options(code, kind);
     }
-    code.push_str(");");
+    code.close(");");
 }
 
-fn timer_options(code: &mut String, kind: TimerKind) {
+/// Writes the last argument of a timer's call.
+fn timer_options(code: &mut Code, kind: TimerKind) {
     let options = [
         (kind.accumulating, "PLC_RETENTIVE"),
         (kind.free_running, "PLC_FREE_RUNNING"),
@@ -369,10 +386,11 @@ fn timer_options(code: &mut String, kind: TimerKind) {
         (kind.stepwise, "PLC_STEPWISE"),
         (kind.shared, "PLC_SHARED"),
     ];
-    let set: Vec<&str> = options.iter().filter(|o| o.0).map(|o| o.1).collect();
-    if set.is_empty() {
-        code.push_str("0u");
-    } else {
-        code.push_str(&set.join(" | "));
+    code.comma();
+    let mut set = options.iter().filter(|option| option.0);
+    code.push_str(set.next().map_or("0u", |option| option.1));
+    for (_, option) in set {
+        code.operator("|");
+        code.push_str(option);
     }
 }

@@ -1,5 +1,6 @@
 //! Expressions as C.
 
+use crate::code::{Code, Mark};
 use crate::text;
 use crate::writer::Writer;
 use rungc_emit::{bounds, logic};
@@ -7,7 +8,6 @@ use rungc_ir::node::{BinOp, Expr, ExprId, Place, SysValue, Ty};
 use rungc_rt::CmpOp;
 use smallvec::SmallVec;
 use std::fmt::Write;
-use std::ops::Range;
 
 /// Operands of a chain; most are short.
 type Operands = SmallVec<[ExprId; 8]>;
@@ -15,8 +15,9 @@ type Operands = SmallVec<[ExprId; 8]>;
 /// An operand of a chain that has been written.
 struct Operand {
     e: ExprId,
-    /// Where it is in the text.
-    text: Range<usize>,
+    /// Where it starts and ends.
+    from: Mark,
+    to: Mark,
     /// Whether it calls functions.
     calls: bool,
 }
@@ -114,14 +115,22 @@ fn function(op: BinOp) -> &'static str {
     }
 }
 
-/// A chain of which some operands call functions, or of which one operand is left.
-fn among_calls(texts: &[&str], op: &str, around: Around) -> String {
+/// Joins the operands of a chain of which some call functions, or of which one operand is left.
+fn join_calls(out: &mut Code, operands: &[Code], op: &str, around: Around) {
     // Of several calls only those are made that matter, and clang would suspect a slip.
     let op = if op == "&" { "&&" } else { "||" };
-    let chain = texts.join(&format!(" {op} "));
-    match texts.len() > 1 && around.needs_parentheses(op) {
-        true => format!("({chain})"),
-        false => chain,
+    let enclose = operands.len() > 1 && around.needs_parentheses(op);
+    if enclose {
+        out.open("(");
+    }
+    for (i, operand) in operands.iter().enumerate() {
+        if i > 0 {
+            out.operator(op);
+        }
+        out.append(operand);
+    }
+    if enclose {
+        out.close(")");
     }
 }
 
@@ -152,33 +161,33 @@ pub fn float(out: &mut String, value: f32) {
 
 impl Writer<'_, '_> {
     /// Writes an expression.
-    pub fn expr(&mut self, out: &mut String, id: ExprId, around: Around) {
+    pub fn expr(&mut self, out: &mut Code, id: ExprId, around: Around) {
         if let Some(named) = self.named.get(&id) {
             self.calls += u64::from(named.calls);
-            out.push_str(&named.text);
+            out.append(&named.code);
             return;
         }
         let module = self.module;
         match module.expr(id) {
             Expr::Bit(on) => out.push_str(if *on { "true" } else { "false" }),
-            Expr::I16(value) => integer(out, (*value).into()),
-            Expr::I32(value) => integer(out, *value),
+            Expr::I16(value) => integer(out.text(), (*value).into()),
+            Expr::I32(value) => integer(out.text(), *value),
             Expr::F32(value) => {
                 self.calls += u64::from(!value.is_finite());
-                float(out, *value);
+                float(out.text(), *value);
             }
-            Expr::Temp(temp) => self.temp(out, *temp),
+            Expr::Temp(temp) => self.temp(out.text(), *temp),
             Expr::Read(access) => self.read(out, access, around),
-            Expr::Cell(cell) => member(out, &module.cells[*cell].name),
+            Expr::Cell(cell) => member(out.text(), &module.cells[*cell].name),
             Expr::Entry(table, index) => {
-                let _ = write!(out, "plc->{}[", module.tables[*table].name);
+                let _ = write!(out.text(), "plc->{}[", module.tables[*table].name);
                 self.expr(out, *index, Around::Exact);
-                out.push(']');
+                out.push_str("]");
             }
             Expr::Stride(_, by) => {
-                let _ = write!(out, "{by} * (int32_t){}", self.iteration);
+                let _ = write!(out.text(), "{by} * (int32_t){}", self.iteration);
             }
-            Expr::Flag(flag) => member(out, &module.flags[*flag].name),
+            Expr::Flag(flag) => member(out.text(), &module.flags[*flag].name),
             Expr::Sys(value) => self.sys(out, *value),
             Expr::Not(a) => self.not(out, *a, around),
             Expr::And(..) => self.chain(out, id, "&", around),
@@ -192,7 +201,7 @@ impl Writer<'_, '_> {
             Expr::Float(op, a, b) => self.call_of_two(out, "plc_", op.name(), (*a, *b)),
             Expr::Complement(a) => {
                 self.int16_of(out, id, around, |w, out| {
-                    out.push('~');
+                    out.push_str("~");
                     w.expr(out, *a, Around::Unary);
                 });
             }
@@ -206,7 +215,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    fn sys(&mut self, out: &mut String, value: SysValue) {
+    fn sys(&mut self, out: &mut Code, value: SysValue) {
         out.push_str(match value {
             SysValue::Running => "plc->sys.running",
             SysValue::FirstScan => "plc->sys.first_scan",
@@ -215,34 +224,36 @@ impl Writer<'_, '_> {
         });
     }
 
-    fn neg(&mut self, out: &mut String, a: ExprId) {
+    fn neg(&mut self, out: &mut Code, a: ExprId) {
         let function = match self.module.ty(a) {
-            Ty::I16 => "plc_sub16(0, ",
-            Ty::I32 | Ty::Bit | Ty::F32 => "plc_sub32(0, ",
+            Ty::I16 => "plc_sub16(",
+            Ty::I32 | Ty::Bit | Ty::F32 => "plc_sub32(",
         };
-        self.call_in(out).push_str(function);
+        self.call_in(out).open(function);
+        out.push_str("0");
+        out.comma();
         self.expr(out, a, Around::Exact);
-        out.push(')');
+        out.close(")");
     }
 
     fn call_of_two(
         &mut self,
-        out: &mut String,
+        out: &mut Code,
         family: &str,
         function: &str,
         (a, b): (ExprId, ExprId),
     ) {
         self.call_in(out).push_str(family);
         out.push_str(function);
-        out.push('(');
+        out.open("(");
         self.expr(out, a, Around::Exact);
-        out.push_str(", ");
+        out.comma();
         self.expr(out, b, Around::Exact);
-        out.push(')');
+        out.close(")");
     }
 
     /// Where a call of a function is written: it is counted.
-    pub(crate) fn call_in<'o>(&mut self, out: &'o mut String) -> &'o mut String {
+    pub(crate) fn call_in<'o>(&mut self, out: &'o mut Code) -> &'o mut Code {
         self.calls += 1;
         out
     }
@@ -253,20 +264,20 @@ impl Writer<'_, '_> {
         text
     }
 
-    fn call(&mut self, out: &mut String, function: &str, argument: ExprId) {
+    fn call(&mut self, out: &mut Code, function: &str, argument: ExprId) {
         self.call_in(out).push_str(function);
-        out.push('(');
+        out.open("(");
         self.expr(out, argument, Around::Exact);
-        out.push(')');
+        out.close(")");
     }
 
     /// Writes an operation on `int` as what `id` is: with a cast if it is an `I16` and its type is looked at.
     fn int16_of(
         &mut self,
-        out: &mut String,
+        out: &mut Code,
         id: ExprId,
         around: Around,
-        write: impl FnOnce(&mut Self, &mut String),
+        write: impl FnOnce(&mut Self, &mut Code),
     ) {
         if around != Around::Exact || self.module.ty(id) != Ty::I16 {
             return write(self, out);
@@ -275,7 +286,7 @@ impl Writer<'_, '_> {
         write(self, out);
     }
 
-    fn not(&mut self, out: &mut String, a: ExprId, around: Around) {
+    fn not(&mut self, out: &mut Code, a: ExprId, around: Around) {
         match self.opposite(a) {
             Some((op, l, r)) => self.compare(out, op, l, r, around),
             None if self.numbers || self.is_number(a) => {
@@ -285,7 +296,7 @@ impl Writer<'_, '_> {
                 })
             }
             None => {
-                out.push('!');
+                out.push_str("!");
                 self.expr(out, a, Around::Unary);
             }
         }
@@ -310,7 +321,7 @@ impl Writer<'_, '_> {
     }
 
     /// Writes a value for an element of an array of columns.
-    pub fn grid_value(&mut self, out: &mut String, value: ExprId) {
+    pub fn grid_value(&mut self, out: &mut Code, value: ExprId) {
         let expr = self.module.expr(value);
         let small = expr.as_bit().is_some()
             || matches!(
@@ -327,33 +338,33 @@ impl Writer<'_, '_> {
         );
     }
 
-    fn compare(&mut self, out: &mut String, op: CmpOp, a: ExprId, b: ExprId, around: Around) {
+    fn compare(&mut self, out: &mut Code, op: CmpOp, a: ExprId, b: ExprId, around: Around) {
         let (op, a, b) = logic::comparison(self.module, op, a, b);
         let op = op.symbol();
         self.in_parentheses(out, around.needs_parentheses(op), |w, out| {
             w.expr(out, a, Around::Operand(op));
-            let _ = write!(out, " {op} ");
+            out.operator(op);
             w.expr(out, b, Around::Operand(op));
         });
     }
 
     fn in_parentheses(
         &mut self,
-        out: &mut String,
+        out: &mut Code,
         yes: bool,
-        write: impl FnOnce(&mut Self, &mut String),
+        write: impl FnOnce(&mut Self, &mut Code),
     ) {
         if yes {
-            out.push('(');
+            out.open("(");
         }
         write(self, out);
         if yes {
-            out.push(')');
+            out.close(")");
         }
     }
 
     /// A chain of one operator on bits, written side by side.
-    fn chain(&mut self, out: &mut String, id: ExprId, op: &'static str, around: Around) {
+    fn chain(&mut self, out: &mut Code, id: ExprId, op: &'static str, around: Around) {
         let mut operands = Operands::new();
         let mut todo = Operands::from_slice(&[id]);
         while let Some(e) = todo.pop() {
@@ -372,9 +383,9 @@ impl Writer<'_, '_> {
         let outside = self.numbers;
         self.numbers |= self.is_number(id);
         let enclose = around.needs_parentheses(op);
-        let start = out.len();
+        let start = out.mark();
         if enclose {
-            out.push('(');
+            out.open("(");
         }
         let mut written: SmallVec<[Operand; 8]> = SmallVec::new();
         for e in operands {
@@ -384,26 +395,26 @@ impl Writer<'_, '_> {
                 continue;
             }
             if !written.is_empty() {
-                out.push_str(if op == "&" { " & " } else { " | " });
+                out.operator(op);
             }
-            let (from, calls) = (out.len(), self.calls);
+            let (from, calls) = (out.mark(), self.calls);
             self.expr(out, e, Around::Operand(op));
             let calls = self.calls > calls;
-            let text = from..out.len();
-            written.push(Operand { e, text, calls });
+            let to = out.mark();
+            written.push(Operand { e, from, to, calls });
         }
         self.numbers = outside;
-        if enclose {
-            out.push(')');
-        }
         if written.iter().filter(|operand| operand.calls).count() > 1 || written.len() == 1 {
-            let texts: Vec<&str> = written
-                .into_iter()
-                .map(|operand| &out[operand.text])
-                .collect();
-            let text = among_calls(&texts, op, around);
-            out.truncate(start);
-            out.push_str(&text);
+            let operands = written.into_iter().rev().map(|operand| {
+                out.back_to(operand.to);
+                out.take(operand.from)
+            });
+            let mut operands: Vec<Code> = operands.collect();
+            operands.reverse();
+            out.back_to(start);
+            join_calls(out, &operands, op, around);
+        } else if enclose {
+            out.close(")");
         }
     }
 
@@ -417,7 +428,7 @@ impl Writer<'_, '_> {
 
     fn binary(
         &mut self,
-        out: &mut String,
+        out: &mut Code,
         id: ExprId,
         op: BinOp,
         (a, b): (ExprId, ExprId),
@@ -431,7 +442,7 @@ impl Writer<'_, '_> {
             }
             self.in_parentheses(out, cast || around.needs_parentheses(op), |w, out| {
                 w.expr(out, a, Around::Operand(op));
-                let _ = write!(out, " {op} ");
+                out.operator(op);
                 w.expr(out, b, Around::Operand(op));
             });
             return;
@@ -447,7 +458,7 @@ impl Writer<'_, '_> {
                 } else {
                     w.expr(out, a, Around::Operand(op));
                 }
-                let _ = write!(out, " {op} ");
+                out.operator(op);
                 w.expr(out, b, Around::Operand(op));
             });
             return;
@@ -456,7 +467,7 @@ impl Writer<'_, '_> {
     }
 
     /// The low word. That of a sum of words is their 16-bit sum.
-    fn narrow(&mut self, out: &mut String, a: ExprId, around: Around) {
+    fn narrow(&mut self, out: &mut Code, a: ExprId, around: Around) {
         if !self.named.contains_key(&a) {
             if let Expr::Widen(inner) = *self.module.expr(a) {
                 return self.expr(out, inner, around);
@@ -480,7 +491,7 @@ impl Writer<'_, '_> {
         matches!(expr, Expr::I32(value) if i16::try_from(value).is_ok()).then_some(e)
     }
 
-    fn bit_to_int(&mut self, out: &mut String, a: ExprId, around: Around) {
+    fn bit_to_int(&mut self, out: &mut Code, a: ExprId, around: Around) {
         let expr = self.module.expr(a);
         let plain = expr.as_bit().is_some()
             || matches!(expr, Expr::Temp(_) | Expr::Bit(_))
@@ -493,26 +504,28 @@ impl Writer<'_, '_> {
     }
 
     /// The number of an indexed device, as an `int32_t`.
-    pub fn number(&mut self, out: &mut String, place: &Place) {
+    pub fn number(&mut self, out: &mut Code, place: &Place) {
         let base = i64::from(place.number);
         let Some(index) = place.index else {
-            let _ = write!(out, "{base}");
+            let _ = write!(out.text(), "{base}");
             return;
         };
         let (low, high) = bounds::of(self.module, index, 2);
         if base == 0 {
             self.expr(out, index, Around::Exact);
         } else if bounds::fits((low + base, high + base)) {
-            let _ = write!(out, "{base} + ");
+            let _ = write!(out.text(), "{base} + ");
             self.expr(out, index, Around::Operand("+"));
         } else {
-            let _ = write!(self.call_in(out), "plc_add32({base}, ");
+            self.call_in(out).open("plc_add32(");
+            out.push_str(&base.to_string());
+            out.comma();
             self.expr(out, index, Around::Exact);
-            out.push(')');
+            out.close(")");
         }
     }
 
-    fn in_range(&mut self, out: &mut String, place: &Place, count: u32) {
+    fn in_range(&mut self, out: &mut Code, place: &Place, count: u32) {
         if place.index.is_none() {
             let there = self
                 .module
@@ -522,13 +535,11 @@ impl Writer<'_, '_> {
             return;
         }
         self.helpers.has(place.class);
-        let _ = write!(
-            self.call_in(out),
-            "{}_has_{}(",
-            self.module.name,
-            place.class.prefix()
-        );
+        let class = place.class.prefix();
+        let _ = write!(self.call_in(out).text(), "{}_has_{class}", self.module.name);
+        out.open("(");
         self.number(out, place);
-        let _ = write!(out, ", {count})");
+        out.argument(count);
+        out.close(")");
     }
 }

@@ -1,5 +1,6 @@
 //! Functions of a program for devices whose number is only known at run time, emitted where the program indexes.
 
+use crate::code::Code;
 use crate::devices::run_timer;
 use crate::fields::{PrintField, PrintStorage};
 use rungc_emit::storage::{Field, Kind, Storage};
@@ -180,7 +181,10 @@ impl Printer<'_> {
                     shared: true,
                     ..timers.kind
                 };
-                run_timer(out, kind, &device, "drive", "preset");
+                let [drive, preset] = ["drive", "preset"].map(Code::from);
+                let mut code = Code::default();
+                run_timer(&mut code, kind, &device, &drive, &preset);
+                out.push_str(code.as_str());
                 out.push_str("\n        return;\n    }\n");
                 next = last + 1;
             }

@@ -16,6 +16,7 @@
 
 mod access;
 mod board;
+mod code;
 mod devices;
 mod events;
 mod expr;

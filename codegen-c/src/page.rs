@@ -1,5 +1,6 @@
 //! The statements of a function as they are written: lines within blocks.
 
+use crate::code::Code;
 use crate::text;
 
 /// How far the lines of a block are to the right of those around it.
@@ -29,19 +30,24 @@ impl Page {
     }
 
     /// Adds a statement, and a comment beside it.
-    pub fn commented(&mut self, code: &str, beside: Option<&str>) {
+    pub fn commented(&mut self, code: &Code, beside: Option<&str>) {
         text::line(&mut self.text, self.indent, code, beside);
         self.fresh = false;
     }
 
-    /// Adds a statement.
+    /// Adds a statement that is short enough for a line.
     pub fn line(&mut self, code: &str) {
-        self.commented(code, None);
+        self.commented(&Code::from(code), None);
     }
 
     /// Begins a block with this head, which ends in its brace.
     pub fn open(&mut self, head: &str) {
-        self.line(head);
+        self.open_code(&Code::from(head));
+    }
+
+    /// Begins a block with this head, which ends in its brace and may be long.
+    pub fn open_code(&mut self, head: &Code) {
+        self.commented(head, None);
         self.indent += STEP;
         self.fresh = true;
     }

@@ -1,5 +1,6 @@
 //! Reads of devices, as C.
 
+use crate::code::Code;
 use crate::expr::Around;
 use crate::fields::PrintStorage;
 use crate::writer::Writer;
@@ -10,43 +11,44 @@ use std::fmt::Write;
 
 impl Writer<'_, '_> {
     /// Writes the value that an access reads.
-    pub(crate) fn read(&mut self, out: &mut String, access: &Access, around: Around) {
+    pub(crate) fn read(&mut self, out: &mut Code, access: &Access, around: Around) {
         let place = &access.place;
         match access.kind {
             AccessKind::Bit => self.bit(out, place),
             AccessKind::WordBit(bit) => {
-                self.call_in(out).push_str("plc_bit(");
+                self.call_in(out).open("plc_bit(");
                 self.word(out, place);
-                let _ = write!(out, ", {bit}u)");
+                out.argument(format_args!("{bit}u"));
+                out.close(")");
             }
             AccessKind::Word => self.word(out, place),
             AccessKind::Pair => self.pair(out, place),
             AccessKind::Float => {
-                self.call_in(out).push_str("plc_float(");
+                self.call_in(out).open("plc_float(");
                 self.pair(out, place);
-                out.push(')');
+                out.close(")");
             }
             // A group of less than 16 bits is what it is as an `int`, too.
             AccessKind::Nibbles { digits, wide }
                 if !wide && (digits == 4 || around == Around::Exact) =>
             {
-                self.call_in(out).push_str("plc_low(");
+                self.call_in(out).open("plc_low(");
                 self.nibbles(out, place, access.extent());
-                out.push(')');
+                out.close(")");
             }
             AccessKind::Nibbles { .. } => self.nibbles(out, place, access.extent()),
         }
     }
 
-    fn bit(&mut self, out: &mut String, place: &Place) {
-        if self.loop_invariant(out, place) {
+    fn bit(&mut self, out: &mut Code, place: &Place) {
+        if self.loop_invariant(out.text(), place) {
             return;
         }
-        let of_iteration = self.access_iteration(out, place);
+        let of_iteration = self.access_iteration(out.text(), place);
         if place.index.is_some() && !of_iteration {
             return self.indexed_call(out, "bit", place);
         }
-        if !of_iteration && !self.fields.access(out, place.class, place.number) {
+        if !of_iteration && !self.fields.access(out.text(), place.class, place.number) {
             out.push_str("false");
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".done");
@@ -64,56 +66,63 @@ impl Writer<'_, '_> {
         }
     }
 
-    fn word(&mut self, out: &mut String, place: &Place) {
-        let of_iteration = self.access_iteration(out, place);
+    fn word(&mut self, out: &mut Code, place: &Place) {
+        let of_iteration = self.access_iteration(out.text(), place);
         if place.index.is_some() && !of_iteration {
             return self.indexed_call(out, "word", place);
         }
-        if !of_iteration && !self.fields.access(out, place.class, place.number) {
-            out.push('0');
+        if !of_iteration && !self.fields.access(out.text(), place.class, place.number) {
+            out.push_str("0");
         } else if matches!(place.class, DeviceClass::T | DeviceClass::C) {
             out.push_str(".value");
         }
     }
 
-    fn pair(&mut self, out: &mut String, place: &Place) {
+    fn pair(&mut self, out: &mut Code, place: &Place) {
         if place.index.is_some() && place.class == DeviceClass::C {
             return self.indexed_call(out, "long", place);
         }
         if is_counter32(place.class, place.number) {
             return self.word(out, place);
         }
-        self.call_in(out).push_str("plc_join(");
+        self.call_in(out).open("plc_join(");
         self.word(out, &place.high_word(self.module.model));
-        out.push_str(", ");
+        out.comma();
         self.word(out, place);
-        out.push(')');
+        out.close(")");
     }
 
-    fn nibbles(&mut self, out: &mut String, place: &Place, count: u32) {
+    fn nibbles(&mut self, out: &mut Code, place: &Place, count: u32) {
         if place.index.is_some() {
             self.helpers.bits(place.class);
+            let class = place.class.prefix();
             let _ = write!(
-                self.call_in(out),
-                "{}_bits_{}(plc, ",
-                self.module.name,
-                place.class.prefix()
+                self.call_in(out).text(),
+                "{}_bits_{class}",
+                self.module.name
             );
+            out.open("(plc");
+            out.comma();
             self.number(out, place);
-            let _ = write!(out, ", {count}u)");
+            out.argument(format_args!("{count}u"));
+            out.close(")");
         } else if self
             .fields
             .array(place.class, place.number, count)
             .is_some()
         {
-            self.call_in(out).push_str("plc_bits(&");
-            self.fields.access(out, place.class, place.number);
-            let _ = write!(out, ", {count}u)");
+            self.call_in(out).open("plc_bits(&");
+            self.fields.access(out.text(), place.class, place.number);
+            out.argument(format_args!("{count}u"));
+            out.close(")");
         } else {
             // Relays that are not an array: their states side by side.
-            self.call_in(out).push_str("plc_bits((const bool[]){");
+            self.call_in(out).open("plc_bits(");
+            out.open("(const bool[]){");
             for bit in 0..count {
-                out.push_str(if bit > 0 { ", " } else { "" });
+                if bit > 0 {
+                    out.comma();
+                }
                 self.bit(
                     out,
                     &Place {
@@ -122,20 +131,24 @@ impl Writer<'_, '_> {
                     },
                 );
             }
-            let _ = write!(out, "}}, {count}u)");
+            out.close("}");
+            out.argument(format_args!("{count}u"));
+            out.close(")");
         }
     }
 
     /// A read through the program's function for indexed access.
-    fn indexed_call(&mut self, out: &mut String, what: &'static str, place: &Place) {
+    fn indexed_call(&mut self, out: &mut Code, what: &'static str, place: &Place) {
         self.helpers.get(what, place.class);
+        let class = place.class.prefix();
         let _ = write!(
-            self.call_in(out),
-            "{}_{what}_{}(plc, ",
-            self.module.name,
-            place.class.prefix()
+            self.call_in(out).text(),
+            "{}_{what}_{class}",
+            self.module.name
         );
+        out.open("(plc");
+        out.comma();
         self.number(out, place);
-        out.push(')');
+        out.close(")");
     }
 }

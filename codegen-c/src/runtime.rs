@@ -1,5 +1,6 @@
 //! Calls of the runtime library.
 
+use crate::code::Code;
 use crate::expr::{Around, float, integer};
 use crate::writer::Writer;
 use rungc_emit::areas;
@@ -18,8 +19,10 @@ struct Site {
 
 impl Writer<'_, '_> {
     /// Writes a [`Stmt::Call`](rungc_ir::node::Stmt::Call).
-    pub fn runtime_call(&mut self, code: &mut String, call: &Call) {
-        let _ = write!(code, "rungc_{}(&map, ", call.function.name());
+    pub fn runtime_call(&mut self, code: &mut Code, call: &Call) {
+        let _ = write!(code.text(), "rungc_{}", call.function.name());
+        code.open("(&map");
+        code.comma();
         let site = Site {
             wide: call.wide,
             drive: call.drive,
@@ -29,40 +32,43 @@ impl Writer<'_, '_> {
         };
         self.site(code, &site);
         for i in 0..call.function.operands().len() {
-            code.push_str(", ");
+            code.comma();
             match call.args.get(i) {
                 Some(arg) => self.argument(code, arg),
                 // An operand that was left out.
                 None => code.push_str("rungc_K(0)"),
             }
         }
-        code.push_str(");");
+        code.close(");");
     }
 
     /// Writes a [`Stmt::Fetch`](rungc_ir::node::Stmt::Fetch), without what it assigns.
-    pub fn fetch(&mut self, code: &mut String, fetch: &Fetch) {
+    pub fn fetch(&mut self, code: &mut Code, fetch: &Fetch) {
         self.operand_call(code, "fetch", (fetch.wide, fetch.step), &fetch.from);
         let cell = &self.module.cells[fetch.value].name;
-        let _ = write!(code, ", &plc->{cell});");
+        code.argument(format_args!("&plc->{cell}"));
+        code.close(");");
     }
 
     /// Writes a [`Stmt::Send`](rungc_ir::node::Stmt::Send).
-    pub fn send(&mut self, code: &mut String, send: &Send) {
+    pub fn send(&mut self, code: &mut Code, send: &Send) {
         self.operand_call(code, "send", (send.wide, send.step), &send.to);
-        code.push_str(", ");
+        code.comma();
         self.expr(code, send.value, Around::Exact);
-        code.push_str(");");
+        code.close(");");
     }
 
     /// The start of a call that reads or writes an operand.
     fn operand_call(
         &mut self,
-        code: &mut String,
+        code: &mut Code,
         function: &str,
         (wide, step): (bool, u32),
         arg: &Arg,
     ) {
-        let _ = write!(code, "rungc_{function}(&map, ");
+        let _ = write!(code.text(), "rungc_{function}");
+        code.open("(&map");
+        code.comma();
         let site = Site {
             wide,
             drive: None,
@@ -71,11 +77,11 @@ impl Writer<'_, '_> {
             step,
         };
         self.site(code, &site);
-        code.push_str(", ");
+        code.comma();
         self.argument(code, arg);
     }
 
-    fn site(&mut self, code: &mut String, site: &Site) {
+    fn site(&mut self, code: &mut Code, site: &Site) {
         let Site {
             wide,
             drive,
@@ -86,45 +92,49 @@ impl Writer<'_, '_> {
         let always = drive.is_none_or(|e| *self.module.expr(e) == Expr::Bit(true));
         if always && slot == 0 {
             let function = if wide { "rungc_wide_at" } else { "rungc_at" };
-            let _ = write!(code, "{function}({step})");
+            let _ = write!(code.text(), "{function}({step})");
             return;
         }
-        let _ = write!(code, "(rungc_site){{.step = {step}");
+        code.open("(rungc_site){");
+        let _ = write!(code.text(), ".step = {step}");
         if slot > 0 {
-            let _ = write!(code, ", .slot = {slot}");
+            code.argument(format_args!(".slot = {slot}"));
         }
         if wide {
-            code.push_str(", .wide = true");
+            code.argument(".wide = true");
         }
-        code.push_str(", .drive = ");
+        code.argument(".drive = ");
         match drive {
             Some(drive) => self.expr(code, drive, Around::Exact),
             None => code.push_str("true"),
         }
         if signal {
-            code.push_str(", .signal = true");
+            code.argument(".signal = true");
         }
-        code.push('}');
+        code.close("}");
     }
 
-    fn argument(&mut self, code: &mut String, arg: &Arg) {
+    fn argument(&mut self, code: &mut Code, arg: &Arg) {
         match arg {
             Arg::Const { value, index, wide } => self.constant(code, *value, *index, *wide),
             Arg::Float(value) => {
-                code.push_str("rungc_E(");
-                float(code, *value);
-                code.push(')');
+                code.open("rungc_E(");
+                float(code.text(), *value);
+                code.close(")");
             }
             Arg::Device { place, .. } => self.device(code, place),
             Arg::Nibbles { place, digits, .. } => {
-                let _ = write!(code, "rungc_group({digits}, ");
+                code.open("rungc_group(");
+                code.push_str(&digits.to_string());
+                code.comma();
                 self.device(code, place);
-                code.push(')');
+                code.close(")");
             }
             Arg::WordBit { place, bit, .. } => {
-                code.push_str("rungc_bit_of(");
+                code.open("rungc_bit_of(");
                 self.device(code, place);
-                let _ = write!(code, ", {bit})");
+                code.argument(bit);
+                code.close(")");
             }
             Arg::Buffer {
                 module,
@@ -137,52 +147,57 @@ impl Writer<'_, '_> {
                     number: *address,
                     index: *index,
                 };
-                let _ = write!(code, "rungc_U({module}, ");
+                code.open("rungc_U(");
+                code.push_str(&module.to_string());
+                code.comma();
                 self.number(code, &place);
-                code.push(')');
+                code.close(")");
             }
             Arg::Text(text) => {
-                let _ = write!(code, "rungc_string({text})");
+                let _ = write!(code.text(), "rungc_string({text})");
             }
         }
     }
 
     /// A device, and in which area the runtime finds it without a search.
-    fn device(&mut self, code: &mut String, place: &Place) {
+    fn device(&mut self, code: &mut Code, place: &Place) {
         let area = match place.index {
             None => areas::named(&self.areas, place.class, place.number),
             Some(_) => None,
         };
         if let Some(area) = area {
-            let _ = write!(code, "rungc_in({area}, ");
+            code.open("rungc_in(");
+            let _ = write!(code.text(), "{area}");
+            code.comma();
         }
-        let _ = write!(code, "rungc_{}(", place.class.prefix());
+        let _ = write!(code.text(), "rungc_{}", place.class.prefix());
+        code.open("(");
         self.number(code, place);
-        code.push(')');
+        code.close(")");
         if area.is_some() {
-            code.push(')');
+            code.close(")");
         }
     }
 
-    fn constant(&mut self, code: &mut String, value: i32, index: Option<ExprId>, wide: bool) {
-        code.push_str("rungc_K(");
+    fn constant(&mut self, code: &mut Code, value: i32, index: Option<ExprId>, wide: bool) {
+        code.open("rungc_K(");
         match (index, wide) {
-            (None, _) => integer(code, value),
-            (Some(index), true) => {
-                code.push_str("plc_add32(");
-                integer(code, value);
-                code.push_str(", ");
-                self.expr(code, index, Around::Exact);
-                code.push(')');
-            }
+            (None, _) => integer(code.text(), value),
+            (Some(index), true) => self.indexed_constant(code, value, index),
             (Some(index), false) => {
-                code.push_str("plc_low(plc_add32(");
-                integer(code, value);
-                code.push_str(", ");
-                self.expr(code, index, Around::Exact);
-                code.push_str("))");
+                code.open("plc_low(");
+                self.indexed_constant(code, value, index);
+                code.close(")");
             }
         }
-        code.push(')');
+        code.close(")");
+    }
+
+    fn indexed_constant(&mut self, code: &mut Code, value: i32, index: ExprId) {
+        code.open("plc_add32(");
+        integer(code.text(), value);
+        code.comma();
+        self.expr(code, index, Around::Exact);
+        code.close(")");
     }
 }

@@ -1,8 +1,8 @@
 //! Simple statements as C.
 
+use crate::code::Code;
 use crate::expr::Around;
 use crate::page::Page;
-use crate::text;
 use crate::writer::{Writer, c_type, function_name};
 use rungc_emit::comments;
 use rungc_emit::temps::Home;
@@ -22,12 +22,12 @@ impl Writer<'_, '_> {
     }
 
     /// Writes the right side of an assignment.
-    fn value(&mut self, code: &mut String, value: ExprId) {
+    fn value(&mut self, code: &mut Code, value: ExprId) {
         self.expr(code, value, Around::Exact);
-        code.push(';');
+        code.push_str(";");
     }
 
-    fn let_temp(&mut self, code: &mut String, temp: TempId, value: ExprId) {
+    fn let_temp(&mut self, code: &mut Code, temp: TempId, value: ExprId) {
         if self.plan.temp(temp).used > 0 {
             code.push_str(&self.assigned_temp(temp));
             self.value(code, value);
@@ -35,27 +35,27 @@ impl Writer<'_, '_> {
     }
 
     /// Writes an assignment to a private field.
-    fn set(&mut self, code: &mut String, name: &str, value: ExprId) {
-        let _ = write!(code, "plc->{name} = ");
+    fn set(&mut self, code: &mut Code, name: &str, value: ExprId) {
+        let _ = write!(code.text(), "plc->{name} = ");
         self.value(code, value);
     }
 
-    fn set_entry(&mut self, code: &mut String, table: TableId, index: ExprId, value: ExprId) {
-        let _ = write!(code, "plc->{}[", self.module.tables[table].name);
+    fn set_entry(&mut self, code: &mut Code, table: TableId, index: ExprId, value: ExprId) {
+        let _ = write!(code.text(), "plc->{}[", self.module.tables[table].name);
         self.expr(code, index, Around::Exact);
         code.push_str("] = ");
         self.value(code, value);
     }
 
-    fn edge(&mut self, code: &mut String, edge: &Edge) {
+    fn edge(&mut self, code: &mut Code, edge: &Edge) {
         if self.plan.temp(edge.out).used == 0 {
-            self.edge_memory(code, edge);
+            self.edge_memory(code.text(), edge);
             code.push_str(" = ");
             return self.value(code, edge.input);
         }
         code.push_str(&self.assigned_temp(edge.out));
         self.edge_call(code, edge);
-        code.push(';');
+        code.push_str(";");
     }
 
     /// The statement that leaves the function of the module.
@@ -69,7 +69,7 @@ impl Writer<'_, '_> {
     /// Writes a statement, and beside it the comment on the device that it writes.
     pub(crate) fn stmt(&mut self, page: &mut Page, stmt: &Stmt) {
         let code = self.code(page, stmt);
-        if !code.is_empty() {
+        if !code.as_str().is_empty() {
             let beside = comments::written(stmt)
                 .and_then(|(class, number)| self.fields.comment(class, number));
             page.commented(&code, beside);
@@ -78,23 +78,29 @@ impl Writer<'_, '_> {
 
     fn watch(&mut self, page: &mut Page, steps: u32, at: u32) {
         let (name, at) = (&self.module.name, at as u16);
-        page.open(&format!("if ({name}_out_of_time(plc, {steps}u, {at}u)) {{"));
+        let mut code = Code::new();
+        code.open("if (");
+        code.open(&format!("{name}_out_of_time(plc"));
+        code.argument(format_args!("{steps}u"));
+        code.argument(format_args!("{at}u"));
+        code.close(")");
+        code.close(") {");
+        page.open_code(&code);
         page.line(self.leave());
         page.close();
     }
 
-    fn goto(&self, label: LabelId) -> String {
+    fn goto(&self, code: &mut Code, label: LabelId) {
         let root = self.root();
-        let state = self.plan.state(root, label);
-        state.map_or(String::new(), |state| {
-            format!("return {};", self.state_name(root, state))
-        })
+        if let Some(state) = self.plan.state(root, label) {
+            let _ = write!(code.text(), "return {};", self.state_name(root, state));
+        }
     }
 
     /// The last line of a statement; those before it are written.
-    fn code(&mut self, page: &mut Page, stmt: &Stmt) -> String {
+    fn code(&mut self, page: &mut Page, stmt: &Stmt) -> Code {
         let module = self.module;
-        let mut code = String::with_capacity(text::WIDTH);
+        let mut code = Code::new();
         match stmt {
             Stmt::Let(temp, value) => self.let_temp(&mut code, *temp, *value),
             Stmt::Edge(edge) => self.edge(&mut code, edge),
@@ -122,30 +128,37 @@ impl Writer<'_, '_> {
             Stmt::Reset(place) => self.reset(&mut code, place),
             Stmt::Block(block) => self.block(&mut code, *block),
             Stmt::CallSub(function) => {
-                function_name(&mut code, module, *function as usize);
+                function_name(code.text(), module, *function as usize);
                 code.push_str("(plc);");
             }
             Stmt::Return => code.push_str(self.leave()),
-            Stmt::Goto(label) => code = self.goto(*label),
+            Stmt::Goto(label) => self.goto(&mut code, *label),
             Stmt::Call(call) => self.runtime_call(&mut code, call),
             Stmt::Fetch(fetch) => {
                 if self.plan.temp(fetch.there).used > 0 {
-                    code = self.assigned_temp(fetch.there);
+                    code.push_str(&self.assigned_temp(fetch.there));
                 }
                 self.fetch(&mut code, fetch);
             }
             Stmt::Send(send) => self.send(&mut code, send),
             Stmt::Fault { code: fault, step } => {
-                code = format!("{}_fault(plc, {fault}, {});", module.name, *step as u16);
+                let _ = write!(code.text(), "{}_fault", module.name);
+                code.open("(plc");
+                code.argument(fault);
+                code.argument(*step as u16);
+                code.close(");");
             }
             Stmt::Watch { steps, at } => self.watch(page, *steps, *at),
             Stmt::Stop => {
                 page.line("plc->error.stop = PLC_STOP_M8037;");
-                code = format!("{}_set_running(plc, false);", module.name);
+                let _ = write!(code.text(), "{}_set_running", module.name);
+                code.open("(plc");
+                code.argument("false");
+                code.close(");");
             }
             Stmt::Clear { latched } => {
                 let what = if *latched { "latched" } else { "general" };
-                code = format!("{}_clear_{what}(plc);", module.name);
+                let _ = write!(code.text(), "{}_clear_{what}(plc);", module.name);
             }
             // Written as nodes.
             Stmt::Network(_)

@@ -1,5 +1,6 @@
 //! Text in C source: comments and wrapped lines.
 
+use crate::code::Code;
 use rungc_syntax::text::acts;
 
 /// Longest line.
@@ -28,25 +29,22 @@ pub fn comment(text: &str) -> String {
 }
 
 /// Appends a line of code, broken where it is too long, and a comment beside it.
-pub fn line(out: &mut String, indent: usize, code: &str, beside: Option<&str>) {
+pub fn line(out: &mut String, indent: usize, code: &Code, beside: Option<&str>) {
     let start = out.len();
-    let mut rest = code;
-    let mut indent = indent;
-    let mut first = true;
+    let (mut from, mut indent) = (0, indent);
     loop {
         push_indent(out, indent);
         let room = WIDTH.saturating_sub(indent).max(40);
-        let Some(at) = break_at(rest, room) else {
-            out.push_str(rest);
+        let Some(at) = code.break_at(from, room) else {
+            out.push_str(&code.as_str()[from..]);
             break;
         };
-        out.push_str(rest[..at].trim_end());
+        out.push_str(code.as_str()[from..at].trim_end());
         out.push('\n');
-        rest = &rest[at..];
-        if first {
+        if from == 0 {
             indent += 4;
-            first = false;
         }
+        from = at;
     }
     if let Some(text) = beside {
         let text = comment(text);
@@ -95,44 +93,6 @@ pub fn push_indent(out: &mut String, mut indent: usize) {
 /// Appends a number.
 pub fn push_number(out: &mut String, number: impl itoa::Integer) {
     out.push_str(itoa::Buffer::new().format(number));
-}
-
-/// Where to break a line that has no room: before the operator, or after the comma, that is least deep in parentheses.
-fn break_at(code: &str, room: usize) -> Option<usize> {
-    if code.len() <= room {
-        return None;
-    }
-    let bytes = code.as_bytes();
-    let mut depth = 0i32;
-    let mut best: Option<(i32, usize)> = None;
-    for (i, &b) in bytes.iter().enumerate() {
-        if i > room && best.is_some() {
-            break;
-        }
-        match b {
-            b'(' | b'{' => depth += 1,
-            b')' | b'}' => depth -= 1,
-            b'|' | b'&'
-                if i > room / 3
-                    && bytes[i - 1] == b' '
-                    && bytes
-                        .get(i + 1)
-                        .is_some_and(|&next| next == b' ' || next == b)
-                    && best.is_none_or(|(d, _)| depth <= d) =>
-            {
-                best = Some((depth, i));
-            }
-            b',' if bytes.get(i + 1) == Some(&b' ')
-                && i > room / 3
-                && i + 2 < bytes.len()
-                && best.is_none_or(|(d, _)| depth <= d) =>
-            {
-                best = Some((depth, i + 2));
-            }
-            _ => {}
-        }
-    }
-    best.map(|(_, i)| i)
 }
 
 /// Appends a number in octal.
@@ -197,11 +157,20 @@ mod tests {
     #[test]
     fn long_lines_break_at_the_outermost_operator() {
         let mut out = String::new();
-        let code = format!(
-            "plc->M0 = ({}) & {};",
-            ["plc->X0"; 9].join(" | "),
-            ["plc->X1"; 9].join(" & ")
-        );
+        let mut code = Code::default();
+        code.open("plc->M0 = (");
+        for i in 0..9 {
+            if i > 0 {
+                code.operator("|");
+            }
+            code.push_str("plc->X0");
+        }
+        code.close(")");
+        for _ in 0..9 {
+            code.operator("&");
+            code.push_str("plc->X1");
+        }
+        code.push_str(";");
         line(&mut out, 4, &code, Some("coil"));
         assert!(out.lines().all(|l| l.len() <= WIDTH), "{out}");
         assert!(out.contains("\n        & plc->X1"), "{out}");

@@ -1,5 +1,6 @@
 //! Statements and functions as C.
 
+use crate::code::Code;
 use crate::expr::Around;
 use crate::helpers::Helpers;
 use crate::page::Page;
@@ -29,8 +30,8 @@ const LIMITS: Limits = Limits {
 
 /// What stands for an expression in the statement being written.
 pub(crate) struct Named {
-    /// Its text.
-    pub text: String,
+    /// How it is written.
+    pub code: Code,
     /// Whether that calls a function.
     pub calls: bool,
 }
@@ -168,10 +169,10 @@ impl<'a, 'm> Writer<'a, 'm> {
                     asker(self.module, self.plan, self.fields, edge, next)
             {
                 self.name_parts(page, &[edge.input]);
-                let mut text = String::new();
-                self.edge_call(&mut text, edge);
+                let mut code = Code::default();
+                self.edge_call(&mut code, edge);
                 self.named.clear();
-                self.named.insert(asker, Named { text, calls: true });
+                self.named.insert(asker, Named { code, calls: true });
                 self.node_with_names(page, next);
                 i += 1;
                 continue;
@@ -180,22 +181,22 @@ impl<'a, 'm> Writer<'a, 'm> {
         }
     }
 
-    pub(crate) fn edge_call(&mut self, out: &mut String, edge: &Edge) {
+    pub(crate) fn edge_call(&mut self, out: &mut Code, edge: &Edge) {
         if edge.kind == EdgeKind::Falling && *self.module.expr(edge.input) == Expr::Bit(false) {
-            out.push_str("plc_take(&");
-            self.edge_memory(out, edge);
-            out.push(')');
+            out.open("plc_take(&");
+            self.edge_memory(out.text(), edge);
+            out.close(")");
             return;
         }
         let function = match edge.kind {
-            EdgeKind::Rising => "plc_rising",
-            EdgeKind::Falling => "plc_falling",
+            EdgeKind::Rising => "plc_rising(&",
+            EdgeKind::Falling => "plc_falling(&",
         };
-        let _ = write!(out, "{function}(&");
-        self.edge_memory(out, edge);
-        out.push_str(", ");
+        out.open(function);
+        self.edge_memory(out.text(), edge);
+        out.comma();
         self.expr(out, edge.input, Around::Exact);
-        out.push(')');
+        out.close(")");
     }
 
     /// Writes where the memory of an edge is: `plc->edge[3]`, `plc->edge[3 + 2 * i]`.
@@ -223,14 +224,15 @@ impl<'a, 'm> Writer<'a, 'm> {
         for e in parts::named(self.module, &self.plan.sizes, roots, LIMITS) {
             self.names += 1;
             let name = format!("part{}", self.names);
-            let mut code = format!("const {} {name} = ", c_type(self.module.ty(e)));
+            let mut code = Code::new();
+            let _ = write!(code.text(), "const {} {name} = ", c_type(self.module.ty(e)));
             self.expr(&mut code, e, Around::Exact);
-            code.push(';');
-            page.line(&code);
+            code.push_str(";");
+            page.commented(&code, None);
             self.named.insert(
                 e,
                 Named {
-                    text: name,
+                    code: Code::from(&*name),
                     calls: false,
                 },
             );
@@ -254,15 +256,16 @@ impl<'a, 'm> Writer<'a, 'm> {
     }
 
     fn branch(&mut self, page: &mut Page, cond: ExprId, then: &[Node<'m>], otherwise: &[Node<'m>]) {
-        let mut code = String::from("if (");
+        let mut code = Code::new();
+        code.open("if (");
         if then.is_empty() {
-            code.push('!');
+            code.push_str("!");
             self.expr(&mut code, cond, Around::Unary);
         } else {
             self.expr(&mut code, cond, Around::Loose);
         }
-        code.push_str(") {");
-        page.open(&code);
+        code.close(") {");
+        page.open_code(&code);
         self.nodes(page, then);
         if !then.is_empty() && !otherwise.is_empty() {
             page.reopen("} else {");
@@ -273,15 +276,18 @@ impl<'a, 'm> Writer<'a, 'm> {
 
     fn repeat(&mut self, page: &mut Page, count: ExprId, body: &[Node<'m>]) {
         let i = self.loop_variable();
-        let mut code = String::new();
+        let mut code = Code::new();
         if let Expr::I16(times) = *self.module.expr(count) {
-            let _ = write!(code, "for (int {i} = 0; {i} < {}; {i}++) {{", times.max(1));
+            let times = times.max(1);
+            let _ = write!(code.text(), "for (int {i} = 0; {i} < {times}; {i}++) {{");
         } else {
-            let _ = write!(code, "for (int16_t {i} = plc_times(");
+            code.open("for (");
+            code.open(&format!("int16_t {i} = plc_times("));
             self.expr(&mut code, count, Around::Exact);
-            let _ = write!(code, "); {i} > 0; {i}--) {{");
+            code.close(")");
+            code.close(&format!("; {i} > 0; {i}--) {{"));
         }
-        page.open(&code);
+        page.open_code(&code);
         self.loops += 1;
         self.nodes(page, body);
         self.loops -= 1;
