@@ -10,7 +10,7 @@ use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use rungc_firmware::target::{self, Target};
 use rungc_frontend::{Encoding, ReadOptions};
-use rungc_models::ModelId;
+use rungc_models::{ModelId, Variant};
 use rungc_project::Check;
 use rungc_project::serve::{Line, address};
 use rungc_syntax::{Device, DeviceClass, Severity, codes, diag};
@@ -134,8 +134,9 @@ pub struct Inputs {
 #[derive(Args, Clone, Debug, Default)]
 pub struct Reading {
     /// PLC model. Default: that of rungc.toml, else the CPU type that the file names, else fx3u.
-    #[arg(long, value_parser = model, value_name = "MODEL")]
-    pub model: Option<ModelId>,
+    /// `rungc explain h2u-mtq` shows a variant.
+    #[arg(long, value_parser = plc, value_name = "MODEL")]
+    pub model: Option<Plc>,
     /// Settings of the project (docs/src/project.md). Default: the nearest rungc.toml, in each program's folder or above it.
     #[arg(long, value_name = "FILE")]
     pub project: Option<PathBuf>,
@@ -492,7 +493,7 @@ pub struct LearnArgs {
 /// Arguments of `explain`.
 #[derive(Args, Debug)]
 pub struct ExplainArgs {
-    /// A diagnostic code (E0106), an instruction (ADD, LD>=), or a special device (M8013).
+    /// A diagnostic code (E0106), an instruction (ADD, LD>=), a special device (M8013), or a variant of a model (h2u-mtq).
     pub topic: String,
     /// Model to show special devices for.
     #[arg(long, value_parser = model, value_name = "MODEL")]
@@ -703,6 +704,23 @@ fn target(name: &str) -> Result<&'static Target, String> {
         let names: Vec<_> = target::ALL.iter().map(|target| target.triple).collect();
         format!("unknown target; available: {}", names.join(", "))
     })
+}
+
+/// A model, or a variant of one.
+#[derive(Clone, Copy, Debug)]
+pub struct Plc {
+    /// The model.
+    pub model: ModelId,
+    /// The PLC of its family that was named.
+    pub variant: Option<&'static Variant>,
+}
+
+fn plc(name: &str) -> Result<Plc, String> {
+    let variant = Variant::find(name);
+    let model = variant.map_or_else(|| model(name), |variant| Ok(variant.model));
+    model
+        .map(|model| Plc { model, variant })
+        .map_err(|why| format!("{why}; variants: {}", Variant::names()))
 }
 
 fn model(name: &str) -> Result<ModelId, String> {

@@ -233,3 +233,29 @@ fn transfers_are_held_to_the_modules() {
     let said = said(without.path(), &["check", "a.il"]);
     assert!(!said.contains("module"), "{said}");
 }
+
+#[test]
+fn programs_are_held_to_a_variant() {
+    let program = "LD X020\nDEADD D0 D2 D4\nPLSY K1000 K0 Y3\nPLSY K1000 K0 Y5\nLD X020\nOUT Y020\nSPD X5 K100 D10\nOUT C251 K5\nLD C251\nOUT M0\nEI\nFEND\nI301\nLD M8000\nINC D6\nIRET\nEND\n";
+    let settings = "[project]\nprogram = 'a.il'\nmodel = 'h2u-mtq'\n";
+    let folder = folder(&[
+        ("rungc.toml", settings.as_bytes()),
+        ("a.il", program.as_bytes()),
+    ]);
+    let path = folder.path();
+    insta::assert_snapshot!("project_variant", shown(path, &["check"]));
+    for variant in ["h2u-mtp", "H2U-1616"] {
+        let name = format!("project_{}", variant.to_lowercase());
+        insta::assert_snapshot!(name, shown(path, &["check", "--model", variant]));
+    }
+    assert!(said(path, &["check", "--model", "h2u"]).contains("0 errors"));
+    assert_eq!(code(path, &["check", "--model", "h2u-xx"]), 2);
+    insta::assert_snapshot!(
+        "project_explain_variant",
+        shown(path, &["explain", "h2u-mtp"])
+    );
+    insta::assert_snapshot!(
+        "project_explain_base_unit",
+        shown(path, &["explain", "H1U-0806"])
+    );
+}

@@ -1,6 +1,6 @@
 //! The generated pages of the book in `docs/src`: one for each diagnostic code, one for each family of instructions,
-//! one for the special devices of each model, one each for the addresses of Modbus slaves and the buffer memory of
-//! modules, and the lines of `SUMMARY.md` that list them.
+//! one for the special devices of each model, one each for the addresses of Modbus slaves, the buffer memory of modules
+//! and the variants of models, and the lines of `SUMMARY.md` that list them.
 
 use rungc_catalogue::{Family, Inst, explain, families, special_table};
 use rungc_models::{Model, ModelId};
@@ -10,6 +10,7 @@ use std::fmt::Write;
 
 mod modbus;
 mod modules;
+mod variants;
 
 /// A generated page.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -23,14 +24,23 @@ pub struct Page {
 }
 
 /// All generated pages, chapter by chapter; the first page of a chapter is its index.
-pub fn chapters() -> [Vec<Page>; 5] {
+pub fn chapters() -> [Vec<Page>; 6] {
     [
         checks(),
         instructions(),
         special_devices(),
         modbus_addresses(),
         module_tables(),
+        variant_table(),
     ]
+}
+
+fn variant_table() -> Vec<Page> {
+    vec![Page {
+        path: "variants/index.md".to_owned(),
+        title: "Variants and base units".to_owned(),
+        text: variants::variants(),
+    }]
 }
 
 fn module_tables() -> Vec<Page> {

@@ -8,7 +8,7 @@ use rungc_ir::layout::Wanted;
 use rungc_ir::node::Module;
 use rungc_ir::passes::optimise;
 pub use rungc_ir::ranges::Bound;
-use rungc_models::{Fit, Model, ModelId};
+use rungc_models::{Fit, Model, ModelId, Variant};
 use rungc_syntax::{DeviceClass, Diagnostics, Program, Span, codes};
 
 /// How to compile.
@@ -16,6 +16,8 @@ use rungc_syntax::{DeviceClass, Diagnostics, Program, Span, codes};
 pub struct CompileOptions {
     /// The model; else the one that the program's source names, else FX3U.
     pub model: Option<ModelId>,
+    /// The PLC of the model's family that the program is held to.
+    pub variant: Option<&'static Variant>,
     /// Name of the module; else it is made from the name of the source.
     pub name: Option<String>,
     /// Devices that tests or a monitor read, stored in addition to those that the program uses.
@@ -112,6 +114,9 @@ fn lowered(program: &Program, options: &CompileOptions) -> Compiled {
     let (resolved, found) = resolve(program, model);
     diagnostics.extend(found.sorted());
     diagnostics.extend(check::check(&resolved).sorted());
+    if let Some(variant) = options.variant.filter(|variant| variant.model == model.id) {
+        diagnostics.extend(check::variants::check(&resolved, variant).sorted());
+    }
     let eased = codes::eased().map(|code| code.id);
     let eased: Vec<_> = eased.filter(|id| options.warn.contains(id)).collect();
     diagnostics.ease(&eased);

@@ -12,5 +12,7 @@ pub mod plc_errors;
 pub mod runs;
 pub mod special;
 pub mod times;
+mod variants;
 
 pub use model::*;
+pub use variants::{VARIANTS, Variant};

@@ -16,7 +16,7 @@ mod template;
 
 use encoding_rs::Encoding;
 use rungc_frontend::{LearnedCodes, ReadOptions};
-use rungc_models::ModelId;
+use rungc_models::{ModelId, Variant};
 use rungc_syntax::{DeviceClass, Diagnostic, Diagnostics, Index, Source, Span, codes};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -40,6 +40,8 @@ pub struct Project {
     pub program: Option<PathBuf>,
     /// The PLC model: `[project] model`.
     pub model: Option<ModelId>,
+    /// The PLC of its family that the program is for, if `[project] model` names one.
+    pub variant: Option<&'static Variant>,
     /// Name of the program in emitted code: `[project] name`.
     pub name: Option<String>,
     /// Encoding of texts that are not Unicode: `[project] encoding`.

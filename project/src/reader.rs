@@ -7,7 +7,7 @@ use crate::modbus::{self, Row};
 use crate::{Bound, Named, Project, Range as DeviceRange, device};
 use encoding_rs::Encoding;
 use module::MODULE;
-use rungc_models::{Model, ModelId};
+use rungc_models::{Model, ModelId, Variant};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{Device, DeviceClass, Diagnostics, Severity, Span, diag};
 use std::ops::{Range, RangeInclusive};
@@ -266,7 +266,11 @@ impl Reader {
 
     fn project(&mut self, table: &DeTable<'_>, project: &mut Project) {
         project.program = self.path(table, "program");
-        project.model = self.get(table, "model").and_then(|name| self.model(&name));
+        if let Some(name) = self.get(table, "model") {
+            project.variant = Variant::find(&name.text);
+            let of_variant = project.variant.map(|variant| variant.model);
+            project.model = of_variant.or_else(|| self.model(&name));
+        }
         project.name = self.get(table, "name").map(|name| name.text);
         project.encoding = self.get(table, "encoding").and_then(|name| {
             let encoding = Encoding::for_label(name.text.as_bytes());

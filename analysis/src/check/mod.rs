@@ -30,6 +30,7 @@ mod timers;
 pub mod unimplemented;
 mod unreachable;
 mod unused;
+pub mod variants;
 mod writes;
 
 use crate::accesses;

@@ -2,18 +2,19 @@
 
 use super::{Failure, Outcome, Result, say};
 use crate::args::ExplainArgs;
-use rungc_models::{Model, ModelId, plc_errors, special};
+use rungc_models::{Model, ModelId, Variant, plc_errors, special};
 use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{DeviceClass, diag};
 use std::fmt::Write;
 
-/// Prints the page of a diagnostic code, an error code of the PLC, an instruction or a special device.
+/// Prints the page of a diagnostic code, an error code of the PLC, an instruction, a special device or a variant of a model.
 pub fn run(args: &ExplainArgs) -> Result {
     let topic = args.topic.trim().to_uppercase();
     let page = codes::find(&args.topic.trim().to_lowercase())
         .map(code_page)
         .or_else(|| plc_error_page(topic.parse().ok()?))
         .or_else(|| special_page(&topic, args.model?))
+        .or_else(|| Variant::find(&topic).map(variant_page))
         .or_else(|| rungc_catalogue::explain(&topic));
     let Some(page) = page else {
         let codes = codes::all()
@@ -24,7 +25,7 @@ pub fn run(args: &ExplainArgs) -> Result {
             .map(|near| format!("; did you mean `{near}`?"))
             .unwrap_or_default();
         return Err(Failure::Because(format!(
-            "`{}` is not a diagnostic code, PLC error code, instruction or special device{hint}",
+            "`{}` is not a diagnostic code, PLC error code, instruction, special device or variant of a model{hint}",
             args.topic
         )));
     };
@@ -82,6 +83,43 @@ fn plc_error_page(number: u16) -> Option<String> {
         }
     }
     Some(page)
+}
+
+/// What a variant or base unit does not have.
+fn variant_page(variant: &Variant) -> String {
+    let family = Model::get(variant.model);
+    let mut page = format!(
+        "{}: a PLC of the family {} ({})\n",
+        variant.title, family.title, family.name
+    );
+    let terminals = [
+        (DeviceClass::X, variant.inputs),
+        (DeviceClass::Y, variant.outputs),
+    ];
+    for (class, count) in terminals {
+        if let Some(count) = count {
+            let (first, last) = (class.number(0), class.number(count - 1));
+            let _ = write!(page, "\n{first} to {last}");
+        }
+    }
+    let last = DeviceClass::Y.number(variant.pulse_outputs - 1);
+    let _ = writeln!(page, "\nPulse outputs: Y000 to {last}");
+    let lacks = variant.lacks.concat().join(" ");
+    if !lacks.is_empty() {
+        let _ = writeln!(
+            page,
+            "\nIt does not have these instructions of its family:\n    {lacks}"
+        );
+    }
+    if !variant.lacks_devices.is_empty() {
+        page += "\nIt does not have these devices:\n";
+        for &(class, first, last) in variant.lacks_devices {
+            let (first, last) = (class.number(first), class.number(last));
+            let _ = writeln!(page, "    {first} to {last}");
+        }
+    }
+    let _ = writeln!(page, "\nSource: {}", variant.source);
+    page
 }
 
 /// What a special device means on one model.

@@ -2,7 +2,7 @@
 
 use super::subject::{self, Subject};
 use super::{Context, Failure, Outcome, Result, counted, parent_dir, say, write_file};
-use crate::args::{Input, LearnArgs, Reading, Reporting};
+use crate::args::{Input, LearnArgs, Plc, Reading, Reporting};
 use rungc_analysis::fitting::fits;
 use rungc_catalogue::Basic;
 use rungc_frontend::{Lesson, Read, ReadOptions, Reading as Taken, learn};
@@ -60,12 +60,16 @@ fn subject(args: &LearnArgs, cx: Context) -> std::result::Result<Subject, Failur
             file,
             project: None,
             model: args.model,
+            variant: None,
             reporting: Reporting::default(),
             options: ReadOptions::default(),
         });
     }
     let reading = Reading {
-        model: args.model,
+        model: args.model.map(|model| Plc {
+            model,
+            variant: None,
+        }),
         project: args.project.clone(),
         ..Reading::default()
     };

@@ -1,11 +1,11 @@
 //! The programs that a command works on: where they are, and which settings hold for each.
 
 use super::{Context, Failure, Outcome, Result, counted, counts, interruption, tell};
-use crate::args::{Format, Input, Inputs, Reading, Reporting};
+use crate::args::{Format, Input, Inputs, Plc, Reading, Reporting};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::ReadOptions;
 use rungc_lower::compile::CompileOptions;
-use rungc_models::ModelId;
+use rungc_models::{ModelId, Variant};
 use rungc_project::serve::Serve;
 use rungc_project::{Error, Project};
 use rungc_syntax::Program;
@@ -26,6 +26,8 @@ pub struct Subject {
     pub project: Option<Rc<Project>>,
     /// The model, if it is chosen; else the program names it.
     pub model: Option<ModelId>,
+    /// The PLC of its family that the program is held to.
+    pub variant: Option<&'static Variant>,
     /// How to report diagnostics.
     pub reporting: Reporting,
     /// How to read it.
@@ -44,6 +46,7 @@ impl Subject {
         let served = self.project.as_ref().map(|project| &project.serve);
         CompileOptions {
             model: self.model,
+            variant: self.variant,
             observe: served.into_iter().flat_map(Serve::stored).collect(),
             warn: warn.iter().chain(&rules.warn).copied().collect(),
             bounds: self
@@ -99,10 +102,19 @@ impl Projects<'_> {
             options.learned = usual.learned;
             options.encoding = options.encoding.or(usual.encoding);
         }
-        let model = project.as_ref().and_then(|project| project.model);
+        let of_project = |project: &Rc<Project>| {
+            let model = project.model?;
+            Some(Plc {
+                model,
+                variant: project.variant,
+            })
+        };
+        let plc = self.reading.model;
+        let plc = plc.or_else(|| project.as_ref().and_then(of_project));
         Ok(Subject {
             file,
-            model: self.reading.model.or(model),
+            model: plc.map(|plc| plc.model),
+            variant: plc.and_then(|plc| plc.variant),
             project,
             reporting,
             options,

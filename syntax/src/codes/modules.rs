@@ -1,4 +1,4 @@
-//! Special modules: what FROM and TO find in those that the settings fit.
+//! The PLC that a program is for: its special modules, its variant, its terminals.
 
 super::codes! {
     NO_MODULE = "W0663" "no-module" Warning None,
@@ -16,6 +16,24 @@ super::codes! {
     READ_ONLY_WORD = "W0665" "read-only-word" Warning None,
     "buffer memory that can only be read",
     "The instruction writes a word that the module itself maintains, such as a measured value or an identification code. The module ignores it.",
+    wrong: "",
+    right: "";
+
+    NOT_ON_VARIANT = "E0670" "not-on-variant" Error None,
+    "instruction that this variant of the PLC does not have",
+    "`--model` or rungc.toml names a variant of a model, such as `h2u-mtq`, and the program uses an instruction that other PLCs of the family have and this one does not. `rungc explain h2u-mtq` lists what it lacks. Compiled programs have the instruction: name the family, `h2u`, if the program is not to run on that PLC.",
+    wrong: "",
+    right: "";
+
+    NO_DEVICE_ON_VARIANT = "E0671" "no-device-on-variant" Error None,
+    "device or pulse output that this variant of the PLC does not have",
+    "The variant of the PLC that `--model` or rungc.toml names has fewer outputs that send pulses, or lacks interrupts, counters or special devices that others of its family have. `rungc explain h2u-mtp` lists what it lacks.",
+    wrong: "",
+    right: "";
+
+    BEYOND_BASE_UNIT = "W0672" "beyond-base-unit" Warning None,
+    "terminal that the base unit does not have",
+    "The program uses inputs or outputs beyond those of the base unit that `--model` or rungc.toml names. They need an extension module.",
     wrong: "",
     right: "";
 }

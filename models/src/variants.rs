@@ -1,0 +1,168 @@
+//! Variants and base units of models, as data: what each has less than its model.
+//!
+//! A model here is a family: H2U is what any H2U has. A program for a certain PLC of the family is held to what that one has.
+
+use crate::ModelId;
+use rungc_syntax::DeviceClass::{self, C, D, I, M};
+
+/// A PLC of a family: a variant, or a base unit with a number of terminals.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// Name on the command line: `h2u-mtq`.
+    pub name: &'static str,
+    /// Full name: `Inovance H2U-MTQ`.
+    pub title: &'static str,
+    /// Its family.
+    pub model: ModelId,
+    /// How many inputs the base unit has, from X000 on; `None`: it comes with several numbers.
+    pub inputs: Option<u32>,
+    /// How many outputs the base unit has, from Y000 on.
+    pub outputs: Option<u32>,
+    /// How many outputs send pulses, from Y000 on.
+    pub pulse_outputs: u32,
+    /// Instructions of its family that it does not have.
+    pub lacks: &'static [&'static [&'static str]],
+    /// Devices of its family that it does not have: class, first and last number.
+    pub lacks_devices: &'static [(DeviceClass, u32, u32)],
+    /// Where that is said.
+    pub source: &'static str,
+}
+
+/// What H2U-MTQ and H2U-MTP do not have (h1u-h2u-programming §8.6).
+const NO_FLOATS: &[&str] = &[
+    "CANTX", "CANRX", "RS2", "MODBUS2", "ECMP", "EZCP", "EMOV", "EBCD", "EBIN", "EADD", "ESUB",
+    "EMUL", "EDIV", "EXP", "LOGE", "LOG10", "ESQR", "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN",
+    "RAD", "DEG", "SINH", "COSH", "TANH", "DSZR", "ABS",
+];
+
+/// What H2U-MTP does not have in addition: everything at high-speed inputs (§8.5).
+const NO_FAST_INPUTS: &[&str] = &["SPD", "HSCS", "HSCR", "HSZ"];
+
+/// Interrupts of a table of counts, and the speed per minute of SPD, which the XP generation does not have (§8.1, §8.7).
+const NOT_ON_XP: &[(DeviceClass, u32, u32)] = &[
+    (I, 507, 530),
+    (M, 8005, 8005),
+    (M, 8084, 8084),
+    (M, 8100, 8105),
+    (D, 8005, 8005),
+    (D, 8084, 8086),
+];
+
+/// High-speed counters, interrupts of inputs, pulse catch.
+const FAST_INPUTS: &[(DeviceClass, u32, u32)] = &[(C, 235, 255), (I, 0, 501), (M, 8170, 8177)];
+
+/// What the XP generation of H2U is.
+const H2U_XP: Variant = Variant {
+    name: "h2u-xp",
+    title: "Inovance H2U-XP",
+    model: ModelId::H2u,
+    inputs: None,
+    outputs: None,
+    pulse_outputs: 3,
+    lacks: &[],
+    lacks_devices: NOT_ON_XP,
+    source: "h1u-h2u-programming §8.1, §8.4",
+};
+
+/// A base unit of H2U.
+const fn h2u(name: &'static str, title: &'static str, inputs: u32, outputs: u32) -> Variant {
+    Variant {
+        name,
+        title,
+        inputs: Some(inputs),
+        outputs: Some(outputs),
+        lacks_devices: &[],
+        source: "h1u-h2u-programming §3.1, §3.2, §8.4",
+        ..H2U_XP
+    }
+}
+
+/// A base unit of H1U.
+const fn h1u(name: &'static str, title: &'static str, inputs: u32, outputs: u32) -> Variant {
+    Variant {
+        model: ModelId::H1u,
+        ..h2u(name, title, inputs, outputs)
+    }
+}
+
+/// All of them.
+pub static VARIANTS: [Variant; 10] = [
+    Variant {
+        name: "h1u-xp",
+        title: "Inovance H1U-XP",
+        model: ModelId::H1u,
+        ..H2U_XP
+    },
+    h1u("h1u-0806", "Inovance H1U-0806", 8, 6),
+    h1u("h1u-1614", "Inovance H1U-1614", 16, 14),
+    H2U_XP,
+    Variant {
+        name: "h2u-mtq",
+        title: "Inovance H2U-MTQ",
+        pulse_outputs: 5,
+        lacks: &[NO_FLOATS],
+        lacks_devices: &[],
+        source: "h1u-h2u-programming §8.4, §8.6",
+        ..H2U_XP
+    },
+    Variant {
+        name: "h2u-mtp",
+        title: "Inovance H2U-MTP",
+        pulse_outputs: 8,
+        lacks: &[NO_FLOATS, NO_FAST_INPUTS],
+        lacks_devices: FAST_INPUTS,
+        source: "h1u-h2u-programming §8.5, §8.6",
+        ..H2U_XP
+    },
+    h2u("h2u-1616", "Inovance H2U-1616", 16, 16),
+    h2u("h2u-3624", "Inovance H2U-3624", 36, 24),
+    h2u("h2u-3232", "Inovance H2U-3232", 32, 32),
+    h2u("h2u-6464", "Inovance H2U-6464", 64, 64),
+];
+
+impl Variant {
+    /// The variant with this name on the command line. Case does not matter.
+    pub fn find(name: &str) -> Option<&'static Variant> {
+        let mut variants = VARIANTS.iter();
+        variants.find(|variant| variant.name.eq_ignore_ascii_case(name))
+    }
+
+    /// The names of all of them: `h1u-xp, h1u-0806, …`.
+    pub fn names() -> String {
+        VARIANTS.each_ref().map(|variant| variant.name).join(", ")
+    }
+
+    /// Whether it has an instruction that its family has.
+    pub fn has_instruction(&self, name: &str) -> bool {
+        !self.lacks.iter().any(|group| group.contains(&name))
+    }
+
+    /// Whether it has a device that its family has.
+    pub fn has(&self, class: DeviceClass, number: u32) -> bool {
+        let mut lacking = self.lacks_devices.iter();
+        !lacking.any(|&(of, first, last)| of == class && (first..=last).contains(&number))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{VARIANTS, Variant};
+    use crate::{Model, ModelId};
+
+    #[test]
+    fn variants_lack_what_their_families_have() {
+        for variant in &VARIANTS {
+            assert_eq!(ModelId::from_name(variant.name), None);
+            assert_eq!(Variant::find(&variant.name.to_uppercase()), Some(variant));
+            let model = Model::get(variant.model);
+            for &(class, first, last) in variant.lacks_devices {
+                let mut numbers = first..=last;
+                assert!(
+                    numbers.any(|n| model.has(class, n)),
+                    "{} {class:?}{first}",
+                    variant.name
+                );
+            }
+        }
+    }
+}
