@@ -493,7 +493,8 @@ pub struct LearnArgs {
 /// Arguments of `explain`.
 #[derive(Args, Debug)]
 pub struct ExplainArgs {
-    /// A diagnostic code (E0106), an instruction (ADD, LD>=), a special device (M8013), or a variant of a model (h2u-mtq).
+    /// A diagnostic code (E0106), an instruction (ADD, LD>=), a special device (M8013), or a variant of a model
+    /// (h2u-mtq).
     pub topic: String,
     /// Model to show special devices for.
     #[arg(long, value_parser = model, value_name = "MODEL")]

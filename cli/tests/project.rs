@@ -220,8 +220,11 @@ fn init_in_folders() {
 
 #[test]
 fn transfers_are_held_to_the_modules() {
-    let program = "LD M8000\nFROM K0 K5 D0 K4\nFROM K0 K30 D10 K1\nFROM K0 K30 D12 K2\nTO K0 K5 D20 K1\nTO K1 K1 K0 K1\nFROM K0 K13 D14 K1\n\
-        MOV U0\\G30 D15\nMOV D16 U0\\G9\nDMOV U0\\G30 D18\nMOV U3\\G0 D17\nTOP K0 K20 K1 K1\nFROM D30 K0 D31 K1\nFROM K0 D30 D32 K1\nEND\n";
+    let program = "LD M8000\nFROM K0 K5 D0 K4\nFROM K0 K30 D10 K1\nFROM K0 K30 D12 K2\n\
+        TO K0 K5 D20 K1\nTO K1 K1 K0 K1\n\
+        FROM K0 K13 D14 K1\n\
+        MOV U0\\G30 D15\nMOV D16 U0\\G9\n\
+        DMOV U0\\G30 D18\nMOV U3\\G0 D17\nTOP K0 K20 K1 K1\nFROM D30 K0 D31 K1\nFROM K0 D30 D32 K1\nEND\n";
     let settings =
         "[project]\nprogram = 'a.il'\nmodel = 'fx3u'\n[[module]]\nat = 0\nkind = 'FX2N-4AD'\n";
     let folder = folder(&[
@@ -236,7 +239,8 @@ fn transfers_are_held_to_the_modules() {
 
 #[test]
 fn programs_are_held_to_a_variant() {
-    let program = "LD X020\nDEADD D0 D2 D4\nPLSY K1000 K0 Y3\nPLSY K1000 K0 Y5\nLD X020\nOUT Y020\nSPD X5 K100 D10\nOUT C251 K5\nLD C251\nOUT M0\nEI\nFEND\nI301\nLD M8000\nINC D6\nIRET\nEND\n";
+    let program = "LD X020\nDEADD D0 D2 D4\nPLSY K1000 K0 Y3\nPLSY K1000 K0 Y5\nLD X020\nOUT Y020\n\
+        SPD X5 K100 D10\nOUT C251 K5\nLD C251\nOUT M0\nEI\nFEND\nI301\nLD M8000\nINC D6\nIRET\nEND\n";
     let settings = "[project]\nprogram = 'a.il'\nmodel = 'h2u-mtq'\n";
     let folder = folder(&[
         ("rungc.toml", settings.as_bytes()),

@@ -1,6 +1,7 @@
 //! Variants and base units of models, as data: what each has less than its model.
 //!
-//! A model here is a family: H2U is what any H2U has. A program for a certain PLC of the family is held to what that one has.
+//! A model here is a family: H2U is what any H2U has. A program for a certain PLC of the family is held to what that
+//! one has.
 
 use crate::ModelId;
 use rungc_syntax::DeviceClass::{self, C, D, I, M};
@@ -38,7 +39,8 @@ const NO_FLOATS: &[&str] = &[
 /// What H2U-MTP does not have in addition: everything at high-speed inputs (§8.5).
 const NO_FAST_INPUTS: &[&str] = &["SPD", "HSCS", "HSCR", "HSZ"];
 
-/// Interrupts of a table of counts, and the speed per minute of SPD, which the XP generation does not have (§8.1, §8.7).
+/// Interrupts of a table of counts, and the speed per minute of SPD, which the XP generation does not have (§8.1,
+/// §8.7).
 const NOT_ON_XP: &[(DeviceClass, u32, u32)] = &[
     (I, 507, 530),
     (M, 8005, 8005),

@@ -195,8 +195,8 @@ pub extern "C" fn rungc_virtual_set_running(running: bool) {
     with(|hal| hal.set_running(running));
 }
 
-/// What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a degree Celsius (2). False if
-/// there is no such input.
+/// What is connected to an input of a module, in millionths of a volt (quantity 0), of a milliampere (1) or of a
+/// degree Celsius (2). False if there is no such input.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_virtual_set_signal(
     unit: u16,

@@ -26,10 +26,10 @@ struct BfmWord {
 
 /// Virtual hardware without allocation.
 ///
-/// A special module that is fitted ([`VirtualHal::fit`]) behaves as its kind does. Any other module is plain memory: it exists as soon as one of its
-/// words has been set ([`VirtualHal::set_bfm`]); its other words are then 0. The clock starts
-/// at 2000-01-01 (a Saturday) and follows the virtual time that [`VirtualHal::advance_to`] sets. Input and output terminals are
-/// the images of the program, so immediate refreshes change nothing.
+/// A special module that is fitted ([`VirtualHal::fit`]) behaves as its kind does. Any other module is plain memory:
+/// it exists as soon as one of its words has been set ([`VirtualHal::set_bfm`]); its other words are then 0. The
+/// clock starts at 2000-01-01 (a Saturday) and follows the virtual time that [`VirtualHal::advance_to`] sets. Input
+/// and output terminals are the images of the program, so immediate refreshes change nothing.
 #[derive(Clone, Debug)]
 pub struct VirtualHal {
     bfm: [BfmWord; BFM_WORDS],
@@ -91,7 +91,8 @@ impl VirtualHal {
         }
     }
 
-    /// Virtual time restarts at 0, as after power off and on; the clock continues where it is, and modules keep what they keep.
+    /// Virtual time restarts at 0, as after power off and on; the clock continues where it is, and modules keep what
+    /// they keep.
     pub fn restart(&mut self) {
         self.now_ms = 0;
         self.lines = [const { VirtualLine::new() }; LINES];
@@ -127,14 +128,16 @@ impl VirtualHal {
         modules.find_map(|(own, module)| (*own == unit).then_some(module))
     }
 
-    /// What is connected to an input of a fitted module from now on; channels are counted from 1. `None` if there is no such input.
+    /// What is connected to an input of a fitted module from now on; channels are counted from 1. `None` if there is
+    /// no such input.
     pub fn set_signal(&mut self, unit: u16, channel: u8, signal: Signal) -> Option<()> {
         let channel = channel.checked_sub(1)?;
         self.module_mut(unit)?.connect(channel, signal)
     }
 
-    /// What is at a channel of a fitted module, in millionths of the quantity's unit: what is connected to an input, or what an output puts
-    /// out; 0 if it is another quantity. Channels are counted from 1. `None` if there is no such channel.
+    /// What is at a channel of a fitted module, in millionths of the quantity's unit: what is connected to an input,
+    /// or what an output puts out; 0 if it is another quantity. Channels are counted from 1. `None` if there is no
+    /// such channel.
     pub fn signal(&self, unit: u16, channel: u8, quantity: Quantity) -> Option<i32> {
         let channel = channel.checked_sub(1)?;
         self.module(unit)?.signal(channel, quantity)

@@ -1,9 +1,8 @@
 //! Arguments of `diff`.
 
-use super::{ReadFrom, Reading, Reporting, encoding, model};
+use super::{Plc, ReadFrom, Reading, Reporting, encoding, plc};
 use clap::{Args, ValueEnum};
 use rungc_frontend::Encoding;
-use rungc_models::ModelId;
 use std::path::PathBuf;
 
 /// Arguments of `diff`.
@@ -26,8 +25,8 @@ pub struct DiffArgs {
     #[arg(long, value_parser = clap::value_parser!(u16).range(40..=1000), value_name = "N")]
     pub width: Option<u16>,
     /// PLC model of both programs. Default: as for `check`.
-    #[arg(long, value_parser = model, value_name = "MODEL")]
-    pub model: Option<ModelId>,
+    #[arg(long, value_parser = plc, value_name = "MODEL")]
+    pub model: Option<Plc>,
     /// Encoding of texts. Default: as for `check`.
     #[arg(long, value_parser = encoding, value_name = "NAME")]
     pub encoding: Option<&'static Encoding>,

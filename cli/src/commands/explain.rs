@@ -7,7 +7,8 @@ use rungc_syntax::codes::{self, Code};
 use rungc_syntax::{DeviceClass, diag};
 use std::fmt::Write;
 
-/// Prints the page of a diagnostic code, an error code of the PLC, an instruction, a special device or a variant of a model.
+/// Prints the page of a diagnostic code, an error code of the PLC, an instruction, a special device or a variant of a
+/// model.
 pub fn run(args: &ExplainArgs) -> Result {
     let topic = args.topic.trim().to_uppercase();
     let page = codes::find(&args.topic.trim().to_lowercase())

@@ -5,7 +5,8 @@ use std::fmt::Write;
 
 /// The page: a table of ranges and a table of buffer memory for each kind, as the runtime holds them.
 pub fn modules() -> String {
-    let mut page = "# Buffer memory of modules\n\nThe special modules that rungc simulates and checks, and what FROM and TO find in them. \
+    let mut page = "# Buffer memory of modules\n\nThe special modules that rungc simulates and checks, and what FROM and TO find in \
+                    them. \
                     [Special modules](../modules.md) says how to fit them. A word that is *kept* outlasts power-off.\n"
         .to_owned();
     for kind in &KINDS {

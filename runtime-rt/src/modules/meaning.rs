@@ -13,12 +13,14 @@ impl Role {
             Role::MeanFahrenheit => "mean value in 0.1 °F",
             Role::PresentFahrenheit => "present value in 0.1 °F",
             Role::Rate => {
-                "time per conversion: 0 is 15 ms, 1 is 6 ms, 1000 to 30000 are microseconds; writing it sets the samples per mean to 8"
+                "time per conversion: 0 is 15 ms, 1 is 6 ms, 1000 to 30000 are microseconds; writing it sets the samples \
+                 per mean to 8"
             }
             Role::InputReset => "1 restores the factory settings of the inputs",
             Role::InputLock => "whether ranges, offset and gain of the inputs may be changed",
             Role::InputTakeOver => {
-                "bits for each input, offset and gain by turns from bit 0: a 1 gives the channel the offset or gain written before"
+                "bits for each input, offset and gain by turns from bit 0: a 1 gives the channel the offset or gain \
+                 written before"
             }
             Role::InputOffset => "offset to take over: the input in mV or µA that is 0",
             Role::InputGain => "gain to take over: the input in mV or µA at 1000",
@@ -34,7 +36,8 @@ impl Role {
                 "a bit for each input: the channel's peaks begin at its present value"
             }
             Role::RangeLatch => {
-                "two bits for each input, too low and too high, the latter also without a sensor; they stay until 0 is written"
+                "two bits for each input, too low and too high, the latter also without a sensor; they stay until 0 is \
+                 written"
             }
             Role::InputError => "error bits of the inputs",
             Role::OutputRanges => {

@@ -1,11 +1,12 @@
 //! Special modules: what their buffer memory holds, as data, and how they behave.
 //!
-//! [`KINDS`] is the table of modules: which words each has ([`Bfm`]), and which ranges its channels have ([`Range`]). [`Module`] is one of
-//! them at work: analog signals come in and go out, FROM and TO read and write its words. The virtual hardware of tests and simulation
-//! fits such modules, and a host whose converters are to look like a module to the program can do the same.
+//! [`KINDS`] is the table of modules: which words each has ([`Bfm`]), and which ranges its channels have ([`Range`]).
+//! [`Module`] is one of them at work: analog signals come in and go out, FROM and TO read and write its words. The
+//! virtual hardware of tests and simulation fits such modules, and a host whose converters are to look like a module
+//! to the program can do the same.
 //!
-//! Sources: h1u-h2u-programming §6.3 to §6.6, and the user's guides of FX2N-4AD, FX2N-4DA, FX2N-2AD, FX2N-2DA, FX0N-3A, FX2N-4AD-PT, FX2N-4AD-TC
-//! and the analog control edition of FX3U.
+//! Sources: h1u-h2u-programming §6.3 to §6.6, and the user's guides of FX2N-4AD, FX2N-4DA, FX2N-2AD, FX2N-2DA,
+//! FX0N-3A, FX2N-4AD-PT, FX2N-4AD-TC and the analog control edition of FX3U.
 
 mod meaning;
 mod tables;
@@ -61,8 +62,9 @@ const THOUSAND: i32 = 1000;
 const MILLIAMPERES_PER_VOLT: i32 = 4;
 
 impl Signal {
-    /// How much of a quantity an input sees, in millionths: a current input that gets a voltage draws what its 250 Ω let through, a
-    /// voltage input that gets a current sees more than it can measure. `None`: no such signal reaches it.
+    /// How much of a quantity an input sees, in millionths: a current input that gets a voltage draws what its 250 Ω
+    /// let through, a voltage input that gets a current sees more than it can measure. `None`: no such signal reaches
+    /// it.
     pub fn seen_as(self, quantity: Quantity) -> Option<i32> {
         use Quantity::{Celsius, Milliamperes, Volts};
         match (self.quantity, quantity) {
@@ -278,7 +280,8 @@ pub enum Start {
     Fx0n3a,
     /// FX2N-2AD: bit 0 chooses an input, the rise of bit 1 starts its conversion.
     Fx2n2ad,
-    /// FX2N-2DA: the fall of bit 2 takes the low byte over, that of bit 1 starts the first output and that of bit 0 the second.
+    /// FX2N-2DA: the fall of bit 2 takes the low byte over, that of bit 1 starts the first output and that of bit 0
+    /// the second.
     Fx2n2da,
 }
 

@@ -35,7 +35,8 @@ struct Output {
 
 /// A special module: its buffer memory and its channels.
 ///
-/// Time passes for it when [`Module::pass`] says so. It converts its open inputs together, once in the time that all of them take.
+/// Time passes for it when [`Module::pass`] says so. It converts its open inputs together, once in the time that all
+/// of them take.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
     kind: &'static Kind,
@@ -196,8 +197,8 @@ impl Module {
         Some(())
     }
 
-    /// What is at a channel, counted from 0: what is connected to an input, or what an output puts out, in millionths; 0 if that is of
-    /// another quantity. `None` if the module does not have the channel.
+    /// What is at a channel, counted from 0: what is connected to an input, or what an output puts out, in
+    /// millionths; 0 if that is of another quantity. `None` if the module does not have the channel.
     pub fn signal(&self, channel: u8, quantity: Quantity) -> Option<i32> {
         let channel = usize::from(channel);
         let inputs = usize::from(self.kind.inputs);
@@ -374,7 +375,8 @@ impl Module {
         }
     }
 
-    /// Writes a word of buffer memory; `None` if the module does not have that many. What is read-only or locked stays as it is.
+    /// Writes a word of buffer memory; `None` if the module does not have that many. What is read-only or locked
+    /// stays as it is.
     pub fn write(&mut self, number: u16, value: i16) -> Option<()> {
         let Some(bfm) = self.kind.bfm(number) else {
             return (number <= self.kind.last).then_some(());
