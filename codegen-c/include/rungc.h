@@ -443,6 +443,16 @@ static inline int32_t plc_root(int32_t value)
     return (int32_t)root;
 }
 
+/* Which is the highest bit that is on, counted from 0; 0 if none is. */
+static inline int32_t plc_highest_bit(int32_t value)
+{
+    int32_t place = 0;
+    for (uint32_t rest = (uint32_t)value >> 1; rest != 0u; rest >>= 1) {
+        place++;
+    }
+    return place;
+}
+
 /* ---- Floats --------------------------------------------------------------------------------------------------------- */
 
 /* Whether it is a number and not infinite. */

@@ -64,6 +64,22 @@ const PAIRS: &[(&str, &str)] = &[
     ("WSFL D0 D1 K30 K3", "WSFL D0 D1Z7 K30 K3"),
     ("WSFL D10 D10 K30 K20", "WSFL D10 D10Z7 K30 K20"),
     ("WSFL D0 D2 K8 K5", "WSFL D0 D2Z7 K8 K5"),
+    ("SFWR D0 D1 K9", "SFWR D0 D1Z7 K9"),
+    ("SFWR K4M0 D1 K3", "SFWR K4M0 D1Z7 K3"),
+    ("SFWR D3 D1 K30", "SFWR D3 D1Z7 K30"),
+    ("SFRD D1 D0 K9", "SFRD D1Z7 D0 K9"),
+    ("SFRD D1 D3 K5", "SFRD D1Z7 D3 K5"),
+    ("SFRD D1 K4M3 K2", "SFRD D1Z7 K4M3 K2"),
+    ("SFRD D1 D0 K30", "SFRD D1Z7 D0 K30"),
+    ("ENCO D0 D1 K4", "ENCO D0 D1 K4Z7"),
+    ("ENCO D0 D0 K2", "ENCO D0 D0 K2Z7"),
+    ("ENCO M0 D0 K1", "ENCO M0 D0 K1Z7"),
+    ("ENCO M0 D0 K2", "ENCO M0 D0 K2Z7"),
+    ("ENCO M3 D0 K5", "ENCO M3 D0 K5Z7"),
+    ("ABSD D0 C0 M0 K8", "ABSD D0Z7 C0 M0 K8"),
+    ("DABSD D0 C200 M3 K4", "DABSD D0Z7 C200 M3 K4"),
+    ("DFMOV D0 D2 K9", "DFMOV D0 D2Z7 K9"),
+    ("DFMOV D3 D4 K17", "DFMOV D3 D4Z7 K17"),
     ("MEAN D0 D9 K8", "MEAN D0Z7 D9 K8"),
     ("ROR D0 K3", "ROR D0 K3Z7"),
 ];
@@ -127,6 +143,11 @@ fn fill(rng: &mut Rng, machines: &mut [Machine; 2]) {
             machine.set_bit(Class::M, n, bit);
         }
     }
+    let count = rng.value(16);
+    for machine in &mut *machines {
+        machine.set_word(Class::C, 0, count as i16);
+        machine.set_counter32(200, count as i32);
+    }
     for n in FLAGS {
         let bit = rng.percent(50);
         for machine in &mut *machines {
@@ -189,6 +210,12 @@ DESQR D0 D2
 DENEG D0
 DINT D0 D2
 ALT M0
+ENCO D0 D1 K4
+ENCO M0 D1 K5
+ABSD D0 C0 M0 K16
+MTR X020 Y020 M30 K3
+SFWR D0 D1 K10
+SFRD D1 D0 K10
 ";
 
 #[test]

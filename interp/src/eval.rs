@@ -67,6 +67,7 @@ fn function(op: UnOp, value: Value) -> Value {
         (UnOp::IsBcd, Value::I16(v)) => Value::Bit(word::is_bcd16(v)),
         (UnOp::IsBcd, v) => Value::Bit(word::is_bcd32(int(v))),
         (UnOp::Root, v) => Value::I32(word::root(int(v))),
+        (UnOp::HighestBit, v) => Value::I32(word::highest_bit(int(v))),
         (UnOp::ToFloat, v) => Value::F32(word::to_float(int(v))),
         (UnOp::Truncate, v) => Value::I32(word::truncate(float(v))),
         (UnOp::IsFinite, v) => Value::Bit(word::is_finite(float(v))),
@@ -97,6 +98,7 @@ impl<'m> Machine<'m> {
             Expr::Sys(SysValue::Running) => Value::Bit(self.sys.running),
             Expr::Sys(SysValue::FirstScan) => Value::Bit(self.sys.first_scan),
             Expr::Sys(SysValue::NowMs) => Value::I32(self.sys.now_ms as i32),
+            Expr::Sys(SysValue::SinceScanMs) => Value::I32(self.sys.dt_ms as i32),
             Expr::Sys(SysValue::Scan100us) => Value::I32((self.sys.scan_us / 100) as i32),
             Expr::Not(_) | Expr::And(..) | Expr::Or(..) => Value::Bit(self.on(id)),
             Expr::Cmp(op, a, b) => Value::Bit(match (self.eval(a), self.eval(b)) {

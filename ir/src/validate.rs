@@ -75,7 +75,11 @@ fn check_expr(module: &Module, at: usize, expr: &Expr) -> Result<(), String> {
         Expr::Entry(table, index) => module.tables.get(table).is_some() && ty(index) == Ty::I32,
         Expr::Flag(flag) => module.flags.get(flag).is_some(),
         Expr::Sys(
-            SysValue::Running | SysValue::FirstScan | SysValue::NowMs | SysValue::Scan100us,
+            SysValue::Running
+            | SysValue::FirstScan
+            | SysValue::NowMs
+            | SysValue::SinceScanMs
+            | SysValue::Scan100us,
         )
         | Expr::Bit(_)
         | Expr::I16(_)

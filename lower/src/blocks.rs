@@ -120,7 +120,6 @@ impl Lowerer<'_> {
             RtFn::Bmov if looked_at(M_BMOV_REVERSE) => return false,
             RtFn::MeanSum if looked_at(M_MEAN_SUM) => return false,
             RtFn::Mean | RtFn::MeanSum if self.wide() => return false,
-            RtFn::Fmov if self.wide() && self.stated(2) > WORDS => return false,
             _ if self.is_odd(function) => return false,
             RtFn::Bmov | RtFn::BmovForward => Self::move_block,
             RtFn::Fmov => Self::fill_block,
@@ -184,7 +183,7 @@ impl Lowerer<'_> {
     }
 
     /// Copies words, a few of them one by one, `backwards` from the last one on.
-    fn copy_words(&mut self, from: Device, to: Device, count: u32, backwards: bool) {
+    pub(super) fn copy_words(&mut self, from: Device, to: Device, count: u32, backwards: bool) {
         if count > WORDS {
             return self.copy_run(from, to, count);
         }
@@ -225,12 +224,15 @@ impl Lowerer<'_> {
         };
         let mut guards = Guards::default();
         let value = self.source(0, &mut guards);
-        self.demand_block(to, if wide { 2 * n } else { n }, &mut guards);
-        let exists = self.exists(to.class, to.number, if wide { 2 * n } else { n });
+        let words = if wide { 2 * n } else { n };
+        self.demand_block(to, words, &mut guards);
+        let exists = self.exists(to.class, to.number, words);
         self.guarded(guards, |this| {
             if n > WORDS {
-                if exists {
-                    this.fill_run(to, n, value);
+                match wide {
+                    _ if !exists => {}
+                    true => this.fill_pairs(to, n, value),
+                    false => this.fill_run(to, n, value),
                 }
                 return;
             }
@@ -241,6 +243,22 @@ impl Lowerer<'_> {
                 this.store(target, value);
             }
         });
+    }
+
+    /// Writes a pair and copies what is there until there are `count`.
+    fn fill_pairs(&mut self, to: Device, count: u32, value: ExprId) {
+        let place = fixed(to.class, to.number);
+        self.emit(Stmt::Write(Access::pair(place), value));
+        let mut there = 1;
+        while there < count {
+            let more = there.min(count - there);
+            let next = Device {
+                number: to.number + 2 * there,
+                ..to
+            };
+            self.copy_run(to, next, 2 * more);
+            there += more;
+        }
     }
 
     /// MEAN of words: its fraction is dropped.
@@ -323,7 +341,7 @@ impl Lowerer<'_> {
         let first = self.device_of(0).unwrap_or(second);
         let runs = match function {
             RtFn::Bmov | RtFn::BmovForward => [(first, n), (second, n)],
-            RtFn::Fmov => [(second, n); 2],
+            RtFn::Fmov => [(second, if self.wide() { 2 * n } else { n }); 2],
             RtFn::Deco => [(second, 1 << n); 2],
             RtFn::Zrst => {
                 let count = second.number.saturating_sub(first.number) + 1;

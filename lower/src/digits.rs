@@ -1,17 +1,21 @@
 //! Instructions on digits and bits of one word, which are inline code where the program states how many: SMOV, RCR and
-//! RCL, DECO of words.
+//! RCL, DECO of words, ENCO.
 
 use super::Lowerer;
 use super::blocks::{bits, register};
-use super::operand::Guards;
+use super::operand::{Guards, fixed};
 use super::words::constant;
-use rungc_ir::node::{Access, BinOp, Expr, ExprId, UnOp};
+use rungc_ir::node::{Access, AccessKind, BinOp, Expr, ExprId, UnOp};
 use rungc_rt::special::{M_CARRY, M_SMOV_HEX};
 use rungc_rt::{CmpOp, RtFn};
 use rungc_syntax::{Device, Instr, OperandKind};
 
 /// The most bits of a word that DECO decodes: a power of 2.
 const DECODED: i32 = 4;
+
+/// Of how many bits ENCO finds the highest, as powers of 2: of a word, of bit devices.
+const ENCODED_OF_WORD: i32 = 4;
+const ENCODED_OF_BITS: i32 = 5;
 
 /// Whether such an instruction is inline code, judging by its operands.
 #[expect(
@@ -36,8 +40,19 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
             let target = kind(1).and_then(register).is_some();
             source && target && stated(2, DECODED).is_some()
         }
+        RtFn::Enco => {
+            let word = kind(0).is_some_and(|operand| is_whole(operand))
+                && stated(2, ENCODED_OF_WORD).is_some();
+            let bits = kind(0).and_then(bits).is_some() && stated(2, ENCODED_OF_BITS).is_some();
+            word || bits
+        }
         _ => false,
     }
+}
+
+/// Whether it is a register or a constant.
+fn is_whole(operand: &OperandKind) -> bool {
+    register(operand).is_some() || constant(operand).is_some()
 }
 
 /// Whether an instruction that is inline code reads the flag of its row, so that others have to set it.
@@ -62,6 +77,7 @@ impl Lowerer<'_> {
             RtFn::Rcr => self.driven(|this| this.rotate_with_carry(true)),
             RtFn::Rcl => self.driven(|this| this.rotate_with_carry(false)),
             RtFn::Deco => self.driven(Self::decode_word),
+            RtFn::Enco => self.driven(Self::encode),
             _ => return false,
         }
         true
@@ -165,6 +181,47 @@ impl Lowerer<'_> {
         let one = self.int(1, false);
         let bit = self.add(Expr::Bin(BinOp::RotateLeft, one, value));
         self.guarded(guards, |this| this.store(target, bit));
+    }
+
+    /// ENCO: the highest bit that is on goes to D; that none is on is an error.
+    fn encode(&mut self) {
+        let count = 1 << self.stated(2);
+        let mut guards = Guards::default();
+        let value = self.bits_as_number(count, &mut guards);
+        let target = self.result(1, &mut guards);
+        self.guarded(guards, |this| {
+            let value = this.settled(value);
+            let none = this.is_int(value, 0, true);
+            let some = this.not(none);
+            this.checked(some, this.model.value_error, |this| {
+                let highest = this.add(Expr::Un(UnOp::HighestBit, value));
+                let highest = this.add(Expr::Narrow(highest));
+                this.store(target, highest);
+            });
+        });
+    }
+
+    /// The `count` bits of operand 0, up to 32, as an `I32`.
+    fn bits_as_number(&mut self, count: u32, guards: &mut Guards) -> ExprId {
+        let first = self.operand(0).and_then(bits);
+        match first {
+            Some(first) if count >= 4 => {
+                self.demand_block(first, count, guards);
+                let digits = (count / 4) as u8;
+                let place = fixed(first.class, first.number);
+                let kind = AccessKind::Nibbles { digits, wide: true };
+                self.add(Expr::Read(kind.at(place)))
+            }
+            Some(_) => {
+                let number = self.decoded(count, guards);
+                self.add(Expr::Widen(number))
+            }
+            None => {
+                let value = self.source(0, guards);
+                let value = self.add(Expr::Widen(value));
+                self.masked(value, (1 << count) - 1, true)
+            }
+        }
     }
 
     /// The number that the low `count` bits of operand 0 are: of a word, or of bit devices.

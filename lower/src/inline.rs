@@ -1,6 +1,6 @@
 //! Which instructions that the runtime has functions for are inline code.
 
-use super::{Lowerer, blocks, digits, times, words};
+use super::{Lowerer, blocks, digits, drums, queues, times, words};
 use rungc_rt::RtFn;
 use rungc_syntax::Instr;
 
@@ -11,6 +11,8 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
         || digits::is_inline(function, instr)
         || times::is_inline(function, instr)
         || blocks::is_inline(function, instr)
+        || queues::is_inline(function, instr)
+        || drums::is_inline(function, instr)
 }
 
 /// Whether the flags of an instruction's row are to be stored: by those that the runtime executes, and by those that
@@ -26,5 +28,7 @@ impl Lowerer<'_> {
             || self.inline_digits(function)
             || self.inline_times(function)
             || self.inline_block(function)
+            || self.inline_queue(function)
+            || self.inline_drum(function)
     }
 }

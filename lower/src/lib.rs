@@ -25,6 +25,7 @@ mod count_rows;
 mod count_table;
 mod density;
 mod digits;
+mod drums;
 mod edges;
 mod flow;
 mod high_speed;
@@ -39,6 +40,7 @@ mod parts;
 mod ports;
 mod protocols;
 mod pulse_width;
+mod queues;
 mod shared_timers;
 mod signals;
 mod special;
@@ -179,6 +181,8 @@ struct Lowerer<'a> {
     named: OnceCell<Vec<bool>>,
     /// How many SPD there are so far.
     densities: usize,
+    /// How many matrices of switches are inline code.
+    matrices: usize,
     /// Statement above a network that has not begun yet.
     heading: Option<String>,
 }
@@ -219,6 +223,7 @@ impl<'a> Lowerer<'a> {
             indexes: Vec::new(),
             named: OnceCell::new(),
             densities: 0,
+            matrices: 0,
             flow,
             diagnostics: Diagnostics::new(),
             at: 0,

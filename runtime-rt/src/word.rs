@@ -121,6 +121,11 @@ pub const fn root(value: i32) -> i32 {
     }
 }
 
+/// Which is the highest bit that is on, counted from 0; 0 if none is (ENCO).
+pub const fn highest_bit(value: i32) -> i32 {
+    (31 - (value | 1).leading_zeros()) as i32
+}
+
 /// The square root of a float that is not below 0, correctly rounded (ESQR).
 pub fn square_root(value: f32) -> f32 {
     libm::sqrtf(value)

@@ -28,6 +28,8 @@ pub enum SysValue {
     FirstScan,
     /// `I32`: milliseconds since power-on, wrapping, constant in a scan.
     NowMs,
+    /// `I32`: milliseconds from the start of the previous scan to the start of this one, wrapping; 0 in the first.
+    SinceScanMs,
     /// `I32`: duration of the last scan in units of 0.1 ms (D8010).
     Scan100us,
 }
@@ -149,14 +151,14 @@ pub fn type_of(exprs: &TiSlice<ExprId, Expr>, temps: &TiSlice<TempId, Ty>, id: E
         | Expr::Float(..)
         | Expr::Un(UnOp::ToFloat | UnOp::Negate | UnOp::SquareRoot, _) => Ty::F32,
         Expr::Un(UnOp::IsBcd | UnOp::IsFinite, _) => Ty::Bit,
-        Expr::Un(UnOp::Root | UnOp::Truncate, _) => Ty::I32,
+        Expr::Un(UnOp::Root | UnOp::HighestBit | UnOp::Truncate, _) => Ty::I32,
         Expr::Un(UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd, a) => {
             type_of(exprs, temps, a)
         }
         Expr::Temp(temp) => temps[temp],
         Expr::Read(access) => access.ty(),
         Expr::Sys(SysValue::Running | SysValue::FirstScan) => Ty::Bit,
-        Expr::Sys(SysValue::NowMs | SysValue::Scan100us) => Ty::I32,
+        Expr::Sys(SysValue::NowMs | SysValue::SinceScanMs | SysValue::Scan100us) => Ty::I32,
         Expr::Bin(_, a, _) | Expr::Complement(a) | Expr::Neg(a) => type_of(exprs, temps, a),
     }
 }

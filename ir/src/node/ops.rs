@@ -87,6 +87,8 @@ pub enum UnOp {
     IsBcd,
     /// `I32`: the integer square root of an `I32`, which must be known to be at least 0.
     Root,
+    /// `I32`: which is the highest bit that is on of an `I32`, counted from 0; one must be known to be on.
+    HighestBit,
     /// `I32` to the nearest `F32`.
     ToFloat,
     /// `F32` to the low 32 bits of its integer part (`I32`), which is held at the ends of 64 bits.
@@ -115,6 +117,7 @@ impl UnOp {
             UnOp::IsBcd if narrow => "is_bcd16",
             UnOp::IsBcd => "is_bcd32",
             UnOp::Root => "root",
+            UnOp::HighestBit => "highest_bit",
             UnOp::ToFloat => "to_float",
             UnOp::Truncate => "truncate",
             UnOp::IsFinite => "is_finite",
@@ -129,7 +132,7 @@ impl UnOp {
             UnOp::SwapBytes | UnOp::CountOnes | UnOp::ToBcd | UnOp::FromBcd | UnOp::IsBcd => {
                 matches!(ty, Ty::I16 | Ty::I32)
             }
-            UnOp::Root | UnOp::ToFloat => matches!(ty, Ty::I32),
+            UnOp::Root | UnOp::HighestBit | UnOp::ToFloat => matches!(ty, Ty::I32),
             UnOp::Truncate | UnOp::IsFinite | UnOp::Negate | UnOp::SquareRoot => {
                 matches!(ty, Ty::F32)
             }

@@ -4,8 +4,9 @@ use crate::cx::Cx;
 use crate::fault::Done;
 use crate::special::{M_COMPLETE, M_HKY_HEX};
 
-/// Milliseconds for which MTR and DSW select a column: longer than the filter of the inputs.
-const MTR_MS: i32 = 20;
+/// Milliseconds for which MTR selects a column: longer than the filter of the inputs.
+pub const MTR_MS: i32 = 20;
+/// Milliseconds for which DSW selects a column.
 const DSW_MS: i32 = 100;
 
 /// Appends a decimal digit to the number at operand `i`, which keeps its last 4 digits, or 8 in the 32-bit form.
