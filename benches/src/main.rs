@@ -43,7 +43,7 @@ enum Section {
     Stations,
     /// Time of a scan with timers, counters and arithmetic.
     Mixed,
-    /// Time of a scan with blocks, conversions and floats.
+    /// Time of a scan with blocks, queues, conversions and floats.
     Process,
     /// Bytes on a microcontroller.
     Size,

@@ -1,4 +1,4 @@
-/* Blocks, shifts, digits and floats, as firmware has them. */
+/* Blocks, shifts, queues, digits and floats, as firmware has them. */
 
 static inline void copy(int16_t *to, const int16_t *from, size_t count) { memmove(to, from, count * sizeof *to); }
 
@@ -10,6 +10,21 @@ static inline void fill(int16_t *to, size_t count, int16_t value) {
 static inline void shift(bool *bits, size_t count, bool enters) {
   memmove(bits + 1, bits, count - 1);
   bits[0] = enters;
+}
+
+/* A queue: its first word counts the entries that follow. A full one stays as it is. */
+static inline void append(int16_t *queue, int words, int16_t value) {
+  if (queue[0] < words - 1) queue[++queue[0]] = value;
+}
+
+/* The oldest entry leaves, the others move down. */
+static inline void take(int16_t *queue, int words, int16_t *to) {
+  if (queue[0] > 0) {
+    const int16_t oldest = queue[1];
+    copy(queue + 1, queue + 2, (size_t)words - 2);
+    queue[0]--;
+    *to = oldest;
+  }
 }
 
 /* Four decimal digits; other values stay. */

@@ -152,7 +152,7 @@ static inline bool plc_take(bool *memory)
 static inline int16_t plc_int16(uint32_t bits)
 {
     const uint16_t low = (uint16_t)(bits & 0xFFFFu);
-    return (low <= INT16_MAX) ? (int16_t)low : (int16_t)((int32_t)low - INT32_C(0x10000));
+    return (int16_t)((low <= INT16_MAX) ? (int32_t)low : (int32_t)low - INT32_C(0x10000));
 }
 
 /* The bits as a signed number. */
@@ -510,16 +510,21 @@ static inline float plc_to_float(int32_t value)
     return (float)value;
 }
 
-/* The low 32 bits of the integer part, which is held at the ends of 64 bits; 0 for no number. */
+/* The low 32 bits of the integer part, which is held at the ends of 64 bits; 0 for no number. In 32 bits: what converts
+   to 64 takes two kilobytes of flash on a microcontroller. */
 static inline int32_t plc_truncate(float value)
 {
     if (value >= -2147483648.0f && value < 2147483648.0f) {
         return (int32_t)value;
     }
-    if (value >= -9223372036854775808.0f && value < 9223372036854775808.0f) {
-        return plc_int32((uint32_t)((uint64_t)(int64_t)value & 0xFFFFFFFFu));
+    const uint32_t bits = (uint32_t)plc_float_bits(value);
+    const uint32_t exponent = bits >> 23 & 0xFFu;
+    const uint32_t digits = (bits & 0x7FFFFFu) | 0x800000u;
+    if (exponent >= 190u) {
+        return (value > 0.0f) ? -1 : 0;
     }
-    return (value > 0.0f) ? -1 : 0;
+    const uint32_t low = (exponent < 182u) ? digits << (exponent - 150u) : 0u;
+    return plc_int32((value < 0.0f) ? 0u - low : low);
 }
 
 /* A result as it is stored: the largest float of its sign where it is too large, the smallest normal one where it is too small but not

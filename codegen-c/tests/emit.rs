@@ -122,6 +122,28 @@ fn host_main_runs_in_real_time() {
     assert!(transcript.contains("X9=1: not an input"), "{transcript}");
 }
 
+/// Firmware that includes `rungc.h` may be compiled with warnings that emitted programs do not ask for.
+#[test]
+fn the_shared_header_has_no_equal_branches() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = rungc_codegen_c::emit(&motor(), &Default::default());
+    let header = files.iter().find(|file| file.path == "rungc.h").unwrap();
+    std::fs::write(folder.path().join("rungc.h"), &header.contents).unwrap();
+    if !build::compilers().contains(&"gcc") {
+        eprintln!("not run: there is no gcc");
+        return;
+    }
+    let compiled = std::process::Command::new("gcc")
+        .args(build::STRICT)
+        .args(["-Wduplicated-branches", "-Wduplicated-cond", "-Wlogical-op"])
+        .args(["-fsyntax-only", "-x", "c", "rungc.h"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&compiled.stderr);
+    assert!(compiled.status.success(), "{said}");
+}
+
 /// Programs of one firmware share `rungc.h`: the first one on the include path serves all, and one of another version
 /// is rejected.
 #[test]

@@ -1,4 +1,5 @@
-//! Queues of words, which are inline code where they are registers and the program states how long they are: SFWR and SFRD.
+//! Queues of words, which are inline code where they are registers and the program states how long they are: SFWR and
+//! SFRD.
 
 use super::Lowerer;
 use super::blocks::register;

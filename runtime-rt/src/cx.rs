@@ -156,7 +156,7 @@ impl<'a> Cx<'a> {
         }
     }
 
-    /// A word of an operand that is no device.
+    /// A word of an operand that is not a device.
     fn word_elsewhere(&self, op: Operand, offset: i32) -> Result<i16, Fault> {
         match op.kind {
             OperandKind::Const | OperandKind::Float => Ok(op.value as i16),

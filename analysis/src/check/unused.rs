@@ -225,14 +225,13 @@ fn summary<'d>(
     let Some((&&(first, span), others)) = found.split_first() else {
         return;
     };
-    let message = match others.len() {
-        0 => format!("`{first}` is {}", what.replace("them", "it")),
-        n => format!("`{first}` and {n} more are {what}"),
+    let (message, them) = match others.len() {
+        0 => (format!("`{first}` is {}", what.replace("them", "it")), "it"),
+        n => (format!("`{first}` and {n} more are {what}"), "them"),
     };
-    let mut diagnostic = code
-        .at(span, message)
-        .label(here)
-        .help("this is fine if an operator panel or another program uses them");
+    let mut diagnostic = code.at(span, message).label(here).help(format!(
+        "this is fine if an operator panel or another program uses {them}"
+    ));
     if !others.is_empty() {
         diagnostic = diagnostic.devices(found.iter().map(|(device, _)| *device));
     }

@@ -5,7 +5,7 @@
 //! | `contacts` | rungs of series and parallel contacts, each coil driven once; contacts are inputs, outputs, recent relays, a few mode flags, and relays from anywhere |
 //! | `stations` | the same eight rungs again and again, each time with the devices of the next station, as machines of several equal stations are programmed |
 //! | `mixed` | `contacts` with timers, counters, moves, arithmetic, SET and RST |
-//! | `process` | `contacts` with moves of blocks, shifts, conversions and floats |
+//! | `process` | `contacts` with moves of blocks, shifts, queues, conversions and floats |
 //!
 //! [`list`](Ladder::list) is the program as an instruction list, [`hand::source`] the C that an engineer would write
 //! for it.
@@ -38,7 +38,7 @@ pub enum Kind {
     Stations,
     /// Timers, counters and arithmetic as well.
     Mixed,
-    /// Blocks, shifts, conversions and floats as well.
+    /// Blocks, shifts, queues, conversions and floats as well.
     Process,
 }
 

@@ -1,5 +1,5 @@
-//! What rungs of `process` drive: moves of blocks, shifts, conversions and floats, as the control of a process has
-//! them.
+//! What rungs of `process` drive: moves of blocks, shifts, queues, conversions and floats, as the control of a process
+//! has them.
 //!
 //! Floats come from words, are added and multiplied once, and become words again, so that none ever leaves the range of
 //! a float.
@@ -18,6 +18,10 @@ const RESULTS: u32 = 240;
 const FLOATS: u32 = 20;
 /// Words that are moved in blocks.
 const BLOCKS: u32 = 300;
+/// Queues.
+const QUEUES: u32 = 560;
+/// How many words each has, with that which counts its entries.
+const QUEUE: u32 = 16;
 /// Words altogether.
 pub const REGISTERS: u32 = 600;
 /// Relays that are shifted.
@@ -53,6 +57,10 @@ pub enum Process {
         /// How many.
         count: u32,
     },
+    /// SFWR: a register's word to a queue.
+    Append(u32, u32),
+    /// SFRD: the oldest word of a queue to a register.
+    Take(u32, u32),
     /// BCD.
     Pack(u32, u32),
     /// ROL by some places.
@@ -74,13 +82,14 @@ use Process::*;
 impl Process {
     /// A random one, and about how many steps it takes.
     pub fn random(random: &mut Random) -> (u32, Process) {
-        let which = random.below(11);
+        let which = random.below(13);
         let [a, b] = [0; 2].map(|_| random.below(WORDS));
         let [x, y, z] = [0; 3].map(|_| 2 * random.below(FLOATS));
         let count = random.between(10, 50);
         let block = BLOCKS + random.below(200);
         let relay = SHIFTED + random.below(200);
         let value = random.below(10_000);
+        let queue = QUEUES + QUEUE * random.below(2);
         match which {
             0 => (
                 7,
@@ -120,6 +129,8 @@ impl Process {
             7 => (13, AddFloats([SOURCES + x, SOURCES + y, RESULTS + z])),
             8 => (13, MultiplyFloats([SOURCES + x, SOURCES + y, RESULTS + z])),
             9 => (5, ToWord(RESULTS + x, a)),
+            10 => (7, Append(a, queue)),
+            11 => (7, Take(queue, b)),
             _ => (5, Constant(value, a)),
         }
     }
@@ -132,6 +143,7 @@ impl Process {
             Copy { from, to, count } => words(from, count).chain(words(to, count)).collect(),
             Fill { from, to, count } => words(from, 1).chain(words(to, count)).collect(),
             Shift { from, to, count } => bits(from, 1).chain(bits(to, count)).collect(),
+            Append(a, queue) | Take(queue, a) => words(a, 1).chain(words(queue, QUEUE)).collect(),
             Pack(a, b) => vec![(D, a), (D, b)],
             Rotate(a, _) | Constant(_, a) => vec![(D, a)],
             ToFloat(a, x) | ToWord(x, a) => words(a, 1).chain(words(x, 2)).collect(),
@@ -148,6 +160,8 @@ impl Process {
             Copy { from, to, count } => writeln!(out, "BMOV D{from} D{to} K{count}"),
             Fill { from, to, count } => writeln!(out, "FMOV D{from} D{to} K{count}"),
             Shift { from, to, count } => writeln!(out, "SFTL M{from} M{to} K{count} K1"),
+            Append(a, queue) => writeln!(out, "SFWR D{a} D{queue} K{QUEUE}"),
+            Take(queue, a) => writeln!(out, "SFRD D{queue} D{a} K{QUEUE}"),
             Pack(a, b) => writeln!(out, "BCD D{a} D{b}"),
             Rotate(a, places) => writeln!(out, "ROL D{a} K{places}"),
             Constant(value, a) => writeln!(out, "MOV K{value} D{a}"),
@@ -166,6 +180,8 @@ impl Process {
             Shift { from, to, count } => {
                 format!("shift(&p->M[{to}], {count}, p->M[{from}]);")
             }
+            Append(a, queue) => format!("append(&p->D[{queue}], {QUEUE}, p->D[{a}]);"),
+            Take(queue, a) => format!("take(&p->D[{queue}], {QUEUE}, &p->D[{a}]);"),
             Pack(a, b) => format!("pack(&p->D[{b}], p->D[{a}]);"),
             Rotate(a, places) => format!("p->D[{a}] = rotate(p->D[{a}], {places});"),
             Constant(value, a) => format!("p->D[{a}] = {value};"),
