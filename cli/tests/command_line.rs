@@ -153,6 +153,14 @@ fn what_an_export_cannot_hold_is_told() {
     let said = |to| text(&rungc(folder.path(), &["convert", "motor.il", "--to", to]).stderr);
     assert!(said("csv").contains("1 device comment omitted"));
     assert!(said("il").is_empty());
+    assert!(said("comments").is_empty());
+    let written = ["convert", "motor.il", "--to", "comments"];
+    let written = rungc(folder.path(), &written).stdout;
+    let text: String =
+        char::decode_utf16(written.chunks(2).map(|c| u16::from_le_bytes([c[0], c[1]])))
+            .map(|c| c.unwrap())
+            .collect();
+    assert!(text.ends_with("\"X000\"\t\"start button\"\r\n"), "{text}");
 }
 
 #[test]

@@ -125,14 +125,20 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
     let mut rows = table(text, layout.delimiter);
     let mut record = StringRecord::new();
     let mut number = 0;
+    let mut head = ExportHead::default();
     while rows.read_record(&mut record).unwrap_or(false) {
         let line = record.position().map_or(0, csv::Position::line);
         reader.listing.go_to_line(line as u32);
         match layout.header {
-            Some(header) if number < header => reader.head(&record, number == 0),
-            Some(header) if number == header => reader
-                .listing
-                .line(&record.iter().collect::<Vec<_>>().join("  ")),
+            Some(header) if number < header => {
+                head.push(&record);
+                reader.head(&record, number == 0);
+            }
+            Some(header) if number == header => {
+                head.push(&record);
+                let titles = record.iter().collect::<Vec<_>>();
+                reader.listing.line(&titles.join("  "));
+            }
             _ => reader.row(&record),
         }
         number += 1;
@@ -142,7 +148,23 @@ pub(crate) fn read(name: &str, text: &str, layout: Layout) -> Read {
     Read {
         program: reader.program,
         diagnostics: reader.diagnostics,
+        export_head: head.in_usual_order(layout).then_some(head),
         ..Read::default()
+    }
+}
+
+/// The rows of a list export above its instructions, in the language of the editor that wrote it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ExportHead(pub(crate) Vec<Vec<String>>);
+
+impl ExportHead {
+    fn push(&mut self, record: &StringRecord) {
+        self.0.push(record.iter().map(str::to_owned).collect());
+    }
+
+    /// Whether the columns below are those of [`HEADERS`], as the writer writes them.
+    fn in_usual_order(&self, layout: Layout) -> bool {
+        !self.0.is_empty() && layout.columns.iter().copied().eq(0..HEADERS.len())
     }
 }
 

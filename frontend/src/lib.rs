@@ -23,6 +23,7 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
+pub use csv::ExportHead;
 pub use encoding_rs::Encoding;
 pub use gx::table::has_code;
 pub use il::read_text;
@@ -39,6 +40,8 @@ pub struct Read {
     pub diagnostics: Diagnostics,
     /// Instructions of a project whose codes nothing proves, in order.
     pub unproven: Vec<Unproven>,
+    /// How a list export begins, if this is one; [`print::to_csv_with`] writes it again.
+    pub export_head: Option<ExportHead>,
 }
 
 /// Options of a reader.

@@ -1,7 +1,7 @@
 //! Writers: the same program as an instruction list or as the editors' list export. What they write reads back to the
 //! same program, save for the source text and places.
 
-use crate::csv::{HEADERS, encode};
+use crate::csv::{ExportHead, HEADERS, encode};
 use crate::il::is_label;
 use rungc_syntax::{Instr, Operand, OperandKind, Program};
 use std::fmt::Write as _;
@@ -187,7 +187,7 @@ pub fn broken_text(program: &Program) -> Option<&Operand> {
 /// The program as a list export, as the editors write it: UTF-16LE with BOM, tabs, every field quoted, English headers.
 /// Device comments go to a separate file: [`comments_to_csv`].
 pub fn to_csv(program: &Program) -> Vec<u8> {
-    let mut rows: Vec<Vec<String>> = vec![
+    let head = vec![
         vec![program.title.clone().unwrap_or_default()],
         vec![
             "PLC Information:".to_owned(),
@@ -199,6 +199,12 @@ pub fn to_csv(program: &Program) -> Vec<u8> {
         ],
         HEADERS.map(str::to_owned).to_vec(),
     ];
+    to_csv_with(program, &ExportHead(head))
+}
+
+/// As [`to_csv`], with the head of the export that the program was read from: an export comes out as the editor wrote it.
+pub fn to_csv_with(program: &Program, head: &ExportHead) -> Vec<u8> {
+    let mut rows = head.0.clone();
     for instr in &program.instrs {
         csv_rows(&mut rows, instr);
     }

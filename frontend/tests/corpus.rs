@@ -84,3 +84,21 @@ fn a_project_and_its_export_are_one_program() {
     assert_eq!(project.cpu, export.cpu);
     assert_eq!(export.cpu.as_deref(), Some("FX2N/FX2NC"));
 }
+
+#[test]
+fn exports_are_written_as_their_editors_wrote_them() {
+    let Some(corpus) = corpus() else { return };
+    let mut found = Vec::new();
+    files(&corpus, "MAIN.csv", &mut found);
+    assert!(found.len() >= 2, "{found:?}");
+    for path in found {
+        let read = rungc_frontend::read(&path).unwrap();
+        let head = read.export_head.as_ref().expect("an export has a head");
+        let written = rungc_frontend::print::to_csv_with(&read.program, head);
+        assert!(
+            written == std::fs::read(&path).unwrap(),
+            "{}",
+            path.display()
+        );
+    }
+}

@@ -222,3 +222,20 @@ fn texts_keep_their_control_characters() {
     );
     assert_eq!(back.program.instrs[2].mnemonic, "END");
 }
+
+#[test]
+fn an_export_keeps_the_language_of_its_head() {
+    let rows = "\"测试\"\r\n\"PLC信息:\"\t\"FXCPU FX3U/FX3UC\"\r\n\
+        \"步号\"\t\"行间声明\"\t\"指令\"\t\"I/O(软元件)\"\t\"空白栏\"\t\"PI声明\"\t\"注解\"\r\n\
+        \"0\"\t\"\"\t\"LD\"\t\"X000\"\t\"\"\t\"\"\t\"\"\r\n\
+        \"1\"\t\"\"\t\"END\"\t\"\"\t\"\"\t\"\"\t\"\"\r\n";
+    let units = std::iter::once(0xFEFF).chain(rows.encode_utf16());
+    let bytes: Vec<u8> = units.flat_map(u16::to_le_bytes).collect();
+    let read = read_bytes("MAIN.csv", &bytes).unwrap();
+    let head = read.export_head.as_ref().unwrap();
+    assert_eq!(print::to_csv_with(&read.program, head), bytes);
+    assert_ne!(print::to_csv(&read.program), bytes, "English without it");
+    let moved = rows.replace("\"步号\"", "\"Q\"");
+    let read = read_bytes("MAIN.csv", moved.as_bytes()).unwrap();
+    assert_eq!(read.export_head, None, "its columns are not the editors'");
+}

@@ -74,6 +74,8 @@ pub enum ConvertTo {
     Il,
     /// The editors' list export (UTF-16, tabs).
     Csv,
+    /// The comments of devices, as the editors export them beside the list (`COMMENT.csv`).
+    Comments,
     /// Program memory of an FX PLC.
     Image,
 }
@@ -83,7 +85,7 @@ impl ConvertTo {
     pub const fn ending(self) -> &'static str {
         match self {
             ConvertTo::Il => "il",
-            ConvertTo::Csv => "csv",
+            ConvertTo::Csv | ConvertTo::Comments => "csv",
             ConvertTo::Image => "bin",
         }
     }
@@ -91,7 +93,7 @@ impl ConvertTo {
     /// What this form is called, if it cannot store comments on devices.
     pub const fn without_comments(self) -> Option<&'static str> {
         match self {
-            ConvertTo::Il => None,
+            ConvertTo::Il | ConvertTo::Comments => None,
             ConvertTo::Csv => Some("a list export"),
             ConvertTo::Image => Some("an image"),
         }

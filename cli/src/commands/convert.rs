@@ -6,8 +6,8 @@ use super::{
 };
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::{Findings, Reporter};
-use rungc_frontend::{image, print};
-use rungc_syntax::{Diagnostics, Program, codes};
+use rungc_frontend::{Read, image, print};
+use rungc_syntax::{Diagnostics, codes};
 use std::io::{self, IsTerminal, Write};
 
 /// Rewrites programs. Nothing is written of one that could not be read whole.
@@ -27,7 +27,7 @@ fn convert(
 ) -> Result {
     let read = read(subject, reporter)?;
     let mut diagnostics = read.diagnostics.clone();
-    let bytes = written(args.to, &read.program, &mut diagnostics);
+    let bytes = written(args.to, &read, &mut diagnostics);
     let findings = Findings::new(
         &subject.file,
         &read.program,
@@ -42,7 +42,7 @@ fn convert(
     if let (Some(what), 1..) = (args.to.without_comments(), comments) {
         let comments = counted(comments, "device comment");
         tell(&format!(
-            "rungc: {comments} omitted, because {what} cannot store them; `--to il` keeps them"
+            "rungc: {comments} omitted, because {what} cannot store them; `--to il` keeps them, and `--to comments` writes them"
         ));
     }
     match &args.output {
@@ -68,7 +68,8 @@ fn convert(
 }
 
 /// A program in an output form; why it cannot take this form is added to the diagnostics.
-pub fn written(to: ConvertTo, program: &Program, diagnostics: &mut Diagnostics) -> Vec<u8> {
+pub fn written(to: ConvertTo, read: &Read, diagnostics: &mut Diagnostics) -> Vec<u8> {
+    let program = &read.program;
     match to {
         ConvertTo::Il => {
             if let Some(text) = print::broken_text(program) {
@@ -82,7 +83,11 @@ pub fn written(to: ConvertTo, program: &Program, diagnostics: &mut Diagnostics) 
             }
             print::to_il(program).into_bytes()
         }
-        ConvertTo::Csv => print::to_csv(program),
+        ConvertTo::Csv => match &read.export_head {
+            Some(head) => print::to_csv_with(program, head),
+            None => print::to_csv(program),
+        },
+        ConvertTo::Comments => print::comments_to_csv(program),
         ConvertTo::Image if program.is_complete() => {
             let image =
                 image::write(program).map_err(|unknown| diagnostics.extend(unknown.sorted()));

@@ -55,7 +55,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     let mut diagnostics = read.diagnostics.clone();
     let bytes = match args.to {
         ConvertTo::Image => memory,
-        to => written(to, &read.program, &mut diagnostics),
+        to => written(to, &read, &mut diagnostics),
     };
     let path = Path::new(&name);
     let findings = Findings::new(path, &read.program, diagnostics, &args.reporting);

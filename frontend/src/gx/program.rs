@@ -556,6 +556,7 @@ impl<'l> Reader<'l> {
             program: self.program,
             diagnostics: self.diagnostics,
             unproven: self.unproven,
+            ..Read::default()
         }
     }
 }
