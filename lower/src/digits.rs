@@ -41,8 +41,7 @@ pub(super) fn is_inline(function: RtFn, instr: &Instr) -> bool {
             source && target && stated(2, DECODED).is_some()
         }
         RtFn::Enco => {
-            let word = kind(0).is_some_and(|operand| is_whole(operand))
-                && stated(2, ENCODED_OF_WORD).is_some();
+            let word = kind(0).is_some_and(is_whole) && stated(2, ENCODED_OF_WORD).is_some();
             let bits = kind(0).and_then(bits).is_some() && stated(2, ENCODED_OF_BITS).is_some();
             word || bits
         }

@@ -114,9 +114,10 @@ impl Lowerer<'_> {
         };
         let columns = self.stated(3);
         let matrix = self.matrix();
-        let stride = match switches.class {
-            DeviceClass::Y => 8,
-            _ => 10,
+        let stride = if switches.class == DeviceClass::Y {
+            8
+        } else {
+            10
         };
         let there = [
             (inputs, 8),
