@@ -5,8 +5,11 @@ mod tools;
 
 use common::{folder, rungc, text};
 use std::fs;
+use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
 
 /// Counts its starts in D200 and its scans in C100, which are latched, and its scans in D0, which is not.
 const COUNTER: &str = "\
@@ -216,4 +219,99 @@ fn latched_devices_of_images_survive() {
     for _ in 0..2 {
         assert_eq!(simulated(at, &in_rust), "      0.000 s  Y003 on");
     }
+}
+
+/// Runs an executable until it is told to quit; what it prints.
+fn until_quit(folder: &Path, program: &Path, args: &[&str]) -> (String, Option<i32>) {
+    let mut child = Command::new(program)
+        .args(args)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    thread::sleep(Duration::from_millis(500));
+    // A program that has ended already reads nothing.
+    let _ = child.stdin.take().unwrap().write_all(b"quit\n");
+    let output = child.wait_with_output().unwrap();
+    let printed = text(&output.stdout) + &text(&output.stderr);
+    (printed, output.status.code())
+}
+
+/// Executables in C and in Rust, and `rungc run`, load what the others have saved.
+#[test]
+fn executables_keep_latched_devices() {
+    let folder = folder(&[
+        ("starts.il", STARTS.as_bytes()),
+        ("pump.il", b"LD X0\nSET M500\nLD M500\nOUT Y0\nEND\n"),
+    ]);
+    let at = folder.path();
+    for args in [
+        ["starts.il", "--emit", "bin", "-o", "in-c"],
+        ["pump.il", "--emit", "bin", "-o", "pump"],
+    ] {
+        let built = rungc(at, &[&["build"], &args[..]].concat());
+        assert!(built.status.success(), "{}", text(&built.stderr));
+    }
+    let rust = [
+        "build",
+        "starts.il",
+        "--emit",
+        "rust",
+        "--main",
+        "-o",
+        "rust",
+    ];
+    assert!(rungc(at, &rust).status.success());
+    let cargo = std::env::var("CARGO").unwrap_or("cargo".to_string());
+    let built = Command::new(cargo)
+        .args(["build", "--quiet", "--offline"])
+        .current_dir(at.join("rust"))
+        .env("CARGO_TARGET_DIR", at.join("target"))
+        .output()
+        .unwrap();
+    assert!(built.status.success(), "{}", text(&built.stderr));
+    let (in_c, in_rust) = (at.join("in-c"), at.join("target/debug/starts"));
+    let retain = ["--retain", "starts.retain"];
+    let (said, _) = until_quit(at, &in_c, &retain);
+    assert!(said.contains("does not exist yet"), "{said}");
+    assert!(said.contains("Y000 on"), "{said}");
+    let (said, _) = until_quit(at, &in_rust, &retain);
+    assert!(
+        said.contains("Y001 on") && said.lines().count() == 1,
+        "{said}"
+    );
+    let third = rungc(
+        at,
+        &[
+            "run",
+            "starts.il",
+            "--retain",
+            "starts.retain",
+            "--watch",
+            "D200",
+        ],
+    );
+    assert_eq!(last(&third), "3");
+    let (said, _) = until_quit(at, &in_c, &retain);
+    assert!(
+        said.contains("Y003 on") && said.lines().count() == 1,
+        "{said}"
+    );
+    let before = fs::read(at.join("starts.retain")).unwrap();
+    let refused = until_quit(at, &at.join("pump"), &retain);
+    let why = "pump: starts.retain holds the latched devices of `starts (fx3u)`, and this program is `pump (fx3u)`; \
+               name another file\n";
+    assert_eq!(refused, (why.to_string(), Some(2)));
+    fs::write(at.join("starts.retain"), &before[..before.len() - 1]).unwrap();
+    let why = "starts.retain does not hold latched devices, or is damaged\n";
+    let refused = until_quit(at, &in_c, &retain);
+    assert_eq!(refused, (format!("starts: {why}"), Some(2)));
+    let (said, code) = until_quit(at, &in_rust, &retain);
+    assert_eq!(code, Some(2));
+    assert!(
+        said.contains("does not hold latched devices, or is damaged"),
+        "{said}"
+    );
 }

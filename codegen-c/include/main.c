@@ -6,6 +6,7 @@
 /* FEATURES */
 
 #include "PROGRAM.h"
+/* INCLUDE */
 
 /* HEADERS */
 
@@ -217,6 +218,7 @@ int main(int argc, char **argv)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     PROGRAM_init(plc);
+    /* LOAD */
     /* HAL */
     while (!stopped) {
         const uint64_t begin = microseconds();
@@ -227,11 +229,13 @@ int main(int argc, char **argv)
         print_outputs(plc, now_ms);
         print_error(plc, now_ms);
         print_stop(plc, now_ms);
+        /* SAVE */
         scan_us = (uint32_t)(microseconds() - begin);
 
         /* PERIOD */
         /* WAIT */
     }
+    /* END */
     /* CONNECTIONS */
     return 0;
 }

@@ -39,7 +39,7 @@ impl Part {
     pub fn new(module: &Module, options: &Options) -> Part {
         let unit = unit::unit(module, options.main && options.servers);
         let name = &module.name;
-        let retain = options.retain && retain::keeps_any(module);
+        let retain = (options.retain || options.main) && cycle::keeps_any(module);
         let shared = Shared {
             runtime: unit.runtime,
             board: options.board || module.takes_events(),

@@ -89,11 +89,15 @@ const LINES: &str = include_str!("../include/main_lines.c");
 /// The servers over TCP.
 const SERVERS: &str = include_str!("../include/main_servers.c");
 
+/// What keeps latched devices in a file.
+const RETAIN: &str = include_str!("../include/main_retain.c");
+
 /// Headers that every host needs, those with serial ports, and those with servers.
 const HEADERS: [&str; 7] = [
     "poll", "signal", "stdio", "stdlib", "string", "time", "unistd",
 ];
 const LINES_HEADERS: [&str; 3] = ["errno", "fcntl", "termios"];
+const RETAIN_HEADERS: [&str; 2] = ["errno", "fcntl"];
 const SERVERS_HEADERS: [&str; 6] = [
     "errno",
     "fcntl",
@@ -187,9 +191,18 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         true => ("        poll_servers(plc);\n", "    print_connections();\n"),
         false => ("", ""),
     };
+    let keeps = rungc_emit::cycle::keeps_any(module);
+    let [include, retain, load, save, end] = if keeps { RETAINING } else { [""; 5] };
     MAIN_C
         .replace("/* FEATURES */", features(module.has_ports()))
-        .replace("/* HEADERS */\n", &headers(module.has_ports(), servers))
+        .replace(
+            "/* HEADERS */\n",
+            &headers(module.has_ports(), servers, keeps),
+        )
+        .replace("/* INCLUDE */\n", include)
+        .replace("    /* LOAD */\n", load)
+        .replace("        /* SAVE */\n", save)
+        .replace("    /* END */\n", end)
         .replace("        /* SERVE */\n", serve)
         .replace("    /* CONNECTIONS */\n", connections)
         .replace("/* MISSING */\n", &missing_device(module, &fields))
@@ -198,6 +211,7 @@ pub fn main_file(module: &Module, servers: bool) -> String {
             &[
                 clock,
                 &lines(module),
+                retain,
                 &hardware,
                 &server_code(module, servers),
             ]
@@ -218,6 +232,16 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         .replace("    /* OUTPUTS */\n", &outputs)
 }
 
+/// What a host that keeps latched devices has: an include, functions, and what is done before, after each and after the
+/// last scan.
+const RETAINING: [&str; 5] = [
+    "#include \"PROGRAM_retain.h\"\n",
+    RETAIN,
+    "    if (!load_kept(plc)) {\n        return 2;\n    }\n",
+    "        save_kept(plc, now_ms, false);\n",
+    "    save_kept(plc, 0, true);\n",
+];
+
 /// What the system's headers are to declare.
 fn features(ports: bool) -> &'static str {
     match ports {
@@ -227,10 +251,12 @@ fn features(ports: bool) -> &'static str {
 }
 
 /// The lines that include the system's headers.
-fn headers(ports: bool, servers: bool) -> String {
+fn headers(ports: bool, servers: bool, retain: bool) -> String {
     let of_lines = LINES_HEADERS.iter().filter(|_| ports);
     let of_servers = SERVERS_HEADERS.iter().filter(|_| servers);
-    let all: BTreeSet<_> = HEADERS.iter().chain(of_lines).chain(of_servers).collect();
+    let of_retain = RETAIN_HEADERS.iter().filter(|_| retain);
+    let usual = HEADERS.iter().chain(of_lines);
+    let all: BTreeSet<_> = usual.chain(of_servers).chain(of_retain).collect();
     let lines = all.into_iter().map(|name| format!("#include <{name}.h>\n"));
     lines.collect()
 }
@@ -251,6 +277,7 @@ fn options(module: &Module, host: &Host) -> String {
     let options = options.map(|option| {
         let call = match option.takes {
             Takes::Line => "open_line(argv[++i])".to_string(),
+            Takes::Retained => "keep_in(argv[++i])".to_string(),
             Takes::Address(speaks) => {
                 let name = speaks.name();
                 let speaks = constant(speaks);

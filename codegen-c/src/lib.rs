@@ -42,7 +42,7 @@ mod writer;
 pub use files::{Part, together};
 pub use makefile::Recipe;
 pub use members::Members;
-pub use retain::{keeps_any, record_len};
+pub use retain::record_len;
 pub use rungc_emit::OutFile;
 pub use rungc_emit::storage::{Memory, memory};
 use rungc_ir::Module;

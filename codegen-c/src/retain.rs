@@ -82,15 +82,6 @@ bool NAME_save_latched(const NAME_plc *plc, rungc_slots *slots)
 }
 ";
 
-/// Whether a program keeps something over power-off.
-pub fn keeps_any(module: &Module) -> bool {
-    let lost = matches!(
-        cycle::latches(module, &Storage::new(module)),
-        Latches::Lost(..)
-    );
-    !lost && !module.retained().is_empty()
-}
-
 /// The text of `NAME_retain.h`, without its first line.
 pub fn header(module: &Module) -> String {
     let upper = module.name.to_ascii_uppercase();

@@ -3,6 +3,7 @@
 use crate::format::documented;
 use crate::generate::{Generator, Item, Uses};
 use crate::{Options, OutFile, Runtime, host};
+use rungc_emit::cycle;
 use rungc_ir::Module;
 use rungc_rt::TimerKind;
 use rungc_runtime_sources::EMITTED_VERSION;
@@ -62,7 +63,7 @@ pub fn program(module: &Module, options: &Options) -> Vec<OutFile> {
         Runtime::At(path) => (path.as_str(), Vec::new()),
     };
     let mut runtime_at = at(runtime_path);
-    if options.main && options.servers {
+    if options.main && (options.servers || cycle::keeps_any(module)) {
         runtime_at.push_str(", features = [\"std\"]");
     }
     let description = format!("PLC program {}", module.source_name);

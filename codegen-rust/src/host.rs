@@ -20,6 +20,9 @@ const LINES: &str = include_str!("../templates/lines.rs");
 /// What opens servers.
 const SERVERS: &str = include_str!("../templates/servers.rs");
 
+/// What keeps latched devices in a file.
+const RETAIN: &str = include_str!("../templates/retain.rs");
+
 /// What a host with serial ports uses of the standard library and of the runtime.
 const LINES_USES: [&str; 5] = [
     "rungc_rt::comm::{LineFormat, Parity, Received}",
@@ -94,6 +97,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         }
         false => "",
     };
+    let keeps = cycle::keeps_any(module);
+    let [save, end] = if keeps { SAVE } else { [""; 2] };
     let (poll, connections) = match servers {
         true => (POLL, CONNECTIONS),
         false => ("", ""),
@@ -112,6 +117,9 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
     if servers {
         code.push_str(SERVERS);
     }
+    if keeps {
+        code.push_str(RETAIN);
+    }
     code.replace("        PERIOD;\n", period)
         .replace("    OVERRUN;\n", overrun)
         .replace("    CLOCK;\n", set)
@@ -119,6 +127,8 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         .replace("    OPEN;\n", &open(module, &host))
         .replace("        SERVE;\n", &format!("{poll}{exchange}"))
         .replace("    CONNECTIONS;\n", connections)
+        .replace("        SAVE;\n", save)
+        .replace("    END;\n", end)
         .replace("OPTION_NAMES", &names.join(", "))
         .replace("        WAIT;\n", wait)
         .replace("FAMILY", &format!("{:?}", module.model.ports))
@@ -142,7 +152,9 @@ fn uses(generator: &Generator, crate_name: &str, servers: bool) -> String {
     let usual = USES.iter().filter(|_| !ports);
     let of_lines = LINES_USES.iter().filter(|_| ports);
     let of_servers = SERVERS_USES.iter().filter(|_| servers);
-    let all = usual.chain(of_lines).chain(of_servers);
+    let retain = "rungc_rt::retain::RetainFile";
+    let of_retain = cycle::keeps_any(module).then_some(&retain);
+    let all = usual.chain(of_lines).chain(of_servers).chain(of_retain);
     let mut all: BTreeSet<String> = all.map(|name| (*name).to_string()).collect();
     all.insert(format!("{crate_name}::{}", generator.type_name));
     all.insert("std::collections::BTreeSet".to_string());
@@ -160,6 +172,9 @@ fn open(module: &Module, host: &Host) -> String {
         return String::from("    options();\n");
     }
     let mut text = String::new();
+    if cycle::keeps_any(module) {
+        text.push_str("    let mut kept: Option<RetainFile> = None;\n");
+    }
     if module.has_ports() {
         text.push_str("    let mut lines = Vec::new();\n");
     }
@@ -170,6 +185,9 @@ fn open(module: &Module, host: &Host) -> String {
         let does = match option.takes {
             Takes::Line => {
                 "Line::connect(&mut plc, &value).map(|line| lines.push(line))".to_string()
+            }
+            Takes::Retained => {
+                "RetainFile::begin(&value, &mut plc, |text| eprintln!(\"{text}\")).map(|file| kept = Some(file))".to_string()
             }
             Takes::Address(speaks) => {
                 format!("open_server(&mut servers, Speaks::{speaks:?}, &value)")
@@ -192,6 +210,20 @@ const OPENED: &str = "            _ => Ok(()),
         }
     }
 ";
+
+/// Latched devices are saved after a scan, and after the last one.
+const SAVE: [&str; 2] = [
+    "        if let Some(file) = &mut kept {
+            let saved = file.poll(&plc, now_ms, 1000);
+            report_unsaved(file, saved);
+        }
+",
+    "    if let Some(mut file) = kept {
+        let saved = file.save(&plc);
+        report_unsaved(&file, saved);
+    }
+",
+];
 
 /// Clients are answered between two scans.
 const POLL: &str = "        if let Some(running) = servers.poll(&mut plc) {

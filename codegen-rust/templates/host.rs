@@ -62,10 +62,12 @@ fn main() {
             }
         }
         reported.add(&plc, now_ms);
+        SAVE;
         scan_us = begin.elapsed().as_micros() as u32;
         PERIOD;
         WAIT;
     }
+    END;
     CONNECTIONS;
 }
 

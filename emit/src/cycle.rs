@@ -115,6 +115,12 @@ pub fn latches(module: &Module, storage: &Storage) -> Latches {
     }
 }
 
+/// Whether a program keeps something over power-off.
+pub fn keeps_any(module: &Module) -> bool {
+    let lost = matches!(latches(module, &Storage::new(module)), Latches::Lost(..));
+    !lost && !module.retained().is_empty()
+}
+
 /// How many steps a scan may repeat ([`Stmt::Watch`]).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Budget {

@@ -1,5 +1,6 @@
 //! The command line of a program's host: which options it takes, and what it says of them.
 
+use crate::cycle::keeps_any;
 use rungc_ir::Module;
 use rungc_rt::comm::service::Speaks;
 use rungc_syntax::text::one_line;
@@ -24,6 +25,8 @@ pub enum Takes {
     Line,
     /// The address of a server.
     Address(Speaks),
+    /// The file that keeps latched devices from run to run.
+    Retained,
 }
 
 /// An option with a value.
@@ -46,8 +49,12 @@ pub fn options(module: &Module, host: &Host) -> Vec<Valued> {
         takes: Takes::Address(speaks),
     });
     let line = module.has_ports().then_some(line);
+    let retain = keeps_any(module).then_some(Valued {
+        name: "--retain",
+        takes: Takes::Retained,
+    });
     let servers = servers.into_iter().filter(|_| host.servers);
-    line.into_iter().chain(servers).collect()
+    line.into_iter().chain(retain).chain(servers).collect()
 }
 
 /// The text for `--help`, line by line.
@@ -76,6 +83,10 @@ pub fn lines(module: &Module, host: &Host) -> Vec<String> {
                     &format!("connect a serial port: {ends}"),
                 );
             }
+            Takes::Retained => option(
+                &format!("{name} FILE"),
+                "keep latched devices in this file from run to run",
+            ),
             Takes::Address(speaks) => option(
                 &format!("{name} ADDRESS"),
                 &format!("serve all devices over TCP: {}", speaks.name()),

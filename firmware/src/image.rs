@@ -56,7 +56,7 @@ impl Image<'_> {
     /// Where latched devices survive, if the board has such memory and the program such devices.
     fn retain(&self) -> Option<&Retain> {
         let retain = self.board.retain.as_ref()?;
-        rungc_codegen_c::keeps_any(self.module).then_some(retain)
+        rungc_emit::cycle::keeps_any(self.module).then_some(retain)
     }
 
     /// How many bytes a record of the program's latched devices takes, and how many of them a slot of the board's

@@ -4,9 +4,11 @@ use super::Loaded;
 use super::record::{self, Source};
 use crate::program::Program;
 use std::ffi::OsString;
+use std::format;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::string::{String, ToString};
 use std::vec::Vec;
 
 /// A file that holds the latched devices of a program. It is replaced as a whole: written under another name, flushed
@@ -57,6 +59,36 @@ impl RetainFile {
             file.saved = Some(record::state(program));
         }
         Ok((file, loaded))
+    }
+
+    /// Opens a file as a host does, which has others say what came of it: `tell` takes what the user may want to know.
+    ///
+    /// # Errors
+    /// Why the file cannot be used. One that holds the latched devices of another program is left as it is.
+    pub fn begin(
+        path: impl Into<PathBuf>,
+        program: &mut dyn Program,
+        tell: impl FnOnce(String),
+    ) -> Result<Self, String> {
+        let (file, loaded) = Self::open(path, program).map_err(|error| error.to_string())?;
+        let path = file.path.display();
+        match loaded {
+            Loaded::Nothing => tell(format!(
+                "{path} does not exist yet: latched devices begin as the PLC leaves the factory"
+            )),
+            Loaded::Foreign(owner) => {
+                let (owner, own) = (owner.as_str(), program.retained().program);
+                return Err(format!(
+                    "holds the latched devices of `{owner}`, and this program is `{own}`; name another file"
+                ));
+            }
+            Loaded::Restored { dropped: 0 } => {}
+            Loaded::Restored { dropped } => tell(format!(
+                "{path}: {dropped} of its devices are dropped: \
+                 the program does not use them as latched devices any more"
+            )),
+        }
+        Ok(file)
     }
 
     /// The file.

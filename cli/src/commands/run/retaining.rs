@@ -3,7 +3,7 @@
 use super::super::{Failure, tell};
 use rungc_interp::Machine;
 use rungc_rt::Program;
-use rungc_rt::retain::{Loaded, RetainFile};
+use rungc_rt::retain::RetainFile;
 use std::path::Path;
 
 /// How often a run in real time looks whether a latched device has changed.
@@ -23,22 +23,8 @@ impl Retaining {
         if machine.retained().runs.is_empty() {
             return Err(because(&"the program has no latched devices"));
         }
-        let (file, loaded) = RetainFile::open(path, machine).map_err(|error| because(&error))?;
-        match loaded {
-            Loaded::Nothing => tell(&format!(
-                "rungc: {shown} does not exist yet: latched devices begin as the PLC leaves the factory"
-            )),
-            Loaded::Foreign(owner) => {
-                let (owner, own) = (owner.as_str(), machine.retained().program);
-                return Err(because(&format!(
-                    "holds the latched devices of `{owner}`, and this program is `{own}`; name another file"
-                )));
-            }
-            Loaded::Restored { dropped: 0 } => {}
-            Loaded::Restored { dropped } => tell(&format!(
-                "rungc: {shown}: {dropped} of its devices are dropped: the program does not use them as latched devices any more"
-            )),
-        }
+        let say = |text: String| tell(&format!("rungc: {text}"));
+        let file = RetainFile::begin(path, machine, say).map_err(|why| because(&why))?;
         Ok(Retaining { file })
     }
 
