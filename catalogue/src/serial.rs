@@ -7,7 +7,9 @@ use rungc_rt::RtFn;
 use rungc_syntax::{DeviceClass, OperandKind};
 
 const SERIAL: &str = "serial communication";
-const INVERTER: &str = "the protocol of Mitsubishi inverters; RS2 and ADPRW reach inverters, too";
+/// What is missing of the inverter instructions: when a request is repeated, and which codes its errors have.
+const INVERTER: &str = "the exchange with Mitsubishi inverters is in no manual at hand; RS2 can send its frames, and ADPRW reaches \
+                        inverters by Modbus";
 const CASSETTE: &str = "memory cassettes";
 
 /// A number of bytes or words: a constant or a register.
@@ -52,6 +54,18 @@ fn answer_words(constants: &[Option<i64>]) -> Option<u32> {
         0x01 | 0x02 | 0x0f => Some(count.div_ceil(16).max(1)),
         0x03 | 0x04 | 0x10 => Some(count.max(1)),
         _ => Some(1),
+    }
+}
+
+/// Devices of ADPRW's data on FX3 (FX3U MODBUS manual §8.3): operand 1 is the function, operand 3 the count, of coils also
+/// where they are packed.
+fn adprw_devices(constants: &[Option<i64>]) -> Option<u32> {
+    match constant(constants, 1)? {
+        0x05..=0x08 | 0x16 => Some(1),
+        0x0b => Some(2),
+        0x0c => Some(36),
+        0x11 => Some(128),
+        _ => constant(constants, 3),
     }
 }
 
@@ -368,13 +382,13 @@ pub(super) const ROWS: &[Inst] = &[
             any("S3"),
             mixed_out("D", BITS.or(DATA)).per(3).changed(),
         ])
-        // FX3U MODBUS manual §8.3: 05, 06, 0F and 10 write constants, too.
+        // FX3U MODBUS manual §8.3: 05, 06, 0F, 10 and 16 write constants, too.
         .variants(&[on(FX3).takes(&[
             any("S"),
             any("S1"),
             any("S2"),
             any("S3"),
-            mixed_out("D", BITS.or(DATA).or(CONSTANTS)).per(3).changed(),
+            mixed_out("D", BITS.or(DATA).or(CONSTANTS)).len_of(adprw_devices).changed(),
         ])])
         .flags(&["M8029"])
         .call(RtFn::AdprwFx3)

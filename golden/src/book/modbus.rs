@@ -24,6 +24,7 @@ pub fn addresses() -> String {
             write_bits,
             read_words,
             write_words,
+            diagnosis: _,
         } = profile.limits;
         // Writing to a String cannot fail.
         let _ = write!(

@@ -10,6 +10,7 @@ impl Session<'_> {
     fn master_limits(&self) -> Limits {
         match (self.plc.ports(), self.status.protocol) {
             (Ports::L01s, Protocol::MasterAscii) => Limits::L01S_ASCII,
+            (Ports::Fx3, _) => Limits::FX3,
             _ => self.profile.limits,
         }
     }

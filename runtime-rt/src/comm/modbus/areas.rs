@@ -121,6 +121,8 @@ pub struct Limits {
     pub read_words: u16,
     /// Registers written (10).
     pub write_words: u16,
+    /// Whether a master knows 07, 08, 0B, 0C, 11 and 16.
+    pub diagnosis: bool,
 }
 
 impl Limits {
@@ -130,6 +132,12 @@ impl Limits {
         write_bits: 1968,
         read_words: 125,
         write_words: 123,
+        diagnosis: false,
+    };
+    /// ADPRW of FX3 (FX3U MODBUS manual JY997D26201 §7.1).
+    pub const FX3: Self = Limits {
+        diagnosis: true,
+        ..Self::STANDARD
     };
     /// H2U writes at most 120 registers (h1u-h2u-programming §5.7).
     pub const H2U: Self = Limits {
@@ -142,6 +150,7 @@ impl Limits {
         write_bits: 800,
         read_words: 50,
         write_words: 50,
+        ..Self::STANDARD
     };
     /// RD3A and WR3A of L01S over ASCII (l01s-programming §8.1.1).
     pub const L01S_ASCII: Self = Limits {

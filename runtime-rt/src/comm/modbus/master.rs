@@ -7,7 +7,7 @@ use super::function::{
     WRITE_COILS, WRITE_REGISTER, WRITE_REGISTERS,
 };
 use super::slave::BROADCAST;
-use super::{COIL_ON, Exception};
+use super::{COIL_ON, Exception, diagnosis};
 use crate::comm::{Frame, LineFault, Map};
 use crate::plc::Class;
 
@@ -58,7 +58,7 @@ impl Buffer {
     }
 
     /// Word number `index`.
-    fn word(self, index: u32, map: &dyn Map) -> Option<u16> {
+    pub(super) fn word(self, index: u32, map: &dyn Map) -> Option<u16> {
         match self.layout {
             Layout::Bits => None,
             Layout::Constant => Some(self.first as u16),
@@ -70,7 +70,7 @@ impl Buffer {
     }
 
     /// Writes word number `index`.
-    fn set_word(self, index: u32, value: u16, map: &mut dyn Map) -> Option<()> {
+    pub(super) fn set_word(self, index: u32, value: u16, map: &mut dyn Map) -> Option<()> {
         match self.layout {
             Layout::Bits | Layout::Constant => None,
             Layout::Words | Layout::HighFirst => {
@@ -135,7 +135,7 @@ impl Buffer {
 pub struct Job {
     /// The slave; 0 for all.
     pub station: u8,
-    /// The function: 01 to 06, 0F, 10.
+    /// The function: 01 to 06, 0F, 10; for FX3's ADPRW also 07, 08, 0B, 0C, 11, 16.
     pub function: u8,
     /// The first address, as on the line.
     pub address: u16,
@@ -148,7 +148,7 @@ pub struct Job {
 impl Job {
     /// Whether a slave answers.
     pub fn is_answered(&self) -> bool {
-        self.station != BROADCAST
+        self.station != BROADCAST && !diagnosis::is_silent(self)
     }
 
     /// Whether it is about coils rather than registers.
@@ -181,6 +181,13 @@ pub fn request(
     map: &dyn Map,
     frame: &mut Frame,
 ) -> Result<(), LineFault> {
+    if limits.diagnosis && diagnosis::is_known(job.function) {
+        let mut writer = Writer::serial(framing, frame);
+        writer.push(job.station);
+        writer.push(job.function);
+        diagnosis::request(job, map, &mut writer)?;
+        return writer.finish();
+    }
     let count = job.count(limits)?;
     if !job.buffer.holds(count, job.coils(), map) {
         return Err(LineFault::Address);
@@ -237,6 +244,7 @@ pub fn accept(
         _ => return Err(LineFault::Command),
     }
     match job.function {
+        function if diagnosis::is_known(function) => diagnosis::accept(job, body, map),
         READ_COILS | READ_INPUTS => {
             expect_data(body, job.count.div_ceil(8))?;
             let there = job.buffer.holds(job.count, true, map);
