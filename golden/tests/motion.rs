@@ -1,6 +1,9 @@
 //! Profiles of moves beside the equations of a trapezoid, as open planners publish them (grbl's `planner.c`, LinuxCNC's
 //! `simple_tp.c`): how many pulses and milliseconds they differ. The table is in `docs/src/motion.md`.
 
+#[path = "motion/homing.rs"]
+mod homing;
+
 use rungc_golden::module;
 use rungc_interp::Machine;
 use rungc_models::ModelId;
@@ -254,6 +257,17 @@ fn the_page_on_motion_shows_how_exact_moves_are() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/motion.md");
     let page = std::fs::read_to_string(page).expect("the page exists");
     let table = table();
+    assert!(
+        page.contains(&table),
+        "docs/src/motion.md has to show\n{table}"
+    );
+}
+
+#[test]
+fn the_page_on_motion_shows_moves_that_inputs_steer() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/motion.md");
+    let page = std::fs::read_to_string(page).expect("the page exists");
+    let table = homing::table();
     assert!(
         page.contains(&table),
         "docs/src/motion.md has to show\n{table}"
