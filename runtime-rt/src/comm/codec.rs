@@ -106,7 +106,7 @@ pub const MODBUS_RTU: Codec = Codec {
     take: |session, received| {
         if !session.is_qlink(received) {
             session.answer::<LONGEST_RTU>(received, |slave, request, _, map, reply| {
-                modbus::answer(&slave.modbus(Framing::Rtu), request, map, reply)
+                modbus::answer_rtu(&slave.modbus(Framing::Rtu), request, map, reply)
             });
         } else if let Some(qlink) = session.codec_of(Protocols::QLINK) {
             qlink.take(session, received);
@@ -138,7 +138,7 @@ pub const MODBUS_ASCII: Codec = Codec {
     cut: |_, _, received| modbus::cut_ascii(received),
     take: |session, received| {
         session.answer::<FRAME>(received, |slave, request, _, map, reply| {
-            modbus::answer(&slave.modbus(Framing::Ascii), request, map, reply)
+            modbus::answer_ascii(&slave.modbus(Framing::Ascii), request, map, reply)
         });
     },
     ..Codec::of("modbus_ascii", Protocols::of(&[Protocol::ModbusAscii]))

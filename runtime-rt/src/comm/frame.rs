@@ -60,14 +60,25 @@ impl<'a> Frame<'a> {
 
     /// Appends the lowest `count` (at most 8) hexadecimal digits of a value, the highest first, in upper case.
     pub fn push_hex(&mut self, value: u32, count: u32) {
-        for digit in (0..count.min(8)).rev() {
-            let digit = (value >> (4 * digit) & 15) as u8;
-            self.push(if digit < 10 {
-                b'0' + digit
-            } else {
-                b'A' + digit - 10
-            });
+        for place in (0..count.min(8)).rev() {
+            self.push(digit((value >> (4 * place)) as u8));
         }
+    }
+
+    /// Replaces each character by its two hexadecimal digits, and puts `first` before them.
+    pub fn spread(&mut self, first: u8) {
+        let end = 1 + 2 * self.len;
+        let Some(bytes) = self.bytes.get_mut(..end) else {
+            self.overflows = true;
+            return;
+        };
+        for at in (0..self.len).rev() {
+            let byte = bytes[at];
+            bytes[1 + 2 * at] = digit(byte >> 4);
+            bytes[2 + 2 * at] = digit(byte);
+        }
+        bytes[0] = first;
+        self.len = end;
     }
 
     /// Replaces the character at `index`, if the frame has one there.
@@ -112,6 +123,14 @@ impl<'a> Frame<'a> {
     /// Whether characters were lost because the buffer is full.
     pub fn overflows(&self) -> bool {
         self.overflows
+    }
+}
+
+/// The hexadecimal digit of the lowest four bits, in upper case.
+fn digit(value: u8) -> u8 {
+    match value & 15 {
+        value @ 0..=9 => b'0' + value,
+        value => b'A' - 10 + value,
     }
 }
 

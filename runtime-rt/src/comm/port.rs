@@ -391,8 +391,10 @@ impl Session<'_> {
             Cut::Whole if self.status.spoiled => self.drop_frame(),
             Cut::Whole => self.take_frame(),
             Cut::Restart => {
-                let last = received.saturating_sub(1);
-                port.buffer.copy_within(last..received, 0);
+                let last = frame.last().copied();
+                if let Some((first, last)) = port.buffer.first_mut().zip(last) {
+                    *first = last;
+                }
                 self.status.received = 1;
                 self.status.spoiled = false;
                 // The character may be a whole frame.

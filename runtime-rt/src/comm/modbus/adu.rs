@@ -1,6 +1,6 @@
 //! Frames around Modbus requests and replies: the parts before and after the function and its data.
 
-use super::check::{CRC_START, crc_step, crc16};
+use super::check::crc16;
 use crate::comm::{Cut, Frame, LineFault, hex_byte};
 
 /// How requests and replies are wrapped on a serial line.
@@ -32,73 +32,71 @@ pub fn cut_ascii(received: &[u8]) -> Cut {
 
 /// The bytes of a frame, from the station number on, without check code.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Body<'a> {
-    /// As they are.
-    Bytes(&'a [u8]),
-    /// As digits, of which all are hexadecimal and the number is even.
-    Digits(&'a [u8]),
-}
+pub(super) struct Body<'a>(pub &'a [u8]);
 
 impl<'a> Body<'a> {
-    /// Takes a serial frame apart. A damaged frame is not answered.
-    pub fn open(framing: Framing, frame: &'a [u8]) -> Result<Self, LineFault> {
+    /// Takes a serial frame apart; the bytes of an ASCII frame come to be in `decoded`. A damaged frame is not answered.
+    pub fn open(
+        framing: Framing,
+        frame: &'a [u8],
+        decoded: &'a mut [u8; LONGEST_RTU],
+    ) -> Result<Self, LineFault> {
         match framing {
             Framing::Rtu => Self::open_rtu(frame),
-            Framing::Ascii => Self::open_ascii(frame),
+            Framing::Ascii => Self::open_ascii(frame, decoded),
         }
     }
 
-    fn open_rtu(frame: &'a [u8]) -> Result<Self, LineFault> {
+    /// Takes an RTU frame apart.
+    pub fn open_rtu(frame: &'a [u8]) -> Result<Self, LineFault> {
         if !(SHORTEST_RTU..=LONGEST_RTU).contains(&frame.len()) {
             return Err(LineFault::Length);
         }
-        let (body, crc) = frame.split_at(frame.len() - 2);
-        if crc != crc16(body).to_le_bytes() {
-            return Err(LineFault::Sum);
+        // The check code of a frame with its check code is 0.
+        match (crc16(frame), frame) {
+            (0, [body @ .., _, _]) => Ok(Body(body)),
+            _ => Err(LineFault::Sum),
         }
-        Ok(Body::Bytes(body))
     }
 
-    fn open_ascii(frame: &'a [u8]) -> Result<Self, LineFault> {
+    /// Takes an ASCII frame apart.
+    pub fn open_ascii(frame: &[u8], decoded: &'a mut [u8; LONGEST_RTU]) -> Result<Self, LineFault> {
         let digits = frame
             .strip_prefix(b":")
             .and_then(|rest| rest.strip_suffix(b"\r\n"))
             .ok_or(LineFault::Form)?;
-        let whole = Body::Digits(digits);
+        let length = digits.len() / 2;
         // The same bytes as in RTU, with one byte of check code rather than two.
-        if digits.len() % 2 == 1 || whole.len() < SHORTEST_RTU - 1 || frame.len() > LONGEST_ASCII {
+        if digits.len() % 2 == 1 || length < SHORTEST_RTU - 1 || frame.len() > LONGEST_ASCII {
             return Err(LineFault::Length);
         }
-        let sum = (0..whole.len()).try_fold(0u8, |sum, n| Some(sum.wrapping_add(whole.byte(n)?)));
-        match sum {
-            Some(0) => Ok(Body::Digits(&digits[..digits.len() - 2])),
-            Some(_) => Err(LineFault::Sum),
-            None => Err(LineFault::Form),
+        let mut sum = 0u8;
+        for (at, place) in (0..length).zip(&mut *decoded) {
+            *place = hex_byte(digits, 2 * at).ok_or(LineFault::Form)?;
+            sum = sum.wrapping_add(*place);
+        }
+        match decoded.get(..length - 1) {
+            Some(body) if sum == 0 => Ok(Body(body)),
+            _ => Err(LineFault::Sum),
         }
     }
 
     /// How many bytes there are.
     pub fn len(&self) -> usize {
-        match self {
-            Body::Bytes(bytes) => bytes.len(),
-            Body::Digits(digits) => digits.len() / 2,
-        }
+        self.0.len()
     }
 
     /// The byte at `at`.
     pub fn byte(&self, at: usize) -> Option<u8> {
-        match self {
-            Body::Bytes(bytes) => bytes.get(at).copied(),
-            Body::Digits(digits) => hex_byte(digits, at.checked_mul(2)?),
-        }
+        self.0.get(at).copied()
     }
 
     /// The word at `at`, high byte first.
     pub fn word(&self, at: usize) -> Option<u16> {
-        Some(u16::from_be_bytes([
-            self.byte(at)?,
-            self.byte(at.checked_add(1)?)?,
-        ]))
+        match self.0.get(at..) {
+            Some(&[high, low, ..]) => Some(u16::from_be_bytes([high, low])),
+            _ => None,
+        }
     }
 
     /// Whether the bit at `index`, counted from the lowest of the byte at `first`, is on.
@@ -108,118 +106,64 @@ impl<'a> Body<'a> {
     }
 }
 
-/// What wraps a frame that is being made.
-#[derive(Clone, Copy, Debug)]
-enum Wrap {
-    Serial(Framing),
-    /// Modbus TCP, under this transaction number.
-    Tcp(u16),
+/// Makes a serial frame of the bytes from the station number on. One that does not fit is none at all.
+pub(super) fn close(framing: Framing, frame: &mut Frame) -> Result<(), LineFault> {
+    match framing {
+        Framing::Rtu => close_rtu(frame),
+        Framing::Ascii => close_ascii(frame),
+    }
 }
 
-/// Where the length of a Modbus TCP frame is.
-const TCP_LENGTH: usize = 4;
-/// Bytes before the unit of a Modbus TCP frame.
-pub(super) const TCP_HEADER: usize = 6;
-
-/// A frame that is being made, from the station number on.
-pub(super) struct Writer<'w, 'f> {
-    frame: &'w mut Frame<'f>,
-    wrap: Wrap,
-    crc: u16,
-    sum: u8,
+/// Appends the check code of an RTU frame.
+pub(super) fn close_rtu(frame: &mut Frame) -> Result<(), LineFault> {
+    frame.push_le16(crc16(frame.as_slice()));
+    fits(frame)
 }
 
-impl<'w, 'f> Writer<'w, 'f> {
-    /// Begins a serial frame.
-    pub fn serial(framing: Framing, frame: &'w mut Frame<'f>) -> Self {
-        Self::begin(Wrap::Serial(framing), frame)
+/// Appends the sum, and replaces the bytes by an ASCII frame.
+pub(super) fn close_ascii(frame: &mut Frame) -> Result<(), LineFault> {
+    frame.push(frame.sum_from(0).wrapping_neg());
+    frame.spread(b':');
+    frame.extend(b"\r\n");
+    fits(frame)
+}
+
+/// Forgets a frame that does not fit.
+pub(super) fn fits(frame: &mut Frame) -> Result<(), LineFault> {
+    if frame.overflows() {
+        frame.clear();
+        return Err(LineFault::Overflow);
+    }
+    Ok(())
+}
+
+/// Appends bits, eight to a byte, the first the lowest; those that fill the last byte are 0.
+pub(super) struct Bits {
+    byte: u8,
+    count: u8,
+}
+
+impl Bits {
+    /// None yet.
+    pub const fn new() -> Self {
+        Bits { byte: 0, count: 0 }
     }
 
-    /// Begins a Modbus TCP frame.
-    pub fn tcp(transaction: u16, frame: &'w mut Frame<'f>) -> Self {
-        Self::begin(Wrap::Tcp(transaction), frame)
-    }
-
-    fn begin(wrap: Wrap, frame: &'w mut Frame<'f>) -> Self {
-        let mut writer = Writer {
-            frame,
-            wrap,
-            crc: CRC_START,
-            sum: 0,
-        };
-        writer.restart();
-        writer
-    }
-
-    /// Forgets what has been appended.
-    pub fn restart(&mut self) {
-        self.frame.clear();
-        self.crc = CRC_START;
-        self.sum = 0;
-        match self.wrap {
-            Wrap::Serial(Framing::Rtu) => {}
-            Wrap::Serial(Framing::Ascii) => self.frame.push(b':'),
-            // Protocol 0; the length is filled in at the end.
-            Wrap::Tcp(transaction) => [transaction, 0, 0]
-                .into_iter()
-                .for_each(|word| self.frame.push_be16(word)),
+    /// Appends one.
+    pub fn push(&mut self, bit: bool, frame: &mut Frame) {
+        self.byte |= u8::from(bit) << self.count;
+        self.count += 1;
+        if self.count == 8 {
+            self.finish(frame);
         }
     }
 
-    /// Appends a byte.
-    pub fn push(&mut self, byte: u8) {
-        match self.wrap {
-            Wrap::Serial(Framing::Ascii) => self.frame.push_hex(byte.into(), 2),
-            _ => self.frame.push(byte),
+    /// Appends those that do not fill a byte.
+    pub fn finish(&mut self, frame: &mut Frame) {
+        if self.count > 0 {
+            frame.push(self.byte);
         }
-        self.crc = crc_step(self.crc, byte);
-        self.sum = self.sum.wrapping_add(byte);
-    }
-
-    /// Appends a word, high byte first.
-    pub fn push_word(&mut self, word: u16) {
-        word.to_be_bytes()
-            .into_iter()
-            .for_each(|byte| self.push(byte));
-    }
-
-    /// Appends bits, eight to a byte, the first the lowest; those that fill the last byte are 0. Ends at the first that is not there.
-    pub fn push_bits(&mut self, bits: impl Iterator<Item = Option<bool>>) -> Option<()> {
-        let (mut byte, mut count) = (0, 0);
-        for bit in bits {
-            byte |= u8::from(bit?) << count;
-            count += 1;
-            if count == 8 {
-                self.push(byte);
-                (byte, count) = (0, 0);
-            }
-        }
-        if count > 0 {
-            self.push(byte);
-        }
-        Some(())
-    }
-
-    /// Appends the check code. A frame that does not fit is none at all.
-    pub fn finish(self) -> Result<(), LineFault> {
-        match self.wrap {
-            Wrap::Serial(Framing::Rtu) => self.frame.push_le16(self.crc),
-            Wrap::Serial(Framing::Ascii) => {
-                self.frame.push_hex(self.sum.wrapping_neg().into(), 2);
-                self.frame.extend(b"\r\n");
-            }
-            Wrap::Tcp(_) => {
-                let length = self.frame.len().saturating_sub(TCP_HEADER) as u16;
-                for (at, byte) in (TCP_LENGTH..).zip(length.to_be_bytes()) {
-                    self.frame.set(at, byte);
-                }
-            }
-        }
-        if self.frame.overflows() {
-            self.frame.clear();
-            return Err(LineFault::Overflow);
-        }
-        Ok(())
+        *self = Self::new();
     }
 }
 
@@ -251,12 +195,16 @@ mod tests {
 
     #[test]
     fn faults_of_frames_are_told_apart() {
-        let rtu = |frame: &[u8]| Body::open(Framing::Rtu, frame).map(|body| body.len());
+        let length = |framing: Framing, frame: &[u8]| {
+            let mut decoded = [0; LONGEST_RTU];
+            Body::open(framing, frame, &mut decoded).map(|body| body.len())
+        };
+        let rtu = |frame: &[u8]| length(Framing::Rtu, frame);
         assert_eq!(rtu(&[1, 3, 0, 0x64, 0, 1, 0xc5, 0xd5]), Ok(6));
         assert_eq!(rtu(&[1, 3, 0, 0x64, 0, 1, 0xd5, 0xc5]), Err(LineFault::Sum));
         assert_eq!(rtu(&[0xff]), Err(LineFault::Length));
         assert_eq!(rtu(&[0; LONGEST_RTU + 1]), Err(LineFault::Length));
-        let ascii = |frame: &[u8]| Body::open(Framing::Ascii, frame).map(|body| body.len());
+        let ascii = |frame: &[u8]| length(Framing::Ascii, frame);
         assert_eq!(ascii(b":01030064000197\r\n"), Ok(6));
         assert_eq!(ascii(b":01030064000198\r\n"), Err(LineFault::Sum));
         assert_eq!(ascii(b":0103006400019\r\n"), Err(LineFault::Length));
@@ -267,11 +215,16 @@ mod tests {
 
     #[test]
     fn a_frame_that_does_not_fit_is_not_sent() {
-        let mut bytes = [0; 4];
-        let mut frame = Frame::new(&mut bytes);
-        let mut writer = Writer::serial(Framing::Rtu, &mut frame);
-        [1, 2, 3].into_iter().for_each(|byte| writer.push(byte));
-        assert_eq!(writer.finish(), Err(LineFault::Overflow));
-        assert!(frame.is_empty());
+        for (framing, room) in [(Framing::Rtu, 4), (Framing::Ascii, 10)] {
+            let mut bytes = [0; 16];
+            let mut frame = Frame::new(&mut bytes[..room]);
+            frame.extend(&[1, 2, 3]);
+            assert_eq!(close(framing, &mut frame), Err(LineFault::Overflow));
+            assert!(frame.is_empty());
+            let mut frame = Frame::new(&mut bytes[..room + 1]);
+            frame.extend(&[1, 2, 3]);
+            assert_eq!(close(framing, &mut frame), Ok(()));
+            assert_eq!(frame.len(), room + 1);
+        }
     }
 }

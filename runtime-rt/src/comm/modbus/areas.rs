@@ -92,22 +92,28 @@ pub(in crate::comm) fn place(areas: &[Area], address: u16) -> Option<Place> {
     areas.iter().find_map(|area| area.place(address))
 }
 
-/// The content of the `count` addresses starting at `first`; `None` where nothing does, or nothing that may be written.
-pub(super) fn places(
-    areas: &'static [Area],
+/// Shows the content of the `count` addresses starting at `first`, with its index; `None` as soon as there is none, or none that may be
+/// written, or `show` gives `None`.
+pub(super) fn visit(
+    areas: &[Area],
     first: u16,
     count: u16,
     writes: bool,
-) -> impl Iterator<Item = Option<Place>> {
+    show: &mut dyn FnMut(u16, Place) -> Option<()>,
+) -> Option<()> {
     // Most ranges lie in one area: the last one is asked first.
     let mut last: Option<&Area> = None;
-    (0..count).map(move |offset| {
-        let address = first.checked_add(offset)?;
-        let found = last.filter(|area| area.place(address).is_some());
-        let area = found.or_else(|| areas.iter().find(|area| area.place(address).is_some()))?;
+    for index in 0..count {
+        let address = first.checked_add(index)?;
+        let mut found = last.into_iter().chain(areas);
+        let (area, place) = found.find_map(|area| Some((area, area.place(address)?)))?;
+        if writes && !area.writable {
+            return None;
+        }
         last = Some(area);
-        area.place(address).filter(|_| area.writable || !writes)
-    })
+        show(index, place)?;
+    }
+    Some(())
 }
 
 /// The largest numbers of coils and registers that one frame may be about.
@@ -315,9 +321,23 @@ pub static HM: Profile = Profile {
 mod tests {
     use super::*;
 
+    /// The contents of addresses, as far as there are some.
+    fn contents(areas: &[Area], first: u16, count: u16, writes: bool) -> std::vec::Vec<Place> {
+        let mut found = std::vec::Vec::new();
+        let all = visit(areas, first, count, writes, &mut |index, place| {
+            assert_eq!(usize::from(index), found.len());
+            found.push(place);
+            Some(())
+        });
+        assert_eq!(all.is_some(), found.len() == usize::from(count));
+        found
+    }
+
     /// The content of one address.
-    fn at(areas: &'static [Area], address: u16) -> Option<Place> {
-        places(areas, address, 1, false).next().flatten()
+    fn at(areas: &[Area], address: u16) -> Option<Place> {
+        let found = contents(areas, address, 1, false).first().copied();
+        assert_eq!(found, place(areas, address));
+        found
     }
 
     #[test]
@@ -363,10 +383,9 @@ mod tests {
 
     #[test]
     fn ranges_run_on_into_the_next_area_and_over_the_end() {
-        let found: std::vec::Vec<_> = places(L01S.registers, 0x1f3f, 2, true).collect();
-        let words = [7999, 8000].map(|n| Some(Place::Word(Class::D, n)));
-        assert_eq!(found, words);
-        assert_eq!(places(H2U.coils, 0xffff, 2, false).flatten().count(), 0);
-        assert_eq!(places(H2U.coils, 0xf800, 1, true).next(), Some(None));
+        let words = [7999, 8000].map(|n| Place::Word(Class::D, n));
+        assert_eq!(contents(L01S.registers, 0x1f3f, 2, true), words);
+        assert_eq!(contents(H2U.coils, 0xffff, 2, false), []);
+        assert_eq!(contents(H2U.coils, 0xf800, 1, true), []);
     }
 }

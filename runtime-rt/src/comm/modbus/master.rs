@@ -1,6 +1,6 @@
 //! Requests of a master, and what the answers mean.
 
-use super::adu::{Body, Framing, Writer};
+use super::adu::{Bits, Body, Framing, LONGEST_RTU, close};
 use super::areas::Limits;
 use super::function::{
     READ_COILS, READ_INPUT_REGISTERS, READ_INPUTS, READ_REGISTERS, REFUSED, WRITE_COIL,
@@ -192,36 +192,39 @@ pub fn request(
     if !job.buffer.holds(count, job.coils(), map) {
         return Err(LineFault::Address);
     }
-    let mut writer = Writer::serial(framing, frame);
-    writer.push(job.station);
-    writer.push(job.function);
-    writer.push_word(job.address);
+    frame.push(job.station);
+    frame.push(job.function);
+    frame.push_be16(job.address);
     let buffer = job.buffer;
-    let coils = || (0..u32::from(count)).map(|index| buffer.coil(index, map));
+    let mut coils = (0..u32::from(count)).map(|index| buffer.coil(index, map));
     let mut words = (0..u32::from(count)).map(|index| buffer.word(index, map).unwrap_or(0));
     match job.function {
         WRITE_COIL => {
             // A register stands for on by any value but 0.
             let on = match buffer.layout {
-                Layout::Bits => coils().next().flatten() == Some(true),
+                Layout::Bits => coils.next().flatten() == Some(true),
                 _ => words.next() != Some(0),
             };
-            writer.push_word(if on { COIL_ON } else { 0 });
+            frame.push_be16(if on { COIL_ON } else { 0 });
         }
-        WRITE_REGISTER => writer.push_word(words.next().unwrap_or(0)),
+        WRITE_REGISTER => frame.push_be16(words.next().unwrap_or(0)),
         WRITE_COILS => {
-            writer.push_word(count);
-            writer.push(count.div_ceil(8) as u8);
-            writer.push_bits(coils()).ok_or(LineFault::Address)?;
+            frame.push_be16(count);
+            frame.push(count.div_ceil(8) as u8);
+            let mut bits = Bits::new();
+            coils
+                .try_for_each(|coil| Some(bits.push(coil?, frame)))
+                .ok_or(LineFault::Address)?;
+            bits.finish(frame);
         }
         WRITE_REGISTERS => {
-            writer.push_word(count);
-            writer.push((2 * count) as u8);
-            words.for_each(|word| writer.push_word(word));
+            frame.push_be16(count);
+            frame.push((2 * count) as u8);
+            words.for_each(|word| frame.push_be16(word));
         }
-        _ => writer.push_word(count),
+        _ => frame.push_be16(count),
     }
-    writer.finish()
+    close(framing, frame)
 }
 
 /// Takes the answer to a job; see the contract of [`crate::comm`]. Nothing is written unless all of it fits the job.
@@ -231,7 +234,8 @@ pub fn accept(
     reply: &[u8],
     map: &mut dyn Map,
 ) -> Result<(), LineFault> {
-    let body = Body::open(framing, reply)?;
+    let mut decoded = [0; LONGEST_RTU];
+    let body = Body::open(framing, reply, &mut decoded)?;
     if body.byte(0) != Some(job.station) {
         return Err(LineFault::Address);
     }
@@ -269,7 +273,8 @@ pub fn accept(
 
 /// The function and the code of an answer that rejects the request of a job.
 pub fn refusal(framing: Framing, job: &Job, reply: &[u8]) -> Option<[u8; 2]> {
-    let body = Body::open(framing, reply).ok()?;
+    let mut decoded = [0; LONGEST_RTU];
+    let body = Body::open(framing, reply, &mut decoded).ok()?;
     let function = body.byte(1)?;
     let refuses = body.byte(0) == Some(job.station) && function == job.function | REFUSED;
     Some([function, body.byte(2)?]).filter(|_| refuses)

@@ -39,6 +39,7 @@ pub use check::{CRC_START, crc_step, crc16};
 pub use exchange::{End, Exchange, Visit};
 pub use master::{Buffer, Job, Layout, accept, refusal, request};
 pub use slave::{Settings, answer};
+pub(super) use slave::{answer_ascii, answer_rtu};
 
 use super::LineFault;
 

@@ -1,7 +1,7 @@
 //! Answers of a slave.
 
-use super::adu::{Body, Framing, Writer};
-use super::areas::{Place, places};
+use super::adu::{Bits, Body, Framing, LONGEST_RTU, close_ascii, close_rtu};
+use super::areas::{Place, place, visit};
 use super::function::{
     READ_COILS, READ_INPUT_REGISTERS, READ_INPUTS, READ_REGISTERS, REFUSED, WRITE_COIL,
     WRITE_COILS, WRITE_REGISTER, WRITE_REGISTERS,
@@ -27,55 +27,98 @@ const STATIONS: core::ops::RangeInclusive<u8> = 1..=247;
 pub(super) const BROADCAST: u8 = 0;
 
 /// Answers a frame, which silence (RTU) or a line feed (ASCII) has ended; see the contract of [`crate::comm`].
-pub fn answer(
+pub fn answer<M: Map + ?Sized>(
     settings: &Settings,
     request: &[u8],
-    map: &mut dyn Map,
+    map: &mut M,
     reply: &mut Frame,
 ) -> Result<(), LineFault> {
-    let station = u8::try_from(settings.station)
-        .ok()
-        .filter(|station| STATIONS.contains(station))
-        .ok_or(LineFault::Station)?;
-    let body = Body::open(settings.framing, request)?;
-    let to = body.byte(0).unwrap_or(BROADCAST);
-    if to != station && to != BROADCAST {
-        return Ok(());
+    match settings.framing {
+        Framing::Rtu => answer_rtu(settings, request, map, reply),
+        Framing::Ascii => answer_ascii(settings, request, map, reply),
     }
-    let mut writer = Writer::serial(settings.framing, reply);
-    writer.push(to);
-    if to == BROADCAST {
-        let function = body.byte(1).unwrap_or(0);
-        let writes = [WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS].contains(&function);
-        let done = match writes {
-            true => serve(settings.profile, function, body, map, &mut writer),
-            false => Ok(()),
-        };
-        reply.clear();
-        return done.map_err(Exception::fault);
+}
+
+/// Answers an RTU frame, whatever the settings say.
+pub(in crate::comm) fn answer_rtu<M: Map + ?Sized>(
+    settings: &Settings,
+    request: &[u8],
+    map: &mut M,
+    reply: &mut Frame,
+) -> Result<(), LineFault> {
+    let station = settings.station()?;
+    let body = Body::open_rtu(request)?;
+    let done = answer_body(settings.profile, station, body, map, reply);
+    if !reply.is_empty() {
+        close_rtu(reply)?;
     }
-    let done = serve_or_refuse(settings.profile, body, map, &mut writer);
-    writer.finish()?;
     done
 }
 
-/// Answers the request in `body`, from the station on, with data or with a refusal. The station is in the reply already.
-pub(super) fn serve_or_refuse(
+/// Answers an ASCII frame, whatever the settings say.
+pub(in crate::comm) fn answer_ascii<M: Map + ?Sized>(
+    settings: &Settings,
+    request: &[u8],
+    map: &mut M,
+    reply: &mut Frame,
+) -> Result<(), LineFault> {
+    let station = settings.station()?;
+    let mut decoded = [0; LONGEST_RTU];
+    let body = Body::open_ascii(request, &mut decoded)?;
+    let done = answer_body(settings.profile, station, body, map, reply);
+    if !reply.is_empty() {
+        close_ascii(reply)?;
+    }
+    done
+}
+
+impl Settings {
+    /// The station, if it may answer.
+    fn station(&self) -> Result<u8, LineFault> {
+        let station = u8::try_from(self.station).ok();
+        let station = station.filter(|station| STATIONS.contains(station));
+        station.ok_or(LineFault::Station)
+    }
+}
+
+/// Answers the request in `body`, if it is for this station or for all, without check code.
+fn answer_body<M: Map + ?Sized>(
+    profile: &Profile,
+    station: u8,
+    body: Body,
+    map: &mut M,
+    reply: &mut Frame,
+) -> Result<(), LineFault> {
+    let [to, function] = [0, 1].map(|at| body.byte(at).unwrap_or(0));
+    if to == station {
+        return serve_or_refuse(profile, body, map, reply);
+    }
+    let writes = [WRITE_COIL, WRITE_REGISTER, WRITE_COILS, WRITE_REGISTERS].contains(&function);
+    if to != BROADCAST || !writes {
+        return Ok(());
+    }
+    let done = serve(profile, body, map, reply);
+    reply.clear();
+    done.map_err(Exception::fault)
+}
+
+/// Answers the request in `body`, from the station on, with data or with a refusal after what is in the reply already.
+pub(super) fn serve_or_refuse<M: Map + ?Sized>(
     profile: &Profile,
     body: Body,
-    map: &mut dyn Map,
-    reply: &mut Writer,
+    map: &mut M,
+    reply: &mut Frame,
 ) -> Result<(), LineFault> {
-    let function = body.byte(1).unwrap_or(0);
-    serve(profile, function, body, map, reply).map_err(|why| {
+    let begin = reply.len();
+    serve(profile, body, map, reply).map_err(|why| {
+        reply.truncate(begin);
         refuse(body, why, reply);
         why.fault()
     })
 }
 
-/// Makes a reply the refusal of the request in `body`.
-pub(super) fn refuse(body: Body, why: Exception, reply: &mut Writer) {
-    reply.restart();
+/// Appends the refusal of the request in `body`.
+pub(super) fn refuse(body: Body, why: Exception, reply: &mut Frame) {
     reply.push(body.byte(0).unwrap_or(0));
     reply.push(body.byte(1).unwrap_or(0) | REFUSED);
     reply.push(why.code());
@@ -85,28 +128,25 @@ pub(super) fn refuse(body: Body, why: Exception, reply: &mut Writer) {
 const DATA: usize = 7;
 
 /// Carries out a request. Nothing is written unless all of it can be.
-fn serve(
+fn serve<M: Map + ?Sized>(
     profile: &Profile,
-    function: u8,
     body: Body,
-    map: &mut dyn Map,
-    reply: &mut Writer,
+    map: &mut M,
+    reply: &mut Frame,
 ) -> Result<(), Exception> {
-    let limits = profile.limits;
-    match function {
-        READ_COILS => read_bits(profile.coils, limits.read_bits, body, map, reply),
-        READ_INPUTS => read_bits(profile.inputs, limits.read_bits, body, map, reply),
-        READ_REGISTERS => read_words(profile.registers, limits.read_words, body, map, reply),
-        READ_INPUT_REGISTERS => {
-            let areas = profile.input_registers;
-            read_words(areas, limits.read_words, body, map, reply)
-        }
-        WRITE_COIL => write_coil(profile, body, map, reply),
-        WRITE_REGISTER => write_register(profile, body, map, reply),
-        WRITE_COILS => write_coils(profile, body, map, reply),
-        WRITE_REGISTERS => write_registers(profile, body, map, reply),
-        _ => Err(Exception::Function),
-    }
+    let limits = &profile.limits;
+    let (areas, most, bits) = match body.byte(1).unwrap_or(0) {
+        READ_COILS => (profile.coils, limits.read_bits, true),
+        READ_INPUTS => (profile.inputs, limits.read_bits, true),
+        READ_REGISTERS => (profile.registers, limits.read_words, false),
+        READ_INPUT_REGISTERS => (profile.input_registers, limits.read_words, false),
+        WRITE_COIL => return write_one(profile, true, body, map, reply),
+        WRITE_REGISTER => return write_one(profile, false, body, map, reply),
+        WRITE_COILS => return write_several(profile, true, body, map, reply),
+        WRITE_REGISTERS => return write_several(profile, false, body, map, reply),
+        _ => return Err(Exception::Function),
+    };
+    read(areas, most, bits, body, map, reply)
 }
 
 /// Address and quantity of a request, which has this many bytes and is about 1 to `most` devices.
@@ -119,65 +159,46 @@ fn range(body: Body, length: usize, most: u16) -> Result<(u16, u16), Exception> 
     }
 }
 
-/// Where the range and data of a request to write several end: quantity, number of bytes and length agree.
-fn range_with_data(body: Body, most: u16, bits: bool) -> Result<(u16, u16), Exception> {
-    let bytes = body.byte(DATA - 1).ok_or(Exception::Value)?;
-    let (first, count) = range(body, DATA + usize::from(bytes), most)?;
-    let needed = match bits {
-        true => count.div_ceil(8),
-        false => 2 * count,
-    };
-    if u16::from(bytes) == needed {
-        Ok((first, count))
-    } else {
-        Err(Exception::Value)
+/// How many bytes of data there are for a quantity, which is within the limits of a frame.
+fn bytes_of(count: u16, bits: bool) -> u8 {
+    match bits {
+        true => count.div_ceil(8) as u8,
+        false => (2 * count) as u8,
     }
 }
 
-fn read_bits(
-    areas: &'static [Area],
+fn read<M: Map + ?Sized>(
+    areas: &[Area],
     most: u16,
+    bits: bool,
     body: Body,
-    map: &dyn Map,
-    reply: &mut Writer,
+    map: &mut M,
+    reply: &mut Frame,
 ) -> Result<(), Exception> {
     let (first, count) = range(body, 6, most)?;
-    reply.push(body.byte(1).unwrap_or(0));
-    reply.push(count.div_ceil(8) as u8);
-    let bits = places(areas, first, count, false).map(|place| match place? {
-        Place::Bit(class, n) => map.bit(class, n),
-        _ => None,
+    [0, 1].map(|at| reply.push(body.byte(at).unwrap_or(0)));
+    reply.push(bytes_of(count, bits));
+    let mut packed = Bits::new();
+    let done = visit(areas, first, count, false, &mut |_, place| {
+        let value = value(place, map)?;
+        match bits {
+            true => packed.push(value != 0, reply),
+            false => reply.push_be16(value),
+        }
+        Some(())
     });
-    reply.push_bits(bits).ok_or(Exception::Address)
+    packed.finish(reply);
+    done.ok_or(Exception::Address)
 }
 
-fn read_words(
-    areas: &'static [Area],
-    most: u16,
-    body: Body,
-    map: &dyn Map,
-    reply: &mut Writer,
-) -> Result<(), Exception> {
-    let (first, count) = range(body, 6, most)?;
-    reply.push(body.byte(1).unwrap_or(0));
-    reply.push((2 * count) as u8);
-    for place in places(areas, first, count, false) {
-        let word = place
-            .and_then(|place| word(place, map))
-            .ok_or(Exception::Address)?;
-        reply.push_word(word);
-    }
-    Ok(())
-}
-
-/// The register at a place.
-fn word(place: Place, map: &dyn Map) -> Option<u16> {
+/// The register or the coil at a place.
+fn value<M: Map + ?Sized>(place: Place, map: &M) -> Option<u16> {
     match place {
-        Place::Bit(..) => None,
+        Place::Bit(class, n) => map.bit(class, n).map(u16::from),
         Place::Word(class, n) => map.word(class, n).map(|word| word as u16),
         Place::Half { counter, high } => {
-            let halves = words(map.counter32(counter)?);
-            Some(halves[usize::from(high)] as u16)
+            let value = map.counter32(counter)?;
+            Some((if high { value >> 16 } else { value }) as u16)
         }
         Place::Packed(class, first) => (0..16).try_fold(0, |word, bit| {
             Some(word | u16::from(map.bit(class, first + bit)?) << bit)
@@ -185,10 +206,10 @@ fn word(place: Place, map: &dyn Map) -> Option<u16> {
     }
 }
 
-/// Writes the register at a place.
-fn set_word(place: Place, value: u16, map: &mut dyn Map) -> Option<()> {
+/// Writes the register or the coil at a place.
+fn set_value<M: Map + ?Sized>(place: Place, value: u16, map: &mut M) -> Option<()> {
     match place {
-        Place::Bit(..) => None,
+        Place::Bit(class, n) => map.set_bit(class, n, value != 0),
         Place::Word(class, n) => map.set_word(class, n, value as i16),
         Place::Half { counter, high } => {
             let [low, old_high] = words(map.counter32(counter)?);
@@ -205,95 +226,79 @@ fn set_word(place: Place, value: u16, map: &mut dyn Map) -> Option<()> {
     }
 }
 
-/// Appends the first six bytes of the request after its station: the answer to a write.
-fn confirm(body: Body, reply: &mut Writer) {
-    (1..6)
-        .filter_map(|at| body.byte(at))
-        .for_each(|byte| reply.push(byte));
+/// Writes the values to the places of a range, if all of them are there.
+fn write<M: Map + ?Sized>(
+    areas: &[Area],
+    (first, count): (u16, u16),
+    map: &mut M,
+    new: &dyn Fn(u16) -> Option<u16>,
+) -> Option<()> {
+    visit(areas, first, count, true, &mut |_, place| {
+        value(place, map).map(drop)
+    })?;
+    visit(areas, first, count, true, &mut |index, place| {
+        set_value(place, new(index)?, map)
+    })
 }
 
-fn write_coil(
+/// Appends the first six bytes of the request: the answer to a write.
+fn confirm(written: Option<()>, body: Body, reply: &mut Frame) -> Result<(), Exception> {
+    written.ok_or(Exception::Address)?;
+    body.0.iter().take(6).for_each(|&byte| reply.push(byte));
+    Ok(())
+}
+
+/// 05 and 06.
+fn write_one<M: Map + ?Sized>(
     profile: &Profile,
+    coil: bool,
     body: Body,
-    map: &mut dyn Map,
-    reply: &mut Writer,
+    map: &mut M,
+    reply: &mut Frame,
 ) -> Result<(), Exception> {
-    let (Some(address), Some(value), 6) = (body.word(2), body.word(4), body.len()) else {
+    let (Some(address), Some(new), 6) = (body.word(2), body.word(4), body.len()) else {
         return Err(Exception::Value);
     };
-    if !profile.any_value_is_on && value != 0 && value != COIL_ON {
+    if coil && !profile.any_value_is_on && new != 0 && new != COIL_ON {
         return Err(Exception::Value);
     }
-    match places(profile.coils, address, 1, true).next().flatten() {
-        Some(Place::Bit(class, n)) if map.bit(class, n).is_some() => {
-            map.set_bit(class, n, value != 0).ok_or(Exception::Address)
-        }
-        _ => Err(Exception::Address),
-    }?;
-    confirm(body, reply);
-    Ok(())
-}
-
-fn write_register(
-    profile: &Profile,
-    body: Body,
-    map: &mut dyn Map,
-    reply: &mut Writer,
-) -> Result<(), Exception> {
-    let (Some(address), Some(value), 6) = (body.word(2), body.word(4), body.len()) else {
-        return Err(Exception::Value);
+    let areas = match coil {
+        true => profile.coils,
+        false => profile.registers,
     };
-    let place = places(profile.registers, address, 1, true).next().flatten();
-    let place = place
-        .filter(|place| profile.counters_by_06 || !matches!(place, Place::Half { .. }))
-        .filter(|&place| word(place, map).is_some())
-        .ok_or(Exception::Address)?;
-    set_word(place, value, map).ok_or(Exception::Address)?;
-    confirm(body, reply);
-    Ok(())
-}
-
-fn write_coils(
-    profile: &Profile,
-    body: Body,
-    map: &mut dyn Map,
-    reply: &mut Writer,
-) -> Result<(), Exception> {
-    let (first, count) = range_with_data(body, profile.limits.write_bits, true)?;
-    let coils = || places(profile.coils, first, count, true);
-    let all_there = coils()
-        .all(|place| matches!(place, Some(Place::Bit(class, n)) if map.bit(class, n).is_some()));
-    if !all_there {
+    let half = matches!(place(areas, address), Some(Place::Half { .. }));
+    if half && !profile.counters_by_06 {
         return Err(Exception::Address);
     }
-    for (index, place) in coils().enumerate() {
-        if let (Some(Place::Bit(class, n)), Some(on)) = (place, body.bit(DATA, index)) {
-            map.set_bit(class, n, on).ok_or(Exception::Address)?;
-        }
-    }
-    confirm(body, reply);
-    Ok(())
+    let written = write(areas, (address, 1), map, &|_| Some(new));
+    confirm(written, body, reply)
 }
 
-fn write_registers(
+/// 0F and 10: quantity, number of bytes and length agree.
+fn write_several<M: Map + ?Sized>(
     profile: &Profile,
+    coils: bool,
     body: Body,
-    map: &mut dyn Map,
-    reply: &mut Writer,
+    map: &mut M,
+    reply: &mut Frame,
 ) -> Result<(), Exception> {
-    let (first, count) = range_with_data(body, profile.limits.write_words, false)?;
-    let registers = || places(profile.registers, first, count, true);
-    let all_there = registers().all(|place| place.is_some_and(|place| word(place, map).is_some()));
-    if !all_there {
-        return Err(Exception::Address);
+    let (areas, most) = match coils {
+        true => (profile.coils, profile.limits.write_bits),
+        false => (profile.registers, profile.limits.write_words),
+    };
+    let bytes = body.byte(DATA - 1).ok_or(Exception::Value)?;
+    let range = range(body, DATA + usize::from(bytes), most)?;
+    if bytes != bytes_of(range.1, coils) {
+        return Err(Exception::Value);
     }
-    for (index, place) in registers().enumerate() {
-        if let (Some(place), Some(value)) = (place, body.word(DATA + 2 * index)) {
-            set_word(place, value, map).ok_or(Exception::Address)?;
+    let written = write(areas, range, map, &|index| {
+        let index = usize::from(index);
+        match coils {
+            true => body.bit(DATA, index).map(u16::from),
+            false => body.word(DATA + 2 * index),
         }
-    }
-    confirm(body, reply);
-    Ok(())
+    });
+    confirm(written, body, reply)
 }
 
 #[cfg(test)]

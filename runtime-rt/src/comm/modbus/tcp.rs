@@ -1,9 +1,14 @@
 //! Modbus TCP: the answers of a slave, with the header of the public standard ("MODBUS messaging on TCP/IP" 1.0b).
 
-use super::adu::{Body, TCP_HEADER, Writer};
+use super::adu::{Body, fits};
 use super::slave::{refuse, serve_or_refuse};
 use super::{Exception, Profile};
 use crate::comm::{Cut, Frame, LineFault, Map};
+
+/// Where the length of a frame is.
+const LENGTH: usize = 4;
+/// Bytes before the unit of a frame.
+const HEADER: usize = 6;
 
 /// The longest frame.
 pub const LONGEST: usize = 260;
@@ -20,36 +25,41 @@ pub fn cut(received: &[u8]) -> Cut {
     // Protocol, then the length of what follows: at least unit and function.
     match (word(2), word(4).map(usize::from)) {
         (Some(1..), _) => Cut::Drop,
-        (_, Some(length)) if !(2..=LONGEST - TCP_HEADER).contains(&length) => Cut::Drop,
-        (_, Some(length)) if received.len() == TCP_HEADER + length => Cut::Whole,
-        (_, Some(length)) if received.len() > TCP_HEADER + length => Cut::Drop,
+        (_, Some(length)) if !(2..=LONGEST - HEADER).contains(&length) => Cut::Drop,
+        (_, Some(length)) if received.len() == HEADER + length => Cut::Whole,
+        (_, Some(length)) if received.len() > HEADER + length => Cut::Drop,
         _ => Cut::More,
     }
 }
 
 /// Answers a frame that [`cut`] has found whole.
-pub fn answer(
+pub fn answer<M: Map + ?Sized>(
     profile: &Profile,
     request: &[u8],
-    map: &mut dyn Map,
+    map: &mut M,
     reply: &mut Frame,
 ) -> Result<(), LineFault> {
     let (transaction, body) = match request {
         [high, low, _, _, _, _, body @ ..] if cut(request) == Cut::Whole => {
-            (u16::from_be_bytes([*high, *low]), Body::Bytes(body))
+            ([*high, *low], Body(body))
         }
         _ => return Err(LineFault::Form),
     };
-    let mut writer = Writer::tcp(transaction, reply);
+    reply.extend(&transaction);
+    // Protocol 0; the length is filled in at the end.
+    reply.extend(&[0; HEADER - 2]);
     let unit = body.byte(0).unwrap_or(0);
     let done = if UNITS.contains(&unit) {
-        writer.push(unit);
-        serve_or_refuse(profile, body, map, &mut writer)
+        serve_or_refuse(profile, body, map, reply)
     } else {
-        refuse(body, Exception::NO_PATH, &mut writer);
+        refuse(body, Exception::NO_PATH, reply);
         Err(Exception::NO_PATH.fault())
     };
-    writer.finish()?;
+    let length = reply.len().saturating_sub(HEADER) as u16;
+    for (at, byte) in (LENGTH..).zip(length.to_be_bytes()) {
+        reply.set(at, byte);
+    }
+    fits(reply)?;
     done
 }
 
