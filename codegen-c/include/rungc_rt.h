@@ -13,8 +13,8 @@
 /* What serial ports do under some protocols. */
 typedef struct rungc_codec rungc_codec;
 
-/* The serial ports of a model. */
-typedef struct rungc_port_model rungc_port_model;
+/* What a model serves by Modbus. */
+typedef struct rungc_modbus_profile rungc_modbus_profile;
 
 /**
  * Inputs X whose edges an instruction takes notice of at once if it names them; others are looked at once a scan.
@@ -532,6 +532,10 @@ typedef struct rungc_text {
  */
 typedef struct rungc_port_place {
     /**
+     * Its special devices.
+     */
+    const struct rungc_port_wiring *wiring;
+    /**
      * Where in the struct.
      */
     size_t offset;
@@ -638,9 +642,9 @@ typedef struct rungc_layout {
      */
     size_t port_count;
     /**
-     * The serial ports of the model; NULL if the program has none.
+     * What it serves by Modbus, and how much a frame may be about; NULL if no port speaks it.
      */
-    const rungc_port_model *port_model;
+    const rungc_modbus_profile *modbus;
     /**
      * What the ports do, by protocols.
      */

@@ -11,7 +11,7 @@ use rungc_emit::storage::Storage;
 use rungc_ir::Module;
 use rungc_ir::walk::has_many_timers;
 use rungc_rt::RtFn;
-use rungc_rt::comm::{codec, model};
+use rungc_rt::comm::{Ports, codec, modbus};
 use std::fmt::Write;
 
 /// First line of each file.
@@ -277,13 +277,23 @@ fn runtime_header() -> String {
         let name = codec.name();
         let _ = writeln!(prototypes, "extern const rungc_codec rungc_codec_{name};");
     }
-    prototypes.push_str("\n/* The serial ports of models. */\n");
-    for model in model::ALL {
-        let name = model.name();
+    prototypes.push_str("\n/* What models serve by Modbus. */\n");
+    for profile in modbus::ALL {
+        let name = profile.name;
         let _ = writeln!(
             prototypes,
-            "extern const rungc_port_model rungc_ports_of_{name};"
+            "extern const rungc_modbus_profile rungc_modbus_{name};"
         );
+    }
+    prototypes.push_str("\n/* The special devices of serial ports, by families of models. */\n");
+    for family in Ports::families() {
+        for wiring in family.all() {
+            let (name, number) = (family.name(), wiring.number);
+            let _ = writeln!(
+                prototypes,
+                "extern const rungc_port_wiring rungc_port_{name}_{number};"
+            );
+        }
     }
     prototypes.push_str(
         "\n/* The instructions. An operation error is shown in the program's special devices. */\n",

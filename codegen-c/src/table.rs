@@ -5,7 +5,6 @@ use crate::text;
 use rungc_emit::areas::{self, Area};
 use rungc_emit::storage::{Kind, Storage};
 use rungc_ir::Module;
-use rungc_rt::comm::model::PortModel;
 use rungc_syntax::DeviceClass;
 use std::fmt::Write;
 
@@ -55,7 +54,8 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
         let places = module.serial_ports().map(|(number, protocols)| {
             let length = protocols.longest_frame();
             let keeps = protocols.keeps_memory();
-            format!("{{offsetof({name}_plc, com{number}), {length}, {number}, {keeps}}}")
+            let family = module.model.ports.name();
+            format!("{{&rungc_port_{family}_{number}, offsetof({name}_plc, com{number}), {length}, {number}, {keeps}}}")
         });
         let codecs = module
             .codecs()
@@ -69,8 +69,9 @@ pub fn write(out: &mut String, module: &Module, fields: &Storage) {
         );
         layout.push(format!(".ports = {name}_ports"));
         layout.push(format!(".port_count = {}", module.ports.len()));
-        let model = PortModel::of(module.model.ports, module.model.type_code());
-        layout.push(format!(".port_model = &rungc_ports_of_{}", model.name()));
+        if let Some(profile) = module.modbus() {
+            layout.push(format!(".modbus = &rungc_modbus_{}", profile.name));
+        }
         layout.push(format!(".codecs = {name}_codecs"));
         layout.push(format!(".codec_count = {}", module.codecs().count()));
         let family = format!("{:?}", module.model.ports).to_ascii_uppercase();

@@ -6,7 +6,6 @@ use quote::{format_ident, quote};
 use rungc_emit::events;
 use rungc_ir::node::{CellId, Flag, FlagId, TableId};
 use rungc_rt::EdgeKind;
-use rungc_rt::comm::model::PortModel;
 use std::rc::Rc;
 
 /// The field of a flag.
@@ -158,8 +157,6 @@ impl Generator<'_> {
             return None;
         }
         let (comm, ports) = (self.rt("comm"), self.rt("Ports"));
-        let model = PortModel::of(self.module.model.ports, self.module.model.type_code());
-        let model = format_ident!("{}", model.name().to_ascii_uppercase());
         let codecs = self.module.codecs().map(|codec| {
             let codec = format_ident!("{}", codec.name().to_ascii_uppercase());
             quote!(&#comm::codec::#codec)
@@ -171,6 +168,19 @@ impl Generator<'_> {
         });
         let family = format_ident!("{}", format!("{:?}", self.module.model.ports));
         let type_code = Literal::u16_unsuffixed(self.module.model.type_code());
+        let count = Literal::usize_unsuffixed(self.module.ports.len());
+        let all = self.module.model.ports.all();
+        let wirings = self.module.ports.iter().filter_map(|number| {
+            let index = all.iter().position(|wiring| wiring.number == *number)?;
+            let index = Literal::usize_unsuffixed(index);
+            Some(quote!(#ports::#family.all()[#index]))
+        });
+        let modbus = self.module.modbus().map(|profile| {
+            let profile = format_ident!("{}", profile.name.to_ascii_uppercase());
+            quote! {
+                fn modbus(&self) -> &'static #comm::modbus::Profile { &#comm::modbus::#profile }
+            }
+        });
         let (class, runs) = (self.rt("Class"), self.rt("Runs"));
         let areas = self.module.layout.areas.iter();
         let areas = areas.map(|area| (area.class, area.first, area.first + area.count - 1));
@@ -185,9 +195,11 @@ impl Generator<'_> {
             fn port(&mut self, number: u8) -> Option<#comm::PortMut<'_>> {
                 match number { #(#arms)* _ => None }
             }
-            fn port_model(&self) -> Option<&'static #comm::model::PortModel> {
-                Some(&#comm::model::#model)
+            fn port_wiring(&self, index: usize) -> Option<&'static #comm::PortWiring> {
+                static WIRING: [#comm::PortWiring; #count] = [#(#wirings),*];
+                WIRING.get(index)
             }
+            #modbus
             fn codecs(&self) -> &'static [&'static #comm::codec::Codec] {
                 &[#(#codecs),*]
             }

@@ -10,9 +10,9 @@ use crate::logic::Logic;
 use rungc_ir::Module;
 use rungc_ir::node::{CellId, EdgeId, FlagId, FunctionKind, TableId, TempId};
 use rungc_models::special::RunCommand;
-use rungc_rt::comm::PortMut;
 use rungc_rt::comm::codec::{self, Codec};
-use rungc_rt::comm::model::PortModel;
+use rungc_rt::comm::modbus::Profile;
+use rungc_rt::comm::{PortMut, PortWiring};
 use rungc_rt::retain::{Retained, RetainedRun};
 use rungc_rt::special::{
     D_REMOTE, D_WATCHDOG_MS, M_FORCE_ENABLE, M_FORCED_RUN, M_KEEP_IN_STOP, M_LOCAL_CONTROL,
@@ -446,8 +446,12 @@ impl Plc for Machine<'_> {
         codec::ALL
     }
 
-    fn port_model(&self) -> Option<&'static PortModel> {
-        Some(PortModel::of(self.ports(), self.type_code()))
+    fn port_wiring(&self, index: usize) -> Option<&'static PortWiring> {
+        self.ports().all().get(index)
+    }
+
+    fn modbus(&self) -> &'static Profile {
+        self.ports().modbus(self.type_code())
     }
 
     fn ports(&self) -> Ports {

@@ -18,8 +18,8 @@ mod map;
 mod servers;
 
 use crate::comm::codec::Codec;
-use crate::comm::model::PortModel;
-use crate::comm::{CanFrame, LineFormat, PortMut, Ports, Received, Status};
+use crate::comm::modbus::Profile;
+use crate::comm::{CanFrame, LineFormat, PortMut, PortWiring, Ports, Received, Status};
 use crate::cx::Cx;
 use crate::fault::Done;
 use crate::hal::Clock;
@@ -145,8 +145,8 @@ pub struct Layout {
     pub ports: *const PortPlace,
     /// How many.
     pub port_count: usize,
-    /// The serial ports of the model; NULL if the program has none.
-    pub port_model: *const PortModel,
+    /// What it serves by Modbus, and how much a frame may be about; NULL if no port speaks it.
+    pub modbus: *const Profile,
     /// What the ports do, by protocols.
     pub codecs: *const *const Codec,
     /// How many.
@@ -161,6 +161,8 @@ pub struct Layout {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct PortPlace {
+    /// Its special devices.
+    pub wiring: *const PortWiring,
     /// Where in the struct.
     pub offset: usize,
     /// Characters of the longest frame.

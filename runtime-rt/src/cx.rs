@@ -1,6 +1,6 @@
 //! The call context: operands, devices and hardware in the terms in which manuals describe instructions.
 
-use crate::comm::{LineFault, note_missing};
+use crate::comm::{PortWiring, note_missing};
 use crate::fault::{Done, Fault, report};
 use crate::hal::Hal;
 use crate::operand::{Operand, OperandKind};
@@ -540,14 +540,14 @@ impl<'a> Cx<'a> {
         Ok(named)
     }
 
-    /// Shows an error of a serial port in the program's special devices.
-    pub fn note_line(&mut self, number: u8, fault: LineFault) {
+    /// Shows in the program's special devices that a serial port runs another protocol than an instruction needs.
+    pub fn note_other_protocol(&mut self, number: u8) {
         let protocol = match self.plc.port(number) {
             Some(port) => port.status.protocol,
             None => return,
         };
-        if let Some(wiring) = self.plc.ports().get(number) {
-            wiring.chosen(self.plc).note(self.plc, protocol, fault);
+        if let Some(wiring) = PortWiring::of(self.plc, number) {
+            wiring.note_other_protocol(self.plc, protocol);
         }
     }
 

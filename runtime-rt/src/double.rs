@@ -1,8 +1,8 @@
 //! A PLC for the tests of this crate: all devices, no layout.
 
-use crate::comm::PortMut;
 use crate::comm::codec::{self, Codec};
-use crate::comm::model::PortModel;
+use crate::comm::modbus::Profile;
+use crate::comm::{PortMut, PortWiring};
 use crate::{
     Axis, Class, Cx, Done, FIRST_COUNTER32, Hal, Operand, Plc, Port, Ports, Pulses, RtFn, Site,
     State, Sys, VirtualHal, d,
@@ -232,8 +232,12 @@ impl Plc for Double {
         codec::ALL
     }
 
-    fn port_model(&self) -> Option<&'static PortModel> {
-        Some(PortModel::of(self.ports(), self.type_code()))
+    fn port_wiring(&self, index: usize) -> Option<&'static PortWiring> {
+        self.ports().all().get(index)
+    }
+
+    fn modbus(&self) -> &'static Profile {
+        self.ports().modbus(self.type_code())
     }
 
     fn ports(&self) -> Ports {

@@ -2,8 +2,8 @@
 
 use crate::axis::Axis;
 use crate::comm::codec::Codec;
-use crate::comm::model::PortModel;
-use crate::comm::{PortMut, Ports};
+use crate::comm::modbus::{self, Profile};
+use crate::comm::{PortMut, PortWiring, Ports};
 use crate::wiring::Pulses;
 
 /// Device class. The numbers are part of the C ABI.
@@ -222,9 +222,15 @@ pub trait Plc {
     fn codecs(&self) -> &'static [&'static Codec] {
         &[]
     }
-    /// The serial ports of the model: their special devices, and what they serve; a program without ports has none.
-    fn port_model(&self) -> Option<&'static PortModel> {
+    /// The special devices of its serial ports, by their index in the order of the ports' numbers; `None` after the last one. There may be
+    /// ports among them that it does not have.
+    fn port_wiring(&self, index: usize) -> Option<&'static PortWiring> {
+        let _ = index;
         None
+    }
+    /// What it serves by Modbus, and how much a frame may be about.
+    fn modbus(&self) -> &'static Profile {
+        &modbus::NOTHING
     }
     /// The serial ports that the model has.
     fn ports(&self) -> Ports {

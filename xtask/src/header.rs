@@ -9,7 +9,7 @@ use cbindgen::{
 };
 
 /// Types that rungc.h defines, under its names, and what the others are called in C.
-const NAMES: [(&str, &str); 37] = [
+const NAMES: [(&str, &str); 38] = [
     ("Sys", "plc_sys"),
     ("Timer", "plc_timer"),
     ("Counter16", "plc_counter16"),
@@ -37,7 +37,8 @@ const NAMES: [(&str, &str); 37] = [
     ("Request", "rungc_request"),
     ("PortPlace", "rungc_port_place"),
     ("Codec", "rungc_codec"),
-    ("PortModel", "rungc_port_model"),
+    ("PortWiring", "rungc_port_wiring"),
+    ("Profile", "rungc_modbus_profile"),
     ("Speaks", "rungc_speaks"),
     ("Service", "rungc_service"),
     ("Heard", "rungc_heard"),
@@ -61,8 +62,8 @@ const OPAQUE: &str = "
 /* What serial ports do under some protocols. */
 typedef struct rungc_codec rungc_codec;
 
-/* The serial ports of a model. */
-typedef struct rungc_port_model rungc_port_model;";
+/* What a model serves by Modbus. */
+typedef struct rungc_modbus_profile rungc_modbus_profile;";
 
 /// Operands and sites, as emitted code writes them.
 const CONSTRUCTORS: &str = include_str!("constructors.h");

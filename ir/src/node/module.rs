@@ -6,6 +6,7 @@ use crate::walk::{calls_runtime, statements};
 use rungc_models::{Model, Range};
 use rungc_rt::comm::Protocols;
 use rungc_rt::comm::codec::{self, Codec};
+use rungc_rt::comm::modbus::Profile;
 use rungc_rt::special::D_WATCHDOG_MS;
 use rungc_rt::{EdgeKind, Register, Relay};
 use rungc_syntax::{Device, DeviceClass, Index, Span};
@@ -271,6 +272,13 @@ impl Module {
         let all = all.fold(Protocols::NONE, Protocols::or);
         let codecs = codec::ALL.iter().copied();
         codecs.filter(move |codec| codec.protocols().meets(all))
+    }
+
+    /// What it serves by Modbus, if a port may speak that.
+    pub fn modbus(&self) -> Option<&'static Profile> {
+        let mut all = self.port_protocols.iter();
+        let speaks = all.any(|protocols| protocols.meets(Protocols::MODBUS));
+        speaks.then(|| self.model.ports.modbus(self.model.type_code()))
     }
 
     /// Whether it has serial ports.

@@ -4,8 +4,8 @@ use super::hal::Board;
 use super::{Map, Request};
 use crate::axis::{advance, millihertz, pulse_timer};
 use crate::comm::codec::{self, Codec};
-use crate::comm::model::{self, PortModel};
-use crate::comm::{Port, Status, advance as advance_ports};
+use crate::comm::modbus::{self, Profile};
+use crate::comm::{Port, PortWiring, Ports, Status, advance as advance_ports};
 use crate::cx::{fetch, send};
 use crate::hal::Hal;
 use crate::operand::Operand;
@@ -80,7 +80,7 @@ pub extern "C" fn rungc_advance_ports(map: &mut Map, now_us: u32) -> Request {
 
 /// Exports constants, so that a linker takes only those that a program's layout names.
 macro_rules! export_constants {
-    ($names:ident: $type:ident; $($symbol:literal = $constant:path;)*) => {
+    ($names:ident: $type:ident; $($symbol:literal = $constant:expr;)*) => {
         $(const _: () = {
             #[allow(unsafe_code, reason = "each name occurs once, and no other symbol begins like it")]
             #[unsafe(export_name = $symbol)]
@@ -108,16 +108,39 @@ export_constants! {
 }
 
 export_constants! {
-    MODELS: PortModel;
-    "rungc_ports_of_h1u" = model::H1U;
-    "rungc_ports_of_h2u" = model::H2U;
-    "rungc_ports_of_l01s" = model::L01S;
-    "rungc_ports_of_hm" = model::HM;
-    "rungc_ports_of_fx" = model::FX;
-    "rungc_ports_of_fx3" = model::FX3;
-    "rungc_ports_of_fx3g" = model::FX3G;
-    "rungc_ports_of_board_2n" = model::BOARD_2N;
-    "rungc_ports_of_board_3u" = model::BOARD_3U;
+    PROFILES: Profile;
+    "rungc_modbus_h1u" = modbus::H1U;
+    "rungc_modbus_h2u" = modbus::H2U;
+    "rungc_modbus_l01s" = modbus::L01S;
+    "rungc_modbus_hm" = modbus::HM;
+    "rungc_modbus_fx3u" = modbus::FX3U;
+}
+
+export_constants! {
+    WIRINGS: PortWiring;
+    "rungc_port_inovance_0" = Ports::Inovance.all()[0];
+    "rungc_port_inovance_1" = Ports::Inovance.all()[1];
+    "rungc_port_inovance_2" = Ports::Inovance.all()[2];
+    "rungc_port_inovance_3" = Ports::Inovance.all()[3];
+    "rungc_port_inovance_4" = Ports::Inovance.all()[4];
+    "rungc_port_l01s_1" = Ports::L01s.all()[0];
+    "rungc_port_l01s_2" = Ports::L01s.all()[1];
+    "rungc_port_l01s_3" = Ports::L01s.all()[2];
+    "rungc_port_hm_0" = Ports::Hm.all()[0];
+    "rungc_port_hm_1" = Ports::Hm.all()[1];
+    "rungc_port_fx_0" = Ports::Fx.all()[0];
+    "rungc_port_fx_1" = Ports::Fx.all()[1];
+    "rungc_port_fx3_0" = Ports::Fx3.all()[0];
+    "rungc_port_fx3_1" = Ports::Fx3.all()[1];
+    "rungc_port_fx3_2" = Ports::Fx3.all()[2];
+    "rungc_port_fx3g_0" = Ports::Fx3g.all()[0];
+    "rungc_port_fx3g_1" = Ports::Fx3g.all()[1];
+    "rungc_port_fx3g_2" = Ports::Fx3g.all()[2];
+    "rungc_port_board2n_0" = Ports::Board2n.all()[0];
+    "rungc_port_board2n_1" = Ports::Board2n.all()[1];
+    "rungc_port_board3u_0" = Ports::Board3u.all()[0];
+    "rungc_port_board3u_1" = Ports::Board3u.all()[1];
+    "rungc_port_board3u_2" = Ports::Board3u.all()[2];
 }
 
 /// A program holds ports as words of 32 bits.
@@ -154,20 +177,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn codecs_and_models_are_exported_by_their_names() {
+    fn codecs_profiles_and_ports_are_exported_by_their_names() {
         let names = codec::ALL.iter().map(|codec| codec.name());
-        assert!(
-            CODECS
-                .iter()
-                .map(|name| &name["rungc_codec_".len()..])
-                .eq(names)
-        );
-        let names = model::ALL.iter().map(|model| model.name());
-        assert!(
-            MODELS
-                .iter()
-                .map(|name| &name["rungc_ports_of_".len()..])
-                .eq(names)
-        );
+        let exported = CODECS.iter().map(|name| &name["rungc_codec_".len()..]);
+        assert!(exported.eq(names));
+        let names = modbus::ALL.iter().map(|profile| profile.name);
+        let exported = PROFILES.iter().map(|name| &name["rungc_modbus_".len()..]);
+        assert!(exported.eq(names));
+        let ports = Ports::families().iter().flat_map(|&family| {
+            let numbers = family.all().iter().map(|wiring| wiring.number);
+            numbers.map(move |number| std::format!("rungc_port_{}_{number}", family.name()))
+        });
+        assert!(ports.eq(WIRINGS.iter().copied()));
     }
 }

@@ -4,8 +4,8 @@ use super::hal::Board;
 use super::{Area, Kind, Layout, Map};
 use crate::axis::Axis;
 use crate::comm::codec::Codec;
-use crate::comm::model::PortModel;
-use crate::comm::{PortMut, Ports};
+use crate::comm::modbus::{self, Profile};
+use crate::comm::{PortMut, PortWiring, Ports};
 use crate::cx::Cx;
 use crate::fault::{Done, report};
 use crate::operand::Operand;
@@ -311,9 +311,16 @@ impl Plc for Map {
         unsafe { core::slice::from_raw_parts(layout.codecs.cast(), layout.codec_count) }
     }
 
-    fn port_model(&self) -> Option<&'static PortModel> {
+    fn port_wiring(&self, index: usize) -> Option<&'static PortWiring> {
+        let layout = self.layout();
+        let place = elements(layout.ports, layout.port_count).get(index)?;
         // SAFETY: NULL, or one of the library's.
-        unsafe { self.layout().port_model.as_ref() }
+        unsafe { place.wiring.as_ref() }
+    }
+
+    fn modbus(&self) -> &'static Profile {
+        // SAFETY: NULL, or one of the library's.
+        unsafe { self.layout().modbus.as_ref() }.unwrap_or(&modbus::NOTHING)
     }
 
     fn ports(&self) -> Ports {

@@ -113,9 +113,6 @@ impl Session<'_> {
     /// Takes the frames of a CAN bus, and shows whether there is a card, and whether it still sends. True if there is a bus: then there is
     /// no line.
     pub(super) fn advance_can(&mut self) -> bool {
-        if self.wiring.number != CAN_PORT {
-            return false;
-        }
         let mut sends = false;
         let mut is_there = false;
         let is_on = self.status.protocol == Protocol::Can;

@@ -1,11 +1,18 @@
 //! What a port does under each protocol, as a table: a program links the codecs that its ports may need.
 
-use super::computer_link;
-use super::line::Received;
+use super::line::{LineFormat, Received};
 use super::modbus::{self, Framing, LONGEST_RTU};
 use super::port::{FRAME, Session, Status};
 use super::slaves::{Slave, role};
-use super::{Cut, Protocol, Protocols, can, fx_port, qlink};
+use super::wiring::{PortWiring, note_programming_port};
+use super::{Cut, LineFault, Protocol, Protocols, can, computer_link, fx_port, qlink};
+use crate::plc::Plc;
+
+/// The format of characters on the way to a CAN adapter; USB adapters ignore it.
+const ADAPTER: LineFormat = LineFormat {
+    bits_per_second: 1_000_000,
+    ..LineFormat::new()
+};
 
 /// What a port does under one protocol, or under several that belong together.
 #[derive(Debug)]
@@ -23,11 +30,15 @@ pub struct Codec {
     advance: for<'a, 'b> fn(&'a mut Session<'b>),
     /// A frame has been sent.
     sent: for<'a, 'b> fn(&'a mut Session<'b>),
+    /// The format of characters on the line.
+    line: fn(&PortWiring, &dyn Plc, Protocol, [u16; 3]) -> LineFormat,
+    /// Shows an error.
+    note: fn(&PortWiring, &mut dyn Plc, Protocol, LineFault),
 }
 
 impl Codec {
     /// One that does nothing.
-    const fn of(name: &'static str, protocols: Protocols) -> Self {
+    const fn new(name: &'static str, protocols: Protocols) -> Self {
         Codec {
             name,
             protocols,
@@ -36,7 +47,51 @@ impl Codec {
             character: None,
             advance: |_| {},
             sent: |_| {},
+            line: |wiring, plc, _, uinit| wiring.own_line(plc, uinit, false),
+            note: |wiring, plc, _, fault| wiring.note_general(plc, fault),
         }
+    }
+
+    /// One for Modbus, by RTU frames or by ASCII.
+    const fn of_modbus(name: &'static str, protocols: Protocols, framing: Framing) -> Self {
+        Codec {
+            line: match framing {
+                Framing::Rtu => {
+                    |wiring, plc, _, uinit| wiring.own_line(plc, uinit, false).eight_bits()
+                }
+                Framing::Ascii => |wiring, plc, _, uinit| wiring.own_line(plc, uinit, false),
+            },
+            note: |wiring, plc, protocol, fault| {
+                wiring.note_of_modbus(plc, protocol.is_master(), fault);
+            },
+            ..Codec::new(name, protocols)
+        }
+    }
+
+    /// The one for a protocol.
+    pub(super) fn of(protocol: Protocol) -> Option<&'static Self> {
+        let mut all = ALL.iter().copied();
+        all.find(|codec| codec.protocols.contains(protocol))
+    }
+
+    pub(super) fn line(
+        &self,
+        wiring: &PortWiring,
+        plc: &dyn Plc,
+        protocol: Protocol,
+        uinit: [u16; 3],
+    ) -> LineFormat {
+        (self.line)(wiring, plc, protocol, uinit)
+    }
+
+    pub(super) fn note(
+        &self,
+        wiring: &PortWiring,
+        plc: &mut dyn Plc,
+        protocol: Protocol,
+        fault: LineFault,
+    ) {
+        (self.note)(wiring, plc, protocol, fault);
     }
 
     /// Its name in emitted code, in small letters.
@@ -81,13 +136,16 @@ impl Codec {
 
 /// RS, RS2, USEND, URCV.
 pub const FREE: Codec = Codec {
+    line: |wiring, plc, _, uinit| wiring.own_line(plc, uinit, true),
     character: Some(|session, character| session.take_free(character)),
     advance: |session| session.advance_free(),
-    ..Codec::of("free", Protocols::of(&[Protocol::Free]))
+    ..Codec::new("free", Protocols::of(&[Protocol::Free]))
 };
 
 /// The programming port.
 pub const PROGRAMMING_PORT: Codec = Codec {
+    line: |wiring, _, _, _| LineFormat::seven_even(9600, wiring.one_pair),
+    note: |_, plc, _, fault| note_programming_port(plc, fault),
     cut: |_, _, received| fx_port::cut(received),
     take: |session, received| {
         session.answer_with_memory::<FRAME>(received, |slave, request, memory, map, reply| {
@@ -95,7 +153,7 @@ pub const PROGRAMMING_PORT: Codec = Codec {
             fx_port::answer(settings, memory, request, map, reply)
         });
     },
-    ..Codec::of(
+    ..Codec::new(
         "programming_port",
         Protocols::of(&[Protocol::ProgrammingPort]),
     )
@@ -103,20 +161,25 @@ pub const PROGRAMMING_PORT: Codec = Codec {
 
 /// A slave by Modbus RTU.
 pub const MODBUS_RTU: Codec = Codec {
-    take: |session, received| {
-        if !session.is_qlink(received) {
-            session.answer::<LONGEST_RTU>(received, |slave, request, _, map, reply| {
-                modbus::answer_rtu(&slave.modbus(Framing::Rtu), request, map, reply)
-            });
-        } else if let Some(qlink) = session.codec_of(Protocols::QLINK) {
-            qlink.take(session, received);
-        }
+    take: |session, received| match session.codec_of(Protocols::QLINK) {
+        Some(qlink) if session.is_whole(qlink, received) => qlink.take(session, received),
+        _ => session.answer::<LONGEST_RTU>(received, |slave, request, _, map, reply| {
+            modbus::answer_rtu(&slave.modbus(Framing::Rtu), request, map, reply)
+        }),
     },
-    ..Codec::of("modbus_rtu", Protocols::of(&[Protocol::ModbusRtu]))
+    ..Codec::of_modbus(
+        "modbus_rtu",
+        Protocols::of(&[Protocol::ModbusRtu]),
+        Framing::Rtu,
+    )
 };
 
 /// QLink, which a slave by Modbus RTU of H1U and H2U answers, too.
 pub const QLINK: Codec = Codec {
+    cut: |_, slave, received| match slave.has_qlink() && qlink::is_qlink(received) {
+        true => Cut::Whole,
+        false => Cut::Drop,
+    },
     take: |session, received| {
         session.answer_with_memory::<FRAME>(received, |slave, request, memory, map, reply| {
             let settings = slave.modbus(Framing::Rtu);
@@ -130,7 +193,7 @@ pub const QLINK: Codec = Codec {
             )
         });
     },
-    ..Codec::of("qlink", Protocols::QLINK)
+    ..Codec::new("qlink", Protocols::QLINK)
 };
 
 /// A slave by Modbus ASCII.
@@ -141,16 +204,21 @@ pub const MODBUS_ASCII: Codec = Codec {
             modbus::answer_ascii(&slave.modbus(Framing::Ascii), request, map, reply)
         });
     },
-    ..Codec::of("modbus_ascii", Protocols::of(&[Protocol::ModbusAscii]))
+    ..Codec::of_modbus(
+        "modbus_ascii",
+        Protocols::of(&[Protocol::ModbusAscii]),
+        Framing::Ascii,
+    )
 };
 
 /// A master by Modbus RTU.
 pub const MASTER_RTU: Codec = Codec {
     take: |session, received| session.take_answer::<LONGEST_RTU>(Framing::Rtu, received),
     advance: |session| session.advance_master::<LONGEST_RTU>(Framing::Rtu),
-    ..Codec::of(
+    ..Codec::of_modbus(
         "master_rtu",
         Protocols::of(&[Protocol::MasterRtu, Protocol::MasterTable]),
+        Framing::Rtu,
     )
 };
 
@@ -159,7 +227,11 @@ pub const MASTER_ASCII: Codec = Codec {
     cut: |_, _, received| modbus::cut_ascii(received),
     take: |session, received| session.take_answer::<FRAME>(Framing::Ascii, received),
     advance: |session| session.advance_master::<FRAME>(Framing::Ascii),
-    ..Codec::of("master_ascii", Protocols::of(&[Protocol::MasterAscii]))
+    ..Codec::of_modbus(
+        "master_ascii",
+        Protocols::of(&[Protocol::MasterAscii]),
+        Framing::Ascii,
+    )
 };
 
 /// A slave of a computer link.
@@ -172,25 +244,31 @@ pub const COMPUTER_LINK: Codec = Codec {
     },
     advance: |session| session.advance_on_demand(),
     sent: |session| session.end_on_demand(),
-    ..Codec::of("computer_link", Protocols::of(&[Protocol::ComputerLink]))
+    ..Codec::new("computer_link", Protocols::of(&[Protocol::ComputerLink]))
 };
 
 /// Links that PLCs keep up by themselves.
 pub const LINK: Codec = Codec {
+    line: |wiring, plc, protocol, uinit| match protocol {
+        Protocol::ComputerLinkMaster => wiring.own_line(plc, uinit, false),
+        _ => wiring.linked(plc, protocol),
+    },
+    note: |wiring, plc, protocol, fault| wiring.note_of_link(plc, protocol, fault),
     cut: |status, _, received| match role(status.protocol, status.uinit[2]) {
         Some(role) => status.link.cut(role, received),
         None => Cut::Drop,
     },
     take: |session, received| session.take_linked(received),
     advance: |session| session.advance_link(),
-    ..Codec::of("link", Protocols::LINKS)
+    ..Codec::new("link", Protocols::LINKS)
 };
 
 /// Frames of CAN.
 pub const CAN: Codec = Codec {
+    line: |_, _, _, _| ADAPTER,
     cut: |_, _, received| can::cut(received),
     take: |session, received| session.take_can(received),
-    ..Codec::of("can", Protocols::of(&[Protocol::Can]))
+    ..Codec::new("can", Protocols::of(&[Protocol::Can]))
 };
 
 /// All of them.

@@ -11,7 +11,7 @@ impl Session<'_> {
         match (self.plc.ports(), self.status.protocol) {
             (Ports::L01s, Protocol::MasterAscii) => Limits::L01S_ASCII,
             (Ports::Fx3, _) => Limits::FX3,
-            _ => self.profile.limits,
+            _ => self.plc.modbus().limits,
         }
     }
 

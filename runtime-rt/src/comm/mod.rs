@@ -39,7 +39,6 @@
 //! | `wiring.rs` | the special devices of each model's ports, and what chooses their protocols |
 //! | `port.rs` | the state machine of one port |
 //! | `codec.rs` | what a port does under each protocol: the table of which a program links what it may need |
-//! | `model.rs` | the ports of each model, of which a program links one |
 //! | `protocols.rs` | sets of protocols, and how much memory they take |
 //! | `slaves.rs` | how the codecs that answer are set up |
 //! | `free.rs` | RS, RS2, USEND, URCV |
@@ -66,7 +65,6 @@ mod masters;
 pub mod mc;
 mod memory;
 pub mod modbus;
-pub mod model;
 mod port;
 #[cfg(test)]
 mod port_tests;

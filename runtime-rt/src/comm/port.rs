@@ -6,11 +6,11 @@ use super::computer_link::Remote;
 use super::free::Free;
 use super::line::{CharFault, LineFormat, Received};
 use super::link::Link;
-use super::modbus::{Exchange, Profile};
+use super::modbus::Exchange;
 use super::protocols::Protocols;
 use super::slaves::Slave;
 use super::wiring::{Choice, M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol, value};
-use super::{Cut, Frame, LineFault, Memory, Served, qlink};
+use super::{Cut, Frame, LineFault, Memory, Served};
 use crate::hal::{Hal, SerialPort};
 use crate::plc::{Plc, Sys};
 use crate::special::Relay;
@@ -181,7 +181,6 @@ pub(super) struct Session<'a> {
     pub(super) plc: &'a mut dyn Plc,
     pub(super) hal: &'a mut dyn Hal,
     pub(super) wiring: &'static PortWiring,
-    pub(super) profile: &'static Profile,
     pub(super) status: Status,
     pub(super) now_us: u32,
     /// RUN or STOP, if a frame has asked for it.
@@ -197,8 +196,9 @@ pub(super) fn has_come(now_us: u32, at_us: u32) -> bool {
 /// that have come, answers, sends, and shows in special devices what has happened. Returns RUN or STOP if a partner has asked for it.
 pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool> {
     let mut request = None;
-    let model = plc.port_model()?;
-    for wiring in model.wiring {
+    let mut index = 0;
+    while let Some(wiring) = plc.port_wiring(index) {
+        index += 1;
         let Some(status) = plc.port(wiring.number).map(|port| *port.status) else {
             continue;
         };
@@ -207,7 +207,6 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
             plc,
             hal,
             wiring,
-            profile: model.profile,
             status,
             now_us,
             request: None,
@@ -225,7 +224,7 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
 impl Session<'_> {
     fn run(&mut self) {
         self.choose();
-        if self.advance_can() || !self.set_up() {
+        if self.wiring.rules.bus(self) || !self.set_up() {
             return;
         }
         self.send();
@@ -293,7 +292,10 @@ impl Session<'_> {
     /// Tells the hardware the format of the line; false if there is no hardware.
     fn set_up(&mut self) -> bool {
         let status = self.status;
-        let format = self.wiring.line(self.plc, status.protocol, status.uinit);
+        let format = match self.codec() {
+            Some(codec) => codec.line(self.wiring, self.plc, status.protocol, status.uinit),
+            None => self.wiring.own_line(self.plc, status.uinit, false),
+        };
         let Some((port, _)) = self.serial() else {
             return false;
         };
@@ -425,7 +427,10 @@ impl Session<'_> {
 
     /// Shows an error of the port.
     pub(super) fn note(&mut self, fault: LineFault) {
-        self.wiring.note(self.plc, self.status.protocol, fault);
+        match self.codec() {
+            Some(codec) => codec.note(self.wiring, self.plc, self.status.protocol, fault),
+            None => self.wiring.note_general(self.plc, fault),
+        }
     }
 
     /// Who answers, as the registers say now.
@@ -443,7 +448,7 @@ impl Session<'_> {
             type_code: self.plc.type_code(),
             station,
             format,
-            profile: self.profile,
+            profile: self.plc.modbus(),
         }
     }
 
@@ -469,14 +474,12 @@ impl Session<'_> {
         frame
     }
 
-    /// Whether what has been received is a request of QLink that the program answers.
-    pub(super) fn is_qlink(&mut self, received: usize) -> bool {
-        if !self.slave().has_qlink() || self.codec_of(Protocols::QLINK).is_none() {
-            return false;
-        }
+    /// Whether what has been received is a frame of this codec.
+    pub(super) fn is_whole(&mut self, codec: &Codec, received: usize) -> bool {
+        let slave = self.slave();
         let port = self.plc.port(self.wiring.number);
         let frame = port.as_ref().and_then(|port| port.buffer.get(..received));
-        frame.is_some_and(qlink::is_qlink)
+        frame.is_some_and(|frame| codec.cut(&self.status, slave, frame) == Cut::Whole)
     }
 
     /// Answers a frame, none of which has more than `LENGTH` characters.

@@ -27,6 +27,16 @@ impl Protocols {
         Protocol::EnhancedSlave,
     ]);
 
+    /// Those that need to know what a model serves by Modbus.
+    pub const MODBUS: Self = Protocols::of(&[
+        Protocol::ModbusRtu,
+        Protocol::ModbusAscii,
+        Protocol::MasterRtu,
+        Protocol::MasterAscii,
+        Protocol::MasterTable,
+    ])
+    .or(Self::QLINK);
+
     /// Those that keep something from one frame to the next.
     const WITH_MEMORY: Self = Protocols::of(&[Protocol::ProgrammingPort]).or(Self::QLINK);
 

@@ -4,7 +4,6 @@ use super::computer_link::{self, Dialect};
 use super::fx_port::{self, Space};
 use super::link::Role;
 use super::modbus::{self, Framing, Profile};
-use super::model::PortModel;
 use super::wiring::{Ports, Protocol};
 
 /// A port's partner is answered like this.
@@ -95,7 +94,13 @@ impl Slave {
 impl Ports {
     /// What a model of the family serves as a Modbus slave; `type_code` is what its D8001 shows.
     pub fn modbus(self, type_code: u16) -> &'static Profile {
-        PortModel::of(self, type_code).profile
+        match self {
+            Ports::Inovance if type_code / 1000 == H1U => &modbus::H1U,
+            Ports::Inovance | Ports::Without => &modbus::H2U,
+            Ports::L01s => &modbus::L01S,
+            Ports::Hm => &modbus::HM,
+            Ports::Fx | Ports::Fx3 | Ports::Fx3g | Ports::Board2n | Ports::Board3u => &modbus::FX3U,
+        }
     }
 
     /// What a model of the family makes of the programming port's protocol.

@@ -1,14 +1,17 @@
 //! The special devices of serial ports, by family of models, and the protocol that they choose.
 
 mod fx;
+mod rules;
 mod tables;
 
 use super::LineFault;
 use super::can::{self, CAN_PORT};
+use super::codec::Codec;
 use super::line::LineFormat;
 use crate::plc::Plc;
 use crate::special::{Register, Relay};
 pub(crate) use fx::ModbusWiring;
+pub use rules::Rules;
 
 /// What a port speaks. The numbers are part of the C ABI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -115,14 +118,6 @@ impl Protocol {
                 | Protocol::MasterTable
         )
     }
-
-    /// Whether its frames contain 8-bit bytes.
-    const fn is_binary(self) -> bool {
-        matches!(
-            self,
-            Protocol::ModbusRtu | Protocol::MasterRtu | Protocol::MasterTable
-        )
-    }
 }
 
 /// What chooses the protocol of a port.
@@ -155,12 +150,14 @@ pub enum Choice {
 }
 
 /// The special devices of one port.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct PortWiring {
     /// Its number in the model's manual.
     pub number: u8,
     /// What chooses its protocol.
     pub choice: Choice,
+    /// What follows from that.
+    pub rules: &'static Rules,
     /// Register: format word.
     pub format: Option<Register>,
     /// Register: own station number.
@@ -252,11 +249,8 @@ const SERIAL_CODES: u16 = 6300;
 /// Code of a port that is not there.
 const NO_PORT: u16 = SERIAL_CODES + 77;
 
-/// Register with the type of the extension card, and the type of the CAN card.
+/// Register with the type of the extension card.
 const D_CARD: Register = Register(8199);
-const CAN_CARD: u16 = 7;
-/// Types of H1U begin so (h1u-h2u-programming §8.3, D8001).
-const H1U: u16 = 26;
 
 /// Master and slave of a parallel link, on COM1 (h1u-h2u-programming §5.4).
 pub(super) const M_PARALLEL_MASTER: Relay = Relay(8070);
@@ -266,12 +260,6 @@ const M_PORT_2_SET_UP: Relay = Relay(8196);
 const M_PORT_3_SET_UP: Relay = Relay(8192);
 /// Port 2 of L01S speaks Modbus.
 const M_PORT_2_MODBUS: Relay = Relay(8125);
-
-/// The format of characters on the way to a CAN adapter; USB adapters ignore it.
-const ADAPTER: LineFormat = LineFormat {
-    bits_per_second: 1_000_000,
-    ..LineFormat::new()
-};
 
 /// The serial ports that a family of models has. The numbers are part of the C ABI.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -299,6 +287,35 @@ pub enum Ports {
 }
 
 impl Ports {
+    /// All families that have ports.
+    pub const fn families() -> &'static [Self] {
+        &[
+            Ports::Inovance,
+            Ports::L01s,
+            Ports::Hm,
+            Ports::Fx,
+            Ports::Fx3,
+            Ports::Fx3g,
+            Ports::Board2n,
+            Ports::Board3u,
+        ]
+    }
+
+    /// Its name in emitted C, in small letters.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Ports::Without => "without",
+            Ports::Inovance => "inovance",
+            Ports::L01s => "l01s",
+            Ports::Hm => "hm",
+            Ports::Fx => "fx",
+            Ports::Fx3 => "fx3",
+            Ports::Fx3g => "fx3g",
+            Ports::Board2n => "board2n",
+            Ports::Board3u => "board3u",
+        }
+    }
+
     /// The ports in the order of their numbers.
     pub const fn all(self) -> &'static [PortWiring] {
         match self {
@@ -380,6 +397,13 @@ impl ErrorPlace {
 }
 
 impl PortWiring {
+    /// The special devices that a port of a program has now.
+    pub(crate) fn of(plc: &dyn Plc, number: u8) -> Option<&'static Self> {
+        let mut all = (0..).map_while(|index| plc.port_wiring(index));
+        let wiring = all.find(|wiring| wiring.number == number)?;
+        Some(wiring.chosen(plc))
+    }
+
     /// The special devices that the port has now: those that its registers choose.
     pub(crate) fn chosen(&'static self, plc: &dyn Plc) -> &'static PortWiring {
         let instead = self.instead.filter(|other| value(plc, other.format) != 0);
@@ -411,109 +435,35 @@ impl PortWiring {
 
     /// What the registers choose now; `uinit` is what UINIT has set up.
     pub fn protocol(&self, plc: &dyn Plc, uinit: [u16; 3]) -> Protocol {
-        let format = value(plc, self.format);
-        let number = value(plc, self.protocol);
-        match self.choice {
-            Choice::ProgrammingPort => Protocol::ProgrammingPort,
-            Choice::Can => match (plc.type_code() / 1000, D_CARD.value(plc)) {
-                (H1U, card) if card != CAN_CARD => Protocol::Off,
-                _ => Protocol::Can,
-            },
-            Choice::Com0 => match number {
-                2 if plc.sys().running => Protocol::ModbusRtu,
-                3 if plc.sys().running => Protocol::ModbusAscii,
-                _ => Protocol::ProgrammingPort,
-            },
-            Choice::Com1 => match (M_PARALLEL_MASTER.is_on(plc), M_PARALLEL_SLAVE.is_on(plc)) {
-                (true, true) => Protocol::Off,
-                (true, false) => Protocol::ParallelMaster,
-                (false, true) => Protocol::ParallelSlave,
-                (false, false) => by_number(number, format),
-            },
-            Choice::Number => by_number(number, format),
-            Choice::L01sPort2 => self.l01s_port2(plc, format),
-            Choice::L01sPort3 if !M_PORT_3_SET_UP.is_on(plc) => Protocol::ProgrammingPort,
-            Choice::L01sPort3 => match number {
-                0x000 => Protocol::Free,
-                0x001 => Protocol::MasterRtu,
-                0x011 => Protocol::ModbusRtu,
-                0x101 => Protocol::MasterAscii,
-                0x111 => Protocol::ModbusAscii,
-                _ => Protocol::Off,
-            },
-            Choice::Uinit => match (uinit[0] >> 8, uinit[0] & 0xff) {
-                (0, 0) | (1, _) => Protocol::ProgrammingPort,
-                (2, _) => Protocol::ComputerLinkMaster,
-                (3, _) => Protocol::ComputerLink,
-                (4, 0) => Protocol::MasterRtu,
-                (4, _) => Protocol::ModbusRtu,
-                (5, _) => Protocol::Free,
-                _ => Protocol::Off,
-            },
-            Choice::Channel0 if format == 0 => Protocol::ProgrammingPort,
-            Choice::Channel0 => Protocol::Free,
-            Choice::Channel => self.channel(plc, number, format),
-            Choice::Format if self.fx_link(plc).is_some() => {
-                self.fx_link(plc).unwrap_or(Protocol::Off)
-            }
-            Choice::Format if format & 1 << 14 != 0 => Protocol::ComputerLink,
-            Choice::Board if format & 1 << 15 != 0 => Protocol::MasterRtu,
-            Choice::Board if format & 1 << 14 != 0 => Protocol::ModbusRtu,
-            Choice::Format | Choice::Board => Protocol::Free,
-        }
-    }
-
-    /// l01s-programming §9.2: a master of Modbus has station 255.
-    fn l01s_port2(&self, plc: &dyn Plc, format: u16) -> Protocol {
-        const MASTER: u16 = 255;
-        let ascii = format & 1 << 12 != 0;
-        if !M_PORT_2_SET_UP.is_on(plc) {
-            Protocol::ProgrammingPort
-        } else if !M_PORT_2_MODBUS.is_on(plc) {
-            match format >> 13 & 3 {
-                3 => Protocol::ComputerLink,
-                _ => Protocol::Free,
-            }
-        } else {
-            match (value(plc, self.station) == MASTER, ascii) {
-                (false, false) => Protocol::ModbusRtu,
-                (false, true) => Protocol::ModbusAscii,
-                (true, false) => Protocol::MasterRtu,
-                (true, true) => Protocol::MasterAscii,
-            }
-        }
+        (self.rules.protocol)(self, plc, uinit)
     }
 
     /// The format of characters on the line under a protocol.
     pub fn line(&self, plc: &dyn Plc, protocol: Protocol, uinit: [u16; 3]) -> LineFormat {
-        let word = value(plc, self.format);
-        let format = match protocol {
-            Protocol::ProgrammingPort => return LineFormat::seven_even(9600, self.one_pair),
-            Protocol::Can => return ADAPTER,
-            // The rate of the format word replaces the usual one where it is not 0 (h1u-h2u-communication §3.4).
-            Protocol::ParallelMaster | Protocol::ParallelSlave => return linked(word, 19_200),
-            Protocol::NnMaster | Protocol::NnSlave => return linked(word, 38_400),
-            Protocol::EnhancedMaster | Protocol::EnhancedSlave => {
-                return LineFormat::seven_even(38_400, true);
-            }
-            _ if self.choice == Choice::Uinit => LineFormat::from_uinit(uinit[1], self.one_pair),
-            _ => LineFormat::from_word(word),
-        };
-        let format = match protocol {
-            Protocol::Free => format,
-            _ if self.choice == Choice::Uinit => format,
-            _ => format.half_duplex(),
-        };
-        let format = if self.one_pair {
-            format.half_duplex()
-        } else {
-            format
-        };
-        if protocol.is_binary() {
-            format.eight_bits()
-        } else {
-            format
+        match Codec::of(protocol) {
+            Some(codec) => codec.line(self, plc, protocol, uinit),
+            None => self.own_line(plc, uinit, false),
         }
+    }
+
+    /// The format of characters that the registers choose, for the free protocol or others.
+    pub(super) fn own_line(&self, plc: &dyn Plc, uinit: [u16; 3], free: bool) -> LineFormat {
+        (self.rules.line)(self, plc, uinit, free)
+    }
+
+    /// The line of a link between PLCs. The rate of the format word replaces the usual one where it is not 0 (h1u-h2u-communication §3.4).
+    pub(super) fn linked(&self, plc: &dyn Plc, protocol: Protocol) -> LineFormat {
+        let word = value(plc, self.format);
+        let rate = match protocol {
+            Protocol::ParallelMaster | Protocol::ParallelSlave => 19_200,
+            _ => 38_400,
+        };
+        let enhanced = matches!(protocol, Protocol::EnhancedMaster | Protocol::EnhancedSlave);
+        let rate = match word >> 4 & 15 {
+            1.. if !enhanced => LineFormat::from_word(word).bits_per_second,
+            _ => rate,
+        };
+        LineFormat::seven_even(rate, true)
     }
 
     /// The time-out in microseconds; one that is not set is 100 ms.
@@ -539,43 +489,46 @@ impl PortWiring {
         value(plc, self.gap)
     }
 
+    /// Shows that the port runs another protocol than an instruction needs.
+    pub(crate) fn note_other_protocol(&self, plc: &mut dyn Plc, protocol: Protocol) {
+        let fault = LineFault::Protocol;
+        match protocol {
+            Protocol::ProgrammingPort => note_programming_port(plc, fault),
+            _ if protocol.is_modbus() => self.note_of_modbus(plc, protocol.is_master(), fault),
+            _ => self.note_usual(plc, fault),
+        }
+    }
+
     /// Shows an error of the port in the PLC's relay and register, where it stays until the program clears it.
-    pub(crate) fn note(&self, plc: &mut dyn Plc, protocol: Protocol, fault: LineFault) {
-        let general = match fault {
-            LineFault::Character => 1,
-            LineFault::Unknown => 2,
-            LineFault::Sum => 3,
-            LineFault::Command => 5,
-            LineFault::TimeOut => 6,
-            LineFault::Address => 76,
-            _ => 4,
-        };
-        let of_parallel = match fault {
-            LineFault::Character | LineFault::Unknown => 12,
-            LineFault::Sum => 13,
-            LineFault::TimeOut => 15,
-            _ => 14,
-        };
-        let (place, code) = match (protocol, fault.of_modbus()) {
-            (Protocol::ProgrammingPort, _) => (
-                Some(PROGRAMMING_PORT_ERROR),
-                PROGRAMMING_PORT_CODES + general,
-            ),
-            _ if self.modbus.is_some() && protocol.is_modbus() => {
-                return self.note_modbus(plc, fault.of_fx3(protocol.is_master()), 0);
+    pub(super) fn note_general(&self, plc: &mut dyn Plc, fault: LineFault) {
+        self.show(plc, self.codes + fault.of_all());
+    }
+
+    /// Shows an error with the codes of Modbus, if the port has them.
+    fn note_usual(&self, plc: &mut dyn Plc, fault: LineFault) {
+        match fault.of_modbus() {
+            Some(kind) if self.modbus_errors != 0 => self.show(plc, self.modbus_errors + kind),
+            _ => self.note_general(plc, fault),
+        }
+    }
+
+    /// Shows an error of Modbus, of a master or a slave.
+    pub(super) fn note_of_modbus(&self, plc: &mut dyn Plc, master: bool, fault: LineFault) {
+        (self.rules.note_modbus)(self, plc, master, fault);
+    }
+
+    /// Shows an error of a link between PLCs.
+    pub(super) fn note_of_link(&self, plc: &mut dyn Plc, protocol: Protocol, fault: LineFault) {
+        match protocol {
+            Protocol::ParallelMaster | Protocol::ParallelSlave => {
+                self.show(plc, self.codes + fault.of_parallel());
             }
-            (_, Some(kind))
-                if self.modbus_errors != 0
-                    && (protocol.is_modbus() || fault == LineFault::Protocol) =>
-            {
-                (self.error, self.modbus_errors + kind)
-            }
-            (Protocol::ParallelMaster | Protocol::ParallelSlave, _) => {
-                (self.error, self.codes + of_parallel)
-            }
-            _ => (self.error, self.codes + general),
-        };
-        if let Some(place) = place {
+            _ => self.note_general(plc, fault),
+        }
+    }
+
+    fn show(&self, plc: &mut dyn Plc, code: u16) {
+        if let Some(place) = self.error {
             place.show(plc, code);
         }
     }
@@ -664,28 +617,47 @@ pub(crate) fn note_missing(plc: &mut dyn Plc) {
 }
 
 /// Computer link by bit 14 of the format word, else the protocol of a number.
-fn by_number(number: u16, format: u16) -> Protocol {
-    let protocol = Protocol::from_number(number);
+fn by_number(wiring: &PortWiring, plc: &dyn Plc) -> Protocol {
+    let protocol = Protocol::from_number(value(plc, wiring.protocol));
     match protocol {
         Protocol::NnMaster
         | Protocol::NnSlave
         | Protocol::ParallelMaster
         | Protocol::ParallelSlave => protocol,
-        _ if format & 1 << 14 != 0 => Protocol::ComputerLink,
+        _ if value(plc, wiring.format) & 1 << 14 != 0 => Protocol::ComputerLink,
         _ => protocol,
     }
 }
 
-/// The line of a link between PLCs.
-fn linked(word: u16, usual: u32) -> LineFormat {
-    let rate = match word >> 4 & 15 {
-        0 => usual,
-        _ => LineFormat::from_word(word).bits_per_second,
-    };
-    LineFormat::seven_even(rate, true)
+/// Shows an error of a programming port.
+pub(super) fn note_programming_port(plc: &mut dyn Plc, fault: LineFault) {
+    PROGRAMMING_PORT_ERROR.show(plc, PROGRAMMING_PORT_CODES + fault.of_all());
 }
 
 impl LineFault {
+    /// The last digits of the code of an error, in protocols that have no others.
+    fn of_all(self) -> u16 {
+        match self {
+            LineFault::Character => 1,
+            LineFault::Unknown => 2,
+            LineFault::Sum => 3,
+            LineFault::Command => 5,
+            LineFault::TimeOut => 6,
+            LineFault::Address => 76,
+            _ => 4,
+        }
+    }
+
+    /// The same on a parallel link.
+    fn of_parallel(self) -> u16 {
+        match self {
+            LineFault::Character | LineFault::Unknown => 12,
+            LineFault::Sum => 13,
+            LineFault::TimeOut => 15,
+            _ => 14,
+        }
+    }
+
     /// The last digit of the code of a Modbus error; `None` for what all protocols share.
     fn of_modbus(self) -> Option<u16> {
         Some(match self {

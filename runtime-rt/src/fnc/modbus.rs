@@ -5,8 +5,8 @@
 //!
 //! [`Exchange`]: crate::comm::modbus::Exchange
 
+use crate::comm::PortWiring;
 use crate::comm::modbus::{Buffer, End, Job, Layout, Visit};
-use crate::comm::{LineFault, PortWiring};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::OperandKind;
@@ -41,7 +41,7 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
     if !port.status.protocol.is_master() {
         // What the first scan sets up binds at its end.
         if driven && (port.status.bound || !first_scan) {
-            cx.note_line(number, LineFault::Protocol);
+            cx.note_other_protocol(number);
         }
         return Ok(Turn::None);
     }
@@ -80,8 +80,7 @@ fn work(cx: &mut Cx, number: u8, job: fn(&Cx) -> Result<Job, Fault>) -> Result<T
 
 /// The special devices that a port has now.
 fn wiring(cx: &Cx, number: u8) -> Option<&'static PortWiring> {
-    let wiring = cx.plc.ports().get(number)?;
-    Some(wiring.chosen(cx.plc))
+    PortWiring::of(cx.plc, number)
 }
 
 /// A special relay of a port, by its number there; 0: there is none.

@@ -3,7 +3,7 @@
 
 use super::digits::{hex_digit, hex_value};
 use crate::comm::modbus::{CRC_START, crc_step};
-use crate::comm::{LineFault, Protocol, Transfer, free};
+use crate::comm::{Protocol, Transfer, free};
 use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::operand::{Operand, OperandKind};
@@ -184,7 +184,7 @@ fn transfer(cx: &mut Cx, number: u8) -> Done {
     }
     if status.protocol != Protocol::Free {
         if status.bound || !cx.plc.sys().first_scan {
-            cx.note_line(number, LineFault::Protocol);
+            cx.note_other_protocol(number);
         }
         return Ok(());
     }

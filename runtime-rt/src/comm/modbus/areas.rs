@@ -202,8 +202,21 @@ const INOVANCE_WORDS: &[Area] = &[
     counters(0xf700),
 ];
 
+/// A program without Modbus.
+pub static NOTHING: Profile = Profile {
+    name: "nothing",
+    coils: &[],
+    inputs: &[],
+    registers: &[],
+    input_registers: &[],
+    limits: Limits::STANDARD,
+    any_value_is_on: false,
+    counters_by_06: false,
+};
+
 /// H2U as a slave.
 pub static H2U: Profile = Profile {
+    name: "h2u",
     coils: INOVANCE_BITS,
     inputs: INOVANCE_BITS,
     registers: INOVANCE_WORDS,
@@ -215,12 +228,14 @@ pub static H2U: Profile = Profile {
 
 /// H1U as a slave.
 pub static H1U: Profile = Profile {
+    name: "h1u",
     limits: Limits::H1U,
     ..H2U
 };
 
 /// L01S as a slave (l01s-programming §8.1.4): each device in one table alone.
 pub static L01S: Profile = Profile {
+    name: "l01s",
     coils: &[
         bits(0x0000, 7680, Class::M, 0),
         bits(0x1e00, 512, Class::M, 8000),
@@ -253,6 +268,7 @@ pub static L01S: Profile = Profile {
 /// FX3 with its Modbus adapter, and the boards that are compatible with it: the addresses of L01S with all of FX3's devices (public
 /// knowledge of FX3U).
 pub static FX3U: Profile = Profile {
+    name: "fx3u",
     coils: &[
         bits(0x0000, 7680, Class::M, 0),
         bits(0x1e00, 512, Class::M, 8000),
@@ -308,6 +324,7 @@ const HM_WORDS: &[Area] = &[
 
 /// HM as a slave. The manual names no refusals and no limit of a slave but the standard's.
 pub static HM: Profile = Profile {
+    name: "hm",
     coils: HM_BITS,
     inputs: HM_BITS,
     registers: HM_WORDS,
@@ -316,6 +333,9 @@ pub static HM: Profile = Profile {
     any_value_is_on: false,
     counters_by_06: true,
 };
+
+/// What all models serve.
+pub static ALL: [&Profile; 5] = [&H1U, &H2U, &L01S, &HM, &FX3U];
 
 #[cfg(test)]
 mod tests {
@@ -342,7 +362,7 @@ mod tests {
 
     #[test]
     fn no_address_stands_for_two_places() {
-        for profile in [&H2U, &H1U, &L01S, &FX3U, &HM] {
+        for profile in ALL {
             let tables = [
                 profile.coils,
                 profile.inputs,

@@ -33,7 +33,7 @@ mod storm_tests;
 pub mod tcp;
 
 pub use adu::{Framing, LONGEST_ASCII, LONGEST_RTU, cut_ascii};
-pub use areas::{Area, FX3U, Fill, H1U, H2U, HM, L01S, Limits};
+pub use areas::{ALL, Area, FX3U, Fill, H1U, H2U, HM, L01S, Limits, NOTHING};
 pub(super) use areas::{Place, place};
 pub use check::{CRC_START, crc_step, crc16};
 pub use exchange::{End, Exchange, Visit};
@@ -46,6 +46,8 @@ use super::LineFault;
 /// What a model serves as a slave.
 #[derive(Clone, Copy, Debug)]
 pub struct Profile {
+    /// Its name in emitted code, in small letters.
+    pub name: &'static str,
     /// What 01 reads, 05 and 0F write.
     pub coils: &'static [Area],
     /// What 02 reads.

@@ -35,6 +35,7 @@ const fn area(count: usize, class: Class, fill: Fill) -> Area {
 
 /// A model that has what the storage has.
 static PROFILE: Profile = Profile {
+    name: "oracle",
     coils: &[area(COILS, Class::M, Fill::Bits)],
     inputs: &[area(INPUTS, Class::X, Fill::Bits)],
     registers: &[area(REGISTERS, Class::D, Fill::Words)],

@@ -176,7 +176,7 @@ fn read<M: Map + ?Sized>(
     reply: &mut Frame,
 ) -> Result<(), Exception> {
     let (first, count) = range(body, 6, most)?;
-    [0, 1].map(|at| reply.push(body.byte(at).unwrap_or(0)));
+    body.0.iter().take(2).for_each(|&byte| reply.push(byte));
     reply.push(bytes_of(count, bits));
     let mut packed = Bits::new();
     let done = visit(areas, first, count, false, &mut |_, place| {

@@ -1,6 +1,6 @@
 //! What chooses the protocol of a port of FX, and Modbus on the channels of FX3.
 
-use super::{M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol};
+use super::{M_PARALLEL_MASTER, M_PARALLEL_SLAVE, PortWiring, Protocol, value};
 use crate::comm::LineFault;
 use crate::plc::Plc;
 use crate::special::{Register, Relay};
@@ -125,7 +125,8 @@ impl PortWiring {
     }
 
     /// A channel of FX3 (FX3U MODBUS manual §6.1, D8401): bit 0 Modbus, bit 4 slave, bit 8 ASCII. Channel 1 precedes channel 2.
-    pub(super) fn channel(&self, plc: &dyn Plc, mode: u16, format: u16) -> Protocol {
+    pub(super) fn channel(&self, plc: &dyn Plc) -> Protocol {
+        let [mode, format] = [self.protocol, self.format].map(|register| value(plc, register));
         let taken = self.number != 1 && D_CHANNEL_1.value(plc) & 1 != 0;
         match (mode & 1 != 0, mode >> 4 & 1 != 0, mode >> 8 & 1 != 0) {
             (true, ..) if taken => Protocol::Off,

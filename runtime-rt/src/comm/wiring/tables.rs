@@ -2,7 +2,7 @@
 
 use super::{
     Choice, Envelope, ErrorPlace, ModbusWiring, PROGRAMMING_PORT_CODES, PROGRAMMING_PORT_ERROR,
-    PortWiring, SERIAL_CODES, SERIAL_ERROR,
+    PortWiring, Rules, SERIAL_CODES, SERIAL_ERROR,
 };
 use crate::comm::can::CAN_PORT;
 use crate::special::{Register, Relay};
@@ -12,6 +12,7 @@ const fn bare(number: u8, choice: Choice) -> PortWiring {
     PortWiring {
         number,
         choice,
+        rules: Rules::of(choice),
         format: None,
         station: None,
         protocol: None,
