@@ -14,6 +14,8 @@ endif
 # The crates of a standard library that cargo builds itself (-Zbuild-std) may come from the registry.
 OFFLINE ?= $(if $(CARGO_UNSTABLE_BUILD_STD)$(findstring build-std,$(CARGOFLAGS)),,--offline)
 RUNTIME_OPT ?= $(if $(TARGET),s,3)
+# For size, the runtime is optimised with the part of the standard library that it uses.
+RUNTIME_PROFILE = $(if $(filter s z,$(RUNTIME_OPT)),CARGO_PROFILE_RELEASE_LTO=fat CARGO_PROFILE_RELEASE_CODEGEN_UNITS=1)
 LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/librungc_rt.a)
 ";
 
@@ -21,7 +23,7 @@ LIBRARY = $(or $(RUNGC_RT),rungc-rt/target/$(if $(TARGET),$(TARGET)/)release/lib
 const LIBRARY_RULE: &str = "\
 ifndef RUNGC_RT
 $(LIBRARY): $(shell find rungc-rt/src rungc-rt/libm -name '*.rs') rungc-rt/Cargo.toml
-\tcd rungc-rt && CARGO_PROFILE_RELEASE_OPT_LEVEL=$(RUNTIME_OPT) $(CARGO) rustc --release --locked $(OFFLINE) --target-dir target \\
+\tcd rungc-rt && CARGO_PROFILE_RELEASE_OPT_LEVEL=$(RUNTIME_OPT) $(RUNTIME_PROFILE) $(CARGO) rustc --release --locked $(OFFLINE) --target-dir target \\
 \t\t--crate-type staticlib --features staticlib $(TARGET_FLAG) $(CARGOFLAGS)
 endif
 

@@ -12,8 +12,13 @@ struct Uart {
     clock_hz: u32,
     /// Switches the driver of an RS-485 line.
     drive: fn(bool),
-    /// The bits of a character.
-    mask: AtomicU8,
+    queues: &'static Queues,
+}
+
+/// What waits between the interrupt of a UART and the main loop. All of it begins as 0, so that none of it is in flash.
+struct Queues {
+    /// The bits that a character does not have.
+    unused: AtomicU8,
     received: CharQueue<RECEIVE>,
     to_send: [AtomicU8; SEND],
     /// The next character to be sent; changes where no interrupt comes.
@@ -22,24 +27,21 @@ struct Uart {
     end: AtomicUsize,
 }
 
-/* UART */impl Uart {
-    const fn new(port: u8, at: usize, clock_hz: u32, drive: fn(bool)) -> Self {
-        Uart {
-            port,
-            at,
-            clock_hz,
-            drive,
-            mask: AtomicU8::new(0xff),
-            received: CharQueue::new(),
-            to_send: [const { AtomicU8::new(0) }; SEND],
-            first: AtomicUsize::new(0),
-            end: AtomicUsize::new(0),
-        }
-    }
+impl Queues {
+    const EMPTY: Self = Queues {
+        unused: AtomicU8::new(0),
+        received: CharQueue::new(),
+        to_send: [const { AtomicU8::new(0) }; SEND],
+        first: AtomicUsize::new(0),
+        end: AtomicUsize::new(0),
+    };
+}
 
+/* UART */impl Uart {
     /// How many characters wait to be sent.
     fn waiting(&self) -> usize {
-        (self.end.load(Ordering::Relaxed) + SEND - self.first.load(Ordering::Relaxed)) % SEND
+        let queues = self.queues;
+        (queues.end.load(Ordering::Relaxed) + SEND - queues.first.load(Ordering::Relaxed)) % SEND
     }
 
     /// Hands over as many characters as the UART takes, and switches the driver of the line.
@@ -48,9 +50,9 @@ struct Uart {
             (self.drive)(true);
         }
         while self.waiting() > 0 && self.has_room() {
-            let first = self.first.load(Ordering::Relaxed);
-            write(self.at + OUT, self.to_send[first].load(Ordering::Relaxed).into());
-            self.first.store((first + 1) % SEND, Ordering::Relaxed);
+            let first = self.queues.first.load(Ordering::Relaxed);
+            write(self.at + OUT, self.queues.to_send[first % SEND].load(Ordering::Relaxed).into());
+            self.queues.first.store((first + 1) % SEND, Ordering::Relaxed);
         }
         let sending = self.waiting() > 0;
         let last = !sending && !self.has_sent();
@@ -63,9 +65,9 @@ struct Uart {
     /// The interrupt.
     fn serve(&self) {
         while let Some((byte, fault)) = self.next_character() {
-            self.received.note(Received {
+            self.queues.received.note(Received {
                 at_us: fine_us(),
-                byte: byte & self.mask.load(Ordering::Relaxed),
+                byte: byte & !self.queues.unused.load(Ordering::Relaxed),
                 fault,
             });
         }
@@ -76,23 +78,23 @@ struct Uart {
 impl SerialPort for &'static Uart {
     fn set_format(&mut self, format: LineFormat) {
         if format.bits_per_second != 0 {
-            self.mask.store(format.mask(), Ordering::Relaxed);
+            self.queues.unused.store(!format.mask(), Ordering::Relaxed);
             self.set_up(format);
         }
     }
 
     fn receive(&mut self, now_us: u32) -> Option<Received> {
-        self.received.take(now_us)
+        self.queues.received.take(now_us)
     }
 
     fn send(&mut self, byte: u8, _now_us: u32) -> bool {
-        let end = self.end.load(Ordering::Relaxed);
+        let end = self.queues.end.load(Ordering::Relaxed);
         let next = (end + 1) % SEND;
-        if next == self.first.load(Ordering::Relaxed) {
+        if next == self.queues.first.load(Ordering::Relaxed) {
             return false;
         }
-        self.to_send[end].store(byte, Ordering::Relaxed);
-        self.end.store(next, Ordering::Relaxed);
+        self.queues.to_send[end % SEND].store(byte, Ordering::Relaxed);
+        self.queues.end.store(next, Ordering::Relaxed);
         without_interrupts(|| self.pump());
         true
     }

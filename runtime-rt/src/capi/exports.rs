@@ -1,6 +1,6 @@
 //! The functions that C calls, except those of the registry.
 
-use super::hal::Board;
+use super::hal::{Board, Lines};
 use super::{Map, Request};
 use crate::axis::{advance, millihertz, pulse_timer};
 use crate::comm::codec::{self, Codec};
@@ -74,7 +74,7 @@ pub extern "C" fn rungc_advance_pulses(map: &mut Map, now_us: u32) {
 /// Brings the serial ports to `now_us`, microseconds since power-on, wrapping.
 #[unsafe(no_mangle)]
 pub extern "C" fn rungc_advance_ports(map: &mut Map, now_us: u32) -> Request {
-    let mut hal = Board::new(map.hal);
+    let mut hal = Lines::new(map.hal);
     Request::of(advance_ports(map, &mut hal, now_us))
 }
 

@@ -81,6 +81,25 @@ impl Board {
     }
 }
 
+/// The host's serial ports and its CAN bus, for what needs nothing else of its hardware.
+pub(super) struct Lines(Board);
+
+impl Lines {
+    pub(super) fn new(table: *const HalTable) -> Self {
+        Lines(Board::new(table))
+    }
+}
+
+impl Hal for Lines {
+    fn serial_port(&mut self, number: u8) -> Option<&mut dyn SerialPort> {
+        self.0.serial_port(number)
+    }
+
+    fn can_bus(&mut self) -> Option<&mut dyn CanBus> {
+        self.0.can_bus()
+    }
+}
+
 impl Hal for Board {
     fn clock(&mut self) -> Option<Clock> {
         let table = self.table()?;

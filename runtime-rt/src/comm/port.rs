@@ -212,10 +212,10 @@ pub fn advance(plc: &mut dyn Plc, hal: &mut dyn Hal, now_us: u32) -> Option<bool
             request: None,
         };
         session.run();
-        let status = session.status;
         request = request.or(session.request);
-        if let Some(port) = plc.port(wiring.number) {
-            *port.status = status;
+        // From one to the other at once, lest they be taken to overlap.
+        if let Some(port) = session.plc.port(wiring.number) {
+            *port.status = session.status;
         }
     }
     request

@@ -124,7 +124,7 @@ fn table(ports: &[&Serial]) -> String {
         };
         let _ = writeln!(
             rows,
-            "    Uart::new({port}, 0x{:08X}, {}, {drive}),",
+            "    Uart {{ port: {port}, at: 0x{:08X}, clock_hz: {}, drive: {drive}, queues: &QUEUES[{i}] }},",
             serial.at, serial.clock_hz
         );
         let _ = write!(
@@ -134,8 +134,8 @@ fn table(ports: &[&Serial]) -> String {
         );
     }
     format!(
-        "{text}static UARTS: [Uart; {}] = [\n{rows}];\n\n{handlers}",
-        ports.len()
+        "{text}static QUEUES: [Queues; {count}] = [Queues::EMPTY; {count}];\n\nstatic UARTS: [Uart; {count}] = [\n{rows}];\n\n{handlers}",
+        count = ports.len()
     )
 }
 
