@@ -443,6 +443,11 @@ typedef uint8_t rungc_heard;
 #endif // __cplusplus
 
 /**
+ * The special devices of one port.
+ */
+typedef struct rungc_port_wiring rungc_port_wiring;
+
+/**
  * Devices that are side by side in the program's struct.
  */
 typedef struct rungc_area {
