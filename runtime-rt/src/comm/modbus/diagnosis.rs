@@ -5,9 +5,9 @@
 //! bytes of a log (0C) and of a slave's identification (11) into a word without saying which comes first: here the low
 //! half takes the first one, as in the 16-bit mode of RS.
 
-use super::adu::{Body, Writer};
+use super::adu::Body;
 use super::master::{Job, Layout};
-use crate::comm::{LineFault, Map};
+use crate::comm::{Frame, LineFault, Map};
 
 /// The status of the slave, in one byte.
 const READ_STATUS: u8 = 0x07;
@@ -46,21 +46,21 @@ pub(super) fn is_silent(job: &Job) -> bool {
 }
 
 /// Appends what follows the function.
-pub(super) fn request(job: &Job, map: &dyn Map, writer: &mut Writer) -> Result<(), LineFault> {
+pub(super) fn request(job: &Job, map: &dyn Map, frame: &mut Frame) -> Result<(), LineFault> {
     let goes_to_words = job.buffer.layout == Layout::Words;
     match job.function {
         DIAGNOSE => {
             if !matches!(job.address, 0..=LISTEN_ONLY | 0x0a..=0x12) {
                 return Err(LineFault::Data);
             }
-            writer.push_word(job.address);
-            writer.push_word(job.count);
+            frame.push_be16(job.address);
+            frame.push_be16(job.count);
         }
         MASK_REGISTER => {
             let or_mask = job.buffer.word(0, map).ok_or(LineFault::Address)?;
-            writer.push_word(job.address);
-            writer.push_word(job.count);
-            writer.push_word(or_mask);
+            frame.push_be16(job.address);
+            frame.push_be16(job.count);
+            frame.push_be16(or_mask);
             return Ok(());
         }
         _ => {}

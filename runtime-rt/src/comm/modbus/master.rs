@@ -182,11 +182,10 @@ pub fn request(
     frame: &mut Frame,
 ) -> Result<(), LineFault> {
     if limits.diagnosis && diagnosis::is_known(job.function) {
-        let mut writer = Writer::serial(framing, frame);
-        writer.push(job.station);
-        writer.push(job.function);
-        diagnosis::request(job, map, &mut writer)?;
-        return writer.finish();
+        frame.push(job.station);
+        frame.push(job.function);
+        diagnosis::request(job, map, frame)?;
+        return close(framing, frame);
     }
     let count = job.count(limits)?;
     if !job.buffer.holds(count, job.coils(), map) {
