@@ -243,6 +243,28 @@ fn node_fxplc_reads_and_writes() {
 }
 
 #[test]
+fn node_red_reads_and_writes_by_a_flow() {
+    let Some(mut client) = node("node-red-contrib-modbus/package.json", "nodered.js") else {
+        return;
+    };
+    let folder = program(SUM);
+    let run = Run::new(folder.path(), "h2u", &["--modbus-tcp"], &[]);
+    client.arg(run.port("Modbus TCP").to_string());
+    succeeds(client);
+}
+
+#[test]
+fn umodbus_reads_and_writes_over_tcp() {
+    let Some(mut client) = python("umodbus", "umodbus_tcp.py") else {
+        return;
+    };
+    let folder = program(SUM);
+    let run = Run::new(folder.path(), "h2u", &["--modbus-tcp"], &[]);
+    client.arg(run.port("Modbus TCP").to_string());
+    succeeds(client);
+}
+
+#[test]
 fn a_client_written_from_public_documents_uses_the_programming_port() {
     let folder = program(PROGRAMMING_PORT);
     for over_tcp in [true, false] {
