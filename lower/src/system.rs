@@ -25,7 +25,13 @@ const CLEAR: [(Relay, bool); 2] = [(M_CLEAR_GENERAL, false), (M_CLEAR_LATCHED, t
 /// Second, minute, hour, day, month, year, weekday.
 const CLOCK_REGISTERS: [Register; 7] = D_SECOND.run();
 /// Stop and set, hold, round; an error in what was set.
-const CLOCK_RELAYS: [Relay; 4] = [M_CLOCK_STOP, M_CLOCK_HOLD, M_CLOCK_ADJUST, M_CLOCK_ERROR];
+const CLOCK_RELAYS: [Relay; 5] = [
+    M_CLOCK_STOP,
+    M_CLOCK_HOLD,
+    M_CLOCK_ADJUST,
+    M_CLOCK_FITTED,
+    M_CLOCK_ERROR,
+];
 
 /// A list of active S devices that END processing keeps.
 struct Monitor {
@@ -324,10 +330,6 @@ impl Lowerer<'_> {
 
     /// M8015 to M8019 and D8013 to D8019.
     fn real_time_clock(&mut self) {
-        if self.keeps(M_CLOCK_FITTED) {
-            let on = self.bit_const(true);
-            self.write_relay(M_CLOCK_FITTED, on);
-        }
         if !CLOCK_REGISTERS.iter().any(|&register| self.keeps(register))
             && !CLOCK_RELAYS.iter().any(|&relay| self.keeps(relay))
         {

@@ -7,8 +7,8 @@ use crate::cx::Cx;
 use crate::fault::{Done, Fault};
 use crate::hal::Clock;
 use crate::special::{
-    D_SECOND, D_WEEKDAY, M_BORROW, M_CARRY, M_CLOCK_ADJUST, M_CLOCK_ERROR, M_CLOCK_HOLD,
-    M_CLOCK_STOP, M_ZERO, Register,
+    D_SECOND, D_WEEKDAY, M_BORROW, M_CARRY, M_CLOCK_ADJUST, M_CLOCK_ERROR, M_CLOCK_FITTED,
+    M_CLOCK_HOLD, M_CLOCK_STOP, M_ZERO, Register,
 };
 
 /// Seconds of a day.
@@ -203,12 +203,14 @@ pub fn twr_short(cx: &mut Cx) -> Done {
     write_clock(cx, true)
 }
 
-/// Keeps D8013–D8019 up to date at the start of each scan, and obeys the clock's relays: M8015 stops it, and its fall sets it from the
+/// Keeps D8013–D8019 up to date at the start of each scan, shows in M8018 whether there is a clock, and obeys the clock's relays: M8015 stops it, and its fall sets it from the
 /// registers; M8016 holds the registers; the rise of M8017 rounds to a minute.
 ///
 /// Memory: M8015 and M8017 of the last scan; the moment at which the clock was stopped.
 fn refresh(cx: &mut Cx, short: bool) -> Done {
-    let Some(mut now) = cx.hal().clock() else {
+    let now = cx.hal().clock();
+    cx.set_special(M_CLOCK_FITTED, now.is_some());
+    let Some(mut now) = now else {
         return Ok(());
     };
     let (stop, adjust) = (cx.special(M_CLOCK_STOP), cx.special(M_CLOCK_ADJUST));
@@ -320,8 +322,8 @@ pub fn hour(cx: &mut Cx) -> Done {
 #[cfg(test)]
 mod tests {
     use crate::double::{Double, reg};
-    use crate::hal::{Clock, Hal};
-    use crate::{Class, Fault, RtFn, d, k};
+    use crate::hal::{Clock, Hal, NoHal};
+    use crate::{Class, Cx, Fault, Plc, RtFn, VirtualHal, d, k};
     use proptest::prelude::*;
 
     #[test]
@@ -386,6 +388,19 @@ mod tests {
             (plc.hal.clock().unwrap().year, plc.m(8019, 1)),
             (1999, "0".into())
         );
+    }
+
+    #[test]
+    fn m8018_says_whether_there_is_a_clock() {
+        let mut plc = Double::new();
+        for (hal, expected) in [
+            (&mut VirtualHal::new() as &mut dyn Hal, true),
+            (&mut NoHal, false),
+        ] {
+            let site = plc.site;
+            super::clock_refresh(&mut Cx::new(&mut plc, hal, &[], site)).unwrap();
+            assert_eq!(plc.bit(Class::M, 8018), Some(expected));
+        }
     }
 
     /// D8013…D8019 after a refresh.
