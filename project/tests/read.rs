@@ -31,10 +31,8 @@ fn mistakes(text: &str) -> String {
     shown
 }
 
-#[test]
-fn every_setting_is_read() {
-    let project = parse(
-        r#"
+/// A file with every setting.
+const EVERY_SETTING: &str = r#"
 [project]
 program = "Packer.gxw"
 model = "FX3U"
@@ -75,9 +73,15 @@ fx = "5556"
 serial = { COM1 = "/dev/ttyUSB0", COM2 = "tcp:gateway:4001" }
 D = "D0-D511"
 Y = ["Y000-Y017"]
-"#,
-    )
-    .unwrap();
+"#;
+
+fn every_setting() -> Project {
+    parse(EVERY_SETTING).unwrap()
+}
+
+#[test]
+fn settings_of_the_project_and_of_commands_are_read() {
+    let project = every_setting();
     assert_eq!(project.model, Some(ModelId::Fx3u));
     assert_eq!(project.name.as_deref(), Some("packer"));
     assert_eq!(project.encoding.unwrap().name(), "windows-1252");
@@ -91,6 +95,11 @@ Y = ["Y000-Y017"]
         Some(Path::new("firmware/plc"))
     );
     assert_eq!(project.test.files.len(), 2);
+}
+
+#[test]
+fn settings_of_the_program_are_read() {
+    let project = every_setting();
     let reading = project.reading();
     let learned = |body: &[u8]| reading.learned.get(body).map(ToString::to_string);
     assert_eq!(learned(&[0x56, 9]).as_deref(), Some("FROM"));
@@ -117,6 +126,11 @@ Y = ["Y000-Y017"]
         (DeviceClass::D, 200, 511),
     ];
     assert_eq!(latched, expected);
+}
+
+#[test]
+fn settings_of_servers_are_read() {
+    let project = every_setting();
     let serve = &project.serve;
     assert_eq!(serve.modbus_tcp, ["127.0.0.1:5020".parse().unwrap()]);
     assert_eq!((serve.mc.len(), serve.fx.len()), (2, 1));

@@ -63,21 +63,13 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
             "--scan: a scan takes at least 1 ms".to_string(),
         ));
     }
-    let mut settings = args
-        .set
-        .iter()
-        .map(|text| setting(text))
-        .collect::<std::result::Result<Vec<_>, _>>()?;
+    let settings = args.set.iter().map(|text| setting(text));
+    let mut settings = settings.collect::<std::result::Result<Vec<_>, _>>()?;
     order::by_key(&mut settings, |s| s.at_ms);
-    let watched = args
-        .watch
-        .iter()
-        .map(|name| target(name))
-        .collect::<std::result::Result<Vec<_>, _>>()?;
-    let described = match &args.machine {
-        Some(path) => Some(plant::load(path).map_err(because)?),
-        None => None,
-    };
+    let watched = args.watch.iter().map(|name| target(name));
+    let watched = watched.collect::<std::result::Result<Vec<_>, _>>()?;
+    let described = args.machine.as_ref().map(|path| plant::load(path));
+    let described = described.transpose().map_err(because)?;
     if let Some(machine) = &described {
         free_inputs(machine, &settings)?;
     }
@@ -127,14 +119,7 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         machine.check(module.model).map_err(because)?;
     }
     let plant = described.as_ref().map(Description::plant);
-    let axes = plant.as_ref().map_or(&[][..], Plant::axes);
-    let still = axes.iter().filter(|axis| stands_still(axis, &module));
-    for axis in still {
-        let name = axis.name();
-        tell(&format!(
-            "rungc: the axis {name} never moves: the program sends no pulses to its output"
-        ));
-    }
+    report_still_axes(plant.as_ref(), &module);
     let usual = subject.project.as_ref().and_then(|project| {
         let file = project.retain.as_deref()?;
         Some(project.at(file))
@@ -154,6 +139,17 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         program_memory: program_memory.as_deref(),
     };
     run.simulate(plant)
+}
+
+/// Names the axes of a machine that the program cannot move.
+fn report_still_axes(plant: Option<&Plant>, module: &Module) {
+    let axes = plant.map_or(&[][..], Plant::axes);
+    for axis in axes.iter().filter(|axis| stands_still(axis, module)) {
+        let name = axis.name();
+        tell(&format!(
+            "rungc: the axis {name} never moves: the program sends no pulses to its output"
+        ));
+    }
 }
 
 /// The special modules that the settings fit to the PLC.

@@ -117,19 +117,9 @@ fn main(image: &Image) -> String {
     let board = image.board;
     let (package, program) = rungc_codegen_rust::names(image.module);
     let watched = image.watched();
-    let ends = image.script.until_ms;
-    let mut before = String::new();
-    let mut show = retain::save(image);
-    before.push_str(&retain::load(image));
+    let mut before = retain::load(image);
     if board.console {
         before.push_str("    let mut shown = [false; OUTPUTS.len()];\n");
-        show.push_str("        show_outputs(driver, &mut shown);\n");
-    }
-    if let Some(ms) = ends {
-        let _ = writeln!(
-            show,
-            "        if driver.now_ms() >= {ms} {{\n            semihosting(0x18, 0x20026); // SYS_EXIT, application exit\n        }}"
-        );
     }
     let setup = setup(image);
     let ports = image.serial();
@@ -138,13 +128,6 @@ fn main(image: &Image) -> String {
     let bits = match board.outputs.values().chain(drivers).any(by_bits) || !setup.is_empty() {
         true => BITS,
         false => "",
-    };
-    let uses = match ports.first().map(|serial| serial.uart) {
-        Some(Uart::Stm32 | Uart::Stm32f7) => {
-            &format!("{}use rungc_rt::comm::Parity;\n", serial::USES)
-        }
-        Some(Uart::Cmsdk) => serial::USES,
-        None => "",
     };
     let end = |class| {
         terminals(image.module, class)
@@ -185,7 +168,7 @@ fn main(image: &Image) -> String {
             if watched.is_empty() { "" } else { NEXT_EDGE },
         )
         .replace("/* CONSOLE */", &console(image))
-        .replace("/* USE SERIAL */", uses)
+        .replace("/* USE SERIAL */", &serial_uses(image))
         .replace("/* USE RETAIN */", &retain::uses(image))
         .replace("/* RETAIN */", &retain::drivers(image))
         .replace("/* SERIAL */", &serial::drivers(image))
@@ -199,7 +182,7 @@ fn main(image: &Image) -> String {
                 "        driver.board.now_ms = driver.now_ms();\n"
             },
         )
-        .replace("/* SHOW */", &show)
+        .replace("/* SHOW */", &after_scan(image))
         .replace("CRATE", &package)
         .replace("TYPE", &program);
     format!(
@@ -208,6 +191,32 @@ fn main(image: &Image) -> String {
         env!("CARGO_PKG_VERSION"),
         comment(&image.module.source_name),
     )
+}
+
+/// What the image takes from the runtime for its serial ports.
+fn serial_uses(image: &Image) -> String {
+    let uses = serial::USES;
+    match image.serial().first().map(|serial| serial.uart) {
+        Some(Uart::Stm32 | Uart::Stm32f7) => format!("{uses}use rungc_rt::comm::Parity;\n"),
+        Some(Uart::Cmsdk) => uses.to_string(),
+        None => String::new(),
+    }
+}
+
+/// What the main loop does after a scan: saves latched devices, shows the outputs, and ends with the script.
+fn after_scan(image: &Image) -> String {
+    let mut text = retain::save(image);
+    if image.board.console {
+        text.push_str("        show_outputs(driver, &mut shown);\n");
+    }
+    if let Some(ms) = image.script.until_ms {
+        // Writing to a String does not fail.
+        let _ = writeln!(
+            text,
+            "        if driver.now_ms() >= {ms} {{\n            semihosting(0x18, 0x20026); // SYS_EXIT, application exit\n        }}"
+        );
+    }
+    text
 }
 
 /// What pins remember, and how that begins.
