@@ -2,22 +2,26 @@
 
 mod diff;
 mod forms;
+mod values;
 
 pub use diff::{DiffArgs, DiffFormat};
 pub use forms::{ConvertArgs, ConvertTo, ReadArgs, ReadFrom};
 
 use crate::commands::run::STANDARD_ERROR;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use rungc_firmware::target::{self, Target};
+use rungc_firmware::target::Target;
 use rungc_frontend::{Encoding, ReadOptions};
 use rungc_models::{ModelId, Variant};
 use rungc_project::Check;
 use rungc_project::serve::{Line, address};
-use rungc_syntax::{Device, DeviceClass, Severity, codes, diag};
+use rungc_syntax::{Device, DeviceClass};
 use std::net::SocketAddr;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
+use values::{
+    code, device, devices, encoding, limit, model, networks, omissible, plc, target, warning,
+};
 
 /// Default maximum number of diagnostics in the human format.
 const DIAGNOSTICS: usize = 100;
@@ -624,89 +628,6 @@ pub enum EngineChoice {
     All,
 }
 
-/// The identifier of a warning, given by its code or name.
-fn warning(name: &str) -> Result<&'static str, String> {
-    let id = omissible(name)?;
-    match codes::find(id).map(|code| code.severity) {
-        Some(Severity::Warning) => Ok(id),
-        _ => Err("a note cannot be an error".to_string()),
-    }
-}
-
-/// The identifier of an error that can be made a warning, given by its code or name.
-fn limit(name: &str) -> Result<&'static str, String> {
-    let limits = || {
-        codes::eased()
-            .map(|code| code.id)
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let code = codes::find(name)
-        .ok_or_else(|| format!("unknown error; these can be warnings: {}", limits()))?;
-    match code.severity {
-        Severity::Note | Severity::Warning => Err("it is not an error".to_string()),
-        Severity::Error => match code.can_be_eased() {
-            Ok(()) => Ok(code.id),
-            Err(why) => Err(format!("it cannot be a warning: {why}")),
-        },
-    }
-}
-
-/// The identifier of a warning or note, given by its code or name.
-fn omissible(name: &str) -> Result<&'static str, String> {
-    let code = codes::find(name).ok_or_else(|| {
-        let omissible = codes::all()
-            .into_iter()
-            .filter(|c| c.severity != Severity::Error);
-        let names = omissible.flat_map(|c| [c.id, c.name]);
-        let near = diag::did_you_mean(&name.to_lowercase(), names);
-        let hint = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-        format!("unknown warning{hint}")
-    })?;
-    match code.severity {
-        Severity::Note | Severity::Warning => Ok(code.id),
-        Severity::Error => Err("errors cannot be suppressed".to_string()),
-    }
-}
-
-fn networks(text: &str) -> Result<RangeInclusive<usize>, String> {
-    let (first, last) = text.split_once("..").unwrap_or((text, text));
-    match (first.parse(), last.parse()) {
-        (Ok(first), Ok(last)) if (1..=last).contains(&first) => Ok(first..=last),
-        _ => Err("networks are written `12` or `12..20`, counted from 1".to_string()),
-    }
-}
-
-fn device(text: &str) -> Result<Device, String> {
-    rungc_project::device::device(&text.to_uppercase())
-        .ok_or_else(|| "a device is written `X010`, `M100` or `D0`".to_string())
-}
-
-fn devices(text: &str) -> Result<(DeviceClass, u32, u32), String> {
-    rungc_project::device::range(&text.to_uppercase().replace("..", "-"))
-        .ok_or_else(|| "devices are written `M100` or `D100..D199`".to_string())
-}
-
-fn code(text: &str) -> Result<&'static str, String> {
-    codes::find(&text.to_lowercase())
-        .map(|code| code.id)
-        .ok_or_else(|| format!("`{text}` is not a diagnostic code"))
-}
-
-fn encoding(name: &str) -> Result<&'static Encoding, String> {
-    let names =
-        "utf-8, utf-16le, windows-1252, windows-1250, windows-1251, gbk, big5, shift_jis, euc-kr";
-    Encoding::for_label_no_replacement(name.as_bytes())
-        .ok_or_else(|| format!("unknown encoding; some of those available: {names}"))
-}
-
-fn target(name: &str) -> Result<&'static Target, String> {
-    target::find(name).ok_or_else(|| {
-        let names: Vec<_> = target::ALL.iter().map(|target| target.triple).collect();
-        format!("unknown target; available: {}", names.join(", "))
-    })
-}
-
 /// A model, or a variant of one.
 #[derive(Clone, Copy, Debug)]
 pub struct Plc {
@@ -714,21 +635,4 @@ pub struct Plc {
     pub model: ModelId,
     /// The PLC of its family that was named.
     pub variant: Option<&'static Variant>,
-}
-
-fn plc(name: &str) -> Result<Plc, String> {
-    let variant = Variant::find(name);
-    let model = variant.map_or_else(|| model(name), |variant| Ok(variant.model));
-    model
-        .map(|model| Plc { model, variant })
-        .map_err(|why| format!("{why}; variants: {}", Variant::names()))
-}
-
-fn model(name: &str) -> Result<ModelId, String> {
-    ModelId::from_name(name).ok_or_else(|| {
-        let nearest = ModelId::from_cpu(name).map_or_else(String::new, |id| {
-            format!("; the nearest is {}", rungc_models::Model::get(id).name)
-        });
-        format!("unknown model{nearest}; available: {}", ModelId::names())
-    })
 }

@@ -34,8 +34,8 @@ fn run(folder: &Path, args: &[&str]) -> Output {
 /// The values in the last line of a run's table.
 fn last(output: &Output) -> String {
     let out = text(&output.stdout);
-    let rows = out.lines().filter(|line| line.contains(" s  "));
-    let last = rows.last().unwrap_or(&out).to_string();
+    let last = out.lines().rfind(|line| line.contains(" s  "));
+    let last = last.unwrap_or(&out);
     let words: Vec<_> = last.split_whitespace().skip(2).collect();
     words.join(" ")
 }

@@ -110,7 +110,21 @@ fn programs_of_one_firmware_share_files_and_a_makefile() {
         let ran = Command::new(path.join("firmware")).output().unwrap();
         assert_eq!(text(&ran.stdout), "1 1 4241\n", "{cc}");
     }
-    // A header of another version is rejected by the programs that include it.
+    other_headers_are_rejected(path, library);
+    // The folder is not written into a second time.
+    let again = rungc(path, &args);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(
+        text(&again.stderr).contains("already exists"),
+        "{}",
+        text(&again.stderr)
+    );
+    let forced = rungc(path, &[&args[..], &["--force"]].concat());
+    assert!(forced.status.success(), "{}", text(&forced.stderr));
+}
+
+/// A header of another version is rejected by the programs that include it.
+fn other_headers_are_rejected(path: &Path, library: &str) {
     for (header, guard) in [("rungc.h", "RUNGC_H"), ("rungc_rt.h", "RUNGC_RT_H")] {
         let file = path.join("plc").join(header);
         let right = fs::read_to_string(&file).unwrap();
@@ -128,16 +142,6 @@ fn programs_of_one_firmware_share_files_and_a_makefile() {
         );
         fs::write(&file, right).unwrap();
     }
-    // The folder is not written into a second time.
-    let again = rungc(path, &args);
-    assert_eq!(again.status.code(), Some(2));
-    assert!(
-        text(&again.stderr).contains("already exists"),
-        "{}",
-        text(&again.stderr)
-    );
-    let forced = rungc(path, &[&args[..], &["--force"]].concat());
-    assert!(forced.status.success(), "{}", text(&forced.stderr));
 }
 
 /// Each host is a separate executable.

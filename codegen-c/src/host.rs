@@ -134,23 +134,6 @@ pub fn main_file(module: &Module, servers: bool) -> String {
             "    case {number}:\n{statements}        return true;"
         );
     }
-    let mut outputs = String::new();
-    // Those that send pulses would be printed all the time.
-    let quiet = |number: &u32| module.pulse_outputs.contains(number);
-    let terminals_y = terminals(&fields, DeviceClass::Y);
-    for (number, _) in terminals_y.iter().filter(|(number, _)| !quiet(number)) {
-        let number = *number;
-        let label = DeviceClass::Y.number(number).to_string();
-        let text = fields
-            .comment(DeviceClass::Y, number)
-            .map(text::comment)
-            .unwrap_or_default();
-        let _ = writeln!(
-            outputs,
-            "    {{{number}, \"{label}\", {}}},",
-            text::string_literal(&text)
-        );
-    }
     let wait = if module.takes_time() {
         WAIT_WITH_TIME
     } else {
@@ -165,13 +148,11 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         true => rungc_models::plc_errors::PLC_ERRORS,
         false => &[],
     };
-    let errors: String = errors
-        .iter()
-        .map(|error| {
-            let title = text::string_literal(error.title);
-            format!("    case {}u:\n        return {title};\n", error.code)
-        })
-        .collect();
+    let errors = errors.iter().map(|error| {
+        let title = text::string_literal(error.title);
+        format!("    case {}u:\n        return {title};\n", error.code)
+    });
+    let errors: String = errors.collect();
     let (period, overrun) = match rungc_emit::cycle::constant_scan(module, &fields) {
         Some(_) => (CONSTANT_PERIOD, OVERRUN),
         None => (PERIOD, ""),
@@ -229,7 +210,28 @@ pub fn main_file(module: &Module, servers: bool) -> String {
         .replace("    /* INPUTS */\n", &inputs)
         .replace("    /* USAGE */\n", &usage(module, &host))
         .replace("    /* INSTRUCTIONS */\n", &instructions(module))
-        .replace("    /* OUTPUTS */\n", &outputs)
+        .replace("    /* OUTPUTS */\n", &outputs(module, &fields))
+}
+
+/// The rows of the outputs that a run shows.
+fn outputs(module: &Module, fields: &Storage) -> String {
+    let mut rows = String::new();
+    // Those that send pulses would be printed all the time.
+    let quiet = |number: &u32| module.pulse_outputs.contains(number);
+    let terminals_y = terminals(fields, DeviceClass::Y);
+    for &(number, _) in terminals_y.iter().filter(|(number, _)| !quiet(number)) {
+        let label = DeviceClass::Y.number(number).to_string();
+        let text = fields
+            .comment(DeviceClass::Y, number)
+            .map(text::comment)
+            .unwrap_or_default();
+        let _ = writeln!(
+            rows,
+            "    {{{number}, \"{label}\", {}}},",
+            text::string_literal(&text)
+        );
+    }
+    rows
 }
 
 /// What a host that keeps latched devices has: an include, functions, and what is done before, after each and after the

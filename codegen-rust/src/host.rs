@@ -49,27 +49,6 @@ const SERVERS_USES: [&str; 3] = [
 /// `src/main.rs` of a crate; `servers`: it takes options that open servers.
 pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> String {
     let module = generator.module;
-    let mut table = String::new();
-    for field in generator.storage.of_class(DeviceClass::Y) {
-        for number in field.first..field.end() {
-            // Those that send pulses would be printed all the time.
-            if module.pulse_outputs.contains(&number) {
-                continue;
-            }
-            let comment = generator
-                .device_comment(DeviceClass::Y, number)
-                .unwrap_or_default();
-            let name = DeviceClass::Y.number(number).to_string();
-            let _ = write!(
-                table,
-                "\n    ({number}, {name:?}, {:?}),",
-                one_line(comment)
-            );
-        }
-    }
-    if !table.is_empty() {
-        table.push('\n');
-    }
     let wait = match (module.takes_events(), module.has_ports()) {
         (false, _) => WAIT,
         (true, false) => WAIT_WITH_EVENTS,
@@ -138,7 +117,33 @@ pub fn main_file(generator: &Generator, crate_name: &str, servers: bool) -> Stri
         .replace("ERROR_TABLE", &errors)
         .replace("USAGE_TEXT", &format!("{text:?}"))
         .replace("INSTRUCTION_TABLE", &instructions(module))
-        .replace("OUTPUT_TABLE", &table)
+        .replace("OUTPUT_TABLE", &outputs(generator))
+}
+
+/// The rows of the outputs that a run shows.
+fn outputs(generator: &Generator) -> String {
+    let mut table = String::new();
+    for field in generator.storage.of_class(DeviceClass::Y) {
+        for number in field.first..field.end() {
+            // Those that send pulses would be printed all the time.
+            if generator.module.pulse_outputs.contains(&number) {
+                continue;
+            }
+            let comment = generator
+                .device_comment(DeviceClass::Y, number)
+                .unwrap_or_default();
+            let name = DeviceClass::Y.number(number).to_string();
+            let _ = write!(
+                table,
+                "\n    ({number}, {name:?}, {:?}),",
+                one_line(comment)
+            );
+        }
+    }
+    if !table.is_empty() {
+        table.push('\n');
+    }
+    table
 }
 
 /// What is used of the standard library and of the runtime.

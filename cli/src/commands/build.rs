@@ -51,10 +51,8 @@ fn build(
     cx: Context,
 ) -> Result {
     let target = fitting(plan, &subject.reporting)?;
-    let image = match &plan.board {
-        Some(path) => Some(ForImage::new(plan, path)?),
-        None => None,
-    };
+    let image = plan.board.as_ref().map(|path| ForImage::new(plan, path));
+    let image = image.transpose()?;
     let read = read(subject, reporter)?;
     let name = plan.name.clone().unwrap_or_else(|| stem(subject, &read));
     let options = CompileOptions {
@@ -72,11 +70,8 @@ fn build(
         _ => return conclude(&findings, reporter, cx, String::new),
     };
     if plan.name.as_ref().is_some_and(|name| !name.is_ascii()) {
-        let name = text::one_line(&name);
-        cx.note(&format!(
-            "       Named {name}: `{}` in the code",
-            module.name
-        ));
+        let (name, in_code) = (text::one_line(&name), &module.name);
+        cx.note(&format!("       Named {name}: `{in_code}` in the code"));
     }
     let shares = reporter.many() && plan.shares();
     let name = match shares {

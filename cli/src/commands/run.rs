@@ -83,16 +83,13 @@ pub fn program(args: &RunArgs, subject: &Subject, table: Table, cx: Context) -> 
         }
     };
     let used = settings.iter().map(|s| s.target).chain(watched.clone());
+    let used = used.flat_map(observed);
     let wired = described.iter().flat_map(Description::terminals);
     let registers = args.scope.iter().flat_map(|_| scope::REGISTERS);
     let sampled = registers.map(|register| (DeviceClass::D, register.number()));
     let options = CompileOptions {
         name: Some(stem(subject, &read)),
-        observe: used
-            .flat_map(observed)
-            .chain(wired)
-            .chain(sampled)
-            .collect(),
+        observe: used.chain(wired).chain(sampled).collect(),
         // Clients may ask for any device.
         observe_all: args.serve.any(),
         ports: args.serve.serial.iter().map(|serial| serial.port).collect(),

@@ -6,6 +6,7 @@ use crate::temps::type_of;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use rungc_emit::private::{self, Private};
+use rungc_rt::comm::Protocols;
 use std::rc::Rc;
 
 /// A private field.
@@ -49,24 +50,14 @@ impl Generator<'_> {
         let one = match private {
             Private::Sys => {
                 let sys = self.rt("Sys");
-                let power_on = quote!(#sys::power_on());
-                (
-                    format_ident!("sys"),
-                    quote!(#sys),
-                    power_on,
-                    "Time and mode.",
-                )
+                let (power_on, meaning) = (quote!(#sys::power_on()), "Time and mode.");
+                (format_ident!("sys"), quote!(#sys), power_on, meaning)
             }
             Private::Edges(count) => {
                 let (edge, count) = (self.rt("Edge"), Literal::u32_unsuffixed(count));
                 let meaning = "What edge contacts and pulse instructions saw last.";
-                let ty = quote!([#edge; #count]);
-                (
-                    format_ident!("edges"),
-                    ty,
-                    quote!([#edge(false); #count]),
-                    meaning,
-                )
+                let (ty, off) = (quote!([#edge; #count]), quote!([#edge(false); #count]));
+                (format_ident!("edges"), ty, off, meaning)
             }
             Private::Flag { flag, .. } => {
                 (flag_field(flag), quote!(bool), quote!(false), flag.meaning)
@@ -82,22 +73,13 @@ impl Generator<'_> {
             Private::Table(table) => {
                 let name = format_ident!("{}", table.name);
                 let length = Literal::u32_unsuffixed(table.length);
-                (
-                    name,
-                    quote!([i32; #length]),
-                    quote!([0; #length]),
-                    table.meaning,
-                )
+                let (ty, zero) = (quote!([i32; #length]), quote!([0; #length]));
+                (name, ty, zero, table.meaning)
             }
             Private::Error => {
                 let error = self.rt("LastError");
-                let none = quote!(#error::NONE);
-                (
-                    format_ident!("error"),
-                    quote!(#error),
-                    none,
-                    "What has gone wrong.",
-                )
+                let (none, meaning) = (quote!(#error::NONE), "What has gone wrong.");
+                (format_ident!("error"), quote!(#error), none, meaning)
             }
             Private::StepsLeft => {
                 let (name, steps) = (format_ident!("steps_left"), self.initial_steps());
@@ -112,43 +94,37 @@ impl Generator<'_> {
             Private::Axes(outputs) => {
                 let axis = self.rt("Axis");
                 let (ty, new) = (quote!(#axis), quote!(#axis::new()));
-                let field = |&output: &u32| {
-                    (
-                        axis_field(output),
-                        ty.clone(),
-                        new.clone(),
-                        "What this output sends.",
-                    )
-                };
-                return outputs.iter().map(field).collect();
+                let meaning = "What this output sends.";
+                let outputs = outputs.iter();
+                return outputs
+                    .map(|&output| (axis_field(output), ty.clone(), new.clone(), meaning))
+                    .collect();
             }
             Private::Port(number, protocols) => {
-                let (port, comm) = (self.rt("Port"), self.rt("comm"));
-                let length = Literal::usize_unsuffixed(protocols.longest_frame());
-                let memory = match protocols.keeps_memory() {
-                    true => quote!(#comm::Memory),
-                    false => quote!(#comm::NoMemory),
-                };
-                (
-                    port_field(number),
-                    quote!(#port<#length, #memory>),
-                    quote!(#port::new()),
-                    "What this serial port is doing.",
-                )
+                let (ty, new) = self.port(protocols);
+                let meaning = "What this serial port is doing.";
+                (port_field(number), ty, new, meaning)
             }
             Private::States(count) => {
                 // Slot 0 stands for instructions without memory.
                 let count = Literal::u32_unsuffixed(u32::from(count) + 1);
                 let state = self.rt("State");
                 let (ty, new) = (quote!([#state; #count]), quote!([#state::new(); #count]));
-                (
-                    format_ident!("states"),
-                    ty,
-                    new,
-                    "Private memories of instructions.",
-                )
+                let meaning = "Private memories of instructions.";
+                (format_ident!("states"), ty, new, meaning)
             }
         };
         vec![one]
+    }
+
+    /// The type of a serial port that may speak these protocols, and its first value.
+    fn port(&mut self, protocols: Protocols) -> (TokenStream, TokenStream) {
+        let (port, comm) = (self.rt("Port"), self.rt("comm"));
+        let length = Literal::usize_unsuffixed(protocols.longest_frame());
+        let memory = match protocols.keeps_memory() {
+            true => quote!(#comm::Memory),
+            false => quote!(#comm::NoMemory),
+        };
+        (quote!(#port<#length, #memory>), quote!(#port::new()))
     }
 }

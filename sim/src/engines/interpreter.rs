@@ -2,6 +2,7 @@
 
 use super::{Engine, EngineError};
 use crate::protocol::{Answer, Request};
+use crate::target::Channel;
 use rungc_interp::Machine;
 use rungc_ir::Module;
 use rungc_rt::modules::{KINDS, Signal};
@@ -36,6 +37,25 @@ fn operand(class: Class, number: u32) -> Operand {
     Operand::device(class, i32::try_from(number).unwrap_or(i32::MAX))
 }
 
+fn set_signal(hal: &mut VirtualHal, channel: Channel, millionths: i32) -> Answer {
+    let quantity = channel.quantity;
+    let signal = Signal {
+        quantity,
+        millionths,
+    };
+    Answer::done(hal.set_signal(channel.unit, channel.number, signal))
+}
+
+impl Interpreter<'_> {
+    /// Adds a PLC with the program of this number.
+    fn join(&mut self, number: usize) -> Result<Answer, EngineError> {
+        let module = self.modules.get(number);
+        let module = module.ok_or(EngineError::NoProgram(number))?;
+        self.plcs.push((Machine::new(module), VirtualHal::new()));
+        Ok(Answer::Ok)
+    }
+}
+
 impl Engine for Interpreter<'_> {
     fn name(&self) -> &str {
         "interp"
@@ -43,15 +63,14 @@ impl Engine for Interpreter<'_> {
 
     fn ask(&mut self, request: Request) -> Result<Answer, EngineError> {
         match request {
-            Request::Case(i) | Request::Join(i) => {
-                let module = self.modules.get(i).ok_or(EngineError::NoProgram(i))?;
-                if matches!(request, Request::Case(_)) {
+            Request::Case(i) => {
+                if i < self.modules.len() {
                     self.plcs.clear();
                     self.current = 0;
                 }
-                self.plcs.push((Machine::new(module), VirtualHal::new()));
-                return Ok(Answer::Ok);
+                return self.join(i);
             }
+            Request::Join(i) => return self.join(i),
             Request::Plc(i) => self.current = i,
             _ => {}
         }
@@ -123,11 +142,7 @@ impl Engine for Interpreter<'_> {
                 millionths,
             } => {
                 hal.advance_to(now_ms);
-                let signal = Signal {
-                    quantity: channel.quantity,
-                    millionths,
-                };
-                Answer::done(hal.set_signal(channel.unit, channel.number, signal))
+                set_signal(hal, channel, millionths)
             }
             Request::Signal { now_ms, channel } => {
                 hal.advance_to(now_ms);

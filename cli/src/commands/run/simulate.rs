@@ -155,41 +155,44 @@ impl Run<'_> {
         };
         interruption::note();
         let outcome = simulation.run(args)?;
-        simulation
-            .lines
-            .end(simulation.now_ms, &mut simulation.watch);
-        let table = simulation.watch.table();
+        simulation.end(args, outcome)
+    }
+}
+
+impl Simulation<'_> {
+    /// Reports what has happened, and completes the files; a run that is denied errors fails by them.
+    fn end(mut self, args: &RunArgs, outcome: Outcome) -> Result {
+        self.lines.end(self.now_ms, &mut self.watch);
+        let table = self.watch.table();
         if !table.is_empty() {
             say(&format!("\n{}\n", table.join("\n")))?;
         }
-        if let Some(retaining) = simulation.retaining.take() {
-            retaining.end(&simulation.machine)?;
+        if let Some(retaining) = self.retaining.take() {
+            retaining.end(&self.machine)?;
         }
-        let errors = simulation.machine.errors();
-        simulation.errors.summarise(errors);
+        let errors = self.machine.errors();
+        self.errors.summarise(errors);
         let denied = args.deny_errors && !errors.is_empty();
-        let cut_short = simulation.machine.watchdog_tripped() || interruption::is_asked();
+        let cut_short = self.machine.watchdog_tripped() || interruption::is_asked();
         let end_ms = match args.end_ms() {
             Some(end_ms) if !cut_short => end_ms,
-            _ => simulation.now_ms,
+            _ => self.now_ms,
         };
-        if let Some(recording) = simulation.recording {
+        if let Some(recording) = self.recording {
             recording.keep(1000 * end_ms)?;
         }
-        if let Some(plotting) = simulation.plotting {
+        if let Some(plotting) = self.plotting {
             plotting.keep()?;
         }
-        if let Some(scope) = simulation.scope {
-            scope.keep(&simulation.machine)?;
+        if let Some(scope) = self.scope {
+            scope.keep(&self.machine)?;
         }
         Ok(match denied {
             true => Outcome::Failed,
             false => outcome,
         })
     }
-}
 
-impl Simulation<'_> {
     fn run(&mut self, args: &RunArgs) -> Result {
         self.out.line(&self.view.heading())?;
         let begin = Instant::now();
