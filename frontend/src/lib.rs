@@ -13,6 +13,7 @@ pub mod image;
 mod learn;
 mod learned;
 mod listing;
+mod plcopen;
 pub mod print;
 mod search;
 mod text;
@@ -226,6 +227,7 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
         });
     };
     let mut read = match csv::detect(&text) {
+        _ if plcopen::is_project(&text) => plcopen::read(name, &text),
         Some(layout) => csv::read(name, &text, layout),
         None => read_text(name, &text),
     };

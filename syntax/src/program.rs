@@ -110,6 +110,8 @@ pub enum SourceKind {
     GxWorks2,
     /// Program memory of a PLC.
     Image,
+    /// PLCopen XML.
+    Plcopen,
 }
 
 impl SourceKind {
@@ -121,6 +123,7 @@ impl SourceKind {
             SourceKind::GxDeveloper => "GX Developer",
             SourceKind::GxWorks2 => "GX Works2",
             SourceKind::Image => "program memory",
+            SourceKind::Plcopen => "PLCopen XML",
         }
     }
 
@@ -131,7 +134,8 @@ impl SourceKind {
             SourceKind::Csv
             | SourceKind::GxDeveloper
             | SourceKind::GxWorks2
-            | SourceKind::Image => false,
+            | SourceKind::Image
+            | SourceKind::Plcopen => false,
         }
     }
 
@@ -139,9 +143,11 @@ impl SourceKind {
     pub const fn has_rows(self) -> bool {
         match self {
             SourceKind::Csv => true,
-            SourceKind::Il | SourceKind::GxDeveloper | SourceKind::GxWorks2 | SourceKind::Image => {
-                false
-            }
+            SourceKind::Il
+            | SourceKind::GxDeveloper
+            | SourceKind::GxWorks2
+            | SourceKind::Image
+            | SourceKind::Plcopen => false,
         }
     }
 
@@ -149,7 +155,7 @@ impl SourceKind {
     /// lengths; else a list of mnemonics.
     pub const fn is_project(self) -> bool {
         match self {
-            SourceKind::Il | SourceKind::Csv => false,
+            SourceKind::Il | SourceKind::Csv | SourceKind::Plcopen => false,
             SourceKind::GxDeveloper | SourceKind::GxWorks2 | SourceKind::Image => true,
         }
     }

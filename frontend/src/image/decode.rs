@@ -198,7 +198,7 @@ fn is_operand(word: u16) -> bool {
 
 /// The next instruction; nothing if one of its words means nothing.
 fn decode(words: &mut Words) -> Option<Decoded> {
-    use DeviceClass::{C, M, N, P, S, T, Y};
+    use DeviceClass::{C, D, M, N, P, S, T, V, Y, Z};
     let word = words.next()?;
     if let Some((_, mnemonic)) = BARE.iter().find(|(code, _)| *code == word) {
         return Some(decoded(mnemonic, []));
@@ -243,7 +243,13 @@ fn decode(words: &mut Words) -> Option<Decoded> {
         }
         0x000B => decoded("MCR", [device(N, words.number(0xFF)?)]),
         0x000C => decoded("RST", [far(words, &[T, C])?]),
-        0x000D => decoded("RST", [words.operand(false)?]),
+        0x000D => {
+            let register = words.operand(false)?;
+            register
+                .device()
+                .filter(|d| matches!(d.class, D | V | Z | T | C))?;
+            decoded("RST", [register])
+        }
         0x0600..=0x07FF => {
             let timer = device(T, u32::from(word - 0x0600));
             decoded("OUT", [timer, words.operand(false)?])

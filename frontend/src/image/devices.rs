@@ -228,7 +228,7 @@ pub(super) fn operand(words: &[u16]) -> Option<OperandKind> {
             OperandKind::Nibbles(sub / 2, at_point(low.value)?, index)
         }
         (kind::REGISTER, sub) => OperandKind::Device(register_at(sub, low.value)?, index),
-        (kind::POINTER, 0) if low.value % 2 == 0 => {
+        (kind::POINTER, 0) if low.value % 2 == 0 && low.value < 512 => {
             let device = Device {
                 class: DeviceClass::P,
                 number: u32::from(low.value / 2),

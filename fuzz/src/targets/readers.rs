@@ -79,6 +79,7 @@ pub(super) fn targets() -> Vec<Target> {
         target("gx-developer", program, &[]),
         target("gx-works2", program, &[]),
         target("memory-image", program, &[]),
+        target("plcopen", program, &[]),
         target(
             "settings",
             settings,

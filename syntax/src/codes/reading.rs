@@ -33,7 +33,7 @@ super::codes! {
 
     FOREIGN_LANGUAGE = "E0006" "foreign-language" Error None,
     "the text is not an FX instruction list",
-    "Programs are read as instruction lists of the FX family, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list and structured text of IEC 61131-3 and PLCopen XML are other languages: their addresses (`%IX0.0`), declarations (`VAR`) and statements (`IF … THEN`, `:=`) have no counterpart here. Export the compiled program as a list from the editor, or rewrite it.",
+    "Programs are read as instruction lists of the FX family, as the editors' list export, or as projects of GX Developer and GX Works2. Instruction list and structured text of IEC 61131-3 are other languages: their addresses (`%IX0.0`), declarations (`VAR`) and statements (`IF … THEN`, `:=`) have no counterpart here. Export the compiled program as a list from the editor, or rewrite it.",
     wrong: "PROGRAM Motor\nVAR\n  Run : BOOL;\nEND_VAR\n",
     right: "LD X0\nOUT Y0\nEND\n";
 
@@ -57,7 +57,7 @@ super::codes! {
 
     UNKNOWN_FORMAT = "E0010" "unknown-format" Error None,
     "unknown file format",
-    "rungc reads instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg), GX Works2 projects (.gxw) and images of a PLC's program memory. It recognises the format by content, not by the file's name.",
+    "rungc reads instruction lists as text, the editors' list export (CSV), GX Developer projects (a folder or its MAIN.wpg), GX Works2 projects (.gxw), PLCopen XML and images of a PLC's program memory. It recognises the format by content, not by the file's name.",
     wrong: "",
     right: "";
 
@@ -161,6 +161,24 @@ super::codes! {
     NOT_AN_IMAGE = "E0062" "not-an-image" Error None,
     "the file is not the program memory of a PLC",
     "With `--from image`, the file is read as the program memory of an FX PLC: 92 bytes of parameters with the latched ranges from byte 30h on, then the program; a `.PMW` file of FXGP/WIN has a header of 256 bytes before them. The file does not have this form.",
+    wrong: "",
+    right: "";
+
+    PLCOPEN_ELEMENT = "E0063" "plcopen-element" Error None,
+    "element of a PLCopen project without a counterpart",
+    "Of PLCopen XML, rungc reads programs drawn as ladders (LD) of contacts and coils, and instruction lists (IL) with the operators of a ladder. Function blocks, structured text, FBD, SFC, jumps and variables of a drawing have no counterpart that can be read yet. The message names the element and its line.",
+    wrong: "",
+    right: "";
+
+    PLCOPEN_VARIABLE = "E0064" "plcopen-variable" Error None,
+    "variable of a PLCopen project without a device",
+    "A PLC of the FX family knows devices, not variables. A variable of a PLCopen project becomes the device at its address: `%IX0.3` is X003, `%QX1.0` is Y010, `%MX0.5` is M5, `%MW7` is D7 (bits are counted through, eight to a byte). A variable without an address must have the name of a device, such as `M100`.",
+    wrong: "",
+    right: "";
+
+    PLCOPEN_SYNTAX = "E0065" "plcopen-syntax" Error None,
+    "PLCopen project that is not well-formed XML",
+    "The file begins like a PLCopen project, but its XML is damaged. The message gives the place. Export the project again.",
     wrong: "",
     right: "";
 
