@@ -10,6 +10,7 @@ mod foreign;
 mod gx;
 mod il;
 pub mod image;
+mod ladder_text;
 mod learn;
 mod learned;
 mod listing;
@@ -229,6 +230,7 @@ pub fn read_bytes_with(name: &str, bytes: &[u8], options: &ReadOptions) -> Resul
     let mut read = match csv::detect(&text) {
         _ if plcopen::is_project(&text) => plcopen::read(name, &text),
         Some(layout) => csv::read(name, &text, layout),
+        None if ladder_text::detect(&text) => ladder_text::read(name, &text),
         None => read_text(name, &text),
     };
     if replaced {

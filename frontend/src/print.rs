@@ -11,6 +11,17 @@ const COMMENT_COLUMN: usize = 24;
 
 /// The program as an instruction list: title, CPU and device comments as `;!` lines, then one instruction a line.
 pub fn to_il(program: &Program) -> String {
+    let mut out = properties(program);
+    let steps = program.instrs.iter().filter_map(|instr| instr.step).max();
+    let width = steps.map_or(0, |last| last.to_string().len());
+    for instr in &program.instrs {
+        il_line(&mut out, instr, width);
+    }
+    out
+}
+
+/// Title, CPU type and device comments of a program as `;!` lines.
+pub fn properties(program: &Program) -> String {
     let mut out = String::new();
     let mut property = |key: &dyn std::fmt::Display, value: &str| {
         let _ = writeln!(out, ";! {key} = {value}");
@@ -23,11 +34,6 @@ pub fn to_il(program: &Program) -> String {
     }
     for (device, comment) in &program.comments {
         property(device, comment);
-    }
-    let steps = program.instrs.iter().filter_map(|instr| instr.step).max();
-    let width = steps.map_or(0, |last| last.to_string().len());
-    for instr in &program.instrs {
-        il_line(&mut out, instr, width);
     }
     out
 }

@@ -187,7 +187,8 @@ impl Page<'_> {
                 let _ = writeln!(out, "{}{}", self.lead(number, label), names.text());
             }
             let lead = self.lead("", &std::mem::take(&mut step));
-            let _ = writeln!(out, "{lead}{}", self.wires(grid, row, placed).text());
+            let wires = self.wires(grid, row, placed).text();
+            let _ = writeln!(out, "{lead}{wires}{}", self.note(placed));
             let comments: Vec<Vec<String>> = placed
                 .iter()
                 .map(|placed| self.face.comment(*placed))
@@ -208,6 +209,17 @@ impl Page<'_> {
                 let _ = writeln!(out, "{}{}", self.lead("", ""), text.text());
             }
         }
+    }
+
+    /// The note of the output on a row, after the right rail, where numbers and steps are left out.
+    fn note(&self, placed: &[Placed]) -> String {
+        let notes = placed.iter().filter_map(|placed| match placed.cell {
+            Cell::Output(output) if !self.counted => {
+                self.face.resolved.program.instrs[output.instr].note()
+            }
+            _ => None,
+        });
+        notes.map(|note| format!("  ; {note}")).collect()
     }
 
     fn column(&self, column: usize) -> usize {

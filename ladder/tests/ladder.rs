@@ -5,10 +5,10 @@ use rungc_analysis::resolve::{Resolved, resolve};
 use rungc_catalogue::{Basic, Join, Lower};
 use rungc_ladder::list::{Entry, Listed, instructions};
 use rungc_ladder::svg::Painter;
-use rungc_ladder::text::{Style, draw};
+use rungc_ladder::text::{Style, draw, draw_alike};
 use rungc_ladder::{Ladder, Network, NetworkBody, build, html};
 use rungc_models::{Model, ModelId};
-use rungc_syntax::Program;
+use rungc_syntax::{Instr, Program};
 use std::path::{Path, PathBuf};
 
 fn read(list: &str) -> Program {
@@ -262,11 +262,72 @@ proptest! {
             for network in &ladder.networks {
                 prop_assert!(!matches!(network.body, NetworkBody::List { .. }), "{list}: {network:?}");
             }
+            read_back(&program, &list, 60);
             let style = Style { width: 80, comments: false };
             prop_assert!(draw(resolved, &numbered(ladder), style).contains("(Y000)") || !list.contains("OUT Y0"));
             Ok(())
         })?;
     }
+}
+
+/// Networks as drawings, read back: how many give their own list. All others give one of the same meaning, which reads back as itself.
+fn read_back(program: &Program, name: &str, width: usize) -> usize {
+    let style = Style {
+        width,
+        comments: false,
+    };
+    let mut exact = 0;
+    with(program, |resolved, ladder| {
+        for network in &ladder.networks {
+            let NetworkBody::Rung(_) = network.body else {
+                continue;
+            };
+            let drawn = draw_alike(&[(resolved, network)], style).concat();
+            let again = rungc_frontend::read_bytes("drawn", drawn.as_bytes()).unwrap();
+            let found: Vec<_> = again.diagnostics.iter().map(|d| &d.message).collect();
+            assert!(found.is_empty(), "{name}:\n{drawn}\n{found:?}");
+            let texts =
+                |instrs: &[Instr]| instrs.iter().map(ToString::to_string).collect::<Vec<_>>();
+            if texts(&again.program.instrs) == texts(&program.instrs[network.instrs.clone()]) {
+                exact += 1;
+                continue;
+            }
+            // Drawn once more, it reads the same.
+            with(&again.program, |resolved, ladder| {
+                let networks: Vec<_> = ladder
+                    .networks
+                    .iter()
+                    .map(|network| (resolved, network))
+                    .collect();
+                let drawn = draw_alike(&networks, style).join("\n");
+                let third = rungc_frontend::read_bytes("drawn", drawn.as_bytes()).unwrap();
+                assert_eq!(
+                    texts(&third.program.instrs),
+                    texts(&again.program.instrs),
+                    "{name}\n{drawn}"
+                );
+            });
+        }
+    });
+    exact
+}
+
+#[test]
+fn drawings_of_examples_are_programs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let mut files = Vec::new();
+    programs_in(&root.join("examples"), &mut files);
+    programs_in(&root.join("../shared/corpus"), &mut files);
+    let (mut exact, mut all) = (0, 0);
+    for file in files {
+        let Ok(read) = rungc_frontend::read(&file) else {
+            continue;
+        };
+        exact += read_back(&read.program, &file.display().to_string(), 100);
+        all += with(&read.program, |_, ladder| ladder.networks.len());
+    }
+    println!("{exact} of {all} networks are read back exactly");
+    assert!(exact * 10 > all * 9, "{exact} of {all}");
 }
 
 const MOTOR: &str = ";! X000 = start button\n;! X001 = stop button\n;! M0 = motor latch\n;! Y000 = main contactor of the conveyor\nLD X0\nOR M0\nANI X1\nOUT M0\nLD M0\nOUT T0 K30\nAND T0\nOUT Y0\nEND\n";

@@ -102,6 +102,8 @@ pub enum SourceKind {
     /// Instruction list as text.
     #[default]
     Il,
+    /// Ladder drawn in characters.
+    Ladder,
     /// The editors' list export.
     Csv,
     /// GX Developer project (`MAIN.wpg`).
@@ -119,6 +121,7 @@ impl SourceKind {
     pub const fn title(self) -> &'static str {
         match self {
             SourceKind::Il => "instruction list",
+            SourceKind::Ladder => "drawn ladder",
             SourceKind::Csv => "list export",
             SourceKind::GxDeveloper => "GX Developer",
             SourceKind::GxWorks2 => "GX Works2",
@@ -127,10 +130,10 @@ impl SourceKind {
         }
     }
 
-    /// Whether it is a text that a user writes: places in it are lines and columns, and fixes can change it.
+    /// Whether it is a text that a user writes: places in it are lines and columns.
     pub const fn is_text(self) -> bool {
         match self {
-            SourceKind::Il => true,
+            SourceKind::Il | SourceKind::Ladder => true,
             SourceKind::Csv
             | SourceKind::GxDeveloper
             | SourceKind::GxWorks2
@@ -139,11 +142,24 @@ impl SourceKind {
         }
     }
 
+    /// Whether it is an instruction list, a line for each instruction: fixes can change it.
+    pub const fn is_list(self) -> bool {
+        match self {
+            SourceKind::Il => true,
+            SourceKind::Ladder
+            | SourceKind::Csv
+            | SourceKind::GxDeveloper
+            | SourceKind::GxWorks2
+            | SourceKind::Image => false,
+        }
+    }
+
     /// Whether it is a table whose rows places can name.
     pub const fn has_rows(self) -> bool {
         match self {
             SourceKind::Csv => true,
             SourceKind::Il
+            | SourceKind::Ladder
             | SourceKind::GxDeveloper
             | SourceKind::GxWorks2
             | SourceKind::Image
@@ -155,7 +171,7 @@ impl SourceKind {
     /// lengths; else a list of mnemonics.
     pub const fn is_project(self) -> bool {
         match self {
-            SourceKind::Il | SourceKind::Csv | SourceKind::Plcopen => false,
+            SourceKind::Il | SourceKind::Ladder | SourceKind::Csv | SourceKind::Plcopen => false,
             SourceKind::GxDeveloper | SourceKind::GxWorks2 | SourceKind::Image => true,
         }
     }

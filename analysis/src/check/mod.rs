@@ -214,7 +214,7 @@ impl<'a> Code<'a> {
     /// code may be any instruction, while a line of a list without a mnemonic is none.
     fn may_lack_structure(&self) -> bool {
         let program = self.resolved.program;
-        !program.kind.is_text() && !program.unread.is_empty()
+        !program.kind.is_list() && !program.unread.is_empty()
     }
 
     /// Whether an operand that could not be read may be any device.

@@ -76,15 +76,26 @@ pub enum ConvertTo {
     Csv,
     /// The comments of devices, as the editors export them beside the list (`COMMENT.csv`).
     Comments,
+    /// Ladder drawn in characters.
+    Ladder,
     /// Program memory of an FX PLC.
     Image,
 }
 
 impl ConvertTo {
+    /// Whether it is a text that a terminal can show.
+    pub const fn is_text(self) -> bool {
+        match self {
+            ConvertTo::Il | ConvertTo::Ladder => true,
+            ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image => false,
+        }
+    }
+
     /// How the name of such a file ends.
     pub const fn ending(self) -> &'static str {
         match self {
             ConvertTo::Il => "il",
+            ConvertTo::Ladder => "txt",
             ConvertTo::Csv | ConvertTo::Comments => "csv",
             ConvertTo::Image => "bin",
         }
@@ -93,7 +104,7 @@ impl ConvertTo {
     /// What this form is called, if it cannot store comments on devices.
     pub const fn without_comments(self) -> Option<&'static str> {
         match self {
-            ConvertTo::Il | ConvertTo::Comments => None,
+            ConvertTo::Il | ConvertTo::Ladder | ConvertTo::Comments => None,
             ConvertTo::Csv => Some("a list export"),
             ConvertTo::Image => Some("an image"),
         }

@@ -1,5 +1,7 @@
 //! `rungc convert`.
 
+mod ladder;
+
 use super::subject::{self, OutputPaths, Subject};
 use super::{
     Context, Failure, Outcome, Result, conclude, counted, read, say, stem, tell, write_file,
@@ -7,6 +9,7 @@ use super::{
 use crate::args::{ConvertArgs, ConvertTo};
 use crate::report::{Findings, Reporter};
 use rungc_frontend::{Read, image, print};
+use rungc_lower::compile::CompileOptions;
 use rungc_syntax::{Diagnostics, codes};
 use std::io::{self, IsTerminal, Write};
 
@@ -27,7 +30,7 @@ fn convert(
 ) -> Result {
     let read = read(subject, reporter)?;
     let mut diagnostics = read.diagnostics.clone();
-    let bytes = written(args.to, &read, &mut diagnostics);
+    let bytes = written(args.to, &read, &subject.options(), &mut diagnostics);
     let findings = Findings::new(
         &subject.file,
         &read.program,
@@ -59,7 +62,7 @@ fn convert(
             return Err(Failure::Because(why.to_string()));
         }
         Some(path) => write_file(path, &bytes, args.force)?,
-        None if args.to == ConvertTo::Il && io::stdout().is_terminal() => {
+        None if args.to.is_text() && io::stdout().is_terminal() => {
             say(&String::from_utf8_lossy(&bytes))?;
         }
         None => io::stdout().write_all(&bytes)?,
@@ -68,21 +71,29 @@ fn convert(
 }
 
 /// A program in an output form; why it cannot take this form is added to the diagnostics.
-pub fn written(to: ConvertTo, read: &Read, diagnostics: &mut Diagnostics) -> Vec<u8> {
+pub fn written(
+    to: ConvertTo,
+    read: &Read,
+    options: &CompileOptions,
+    diagnostics: &mut Diagnostics,
+) -> Vec<u8> {
     let program = &read.program;
+    let text = match to {
+        ConvertTo::Il | ConvertTo::Ladder => print::broken_text(program),
+        ConvertTo::Csv | ConvertTo::Comments | ConvertTo::Image => None,
+    };
+    if let Some(text) = text {
+        let diagnostic = codes::TEXT_BREAK
+            .at(
+                text.span,
+                "this text has a line break, which a list cannot represent",
+            )
+            .help("`--to csv` keeps it");
+        diagnostics.push(diagnostic);
+    }
     match to {
-        ConvertTo::Il => {
-            if let Some(text) = print::broken_text(program) {
-                let diagnostic = codes::TEXT_BREAK
-                    .at(
-                        text.span,
-                        "this text has a line break, which a list cannot represent",
-                    )
-                    .help("`--to csv` keeps it");
-                diagnostics.push(diagnostic);
-            }
-            print::to_il(program).into_bytes()
-        }
+        ConvertTo::Il => print::to_il(program).into_bytes(),
+        ConvertTo::Ladder => ladder::to_ladder(program, options).into_bytes(),
         ConvertTo::Csv => match &read.export_head {
             Some(head) => print::to_csv_with(program, head),
             None => print::to_csv(program),

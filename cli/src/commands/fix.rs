@@ -21,7 +21,7 @@ pub fn fix(subject: &Subject, cx: Context) -> Result<(), Failure> {
     let Ok(read) = subject::source(subject) else {
         return Ok(());
     };
-    if !read.program.kind.is_text() {
+    if !read.program.kind.is_list() {
         cx.note(&format!(
             "     Skipped {path}: --fix changes instruction lists; change this one in its editor"
         ));

@@ -9,6 +9,7 @@ use crate::progress;
 use crate::report::{Findings, Reporter};
 use client::{Client, Reply};
 use rungc_frontend::{ReadOptions, image};
+use rungc_lower::compile::CompileOptions;
 use rungc_rt::comm::fx_port::PROGRAM_MEMORY;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
@@ -55,7 +56,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     let mut diagnostics = read.diagnostics.clone();
     let bytes = match args.to {
         ConvertTo::Image => memory,
-        to => written(to, &read, &mut diagnostics),
+        to => written(to, &read, &CompileOptions::default(), &mut diagnostics),
     };
     let path = Path::new(&name);
     let findings = Findings::new(path, &read.program, diagnostics, &args.reporting);
@@ -64,7 +65,7 @@ pub fn run(args: &ReadArgs, cx: Context) -> Result {
     if complete {
         match &args.output {
             Some(path) => write_file(path, &bytes, args.force)?,
-            None if args.to == ConvertTo::Il && io::stdout().is_terminal() => {
+            None if args.to.is_text() && io::stdout().is_terminal() => {
                 say(&String::from_utf8_lossy(&bytes))?;
             }
             None => io::stdout().write_all(&bytes)?,

@@ -104,8 +104,8 @@ impl<'a> Findings<'a> {
 
     /// The fix of a diagnostic, if the program is a text that it can change.
     fn fix<'d>(&self, diagnostic: &'d Diagnostic) -> Option<&'d Fix> {
-        let text = self.program?.kind.is_text();
-        diagnostic.fix.as_ref().filter(|_| text)
+        let list = self.program?.kind.is_list();
+        diagnostic.fix.as_ref().filter(|_| list)
     }
 
     /// How many have this severity.

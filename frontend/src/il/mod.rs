@@ -61,19 +61,19 @@ pub fn read_text(name: &str, text: &str) -> Read {
 }
 
 #[derive(Default)]
-struct Reader {
-    program: Program,
-    diagnostics: Diagnostics,
+pub(crate) struct Reader {
+    pub(crate) program: Program,
+    pub(crate) diagnostics: Diagnostics,
     folded: Folded,
     /// What is wrong with the line at hand.
     faults: Faults,
     /// Comment lines that wait for the instruction below them.
-    statement: Option<SmolStr>,
+    pub(crate) statement: Option<SmolStr>,
 }
 
 impl Reader {
     /// Reads a full-width line, which begins at `start`.
-    fn wide_line(&mut self, line: &str, start: u32) {
+    pub(crate) fn wide_line(&mut self, line: &str, start: u32) {
         let mut folded = std::mem::take(&mut self.folded);
         folded.fold_line(line, &mut self.faults);
         let found = grammar::parse(&grammar::line(), &folded.text, &mut self.faults);

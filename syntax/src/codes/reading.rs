@@ -146,6 +146,24 @@ super::codes! {
     wrong: "",
     right: "";
 
+    LADDER_WIRE = "E0050" "ladder-wire" Error None,
+    "wire of a drawn ladder that leads nowhere",
+    "In ladder that is drawn in characters, every contact lies between the left rail and an output. A wire that ends in nothing, or a contact with nothing to its left, is most often a missing `-` or `+`, or a `|` in another column than the `+` above it. The network is left out.",
+    wrong: "",
+    right: "";
+
+    LADDER_SYMBOL = "E0051" "ladder-symbol" Error None,
+    "symbol of a drawn ladder that means nothing",
+    "Contacts are `--[ X000 ]--`, `--[/ X000]--`, `--|X000|--`, or `--| |--`, `--|/|--` and `--] [--` with the device above them; comparisons `--[>= D0 K10]--`; coils `--( Y000 )--` and `--(T0 K50)--`; other instructions `--[MOV K1 D0]--` and `--(SET M0)--`.",
+    wrong: "",
+    right: "";
+
+    LADDER_SHAPE = "E0052" "ladder-shape" Error None,
+    "network of a drawn ladder that no list can say",
+    "A list has contacts in series and parallel, and branches to outputs. A wire that bridges a contact, a contact that two branches share like a bridge, or contacts without an output have no list. Draw the contact twice, or use a relay M in between.",
+    wrong: "",
+    right: "";
+
     UNKNOWN_MACHINE_CODE = "E0060" "unknown-machine-code" Error None,
     "unknown machine code",
     "The program memory of a PLC contains words whose meaning no recorded transfer or published image shows. The message gives the step and the bytes, low byte first; the rest of the program is read. Extension registers R, bits of words, M3584 and above, S1024 and above, interrupt pointers, floating-point constants and texts are not known yet. Read the PLC with its editor instead, and give rungc the project.",
