@@ -92,7 +92,7 @@ pub enum Command {
     Fmt(FmtArgs),
     /// Compare two programs network by network, or what they do.
     Diff(DiffArgs),
-    /// Rewrite a program as an instruction list or a list export.
+    /// Rewrite a program as an instruction list, a list export, drawn ladder or program memory.
     Convert(ConvertArgs),
     /// Read the program out of a PLC over its programming port.
     ///

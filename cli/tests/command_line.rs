@@ -5,6 +5,7 @@ mod common;
 use common::{MOTOR, code, folder, rungc, shown, text};
 use std::fs;
 use std::io::Read;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 /// Three errors and a double coil.
@@ -161,6 +162,67 @@ fn what_an_export_cannot_hold_is_told() {
             .map(|c| c.unwrap())
             .collect();
     assert!(text.ends_with("\"X000\"\t\"start button\"\r\n"), "{text}");
+}
+
+#[test]
+fn drawn_ladder_reads_back() {
+    // Blocks without need, an unknown instruction, notes, and a text with the characters of a drawing.
+    let odd = "; Head\nP0\nLD X0\nLD X1\nANB\nOUT Y0 ; lamp\nLD X2\nMPS\nAND X3 ; inner\nOUT Y1\nMRD\nOUT Y2 ; note\nMPP\nSET M0\nLD X4\n$MOV \"|--( [\" D0\nLD X5\nFOO D0\nEND\n";
+    let wide: String = (0..40).map(|n| format!("AND M{n}\n")).collect();
+    let wide = format!("LD X0\n{wide}OUT Y0\nEND\n");
+    let folder = folder(&[
+        ("motor.il", MOTOR.as_bytes()),
+        ("odd.il", odd.as_bytes()),
+        ("wide.il", wide.as_bytes()),
+    ]);
+    let path = folder.path();
+    let converted = |file: &str, to: &str| rungc(path, &["convert", file, "--to", to]).stdout;
+    for name in ["motor.il", "odd.il", "wide.il"] {
+        let drawn = converted(name, "ladder");
+        fs::write(path.join("drawn.txt"), &drawn).unwrap();
+        let again = text(&converted("drawn.txt", "il"));
+        assert_eq!(again, text(&converted(name, "il")), "{}", text(&drawn));
+    }
+    insta::assert_snapshot!(
+        "convert_ladder",
+        shown(path, &["convert", "odd.il", "--to", "ladder"])
+    );
+    fs::write(path.join("broken.txt"), "|--[ X0 ]--+--( Y0 )--|\n|          +--[ X1 ]---\n|---| |---(Y1)--|\n|--[ X2 ]--[ X3 ]--|\n").unwrap();
+    insta::assert_snapshot!(
+        "drawn_ladder_with_mistakes",
+        shown(path, &["check", "broken.txt"])
+    );
+}
+
+/// Every list of the corpus beside the repository, where there is one.
+#[test]
+fn the_corpus_reads_back_from_drawn_ladder() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus");
+    let Ok(files) = rungc_frontend::programs(&corpus, usize::MAX) else {
+        println!("skipped: there is no corpus here");
+        return;
+    };
+    let folder = folder(&[]);
+    let path = folder.path();
+    for file in files {
+        let name = file.display().to_string();
+        let list = rungc(path, &["convert", &name, "--to", "il"]);
+        let drawn = rungc(path, &["convert", &name, "--to", "ladder"]);
+        fs::write(path.join("drawn.txt"), drawn.stdout).unwrap();
+        let again = rungc(path, &["convert", "drawn.txt", "--to", "il"]);
+        let plain = |bytes: &[u8]| -> String {
+            let steps = |line: &str| {
+                line.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ')
+                    .to_string()
+            };
+            text(bytes)
+                .lines()
+                .map(steps)
+                .collect::<Vec<_>>()
+                .join("\n")
+        };
+        assert_eq!(plain(&again.stdout), plain(&list.stdout), "{name}");
+    }
 }
 
 #[test]

@@ -40,6 +40,11 @@ pub(super) fn steps(drawn: &Drawn, faults: &mut Vec<Fault>) -> Vec<Step> {
             steps.push(Step::Label(labels));
             labels += 1;
         }
+        let is_odd =
+            |symbol: &Symbol| symbol.words.is_empty() && !matches!(symbol.kind, Kind::Result(_));
+        if network.iter().any(|at| is_odd(&drawn.symbols[*at])) {
+            continue;
+        }
         let mut circuit = Circuit::of(drawn, &network);
         let mut list = Vec::new();
         match circuit.list(&mut list) {
@@ -117,7 +122,6 @@ impl<'a> Circuit<'a> {
             edges: Vec::new(),
             outputs: BTreeMap::new(),
         };
-        // A result, such as INV, that is the last before the right rail is none: it is a box in a slanted hand.
         for &at in network {
             let symbol = &drawn.symbols[at];
             match symbol.kind {

@@ -27,7 +27,7 @@ pub(super) struct Symbol {
     pub kind: Kind,
     /// Its place in the source.
     pub span: Span,
-    /// What is written in or above it, each with its place in the source.
+    /// What is written in or above it, each with its place in the source; nothing if that was reported.
     pub words: Vec<(String, u32)>,
     pub row: usize,
     pub column: usize,
@@ -318,6 +318,7 @@ impl Scan<'_> {
                 "a coil needs a device"
             };
             self.drawn.odd.push((span, why));
+            self.add(row, (at, end + 1), Kind::Output, Vec::new());
             return Some(end + 1);
         }
         if words.is_empty() {
@@ -377,6 +378,7 @@ impl Scan<'_> {
                 self.drawn
                     .odd
                     .push((span, "no device is above this contact"));
+                self.add(row, (at, end), kind, Vec::new());
             }
         }
         Some(end)

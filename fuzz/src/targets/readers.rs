@@ -76,6 +76,14 @@ pub(super) fn targets() -> Vec<Target> {
                 "\"Step No.\",\"Line Statement\",\"Instruction\",\"I/O (Device)\",\"Blank\",\"P/I Statement\",\"Note\"\n\"0\",\"\",\"LD\",\"X000\",\"\",\"\",\"\"\n\"1\",\"\",\"MOV\",\"K1\",\"\",\"\",\"\"\n\"\",\"\",\"\",\"D0\",\"\",\"\",\"\"\n\"6\",\"\",\"END\",\"\",\"\",\"\",\"\"\n",
             ],
         ),
+        target(
+            "ladder-text",
+            program,
+            &[
+                "; Motor\n12 |--[ X000 ]--+--[/ X001]--( M0 )--|  ; latch\n   |--[ M0 ]----+                    |\nP0 |--[>= D0 K10]--/--[MOV K1 D0]--|\n",
+                " │  X000     X001             →0│\n ├──┤ ├───┬──┤↑├────┬────────→0│\n │0→      │         │           │\n ├0→──────┴─────────┴──(T0 K30)┤\nEND\n",
+            ],
+        ),
         target("gx-developer", program, &[]),
         target("gx-works2", program, &[]),
         target("memory-image", program, &[]),
