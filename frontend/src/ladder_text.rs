@@ -33,15 +33,18 @@ pub(crate) fn detect(text: &str) -> bool {
 pub(crate) fn read(name: &str, text: &str) -> Read {
     let source = Source::new(name, text);
     let mut reader = Drawing::default();
-    for (start, whole) in source.lines() {
+    let mut lines = source.lines().peekable();
+    while let Some((start, whole)) = lines.next() {
         let line = whole.trim_end_matches(['\r', '\n']);
-        if grid::is_drawn(line) {
+        let below = lines.peek().is_some_and(|(_, below)| grid::is_drawn(below));
+        if grid::is_drawn(line) || below && grid::is_names(line) {
             reader.block.push(line, start);
             continue;
         }
         reader.finish_block();
         reader.list.wide_line(line, start);
     }
+    drop(lines);
     reader.finish_block();
     let mut program = reader.list.program;
     program.source = source;

@@ -48,6 +48,7 @@ fn contacts_are_written_in_many_ways() {
         "|   X000   X001\n|---] [----]/[---(Y000)--|\n",
         "|  X0   X1\n|--||---|/|--(Y0)\n",
         "│   X000    X001          │\n├───┤ ├─────┤/├───(Y000)──┤\n",
+        "    X0   X1\n|---||---|/|--(Y0)\n",
         "  12 |--[ X000 ]--[/ X001]--( Y000 )--|\n",
     ] {
         assert_eq!(list(drawing), expected, "{drawing}");
@@ -81,6 +82,12 @@ fn branches_become_blocks() {
 ";
     let expected = "LD X000, AND X001, LD X002, AND X003, ORB, SET M0, LD>= D0 K10, AND< D0 K20, MOV K1 D2, LDD= D0 D2, INV, RST C0, END";
     assert_eq!(list(drawing), expected);
+    // A label pushes its rail to the right.
+    let drawing = "|--[X0]--( Y0 )--|\nP12 |--[X1]--+--( Y1 )--|\n|--[X2]------+           |\n";
+    assert_eq!(
+        list(drawing),
+        "LD X000, OUT Y000, P12, LD X001, OR X002, OUT Y001"
+    );
 }
 
 #[test]

@@ -75,6 +75,20 @@ pub(super) fn is_drawn(line: &str) -> bool {
     is_margin && (rail != '+' || rest.starts_with(|c| LINES.contains(c)))
 }
 
+/// Whether a line without a rail names the contacts of the drawn line below it: it consists of devices alone.
+pub(super) fn is_names(line: &str) -> bool {
+    let mut words = line.split_whitespace().peekable();
+    words.peek().is_some() && words.all(is_device)
+}
+
+/// Where the first rail of a row is, after a number and a label perhaps.
+fn rail_of(row: &[(char, u32)]) -> Option<usize> {
+    let at = row
+        .iter()
+        .position(|(c, _)| !c.is_ascii_alphanumeric() && *c != ' ')?;
+    RAILS.contains(row[at].0).then_some(at)
+}
+
 /// Which neighbours a character of a wire reaches: left, right, up, down.
 fn arms(c: char) -> Option<[bool; 4]> {
     let arms = match c {
@@ -155,16 +169,23 @@ impl Block {
             symbol_at: HashMap::new(),
             folds: Vec::new(),
         };
-        let rail = self
-            .rows
+        let firsts: Vec<Option<usize>> = self.rows.iter().map(|row| rail_of(row)).collect();
+        let usual = firsts.iter().flatten().min().copied().unwrap_or(0);
+        // A number or label before a rail may push it to the right; a row without anything before its first wire has no rail but the usual one.
+        let rails: Vec<usize> = firsts
             .iter()
-            .filter_map(|row| row.iter().position(|cell| RAILS.contains(cell.0)));
-        let rail = rail.min().unwrap_or(0);
+            .zip(&self.rows)
+            .map(|(first, row)| {
+                let first = first.unwrap_or(usual);
+                let blank = row[..first.min(row.len())].iter().all(|cell| cell.0 == ' ');
+                if blank { usual } else { first }
+            })
+            .collect();
         for row in 0..self.rows.len() {
-            scan.margin(row, rail);
-            scan.row(row, rail);
+            scan.margin(row, rails[row]);
+            scan.row(row, rails[row]);
         }
-        scan.connect(rail);
+        scan.connect(&rails);
         scan.drawn
     }
 }
@@ -444,13 +465,13 @@ impl Scan<'_> {
     }
 
     /// Which neighbours each cell reaches that is a wire.
-    fn wires(&self, rail: usize) -> Vec<Vec<Option<[bool; 4]>>> {
+    fn wires(&self, rails: &[usize]) -> Vec<Vec<Option<[bool; 4]>>> {
         let rows = self.block.rows.iter().enumerate();
         let mut wires: Vec<Vec<_>> = rows
             .map(|(row, cells)| {
                 let cells = cells.iter().enumerate();
                 let wire = |(column, cell): (usize, &(char, u32))| {
-                    let free = column >= rail && !self.symbol_at.contains_key(&(row, column));
+                    let free = column >= rails[row] && !self.symbol_at.contains_key(&(row, column));
                     arms(cell.0).filter(|_| free)
                 };
                 cells.map(wire).collect()
@@ -463,14 +484,14 @@ impl Scan<'_> {
     }
 
     /// Finds out which wires each symbol lies between.
-    fn connect(&mut self, rail: usize) {
+    fn connect(&mut self, rails: &[usize]) {
         let mut nets = Nets::default();
         let block = self.block;
         let last = block.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let wires = self.wires(rail);
+        let wires = self.wires(rails);
         let wire = |row: usize, column: usize| *wires.get(row)?.get(column)?;
         for (row, cells) in block.rows.iter().enumerate() {
-            for column in rail..cells.len() {
+            for column in rails[row]..cells.len() {
                 let Some([_, right, _, down]) = wire(row, column) else {
                     continue;
                 };
@@ -483,17 +504,20 @@ impl Scan<'_> {
                 }
             }
         }
-        let rails =
+        let rows =
             |column: usize| (0..block.rows.len()).filter(move |row| wire(*row, column).is_some());
         let mut left = None;
-        for row in rails(rail) {
-            let first = *left.get_or_insert((row, rail));
-            nets.join(first, (row, rail));
+        for (row, &rail) in rails.iter().enumerate() {
+            if wire(row, rail).is_some() {
+                let first = *left.get_or_insert((row, rail));
+                nets.join(first, (row, rail));
+            }
         }
-        let right_column = last.checked_sub(1).filter(|column| *column > rail);
+        let least = rails.iter().max().copied().unwrap_or(0);
+        let right_column = last.checked_sub(1).filter(|column| *column > least);
         let mut right = None;
         if let Some(column) = right_column {
-            for row in rails(column).filter(|row| "|│┃║┤┫+".contains(block.at(*row, column)))
+            for row in rows(column).filter(|row| "|│┃║┤┫+".contains(block.at(*row, column)))
             {
                 let first = *right.get_or_insert((row, column));
                 nets.join(first, (row, column));
@@ -501,7 +525,7 @@ impl Scan<'_> {
         }
         self.attach(&mut nets, &wire);
         for row in 0..block.rows.len() {
-            for column in rail..block.rows[row].len() {
+            for column in rails[row]..block.rows[row].len() {
                 let Some([_, true, ..]) = wire(row, column) else {
                     continue;
                 };
