@@ -203,7 +203,7 @@ impl<'a> Circuit<'a> {
             if Some(edge.to) == self.drawn.right {
                 return Err(self.fault(
                     edge.first,
-                    "between this contact and the right rail is no output",
+                    "no output is between this contact and the right rail",
                 ));
             }
             let end = self.drawn.ends.iter().find(|end| end.0 == edge.to);
@@ -338,7 +338,7 @@ impl<'a> Circuit<'a> {
         {
             list.push(Step::Symbol(at));
         }
-        // Each branch, and outputs that follow each other, is after an MPS, MRD or MPP of its own.
+        // Each branch, and outputs that follow each other, is after a separate MPS, MRD or MPP.
         let mut groups: Vec<Vec<Child>> = Vec::new();
         for child in children {
             match (&child, groups.last_mut()) {

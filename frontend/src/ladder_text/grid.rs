@@ -67,7 +67,6 @@ pub(super) fn is_drawn(line: &str) -> bool {
     };
     let margin = &line[..line.len() - after.len()];
     let rest = &after[rail.len_utf8()..];
-    // `||` and the like are no ladder; a rail alone is a line between two rows.
     let is_margin = margin.split_whitespace().all(|word| {
         let digits = word.trim_start_matches(['P', 'I', 'p', 'i']);
         digits.bytes().all(|b| b.is_ascii_digit()) && word.len() <= digits.len() + 1
