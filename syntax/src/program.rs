@@ -150,7 +150,8 @@ impl SourceKind {
             | SourceKind::Csv
             | SourceKind::GxDeveloper
             | SourceKind::GxWorks2
-            | SourceKind::Image => false,
+            | SourceKind::Image
+            | SourceKind::Plcopen => false,
         }
     }
 

@@ -180,9 +180,9 @@ impl Block {
                 if blank { usual } else { first }
             })
             .collect();
-        for row in 0..self.rows.len() {
-            scan.margin(row, rails[row]);
-            scan.row(row, rails[row]);
+        for (row, &rail) in rails.iter().enumerate() {
+            scan.margin(row, rail);
+            scan.row(row, rail);
         }
         scan.connect(&rails);
         scan.drawn
@@ -523,8 +523,8 @@ impl Scan<'_> {
             }
         }
         self.attach(&mut nets, &wire);
-        for row in 0..block.rows.len() {
-            for column in rails[row]..block.rows[row].len() {
+        for (row, &rail) in rails.iter().enumerate() {
+            for column in rail..block.rows[row].len() {
                 let Some([_, true, ..]) = wire(row, column) else {
                     continue;
                 };
