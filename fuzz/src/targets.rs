@@ -1,5 +1,6 @@
 //! The fuzz targets.
 
+mod decoders;
 mod lines;
 mod readers;
 mod servers;
@@ -24,6 +25,7 @@ pub fn all() -> Vec<Target> {
     let lines = partner::all().map(lines::target);
     lines
         .chain(servers::targets())
+        .chain(decoders::targets())
         .chain(readers::targets())
         .collect()
 }
