@@ -221,7 +221,7 @@ fn latched_devices_of_images_survive() {
     }
 }
 
-/// Runs an executable until it is told to quit; what it prints.
+/// Runs an executable until it reads `quit`; what it prints.
 fn until_quit(folder: &Path, program: &Path, args: &[&str]) -> (String, Option<i32>) {
     let mut child = Command::new(program)
         .args(args)

@@ -330,6 +330,14 @@ fn an_index_register_may_reach_any_relay() {
     insta::assert_snapshot!(shown(ModelId::Fx3u, text));
 }
 
+/// System registers of HM below the special ones, which are ordinary registers where a program writes them.
+#[test]
+fn inert_devices_below_the_special_ones() {
+    let text =
+        "LD M8000\nMOV D204 D0\nMOV D7200 D1\nMOV K5 D7300\nMOV D7300 D2\nMOV D8044 D3\nEND\n";
+    insta::assert_snapshot!(shown(ModelId::Hm, text));
+}
+
 #[test]
 fn inert_devices() {
     let text = "\

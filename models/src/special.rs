@@ -317,7 +317,7 @@ pub(crate) const CARDS: Reason = because(
     "there are no extension cards: the host gives analog values to channels and modules",
 );
 pub(crate) const AXES: Reason = because(
-    Missed::Never,
+    Missed::ByAll,
     "the manual does not state which period it means; D212 and D262 show the pulses of a millisecond",
 );
 pub(crate) const TRACE: Reason =
@@ -335,15 +335,15 @@ pub(crate) const RAW: Reason = because(
     "analog channels show the raw values of the host, each scan",
 );
 pub(crate) const LATCHES: Reason = because(
-    Missed::Never,
+    Missed::ByWriters,
     "the latched ranges are chosen when the program is compiled, by the project's PLC parameters or `[latched]` in rungc.toml",
 );
 pub(crate) const MODULES: Reason = because(
-    Missed::Never,
+    Missed::ByAll,
     "which modules are there is the host's affair",
 );
 pub(crate) const TIMING: Reason = because(
-    Missed::Never,
+    Missed::ByAll,
     "it measures the controller's own processor; `rungc build --report` states what a compiled program needs",
 );
 pub(crate) const MAKER: Reason = because(Missed::Never, "it serves the maker's tools only");

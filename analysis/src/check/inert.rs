@@ -41,9 +41,6 @@ impl Inert {
                 number,
                 ..access.first
             };
-            if !is_special(device.class, number) {
-                continue;
-            }
             let Some(row) = code.model().special(device.class, number) else {
                 continue;
             };
@@ -63,7 +60,8 @@ impl Inert {
 
     /// Warns of those whose work the program misses.
     pub(super) fn report(self, out: &mut Diagnostics) {
-        let missed = self.0.into_iter().filter(|(_, used)| used.is_missed());
+        let missed = self.0.into_iter();
+        let missed = missed.filter(|(device, used)| used.is_missed(*device));
         let mut by_reason: Vec<(Reason, Vec<(Device, Used)>)> = Vec::new();
         for (device, used) in missed {
             match by_reason
@@ -88,11 +86,18 @@ impl Inert {
 }
 
 impl Used {
-    fn is_missed(&self) -> bool {
+    /// Whether the program misses what the device does. One below the special devices (HM's axes and modules) that the program writes
+    /// is an ordinary register.
+    fn is_missed(&self, device: Device) -> bool {
+        let is_written = self.places.iter().any(|(_, written)| *written);
+        let is_read = self.places.iter().any(|(_, written)| !written);
+        if is_written && !is_special(device.class, device.number) {
+            return false;
+        }
         match self.reason.missed {
             Missed::Never => false,
             Missed::ByWriters => self.changed,
-            Missed::ByAll => self.changed || self.places.iter().any(|(_, written)| !written),
+            Missed::ByAll => self.changed || is_read,
         }
     }
 }
